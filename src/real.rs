@@ -1,0 +1,119 @@
+//! The few functions that the crate needs of a float, for `f32` and `f64`.
+//!
+//! Arithmetic, comparison, `abs`, `is_finite` and the like come from
+//! [`num_traits::float::FloatCore`]; the elementary functions come from `libm`
+//! on every target, so that host and firmware compute the same bits.
+
+use core::fmt::{Debug, Display};
+use num_traits::float::FloatCore;
+use num_traits::NumAssign;
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for f32 {}
+    impl Sealed for f64 {}
+}
+
+/// A float that the crate can compute with: `f32` or `f64`.
+///
+/// ```
+/// use bowden::Real;
+/// fn circumference<T: Real>(radius: T) -> T {
+///     T::of(2.0 * core::f64::consts::PI) * radius
+/// }
+/// assert!((circumference(1.0_f32) - 6.283_185_5).abs() < 1e-6);
+/// ```
+pub trait Real:
+    FloatCore + NumAssign + Debug + Display + Default + Send + Sync + 'static + sealed::Sealed
+{
+    /// The nearest value to `x`. Used for constants.
+    fn of(x: f64) -> Self;
+    /// The value as `f64`, exact.
+    fn as_f64(self) -> f64;
+    /// e to the power of `self`.
+    fn exp(self) -> Self;
+    /// e to the power of `self`, less one, accurate near zero.
+    fn exp_m1(self) -> Self;
+    /// Natural logarithm.
+    fn ln(self) -> Self;
+    /// Natural logarithm of one plus `self`, accurate near zero.
+    fn ln_1p(self) -> Self;
+    /// `self` to the power of `exponent`.
+    fn pow(self, exponent: Self) -> Self;
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// Sine of an angle in radians.
+    fn sin(self) -> Self;
+    /// Cosine of an angle in radians.
+    fn cos(self) -> Self;
+    /// Tangent of an angle in radians.
+    fn tan(self) -> Self;
+    /// Arc tangent in radians.
+    fn atan(self) -> Self;
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+}
+
+macro_rules! real {
+    ($float:ty, $exp:ident, $exp_m1:ident, $ln:ident, $ln_1p:ident, $pow:ident, $sqrt:ident,
+     $sin:ident, $cos:ident, $tan:ident, $atan:ident, $tanh:ident) => {
+        impl Real for $float {
+            #[inline]
+            #[allow(clippy::cast_possible_truncation)]
+            fn of(x: f64) -> Self {
+                x as $float
+            }
+            #[inline]
+            fn as_f64(self) -> f64 {
+                self.into()
+            }
+            #[inline]
+            fn exp(self) -> Self {
+                libm::$exp(self)
+            }
+            #[inline]
+            fn exp_m1(self) -> Self {
+                libm::$exp_m1(self)
+            }
+            #[inline]
+            fn ln(self) -> Self {
+                libm::$ln(self)
+            }
+            #[inline]
+            fn ln_1p(self) -> Self {
+                libm::$ln_1p(self)
+            }
+            #[inline]
+            fn pow(self, exponent: Self) -> Self {
+                libm::$pow(self, exponent)
+            }
+            #[inline]
+            fn sqrt(self) -> Self {
+                libm::$sqrt(self)
+            }
+            #[inline]
+            fn sin(self) -> Self {
+                libm::$sin(self)
+            }
+            #[inline]
+            fn cos(self) -> Self {
+                libm::$cos(self)
+            }
+            #[inline]
+            fn tan(self) -> Self {
+                libm::$tan(self)
+            }
+            #[inline]
+            fn atan(self) -> Self {
+                libm::$atan(self)
+            }
+            #[inline]
+            fn tanh(self) -> Self {
+                libm::$tanh(self)
+            }
+        }
+    };
+}
+
+real!(f32, expf, expm1f, logf, log1pf, powf, sqrtf, sinf, cosf, tanf, atanf, tanhf);
+real!(f64, exp, expm1, log, log1p, pow, sqrt, sin, cos, tan, atan, tanh);
