@@ -1,1 +1,278 @@
-//! Placeholder.
+//! Effects: what a cable transmission does beside its hysteresis.
+//!
+//! Each effect is one *regressor*, a function of the motion, the load and the
+//! hysteresis state, times a gain that the fit finds. Its unit, its symmetries and
+//! its shape parameters are stated with it: they say which effect a residual can
+//! be, and which experiment would separate two. One module a family; each states
+//! formula and source.
+//!
+//! A regressor is finite for finite input: where arithmetic overflows it saturates.
+//! Where a number that it reads is not finite (or a `dt` is negative) it returns 0,
+//! and its memory stays as it was.
+
+mod bounds;
+mod family;
+mod info;
+mod shaped;
+mod situation;
+
+pub mod asymmetry;
+pub mod backlash;
+pub mod capstan;
+pub mod coulomb;
+pub mod creep;
+pub mod crosstalk;
+pub mod degradation;
+pub mod delay;
+pub mod direction;
+pub mod drag;
+pub mod drift;
+pub mod gain;
+pub mod gravity;
+pub mod inertia;
+pub mod lag;
+pub mod load_friction;
+pub mod offset;
+pub mod pinching;
+pub mod position_friction;
+pub mod presliding;
+pub mod pretension;
+pub mod rate;
+pub mod ripple;
+pub mod saturation;
+pub mod stiffness;
+pub mod stribeck;
+pub mod temperature;
+pub mod tone;
+pub mod viscous;
+
+pub use family::Family;
+pub use info::{Dimension, Info, Parity, Quantity, Range, ShapeInfo, Symmetry};
+pub use situation::{EffectState, Motion, Situation};
+
+use crate::{Error, Real};
+use bounds::saturate;
+use info::Regressor;
+use shaped::{Shaped, COUNT};
+
+/// The enum of all effects and the dispatch to each one's own file.
+macro_rules! effects {
+    (
+        plain { $($module:ident: $($plain:ident)+;)* }
+        shaped { $($shaped_module:ident: $($shaped:ident)+;)* }
+    ) => {
+        /// One effect, with its shapes.
+        ///
+        /// ```
+        /// use bowden::effect::{coulomb::Coulomb, Effect};
+        /// let friction = Effect::Coulomb(Coulomb::try_new(0.01)?);
+        /// assert_eq!(friction, Effect::try_from_name("coulomb", &[0.01])?);
+        /// assert_eq!(friction.formula(), "tanh(v/v_e)");
+        /// assert_eq!(friction.shape_names(), ["v_e"]);
+        /// # Ok::<(), bowden::Error>(())
+        /// ```
+        #[derive(Debug, Clone, Copy, PartialEq)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        #[cfg_attr(feature = "serde", serde(
+            rename_all = "kebab-case",
+            bound(deserialize = "T: Real + serde::Deserialize<'de>")
+        ))]
+        #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+        #[non_exhaustive]
+        pub enum Effect<T> {
+            $($(#[doc = concat!("Without shapes; formula and source: [`", stringify!($module), "`].")] $plain,)+)*
+            $($(#[doc = concat!("Formula and source: [`", stringify!($shaped_module), "`].")] $shaped($shaped_module::$shaped<T>),)+)*
+        }
+
+        /// All effects, those without shapes first.
+        ///
+        /// ```
+        /// let odd = bowden::effect::CATALOGUE.iter().filter(|info| info.memory);
+        /// assert_eq!(odd.count(), 6);
+        /// ```
+        pub const CATALOGUE: &[&Info] = &[
+            $($(<$module::$plain as Regressor<f64>>::INFO,)+)*
+            $($(<$shaped_module::$shaped<f64> as Regressor<f64>>::INFO,)+)*
+        ];
+
+        impl<T: Real> Effect<T> {
+            /// All that there is to know of the effect, shapes apart.
+            #[must_use]
+            pub fn info(&self) -> &'static Info {
+                match self {
+                    $($(Self::$plain => <$module::$plain as Regressor<T>>::INFO,)+)*
+                    $($(Self::$shaped(_) => <$shaped_module::$shaped<T> as Regressor<T>>::INFO,)+)*
+                }
+            }
+
+            /// The names of its shapes; empty where it has none.
+            #[must_use]
+            pub fn shape_names(&self) -> &'static [&'static str] {
+                match self {
+                    $($(Self::$plain)|+ => &[],)*
+                    $($(Self::$shaped(_) => <$shaped_module::$shaped<T>>::NAMES,)+)*
+                }
+            }
+
+            /// Name, range and unit of its shapes; empty where it has none.
+            #[must_use]
+            pub fn shape_info(&self) -> &'static [ShapeInfo] {
+                match self {
+                    $($(Self::$plain)|+ => &[],)*
+                    $($(Self::$shaped(_) => <$shaped_module::$shaped<T>>::SHAPES,)+)*
+                }
+            }
+
+            /// The value of one shape.
+            #[must_use]
+            pub fn shape(&self, index: usize) -> Option<T> {
+                match self {
+                    $($(Self::$plain)|+ => None,)*
+                    $($(Self::$shaped(config) => config.shape(index),)+)*
+                }
+            }
+
+            /// The same effect with one shape changed.
+            ///
+            /// # Errors
+            /// [`Error::OutOfRange`] where there is no such shape or where the value
+            /// lies outside its range, [`Error::NonFinite`] where it is not finite.
+            pub fn with_shape(&self, index: usize, value: T) -> Result<Self, Error> {
+                match self {
+                    $($(Self::$plain)|+ => Err(Error::OutOfRange("shape index")),)*
+                    $($(Self::$shaped(config) => config.with_shape(index, value).map(Self::$shaped),)+)*
+                }
+            }
+
+            /// An effect from its own name and its shapes in order.
+            ///
+            /// # Errors
+            /// [`Error::OutOfRange`] where the catalogue has no such effect or where a
+            /// shape lies outside its range, [`Error::Inadmissible`] where the number
+            /// of shapes is wrong, [`Error::NonFinite`] where one is not finite.
+            pub fn try_from_name(name: &str, shapes: &[T]) -> Result<Self, Error> {
+                let plain = |effect| if shapes.is_empty() { Ok(effect) } else { Err(COUNT) };
+                match name {
+                    $($(name if name == <$module::$plain as Regressor<T>>::INFO.name => plain(Self::$plain),)+)*
+                    $($(name if name == <$shaped_module::$shaped<T> as Regressor<T>>::INFO.name => {
+                        Shaped::try_from_shapes(shapes).map(Self::$shaped)
+                    })+)*
+                    _ => Err(Error::OutOfRange("effect name")),
+                }
+            }
+
+            /// The regressor at one sample; the caller multiplies by the gain.
+            ///
+            /// Finite for finite input. Where a number that the effect reads is not
+            /// finite, or a `dt` that it reads is negative: 0, and `state` stays.
+            #[inline]
+            pub fn regressor(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
+                match self {
+                    $($(Self::$plain => evaluate(&$module::$plain, state, at),)+)*
+                    $($(Self::$shaped(config) => evaluate(config, state, at),)+)*
+                }
+            }
+        }
+    };
+}
+
+effects! {
+    plain {
+        offset: Offset;
+        gain: Gain;
+        viscous: Viscous;
+        drag: DragQuadratic DragCubic;
+        asymmetry: AsymmetryViscous AsymmetryDrag AsymmetryEta AsymmetryEtaSquared;
+        inertia: Inertia;
+        stiffness: StiffnessLinear StiffnessQuadratic StiffnessCubic StiffnessProgressive;
+        position_friction: PositionHysteresis;
+        delay: Delay;
+        rate: Rate RateSymmetric;
+        degradation: Degradation;
+        drift: Drift;
+        crosstalk: Crosstalk;
+    }
+    shaped {
+        coulomb: Coulomb;
+        stribeck: Stribeck;
+        load_friction: LoadFriction;
+        capstan: Capstan;
+        direction: DriveFriction BackDriveFriction;
+        stiffness: Hinge;
+        gravity: Gravity;
+        ripple: Ripple;
+        position_friction: PositionFriction;
+        backlash: Backlash DeadZone;
+        lag: Lag;
+        creep: Creep;
+        presliding: Presliding;
+        pinching: Pinching;
+        pretension: Pretension;
+        temperature: Temperature;
+        saturation: SaturationUpper SaturationLower;
+        tone: Tone;
+    }
+}
+
+#[inline]
+fn evaluate<T: Real, R: Regressor<T>>(
+    effect: &R,
+    state: &mut EffectState<T>,
+    at: &Situation<T>,
+) -> T {
+    if at.is_usable(R::INFO.reads) {
+        saturate(effect.value(state, at))
+    } else {
+        T::zero()
+    }
+}
+
+impl<T: Real> Effect<T> {
+    /// The family that it belongs to.
+    #[must_use]
+    pub fn family(&self) -> Family {
+        self.info().family
+    }
+
+    /// Its own name, such as "drag-quadratic".
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        self.info().name
+    }
+
+    /// The regressor as a formula, such as "v·|v|".
+    #[must_use]
+    pub fn formula(&self) -> &'static str {
+        self.info().formula
+    }
+
+    /// The unit of the regressor.
+    #[must_use]
+    pub fn dimension(&self) -> Dimension {
+        self.info().dimension
+    }
+
+    /// The symmetries of the regressor.
+    #[must_use]
+    pub fn parity(&self) -> Parity {
+        self.info().parity
+    }
+
+    /// Whether it needs the hysteresis state.
+    #[must_use]
+    pub fn reads_eta(&self) -> bool {
+        self.info().reads.contains(&Quantity::Eta)
+    }
+
+    /// Whether it reads the sum of everything before it.
+    #[must_use]
+    pub fn is_output_stage(&self) -> bool {
+        self.info().reads.contains(&Quantity::Output)
+    }
+
+    /// Whether it remembers earlier samples.
+    #[must_use]
+    pub fn has_memory(&self) -> bool {
+        self.info().memory
+    }
+}

@@ -1,0 +1,88 @@
+//! Backlash and dead zone: nothing is transmitted over a distance.
+//!
+//! Formulas: `play(x; r) − x`, the difference that a gap of half-width r makes (the
+//! play is flat over the distance 2·r after each reversal), and
+//! `x − clamp(x, −r, r)`, a spring with a gap around zero.
+//!
+//! Source: M. Nordin, P.-O. Gutman, "Controlling mechanical systems with backlash
+//! — a survey", *Automatica* 38(10), 2002; for the play, M. A. Krasnosel'skii,
+//! A. V. Pokrovskii, *Systems with Hysteresis*, 1989.
+
+use super::bounds::{clamp_sym, saturate};
+use super::info::{Info, Regressor};
+use super::shaped::shaped;
+use super::Symmetry::{Even, Neither, Odd};
+use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use crate::Real;
+
+shaped! {
+    /// The play of half-width `r`, less its input; it starts in mid-gap.
+    ///
+    /// ```
+    /// use bowden::effect::backlash::Backlash;
+    /// assert!(Backlash::try_new(0.5).is_ok());
+    /// assert!(Backlash::try_new(f32::NAN).is_err());
+    /// ```
+    Backlash {
+        /// Half of the gap \[channel unit\].
+        r: Positive, Dimension::POSITION;
+    }
+}
+
+impl<T: Real> Regressor<T> for Backlash<T> {
+    const INFO: &'static Info = &Info {
+        name: "backlash",
+        family: Family::Backlash,
+        formula: "play(x; r) − x",
+        dimension: Dimension::POSITION,
+        parity: Parity::new(Odd, Neither),
+        reads: &[Quantity::Position],
+        memory: true,
+    };
+
+    #[inline]
+    fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
+        let x = at.motion.position;
+        let before = state.memory.map_or(x, |[play, ..]| play);
+        // The gap, not the play, is what is clamped: x + r could overflow.
+        let gap = clamp_sym(before - x, self.r);
+        let play = if gap == before - x {
+            before
+        } else {
+            saturate(x + gap)
+        };
+        state.memory = Some([play, T::zero(), T::zero()]);
+        gap
+    }
+}
+
+shaped! {
+    /// A spring with a gap around zero.
+    ///
+    /// ```
+    /// use bowden::effect::backlash::DeadZone;
+    /// assert!(DeadZone::try_new(0.5).is_ok());
+    /// assert!(DeadZone::try_new(f32::NAN).is_err());
+    /// ```
+    DeadZone {
+        /// Half of the gap \[channel unit\].
+        r: Positive, Dimension::POSITION;
+    }
+}
+
+impl<T: Real> Regressor<T> for DeadZone<T> {
+    const INFO: &'static Info = &Info {
+        name: "dead-zone",
+        family: Family::Backlash,
+        formula: "x − clamp(x, −r, r)",
+        dimension: Dimension::POSITION,
+        parity: Parity::new(Odd, Even),
+        reads: &[Quantity::Position],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        at.motion.position - clamp_sym(at.motion.position, self.r)
+    }
+}

@@ -1,0 +1,29 @@
+//! Finite, whatever the input: regressors saturate where arithmetic overflows.
+
+use crate::Real;
+
+/// The nearest finite value: infinities become the largest, NaN becomes 0.
+#[inline]
+pub(super) fn saturate<T: Real>(value: T) -> T {
+    if value.is_finite() {
+        value
+    } else if value > T::zero() {
+        T::max_value()
+    } else if value < T::zero() {
+        T::min_value()
+    } else {
+        T::zero()
+    }
+}
+
+/// `value`, not NaN, within ±`limit`.
+#[inline]
+pub(super) fn clamp_sym<T: Real>(value: T, limit: T) -> T {
+    if value > limit {
+        limit
+    } else if value < -limit {
+        -limit
+    } else {
+        value
+    }
+}

@@ -1,0 +1,45 @@
+//! Creep: a response that goes on during holds.
+//!
+//! Formula: `lowpass(x; tau)`, a Kelvin-Voigt element; several with tau a decade apart
+//! make the logarithmic creep of polymers and piezo stacks. It starts at the first x.
+//!
+//! Source: P. Krejčí, K. Kuhnen, "Inverse control of systems with hysteresis and
+//! creep", *IEE Proceedings — Control Theory and Applications* 148(3), 2001.
+
+use super::info::{Info, Regressor};
+use super::lag::low_pass;
+use super::shaped::shaped;
+use super::Symmetry::{Neither, Odd};
+use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use crate::Real;
+
+shaped! {
+    /// A slow follower of x.
+    ///
+    /// ```
+    /// use bowden::effect::creep::Creep;
+    /// assert!(Creep::try_new(0.5).is_ok());
+    /// assert!(Creep::try_new(f32::NAN).is_err());
+    /// ```
+    Creep {
+        /// Time constant \[s\].
+        tau: Positive, Dimension::TIME;
+    }
+}
+
+impl<T: Real> Regressor<T> for Creep<T> {
+    const INFO: &'static Info = &Info {
+        name: "creep",
+        family: Family::Creep,
+        formula: "lowpass(x; tau)",
+        dimension: Dimension::POSITION,
+        parity: Parity::new(Odd, Neither),
+        reads: &[Quantity::Position, Quantity::Dt],
+        memory: true,
+    };
+
+    #[inline]
+    fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
+        low_pass(state, at.motion.position, self.tau, at.dt)
+    }
+}

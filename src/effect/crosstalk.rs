@@ -1,0 +1,30 @@
+//! Crosstalk: what follows another channel alone.
+//!
+//! Formula: `x` of that channel.
+//!
+//! Source: L. Ljung, *System Identification*, 1999 (several inputs).
+
+use super::info::{Info, Regressor};
+use super::Symmetry::{Even, Odd};
+use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use crate::Real;
+
+#[derive(Clone, Copy)]
+pub(super) struct Crosstalk;
+
+impl<T: Real> Regressor<T> for Crosstalk {
+    const INFO: &'static Info = &Info {
+        name: "crosstalk",
+        family: Family::Crosstalk,
+        formula: "x of another channel",
+        dimension: Dimension::POSITION,
+        parity: Parity::new(Odd, Even),
+        reads: &[Quantity::Position],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        at.motion.position
+    }
+}

@@ -1,0 +1,97 @@
+//! Load friction that differs between driving and being driven.
+//!
+//! Formula: `|load|·tanh(v/v_e)` where `load·v > 0` (drive), or where `load·v < 0`
+//! (back-drive), else 0. The two add up to `load-friction`.
+//!
+//! Source: A. Wang, S. Kim, "Directional efficiency in geared transmissions:
+//! characterization of backdrivability towards improved proprioceptive control",
+//! *ICRA*, 2015.
+
+use super::coulomb::sign;
+use super::info::{Info, Regressor};
+use super::shaped::shaped;
+use super::Symmetry::{Neither, Odd};
+use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use crate::Real;
+
+shaped! {
+    /// Load friction while the load moves its own way.
+    ///
+    /// ```
+    /// use bowden::effect::direction::DriveFriction;
+    /// assert!(DriveFriction::try_new(0.5).is_ok());
+    /// assert!(DriveFriction::try_new(f32::NAN).is_err());
+    /// ```
+    DriveFriction {
+        /// Velocity at which friction reaches 76 % \[channel unit/s\].
+        v_e: Positive, Dimension::VELOCITY;
+    }
+}
+
+impl<T: Real> Regressor<T> for DriveFriction<T> {
+    const INFO: &'static Info = &Info {
+        name: "drive-friction",
+        family: Family::Direction,
+        formula: "|load|·tanh(v/v_e) where load·v > 0",
+        dimension: Dimension::LOAD,
+        parity: Parity::new(Odd, Neither),
+        reads: &[Quantity::Load, Quantity::Velocity],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        if sense(at) > 0 {
+            at.load.abs() * sign(at.motion.velocity, self.v_e)
+        } else {
+            T::zero()
+        }
+    }
+}
+
+shaped! {
+    /// Load friction while the load is moved against itself.
+    ///
+    /// ```
+    /// use bowden::effect::direction::BackDriveFriction;
+    /// assert!(BackDriveFriction::try_new(0.5).is_ok());
+    /// assert!(BackDriveFriction::try_new(f32::NAN).is_err());
+    /// ```
+    BackDriveFriction {
+        /// Velocity at which friction reaches 76 % \[channel unit/s\].
+        v_e: Positive, Dimension::VELOCITY;
+    }
+}
+
+impl<T: Real> Regressor<T> for BackDriveFriction<T> {
+    const INFO: &'static Info = &Info {
+        name: "back-drive-friction",
+        family: Family::Direction,
+        formula: "|load|·tanh(v/v_e) where load·v < 0",
+        dimension: Dimension::LOAD,
+        parity: Parity::new(Odd, Neither),
+        reads: &[Quantity::Load, Quantity::Velocity],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        if sense(at) < 0 {
+            at.load.abs() * sign(at.motion.velocity, self.v_e)
+        } else {
+            T::zero()
+        }
+    }
+}
+
+/// The sign of load·v, without the product, which could underflow.
+fn sense<T: Real>(at: &Situation<T>) -> i8 {
+    let (load, v) = (at.load, at.motion.velocity);
+    if load == T::zero() || v == T::zero() {
+        0
+    } else if (load > T::zero()) == (v > T::zero()) {
+        1
+    } else {
+        -1
+    }
+}

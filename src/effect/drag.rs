@@ -1,0 +1,59 @@
+//! Drag: odd in the velocity, and growing faster than it.
+//!
+//! Formulas: `v·|v|` (turbulent flow), `v³` (the next odd power).
+//!
+//! Source: K. Worden, G. R. Tomlinson, *Nonlinearity in Structural Dynamics*,
+//! 2001, chapter 2.
+
+use super::info::{Info, Regressor};
+use super::Symmetry::Odd;
+use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use crate::Real;
+
+#[derive(Clone, Copy)]
+pub(super) struct DragQuadratic;
+
+impl<T: Real> Regressor<T> for DragQuadratic {
+    const INFO: &'static Info = &Info {
+        name: "drag-quadratic",
+        family: Family::Drag,
+        formula: "v·|v|",
+        dimension: Dimension {
+            channel: 2,
+            time: -2,
+            ..Dimension::ONE
+        },
+        parity: Parity::new(Odd, Odd),
+        reads: &[Quantity::Velocity],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        at.motion.velocity * at.motion.velocity.abs()
+    }
+}
+
+#[derive(Clone, Copy)]
+pub(super) struct DragCubic;
+
+impl<T: Real> Regressor<T> for DragCubic {
+    const INFO: &'static Info = &Info {
+        name: "drag-cubic",
+        family: Family::Drag,
+        formula: "v³",
+        dimension: Dimension {
+            channel: 3,
+            time: -3,
+            ..Dimension::ONE
+        },
+        parity: Parity::new(Odd, Odd),
+        reads: &[Quantity::Velocity],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        at.motion.velocity * at.motion.velocity * at.motion.velocity
+    }
+}

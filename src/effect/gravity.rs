@@ -1,0 +1,43 @@
+//! Gravity on a lever: periodic in the angle, once a turn.
+//!
+//! Formula: `sin(x + psi)`. The channel must be an angle in radians.
+//!
+//! Source: M. W. Spong, S. Hutchinson, M. Vidyasagar, *Robot Modeling and
+//! Control*, 2006, chapter 7.
+
+use super::info::{Info, Regressor};
+use super::shaped::shaped;
+use super::Symmetry::{Even, Neither};
+use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use crate::Real;
+
+shaped! {
+    /// The weight of a lever at the angle x.
+    ///
+    /// ```
+    /// use bowden::effect::gravity::Gravity;
+    /// assert!(Gravity::try_new(0.5).is_ok());
+    /// assert!(Gravity::try_new(f32::NAN).is_err());
+    /// ```
+    Gravity {
+        /// Angle of the lever at x = 0, against the vertical \[rad\].
+        psi: Finite, Dimension::ONE;
+    }
+}
+
+impl<T: Real> Regressor<T> for Gravity<T> {
+    const INFO: &'static Info = &Info {
+        name: "gravity",
+        family: Family::Gravity,
+        formula: "sin(x + psi)",
+        dimension: Dimension::ONE,
+        parity: Parity::new(Neither, Even),
+        reads: &[Quantity::Position],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        (at.motion.position + self.psi).sin()
+    }
+}

@@ -1,0 +1,35 @@
+//! Inertia: proportional to the acceleration, even in the velocity.
+//!
+//! Formula: `a`.
+//!
+//! Source: I. Newton, *Principia*, 1687; as a regressor of identification,
+//! W. Khalil, E. Dombre, *Modeling, Identification and Control of Robots*, 2002.
+
+use super::info::{Info, Regressor};
+use super::Symmetry::{Even, Odd};
+use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use crate::Real;
+
+#[derive(Clone, Copy)]
+pub(super) struct Inertia;
+
+impl<T: Real> Regressor<T> for Inertia {
+    const INFO: &'static Info = &Info {
+        name: "inertia",
+        family: Family::Inertia,
+        formula: "a",
+        dimension: Dimension {
+            channel: 1,
+            time: -2,
+            ..Dimension::ONE
+        },
+        parity: Parity::new(Odd, Even),
+        reads: &[Quantity::Acceleration],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        at.motion.acceleration
+    }
+}

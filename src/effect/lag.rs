@@ -1,0 +1,59 @@
+//! A first-order lag: the output follows late and rounded.
+//!
+//! Formula: `lowpass(output; tau) − output`; the gain is 1 where the lag is whole.
+//! The low-pass takes each sample as held over its dt: exact for steps, at any dt.
+//! An output stage: it reads the sum of everything before it.
+//!
+//! Source: K. J. Åström, R. M. Murray, *Feedback Systems*, 2008, chapter 8.
+
+use super::bounds::saturate;
+use super::info::{Info, Regressor};
+use super::shaped::shaped;
+use super::Symmetry::{Neither, Odd};
+use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use crate::Real;
+
+shaped! {
+    /// The low-pass of the output, less the output; starts at the first one.
+    ///
+    /// ```
+    /// use bowden::effect::lag::Lag;
+    /// assert!(Lag::try_new(0.5).is_ok());
+    /// assert!(Lag::try_new(f32::NAN).is_err());
+    /// ```
+    Lag {
+        /// Time constant \[s\].
+        tau: Positive, Dimension::TIME;
+    }
+}
+
+impl<T: Real> Regressor<T> for Lag<T> {
+    const INFO: &'static Info = &Info {
+        name: "lag",
+        family: Family::Lag,
+        formula: "lowpass(output; tau) − output",
+        dimension: Dimension::OUTPUT,
+        parity: Parity::new(Odd, Neither),
+        reads: &[Quantity::Output, Quantity::Dt],
+        memory: true,
+    };
+
+    #[inline]
+    fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
+        low_pass(state, at.output, self.tau, at.dt) - at.output
+    }
+}
+
+/// First-order low-pass with held samples: `level += (1 − exp(−dt/tau))·(input − level)`.
+#[inline]
+pub(super) fn low_pass<T: Real>(state: &mut EffectState<T>, input: T, tau: T, dt: T) -> T {
+    let level = match state.memory {
+        None => input,
+        Some([level, ..]) => {
+            let share = -(-dt / tau).exp_m1();
+            saturate(level + share * saturate(input - level))
+        }
+    };
+    state.memory = Some([level, T::zero(), T::zero()]);
+    level
+}

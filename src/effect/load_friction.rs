@@ -1,0 +1,44 @@
+//! Load-dependent dry friction: the law of Amontons.
+//!
+//! Formula: `|load|·tanh(v/v_e)`.
+//!
+//! Source: P. Hamon, M. Gautier, P. Garrec, "Dynamic identification of robots with
+//! a dry friction model depending on load and velocity", *IROS*, 2010.
+
+use super::coulomb::sign;
+use super::info::{Info, Regressor};
+use super::shaped::shaped;
+use super::Symmetry::Odd;
+use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use crate::Real;
+
+shaped! {
+    /// Dry friction in proportion to the load.
+    ///
+    /// ```
+    /// use bowden::effect::load_friction::LoadFriction;
+    /// assert!(LoadFriction::try_new(0.5).is_ok());
+    /// assert!(LoadFriction::try_new(f32::NAN).is_err());
+    /// ```
+    LoadFriction {
+        /// Velocity at which friction reaches 76 % \[channel unit/s\].
+        v_e: Positive, Dimension::VELOCITY;
+    }
+}
+
+impl<T: Real> Regressor<T> for LoadFriction<T> {
+    const INFO: &'static Info = &Info {
+        name: "load-friction",
+        family: Family::LoadFriction,
+        formula: "|load|·tanh(v/v_e)",
+        dimension: Dimension::LOAD,
+        parity: Parity::new(Odd, Odd),
+        reads: &[Quantity::Load, Quantity::Velocity],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        at.load.abs() * sign(at.motion.velocity, self.v_e)
+    }
+}

@@ -1,0 +1,44 @@
+//! Pinching: the loop is narrow, or wide, at its centre.
+//!
+//! Formula: `eta·exp(−(eta/w)²)`.
+//!
+//! Source: T. T. Baber, M. N. Noori, "Random vibration of degrading, pinching
+//! systems", *Journal of Engineering Mechanics* 111(8), 1985.
+
+use super::info::{Info, Regressor};
+use super::shaped::shaped;
+use super::Symmetry::{Even, Odd};
+use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use crate::Real;
+
+shaped! {
+    /// A change of the loop around eta = 0.
+    ///
+    /// ```
+    /// use bowden::effect::pinching::Pinching;
+    /// assert!(Pinching::try_new(0.5).is_ok());
+    /// assert!(Pinching::try_new(f32::NAN).is_err());
+    /// ```
+    Pinching {
+        /// Width, in parts of eta.
+        w: Positive, Dimension::ONE;
+    }
+}
+
+impl<T: Real> Regressor<T> for Pinching<T> {
+    const INFO: &'static Info = &Info {
+        name: "pinching",
+        family: Family::Pinching,
+        formula: "eta·exp(−(eta/w)²)",
+        dimension: Dimension::ONE,
+        parity: Parity::new(Odd, Even),
+        reads: &[Quantity::Eta],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        let ratio = at.eta / self.w;
+        at.eta * (-(ratio * ratio)).exp()
+    }
+}

@@ -1,0 +1,64 @@
+//! Friction that varies along the stroke: the loop's width follows x.
+//!
+//! Formulas: `x·tanh(v/v_e)` for dry friction, `eta·x` for hysteresis.
+//!
+//! Source: B. Armstrong-Hélouvry, *Control of Machines with Friction*, 1991,
+//! chapter 4 (position-dependent friction).
+
+use super::coulomb::sign;
+use super::info::{Info, Regressor};
+use super::shaped::shaped;
+use super::Symmetry::{Even, Odd};
+use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use crate::Real;
+
+shaped! {
+    /// Dry friction in proportion to the position.
+    ///
+    /// ```
+    /// use bowden::effect::position_friction::PositionFriction;
+    /// assert!(PositionFriction::try_new(0.5).is_ok());
+    /// assert!(PositionFriction::try_new(f32::NAN).is_err());
+    /// ```
+    PositionFriction {
+        /// Velocity at which friction reaches 76 % \[channel unit/s\].
+        v_e: Positive, Dimension::VELOCITY;
+    }
+}
+
+impl<T: Real> Regressor<T> for PositionFriction<T> {
+    const INFO: &'static Info = &Info {
+        name: "position-friction",
+        family: Family::PositionFriction,
+        formula: "x·tanh(v/v_e)",
+        dimension: Dimension::POSITION,
+        parity: Parity::new(Even, Odd),
+        reads: &[Quantity::Position, Quantity::Velocity],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        at.motion.position * sign(at.motion.velocity, self.v_e)
+    }
+}
+
+#[derive(Clone, Copy)]
+pub(super) struct PositionHysteresis;
+
+impl<T: Real> Regressor<T> for PositionHysteresis {
+    const INFO: &'static Info = &Info {
+        name: "position-hysteresis",
+        family: Family::PositionFriction,
+        formula: "eta·x",
+        dimension: Dimension::POSITION,
+        parity: Parity::new(Even, Even),
+        reads: &[Quantity::Eta, Quantity::Position],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        at.eta * at.motion.position
+    }
+}

@@ -1,0 +1,48 @@
+//! A jump of the pretension: a slipped clamp, a re-tensioned cable.
+//!
+//! Formula: `1` where `t ≥ t_s`, else 0.
+//!
+//! Source: for what pretension changes, V. Agrawal, W. J. Peine, B. Yao, "Modeling
+//! of transmission characteristics across a cable-conduit system", *IEEE
+//! Transactions on Robotics* 26(5), 2010.
+
+use super::info::{Info, Regressor};
+use super::shaped::shaped;
+use super::Symmetry::Even;
+use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use crate::Real;
+
+shaped! {
+    /// A step at the time `t_s`.
+    ///
+    /// ```
+    /// use bowden::effect::pretension::Pretension;
+    /// assert!(Pretension::try_new(0.5).is_ok());
+    /// assert!(Pretension::try_new(f32::NAN).is_err());
+    /// ```
+    Pretension {
+        /// Time of the step \[s\].
+        t_s: Finite, Dimension::TIME;
+    }
+}
+
+impl<T: Real> Regressor<T> for Pretension<T> {
+    const INFO: &'static Info = &Info {
+        name: "pretension",
+        family: Family::Pretension,
+        formula: "1 where t ≥ t_s",
+        dimension: Dimension::ONE,
+        parity: Parity::new(Even, Even),
+        reads: &[Quantity::Time],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        if at.time >= self.t_s {
+            T::one()
+        } else {
+            T::zero()
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! Rate dependence: the loop's height changes with speed.
+//!
+//! Formulas: `eta·v` and `eta·|v|`.
+//!
+//! Source: M. Al Janaideh, P. Krejčí, "Inverse rate-dependent Prandtl-Ishlinskii
+//! model for feedforward compensation of hysteresis in a piezomicropositioning
+//! actuator", *IEEE/ASME Transactions on Mechatronics* 18(5), 2013.
+
+use super::info::{Info, Regressor};
+use super::Symmetry::{Even, Odd};
+use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use crate::Real;
+
+#[derive(Clone, Copy)]
+pub(super) struct Rate;
+
+impl<T: Real> Regressor<T> for Rate {
+    const INFO: &'static Info = &Info {
+        name: "rate",
+        family: Family::Rate,
+        formula: "eta·v",
+        dimension: Dimension::VELOCITY,
+        parity: Parity::new(Even, Odd),
+        reads: &[Quantity::Eta, Quantity::Velocity],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        at.eta * at.motion.velocity
+    }
+}
+
+#[derive(Clone, Copy)]
+pub(super) struct RateSymmetric;
+
+impl<T: Real> Regressor<T> for RateSymmetric {
+    const INFO: &'static Info = &Info {
+        name: "rate-symmetric",
+        family: Family::Rate,
+        formula: "eta·|v|",
+        dimension: Dimension::VELOCITY,
+        parity: Parity::new(Odd, Even),
+        reads: &[Quantity::Eta, Quantity::Velocity],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        at.eta * at.motion.velocity.abs()
+    }
+}

@@ -1,0 +1,45 @@
+//! Ripple: periodic in the angle, k times a turn.
+//!
+//! Formula: `sin(k·x + psi)`, with k from the teeth, the lobes or a gear's ratio.
+//!
+//! Source: T. D. Tuttle, W. P. Seering, "A nonlinear model of a harmonic drive
+//! gear transmission", *IEEE Transactions on Robotics and Automation* 12(3), 1996.
+
+use super::info::{Info, Regressor};
+use super::shaped::shaped;
+use super::Symmetry::{Even, Neither};
+use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use crate::Real;
+
+shaped! {
+    /// A ripple of `k` periods a turn.
+    ///
+    /// ```
+    /// use bowden::effect::ripple::Ripple;
+    /// assert!(Ripple::try_new(0.5, 0.5).is_ok());
+    /// assert!(Ripple::try_new(f32::NAN, 0.5).is_err());
+    /// ```
+    Ripple {
+        /// Angular order \[1/channel unit\].
+        k: Positive, Dimension { channel: -1, ..Dimension::ONE };
+        /// Phase at x = 0 \[rad\].
+        psi: Finite, Dimension::ONE;
+    }
+}
+
+impl<T: Real> Regressor<T> for Ripple<T> {
+    const INFO: &'static Info = &Info {
+        name: "ripple",
+        family: Family::Ripple,
+        formula: "sin(k·x + psi)",
+        dimension: Dimension::ONE,
+        parity: Parity::new(Neither, Even),
+        reads: &[Quantity::Position],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        (self.k * at.motion.position + self.psi).sin()
+    }
+}

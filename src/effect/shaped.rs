@@ -1,0 +1,105 @@
+//! Shape parameters: named, checked by their range, one private field each.
+
+use super::info::ShapeInfo;
+use crate::Error;
+
+/// The shapes of an effect that has some.
+pub(super) trait Shaped<T>: Sized {
+    const NAMES: &'static [&'static str];
+    const SHAPES: &'static [ShapeInfo];
+
+    fn shape(&self, index: usize) -> Option<T>;
+    fn with_shape(&self, index: usize, value: T) -> Result<Self, Error>;
+    fn try_from_shapes(values: &[T]) -> Result<Self, Error>;
+}
+
+/// Values and shapes do not match in number.
+pub(super) const COUNT: Error = Error::Inadmissible("one value for each shape of the effect");
+
+/// Declares the config of an effect with shapes:
+/// `Name { field: Range, Dimension::UNIT; … }`, each field with its doc line.
+///
+/// Makes the struct, `try_new`, a getter a field, [`Shaped`], and a `Deserialize`
+/// that goes through `try_new`.
+macro_rules! shaped {
+    ($(#[$doc:meta])* $config:ident {
+        $($(#[$field_doc:meta])* $field:ident: $range:ident, $dimension:expr;)+
+    }) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy, PartialEq)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+        #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+        pub struct $config<T> {
+            $($field: T),+
+        }
+
+        impl<T: $crate::Real> $config<T> {
+            /// Checks each shape once.
+            ///
+            /// # Errors
+            /// [`NonFinite`](crate::Error::NonFinite) or
+            /// [`OutOfRange`](crate::Error::OutOfRange) with the shape's name.
+            pub fn try_new($($field: T),+) -> Result<Self, $crate::Error> {
+                Ok(Self {
+                    $($field: $crate::effect::Range::$range.check($field, stringify!($field))?),+
+                })
+            }
+
+            $(
+                $(#[$field_doc])*
+                #[must_use]
+                pub fn $field(&self) -> T {
+                    self.$field
+                }
+            )+
+        }
+
+        impl<T: $crate::Real> $crate::effect::shaped::Shaped<T> for $config<T> {
+            const NAMES: &'static [&'static str] = &[$(stringify!($field)),+];
+            const SHAPES: &'static [$crate::effect::ShapeInfo] = &[$(
+                $crate::effect::ShapeInfo {
+                    name: stringify!($field),
+                    range: $crate::effect::Range::$range,
+                    dimension: $dimension,
+                }
+            ),+];
+
+            fn shape(&self, index: usize) -> Option<T> {
+                [$(self.$field),+].get(index).copied()
+            }
+
+            fn with_shape(&self, index: usize, value: T) -> Result<Self, $crate::Error> {
+                let mut shapes = [$(self.$field),+];
+                let place = shapes.get_mut(index);
+                *place.ok_or($crate::Error::OutOfRange("shape index"))? = value;
+                Self::try_from_shapes(&shapes)
+            }
+
+            fn try_from_shapes(values: &[T]) -> Result<Self, $crate::Error> {
+                match values {
+                    &[$($field),+] => Self::try_new($($field),+),
+                    _ => Err($crate::effect::shaped::COUNT),
+                }
+            }
+        }
+
+        #[cfg(feature = "serde")]
+        const _: () = {
+            #[derive(serde::Deserialize)]
+            struct Fields<T> {
+                $($field: T),+
+            }
+
+            impl<'de, T> serde::Deserialize<'de> for $config<T>
+            where
+                T: $crate::Real + serde::Deserialize<'de>,
+            {
+                fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+                    let fields = Fields::<T>::deserialize(from)?;
+                    Self::try_new($(fields.$field),+).map_err(serde::de::Error::custom)
+                }
+            }
+        };
+    };
+}
+pub(super) use shaped;

@@ -1,0 +1,116 @@
+//! What an effect may read at one sample, and what it remembers.
+
+use super::Quantity;
+use crate::Real;
+
+/// Position, velocity and acceleration of one channel.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Motion<T> {
+    /// x \[channel unit\]
+    pub position: T,
+    /// v \[channel unit/s\]
+    pub velocity: T,
+    /// a \[channel unit/s²\]
+    pub acceleration: T,
+}
+
+/// What an effect may read at one sample.
+///
+/// ```
+/// use bowden::effect::{Effect, EffectState, Motion, Situation};
+/// let at = Situation {
+///     motion: Motion { velocity: 2.0, ..Motion::default() },
+///     ..Situation::default()
+/// };
+/// let mut state = EffectState::default();
+/// assert_eq!(Effect::Viscous.regressor(&mut state, &at), 2.0);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Situation<T> {
+    /// Since the previous sample \[s\].
+    pub dt: T,
+    /// Since the start of the record \[s\].
+    pub time: T,
+    /// The channel that the effect reads.
+    pub motion: Motion<T>,
+    /// The transmission's input, x or `tau_i`, with its rates.
+    pub input: Motion<T>,
+    /// The transmitted load: `tau_i` in torque mode, else a load channel.
+    pub load: T,
+    /// The hysteresis state, 0 without hysteresis.
+    pub eta: T,
+    /// The sum of everything before this effect; only output stages read it.
+    pub output: T,
+}
+
+impl<T: Real> Situation<T> {
+    /// One number by its name.
+    #[inline]
+    #[must_use]
+    pub fn get(&self, quantity: Quantity) -> T {
+        match quantity {
+            Quantity::Dt => self.dt,
+            Quantity::Time => self.time,
+            Quantity::Position => self.motion.position,
+            Quantity::Velocity => self.motion.velocity,
+            Quantity::Acceleration => self.motion.acceleration,
+            Quantity::Input => self.input.position,
+            Quantity::Load => self.load,
+            Quantity::Eta => self.eta,
+            Quantity::Output => self.output,
+        }
+    }
+
+    /// Whether all of `quantities` are finite, and `dt` not negative if among them.
+    #[inline]
+    #[must_use]
+    pub fn is_usable(&self, quantities: &[Quantity]) -> bool {
+        quantities.iter().all(|&quantity| {
+            let value = self.get(quantity);
+            value.is_finite() && (quantity != Quantity::Dt || value >= T::zero())
+        })
+    }
+}
+
+/// The memory of one effect: a few numbers, or nothing before the first sample.
+///
+/// What the numbers mean is the effect's own business; a state belongs to one
+/// effect. `EffectState::default()` has seen no sample.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct EffectState<T> {
+    pub(super) memory: Option<[T; 3]>,
+}
+
+impl<T> EffectState<T> {
+    /// A state that has seen no sample.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self { memory: None }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<'de, T> serde::Deserialize<'de> for EffectState<T>
+where
+    T: Real + serde::Deserialize<'de>,
+{
+    /// Refuses a memory that is not finite.
+    fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        #[derive(serde::Deserialize)]
+        struct Fields<T> {
+            memory: Option<[T; 3]>,
+        }
+        let Fields { memory } = Fields::<T>::deserialize(from)?;
+        if memory.iter().flatten().all(|value| value.is_finite()) {
+            Ok(Self { memory })
+        } else {
+            Err(serde::de::Error::custom(crate::Error::NonFinite("memory")))
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! Stiffness: single-valued in the position.
+//!
+//! Formulas: `x`, `x²`, `x³`, `x·|x|` (progressive), and the hinge `max(0, x − x_h)`,
+//! a second spring that engages at x_h.
+//!
+//! Source: G. Duffing, *Erzwungene Schwingungen bei veränderlicher
+//! Eigenfrequenz*, 1918; for the hinge, S. W. Shaw, P. J. Holmes, "A periodically
+//! forced piecewise linear oscillator", *Journal of Sound and Vibration* 90(1), 1983.
+
+use super::info::{Info, Regressor};
+use super::shaped::shaped;
+use super::Symmetry::{Even, Neither, Odd};
+use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use crate::Real;
+
+#[derive(Clone, Copy)]
+pub(super) struct StiffnessLinear;
+
+impl<T: Real> Regressor<T> for StiffnessLinear {
+    const INFO: &'static Info = &Info {
+        name: "stiffness-linear",
+        family: Family::Stiffness,
+        formula: "x",
+        dimension: Dimension::POSITION,
+        parity: Parity::new(Odd, Even),
+        reads: &[Quantity::Position],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        at.motion.position
+    }
+}
+
+#[derive(Clone, Copy)]
+pub(super) struct StiffnessQuadratic;
+
+impl<T: Real> Regressor<T> for StiffnessQuadratic {
+    const INFO: &'static Info = &Info {
+        name: "stiffness-quadratic",
+        family: Family::Stiffness,
+        formula: "x²",
+        dimension: Dimension {
+            channel: 2,
+            ..Dimension::ONE
+        },
+        parity: Parity::new(Even, Even),
+        reads: &[Quantity::Position],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        at.motion.position * at.motion.position
+    }
+}
+
+#[derive(Clone, Copy)]
+pub(super) struct StiffnessCubic;
+
+impl<T: Real> Regressor<T> for StiffnessCubic {
+    const INFO: &'static Info = &Info {
+        name: "stiffness-cubic",
+        family: Family::Stiffness,
+        formula: "x³",
+        dimension: Dimension {
+            channel: 3,
+            ..Dimension::ONE
+        },
+        parity: Parity::new(Odd, Even),
+        reads: &[Quantity::Position],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        at.motion.position * at.motion.position * at.motion.position
+    }
+}
+
+#[derive(Clone, Copy)]
+pub(super) struct StiffnessProgressive;
+
+impl<T: Real> Regressor<T> for StiffnessProgressive {
+    const INFO: &'static Info = &Info {
+        name: "stiffness-progressive",
+        family: Family::Stiffness,
+        formula: "x·|x|",
+        dimension: Dimension {
+            channel: 2,
+            ..Dimension::ONE
+        },
+        parity: Parity::new(Odd, Even),
+        reads: &[Quantity::Position],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        at.motion.position * at.motion.position.abs()
+    }
+}
+
+shaped! {
+    /// A spring that engages at `x_h`.
+    ///
+    /// ```
+    /// use bowden::effect::stiffness::Hinge;
+    /// assert!(Hinge::try_new(0.5).is_ok());
+    /// assert!(Hinge::try_new(f32::NAN).is_err());
+    /// ```
+    Hinge {
+        /// Where the spring engages \[channel unit\].
+        x_h: Finite, Dimension::POSITION;
+    }
+}
+
+impl<T: Real> Regressor<T> for Hinge<T> {
+    const INFO: &'static Info = &Info {
+        name: "hinge",
+        family: Family::Stiffness,
+        formula: "max(0, x − x_h)",
+        dimension: Dimension::POSITION,
+        parity: Parity::new(Neither, Even),
+        reads: &[Quantity::Position],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        above(at.motion.position, self.x_h)
+    }
+}
+
+/// How far `x` lies above `limit`: `max(0, x − limit)`.
+#[inline]
+pub(super) fn above<T: Real>(x: T, limit: T) -> T {
+    if x > limit {
+        x - limit
+    } else {
+        T::zero()
+    }
+}

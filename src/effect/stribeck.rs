@@ -1,0 +1,48 @@
+//! Stribeck friction: odd in the velocity, and falling from rest on.
+//!
+//! Formula: `tanh(v/(0.1·v_s))·exp(−|v/v_s|^a)`, a = 2 for the usual bell and 1
+//! for the exponential. What remains at high speed is Coulomb friction's.
+//!
+//! Source: R. Stribeck, *Zeitschrift des VDI* 46, 1902; the exponential form is
+//! L. C. Bo, D. Pavelescu, "The friction-speed relation and its influence on the
+//! critical velocity of stick-slip motion", *Wear* 82(3), 1982.
+
+use super::info::{Info, Regressor};
+use super::shaped::shaped;
+use super::Symmetry::Odd;
+use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use crate::Real;
+
+shaped! {
+    /// The excess of friction at low speed.
+    ///
+    /// ```
+    /// use bowden::effect::stribeck::Stribeck;
+    /// assert!(Stribeck::try_new(0.5, 0.5).is_ok());
+    /// assert!(Stribeck::try_new(f32::NAN, 0.5).is_err());
+    /// ```
+    Stribeck {
+        /// Stribeck velocity \[channel unit/s\].
+        v_s: Positive, Dimension::VELOCITY;
+        /// Exponent.
+        a: Positive, Dimension::ONE;
+    }
+}
+
+impl<T: Real> Regressor<T> for Stribeck<T> {
+    const INFO: &'static Info = &Info {
+        name: "stribeck",
+        family: Family::Stribeck,
+        formula: "tanh(v/(0.1·v_s))·exp(−|v/v_s|^a)",
+        dimension: Dimension::ONE,
+        parity: Parity::new(Odd, Odd),
+        reads: &[Quantity::Velocity],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        let ratio = at.motion.velocity / self.v_s;
+        (T::of(10.0) * ratio).tanh() * (-ratio.abs().pow(self.a)).exp()
+    }
+}

@@ -1,0 +1,43 @@
+//! Temperature: what follows T. The channel read is the temperature.
+//!
+//! Formula: `x − t_ref`.
+//!
+//! Source: L. Simoni, M. Beschi, G. Legnani, A. Visioli, "Friction modeling with
+//! temperature effects for industrial robot manipulators", *IROS*, 2015.
+
+use super::info::{Info, Regressor};
+use super::shaped::shaped;
+use super::Symmetry::{Even, Neither};
+use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use crate::Real;
+
+shaped! {
+    /// The temperature above `t_ref`.
+    ///
+    /// ```
+    /// use bowden::effect::temperature::Temperature;
+    /// assert!(Temperature::try_new(0.5).is_ok());
+    /// assert!(Temperature::try_new(f32::NAN).is_err());
+    /// ```
+    Temperature {
+        /// Reference temperature \[channel unit\].
+        t_ref: Finite, Dimension::POSITION;
+    }
+}
+
+impl<T: Real> Regressor<T> for Temperature<T> {
+    const INFO: &'static Info = &Info {
+        name: "temperature",
+        family: Family::Temperature,
+        formula: "x − t_ref",
+        dimension: Dimension::POSITION,
+        parity: Parity::new(Neither, Even),
+        reads: &[Quantity::Position],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        at.motion.position - self.t_ref
+    }
+}

@@ -1,0 +1,46 @@
+//! A tone: a line in the time spectrum, a function of nothing measured.
+//!
+//! Formula: `sin(2·pi·f·t + psi)`.
+//!
+//! Source: J. S. Bendat, A. G. Piersol, *Random Data*, 2010, chapter 5.
+
+use super::info::{Info, Regressor};
+use super::shaped::shaped;
+use super::Symmetry::Even;
+use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use crate::Real;
+use core::f64::consts::TAU;
+
+shaped! {
+    /// A sine in time.
+    ///
+    /// ```
+    /// use bowden::effect::tone::Tone;
+    /// assert!(Tone::try_new(0.5, 0.5).is_ok());
+    /// assert!(Tone::try_new(f32::NAN, 0.5).is_err());
+    /// ```
+    Tone {
+        /// Frequency \[Hz\].
+        f: Positive, Dimension { time: -1, ..Dimension::ONE };
+        /// Phase at t = 0 \[rad\].
+        psi: Finite, Dimension::ONE;
+    }
+}
+
+impl<T: Real> Regressor<T> for Tone<T> {
+    const INFO: &'static Info = &Info {
+        name: "tone",
+        family: Family::Tone,
+        formula: "sin(2·pi·f·t + psi)",
+        dimension: Dimension::ONE,
+        parity: Parity::new(Even, Even),
+        reads: &[Quantity::Time],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        let turns = self.f * at.time;
+        (T::of(TAU) * turns + self.psi).sin()
+    }
+}

@@ -1,0 +1,32 @@
+//! Viscous friction: odd in the velocity, and linear.
+//!
+//! Formula: `v`.
+//!
+//! Source: B. Armstrong-Hélouvry, P. Dupont, C. Canudas de Wit, "A survey of
+//! models, analysis tools and compensation methods for the control of machines
+//! with friction", *Automatica* 30(7), 1994.
+
+use super::info::{Info, Regressor};
+use super::Symmetry::Odd;
+use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use crate::Real;
+
+#[derive(Clone, Copy)]
+pub(super) struct Viscous;
+
+impl<T: Real> Regressor<T> for Viscous {
+    const INFO: &'static Info = &Info {
+        name: "viscous",
+        family: Family::Viscous,
+        formula: "v",
+        dimension: Dimension::VELOCITY,
+        parity: Parity::new(Odd, Odd),
+        reads: &[Quantity::Velocity],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        at.motion.velocity
+    }
+}
