@@ -1,1 +1,12 @@
 //! The lab.
+pub mod catalogue;
+pub mod channels;
+pub mod closing;
+pub mod columns;
+pub mod filter;
+pub mod fit;
+pub mod record;
+pub mod scan;
+pub mod spectrum;
+pub mod structure;
+pub mod synth;

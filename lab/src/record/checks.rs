@@ -1,0 +1,72 @@
+//! Options that make no sense, and columns that hold no measurement.
+
+use super::clipping;
+use super::error::RecordError;
+use super::header::Header;
+use super::roles::Roles;
+use super::rows::Table;
+use super::Options;
+
+/// Refuses options that cannot be followed with any record.
+pub(super) fn options(options: &Options) -> Result<(), RecordError> {
+    let refuse = |message: String| Err(RecordError::new(message));
+    if !(options.skip.is_finite() && options.skip >= 0.0) {
+        return refuse(format!(
+            "--skip {}: seconds from 0 up were expected",
+            options.skip
+        ));
+    }
+    if let Some(until) = options.until {
+        if until.is_nan() || until <= options.skip {
+            return refuse(format!(
+                "--until {until}: more than --skip {} was expected",
+                options.skip
+            ));
+        }
+    }
+    match options.rate {
+        Some(rate) if !(1e-9..=1e12).contains(&rate) => refuse(format!(
+            "--rate {rate}: a positive number of Hz was expected"
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// Refuses an input or output that stands still or was clipped.
+pub(super) fn record(table: &Table, header: &Header, roles: &Roles) -> Result<(), RecordError> {
+    let [input, output, ..] = table.values.as_slice() else {
+        return Ok(());
+    };
+    let name = |index: usize| header.columns[index].name.as_str();
+    let ends = [
+        ("input", roles.input, input, output),
+        ("output", roles.output, output, input),
+    ];
+    for (role, index, values, _) in ends {
+        let (low, high) = range(values);
+        if high - low <= 1e-12 * low.abs().max(high.abs()) {
+            let line = table.lines.first().copied().unwrap_or(header.line);
+            let message = format!("the {role} is {low} in every sample, it has to move");
+            return Err(RecordError::at(line, message).on(name(index)));
+        }
+    }
+    for (_, index, values, other) in ends {
+        if let Some(clipped) = clipping::find(values, other) {
+            let line = table
+                .lines
+                .get(clipped.first)
+                .copied()
+                .unwrap_or(header.line);
+            return Err(RecordError::at(line, clipped.to_string()).on(name(index)));
+        }
+    }
+    Ok(())
+}
+
+/// Smallest and largest value.
+pub(super) fn range(values: &[f64]) -> (f64, f64) {
+    let wider = |(low, high): (f64, f64), value: &f64| (low.min(*value), high.max(*value));
+    values
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), wider)
+}

@@ -1,0 +1,121 @@
+//! The one line that a bad record gets.
+
+use std::fmt;
+
+/// Why a record was refused: ``FILE:LINE: column `NAME`: message``.
+///
+/// Line and column are left out where the fault has none (a missing file).
+/// The text is always one line: control characters in names, in the path or
+/// in the offending cell are escaped, long ones are shortened.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RecordError {
+    file: String,
+    line: Option<usize>,
+    column: Option<String>,
+    message: String,
+}
+
+impl RecordError {
+    pub(super) fn new(message: impl Into<String>) -> Self {
+        Self {
+            file: String::new(),
+            line: None,
+            column: None,
+            message: message.into(),
+        }
+    }
+
+    pub(super) fn at(line: usize, message: impl Into<String>) -> Self {
+        Self {
+            line: Some(line),
+            ..Self::new(message)
+        }
+    }
+
+    pub(super) fn on(self, column: &str) -> Self {
+        Self {
+            column: Some(column.to_owned()),
+            ..self
+        }
+    }
+
+    pub(super) fn in_file(self, file: &str) -> Self {
+        Self {
+            file: file.to_owned(),
+            ..self
+        }
+    }
+
+    /// Line in the file, from 1.
+    pub fn line(&self) -> Option<usize> {
+        self.line
+    }
+
+    /// The column's name.
+    pub fn column(&self) -> Option<&str> {
+        self.column.as_deref()
+    }
+
+    /// What is wrong, without the place.
+    pub fn message(&self) -> &str {
+        &self.message
+    }
+}
+
+impl fmt::Display for RecordError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", shown(&self.file, usize::MAX))?;
+        if let Some(line) = self.line {
+            write!(f, ":{line}")?;
+        }
+        if let Some(column) = &self.column {
+            write!(f, ": column `{}`", shown(column, NAME_LENGTH))?;
+        }
+        write!(f, ": {}", self.message)
+    }
+}
+
+impl std::error::Error for RecordError {}
+
+/// Names longer than this are shortened in messages.
+pub(super) const NAME_LENGTH: usize = 40;
+
+/// Text from a file, safe to print on one line of a terminal.
+pub(super) fn shown(text: &str, limit: usize) -> String {
+    let mut out = String::new();
+    for (count, c) in text.chars().enumerate() {
+        if count == limit {
+            out.push('…');
+            break;
+        }
+        // escape_debug escapes quotes too, which would only be in the way.
+        if matches!(c, '"' | '\'' | '\\') {
+            out.push(c);
+        } else {
+            out.extend(c.escape_debug());
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_place_comes_first_and_the_line_stays_one_line() {
+        let error = RecordError::at(7, "text")
+            .on("a\nb\u{1b}[31m")
+            .in_file("dir/x\n.csv");
+        assert_eq!(
+            error.to_string(),
+            "dir/x\\n.csv:7: column `a\\nb\\u{1b}[31m`: text"
+        );
+    }
+
+    #[test]
+    fn long_text_is_cut() {
+        assert_eq!(shown("abcdef", 3), "abc…");
+        assert_eq!(shown("abc", 3), "abc");
+    }
+}

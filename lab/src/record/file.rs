@@ -1,0 +1,46 @@
+//! Bytes from a path, without filling the memory from an endless one.
+
+use super::error::RecordError;
+use std::fs::File;
+use std::io::{ErrorKind, Read};
+use std::path::Path;
+
+/// Largest file that is read [bytes]: about ten hours of six columns at 1 kHz.
+const LIMIT: u64 = 1 << 31;
+/// A binary file is recognised within these first bytes and not read further.
+const PROBE: u64 = 1 << 16;
+
+pub(super) fn load(path: &Path, label: &str) -> Result<Vec<u8>, RecordError> {
+    let refuse = |message: String| RecordError::new(message).in_file(label);
+    let failed = |error: std::io::Error| {
+        refuse(match error.kind() {
+            ErrorKind::NotFound => "no such file".to_owned(),
+            ErrorKind::PermissionDenied => "no permission to read the file".to_owned(),
+            ErrorKind::IsADirectory => "is a folder, a CSV file was expected".to_owned(),
+            _ => format!("cannot be read: {error}"),
+        })
+    };
+    // A pipe has no size and is fine; only a folder is refused beforehand.
+    if std::fs::metadata(path).map_err(failed)?.is_dir() {
+        return Err(refuse("is a folder, a CSV file was expected".to_owned()));
+    }
+    let mut file = File::open(path).map_err(failed)?;
+    let mut bytes = Vec::new();
+    (&mut file)
+        .take(PROBE)
+        .read_to_end(&mut bytes)
+        .map_err(failed)?;
+    if !bytes.contains(&0) {
+        (&mut file)
+            .take(LIMIT)
+            .read_to_end(&mut bytes)
+            .map_err(failed)?;
+    }
+    if bytes.len() as u64 > LIMIT {
+        return Err(refuse(format!(
+            "is larger than {} MiB, cut it into records",
+            LIMIT >> 20
+        )));
+    }
+    Ok(bytes)
+}

@@ -1,0 +1,109 @@
+//! The first line: which columns there are.
+
+use super::error::{shown, RecordError, NAME_LENGTH};
+use super::text::{cells, separator, Lines};
+use super::{number, units};
+
+/// At most this many names are listed in a message.
+const LISTED: usize = 24;
+
+/// A column as the header names it; the name is empty where it has none.
+pub(super) struct Named {
+    pub(super) name: String,
+    pub(super) unit: Option<String>,
+    /// The whole cell, `name [unit]`.
+    cell: String,
+}
+
+pub(super) struct Header {
+    pub(super) line: usize,
+    pub(super) separator: char,
+    pub(super) columns: Vec<Named>,
+}
+
+impl Header {
+    /// Index of the column of that name, given with or without its unit.
+    pub(super) fn find(&self, name: &str) -> Option<usize> {
+        let name = name.trim();
+        self.columns.iter().position(|column| {
+            !column.name.is_empty() && (column.name == name || column.cell == name)
+        })
+    }
+
+    /// The names that exist, for a message.
+    pub(super) fn list(&self) -> String {
+        let names: Vec<_> = self
+            .columns
+            .iter()
+            .filter(|column| !column.name.is_empty())
+            .collect();
+        let quoted = |column: &&Named| format!("`{}`", shown(&column.name, NAME_LENGTH));
+        let mut list = names
+            .iter()
+            .take(LISTED)
+            .map(quoted)
+            .collect::<Vec<_>>()
+            .join(", ");
+        if names.len() > LISTED {
+            list += &format!(" and {} more", names.len() - LISTED);
+        }
+        list
+    }
+}
+
+pub(super) fn read(lines: &mut Lines<'_>) -> Result<Header, RecordError> {
+    let expected = "a header with column names was expected";
+    let Some(line) = lines.next() else {
+        return Err(RecordError::at(1, format!("the file is blank, {expected}")));
+    };
+    let text = line?;
+    let line = lines.number();
+    let separator = separator(text);
+    let columns: Vec<Named> = cells(text, separator)
+        .map(|cell| {
+            let (name, unit) = units::split(cell);
+            Named {
+                name: name.to_owned(),
+                unit,
+                cell: cell.to_owned(),
+            }
+        })
+        .collect();
+    let mut named = columns
+        .iter()
+        .filter(|column| !column.name.is_empty())
+        .peekable();
+    if named.peek().is_none() {
+        return Err(RecordError::at(
+            line,
+            format!("the line has no names, {expected}"),
+        ));
+    }
+    if named.all(|column| number::is_number(&column.name)) {
+        return Err(RecordError::at(
+            line,
+            format!("the line holds numbers, {expected}"),
+        ));
+    }
+    twice(&columns, line)?;
+    Ok(Header {
+        line,
+        separator,
+        columns,
+    })
+}
+
+fn twice(columns: &[Named], line: usize) -> Result<(), RecordError> {
+    let mut seen = std::collections::HashMap::new();
+    for (index, column) in columns
+        .iter()
+        .enumerate()
+        .filter(|(_, column)| !column.name.is_empty())
+    {
+        if let Some(first) = seen.insert(column.name.as_str(), index) {
+            let message = format!("named twice, as columns {} and {}", first + 1, index + 1);
+            return Err(RecordError::at(line, message).on(&column.name));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,180 @@
+//! Reads a measured record: CSV in, checked columns out.
+//!
+//! A record is a time axis, the transmission's input and output, and optional
+//! channels beside them. Nothing is repaired in silence: what the reader did
+//! (a unit converted, a column ignored) stands in [`Record::notes`], and what
+//! it cannot read is refused with one line that names file, line and column.
+//!
+//! ```
+//! use bowden_lab::record::{parse, Options};
+//!
+//! let mut csv = String::from("t [s],tau_i [N·m],tau_o [N·m]\n");
+//! for i in 0..400 {
+//!     let t = f64::from(i) * 1e-3;
+//!     let torque = 16.0 * (20.0 * t).sin();
+//!     csv += &format!("{t},{torque},{}\n", 0.95 * torque);
+//! }
+//! let record = parse(csv.as_bytes(), "bench.csv", &Options::default())?;
+//! assert_eq!(record.output.unit.as_deref(), Some("N·m"));
+//!
+//! let error = parse(b"t,tau_i\n", "bench.csv", &Options::default()).unwrap_err();
+//! assert!(error.to_string().starts_with("bench.csv:1: column `tau_o`: "));
+//! # Ok::<(), bowden_lab::record::RecordError>(())
+//! ```
+
+mod checks;
+mod clipping;
+mod error;
+mod file;
+mod header;
+mod number;
+mod roles;
+mod rows;
+mod text;
+mod time;
+mod units;
+
+pub use error::RecordError;
+
+use std::path::Path;
+
+/// What drives the transmission, and what is measured at its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Mode {
+    /// Proximal torque in, distal torque out: the paper's (5) to (7).
+    Torque,
+    /// Displacement in, force out: the paper's (1) and (2).
+    Displacement,
+}
+
+/// Fewest samples that a record may have after cutting.
+pub const MIN_SAMPLES: usize = 200;
+
+/// How to read a record: the mode, the names of the columns, the cuts.
+///
+/// The default reads the default names, takes the mode from the columns and
+/// cuts nothing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Options {
+    /// The mode; from the columns where it is `None`.
+    pub mode: Option<Mode>,
+    /// Column of the time, `t` where it is `None`.
+    pub time: Option<String>,
+    /// Column of the input, `tau_i` or `x` where it is `None`.
+    pub input: Option<String>,
+    /// Column of the output, `tau_o` or `f` where it is `None`.
+    pub output: Option<String>,
+    /// Channels beside the default ones, as (name of the channel, column).
+    pub channels: Vec<(String, String)>,
+    /// Seconds to leave out at the start, counted from the first time stamp.
+    pub skip: f64,
+    /// Where to stop \[s\], counted from the first time stamp.
+    pub until: Option<f64>,
+    /// Sampling rate \[Hz\]; the time column is then not read.
+    pub rate: Option<f64>,
+}
+
+/// One measured quantity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// The channel's name (`phi_d`), or the file's own for input and output.
+    pub name: String,
+    /// The unit in the header, if it states one.
+    pub unit: Option<String>,
+    /// One finite value a sample.
+    pub values: Vec<f64>,
+}
+
+/// A checked record: at least [`MIN_SAMPLES`] samples, every value finite.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Record {
+    /// Where it came from, as it is named in messages.
+    pub path: String,
+    /// What drives the transmission.
+    pub mode: Mode,
+    /// Time \[s\], strictly increasing, 0 at the first sample that was kept.
+    pub time: Vec<f64>,
+    /// The transmission's input: torque or displacement.
+    pub input: Column,
+    /// The transmission's output: torque or force.
+    pub output: Column,
+    /// Everything else that was measured and is to be used.
+    pub channels: Vec<Column>,
+    /// What the reader did that the user may want to know.
+    pub notes: Vec<String>,
+}
+
+impl Record {
+    /// Number of samples.
+    pub fn samples(&self) -> usize {
+        self.time.len()
+    }
+
+    /// The channel of that name.
+    pub fn channel(&self, name: &str) -> Option<&Column> {
+        self.channels.iter().find(|column| column.name == name)
+    }
+
+    /// Median time between two samples \[s\].
+    pub fn step(&self) -> f64 {
+        time::median_step(&self.time)
+    }
+}
+
+/// Reads a record from a file.
+///
+/// # Errors
+/// One line that names file, line and column: see [`RecordError`].
+pub fn read(path: &Path, options: &Options) -> Result<Record, RecordError> {
+    let label = path.display().to_string();
+    parse(&file::load(path, &label)?, &label, options)
+}
+
+/// Reads a record from bytes in memory; `label` stands for the file's name.
+///
+/// # Errors
+/// One line that names file, line and column: see [`RecordError`].
+pub fn parse(bytes: &[u8], label: &str, options: &Options) -> Result<Record, RecordError> {
+    parse_lines(bytes, options)
+        .map_err(|error| error.in_file(label))
+        .map(|mut record| {
+            record.path = label.to_owned();
+            record
+        })
+}
+
+fn parse_lines(bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
+    checks::options(options)?;
+    let text = text::decode(bytes)?;
+    let mut lines = text::Lines::new(text);
+    let header = header::read(&mut lines)?;
+    let roles = roles::assign(&header, options)?;
+    let table = rows::read(&mut lines, &header, &roles, options)?;
+    checks::record(&table, &header, &roles)?;
+
+    let mut notes = roles.notes;
+    notes.extend(table.notes);
+    let mut values = table.values.into_iter();
+    let mut column = |name: &str, index: usize| Column {
+        name: name.to_owned(),
+        unit: header.columns[index].unit.clone(),
+        values: values.next().unwrap_or_default(),
+    };
+    let name = |index: usize| header.columns[index].name.as_str();
+    let input = column(name(roles.input), roles.input);
+    let output = column(name(roles.output), roles.output);
+    let channels = roles
+        .channels
+        .iter()
+        .map(|(name, index)| column(name, *index))
+        .collect();
+    Ok(Record {
+        path: String::new(),
+        mode: roles.mode,
+        time: table.time,
+        input,
+        output,
+        channels,
+        notes,
+    })
+}

@@ -1,0 +1,1 @@
+//! An independent generator of test records.
