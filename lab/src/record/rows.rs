@@ -64,12 +64,13 @@ pub(super) fn read(
     clock.finish(header)?;
     if time.len() < MIN_SAMPLES {
         let (all, left) = (clock.rows(), time.len());
+        let samples = if left == 1 { "sample" } else { "samples" };
         let cut = if left < all {
             format!(" of {all} are left after cutting")
         } else {
             String::new()
         };
-        let message = format!("too short: {left} samples{cut}, at least {MIN_SAMPLES} are needed");
+        let message = format!("too short: {left} {samples}{cut}, at least {MIN_SAMPLES} are needed");
         return Err(RecordError::at(lines.number(), message));
     }
     let mut notes = clock.notes(&time);

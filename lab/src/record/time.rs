@@ -111,7 +111,7 @@ impl Clock {
             let rate = (self.rows - 1) as f64 / self.last;
             format!(
                 "time stands still at {cell}, as at {} of {} rows: the stamps are rounded; \
-                 --rate HZ takes time from the row number (about {rate:.4} Hz)",
+                 --rate HZ takes time from the row number (about {rate:.1} Hz)",
                 self.repeated, self.rows
             )
         } else {

@@ -1,0 +1,193 @@
+//! Good records are read: in every spelling, cut, held, quantised, and measured by others.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use bowden_lab::record::{parse, read, Mode, Options, Record};
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+/// A record that is fine: 400 samples at 100 Hz in three columns.
+fn rows() -> Vec<String> {
+    let row = |i: i32| {
+        let t = f64::from(i) * 0.01;
+        format!(
+            "{t:.2},{:.6},{:.6}",
+            10.0 * (3.0 * t).sin(),
+            25.0 * (3.0 * t + 0.2).sin()
+        )
+    };
+    (0..400).map(row).collect()
+}
+
+fn csv(header: &str, rows: &[String]) -> String {
+    format!("{header}\n{}\n", rows.join("\n"))
+}
+
+/// The record with one line (numbered as an editor does) replaced.
+fn with_line(line: usize, text: &str) -> String {
+    let mut rows = rows();
+    rows[line - 2] = text.to_owned();
+    csv("t,x,f", &rows)
+}
+
+/// The record with two columns computed from the time.
+fn of(input: impl Fn(f64) -> f64, output: impl Fn(f64) -> f64) -> String {
+    let mut text = "t,x,f\n".to_owned();
+    for i in 0..2000 {
+        let t = f64::from(i) * 0.01;
+        writeln!(text, "{t},{},{}", input(t), output(t)).unwrap();
+    }
+    text
+}
+
+fn accepted(bytes: impl AsRef<[u8]>) -> Record {
+    parse(bytes.as_ref(), "r.csv", &Options::default()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn a_good_record_is_read_in_every_spelling() {
+    let plain = accepted(csv("t,x,f", &rows()));
+    assert_eq!((plain.mode, plain.samples()), (Mode::Displacement, 400));
+    assert!((plain.step() - 0.01).abs() < 1e-12);
+    let text = csv("t [s],x [mm],\"f [N]\"", &rows());
+    let trailing: Vec<_> = rows().iter().map(|row| format!("{row}, ")).collect();
+    for other in [
+        csv("t,x,f", &rows()).replace('\n', "\r\n") + "\r\n\r\n",
+        format!("\u{feff}{text}"),
+        text.replace(',', ";"),
+        text.replace(',', "\t"),
+        text.replace('\n', "\r"),
+        csv("t [s], x [mm], f [N], ", &trailing),
+    ] {
+        let record = accepted(&other);
+        assert_eq!(
+            (&record.time, &record.input.values),
+            (&plain.time, &plain.input.values)
+        );
+        assert_eq!(record.output.values, plain.output.values);
+    }
+    let units = accepted(text);
+    assert_eq!(units.input.unit.as_deref(), Some("mm"));
+    assert_eq!(units.output.unit.as_deref(), Some("N"));
+}
+
+#[test]
+fn channels_are_read_by_their_own_name_or_by_the_given_one() {
+    let rows: Vec<_> = rows()
+        .iter()
+        .map(|row| format!("{row},1.5,2.5,3.5"))
+        .collect();
+    let options = Options {
+        channels: vec![("phi_d".into(), "jaw_rad".into())],
+        ..Options::default()
+    };
+    let text = csv("t,tau_i,tau_o,phi_p [rad],jaw_rad,spare", &rows);
+    let record = parse(text.as_bytes(), "r.csv", &options).unwrap();
+    let first = |column: &bowden_lab::record::Column| (column.name.clone(), column.values[0]);
+    let named: Vec<_> = record.channels.iter().map(first).collect();
+    assert_eq!(
+        named,
+        [("phi_d".to_owned(), 2.5), ("phi_p".to_owned(), 1.5)]
+    );
+    assert_eq!(
+        record.channel("phi_d").unwrap().unit.as_deref(),
+        Some("rad")
+    );
+    assert_eq!(record.mode, Mode::Torque);
+    assert_eq!(record.notes, ["columns not read: `spare`"]);
+}
+
+#[test]
+fn cuts_count_from_the_first_time_stamp_and_hide_what_they_cut() {
+    let options = Options {
+        skip: 0.5,
+        until: Some(3.0),
+        ..Options::default()
+    };
+    let record = parse(with_line(12, "0.1,cut away,").as_bytes(), "r.csv", &options).unwrap();
+    assert_eq!((record.samples(), record.time[0]), (251, 0.0));
+    assert_eq!(record.notes, ["149 of 400 samples cut away"]);
+}
+
+#[test]
+fn holds_quantisation_and_dry_friction_are_not_clipping() {
+    // A trapezoid: the input is held at its ends, and the output rests too.
+    let triangle = |t: f64| (t - 4.0 * (t / 4.0 + 0.5).floor()).abs() - 1.0;
+    let trapezoid = |t: f64| (3.0 * triangle(t)).clamp(-1.5, 1.5);
+    accepted(of(trapezoid, |t| 2.0 * trapezoid(t)));
+    accepted(of(trapezoid, |t| {
+        2.0 * trapezoid(t) + 0.01 * (377.0 * t).sin()
+    }));
+    // A coarse converter: 16 counts in all.
+    let sine = |t: f64| 8.0 * t.sin();
+    accepted(of(|t| sine(t).round(), |t| (3.0 * sine(t)).round()));
+    // A friction force without noise that is flat while the input slides.
+    accepted(of(sine, |t| (1e3 * t.cos()).clamp(-1.0, 1.0)));
+}
+
+/// Columns and cuts of each measured record.
+fn mapping(path: &Path) -> Option<Options> {
+    let folder = path.parent()?.file_name()?.to_str()?;
+    let (input, output) = match folder {
+        "emps" => ("q_m", "force_N"),
+        "davinci_cable_tool" => ("drive_torque_Nm", "jaw_torque_Nm"),
+        "faster_fatigue_rig" => ("displacement_mm", "force_norm"),
+        "tribometer_friction" => ("position_mm", "friction_N"),
+        "pneumatic_cylinder" => ("position_mm", "force_N"),
+        "piezo_stage" => ("control_V", "displacement_um"),
+        "mr_damper_utfsm" if path.ends_with("validation_earthquake.csv") => {
+            ("displacement_mm", "force_N_1.0A")
+        }
+        "mr_damper_utfsm" => ("displacement_mm", "force_N"),
+        _ => return None,
+    };
+    let mut options = Options {
+        mode: Some(Mode::Displacement),
+        time: Some("time_s".into()),
+        input: Some(input.into()),
+        output: Some(output.into()),
+        ..Options::default()
+    };
+    match folder {
+        "davinci_cable_tool" => {
+            options.mode = Some(Mode::Torque);
+            options.channels = vec![
+                ("phi_p".into(), "drive_angle_rad".into()),
+                ("phi_d".into(), "jaw_angle_rad".into()),
+            ];
+        }
+        "faster_fatigue_rig" => options.rate = Some(128.0),
+        "tribometer_friction" => (options.skip, options.until) = (20.0, Some(209.0)),
+        _ => {}
+    }
+    Some(options)
+}
+
+#[test]
+fn every_measured_record_is_read() {
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data");
+    let Ok(folders) = std::fs::read_dir(&data) else {
+        println!(
+            "skipped: the measured records are not at {}",
+            data.display()
+        );
+        return;
+    };
+    let files: Vec<PathBuf> = folders
+        .flat_map(|folder| std::fs::read_dir(folder.unwrap().path()).unwrap())
+        .map(|file| file.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "csv"))
+        .collect();
+    assert!(!files.is_empty());
+    for path in files {
+        let Some(options) = mapping(&path) else {
+            continue;
+        };
+        let record = read(&path, &options).unwrap_or_else(|error| panic!("{error}"));
+        println!(
+            "{}: {} samples, {:?}",
+            record.path,
+            record.samples(),
+            record.notes
+        );
+    }
+}
