@@ -1,0 +1,59 @@
+//! Closed forms of the path for `n = 1`, `n = 2`, and of unloading for `sigma = 1/2`.
+//!
+//! A segment is split at `zeta = 0`: the unloading part ends there after a path
+//! that is known, the rest is loading from zero.
+
+use crate::Real;
+
+/// Exact `zeta` after the path `p` for `n = 1`.
+///
+/// Loading `1 - (1 - z)·e^(-p)`; unloading crosses zero at `ln(1 + c·|z|)/c`.
+#[inline]
+pub(super) fn linear<T: Real>(zeta: T, p: T, c: T) -> T {
+    let (zeta, p) = if zeta < T::zero() {
+        let crossing = if c > T::zero() {
+            (-c * zeta).ln_1p() / c
+        } else {
+            -zeta
+        };
+        if p < crossing {
+            // d|z|/dp = -(1 + c·|z|), so that 1 + c·|z| decays as e^(-c·p).
+            let decay = (-c * p).exp_m1();
+            return if c > T::zero() {
+                zeta - (T::one() - c * zeta) * decay / c
+            } else {
+                zeta + p
+            };
+        }
+        (T::zero(), p - crossing)
+    } else {
+        (zeta, p)
+    };
+    zeta - (T::one() - zeta) * (-p).exp_m1()
+}
+
+/// Exact `zeta` after the path `p` for `n = 2`.
+///
+/// Loading `(z + t)/(1 + z·t)` with `t = tanh p`; unloading crosses zero at
+/// `atan(r·|z|)/r` with `r = sqrt(c)`.
+#[inline]
+pub(super) fn quadratic<T: Real>(zeta: T, p: T, c: T) -> T {
+    let (zeta, p) = if zeta < T::zero() {
+        let r = c.sqrt();
+        let angle = (-r * zeta).atan();
+        let crossing = if c > T::zero() { angle / r } else { -zeta };
+        if p < crossing {
+            return if c > T::zero() {
+                -(angle - r * p).tan() / r
+            } else {
+                zeta + p
+            };
+        }
+        (T::zero(), p - crossing)
+    } else {
+        (zeta, p)
+    };
+    let t = p.tanh();
+    // z + t - z - z²·t over 1 + z·t: the increment has no cancellation near 1.
+    zeta + t * (T::one() - zeta) * (T::one() + zeta) / (T::one() + zeta * t)
+}

@@ -1,0 +1,171 @@
+//! What the step computes with: a float, or a float with its four derivatives.
+//!
+//! The step is written once. Run on plain floats it is the step; run on [`Dual`]
+//! it is the exact derivative of that very step, branch for branch.
+
+use crate::Real;
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A float or a dual number over it.
+pub(super) trait Number:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    type Float: Real;
+    /// A number without derivatives.
+    fn constant(value: Self::Float) -> Self;
+    /// The number less its derivatives.
+    fn value(self) -> Self::Float;
+    fn scale(self, by: Self::Float) -> Self;
+    fn shift(self, by: Self::Float) -> Self;
+    fn exp(self) -> Self;
+    fn ln(self) -> Self;
+    fn sqrt(self) -> Self;
+}
+
+impl<T: Real> Number for T {
+    type Float = T;
+    #[inline]
+    fn constant(value: T) -> T {
+        value
+    }
+    #[inline]
+    fn value(self) -> T {
+        self
+    }
+    #[inline]
+    fn scale(self, by: T) -> T {
+        self * by
+    }
+    #[inline]
+    fn shift(self, by: T) -> T {
+        self + by
+    }
+    #[inline]
+    fn exp(self) -> T {
+        Real::exp(self)
+    }
+    #[inline]
+    fn ln(self) -> T {
+        Real::ln(self)
+    }
+    #[inline]
+    fn sqrt(self) -> T {
+        Real::sqrt(self)
+    }
+}
+
+/// A value and its derivatives by rho, sigma, n and the initial state.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Dual<T> {
+    pub value: T,
+    pub by: [T; 4],
+}
+
+impl<T: Real> Dual<T> {
+    /// A function of two numbers: its value, and its slopes by each.
+    #[inline]
+    fn join(self, other: Self, value: T, by_self: T, by_other: T) -> Self {
+        let ([a, b, c, d], [e, f, g, h]) = (self.by, other.by);
+        let of = |own: T, others: T| own * by_self + others * by_other;
+        Self {
+            value,
+            by: [of(a, e), of(b, f), of(c, g), of(d, h)],
+        }
+    }
+    /// A function's value, and the derivatives times its slope.
+    #[inline]
+    fn chain(self, value: T, slope: T) -> Self {
+        let [a, b, c, d] = self.by;
+        Self {
+            value,
+            by: [a * slope, b * slope, c * slope, d * slope],
+        }
+    }
+}
+
+impl<T: Real> Add for Dual<T> {
+    type Output = Self;
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        self.join(other, self.value + other.value, T::one(), T::one())
+    }
+}
+
+impl<T: Real> Sub for Dual<T> {
+    type Output = Self;
+    #[inline]
+    fn sub(self, other: Self) -> Self {
+        self.join(other, self.value - other.value, T::one(), -T::one())
+    }
+}
+
+impl<T: Real> Mul for Dual<T> {
+    type Output = Self;
+    #[inline]
+    fn mul(self, other: Self) -> Self {
+        self.join(other, self.value * other.value, other.value, self.value)
+    }
+}
+
+impl<T: Real> Div for Dual<T> {
+    type Output = Self;
+    #[inline]
+    fn div(self, other: Self) -> Self {
+        let value = self.value / other.value;
+        let inverse = T::one() / other.value;
+        self.join(other, value, inverse, -value * inverse)
+    }
+}
+
+impl<T: Real> Neg for Dual<T> {
+    type Output = Self;
+    #[inline]
+    fn neg(self) -> Self {
+        self.chain(-self.value, -T::one())
+    }
+}
+
+impl<T: Real> Number for Dual<T> {
+    type Float = T;
+    #[inline]
+    fn constant(value: T) -> Self {
+        Self {
+            value,
+            by: [T::zero(); 4],
+        }
+    }
+    #[inline]
+    fn value(self) -> T {
+        self.value
+    }
+    #[inline]
+    fn scale(self, by: T) -> Self {
+        self.chain(self.value * by, by)
+    }
+    #[inline]
+    fn shift(self, by: T) -> Self {
+        Self {
+            value: self.value + by,
+            by: self.by,
+        }
+    }
+    #[inline]
+    fn exp(self) -> Self {
+        let value = Real::exp(self.value);
+        self.chain(value, value)
+    }
+    #[inline]
+    fn ln(self) -> Self {
+        self.chain(Real::ln(self.value), T::one() / self.value)
+    }
+    #[inline]
+    fn sqrt(self) -> Self {
+        let value = Real::sqrt(self.value);
+        self.chain(value, T::of(0.5) / value)
+    }
+}

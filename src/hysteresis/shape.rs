@@ -1,0 +1,235 @@
+//! The shape of the loop, and the step that follows it.
+
+use super::number::Dual;
+use super::state::{BoucWen, Sensitivity};
+use super::{closed, path, stages};
+use crate::error::finite;
+use crate::{Error, Real};
+
+/// Shape of a Bouc-Wen loop: rho [1/input unit], sigma, n. Equations (2), (7).
+///
+/// `rho` sets how much input a full loop needs, `sigma` how steep unloading is
+/// (`2·sigma` times the slope at zero), `n` how sharp the knee is. `sigma >= 1/2`
+/// makes the model dissipative and, with `n >= 1`, keeps `|eta| <= 1`.
+///
+/// ```
+/// use bowden::hysteresis::{BoucWen, Shape};
+/// # fn main() -> Result<(), bowden::Error> {
+/// let shape = Shape::try_new(0.09582, 98.36, 3.871)?; // first set of the paper
+/// let mut state = BoucWen::new();
+/// shape.step(&mut state, 0.0); // the first sample only says where the input is
+/// assert!(shape.step(&mut state, 16.0) > 0.9);
+/// assert!(shape.step(&mut state, -1e30) >= -1.0);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "Unchecked<T>",
+        bound(
+            serialize = "T: Real + serde::Serialize",
+            deserialize = "T: Real + serde::Deserialize<'de>"
+        )
+    )
+)]
+pub struct Shape<T> {
+    rho: T,
+    sigma: T,
+    n: T,
+}
+
+impl<T: Real> Shape<T> {
+    /// A shape with `rho > 0` [1/input unit], `sigma >= 1/2` and `n >= 1`.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the parameter's name;
+    /// `sigma` and `n` above 1e9 count as out of range, as no loop can show them.
+    pub fn try_new(rho: T, sigma: T, n: T) -> Result<Self, Error> {
+        let most = T::of(1e9);
+        if finite(rho, "rho")? <= T::zero() {
+            return Err(Error::OutOfRange("rho"));
+        }
+        if finite(sigma, "sigma")? < T::of(0.5) || sigma > most {
+            return Err(Error::OutOfRange("sigma"));
+        }
+        if finite(n, "n")? < T::one() || n > most {
+            return Err(Error::OutOfRange("n"));
+        }
+        Ok(Self { rho, sigma, n })
+    }
+
+    /// Slope of eta at eta = 0 [1/input unit].
+    #[inline]
+    #[must_use]
+    pub fn rho(&self) -> T {
+        self.rho
+    }
+
+    /// Half the ratio of the unloading slope at saturation to the slope at zero.
+    #[inline]
+    #[must_use]
+    pub fn sigma(&self) -> T {
+        self.sigma
+    }
+
+    /// Sharpness of the knee.
+    #[inline]
+    #[must_use]
+    pub fn n(&self) -> T {
+        self.n
+    }
+
+    /// The state after one increment of the input, of any size.
+    ///
+    /// `|eta| <= 1` holds afterwards whatever the increment. An `eta` outside
+    /// [-1, 1] is clamped first; an increment that is not finite changes nothing.
+    /// Exact for `n = 1` and `n = 2`, otherwise of third order.
+    #[inline]
+    #[must_use]
+    pub fn advance(&self, eta: T, input_change: T) -> T {
+        self.along(eta, input_change, |zeta, p, c| {
+            if self.n == T::one() {
+                closed::linear(zeta, p, c)
+            } else if self.n == T::of(2.0) {
+                closed::quadratic(zeta, p, c)
+            } else {
+                path::follow(zeta, p, c, self.n)
+            }
+        })
+    }
+
+    /// The same increment by four stages: fourth order, four powers.
+    ///
+    /// For reference runs; [`advance`](Self::advance) is what firmware wants.
+    #[inline]
+    #[must_use]
+    pub fn advance_four_stage(&self, eta: T, input_change: T) -> T {
+        self.along(eta, input_change, |zeta, p, c| {
+            stages::follow(zeta, p, c, self.n)
+        })
+    }
+
+    /// Runs a step of zeta and p in the frame of the input's direction.
+    #[inline]
+    fn along(&self, eta: T, input_change: T, step: impl Fn(T, T, T) -> T) -> T {
+        if !input_change.is_finite() || input_change == T::zero() || eta.is_nan() {
+            return eta;
+        }
+        let one = T::one();
+        let direction = if input_change < T::zero() { -one } else { one };
+        let zeta = crate::signal::clamp(direction * eta, -one, one);
+        let next = step(zeta, self.rho * input_change.abs(), self.c());
+        direction * crate::signal::clamp(next, zeta, one)
+    }
+
+    /// The increment and the exact derivative of the discrete step taken.
+    ///
+    /// The state is the one of the general step for every `n`; it differs from the
+    /// closed forms of [`advance`](Self::advance) at `n = 1` and `n = 2` by the error
+    /// of the general step. A saturated state no longer depends on anything.
+    #[inline]
+    #[must_use]
+    pub fn advance_with_sensitivity(
+        &self,
+        state: Sensitivity<T>,
+        input_change: T,
+    ) -> Sensitivity<T> {
+        if !input_change.is_finite() || input_change == T::zero() || state.eta.is_nan() {
+            return state;
+        }
+        let (zero, one) = (T::zero(), T::one());
+        let direction = if input_change < zero { -one } else { one };
+        let length = input_change.abs();
+        let zeta = Dual {
+            value: crate::signal::clamp(direction * state.eta, -one, one),
+            by: [
+                direction * state.d_rho,
+                direction * state.d_sigma,
+                direction * state.d_n,
+                direction * state.d_eta0,
+            ],
+        };
+        let p = Dual {
+            value: self.rho * length,
+            by: [length, zero, zero, zero],
+        };
+        let c = Dual {
+            value: self.c(),
+            by: [zero, T::of(2.0), zero, zero],
+        };
+        let n = Dual {
+            value: self.n,
+            by: [zero, zero, one, zero],
+        };
+        let next = path::follow(zeta, p, c, n);
+        let [d_rho, d_sigma, d_n, d_eta0] = next.by;
+        Sensitivity {
+            eta: direction * crate::signal::clamp(next.value, zeta.value, one),
+            d_rho: direction * d_rho,
+            d_sigma: direction * d_sigma,
+            d_n: direction * d_n,
+            d_eta0: direction * d_eta0,
+        }
+    }
+
+    /// Slope of eta in the input [1/input unit], for the sign of `direction`.
+    ///
+    /// In `[0, rho·max(1, 2·sigma)]`. The right side of (2) and (7) over `x'`.
+    #[inline]
+    #[must_use]
+    pub fn slope(&self, eta: T, direction: T) -> T {
+        let zeta = if direction < T::zero() { -eta } else { eta };
+        let power = zeta.abs().pow(self.n);
+        let f = if zeta < T::zero() {
+            T::one() + self.c() * power
+        } else {
+            T::one() - power
+        };
+        self.rho * f
+    }
+
+    /// Takes the input of one sample [input unit], returns eta in [-1, 1].
+    ///
+    /// The first sample only says where the input is. A sample that is not finite
+    /// leaves the state untouched and returns the eta that was.
+    #[inline]
+    pub fn step(&self, state: &mut BoucWen<T>, input: T) -> T {
+        if input.is_finite() {
+            if state.primed {
+                let change =
+                    crate::signal::clamp(input - state.input, T::min_value(), T::max_value());
+                state.eta = self.advance(state.eta, change);
+            }
+            state.input = input;
+            state.primed = true;
+        }
+        state.eta
+    }
+
+    /// How much faster unloading starts than loading, less one.
+    #[inline]
+    fn c(&self) -> T {
+        T::of(2.0) * self.sigma - T::one()
+    }
+}
+
+/// What is read before it is checked.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct Unchecked<T> {
+    rho: T,
+    sigma: T,
+    n: T,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> TryFrom<Unchecked<T>> for Shape<T> {
+    type Error = Error;
+    fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
+        Self::try_new(raw.rho, raw.sigma, raw.n)
+    }
+}

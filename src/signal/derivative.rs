@@ -1,0 +1,125 @@
+//! A derivative that survives noise, jitter and bad samples.
+
+use crate::error::finite;
+use crate::{Error, Real};
+
+/// First-order filtered derivative with a time constant [s].
+///
+/// `v⁺ = v + (1 - e^(-dt/tau))·((x - x_last)/dt - v)`: the difference quotient through
+/// the exact discrete first-order lag, so that `tau` means the same at every rate and
+/// `dt` may vary. It starts at rate zero with the first sample: no kick.
+///
+/// ```
+/// use bowden::signal::{Derivative, DerivativeState};
+/// # fn main() -> Result<(), bowden::Error> {
+/// let derivative = Derivative::try_new(0.01)?; // [s]
+/// let mut state = DerivativeState::new();
+/// for k in 0..200 {
+///     derivative.step(&mut state, 3.0 * 1e-3 * f64::from(k), 1e-3);
+/// }
+/// assert!((state.rate() - 3.0).abs() < 1e-6); // after 20 time constants
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "Unchecked<T>",
+        bound(
+            serialize = "T: Real + serde::Serialize",
+            deserialize = "T: Real + serde::Deserialize<'de>"
+        )
+    )
+)]
+pub struct Derivative<T> {
+    time_constant: T,
+}
+
+/// State of a [`Derivative`]: the last good sample and the filtered rate.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct DerivativeState<T> {
+    last: Option<T>,
+    rate: T,
+}
+
+impl<T: Real> Derivative<T> {
+    /// A derivative with `time_constant >= 0` [s]; at zero it is not filtered.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"time_constant"`.
+    pub fn try_new(time_constant: T) -> Result<Self, Error> {
+        if finite(time_constant, "time_constant")? < T::zero() {
+            return Err(Error::OutOfRange("time_constant"));
+        }
+        Ok(Self { time_constant })
+    }
+
+    /// The time constant [s].
+    #[inline]
+    #[must_use]
+    pub fn time_constant(&self) -> T {
+        self.time_constant
+    }
+
+    /// The filtered rate [signal unit/s] after a sample that came `dt` [s] later.
+    ///
+    /// A sample that is not finite, a `dt` that is not positive and finite, or a
+    /// quotient that overflows leaves the state and returns the rate that was.
+    #[inline]
+    pub fn step(&self, state: &mut DerivativeState<T>, sample: T, dt: T) -> T {
+        if !sample.is_finite() {
+            return state.rate;
+        }
+        let Some(last) = state.last else {
+            state.last = Some(sample);
+            return state.rate;
+        };
+        let quotient = (sample - last) / dt;
+        if dt > T::zero() && dt.is_finite() && quotient.is_finite() {
+            // 0/0 cannot occur: dt > 0, so that a time constant of zero gives e^(-inf).
+            let share = -(-dt / self.time_constant).exp_m1();
+            // Two products instead of share·(quotient - rate), which could overflow.
+            state.rate = (T::one() - share) * state.rate + share * quotient;
+            state.last = Some(sample);
+        }
+        state.rate
+    }
+}
+
+impl<T: Real> DerivativeState<T> {
+    /// A state that starts at rate zero with the first good sample.
+    #[inline]
+    #[must_use]
+    pub fn new() -> Self {
+        Self {
+            last: None,
+            rate: T::zero(),
+        }
+    }
+
+    /// The filtered rate [signal unit/s].
+    #[inline]
+    #[must_use]
+    pub fn rate(&self) -> T {
+        self.rate
+    }
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct Unchecked<T> {
+    time_constant: T,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> TryFrom<Unchecked<T>> for Derivative<T> {
+    type Error = Error;
+    fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
+        Self::try_new(raw.time_constant)
+    }
+}

@@ -1,0 +1,115 @@
+//! The play operator: backlash, and a guard against noise.
+
+use super::clamp;
+use crate::error::finite;
+use crate::{Error, Real};
+
+/// Play of half-width r [input unit]: follows the input once r is used up.
+///
+/// `y⁺ = clamp(y, x - r, x + r)`, so that `|y - x| <= r` and a wobble of the input
+/// within 2r moves nothing. In front of a hysteresis it keeps sensor noise from
+/// being taken for reversals: a half-width of four times the noise's standard
+/// deviation is enough (see [`Transmission`](crate::transmission::Transmission)).
+/// Source: Krasnosel'skii & Pokrovskii, *Systems with Hysteresis*, 1989.
+///
+/// ```
+/// use bowden::signal::{Play, PlayState};
+/// # fn main() -> Result<(), bowden::Error> {
+/// let play = Play::try_new(0.5)?;
+/// let mut state = PlayState::new();
+/// assert_eq!(play.step(&mut state, 2.0), 2.0); // the first sample is taken over
+/// assert_eq!(play.step(&mut state, 3.0), 2.5);
+/// assert_eq!(play.step(&mut state, 2.1), 2.5);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "Unchecked<T>",
+        bound(
+            serialize = "T: Real + serde::Serialize",
+            deserialize = "T: Real + serde::Deserialize<'de>"
+        )
+    )
+)]
+pub struct Play<T> {
+    half_width: T,
+}
+
+/// State of a [`Play`]: its output, empty before the first sample.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PlayState<T> {
+    output: Option<T>,
+}
+
+impl<T: Real> Play<T> {
+    /// A play of `half_width >= 0` [input unit]; at zero the output is the input.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"half_width"`.
+    pub fn try_new(half_width: T) -> Result<Self, Error> {
+        if finite(half_width, "half_width")? < T::zero() {
+            return Err(Error::OutOfRange("half_width"));
+        }
+        Ok(Self { half_width })
+    }
+
+    /// The half-width [input unit].
+    #[inline]
+    #[must_use]
+    pub fn half_width(&self) -> T {
+        self.half_width
+    }
+
+    /// The output after one input [input unit]; a bad sample leaves it as it was.
+    ///
+    /// Zero is returned while no good sample has been seen.
+    #[inline]
+    pub fn step(&self, state: &mut PlayState<T>, input: T) -> T {
+        let output = state
+            .output
+            .unwrap_or(if input.is_finite() { input } else { T::zero() });
+        if input.is_finite() {
+            let low = input - self.half_width;
+            let high = input + self.half_width;
+            state.output = Some(clamp(output, low, high));
+        }
+        state.output.unwrap_or(output)
+    }
+}
+
+impl<T: Real> PlayState<T> {
+    /// A state that takes the first good sample over as it is.
+    #[inline]
+    #[must_use]
+    pub fn new() -> Self {
+        Self { output: None }
+    }
+
+    /// The output [input unit], `None` before the first good sample.
+    #[inline]
+    #[must_use]
+    pub fn output(&self) -> Option<T> {
+        self.output
+    }
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct Unchecked<T> {
+    half_width: T,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> TryFrom<Unchecked<T>> for Play<T> {
+    type Error = Error;
+    fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
+        Self::try_new(raw.half_width)
+    }
+}
