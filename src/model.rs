@@ -1,1 +1,324 @@
-//! Placeholder.
+//! The model: a transmission plus effects, sample by sample.
+//!
+//! ```text
+//! y = transmission(input, eta) + Σ gain·regressor      (all terms that are no output stages)
+//! y ← y + gain·regressor(y)                            (then each output stage, in order)
+//! ```
+//!
+//! What is fitted on the bench is this struct, and it is what runs in firmware:
+//! no heap, a fixed capacity of `N` terms, config and state apart. Either part may
+//! be missing: no transmission (effects alone) or no terms.
+//!
+//! A bad sample never poisons: where `dt` is not positive, a channel is missing or
+//! a number that the model reads is not finite, the state stays as it was and the
+//! last good output is returned. Numbers that no term reads may be anything.
+
+#[cfg(feature = "serde")]
+mod serial;
+
+use crate::effect::{saturate, Effect, EffectState, Motion, Situation};
+use crate::error::finite;
+use crate::hysteresis::BoucWen;
+use crate::transmission::Transmission;
+use crate::{Error, Real};
+
+/// Which motion an effect reads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Source {
+    /// The transmission's input.
+    Input,
+    /// One of the sample's channels, from 0.
+    Channel(u8),
+}
+
+/// One effect of a model, with its gain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Term<T> {
+    /// The regressor.
+    pub effect: Effect<T>,
+    /// What it reads.
+    pub source: Source,
+    /// Its coefficient \[output unit / unit of the regressor\].
+    pub gain: T,
+}
+
+/// One sample of the record, or of the firmware's sensors.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample<'a, T> {
+    /// Since the previous sample \[s\]; above zero, also at the first one.
+    pub dt: T,
+    /// The transmission's input, x or `tau_i`, with its rates.
+    pub input: Motion<T>,
+    /// The transmitted load: `tau_i` in torque mode, else a load channel.
+    pub load: T,
+    /// All other channels, in the order that [`Source::Channel`] counts.
+    pub channels: &'a [Motion<T>],
+}
+
+/// A transmission plus at most `N` effects.
+///
+/// ```
+/// use bowden::effect::{Effect, Motion};
+/// use bowden::model::{Model, ModelState, Sample, Source, Term};
+///
+/// let viscous = Term { effect: Effect::Viscous, source: Source::Input, gain: 3.0_f32 };
+/// let model = Model::<f32, 4>::try_new(None, &[viscous])?;
+/// let mut state = ModelState::new();
+///
+/// let input = Motion { position: 0.0, velocity: 2.0, acceleration: 0.0 };
+/// let mut sample = Sample { dt: 0.001, input, load: 0.0, channels: &[] };
+/// assert_eq!(model.step(&mut state, &sample), 6.0);
+///
+/// sample.input.velocity = f32::NAN; // a bad sample: the last good output is held
+/// assert_eq!(model.step(&mut state, &sample), 6.0);
+/// # Ok::<(), bowden::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Model<T, const N: usize> {
+    transmission: Option<Transmission<T>>,
+    /// The first `len` count; the rest are [`padding`].
+    terms: [Term<T>; N],
+    len: usize,
+}
+
+/// What stands in the places that are free: a term that adds nothing.
+fn padding<T: Real>() -> Term<T> {
+    Term {
+        effect: Effect::Offset,
+        source: Source::Input,
+        gain: T::zero(),
+    }
+}
+
+impl<T: Real, const N: usize> Model<T, N> {
+    /// Checks the gains and the number of terms; all else was checked before.
+    ///
+    /// # Errors
+    /// [`Error::Capacity`] where there are more than `N` terms, [`Error::NonFinite`]
+    /// where a gain is not finite.
+    pub fn try_new(
+        transmission: Option<Transmission<T>>,
+        terms: &[Term<T>],
+    ) -> Result<Self, Error> {
+        let mut own = [padding(); N];
+        let places = own.get_mut(..terms.len());
+        places
+            .ok_or(Error::Capacity("terms"))?
+            .copy_from_slice(terms);
+        for term in terms {
+            finite(term.gain, "gain")?;
+        }
+        Ok(Self {
+            transmission,
+            terms: own,
+            len: terms.len(),
+        })
+    }
+
+    /// The transmission, where there is one.
+    #[must_use]
+    pub fn transmission(&self) -> Option<&Transmission<T>> {
+        self.transmission.as_ref()
+    }
+
+    /// The effects with their gains, in the order given.
+    #[must_use]
+    pub fn terms(&self) -> &[Term<T>] {
+        self.terms.get(..self.len).unwrap_or(&self.terms)
+    }
+
+    /// Whether the model can use this sample; if not, a step holds everything.
+    #[must_use]
+    pub fn accepts(&self, at: &Sample<T>) -> bool {
+        let input_is_read = self.transmission.is_some();
+        at.dt.is_finite()
+            && at.dt > T::zero()
+            && (!input_is_read || at.input.position.is_finite())
+            && self.terms().iter().all(|term| {
+                situation(term.source, at, T::zero(), T::zero())
+                    .is_some_and(|situation| situation.is_usable(term.effect.info().reads))
+            })
+    }
+
+    /// Advances by one sample and returns the predicted output.
+    ///
+    /// A bad sample leaves the state and returns the last good output, 0 before
+    /// the first one; see [`Model::accepts`].
+    pub fn step(&self, state: &mut ModelState<T, N>, at: &Sample<T>) -> T {
+        self.step_with(state, at, |_, _| {})
+    }
+
+    /// The same step, which also tells each term's share of the output.
+    ///
+    /// `share(index, gain·regressor)` is called once a term, output stages last; on
+    /// a bad sample it is not called. What the shares leave is the transmission's.
+    ///
+    /// ```
+    /// use bowden::effect::{Effect, Motion};
+    /// use bowden::model::{Model, ModelState, Sample, Source, Term};
+    ///
+    /// let term = |effect, gain| Term { effect, source: Source::Input, gain };
+    /// let terms = [term(Effect::Viscous, 3.0), term(Effect::Inertia, 0.5)];
+    /// let model = Model::<f64, 2>::try_new(None, &terms)?;
+    ///
+    /// let input = Motion { position: 0.0, velocity: 2.0, acceleration: 4.0 };
+    /// let sample = Sample { dt: 0.001, input, load: 0.0, channels: &[] };
+    /// let mut shares = [0.0; 2];
+    /// let output = model.step_with(&mut ModelState::new(), &sample, |term, share| {
+    ///     shares[term] = share;
+    /// });
+    /// assert_eq!((output, shares), (8.0, [6.0, 2.0]));
+    /// # Ok::<(), bowden::Error>(())
+    /// ```
+    pub fn step_with(
+        &self,
+        state: &mut ModelState<T, N>,
+        at: &Sample<T>,
+        mut share: impl FnMut(usize, T),
+    ) -> T {
+        if !self.accepts(at) {
+            return state.output;
+        }
+        state.tick(at.dt);
+        let (mut output, eta) = match &self.transmission {
+            Some(transmission) => {
+                let force = transmission.step(&mut state.hysteresis, at.input.position);
+                (saturate(force), state.hysteresis.eta())
+            }
+            None => (T::zero(), T::zero()),
+        };
+        for stage in [false, true] {
+            let places = self.terms().iter().zip(&mut state.effects).enumerate();
+            for (index, (term, memory)) in places {
+                if term.effect.is_output_stage() != stage {
+                    continue;
+                }
+                let Some(situation) = situation(term.source, at, state.time, eta) else {
+                    continue;
+                };
+                let situation = Situation {
+                    output,
+                    ..situation
+                };
+                let part = saturate(term.gain * term.effect.regressor(memory, &situation));
+                output = saturate(output + part);
+                share(index, part);
+            }
+        }
+        state.output = output;
+        output
+    }
+}
+
+/// What one term sees of the sample, or nothing where its channel is missing.
+fn situation<T: Real>(source: Source, at: &Sample<T>, time: T, eta: T) -> Option<Situation<T>> {
+    let motion = match source {
+        Source::Input => at.input,
+        Source::Channel(index) => *at.channels.get(usize::from(index))?,
+    };
+    let (dt, input, load) = (at.dt, at.input, at.load);
+    Some(Situation {
+        dt,
+        time,
+        motion,
+        input,
+        load,
+        eta,
+        output: T::zero(),
+    })
+}
+
+/// What a [`Model`] remembers between samples.
+///
+/// ```
+/// use bowden::model::ModelState;
+/// let fresh = ModelState::<f32, 4>::new();
+/// assert_eq!((fresh.eta(), fresh.time(), fresh.output()), (0.0, 0.0, 0.0));
+/// assert!(ModelState::<f32, 4>::with_eta(1.5).is_err());
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ModelState<T, const N: usize> {
+    hysteresis: BoucWen<T>,
+    effects: [EffectState<T>; N],
+    started: bool,
+    time: T,
+    /// What rounding has kept back of the time: dt is far below it.
+    carry: T,
+    output: T,
+}
+
+impl<T: Real, const N: usize> ModelState<T, N> {
+    /// A state that has seen no sample.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::from_hysteresis(BoucWen::new())
+    }
+
+    /// The same, with the hysteresis state as it was found at the start.
+    ///
+    /// # Errors
+    /// As [`BoucWen::with_eta`], where `eta` is not finite or beyond ±1.
+    pub fn with_eta(eta: T) -> Result<Self, Error> {
+        BoucWen::with_eta(eta).map(Self::from_hysteresis)
+    }
+
+    fn from_hysteresis(hysteresis: BoucWen<T>) -> Self {
+        Self {
+            hysteresis,
+            effects: [EffectState::new(); N],
+            started: false,
+            time: T::zero(),
+            carry: T::zero(),
+            output: T::zero(),
+        }
+    }
+
+    /// The hysteresis state, within ±1.
+    #[must_use]
+    pub fn eta(&self) -> T {
+        self.hysteresis.eta()
+    }
+
+    /// Time since the first good sample \[s\]; bad ones do not count.
+    #[must_use]
+    pub fn time(&self) -> T {
+        self.time
+    }
+
+    /// The last good output, 0 before the first one.
+    #[must_use]
+    pub fn output(&self) -> T {
+        self.output
+    }
+
+    /// Adds dt, compensated: at 1 kHz a plain `f32` clock would stop after hours.
+    fn tick(&mut self, dt: T) {
+        if !self.started {
+            self.started = true;
+            return;
+        }
+        let step = dt - self.carry;
+        let time = self.time + step;
+        if time.is_finite() {
+            self.carry = (time - self.time) - step;
+            self.time = time;
+        }
+    }
+}
+
+impl<T: Real, const N: usize> Default for ModelState<T, N> {
+    fn default() -> Self {
+        Self::new()
+    }
+}

@@ -8,11 +8,11 @@
 //! — a survey", *Automatica* 38(10), 2002; for the play, M. A. Krasnosel'skii,
 //! A. V. Pokrovskii, *Systems with Hysteresis*, 1989.
 
-use super::bounds::{clamp_sym, saturate};
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
 use super::Symmetry::{Even, Neither, Odd};
 use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use crate::signal::clamp;
 use crate::Real;
 
 shaped! {
@@ -44,15 +44,9 @@ impl<T: Real> Regressor<T> for Backlash<T> {
     fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
         let x = at.motion.position;
         let before = state.memory.map_or(x, |[play, ..]| play);
-        // The gap, not the play, is what is clamped: x + r could overflow.
-        let gap = clamp_sym(before - x, self.r);
-        let play = if gap == before - x {
-            before
-        } else {
-            saturate(x + gap)
-        };
+        let play = clamp(before, x - self.r, x + self.r);
         state.memory = Some([play, T::zero(), T::zero()]);
-        gap
+        play - x
     }
 }
 
@@ -83,6 +77,6 @@ impl<T: Real> Regressor<T> for DeadZone<T> {
 
     #[inline]
     fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
-        at.motion.position - clamp_sym(at.motion.position, self.r)
+        at.motion.position - clamp(at.motion.position, -self.r, self.r)
     }
 }

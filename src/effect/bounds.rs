@@ -4,7 +4,7 @@ use crate::Real;
 
 /// The nearest finite value: infinities become the largest, NaN becomes 0.
 #[inline]
-pub(super) fn saturate<T: Real>(value: T) -> T {
+pub(crate) fn saturate<T: Real>(value: T) -> T {
     if value.is_finite() {
         value
     } else if value > T::zero() {
@@ -13,17 +13,5 @@ pub(super) fn saturate<T: Real>(value: T) -> T {
         T::min_value()
     } else {
         T::zero()
-    }
-}
-
-/// `value`, not NaN, within ±`limit`.
-#[inline]
-pub(super) fn clamp_sym<T: Real>(value: T, limit: T) -> T {
-    if value > limit {
-        limit
-    } else if value < -limit {
-        -limit
-    } else {
-        value
     }
 }

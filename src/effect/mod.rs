@@ -51,7 +51,7 @@ pub use info::{Dimension, Info, Parity, Quantity, Range, ShapeInfo, Symmetry};
 pub use situation::{EffectState, Motion, Situation};
 
 use crate::{Error, Real};
-use bounds::saturate;
+pub(crate) use bounds::saturate;
 use info::Regressor;
 use shaped::{Shaped, COUNT};
 

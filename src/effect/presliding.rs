@@ -8,11 +8,11 @@
 //! parallel, F. Al-Bender, V. Lampaert, J. Swevers, "The generalized Maxwell-slip
 //! model", *IEEE Transactions on Automatic Control* 50(11), 2005.
 
-use super::bounds::clamp_sym;
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
 use super::Symmetry::{Neither, Odd};
 use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use crate::signal::clamp;
 use crate::Real;
 
 shaped! {
@@ -44,7 +44,7 @@ impl<T: Real> Regressor<T> for Presliding<T> {
     fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
         let x = at.motion.position;
         let [before, stretch, _] = state.memory.unwrap_or([x, T::zero(), T::zero()]);
-        let stretch = clamp_sym(stretch + (x - before), self.r);
+        let stretch = clamp(stretch + (x - before), -self.r, self.r);
         state.memory = Some([x, stretch, T::zero()]);
         stretch / self.r
     }

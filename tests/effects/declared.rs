@@ -1,0 +1,185 @@
+//! Memory-less effects against closed forms; parity and unit as declared, for all.
+
+use crate::{along, make, names, plausible};
+use approx::assert_relative_eq;
+use bowden::effect::{Dimension, Motion, Situation, Symmetry, CATALOGUE};
+use proptest::prelude::*;
+
+/// The catalogue's formulas written out once more, for every effect without memory.
+fn closed_form(name: &str, at: &Situation<f64>) -> f64 {
+    let Motion {
+        position: x,
+        velocity: v,
+        acceleration: a,
+    } = at.motion;
+    let (load, eta, t) = (at.load, at.eta, at.time);
+    let w = 0.7; // the one shape of most effects
+    match name {
+        "offset" => 1.0,
+        "gain" => load,
+        "viscous" => v,
+        "drag-quadratic" => v.signum() * v.powi(2),
+        "drag-cubic" => v.powi(3),
+        "coulomb" => (v / w).tanh(),
+        "stribeck" => (v / 0.06).tanh() / (v.abs() / 0.6).powf(1.7).exp(),
+        "asymmetry-viscous" => v.max(-v),
+        "asymmetry-drag" => v.powi(2),
+        "asymmetry-eta" => eta.max(-eta),
+        "asymmetry-eta-squared" => eta.powi(2),
+        "load-friction" => load.max(-load) * (v / w).tanh(),
+        "capstan" => load * x * (v / w).tanh(),
+        "drive-friction" => f64::from(load * v > 0.0) * load.abs() * (v / w).tanh(),
+        "back-drive-friction" => f64::from(load * v < 0.0) * load.abs() * (v / w).tanh(),
+        "inertia" => a,
+        "stiffness-linear" | "crosstalk" => x,
+        "stiffness-quadratic" => x.powi(2),
+        "stiffness-cubic" => x.powi(3),
+        "stiffness-progressive" => x.signum() * x.powi(2),
+        "hinge" | "saturation-upper" => (x - w).max(0.0),
+        "saturation-lower" => (x - w).min(0.0),
+        "gravity" => x.sin() * w.cos() + x.cos() * w.sin(),
+        "ripple" => (3.3 * x + 0.4).sin(),
+        "position-friction" => x * (v / w).tanh(),
+        "position-hysteresis" => eta * x,
+        "dead-zone" => x.signum() * (x.abs() - w).max(0.0),
+        "rate" => eta * v,
+        "rate-symmetric" => eta * v.abs(),
+        "pinching" => eta / (eta / w).powi(2).exp(),
+        "drift" => t,
+        "pretension" => f64::from(t >= w),
+        "temperature" => x - w,
+        "tone" => (std::f64::consts::TAU * 1.9 * t + 0.8).sin(),
+        _ => panic!("{name} has no closed form here"),
+    }
+}
+
+proptest! {
+    #[test]
+    fn every_memoryless_effect_equals_its_closed_form(at in plausible()) {
+        for info in CATALOGUE.iter().filter(|info| !info.memory) {
+            let [value] = along(&make(info.name), &[at])[..] else { unreachable!() };
+            // The forms differ in rounding alone, by a few ulp of terms up to 60.
+            assert_relative_eq!(value, closed_form(info.name, &at), max_relative = 1e-12, epsilon = 1e-13);
+        }
+    }
+
+    #[test]
+    fn every_effect_answers_to_a_mirror_as_declared(path in prop::collection::vec(plausible(), 30)) {
+        let mirrored: Vec<_> = path.iter().map(mirror).collect();
+        for name in names() {
+            let effect = make(name);
+            check(name, effect.parity().mirror, &along(&effect, &path), &along(&effect, &mirrored));
+        }
+    }
+
+    #[test]
+    fn every_memoryless_effect_answers_to_a_reversal_as_declared(path in prop::collection::vec(plausible(), 30)) {
+        let reversed: Vec<_> = path.iter().map(|at| {
+            let mut at = *at;
+            at.motion.velocity = -at.motion.velocity;
+            at.input.velocity = -at.input.velocity;
+            at
+        }).collect();
+        for info in CATALOGUE.iter() {
+            let effect = make(info.name);
+            let reversal = effect.parity().reversal;
+            if info.memory {
+                prop_assert_eq!(reversal, Symmetry::Neither);
+            } else {
+                check(info.name, reversal, &along(&effect, &path), &along(&effect, &reversed));
+            }
+        }
+    }
+
+    #[test]
+    fn every_effect_scales_with_the_units_as_declared(
+        path in prop::collection::vec(plausible(), 12),
+        units in [0.2..5.0_f64, 0.2..5.0, 0.2..5.0, 0.2..5.0, 0.2..5.0],
+    ) {
+        for name in names().filter(|&name| name != "gravity") { // its channel is in radians, no other
+            let mut effect = make(name);
+            for (index, shape) in effect.shape_info().iter().enumerate() {
+                let value = effect.shape(index).unwrap() * factor(shape.dimension, units);
+                effect = effect.with_shape(index, value).unwrap();
+            }
+            let before = along(&make(name), &path);
+            let scaled: Vec<_> = path.iter().map(|at| rescale(at, units)).collect();
+            for (was, is) in before.iter().zip(along(&effect, &scaled)) {
+                let expected = was * factor(effect.dimension(), units);
+                // Sines of angles up to 100 rad lose two digits; the rest is rounding.
+                assert_relative_eq!(is, expected, max_relative = 1e-9, epsilon = 1e-9);
+            }
+        }
+    }
+}
+
+fn mirror(at: &Situation<f64>) -> Situation<f64> {
+    let flip = |motion: Motion<f64>| Motion {
+        position: -motion.position,
+        velocity: -motion.velocity,
+        acceleration: -motion.acceleration,
+    };
+    let (load, eta, output) = (-at.load, -at.eta, -at.output);
+    Situation {
+        motion: flip(at.motion),
+        input: flip(at.input),
+        load,
+        eta,
+        output,
+        ..*at
+    }
+}
+
+fn check(name: &str, symmetry: Symmetry, before: &[f64], after: &[f64]) {
+    let close = |sign: f64| {
+        before
+            .iter()
+            .zip(after)
+            .all(|(a, b)| (a - sign * b).abs() < 1e-12)
+    };
+    let (even, odd) = (close(1.0), close(-1.0));
+    let found = match symmetry {
+        Symmetry::Even => even,
+        Symmetry::Odd => odd,
+        Symmetry::Neither => !even && !odd,
+    };
+    assert!(
+        found,
+        "{name}: declared {symmetry:?}, but even is {even} and odd is {odd}"
+    );
+}
+
+/// `units` are those of channel, load, time, output, input.
+fn factor(dimension: Dimension, units: [f64; 5]) -> f64 {
+    let Dimension {
+        channel,
+        load,
+        time,
+        output,
+        input,
+    } = dimension;
+    let exponents = [channel, load, time, output, input];
+    units
+        .iter()
+        .zip(exponents)
+        .map(|(unit, exponent)| unit.powi(i32::from(exponent)))
+        .product()
+}
+
+fn rescale(at: &Situation<f64>, units: [f64; 5]) -> Situation<f64> {
+    let [channel, load, time, output, input] = units;
+    let motion = |motion: Motion<f64>, unit: f64| Motion {
+        position: motion.position * unit,
+        velocity: motion.velocity * unit / time,
+        acceleration: motion.acceleration * unit / time / time,
+    };
+    Situation {
+        dt: at.dt * time,
+        time: at.time * time,
+        motion: motion(at.motion, channel),
+        input: motion(at.input, input),
+        load: at.load * load,
+        eta: at.eta,
+        output: at.output * output,
+    }
+}

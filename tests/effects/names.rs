@@ -1,0 +1,133 @@
+//! Names, shapes and their ranges.
+
+use crate::{make, names};
+use bowden::effect::{Effect, Family, Range, CATALOGUE};
+use bowden::Error;
+use proptest::prelude::*;
+use proptest::sample::select;
+
+proptest! {
+    #[test]
+    fn a_shape_that_is_not_finite_or_not_in_range_is_refused(
+        bad in select(vec![f64::NAN, f64::INFINITY, f64::NEG_INFINITY]),
+        negative in -10.0..=0.0_f64,
+    ) {
+        for name in names() {
+            let effect = make::<f64>(name);
+            for (index, shape) in effect.shape_info().iter().enumerate() {
+                prop_assert_eq!(effect.with_shape(index, bad), Err(Error::NonFinite(shape.name)));
+                let refused = effect.with_shape(index, negative) == Err(Error::OutOfRange(shape.name));
+                prop_assert_eq!(refused, shape.range == Range::Positive);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_name_makes_the_effect_that_bears_it() {
+    for info in CATALOGUE {
+        let effect = make::<f32>(info.name);
+        assert_eq!(effect.info(), *info);
+        let shapes: Vec<f32> = (0..).map_while(|index| effect.shape(index)).collect();
+        assert_eq!(shapes.len(), effect.shape_names().len());
+        assert_eq!(Effect::try_from_name(info.name, &shapes), Ok(effect));
+        let listed: Vec<_> = effect.shape_info().iter().map(|shape| shape.name).collect();
+        assert_eq!(listed, effect.shape_names());
+    }
+}
+
+#[test]
+fn wrong_names_and_wrong_numbers_of_shapes_are_refused() {
+    let count = Error::Inadmissible("one value for each shape of the effect");
+    for name in ["", "Viscous", "viscous ", "friction", "drag"] {
+        assert_eq!(
+            Effect::<f64>::try_from_name(name, &[]),
+            Err(Error::OutOfRange("effect name"))
+        );
+    }
+    for name in names() {
+        let effect = make::<f64>(name);
+        let number = effect.shape_names().len();
+        let too_many = vec![0.5; number + 1];
+        assert_eq!(Effect::try_from_name(name, &too_many), Err(count), "{name}");
+        if number > 0 {
+            assert_eq!(
+                Effect::<f64>::try_from_name(name, &[]),
+                Err(count),
+                "{name}"
+            );
+        }
+        let index = Error::OutOfRange("shape index");
+        assert_eq!(effect.with_shape(number, 0.5), Err(index), "{name}");
+        assert_eq!(effect.shape(number), None, "{name}");
+    }
+}
+
+#[test]
+fn the_catalogue_names_no_effect_twice_and_every_family() {
+    let mut seen: Vec<_> = names().collect();
+    seen.sort_unstable();
+    seen.dedup();
+    assert_eq!(seen.len(), CATALOGUE.len());
+    for &family in Family::ALL {
+        assert!(
+            CATALOGUE.iter().any(|info| info.family == family),
+            "{family}"
+        );
+        assert_eq!(Family::from_name(&family.to_string()), Ok(family));
+    }
+    assert_eq!(Family::ALL.len(), 29);
+    assert_eq!(
+        Family::from_name("rust"),
+        Err(Error::OutOfRange("family name"))
+    );
+}
+
+#[test]
+fn what_an_effect_reads_tells_output_stages_and_hysteresis() {
+    let that = |condition: fn(&Effect<f64>) -> bool| {
+        names()
+            .filter(|name| condition(&make(name)))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(that(Effect::is_output_stage), ["delay", "lag"]);
+    let eta = [
+        "asymmetry-eta",
+        "asymmetry-eta-squared",
+        "position-hysteresis",
+        "rate",
+        "rate-symmetric",
+        "degradation",
+        "pinching",
+    ];
+    assert_eq!(that(Effect::reads_eta), eta);
+}
+
+/// What configs and the model's TOML form rest on.
+#[cfg(feature = "serde")]
+mod serde {
+    use super::{make, names, Effect};
+    use bowden::effect::coulomb::Coulomb;
+    use serde::de::value::{Error, MapDeserializer, StrDeserializer};
+    use serde::de::IntoDeserializer;
+    use serde::Deserialize;
+
+    #[test]
+    fn an_effect_without_shapes_is_its_name() {
+        for name in names().filter(|name| make::<f64>(name).shape_names().is_empty()) {
+            let from: StrDeserializer<Error> = name.into_deserializer();
+            assert_eq!(Effect::deserialize(from), Ok(make::<f64>(name)));
+        }
+    }
+
+    #[test]
+    fn reading_a_config_goes_through_its_constructor() {
+        let read = |v_e: f64| {
+            Coulomb::deserialize(MapDeserializer::<_, Error>::new([("v_e", v_e)].into_iter()))
+        };
+        assert_eq!(read(0.5).unwrap(), Coulomb::try_new(0.5).unwrap());
+        for bad in [0.0, -0.5, f64::NAN] {
+            assert!(read(bad).is_err());
+        }
+    }
+}

@@ -1,0 +1,319 @@
+//! The model: sums, output stages, samples that cannot be used, and its clock.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use approx::assert_relative_eq;
+use bowden::effect::{Effect, EffectState, Motion, Situation, CATALOGUE};
+use bowden::hysteresis::{BoucWen, Shape};
+use bowden::model::{Model, ModelState, Sample, Source, Term};
+use bowden::transmission::Transmission;
+use bowden::{Error, Real};
+use proptest::prelude::*;
+use proptest::sample::select;
+
+fn cable<T: Real>() -> Transmission<T> {
+    let shape = Shape::try_new(T::of(0.6), T::of(2.0), T::of(1.5)).unwrap();
+    Transmission::torque(T::of(0.9), T::of(1.2), T::of(0.05), shape).unwrap()
+}
+
+fn term<T: Real>(name: &str, shapes: &[f64], source: Source, gain: f64) -> Term<T> {
+    let shapes: Vec<T> = shapes.iter().map(|&shape| T::of(shape)).collect();
+    let effect = Effect::try_from_name(name, &shapes).unwrap();
+    Term {
+        effect,
+        source,
+        gain: T::of(gain),
+    }
+}
+
+const TIP: Source = Source::Channel(1);
+
+/// Effects with and without memory, on the input and on channels, stages in between.
+fn several<T: Real>() -> [Term<T>; 7] {
+    [
+        term("viscous", &[], Source::Input, 0.3),
+        term("lag", &[0.05], Source::Input, 0.8),
+        term("load-friction", &[0.1], Source::Input, 0.2),
+        term("backlash", &[0.2], TIP, -1.5),
+        term("delay", &[], Source::Input, 0.004),
+        term("pinching", &[0.4], Source::Input, 0.7),
+        term("drift", &[], Source::Input, -0.01),
+    ]
+}
+
+fn motion(position: f64, velocity: f64) -> Motion<f64> {
+    Motion {
+        position,
+        velocity,
+        acceleration: 0.0,
+    }
+}
+
+type Record = Vec<(f64, Motion<f64>, [Motion<f64>; 2])>;
+
+prop_compose! {
+    fn record()(rows in prop::collection::vec([0.001..0.02_f64, -2.0..2.0, -2.0..2.0, -2.0..2.0], 1..40)) -> Record {
+        rows.into_iter().map(|[dt, x, v, tip]| (dt, motion(x, v), [motion(0.0, 0.0), motion(tip, 0.0)])).collect()
+    }
+}
+
+fn sample<'a>(row: &'a (f64, Motion<f64>, [Motion<f64>; 2])) -> Sample<'a, f64> {
+    Sample {
+        dt: row.0,
+        input: row.1,
+        load: row.1.position,
+        channels: &row.2,
+    }
+}
+
+/// Any sample but a good one.
+fn spoil<'a>(good: Sample<'a, f64>, how: usize, bad: f64) -> Sample<'a, f64> {
+    let mut at = good;
+    match how {
+        0 => at.dt = bad,
+        1 => at.dt = 0.0,
+        2 => at.dt = -0.01,
+        3 => at.input.position = bad,
+        4 => at.input.velocity = bad,
+        5 => at.load = bad,
+        _ => at.channels = &good.channels[..1],
+    }
+    at
+}
+
+proptest! {
+    #[test]
+    fn the_output_is_the_transmission_plus_the_terms_and_then_the_stages(record in record()) {
+        let model = Model::<f64, 8>::try_new(Some(cable()), &several()).unwrap();
+        let mut state = ModelState::new();
+        let (mut eta, mut memories) = (BoucWen::new(), [EffectState::new(); 7]);
+        let (mut time, mut low) = (0.0, None);
+        let mut before = None;
+        for (index, row) in record.iter().enumerate() {
+            let at = sample(row);
+            time += if index == 0 { 0.0 } else { at.dt };
+            // Everything by hand, in the order of the equations; memory effects by themselves.
+            let force = cable().step(&mut eta, at.input.position);
+            let situation = Situation { dt: at.dt, motion: at.channels[1], ..Situation::default() };
+            let play = several::<f64>()[3].effect.regressor(&mut memories[3], &situation);
+            let (v, load, eta) = (at.input.velocity, at.load, eta.eta());
+            let sum = force + 0.3 * v + 0.2 * load.abs() * (v / 0.1).tanh() - 1.5 * play
+                + 0.7 * eta * (-(eta / 0.4).powi(2)).exp() - 0.01 * time;
+            let level = low.map_or(sum, |low: f64| low + (sum - low) * (1.0 - (-at.dt / 0.05).exp()));
+            low = Some(level);
+            let lagged = sum + 0.8 * (level - sum);
+            let late = lagged - 0.004 * before.map_or(0.0, |before: f64| (lagged - before) / at.dt);
+            before = Some(lagged);
+            // The delay divides rounding by dt: 1e-15·0.004/0.001.
+            assert_relative_eq!(model.step(&mut state, &at), late, epsilon = 1e-12);
+            assert_relative_eq!(state.eta(), eta);
+            assert_relative_eq!(state.time(), time, epsilon = 1e-12);
+            prop_assert!(state.output() == late || (state.output() - late).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_shares_and_the_transmission_add_up_to_the_output(record in record()) {
+        let model = Model::<f64, 8>::try_new(Some(cable()), &several()).unwrap();
+        let (mut state, mut silent, mut eta) = (ModelState::new(), ModelState::new(), BoucWen::new());
+        for row in &record {
+            let mut shares = [f64::NAN; 7];
+            let mut order = vec![];
+            let output = model.step_with(&mut state, &sample(row), |index, share| {
+                shares[index] = share;
+                order.push(index);
+            });
+            let force = cable().step(&mut eta, row.1.position);
+            assert_relative_eq!(force + shares.iter().sum::<f64>(), output, epsilon = 1e-12);
+            prop_assert_eq!(order, [0, 2, 3, 5, 6, 1, 4]); // output stages last, in their order
+            prop_assert_eq!(output, model.step(&mut silent, &sample(row)));
+            prop_assert_eq!(state, silent);
+        }
+    }
+
+    #[test]
+    fn a_bad_sample_leaves_the_state_and_holds_the_last_good_output(
+        record in record(),
+        at in any::<prop::sample::Index>(),
+        how in 0..7_usize,
+        bad in select(vec![f64::NAN, f64::INFINITY, f64::NEG_INFINITY]),
+    ) {
+        let model = Model::<f64, 7>::try_new(Some(cable()), &several()).unwrap();
+        let mut state = ModelState::new();
+        let stop = at.index(record.len());
+        let mut last = 0.0;
+        for row in &record[..stop] {
+            last = model.step(&mut state, &sample(row));
+        }
+        let spoilt = spoil(sample(&record[stop]), how, bad);
+        prop_assert!(!model.accepts(&spoilt) && model.accepts(&sample(&record[stop])));
+        let before = state;
+        let held = model.step_with(&mut state, &spoilt, |_, _| panic!("a share of a bad sample"));
+        prop_assert_eq!(held, last);
+        prop_assert_eq!(state, before);
+    }
+
+    #[test]
+    fn the_output_is_finite_for_any_finite_sample(
+        numbers in prop::collection::vec(prop::array::uniform8(prop::num::f32::NORMAL | prop::num::f32::ZERO), 1..10),
+        gain in prop::num::f32::NORMAL,
+    ) {
+        let terms: Vec<Term<f32>> = CATALOGUE
+            .iter()
+            .map(|info| {
+                let shapes = [vec![], vec![0.7], vec![0.7, 0.7]];
+                shapes.iter().find_map(|shapes| Effect::try_from_name(info.name, shapes).ok()).unwrap()
+            })
+            .map(|effect| Term { effect, source: Source::Channel(0), gain })
+            .collect();
+        let model = Model::<f32, 64>::try_new(Some(cable()), &terms).unwrap();
+        let mut state = ModelState::new();
+        for [dt, a, b, c, d, e, f, load] in numbers {
+            let input = Motion { position: a, velocity: b, acceleration: c };
+            let channels = [Motion { position: d, velocity: e, acceleration: f }];
+            let at = Sample { dt: dt.abs(), input, load, channels: &channels };
+            let output = model.step(&mut state, &at);
+            prop_assert!(output.is_finite() && state.time().is_finite());
+            prop_assert!(state.eta().abs() <= 1.0);
+        }
+    }
+
+    #[test]
+    fn single_and_double_precision_agree(record in record()) {
+        let single = Model::<f32, 7>::try_new(Some(cable()), &several()).unwrap();
+        let double = Model::<f64, 7>::try_new(Some(cable()), &several()).unwrap();
+        let (mut narrow, mut wide) = (ModelState::new(), ModelState::new());
+        #[allow(clippy::cast_possible_truncation)]
+        let to = |m: Motion<f64>| Motion {
+            position: m.position as f32,
+            velocity: m.velocity as f32,
+            acceleration: m.acceleration as f32,
+        };
+        for row in &record {
+            let channels = row.2.map(to);
+            let input = to(row.1);
+            #[allow(clippy::cast_possible_truncation)]
+            let at = Sample { dt: row.0 as f32, input, load: input.position, channels: &channels };
+            let (a, b) = (single.step(&mut narrow, &at), double.step(&mut wide, &sample(row)));
+            // eta loses 1e-6 a step where its branch is steep, and keeps some of it for 40.
+            assert_relative_eq!(f64::from(a), b, max_relative = 1e-4, epsilon = 1e-4);
+        }
+    }
+}
+
+#[test]
+fn output_stages_read_the_whole_sum_wherever_they_are_listed() {
+    let drift = term("drift", &[], Source::Input, 1.0);
+    let delay = term("delay", &[], Source::Input, 0.5);
+    let lag = term("lag", &[1.0 / std::f64::consts::LN_2], Source::Input, 1.0);
+    let at = Sample {
+        dt: 1.0,
+        input: motion(0.0, 0.0),
+        load: 0.0,
+        channels: &[],
+    };
+    // Ramp 0, 1, 2. Half a sample late: 0, 0.5, 1.5; then low-passed half-way, in any
+    // order, as both stages are linear.
+    let expected = [0.0, 0.25, 0.875];
+    for terms in [
+        [delay, drift, lag],
+        [lag, delay, drift],
+        [drift, lag, delay],
+    ] {
+        let model = Model::<f64, 3>::try_new(None, &terms).unwrap();
+        let mut state = ModelState::new();
+        for value in expected {
+            assert_relative_eq!(model.step(&mut state, &at), value, epsilon = 1e-15);
+        }
+    }
+}
+
+#[test]
+fn numbers_that_no_term_reads_may_be_anything() {
+    let nan = Motion {
+        position: f64::NAN,
+        velocity: f64::NAN,
+        acceleration: f64::NAN,
+    };
+    let terms = [term("viscous", &[], TIP, 2.0)];
+    let model = Model::<f64, 1>::try_new(None, &terms).unwrap();
+    let tip = Motion {
+        velocity: 3.0,
+        ..nan
+    };
+    let at = Sample {
+        dt: 0.01,
+        input: nan,
+        load: f64::NAN,
+        channels: &[nan, tip],
+    };
+    assert_eq!(model.step(&mut ModelState::new(), &at), 6.0);
+}
+
+#[test]
+fn a_model_without_terms_is_its_transmission_and_one_without_both_is_zero() {
+    let at = |x| Sample {
+        dt: 0.01,
+        input: motion(x, 0.0),
+        load: x,
+        channels: &[],
+    };
+    let bare = Model::<f64, 0>::try_new(Some(cable()), &[]).unwrap();
+    let (mut state, mut eta) = (ModelState::new(), BoucWen::new());
+    for x in [0.0, 1.0, -3.0, 2.0] {
+        assert_eq!(bare.step(&mut state, &at(x)), cable().step(&mut eta, x));
+    }
+    let nothing = Model::<f64, 0>::try_new(None, &[]).unwrap();
+    assert_eq!(nothing.step(&mut ModelState::new(), &at(1.0)), 0.0);
+    assert_eq!(nothing.transmission(), None);
+}
+
+#[test]
+fn the_hysteresis_starts_where_it_is_told() {
+    let model = Model::<f64, 1>::try_new(Some(cable()), &[]).unwrap();
+    let mut state = ModelState::with_eta(0.5).unwrap();
+    let at = Sample {
+        dt: 0.01,
+        input: motion(1.0, 0.0),
+        load: 1.0,
+        channels: &[],
+    };
+    assert_relative_eq!(model.step(&mut state, &at), 0.9 - 1.2 * 0.5 - 0.05);
+    assert_eq!(
+        ModelState::<f64, 1>::with_eta(f64::NAN),
+        Err(Error::NonFinite("eta"))
+    );
+}
+
+#[test]
+fn what_cannot_be_a_model_is_refused() {
+    let viscous: Term<f64> = term("viscous", &[], Source::Input, 1.0);
+    let two = Model::<f64, 1>::try_new(None, &[viscous, viscous]);
+    assert_eq!(two, Err(Error::Capacity("terms")));
+    for gain in [f64::NAN, f64::INFINITY] {
+        let model = Model::<f64, 1>::try_new(None, &[Term { gain, ..viscous }]);
+        assert_eq!(model, Err(Error::NonFinite("gain")));
+    }
+    let model = Model::<f64, 3>::try_new(None, &[viscous]).unwrap();
+    assert_eq!(model.terms(), [viscous]);
+}
+
+#[test]
+fn the_clock_of_an_f32_runs_true_for_hours() {
+    let drift: Term<f32> = term("drift", &[], Source::Input, 1.0);
+    let model = Model::<f32, 1>::try_new(None, &[drift]).unwrap();
+    let still = Motion::default();
+    let at = Sample {
+        dt: 0.001,
+        input: still,
+        load: 0.0,
+        channels: &[],
+    };
+    let mut state = ModelState::new();
+    let steps = 10_000_000;
+    for _ in 0..steps {
+        model.step(&mut state, &at);
+    }
+    // 2.8 h; a plain sum is 2.7 % off by now. One ulp of 1e4 is 1e-3.
+    let expected = f64::from(steps - 1) * f64::from(0.001_f32);
+    assert_relative_eq!(f64::from(state.time()), expected, epsilon = 2e-3);
+}
