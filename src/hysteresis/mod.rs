@@ -36,11 +36,15 @@
 //! *Systems with Hysteresis*, Wiley 2007, chapters 2 and 4.
 
 mod closed;
+#[cfg(test)]
+mod garbage;
 mod number;
 mod path;
 mod shape;
 mod stages;
 mod state;
+mod textbook;
 
 pub use shape::Shape;
 pub use state::{BoucWen, Sensitivity};
+pub use textbook::{Actuator, Class, Loop, Textbook, TextbookReport};

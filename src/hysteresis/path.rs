@@ -6,13 +6,13 @@ use num_traits::{One, Zero};
 
 /// A path after which the state is saturated whatever it was before: unloading
 /// ends within 1, and `1 - e^(-39)` rounds to 1 in `f64`.
-const SATURATING: f64 = 40.0;
+pub(super) const SATURATING: f64 = 40.0;
 /// A state nearer to zero than this is taken to be at zero: there `f = 1` to rounding.
-const NEAR_ZERO: f64 = 1e-9;
+pub(super) const NEAR_ZERO: f64 = 1e-9;
 /// Local accuracy of a part of a long path; the error grows with its fourth power.
 const TOLERANCE: f64 = 0.25;
 /// More parts than any path takes for `sigma` up to 1e30; the last takes what is left.
-const MOST_PARTS: u32 = 512;
+pub(super) const MOST_PARTS: u32 = 512;
 
 /// `zeta` after the path `p >= 0`, for `zeta` in `[-1, 1]`.
 ///
@@ -152,7 +152,7 @@ fn leave_zero<N: Number>(p: N, n: N) -> (N, N) {
     }
     let power = (n * h.ln()).exp();
     let zeta = h / (power / n.shift(one)).shift(one);
-    if zeta.value() <= h.value() {
+    if zeta.value() >= N::Float::zero() && zeta.value() <= h.value() {
         (zeta, left)
     } else {
         (h, left)
@@ -161,7 +161,7 @@ fn leave_zero<N: Number>(p: N, n: N) -> (N, N) {
 
 /// The longest part of `p` with `(part·rate)⁴·weight <= TOLERANCE⁴`.
 #[inline]
-fn shorter<N: Number>(p: N, rate: N, weight: N::Float, dual: impl Fn() -> N) -> N {
+pub(super) fn shorter<N: Number>(p: N, rate: N, weight: N::Float, dual: impl Fn() -> N) -> N {
     let limit = N::Float::of(TOLERANCE);
     let stretch = p.value() * rate.value();
     let square = stretch * stretch;

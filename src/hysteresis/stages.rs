@@ -4,46 +4,45 @@
 //! lies in `[zeta, 1]` for every `m >= 0`. Then `dm/dp = f/(1 - zeta)·(1 + m)`, and a
 //! Runge-Kutta step of fourth order builds `m` from four slopes, none negative.
 
+use super::path::{shorter, MOST_PARTS, NEAR_ZERO, SATURATING};
 use crate::Real;
-
-/// Most parts that a path is split into; the last takes what is left.
-const MOST_PARTS: u32 = 512;
-/// Longest part, in units of the local scale of the path.
-const TOLERANCE: f64 = 0.25;
 
 /// `zeta` after the path `p >= 0`, for `zeta` in `[-1, 1]`; `c = 2·sigma - 1`.
 #[inline]
 pub(super) fn follow<T: Real>(zeta: T, path: T, c: T, n: T) -> T {
     let one = T::one();
-    if path > T::of(40.0) {
+    if path > T::of(SATURATING) {
         return one;
     }
     let (mut zeta, mut p) = (zeta, path);
     for part in 1..=MOST_PARTS {
+        if zeta < T::zero() && -zeta < T::of(NEAR_ZERO) {
+            let used = least(p, -zeta);
+            zeta = if used < p { T::zero() } else { zeta + used };
+            p -= used;
+        }
         let w = one - zeta;
         if p <= T::zero() || w <= T::zero() {
             break;
         }
-        let first = rate(zeta, c, n);
+        let (f, x) = right_side(zeta, c, n);
+        let first = positive(f / w);
         let h = if part == MOST_PARTS {
             p
         } else {
-            part_of(p, zeta, first, w, n)
+            part_of(p, zeta, f, x, n)
         };
         let at = |m: T| {
             let w = w / (one + m);
-            rate(one - w, c, n) * (one + m)
+            positive(right_side(one - w, c, n).0 / w) * (one + m)
         };
         let half = T::of(0.5) * h;
         let second = at(half * first);
         let third = at(half * second);
         let fourth = at(h * third);
         let m = h * (first + T::of(2.0) * (second + third) + fourth) / T::of(6.0);
-        if !m.is_finite() {
-            return one;
-        }
         let forward = w * (m / (one + m));
-        if forward >= w {
+        if !m.is_finite() || forward >= w {
             return one;
         }
         zeta += forward;
@@ -52,48 +51,58 @@ pub(super) fn follow<T: Real>(zeta: T, path: T, c: T, n: T) -> T {
     zeta
 }
 
-/// `f(zeta)/(1 - zeta)`, never negative.
+/// `f(zeta)`, and by how much it differs from 1.
 #[inline]
-fn rate<T: Real>(zeta: T, c: T, n: T) -> T {
+fn right_side<T: Real>(zeta: T, c: T, n: T) -> (T, T) {
     let a = zeta.abs();
     let power = if a > T::zero() {
         (n * a.ln()).exp()
     } else {
         T::zero()
     };
-    let f = if zeta < T::zero() {
-        T::one() + c * power
+    if zeta < T::zero() {
+        (T::one() + c * power, c * power)
     } else {
-        T::one() - power
-    };
-    let rate = f / (T::one() - zeta);
-    if rate > T::zero() {
-        rate
-    } else {
-        T::zero()
+        (T::one() - power, power)
     }
 }
 
 /// The part of the path that one step of four stages covers accurately.
 #[inline]
-fn part_of<T: Real>(p: T, zeta: T, rate: T, w: T, n: T) -> T {
-    let limit = T::of(TOLERANCE);
-    // A change of the state by limit/n changes its power by a factor e^limit at most.
-    let fast = rate
-        * if zeta < T::zero() {
-            n * w
-        } else {
-            T::one() + n * w
-        };
-    let distance = if zeta < T::zero() {
-        T::of(0.1) - zeta
+fn part_of<T: Real>(p: T, zeta: T, f: T, x: T, n: T) -> T {
+    let (a, near) = (zeta.abs(), T::of(0.1));
+    let w = T::one() - zeta;
+    let h = shorter(p, f / w, w, || w);
+    let h = if zeta < T::zero() {
+        // Not beyond zero, where the right side has a corner; f >= 1 falls on the way.
+        least(shorter(h, n * f / a, x / f, || x / f), a / f)
     } else {
-        T::one()
+        shorter(h, n * f / (a + near), x, || x)
     };
-    let part = limit * distance / fast;
-    if p <= part {
-        p
+    // The power is not smooth at zero, least of all for a small n.
+    if a < near {
+        least(h, near)
     } else {
-        part
+        h
+    }
+}
+
+/// The lesser of two paths.
+#[inline]
+fn least<T: Real>(a: T, b: T) -> T {
+    if a < b {
+        a
+    } else {
+        b
+    }
+}
+
+/// The number where it is positive, else zero (NaN included).
+#[inline]
+fn positive<T: Real>(x: T) -> T {
+    if x > T::zero() {
+        x
+    } else {
+        T::zero()
     }
 }
