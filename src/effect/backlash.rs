@@ -19,9 +19,10 @@ shaped! {
     /// The play of half-width `r`, less its input; it starts in mid-gap.
     ///
     /// ```
-    /// use bowden::effect::backlash::Backlash;
-    /// assert!(Backlash::try_new(0.5).is_ok());
-    /// assert!(Backlash::try_new(f32::NAN).is_err());
+    /// use bowden::{effect::backlash::Backlash, Error};
+    /// assert_eq!(Backlash::try_new(0.5)?.r(), 0.5);
+    /// assert_eq!(Backlash::try_new(0.0), Err(Error::OutOfRange("r")));
+    /// # Ok::<(), Error>(())
     /// ```
     Backlash {
         /// Half of the gap \[channel unit\].
@@ -54,9 +55,10 @@ shaped! {
     /// A spring with a gap around zero.
     ///
     /// ```
-    /// use bowden::effect::backlash::DeadZone;
-    /// assert!(DeadZone::try_new(0.5).is_ok());
-    /// assert!(DeadZone::try_new(f32::NAN).is_err());
+    /// use bowden::{effect::backlash::DeadZone, Error};
+    /// assert_eq!(DeadZone::try_new(0.5)?.r(), 0.5);
+    /// assert_eq!(DeadZone::try_new(0.0), Err(Error::OutOfRange("r")));
+    /// # Ok::<(), Error>(())
     /// ```
     DeadZone {
         /// Half of the gap \[channel unit\].

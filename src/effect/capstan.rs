@@ -19,9 +19,10 @@ shaped! {
     /// Friction in proportion to tension and wrap.
     ///
     /// ```
-    /// use bowden::effect::capstan::Capstan;
-    /// assert!(Capstan::try_new(0.5).is_ok());
-    /// assert!(Capstan::try_new(f32::NAN).is_err());
+    /// use bowden::{effect::capstan::Capstan, Error};
+    /// assert_eq!(Capstan::try_new(0.5)?.v_e(), 0.5);
+    /// assert_eq!(Capstan::try_new(0.0), Err(Error::OutOfRange("v_e")));
+    /// # Ok::<(), Error>(())
     /// ```
     Capstan {
         /// Velocity at which friction reaches 76 % \[channel unit/s\].

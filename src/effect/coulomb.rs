@@ -17,9 +17,10 @@ shaped! {
     /// Coulomb friction, smoothed over the velocity `v_e`.
     ///
     /// ```
-    /// use bowden::effect::coulomb::Coulomb;
-    /// assert!(Coulomb::try_new(0.5).is_ok());
-    /// assert!(Coulomb::try_new(f32::NAN).is_err());
+    /// use bowden::{effect::coulomb::Coulomb, Error};
+    /// assert_eq!(Coulomb::try_new(0.5)?.v_e(), 0.5);
+    /// assert_eq!(Coulomb::try_new(0.0), Err(Error::OutOfRange("v_e")));
+    /// # Ok::<(), Error>(())
     /// ```
     Coulomb {
         /// Velocity at which friction reaches 76 % \[channel unit/s\].

@@ -17,9 +17,10 @@ shaped! {
     /// A slow follower of x.
     ///
     /// ```
-    /// use bowden::effect::creep::Creep;
-    /// assert!(Creep::try_new(0.5).is_ok());
-    /// assert!(Creep::try_new(f32::NAN).is_err());
+    /// use bowden::{effect::creep::Creep, Error};
+    /// assert_eq!(Creep::try_new(0.5)?.tau(), 0.5);
+    /// assert_eq!(Creep::try_new(0.0), Err(Error::OutOfRange("tau")));
+    /// # Ok::<(), Error>(())
     /// ```
     Creep {
         /// Time constant \[s\].

@@ -33,7 +33,7 @@ impl<T: Real> Regressor<T> for Degradation {
     fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
         let (x, eta) = (at.input.position, at.eta);
         let [x_before, eta_before, work] = state.memory.unwrap_or([x, eta, T::zero()]);
-        let path = saturate(x - x_before).abs();
+        let path = (x - x_before).abs();
         let mean = eta.abs() * T::of(0.5) + eta_before.abs() * T::of(0.5);
         let work = saturate(work + saturate(mean * path));
         state.memory = Some([x, eta, work]);

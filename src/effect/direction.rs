@@ -18,9 +18,10 @@ shaped! {
     /// Load friction while the load moves its own way.
     ///
     /// ```
-    /// use bowden::effect::direction::DriveFriction;
-    /// assert!(DriveFriction::try_new(0.5).is_ok());
-    /// assert!(DriveFriction::try_new(f32::NAN).is_err());
+    /// use bowden::{effect::direction::DriveFriction, Error};
+    /// assert_eq!(DriveFriction::try_new(0.5)?.v_e(), 0.5);
+    /// assert_eq!(DriveFriction::try_new(0.0), Err(Error::OutOfRange("v_e")));
+    /// # Ok::<(), Error>(())
     /// ```
     DriveFriction {
         /// Velocity at which friction reaches 76 % \[channel unit/s\].
@@ -53,9 +54,10 @@ shaped! {
     /// Load friction while the load is moved against itself.
     ///
     /// ```
-    /// use bowden::effect::direction::BackDriveFriction;
-    /// assert!(BackDriveFriction::try_new(0.5).is_ok());
-    /// assert!(BackDriveFriction::try_new(f32::NAN).is_err());
+    /// use bowden::{effect::direction::BackDriveFriction, Error};
+    /// assert_eq!(BackDriveFriction::try_new(0.5)?.v_e(), 0.5);
+    /// assert_eq!(BackDriveFriction::try_new(0.0), Err(Error::OutOfRange("v_e")));
+    /// # Ok::<(), Error>(())
     /// ```
     BackDriveFriction {
         /// Velocity at which friction reaches 76 % \[channel unit/s\].

@@ -15,9 +15,10 @@ shaped! {
     /// The weight of a lever at the angle x.
     ///
     /// ```
-    /// use bowden::effect::gravity::Gravity;
-    /// assert!(Gravity::try_new(0.5).is_ok());
-    /// assert!(Gravity::try_new(f32::NAN).is_err());
+    /// use bowden::{effect::gravity::Gravity, Error};
+    /// assert_eq!(Gravity::try_new(0.5)?.psi(), 0.5);
+    /// assert_eq!(Gravity::try_new(f64::NAN), Err(Error::NonFinite("psi")));
+    /// # Ok::<(), Error>(())
     /// ```
     Gravity {
         /// Angle of the lever at x = 0, against the vertical \[rad\].

@@ -17,9 +17,10 @@ shaped! {
     /// The low-pass of the output, less the output; starts at the first one.
     ///
     /// ```
-    /// use bowden::effect::lag::Lag;
-    /// assert!(Lag::try_new(0.5).is_ok());
-    /// assert!(Lag::try_new(f32::NAN).is_err());
+    /// use bowden::{effect::lag::Lag, Error};
+    /// assert_eq!(Lag::try_new(0.5)?.tau(), 0.5);
+    /// assert_eq!(Lag::try_new(0.0), Err(Error::OutOfRange("tau")));
+    /// # Ok::<(), Error>(())
     /// ```
     Lag {
         /// Time constant \[s\].

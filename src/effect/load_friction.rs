@@ -16,9 +16,10 @@ shaped! {
     /// Dry friction in proportion to the load.
     ///
     /// ```
-    /// use bowden::effect::load_friction::LoadFriction;
-    /// assert!(LoadFriction::try_new(0.5).is_ok());
-    /// assert!(LoadFriction::try_new(f32::NAN).is_err());
+    /// use bowden::{effect::load_friction::LoadFriction, Error};
+    /// assert_eq!(LoadFriction::try_new(0.5)?.v_e(), 0.5);
+    /// assert_eq!(LoadFriction::try_new(0.0), Err(Error::OutOfRange("v_e")));
+    /// # Ok::<(), Error>(())
     /// ```
     LoadFriction {
         /// Velocity at which friction reaches 76 % \[channel unit/s\].

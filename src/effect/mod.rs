@@ -87,8 +87,8 @@ macro_rules! effects {
         /// All effects, those without shapes first.
         ///
         /// ```
-        /// let odd = bowden::effect::CATALOGUE.iter().filter(|info| info.memory);
-        /// assert_eq!(odd.count(), 6);
+        /// let with_memory = bowden::effect::CATALOGUE.iter().filter(|info| info.memory);
+        /// assert_eq!(with_memory.count(), 6);
         /// ```
         pub const CATALOGUE: &[&Info] = &[
             $($(<$module::$plain as Regressor<f64>>::INFO,)+)*

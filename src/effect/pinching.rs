@@ -15,9 +15,10 @@ shaped! {
     /// A change of the loop around eta = 0.
     ///
     /// ```
-    /// use bowden::effect::pinching::Pinching;
-    /// assert!(Pinching::try_new(0.5).is_ok());
-    /// assert!(Pinching::try_new(f32::NAN).is_err());
+    /// use bowden::{effect::pinching::Pinching, Error};
+    /// assert_eq!(Pinching::try_new(0.5)?.w(), 0.5);
+    /// assert_eq!(Pinching::try_new(0.0), Err(Error::OutOfRange("w")));
+    /// # Ok::<(), Error>(())
     /// ```
     Pinching {
         /// Width, in parts of eta.

@@ -16,9 +16,10 @@ shaped! {
     /// Dry friction in proportion to the position.
     ///
     /// ```
-    /// use bowden::effect::position_friction::PositionFriction;
-    /// assert!(PositionFriction::try_new(0.5).is_ok());
-    /// assert!(PositionFriction::try_new(f32::NAN).is_err());
+    /// use bowden::{effect::position_friction::PositionFriction, Error};
+    /// assert_eq!(PositionFriction::try_new(0.5)?.v_e(), 0.5);
+    /// assert_eq!(PositionFriction::try_new(0.0), Err(Error::OutOfRange("v_e")));
+    /// # Ok::<(), Error>(())
     /// ```
     PositionFriction {
         /// Velocity at which friction reaches 76 % \[channel unit/s\].

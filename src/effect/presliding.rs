@@ -19,9 +19,10 @@ shaped! {
     /// The stop operator of half-width `r`, of unit height.
     ///
     /// ```
-    /// use bowden::effect::presliding::Presliding;
-    /// assert!(Presliding::try_new(0.5).is_ok());
-    /// assert!(Presliding::try_new(f32::NAN).is_err());
+    /// use bowden::{effect::presliding::Presliding, Error};
+    /// assert_eq!(Presliding::try_new(0.5)?.r(), 0.5);
+    /// assert_eq!(Presliding::try_new(0.0), Err(Error::OutOfRange("r")));
+    /// # Ok::<(), Error>(())
     /// ```
     Presliding {
         /// Distance at which the spring slips \[channel unit\].

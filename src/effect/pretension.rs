@@ -16,9 +16,10 @@ shaped! {
     /// A step at the time `t_s`.
     ///
     /// ```
-    /// use bowden::effect::pretension::Pretension;
-    /// assert!(Pretension::try_new(0.5).is_ok());
-    /// assert!(Pretension::try_new(f32::NAN).is_err());
+    /// use bowden::{effect::pretension::Pretension, Error};
+    /// assert_eq!(Pretension::try_new(0.5)?.t_s(), 0.5);
+    /// assert_eq!(Pretension::try_new(f64::NAN), Err(Error::NonFinite("t_s")));
+    /// # Ok::<(), Error>(())
     /// ```
     Pretension {
         /// Time of the step \[s\].

@@ -15,9 +15,10 @@ shaped! {
     /// A ripple of `k` periods a turn.
     ///
     /// ```
-    /// use bowden::effect::ripple::Ripple;
-    /// assert!(Ripple::try_new(0.5, 0.5).is_ok());
-    /// assert!(Ripple::try_new(f32::NAN, 0.5).is_err());
+    /// use bowden::{effect::ripple::Ripple, Error};
+    /// assert_eq!(Ripple::try_new(0.5, 2.0)?.k(), 0.5);
+    /// assert_eq!(Ripple::try_new(0.0, 2.0), Err(Error::OutOfRange("k")));
+    /// # Ok::<(), Error>(())
     /// ```
     Ripple {
         /// Angular order \[1/channel unit\].

@@ -16,9 +16,10 @@ shaped! {
     /// What x has above `x_s`.
     ///
     /// ```
-    /// use bowden::effect::saturation::SaturationUpper;
-    /// assert!(SaturationUpper::try_new(0.5).is_ok());
-    /// assert!(SaturationUpper::try_new(f32::NAN).is_err());
+    /// use bowden::{effect::saturation::SaturationUpper, Error};
+    /// assert_eq!(SaturationUpper::try_new(0.5)?.x_s(), 0.5);
+    /// assert_eq!(SaturationUpper::try_new(f64::NAN), Err(Error::NonFinite("x_s")));
+    /// # Ok::<(), Error>(())
     /// ```
     SaturationUpper {
         /// Where saturation begins \[channel unit\].
@@ -47,9 +48,10 @@ shaped! {
     /// What x has below `x_s`.
     ///
     /// ```
-    /// use bowden::effect::saturation::SaturationLower;
-    /// assert!(SaturationLower::try_new(0.5).is_ok());
-    /// assert!(SaturationLower::try_new(f32::NAN).is_err());
+    /// use bowden::{effect::saturation::SaturationLower, Error};
+    /// assert_eq!(SaturationLower::try_new(0.5)?.x_s(), 0.5);
+    /// assert_eq!(SaturationLower::try_new(f64::NAN), Err(Error::NonFinite("x_s")));
+    /// # Ok::<(), Error>(())
     /// ```
     SaturationLower {
         /// Where saturation begins \[channel unit\].

@@ -106,9 +106,10 @@ shaped! {
     /// A spring that engages at `x_h`.
     ///
     /// ```
-    /// use bowden::effect::stiffness::Hinge;
-    /// assert!(Hinge::try_new(0.5).is_ok());
-    /// assert!(Hinge::try_new(f32::NAN).is_err());
+    /// use bowden::{effect::stiffness::Hinge, Error};
+    /// assert_eq!(Hinge::try_new(0.5)?.x_h(), 0.5);
+    /// assert_eq!(Hinge::try_new(f64::NAN), Err(Error::NonFinite("x_h")));
+    /// # Ok::<(), Error>(())
     /// ```
     Hinge {
         /// Where the spring engages \[channel unit\].

@@ -17,9 +17,10 @@ shaped! {
     /// The excess of friction at low speed.
     ///
     /// ```
-    /// use bowden::effect::stribeck::Stribeck;
-    /// assert!(Stribeck::try_new(0.5, 0.5).is_ok());
-    /// assert!(Stribeck::try_new(f32::NAN, 0.5).is_err());
+    /// use bowden::{effect::stribeck::Stribeck, Error};
+    /// assert_eq!(Stribeck::try_new(0.5, 2.0)?.v_s(), 0.5);
+    /// assert_eq!(Stribeck::try_new(0.0, 2.0), Err(Error::OutOfRange("v_s")));
+    /// # Ok::<(), Error>(())
     /// ```
     Stribeck {
         /// Stribeck velocity \[channel unit/s\].

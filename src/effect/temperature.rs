@@ -15,9 +15,10 @@ shaped! {
     /// The temperature above `t_ref`.
     ///
     /// ```
-    /// use bowden::effect::temperature::Temperature;
-    /// assert!(Temperature::try_new(0.5).is_ok());
-    /// assert!(Temperature::try_new(f32::NAN).is_err());
+    /// use bowden::{effect::temperature::Temperature, Error};
+    /// assert_eq!(Temperature::try_new(0.5)?.t_ref(), 0.5);
+    /// assert_eq!(Temperature::try_new(f64::NAN), Err(Error::NonFinite("t_ref")));
+    /// # Ok::<(), Error>(())
     /// ```
     Temperature {
         /// Reference temperature \[channel unit\].

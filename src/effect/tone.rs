@@ -15,9 +15,10 @@ shaped! {
     /// A sine in time.
     ///
     /// ```
-    /// use bowden::effect::tone::Tone;
-    /// assert!(Tone::try_new(0.5, 0.5).is_ok());
-    /// assert!(Tone::try_new(f32::NAN, 0.5).is_err());
+    /// use bowden::{effect::tone::Tone, Error};
+    /// assert_eq!(Tone::try_new(0.5, 2.0)?.f(), 0.5);
+    /// assert_eq!(Tone::try_new(0.0, 2.0), Err(Error::OutOfRange("f")));
+    /// # Ok::<(), Error>(())
     /// ```
     Tone {
         /// Frequency \[Hz\].

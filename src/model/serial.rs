@@ -1,7 +1,8 @@
 //! Models and their states as serde sees them: the terms as one list.
 //!
 //! serde knows no arrays of any length `N`; here they are lists of at most `N`.
-//! Reading goes through the constructors: what they refuse is refused.
+//! Reading goes through the constructors: what they refuse is refused. The memories
+//! that a shorter list of a state leaves out are fresh.
 
 use super::{padding, Model, ModelState, Term};
 use crate::effect::EffectState;

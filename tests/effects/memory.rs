@@ -189,3 +189,25 @@ fn degradation_accumulates_the_path_weighted_with_eta() {
     let again = [path.as_slice(), &[at(6.0, 1.0)]].concat();
     assert_eq!(along(&make("degradation"), &again).last(), Some(&3.5));
 }
+
+#[test]
+fn a_low_pass_stays_between_its_inputs_where_their_difference_overflows() {
+    let effect = make::<f32>("creep");
+    let mut state = EffectState::default();
+    let mut step = |position, dt| {
+        let motion = Motion {
+            position,
+            ..Motion::default()
+        };
+        let at = Situation {
+            dt,
+            motion,
+            ..Situation::default()
+        };
+        effect.regressor(&mut state, &at)
+    };
+    assert_eq!(step(f32::MIN, 0.1), f32::MIN);
+    assert_eq!(step(f32::MAX, 0.0), f32::MIN);
+    let between = step(f32::MAX, 0.1);
+    assert!(f32::MIN < between && between < f32::MAX);
+}

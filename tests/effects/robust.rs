@@ -20,9 +20,9 @@ proptest! {
                 let value = effect.regressor(&mut state, &situation(numbers));
                 prop_assert!(value.is_finite(), "{name}: {value} at {numbers:?}");
             }
-            // The memory is finite too: the next plausible sample gives a plausible value.
-            let value = effect.regressor(&mut state, &situation([0.01; 11]));
-            prop_assert!(value.is_finite());
+            // The memory is private, but tells what it holds.
+            let memory = format!("{state:?}");
+            prop_assert!(!memory.contains("inf") && !memory.contains("NaN"), "{name}: {memory}");
         }
     }
 
