@@ -9,6 +9,8 @@ use num_traits::{One, Zero};
 pub(super) const SATURATING: f64 = 40.0;
 /// A state nearer to zero than this is taken to be at zero: there `f = 1` to rounding.
 pub(super) const NEAR_ZERO: f64 = 1e-9;
+/// Where `n·(1 - zeta)` is below this, the rest of the path has a closed form.
+const NEAR_SATURATION: f64 = 0.03;
 /// Local accuracy of a part of a long path; the error grows with its fourth power.
 const TOLERANCE: f64 = 0.25;
 /// More parts than any path takes for `sigma` up to 1e30; the last takes what is left.
@@ -103,6 +105,9 @@ pub(super) fn load<N: Number>(zeta: N, path: N, n: N) -> N {
         if room.value() <= zero {
             break;
         }
+        if n.value() * room.value() <= N::Float::of(NEAR_SATURATION) {
+            return saturate(zeta, room, p, n);
+        }
         let powered = (n.shift(-one) * zeta.ln()).exp();
         let f = (-(zeta * powered)).shift(one);
         let half_slope = (n * powered).scale(N::Float::of(0.5));
@@ -113,6 +118,12 @@ pub(super) fn load<N: Number>(zeta: N, path: N, n: N) -> N {
             p
         } else {
             let h = shorter(p, rate, room.value(), || room);
+            // Within r <= 1 the step is monotone in h.
+            let h = if h.value() * rate.value() > one {
+                N::constant(one) / rate
+            } else {
+                h
+            };
             let bend = (half_slope * concave).scale(N::Float::of(2.0));
             let limit = N::Float::of(TOLERANCE);
             if h.value() * h.value() * bend.value() > limit * limit {
@@ -157,6 +168,22 @@ fn leave_zero<N: Number>(p: N, n: N) -> (N, N) {
     } else {
         (h, left)
     }
+}
+
+/// The whole rest of the path where `n·w <= 0.03`, `w = 1 - zeta`.
+///
+/// There `f = n·w - n·(n-1)/2·w²` to 2e-4, a logistic equation: with `E = e^(-n·p)`,
+/// `w` becomes `w·E/(1 - k·w·(1 - E))`, `k = (n-1)/2`; 2e-6/n is its error.
+#[inline]
+fn saturate<N: Number>(zeta: N, w: N, p: N, n: N) -> N {
+    let one = N::Float::one();
+    let bend = n.shift(-one).scale(N::Float::of(0.5)) * w;
+    let gone = (-((-(n * p)).exp())).shift(one);
+    let forward = positive(w * gone * (-bend).shift(one) / (-(bend * gone)).shift(one));
+    if forward.value() >= w.value() {
+        return N::constant(one);
+    }
+    zeta + forward
 }
 
 /// The longest part of `p` with `(part·rate)⁴·weight <= TOLERANCE⁴`.
