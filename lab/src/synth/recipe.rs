@@ -1,0 +1,200 @@
+//! What to generate.
+
+use std::fmt;
+
+/// What drives the transmission. Own type: see the module on independence.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// `tau_i` in, `tau_o` out, with the angles `phi_p` and `phi_d`.
+    Torque,
+    /// `x` in, `f` out.
+    Displacement,
+}
+
+/// An effect to be added to the transmission.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Planted {
+    /// Its name, one of [`effects`](super::effects).
+    pub effect: String,
+    /// Rms of its contribution as a multiple of the noise's rms.
+    pub strength: f64,
+    /// The channel that it reads; each effect has a default.
+    pub channel: Option<String>,
+}
+
+impl Planted {
+    /// An effect at three times the noise on its usual channel.
+    pub fn new(effect: &str) -> Self {
+        Self {
+            effect: effect.to_owned(),
+            strength: 3.0,
+            channel: None,
+        }
+    }
+}
+
+/// Parameters of the transmission, in the paper's form.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Base {
+    /// B \[-\] in (6), or k_x \[N/mm\] in (1).
+    pub gain: f64,
+    /// kappa_eta \[N·m\] in (6), or k_eta \[N\] in (1).
+    pub kappa_eta: f64,
+    /// T0 \[N·m\], subtracted, or a force \[N\], added.
+    pub offset: f64,
+    /// rho \[1/(N·m)\] in (7), or \[1/mm\] in (2).
+    pub rho: f64,
+    /// sigma \[-\].
+    pub sigma: f64,
+    /// n \[-\].
+    pub n: f64,
+}
+
+/// What to generate; start from [`Recipe::new`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recipe {
+    /// What drives the transmission.
+    pub mode: Mode,
+    /// The effects that the declared model will not have.
+    pub effects: Vec<Planted>,
+    /// Every random choice follows from it.
+    pub seed: u64,
+    /// Length \[s\].
+    pub seconds: f64,
+    /// Samples a second \[Hz\].
+    pub rate: f64,
+    /// Noise of the output, rms \[N·m or N\].
+    pub noise: f64,
+    /// Correlation of the noise from sample to sample, AR(1); 0 is white.
+    pub colour: f64,
+    /// Noise of the measured input, rms \[N·m or mm\]; white.
+    pub input_noise: f64,
+    /// Step of the converters of torque and force \[N·m or N\]; 0 is none.
+    pub quantisation: f64,
+    /// Step of the position sensors \[rad or mm\]; 0 is none.
+    pub resolution: f64,
+    /// Peak of the input about its bias \[N·m or mm\].
+    pub amplitude: f64,
+    /// Mean of the input \[N·m or mm\].
+    pub bias: f64,
+    /// Whether all motion rests for a second now and then.
+    pub holds: bool,
+    /// Whether a temperature is recorded.
+    pub temperature: bool,
+    /// Whether a load is recorded (displacement mode).
+    pub load: bool,
+    /// The transmission; drawn from the seed where it is `None`.
+    pub base: Option<Base>,
+}
+
+impl Recipe {
+    /// Twenty seconds at 1 kHz with nothing planted, and the paper's sensors.
+    pub fn new(mode: Mode) -> Self {
+        let turn = 2.0 * std::f64::consts::PI;
+        let (amplitude, resolution) = match mode {
+            Mode::Torque => (16.0, turn / 16384.0),
+            Mode::Displacement => (10.0, 1e-3),
+        };
+        Self {
+            mode,
+            effects: Vec::new(),
+            seed: 1,
+            seconds: 20.0,
+            rate: 1000.0,
+            noise: 0.05,
+            colour: 0.0,
+            input_noise: 0.0,
+            quantisation: 200.0 / 65536.0,
+            resolution,
+            amplitude,
+            bias: 0.0,
+            holds: false,
+            temperature: false,
+            load: false,
+            base: None,
+        }
+    }
+
+    pub(super) fn check(&self) -> Result<(), RecipeError> {
+        let positive = [
+            ("seconds", self.seconds),
+            ("rate", self.rate),
+            ("amplitude", self.amplitude),
+        ];
+        for (name, value) in positive {
+            if !(value > 0.0 && value <= 1e6) {
+                return refuse(format!("{name} {value}: a positive number was expected"));
+            }
+        }
+        let sizes = [
+            ("noise", self.noise),
+            ("input noise", self.input_noise),
+            ("quantisation", self.quantisation),
+            ("resolution", self.resolution),
+        ];
+        for (name, value) in sizes {
+            if !(0.0..=1e6).contains(&value) {
+                return refuse(format!("{name} {value}: a number from 0 up was expected"));
+            }
+        }
+        if !(0.0..1.0).contains(&self.colour) {
+            return refuse(format!(
+                "colour {}: a number from 0 to below 1 was expected",
+                self.colour
+            ));
+        }
+        if self.bias.is_nan() || self.bias.abs() > 1e6 {
+            return refuse(format!("bias {}: a finite number was expected", self.bias));
+        }
+        if !(10.0..=1e6).contains(&(self.seconds * self.rate)) {
+            return refuse("seconds times rate: 10 to 1000000 samples were expected".to_owned());
+        }
+        if let Some(planted) = self
+            .effects
+            .iter()
+            .find(|p| !(p.strength > 0.0 && p.strength <= 1e6))
+        {
+            let (name, strength) = (&planted.effect, planted.strength);
+            return refuse(format!(
+                "strength {strength} of {name}: a positive number was expected"
+            ));
+        }
+        match &self.base {
+            Some(base) if !base.is_sound() => refuse(
+                "base: finite numbers, rho > 0, sigma >= 1/2 and n >= 1 were expected".to_owned(),
+            ),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Base {
+    fn is_sound(&self) -> bool {
+        let sizes = [
+            self.gain,
+            self.kappa_eta,
+            self.offset,
+            self.rho,
+            self.sigma,
+            self.n,
+        ];
+        let finite = sizes.iter().all(|value| value.abs() <= 1e6);
+        finite && self.rho > 0.0 && self.sigma >= 0.5 && self.n >= 1.0
+    }
+}
+
+/// A recipe that cannot be followed, in one line.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RecipeError(String);
+
+impl fmt::Display for RecipeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for RecipeError {}
+
+pub(super) fn refuse<T>(message: String) -> Result<T, RecipeError> {
+    Err(RecipeError(message))
+}

@@ -1,0 +1,94 @@
+//! Effects on the finished output: it arrives late.
+
+use super::recipe::{refuse, RecipeError};
+use super::sensor::spread;
+
+/// Longest delay or lag that is tried \[s\].
+const LONGEST: f64 = 0.5;
+
+/// The fine grid, and which of its points are samples.
+pub(super) struct Grid {
+    pub(super) h: f64,
+    pub(super) first: usize,
+    pub(super) every: usize,
+    pub(super) samples: usize,
+}
+
+impl Grid {
+    pub(super) fn sampled(&self, fine: &[f64]) -> Vec<f64> {
+        fine.iter()
+            .skip(self.first)
+            .step_by(self.every)
+            .take(self.samples)
+            .copied()
+            .collect()
+    }
+}
+
+/// The output `late` seconds ago, between two points of the grid.
+fn delayed(output: &[f64], grid: &Grid, late: f64) -> Vec<f64> {
+    let steps = late / grid.h;
+    let whole = steps.floor();
+    let part = steps - whole;
+    let at = |index: usize, back: usize| output[index.saturating_sub(back)];
+    let back = whole as usize;
+    (0..output.len())
+        .map(|i| (1.0 - part) * at(i, back) + part * at(i, back + 1))
+        .collect()
+}
+
+/// The output behind a first-order lag.
+fn lagging(output: &[f64], grid: &Grid, tau: f64) -> Vec<f64> {
+    let share = if tau > 0.0 {
+        -(-grid.h / tau).exp_m1()
+    } else {
+        1.0
+    };
+    let mut state = output.first().copied().unwrap_or_default();
+    let mut follow = |value: &f64| {
+        state += share * (value - state);
+        state
+    };
+    output.iter().map(&mut follow).collect()
+}
+
+/// Delays or lags the output so that the change has the wanted rms; returns
+/// the time that it takes and what it adds on the fine grid.
+pub(super) fn apply(
+    effect: &str,
+    output: &[f64],
+    grid: &Grid,
+    wanted: f64,
+) -> Result<(f64, Vec<f64>), RecipeError> {
+    let change = |time: f64| -> Vec<f64> {
+        let late = if effect == "delay" {
+            delayed(output, grid, time)
+        } else {
+            lagging(output, grid, time)
+        };
+        late.iter()
+            .zip(output)
+            .map(|(late, now)| late - now)
+            .collect()
+    };
+    let rms = |time: f64| spread(&grid.sampled(&change(time)));
+    let (mut low, mut high) = (0.0, grid.h);
+    while rms(high) < wanted {
+        low = high;
+        high *= 2.0;
+        if high > LONGEST {
+            return refuse(format!(
+                "{effect}: not even {LONGEST} s would be as strong as asked"
+            ));
+        }
+    }
+    for _ in 0..40 {
+        let middle = 0.5 * (low + high);
+        if rms(middle) < wanted {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Ok((high, change(high)))
+}
