@@ -70,7 +70,8 @@ pub(super) fn read(
         } else {
             String::new()
         };
-        let message = format!("too short: {left} {samples}{cut}, at least {MIN_SAMPLES} are needed");
+        let message =
+            format!("too short: {left} {samples}{cut}, at least {MIN_SAMPLES} are needed");
         return Err(RecordError::at(lines.number(), message));
     }
     let mut notes = clock.notes(&time);
