@@ -1,5 +1,8 @@
 //! The hysteresis against its equation, its closed forms and its promises.
 
+// Clippy's allowance covers the test functions, not what they share.
+#![allow(clippy::unwrap_used)]
+
 use approx::assert_abs_diff_eq;
 use bowden::hysteresis::{Actuator, BoucWen, Class, Sensitivity, Shape, Textbook};
 use bowden::Error;

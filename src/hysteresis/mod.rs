@@ -28,9 +28,18 @@
 //! enforced by comparisons as well, so they hold in rounded arithmetic and even
 //! for a wrong power function.
 //!
-//! A long increment is split where the local error asks for it, not evenly: one
-//! reversal at full saturation costs about `(ln(2·sigma) + 4)/0.25` powers, 50 at
-//! most for `sigma = 98` and any jump; a sampled signal almost always needs one.
+//! Where `n·(1 - zeta) <= 0.03` the rest of the path is a logistic equation, solved in
+//! one go. A long increment is split where the local error asks for it, not evenly, so
+//! that the price of a jump grows with `ln(sigma)` only: from full saturation to full
+//! saturation at most 30 powers for `sigma = 0.6`, 55 for 98, 100 for 1e6 (test in
+//! `garbage.rs`). Sampled signals take one.
+//!
+//! # Accuracy
+//! Error in `kappa_eta·eta` on the paper's records at 1 kHz: 1.0e-5 N·m on
+//! `16·sin(pi·t)` with the first identified set, 3.7e-6 with the second; four stages
+//! 5.0e-8; `f32` 3.4e-4, from rounding the input. On random jumps within ±16 N·m the
+//! error of eta is below 8e-4 for every shape that was tried (mean 1.6e-4). From
+//! `cargo bench --bench step` and `tests/hysteresis.rs`.
 //!
 //! Source: Bouc 1967, Wen 1976; equations (2), (7); Ikhouane & Rodellar,
 //! *Systems with Hysteresis*, Wiley 2007, chapters 2 and 4.

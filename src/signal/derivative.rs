@@ -3,7 +3,7 @@
 use crate::error::finite;
 use crate::{Error, Real};
 
-/// First-order filtered derivative with a time constant [s].
+/// First-order filtered derivative with a time constant \[s\].
 ///
 /// `v⁺ = v + (1 - e^(-dt/tau))·((x - x_last)/dt - v)`: the difference quotient through
 /// the exact discrete first-order lag, so that `tau` means the same at every rate and
@@ -12,7 +12,7 @@ use crate::{Error, Real};
 /// ```
 /// use bowden::signal::{Derivative, DerivativeState};
 /// # fn main() -> Result<(), bowden::Error> {
-/// let derivative = Derivative::try_new(0.01)?; // [s]
+/// let derivative = Derivative::try_new(0.01)?; // \[s\]
 /// let mut state = DerivativeState::new();
 /// for k in 0..200 {
 ///     derivative.step(&mut state, 3.0 * 1e-3 * f64::from(k), 1e-3);
@@ -48,7 +48,7 @@ pub struct DerivativeState<T> {
 }
 
 impl<T: Real> Derivative<T> {
-    /// A derivative with `time_constant >= 0` [s]; at zero it is not filtered.
+    /// A derivative with `time_constant >= 0` \[s\]; at zero it is not filtered.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"time_constant"`.
@@ -59,14 +59,14 @@ impl<T: Real> Derivative<T> {
         Ok(Self { time_constant })
     }
 
-    /// The time constant [s].
+    /// The time constant \[s\].
     #[inline]
     #[must_use]
     pub fn time_constant(&self) -> T {
         self.time_constant
     }
 
-    /// The filtered rate [signal unit/s] after a sample that came `dt` [s] later.
+    /// The filtered rate [signal unit/s] after a sample that came `dt` \[s\] later.
     ///
     /// A sample that is not finite, a `dt` that is not positive and finite, or a
     /// quotient that overflows leaves the state and returns the rate that was.

@@ -1,0 +1,176 @@
+//! The step of the hysteresis: error beside time, against Runge-Kutta.
+//!
+//! `cargo bench --bench step` prints the table of errors, then the timings. Everything
+//! runs on `16·sin(pi·t)` at 1 kHz with the first set of the paper; one iteration is
+//! one sample.
+
+use bowden::hysteresis::{Sensitivity, Shape};
+use bowden::Real;
+use criterion::{criterion_group, criterion_main, Criterion};
+use std::hint::black_box;
+
+const KAPPA_ETA: f64 = 7.004;
+const SAMPLES: usize = 4000;
+
+fn shape<T: Real>(n: f64) -> Shape<T> {
+    match Shape::try_new(T::of(0.095_82), T::of(98.36), T::of(n)) {
+        Ok(shape) => shape,
+        Err(_) => unreachable!(),
+    }
+}
+
+/// The right side of (7) over the rate, with the power as the crate takes it.
+#[inline]
+fn right_side<T: Real>(shape: &Shape<T>, eta: T, direction: T) -> T {
+    let one = T::one();
+    let power = Real::exp((shape.n() - one) * Real::ln(eta.abs()));
+    let loss = shape.sigma() * power * eta - (shape.sigma() - one) * direction * power * eta.abs();
+    shape.rho() * (direction - loss)
+}
+
+/// One classical Runge-Kutta step of (7) over an increment.
+#[inline]
+fn runge_kutta<T: Real>(shape: &Shape<T>, eta: T, change: T) -> T {
+    let direction = change.signum();
+    let (h, half) = (change.abs(), T::of(0.5));
+    let k1 = right_side(shape, eta, direction);
+    let k2 = right_side(shape, eta + half * h * k1, direction);
+    let k3 = right_side(shape, eta + half * h * k2, direction);
+    let k4 = right_side(shape, eta + h * k3, direction);
+    eta + h * (k1 + T::of(2.0) * (k2 + k3) + k4) / T::of(6.0)
+}
+
+/// One explicit Euler step of (7).
+#[inline]
+fn euler<T: Real>(shape: &Shape<T>, eta: T, change: T) -> T {
+    eta + change.abs() * right_side(shape, eta, change.signum())
+}
+
+fn input(k: usize) -> f64 {
+    16.0 * (std::f64::consts::PI * k as f64 * 1e-3).sin()
+}
+
+/// The changes of the input, sample by sample.
+fn changes<T: Real>() -> Vec<T> {
+    (1..SAMPLES)
+        .map(|k| T::of(input(k) - input(k - 1)))
+        .collect()
+}
+
+/// Jumps within ±16 N·m, repeatable.
+fn jumps<T: Real>() -> Vec<T> {
+    let (mut state, mut last) = (1_u64, 0.0);
+    (0..200)
+        .map(|_| {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            let now = 32.0 * ((state >> 11) as f64 / (1_u64 << 53) as f64) - 16.0;
+            let change = now - last;
+            last = now;
+            T::of(change)
+        })
+        .collect()
+}
+
+/// Largest error in kappa_eta·eta [N·m]; the reference takes the change in many parts.
+fn error<T: Real>(n: f64, changes: &[T], parts: u32, step: impl Fn(&Shape<T>, T, T) -> T) -> f64 {
+    let (exact, shape) = (shape::<f64>(n), shape::<T>(n));
+    let (mut reference, mut eta, mut most) = (0.0, T::zero(), 0.0_f64);
+    for &change in changes {
+        let part = change.as_f64() / f64::from(parts);
+        for _ in 0..parts {
+            reference = runge_kutta(&exact, reference, part);
+        }
+        eta = step(&shape, eta, change);
+        let here = (eta.as_f64() - reference).abs() * KAPPA_ETA;
+        most = if here <= most { most } else { here };
+        if here.is_nan() {
+            return f64::NAN;
+        }
+    }
+    most
+}
+
+fn accuracy(_: &mut Criterion) {
+    println!("largest error in kappa_eta*eta [N.m]   1 kHz record   jumps within 16 N.m");
+    let (record, leaps) = (changes::<f64>(), jumps::<f64>());
+    let (record32, leaps32) = (changes::<f32>(), jumps::<f32>());
+    let line =
+        |name: &str, slow: f64, fast: f64| println!("{name:<38} {slow:>12.1e} {fast:>15.1e}");
+    let general = 3.871;
+    let row = |name: &str, n: f64, step: fn(&Shape<f64>, f64, f64) -> f64| {
+        line(
+            name,
+            error(n, &record, 64, step),
+            error(n, &leaps, 20_000, step),
+        );
+    };
+    row("step, one power, f64", general, |s, eta, dx| {
+        s.advance(eta, dx)
+    });
+    row("four stages, f64", general, |s, eta, dx| {
+        s.advance_four_stage(eta, dx)
+    });
+    row("closed form n = 2, f64", 2.0, |s, eta, dx| {
+        s.advance(eta, dx)
+    });
+    row("Runge-Kutta 4, f64", general, runge_kutta);
+    row("explicit Euler, f64", general, euler);
+    let row = |name: &str, step: fn(&Shape<f32>, f32, f32) -> f32| {
+        line(
+            name,
+            error(general, &record32, 64, step),
+            error(general, &leaps32, 20_000, step),
+        );
+    };
+    row("step, one power, f32", |s, eta, dx| s.advance(eta, dx));
+    row("Runge-Kutta 4, f32", runge_kutta);
+}
+
+fn time<T: Real>(c: &mut Criterion, name: &str, n: f64, step: impl Fn(&Shape<T>, T, T) -> T) {
+    let (shape, changes) = (shape::<T>(n), changes::<T>());
+    let (mut eta, mut k) = (T::zero(), 0);
+    c.bench_function(name, |b| {
+        b.iter(|| {
+            k = if k + 1 < changes.len() { k + 1 } else { 0 };
+            eta = step(&shape, eta, black_box(changes[k]));
+            eta
+        });
+    });
+}
+
+fn speed(c: &mut Criterion) {
+    time::<f64>(c, "step, one power, f64", 3.871, |s, eta, dx| {
+        s.advance(eta, dx)
+    });
+    time::<f32>(c, "step, one power, f32", 3.871, |s, eta, dx| {
+        s.advance(eta, dx)
+    });
+    time::<f64>(c, "four stages, f64", 3.871, |s, eta, dx| {
+        s.advance_four_stage(eta, dx)
+    });
+    time::<f64>(c, "closed form n = 2, f64", 2.0, |s, eta, dx| {
+        s.advance(eta, dx)
+    });
+    time::<f64>(c, "Runge-Kutta 4, f64", 3.871, runge_kutta);
+    time::<f32>(c, "Runge-Kutta 4, f32", 3.871, runge_kutta);
+    let (shape, changes) = (shape::<f64>(3.871), changes::<f64>());
+    let (mut state, mut k) = (Sensitivity::start(0.0), 0);
+    c.bench_function("step with sensitivities, f64", |b| {
+        b.iter(|| {
+            k = if k + 1 < changes.len() { k + 1 } else { 0 };
+            state = shape.advance_with_sensitivity(state, black_box(changes[k]));
+            state
+        });
+    });
+}
+
+criterion_group! {
+    name = step;
+    config = Criterion::default()
+        .warm_up_time(std::time::Duration::from_millis(300))
+        .measurement_time(std::time::Duration::from_secs(1));
+    targets = accuracy, speed
+}
+criterion_main!(step);

@@ -1,0 +1,134 @@
+//! Signal conditioning: what it promises for good samples and for bad ones.
+
+use approx::assert_abs_diff_eq;
+use bowden::signal::{clamp, Derivative, DerivativeState, Guard, GuardState, Play, PlayState};
+use bowden::Error;
+use proptest::prelude::*;
+
+const BAD: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+
+#[test]
+fn clamp_keeps_nan_where_max_and_min_would_hide_it() {
+    assert!(clamp(f64::NAN, -1.0, 1.0).is_nan());
+    #[allow(clippy::manual_clamp)]
+    let hidden = f64::NAN.max(-1.0).min(1.0);
+    assert_eq!(hidden, -1.0);
+}
+
+#[test]
+fn the_guard_holds_the_last_good_sample_and_counts() {
+    let guard = Guard::try_new(10.0).unwrap();
+    let mut state = GuardState::new(0.5);
+    assert_eq!(guard.step(&mut state, f64::NAN), 0.5);
+    assert_eq!(guard.step(&mut state, -10.0), -10.0);
+    for (k, bad) in BAD.into_iter().chain([10.1]).enumerate() {
+        assert_eq!(guard.step(&mut state, bad), -10.0);
+        assert_eq!(state.consecutive_bad() as usize, k + 1);
+    }
+    assert_eq!(guard.step(&mut state, 3.0), 3.0);
+    assert_eq!(state.consecutive_bad(), 0);
+    assert_eq!(Guard::try_new(0.0), Err(Error::OutOfRange("limit")));
+    assert_eq!(Guard::try_new(f64::NAN), Err(Error::NonFinite("limit")));
+}
+
+#[test]
+fn a_wobble_within_the_play_moves_nothing() {
+    let play = Play::try_new(0.2).unwrap();
+    let mut state = PlayState::new();
+    play.step(&mut state, 1.0);
+    for x in [1.19, 0.81, 1.1, 0.9] {
+        assert_eq!(play.step(&mut state, x), 1.0);
+    }
+    assert_eq!(Play::try_new(-0.1), Err(Error::OutOfRange("half_width")));
+}
+
+#[test]
+fn bad_samples_leave_the_play_and_the_derivative_untouched() {
+    let (play, derivative) = (
+        Play::try_new(0.2).unwrap(),
+        Derivative::try_new(0.01).unwrap(),
+    );
+    let (mut p, mut d) = (PlayState::new(), DerivativeState::new());
+    assert_eq!(play.step(&mut p, f64::NAN), 0.0);
+    assert_eq!(p, PlayState::new());
+    for k in 0..20 {
+        play.step(&mut p, f64::from(k));
+        derivative.step(&mut d, f64::from(k), 1e-3);
+    }
+    let (held_p, held_d) = (p, d);
+    for bad in BAD {
+        assert_eq!(Some(play.step(&mut p, bad)), held_p.output());
+        assert_eq!(derivative.step(&mut d, bad, 1e-3), held_d.rate());
+        assert_eq!(derivative.step(&mut d, 0.0, bad), held_d.rate());
+    }
+    for dt in [0.0, -1e-3] {
+        assert_eq!(derivative.step(&mut d, 0.0, dt), held_d.rate());
+    }
+    assert_eq!((p, d), (held_p, held_d));
+}
+
+#[test]
+fn the_derivative_starts_without_a_kick() {
+    let derivative = Derivative::try_new(0.01).unwrap();
+    let mut state = DerivativeState::new();
+    assert_eq!(derivative.step(&mut state, 1e6, 1e-3), 0.0);
+    assert_eq!(derivative.step(&mut state, 1e6, 1e-3), 0.0);
+}
+
+#[test]
+fn the_time_constant_means_the_same_at_every_rate() {
+    let derivative = Derivative::try_new(0.02).unwrap();
+    for dt in [1e-4, 1e-3, 0.02_f64] {
+        let mut state = DerivativeState::new();
+        derivative.step(&mut state, 0.0, dt);
+        let steps = (0.02 / dt).round() as u32;
+        for k in 1..=steps {
+            derivative.step(&mut state, 5.0 * f64::from(k) * dt, dt);
+        }
+        // One time constant into a ramp of 5/s; rounding only, the lag is exact.
+        assert_abs_diff_eq!(state.rate(), 5.0 * (1.0 - (-1.0_f64).exp()), epsilon = 1e-9);
+    }
+}
+
+#[test]
+fn without_a_time_constant_it_is_the_difference_quotient() {
+    let derivative = Derivative::try_new(0.0).unwrap();
+    let mut state = DerivativeState::new();
+    derivative.step(&mut state, 1.0, 0.5);
+    assert_eq!(derivative.step(&mut state, 3.0, 0.5), 4.0);
+    assert_eq!(
+        Derivative::try_new(-1.0),
+        Err(Error::OutOfRange("time_constant"))
+    );
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, rng_seed: proptest::test_runner::RngSeed::Fixed(3), ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_clamped_number_is_within(x in prop::num::f32::NORMAL, a in -1e6..1e6_f32, b in -1e6..1e6_f32) {
+        let (low, high) = if a < b { (a, b) } else { (b, a) };
+        let got = clamp(x, low, high);
+        prop_assert!(low <= got && got <= high);
+        prop_assert!(got == x || x < low || x > high);
+    }
+
+    #[test]
+    fn the_play_stays_within_its_half_width(r in 0.0..3.0_f64, xs in prop::collection::vec(-10.0..10.0_f64, 1..50)) {
+        let play = Play::try_new(r).unwrap();
+        let mut state = PlayState::new();
+        for x in xs {
+            // x - r and x + r are rounded, to 1e-15 for numbers below 13.
+            prop_assert!((play.step(&mut state, x) - x).abs() <= r + 2e-15);
+        }
+    }
+
+    #[test]
+    fn no_sequence_of_floats_makes_the_derivative_bad(xs in prop::collection::vec((prop::num::f32::ANY, prop::num::f32::ANY), 1..50)) {
+        let derivative = Derivative::try_new(0.01_f32).unwrap();
+        let mut state = DerivativeState::new();
+        for (x, dt) in xs {
+            prop_assert!(derivative.step(&mut state, x, dt).is_finite());
+        }
+    }
+}

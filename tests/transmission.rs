@@ -1,0 +1,233 @@
+//! The transmission, its inverse, and what noise does to it.
+
+// Clippy's allowance covers the test functions, not what they share.
+#![allow(clippy::unwrap_used)]
+
+use approx::assert_abs_diff_eq;
+use bowden::hysteresis::{BoucWen, Shape};
+use bowden::signal::{Play, PlayState};
+use bowden::transmission::{Mode, Transmission};
+use bowden::{Error, Real};
+use proptest::prelude::*;
+use std::f64::consts::PI;
+
+fn paper(sigma: f64) -> Transmission<f64> {
+    let shape = Shape::try_new(0.095_82, sigma, 3.871).unwrap();
+    Transmission::torque(0.9978, 7.004, 0.051_74, shape).unwrap()
+}
+
+#[test]
+fn torque_mode_is_equation_six_and_displacement_mode_equation_one() {
+    let shape = Shape::try_new(0.1, 0.5, 2.0).unwrap();
+    let torque = Transmission::torque(0.75, 4.0, 0.5, shape).unwrap();
+    assert_eq!(torque.output(8.0, 0.25), 0.75 * 8.0 - 4.0 * 0.25 - 0.5);
+    assert_eq!(
+        (torque.mode(), torque.gain(), torque.kappa_eta()),
+        (Mode::Torque, 0.75, 4.0)
+    );
+    let force = Transmission::displacement(2.0, 4.0, 0.5, shape).unwrap();
+    assert_eq!(force.output(8.0, 0.25), 2.0 * 8.0 + 4.0 * 0.25 + 0.5);
+    assert_eq!(
+        (force.mode(), force.offset(), *force.shape()),
+        (Mode::Displacement, 0.5, shape)
+    );
+}
+
+#[test]
+fn refusals_carry_the_parameters_name() {
+    let shape = Shape::try_new(0.1, 0.5, 2.0).unwrap();
+    let nan = f64::NAN;
+    assert_eq!(
+        Transmission::torque(nan, 1.0, 0.0, shape),
+        Err(Error::NonFinite("b"))
+    );
+    assert_eq!(
+        Transmission::torque(1.0, 1.0, nan, shape),
+        Err(Error::NonFinite("t0"))
+    );
+    let refused = Transmission::displacement(1.0, f64::INFINITY, 0.0, shape);
+    assert_eq!(refused, Err(Error::NonFinite("kappa_eta")));
+}
+
+#[test]
+fn a_bad_sample_returns_the_output_at_the_last_good_input() {
+    let cable = paper(98.36);
+    let mut state = BoucWen::new();
+    assert_eq!(cable.step(&mut state, f64::NAN), 0.0);
+    cable.step(&mut state, 0.0);
+    let good = cable.step(&mut state, 5.0);
+    let before = state;
+    assert_eq!(cable.step(&mut state, f64::NEG_INFINITY), good);
+    assert_eq!(state, before);
+}
+
+#[test]
+fn the_inverse_exists_up_to_the_sigma_where_the_output_turns_back() {
+    // B/(2·kappa_eta·rho) = 0.7434 for the first set of the paper.
+    assert!(paper(0.7433).inverse().is_ok());
+    assert!(matches!(
+        paper(0.7436).inverse(),
+        Err(Error::Inadmissible(_))
+    ));
+    assert!(matches!(
+        paper(98.36).inverse(),
+        Err(Error::Inadmissible(_))
+    ));
+    // A spring's hysteresis adds to the slope: any sigma will do.
+    let steep = Shape::try_new(0.095_82, 98.36, 3.871).unwrap();
+    assert!(Transmission::displacement(1.0, 7.0, 0.0, steep)
+        .unwrap()
+        .inverse()
+        .is_ok());
+    assert!(Transmission::displacement(1.0, -7.0, 0.0, steep)
+        .unwrap()
+        .inverse()
+        .is_err());
+    assert!(Transmission::displacement(-1.0, -7.0, 0.0, steep)
+        .unwrap()
+        .inverse()
+        .is_ok());
+    assert!(Transmission::displacement(0.0, 7.0, 0.0, steep)
+        .unwrap()
+        .inverse()
+        .is_err());
+}
+
+#[test]
+fn a_bad_desired_output_holds_the_input() {
+    let inverse = paper(0.6).inverse().unwrap();
+    let mut state = BoucWen::new();
+    assert_eq!(inverse.step(&mut state, f64::NAN), 0.0);
+    assert_eq!(state, BoucWen::new());
+    inverse.step(&mut state, 1.0);
+    let held = inverse.step(&mut state, 3.0);
+    let before = state;
+    for bad in [f64::NAN, f64::INFINITY, f64::MAX, f64::MIN] {
+        let got = inverse.step(&mut state, bad);
+        assert!(got == held && state == before || got.is_finite());
+        state = before;
+    }
+}
+
+/// Largest error of forward(inverse(y)), in machine epsilons of the sum of its terms.
+fn round_trip<T: Real>(cable: &Transmission<T>, outputs: &[f64]) -> f64 {
+    let inverse = cable.inverse().unwrap();
+    let (mut solver, mut plant) = (BoucWen::new(), BoucWen::new());
+    let (mut most, mut last) = (0.0_f64, T::zero());
+    for &y in outputs {
+        let u = inverse.step(&mut solver, T::of(y));
+        let got = cable.step(&mut plant, u);
+        assert_eq!(solver, plant, "the solver is where the plant is");
+        // The difference of the inputs is rounded like the larger of them.
+        let inputs = cable.gain().abs() * (u.abs() + last.abs());
+        let terms = T::of(y).abs() + inputs + cable.kappa_eta().abs() + cable.offset().abs();
+        last = u;
+        most = most.max(((got - T::of(y)).abs() / terms / T::epsilon()).as_f64());
+    }
+    most
+}
+
+#[test]
+fn a_reference_at_one_kilohertz_comes_out_as_it_went_in() {
+    let outputs: Vec<f64> = (0..4000)
+        .map(|k| f64::from(k) * 1e-3)
+        .map(|t| 6.0 * (2.0 * PI * 0.7 * t).sin() + 2.0 * (2.0 * PI * 2.3 * t).sin())
+        .collect();
+    // 16 epsilons of the sum of all terms are documented.
+    assert!(round_trip(&paper(0.6), &outputs) < 16.0);
+    assert!(round_trip(&paper(0.743), &outputs) < 16.0);
+    let shape = Shape::try_new(0.095_82_f32, 0.6, 3.871).unwrap();
+    let cable = Transmission::torque(0.9978_f32, 7.004, 0.051_74, shape).unwrap();
+    assert!(round_trip(&cable, &outputs) < 16.0);
+}
+
+/// Gaussian noise by the sum of twelve uniform numbers, repeatable.
+struct Noise(u64);
+
+impl Noise {
+    fn next(&mut self) -> f64 {
+        let sum: f64 = (0..12)
+            .map(|_| {
+                self.0 = self
+                    .0
+                    .wrapping_mul(6_364_136_223_846_793_005)
+                    .wrapping_add(1_442_695_040_888_963_407);
+                (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+            })
+            .sum();
+        sum - 6.0
+    }
+}
+
+/// Rms error of kappa_eta·eta [N·m] that noise of 0.05 N·m rms on the input causes.
+fn noise_error(sigma: f64, half_width: f64) -> f64 {
+    let cable = paper(sigma);
+    let play = Play::try_new(half_width).unwrap();
+    let mut guard = PlayState::new();
+    let (mut clean, mut noisy, mut noise) = (BoucWen::new(), BoucWen::new(), Noise(1));
+    let (mut sum, samples) = (0.0, 20_000);
+    for k in 0..samples {
+        let t = f64::from(k) * 1e-3;
+        let slow = 25.0 + 10.0 * (2.0 * PI * 0.25 * t).sin();
+        let tau_i = slow + 3.0 * (2.0 * PI * 0.2 * 3_f64.sqrt() * t).sin();
+        let exact = cable.shape().step(&mut clean, tau_i);
+        let measured = play.step(&mut guard, tau_i + 0.05 * noise.next());
+        let eta = cable.shape().step(&mut noisy, measured);
+        sum += (cable.kappa_eta() * (eta - exact)).powi(2);
+    }
+    (sum / f64::from(samples)).sqrt()
+}
+
+#[test]
+fn noise_destroys_the_state_and_a_play_guards_it() {
+    let figures = [
+        noise_error(98.36, 0.0),
+        noise_error(0.5, 0.0),
+        noise_error(98.36, 0.2),
+        noise_error(0.5, 0.2),
+    ];
+    // One draw of 20 s; other draws differ by less than 10 %.
+    for (got, expected) in figures.into_iter().zip([3.7, 1.8, 0.74, 0.11]) {
+        assert_abs_diff_eq!(got, expected, epsilon = 0.1 * expected);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 128, failure_persistence: None, rng_seed: proptest::test_runner::RngSeed::Fixed(2), ..ProptestConfig::default() })]
+
+    #[test]
+    fn every_admissible_transmission_inverts_any_jump(
+        gain in 0.1..5.0_f64,
+        kappa_eta in -10.0..10.0_f64,
+        offset in -1.0..1.0_f64,
+        rho in 1e-3..1.0_f64,
+        n in 1.0..8.0_f64,
+        margin in 0.0..1.0_f64,
+        outputs in prop::collection::vec(-50.0..50.0_f64, 2..20),
+    ) {
+        // sigma anywhere up to the condition, where there is room above 1/2.
+        let most = gain / (2.0 * kappa_eta.abs() * rho);
+        prop_assume!(most > 0.5);
+        let shape = Shape::try_new(rho, (0.5 + margin * (most.min(200.0) - 0.5)) * 0.999_999, n);
+        prop_assume!(shape.is_ok());
+        let shape = shape.unwrap();
+        for cable in [
+            Transmission::torque(gain, kappa_eta, offset, shape).unwrap(),
+            Transmission::displacement(gain, kappa_eta, offset, shape).unwrap(),
+            Transmission::displacement(-gain, kappa_eta, offset, shape).unwrap(),
+        ] {
+            prop_assert!(round_trip(&cable, &outputs) < 16.0);
+        }
+    }
+
+    #[test]
+    fn the_inverse_never_fails_on_any_float(outputs in prop::collection::vec(prop::num::f32::ANY, 1..30)) {
+        let shape = Shape::try_new(0.095_82_f32, 0.7, 3.871).unwrap();
+        let inverse = Transmission::torque(0.9978_f32, 7.004, 0.05, shape).unwrap().inverse().unwrap();
+        let mut state = BoucWen::new();
+        for y in outputs {
+            prop_assert!(inverse.step(&mut state, y).is_finite());
+            prop_assert!(state.eta().abs() <= 1.0);
+        }
+    }
+}
