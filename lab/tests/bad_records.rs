@@ -300,6 +300,63 @@ fn a_row_that_does_not_fit_the_header_is_refused() {
 }
 
 #[test]
+fn a_line_of_any_length_gets_one_short_line() {
+    let length = 16 << 20;
+    let limit = "at most 65536 are read";
+    // As a header, as a row, of one cell, of many, of letters of two bytes, of blanks inside.
+    for pattern in ["1", "1,", "é", "\",", "x "] {
+        let long = pattern.repeat(length / pattern.len());
+        let bytes = long.trim_end().len();
+        refused(
+            &long,
+            &format!("r.csv:1: the line has {bytes} bytes, {limit}"),
+        );
+        refused(
+            format!("t,x,f\n0,1,2\n{long}\n0.02,1,2\n"),
+            &format!("r.csv:3: the line has {} bytes, {limit}", long.len()),
+        );
+    }
+}
+
+#[test]
+fn a_quote_that_stays_open_is_refused() {
+    refused(
+        with_line(400, "3.98,1,\"2"),
+        "r.csv:400: a quote is not closed before the end of the file",
+    );
+    // Not read, but it would hide the rows behind it.
+    let spare: Vec<_> = rows().iter().map(|row| format!("{row},ok")).collect();
+    let text = csv("t,x,f,note", &spare);
+    refused(
+        text.replace("3.98,", "3.98,1,2,\"see\n3.98,"),
+        "r.csv:400: a quote is not closed before the end of the file",
+    );
+    refused(
+        text + "4.00,1,2,\"",
+        "r.csv:402: a quote is not closed before the end of the file",
+    );
+    refused(
+        csv("t,x,\"f", &rows()),
+        "r.csv:1: a quote is not closed before the end of the file",
+    );
+    let mut long = with_line(57, "0.55,\"1,2");
+    long += &"4.00,1,2\n".repeat(100_000);
+    refused(
+        long,
+        "r.csv:57: a quote is not closed, or not within 65536 bytes",
+    );
+    // Closed by the next stray quote.
+    refused(
+        with_line(57, "0.55,\"1,2\n0.56,3,4\""),
+        "r.csv:57: 2 cells, the header has 3; a quote carries the row on to line 58",
+    );
+    refused(
+        with_line(57, "0.55,\"1,2\n0.56,\"3,4"),
+        "r.csv:57: column `x`: `1,2\\n0.56,3` is not a number",
+    );
+}
+
+#[test]
 fn time_that_does_not_run_forward_is_refused() {
     refused(
         with_line(57, "0.53,1,2"),

@@ -71,6 +71,56 @@ fn a_good_record_is_read_in_every_spelling() {
 }
 
 #[test]
+fn quoted_cells_hold_separators_quotes_and_line_ends() {
+    let plain = accepted(csv("t,x,f", &rows()));
+    for (newline, separator) in [("\n", ","), ("\r\n", ";"), ("\r", "\t")] {
+        let quoted = |(i, row): (usize, &String)| {
+            let cells: Vec<_> = row.split(',').map(|cell| format!("\"{cell}\"")).collect();
+            let note = match i {
+                7 => "\"the \"\"old\"\" jaw, as is; warm\"",
+                9 => "\"slipped,\n\nmounted anew\n\"",
+                _ => "\"\"",
+            };
+            format!("{},{note}", cells.join(",")).replace("\",\"", &format!("\"{separator}\""))
+        };
+        let rows: Vec<_> = rows().iter().enumerate().map(quoted).collect();
+        let header = [
+            "t",
+            "\"x [mm]\"",
+            "\"f\n[N]\"",
+            "\"what \"\"they\"\" said, or; not\"",
+        ];
+        let text = csv(&header.join(separator), &rows);
+        let record = accepted(text.replace('\n', newline));
+        assert_eq!(
+            (&record.time, &record.input.values, &record.output.values),
+            (&plain.time, &plain.input.values, &plain.output.values)
+        );
+        assert_eq!(record.output.name, "f");
+        assert_eq!(record.output.unit.as_deref(), Some("N"));
+        assert_eq!(
+            record.notes,
+            [
+                "columns not read: `what \"they\" said, or; not`",
+                "1 row goes over several lines, in quotes",
+            ]
+        );
+        // Lines are counted as an editor does, those inside quotes included.
+        let error = parse(
+            text.replace("\"0.20\"", "\"0,20\"")
+                .replace('\n', newline)
+                .as_bytes(),
+            "r.csv",
+            &Options::default(),
+        );
+        assert_eq!(
+            error.unwrap_err().to_string(),
+            "r.csv:26: column `t`: `0,20` has a decimal comma, a decimal point was expected"
+        );
+    }
+}
+
+#[test]
 fn channels_are_read_by_their_own_name_or_by_the_given_one() {
     let rows: Vec<_> = rows()
         .iter()

@@ -1,7 +1,7 @@
 //! The first line: which columns there are.
 
 use super::error::{shown, RecordError, NAME_LENGTH};
-use super::text::{cells, separator, Lines};
+use super::text::Rows;
 use super::{number, units};
 
 /// At most this many names are listed in a message.
@@ -17,7 +17,6 @@ pub(super) struct Named {
 
 pub(super) struct Header {
     pub(super) line: usize,
-    pub(super) separator: char,
     pub(super) columns: Vec<Named>,
 }
 
@@ -51,15 +50,25 @@ impl Header {
     }
 }
 
-pub(super) fn read(lines: &mut Lines<'_>) -> Result<Header, RecordError> {
-    let expected = "a header with column names was expected";
-    let Some(line) = lines.next() else {
-        return Err(RecordError::at(1, format!("the file is blank, {expected}")));
+pub(super) fn read(text: &str) -> Result<(Header, Rows<'_>), RecordError> {
+    let refuse = |what: &str| {
+        let message = format!("the {what}, a header with column names was expected");
+        Err(RecordError::at(1, message))
     };
-    let text = line?;
-    let line = lines.number();
-    let separator = separator(text);
-    let columns: Vec<Named> = cells(text, separator)
+    if text
+        .lines()
+        .next()
+        .is_some_and(|line| line.trim().is_empty())
+    {
+        return refuse("line has no names");
+    }
+    let mut rows = Rows::new(text);
+    let Some(row) = rows.read()? else {
+        return refuse("file is blank");
+    };
+    let line = row.line;
+    let columns: Vec<Named> = row
+        .cells()
         .map(|cell| {
             let (name, unit) = units::split(cell);
             Named {
@@ -74,23 +83,13 @@ pub(super) fn read(lines: &mut Lines<'_>) -> Result<Header, RecordError> {
         .filter(|column| !column.name.is_empty())
         .peekable();
     if named.peek().is_none() {
-        return Err(RecordError::at(
-            line,
-            format!("the line has no names, {expected}"),
-        ));
+        return refuse("line has no names");
     }
     if named.all(|column| number::is_number(&column.name)) {
-        return Err(RecordError::at(
-            line,
-            format!("the line holds numbers, {expected}"),
-        ));
+        return refuse("line holds numbers");
     }
     twice(&columns, line)?;
-    Ok(Header {
-        line,
-        separator,
-        columns,
-    })
+    Ok((Header { line, columns }, rows))
 }
 
 fn twice(columns: &[Named], line: usize) -> Result<(), RecordError> {

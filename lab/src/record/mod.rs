@@ -146,10 +146,9 @@ pub fn parse(bytes: &[u8], label: &str, options: &Options) -> Result<Record, Rec
 fn parse_lines(bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
     checks::options(options)?;
     let text = text::decode(bytes)?;
-    let mut lines = text::Lines::new(text);
-    let header = header::read(&mut lines)?;
+    let (header, mut rows) = header::read(&text)?;
     let roles = roles::assign(&header, options)?;
-    let table = rows::read(&mut lines, &header, &roles, options)?;
+    let table = rows::read(&mut rows, &header, &roles, options)?;
     checks::record(&table, &header, &roles)?;
 
     let mut notes = roles.notes;

@@ -3,7 +3,7 @@
 use super::error::RecordError;
 use super::header::Header;
 use super::roles::Roles;
-use super::text::{cells, Lines};
+use super::text::Rows;
 use super::time::Clock;
 use super::{number, Options, MIN_SAMPLES};
 
@@ -20,7 +20,7 @@ pub(super) struct Table {
 
 /// Reads the rows; values in rows that are cut away are not looked at.
 pub(super) fn read(
-    lines: &mut Lines<'_>,
+    rows: &mut Rows<'_>,
     header: &Header,
     roles: &Roles,
     options: &Options,
@@ -29,33 +29,30 @@ pub(super) fn read(
     let mut clock = Clock::new(header, roles.time, options)?;
     let mut values = vec![Vec::new(); columns.len()];
     let (mut time, mut numbers) = (Vec::new(), Vec::new());
-    let mut row: Vec<&str> = Vec::with_capacity(header.columns.len());
-    while let Some(text) = lines.next() {
-        let (text, line) = (text?, lines.number());
-        row.clear();
-        row.extend(cells(text, header.separator));
-        if text.trim().is_empty() && header.columns.len() > 1 {
-            return Err(RecordError::at(
-                line,
-                "the line is blank, but rows follow it",
-            ));
-        }
+    // Rows of several lines.
+    let mut carried = 0;
+    while let Some(row) = rows.read()? {
+        let line = row.line;
         if row.len() != header.columns.len() {
-            let message = format!(
+            let mut message = format!(
                 "{} cells, the header has {}",
                 row.len(),
                 header.columns.len()
             );
+            if row.last > line {
+                message += &format!("; a quote carries the row on to line {}", row.last);
+            }
             return Err(RecordError::at(line, message));
         }
-        let Some(t) = clock.stamp(&row, line)? else {
+        carried += usize::from(row.last > line);
+        let Some(t) = clock.stamp(&row)? else {
             continue;
         };
         time.push(t);
         numbers.push(line);
         for (values, index) in values.iter_mut().zip(&columns) {
             values.push(number::read(
-                row[*index],
+                row.cell(*index),
                 line,
                 &header.columns[*index].name,
             )?);
@@ -72,7 +69,7 @@ pub(super) fn read(
         };
         let message =
             format!("too short: {left} {samples}{cut}, at least {MIN_SAMPLES} are needed");
-        return Err(RecordError::at(lines.number(), message));
+        return Err(RecordError::at(rows.line(), message));
     }
     let mut notes = clock.notes(&time);
     let start = time.first().copied().unwrap_or_default();
@@ -82,6 +79,11 @@ pub(super) fn read(
         .and_then(|index| header.columns[index].unit.as_deref())
     {
         notes.extend((unit != "s").then(|| format!("time converted from {unit} to s")));
+    }
+    match carried {
+        0 => {}
+        1 => notes.push("1 row goes over several lines, in quotes".to_owned()),
+        _ => notes.push(format!("{carried} rows go over several lines, in quotes")),
     }
     Ok(Table {
         time,

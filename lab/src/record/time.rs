@@ -2,6 +2,7 @@
 
 use super::error::{shown, RecordError, NAME_LENGTH};
 use super::header::Header;
+use super::text::Row;
 use super::{number, units, Options};
 
 /// Turns rows into seconds since the first row, and cuts.
@@ -64,11 +65,11 @@ impl Clock {
     }
 
     /// Time of the next row \[s\] since the first one; `None` where it is cut.
-    pub(super) fn stamp(&mut self, row: &[&str], line: usize) -> Result<Option<f64>, RecordError> {
+    pub(super) fn stamp(&mut self, row: &Row<'_>) -> Result<Option<f64>, RecordError> {
         let t = match &self.source {
             Source::Rate(rate) => self.rows as f64 / rate,
             Source::Column { index, name, scale } => {
-                let cell = row.get(*index).copied().unwrap_or_default();
+                let (cell, line) = (row.cell(*index), row.line);
                 let stamp = number::read(cell, line, name)? * scale;
                 if self.rows == 0 {
                     self.first = stamp;
