@@ -46,7 +46,7 @@ impl<T: Real> Regressor<T> for Backlash<T> {
         let x = at.motion.position;
         let before = state.memory.map_or(x, |[play, ..]| play);
         let play = clamp(before, x - self.r, x + self.r);
-        state.memory = Some([play, T::zero(), T::zero()]);
+        state.memory = Some([play, T::zero(), T::zero(), T::zero()]);
         play - x
     }
 }

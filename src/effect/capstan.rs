@@ -1,32 +1,38 @@
 //! The capstan: friction grows with the tension and with the wrap.
 //!
-//! Formula: `load·x·tanh(v/v_e)`, x the wrap angle. It is the first term of
-//! Euler-Eytelwein's `load·(exp(mu·x·sgn v) − 1)`, and the gain is the friction
-//! coefficient mu \[1/rad\].
+//! Formula: `load·(exp(mu·x) − 1)/mu·tanh(v/v_e)`, x the wrap angle from its origin.
+//! With a gain of mu it is Euler-Eytelwein's `load·(exp(mu·x) − 1)`, what friction adds
+//! to the tension along the wrap; as mu goes to zero it is `load·x·tanh(v/v_e)`.
+//! A wrap x_0 at the origin adds load friction, `load·(exp(mu·x_0) − 1)·tanh(v/v_e)`,
+//! and makes the gain `mu·exp(mu·x_0)`. The wrap grows with x, so that mu is positive.
 //!
 //! Source: L. Euler, 1762; J. A. Eytelwein, 1808; for tendons, M. Kaneko,
 //! T. Yamashita, K. Tanie, "Basic considerations on transmission characteristics
 //! for tendon drive robots", *ICAR*, 1991.
 
+use super::bounds::saturate;
 use super::coulomb::sign;
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
-use super::Symmetry::Odd;
+use super::Symmetry::{Neither, Odd};
 use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
 use crate::Real;
 
 shaped! {
-    /// Friction in proportion to tension and wrap.
+    /// Friction in proportion to the tension, exponential in the wrap.
     ///
     /// ```
     /// use bowden::{effect::capstan::Capstan, Error};
-    /// assert_eq!(Capstan::try_new(0.5)?.v_e(), 0.5);
-    /// assert_eq!(Capstan::try_new(0.0), Err(Error::OutOfRange("v_e")));
+    /// assert_eq!(Capstan::try_new(0.5, 0.2)?.mu(), 0.2);
+    /// assert_eq!(Capstan::try_new(0.0, 0.2), Err(Error::OutOfRange("v_e")));
+    /// assert_eq!(Capstan::try_new(0.5, 0.0), Err(Error::OutOfRange("mu")));
     /// # Ok::<(), Error>(())
     /// ```
     Capstan {
         /// Velocity at which friction reaches 76 % \[channel unit/s\].
         v_e: Positive, Dimension::VELOCITY;
+        /// Friction coefficient of the wrap \[1/channel unit\].
+        mu: Positive, Dimension { channel: -1, ..Dimension::ONE };
     }
 }
 
@@ -34,19 +40,31 @@ impl<T: Real> Regressor<T> for Capstan<T> {
     const INFO: &'static Info = &Info {
         name: "capstan",
         family: Family::Capstan,
-        formula: "load·x·tanh(v/v_e)",
+        formula: "load·(exp(mu·x)−1)/mu·tanh(v/v_e)",
         dimension: Dimension {
             channel: 1,
             load: 1,
             ..Dimension::ONE
         },
-        parity: Parity::new(Odd, Odd),
+        parity: Parity::new(Neither, Odd),
         reads: &[Quantity::Load, Quantity::Position, Quantity::Velocity],
         memory: false,
     };
 
     #[inline]
     fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
-        at.load * sign(at.motion.velocity, self.v_e) * at.motion.position
+        at.load * sign(at.motion.velocity, self.v_e) * growth(at.motion.position, self.mu)
+    }
+}
+
+/// `(exp(mu·x) − 1)/mu`, and x itself where they differ by less than rounding: there
+/// the product may be subnormal or 0 and the quotient anything.
+#[inline]
+fn growth<T: Real>(x: T, mu: T) -> T {
+    let exponent = mu * x;
+    if exponent.abs() < T::epsilon() {
+        x
+    } else {
+        saturate(exponent.exp_m1() / mu)
     }
 }

@@ -1,29 +1,43 @@
 //! Degradation: the loop shrinks, or grows, with the work done.
 //!
-//! Formula: `eta·W`, `W = ∫|eta|·|dx|` along the transmission's input (trapezoids, from
-//! the first sample on), whatever the channel.
+//! Formula: `eta·(1 − exp(−W/w_c))`, `W = ∫|eta|·|dx|` along the transmission's input
+//! (trapezoids, from the first sample on), whatever the channel. For W ≪ w_c it is the
+//! linear `eta·W/w_c`; it ends at `eta`, so that the loop has run in and stays bounded.
+//! The sum is compensated, so that small steps count in `f32` too.
 //!
 //! Source: T. T. Baber, Y.-K. Wen, "Random vibration of hysteretic, degrading
-//! systems", *Journal of the Engineering Mechanics Division* 107(6), 1981.
+//! systems", *Journal of the Engineering Mechanics Division* 107(6), 1981, linear in the
+//! work; the exponential bounds it.
 
 use super::bounds::saturate;
 use super::info::{Info, Regressor};
+use super::shaped::shaped;
+use super::sum::add;
 use super::Symmetry::{Neither, Odd};
 use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
 use crate::Real;
 
-#[derive(Clone, Copy)]
-pub(super) struct Degradation;
+shaped! {
+    /// A loop that changes with the work and settles.
+    ///
+    /// ```
+    /// use bowden::{effect::degradation::Degradation, Error};
+    /// assert_eq!(Degradation::try_new(40.0)?.w_c(), 40.0);
+    /// assert_eq!(Degradation::try_new(0.0), Err(Error::OutOfRange("w_c")));
+    /// # Ok::<(), Error>(())
+    /// ```
+    Degradation {
+        /// Work after which 63 % of the change is done \[input unit\].
+        w_c: Positive, Dimension { input: 1, ..Dimension::ONE };
+    }
+}
 
-impl<T: Real> Regressor<T> for Degradation {
+impl<T: Real> Regressor<T> for Degradation<T> {
     const INFO: &'static Info = &Info {
         name: "degradation",
         family: Family::Degradation,
-        formula: "eta·∫|eta|·|dx|",
-        dimension: Dimension {
-            input: 1,
-            ..Dimension::ONE
-        },
+        formula: "eta·(1−exp(−∫|eta|·|dx|/w_c))",
+        dimension: Dimension::ONE,
         parity: Parity::new(Odd, Neither),
         reads: &[Quantity::Eta, Quantity::Input],
         memory: true,
@@ -32,11 +46,12 @@ impl<T: Real> Regressor<T> for Degradation {
     #[inline]
     fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
         let (x, eta) = (at.input.position, at.eta);
-        let [x_before, eta_before, work] = state.memory.unwrap_or([x, eta, T::zero()]);
+        let fresh = [x, eta, T::zero(), T::zero()];
+        let [x_before, eta_before, work, carry] = state.memory.unwrap_or(fresh);
         let path = (x - x_before).abs();
         let mean = eta.abs() * T::of(0.5) + eta_before.abs() * T::of(0.5);
-        let work = saturate(work + saturate(mean * path));
-        state.memory = Some([x, eta, work]);
-        eta * work
+        let [work, carry] = add([work, carry], saturate(mean * path));
+        state.memory = Some([x, eta, work, carry]);
+        -eta * (-work / self.w_c).exp_m1()
     }
 }

@@ -32,13 +32,13 @@ impl<T: Real> Regressor<T> for Delay {
     #[inline]
     fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
         let Some([before, ..]) = state.memory else {
-            state.memory = Some([at.output, T::zero(), T::zero()]);
+            state.memory = Some([at.output, T::zero(), T::zero(), T::zero()]);
             return T::zero();
         };
         if at.dt == T::zero() {
             return T::zero();
         }
-        state.memory = Some([at.output, T::zero(), T::zero()]);
+        state.memory = Some([at.output, T::zero(), T::zero(), T::zero()]);
         (before - at.output) / at.dt
     }
 }

@@ -26,7 +26,7 @@ pub struct Dimension {
     /// Exponent of the unit of the output.
     pub output: i8,
     /// Exponent of the unit of the transmission's input, where that is read
-    /// whatever the channel (`degradation` only).
+    /// whatever the channel (the shape of `degradation` only).
     pub input: i8,
 }
 

@@ -55,6 +55,6 @@ pub(super) fn low_pass<T: Real>(state: &mut EffectState<T>, input: T, tau: T, dt
             saturate(level + share * saturate(input - level))
         }
     };
-    state.memory = Some([level, T::zero(), T::zero()]);
+    state.memory = Some([level, T::zero(), T::zero(), T::zero()]);
     level
 }

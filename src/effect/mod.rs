@@ -15,6 +15,7 @@ mod family;
 mod info;
 mod shaped;
 mod situation;
+mod sum;
 
 pub mod asymmetry;
 pub mod backlash;
@@ -88,7 +89,7 @@ macro_rules! effects {
         ///
         /// ```
         /// let with_memory = bowden::effect::CATALOGUE.iter().filter(|info| info.memory);
-        /// assert_eq!(with_memory.count(), 6);
+        /// assert_eq!(with_memory.count(), 7);
         /// ```
         pub const CATALOGUE: &[&Info] = &[
             $($(<$module::$plain as Regressor<f64>>::INFO,)+)*
@@ -188,7 +189,6 @@ effects! {
         position_friction: PositionHysteresis;
         delay: Delay;
         rate: Rate RateSymmetric;
-        degradation: Degradation;
         drift: Drift;
         crosstalk: Crosstalk;
     }
@@ -205,7 +205,8 @@ effects! {
         backlash: Backlash DeadZone;
         lag: Lag;
         creep: Creep;
-        presliding: Presliding;
+        presliding: Presliding PreslidingDahl;
+        degradation: Degradation;
         pinching: Pinching;
         pretension: Pretension;
         temperature: Temperature;

@@ -4,12 +4,18 @@
 //! plastic). Each cycle wider than 2·r dissipates; the loop's area is
 //! `4·(X − r)` for a cycle of amplitude X > r, and 0 below. It starts at s = 0.
 //!
+//! The second, `dahl(x; r)`, bends instead of slipping: `dz/dx = (1 − z·sgn dx)/r`,
+//! Dahl's equation with exponent 1. Between two samples x runs one way, and the step
+//! `z ← sgn dx + (z − sgn dx)·exp(−|dx|/r)` is exact for any dx. Every cycle dissipates:
+//! the loop's area is `4·(X − r·tanh(X/r))`, its height ±tanh(X/r). It starts at z = 0.
+//!
 //! Source: L. Prandtl, 1928; P. R. Dahl, *A Solid Friction Model*, 1968; stops in
 //! parallel, F. Al-Bender, V. Lampaert, J. Swevers, "The generalized Maxwell-slip
 //! model", *IEEE Transactions on Automatic Control* 50(11), 2005.
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
+use super::sum::add;
 use super::Symmetry::{Neither, Odd};
 use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
 use crate::signal::clamp;
@@ -44,9 +50,59 @@ impl<T: Real> Regressor<T> for Presliding<T> {
     #[inline]
     fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
         let x = at.motion.position;
-        let [before, stretch, _] = state.memory.unwrap_or([x, T::zero(), T::zero()]);
+        let [before, stretch, ..] = state.memory.unwrap_or(fresh(x));
         let stretch = clamp(stretch + (x - before), -self.r, self.r);
-        state.memory = Some([x, stretch, T::zero()]);
+        state.memory = Some([x, stretch, T::zero(), T::zero()]);
         stretch / self.r
     }
+}
+
+shaped! {
+    /// Dahl's curve of length `r`, of unit height.
+    ///
+    /// ```
+    /// use bowden::{effect::presliding::PreslidingDahl, Error};
+    /// assert_eq!(PreslidingDahl::try_new(0.5)?.r(), 0.5);
+    /// assert_eq!(PreslidingDahl::try_new(0.0), Err(Error::OutOfRange("r")));
+    /// # Ok::<(), Error>(())
+    /// ```
+    PreslidingDahl {
+        /// Distance after which 63 % of the change is done \[channel unit\].
+        r: Positive, Dimension::POSITION;
+    }
+}
+
+impl<T: Real> Regressor<T> for PreslidingDahl<T> {
+    const INFO: &'static Info = &Info {
+        name: "presliding-dahl",
+        family: Family::Presliding,
+        formula: "dahl(x; r)",
+        dimension: Dimension::ONE,
+        parity: Parity::new(Odd, Neither),
+        reads: &[Quantity::Position],
+        memory: true,
+    };
+
+    #[inline]
+    fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
+        let x = at.motion.position;
+        let [before, z, carry, _] = state.memory.unwrap_or(fresh(x));
+        let change = x - before;
+        let share = -(-change.abs() / self.r).exp_m1();
+        let end = if change < T::zero() {
+            -T::one()
+        } else {
+            T::one()
+        };
+        let [z, carry] = add([z, carry], (end - z) * share);
+        // Rounding keeps within ±1 by itself; a state that was read may not be.
+        let z = clamp(z, -T::one(), T::one());
+        state.memory = Some([x, z, carry, T::zero()]);
+        z
+    }
+}
+
+/// The memory at the first sample: neither spring has moved.
+fn fresh<T: Real>(x: T) -> [T; 4] {
+    [x, T::zero(), T::zero(), T::zero()]
 }

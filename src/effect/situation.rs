@@ -84,7 +84,7 @@ impl<T: Real> Situation<T> {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct EffectState<T> {
-    pub(super) memory: Option<[T; 3]>,
+    pub(super) memory: Option<[T; 4]>,
 }
 
 impl<T> EffectState<T> {
@@ -104,7 +104,7 @@ where
     fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         #[derive(serde::Deserialize)]
         struct Fields<T> {
-            memory: Option<[T; 3]>,
+            memory: Option<[T; 4]>,
         }
         let Fields { memory } = Fields::<T>::deserialize(from)?;
         if memory.iter().flatten().all(|value| value.is_finite()) {

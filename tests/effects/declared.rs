@@ -2,7 +2,7 @@
 
 use crate::{along, make, names, plausible};
 use approx::assert_relative_eq;
-use bowden::effect::{Dimension, Motion, Situation, Symmetry, CATALOGUE};
+use bowden::effect::{Dimension, Effect, Motion, Situation, Symmetry, CATALOGUE};
 use proptest::prelude::*;
 
 /// The catalogue's formulas written out once more, for every effect without memory.
@@ -27,7 +27,7 @@ fn closed_form(name: &str, at: &Situation<f64>) -> f64 {
         "asymmetry-eta" => eta.max(-eta),
         "asymmetry-eta-squared" => eta.powi(2),
         "load-friction" => load.max(-load) * (v / w).tanh(),
-        "capstan" => load * x * (v / w).tanh(),
+        "capstan" => load * ((0.3 * x).exp() - 1.0) / 0.3 * (v / w).tanh(),
         "drive-friction" => f64::from(load * v > 0.0) * load.abs() * (v / w).tanh(),
         "back-drive-friction" => f64::from(load * v < 0.0) * load.abs() * (v / w).tanh(),
         "inertia" => a,
@@ -109,6 +109,55 @@ proptest! {
                 // Sines of angles up to 100 rad lose two digits; the rest is rounding.
                 assert_relative_eq!(is, expected, max_relative = 1e-9, epsilon = 1e-9);
             }
+        }
+    }
+}
+
+/// Sliding fast under a load of 2: the capstan's wrap alone, times 2.
+fn wrapped<T: bowden::Real>(mu: T, position: T) -> T {
+    let motion = Motion {
+        position,
+        velocity: T::of(1e3),
+        acceleration: T::zero(),
+    };
+    let at = Situation {
+        motion,
+        load: T::of(2.0),
+        ..Situation::default()
+    };
+    let effect = Effect::try_from_name("capstan", &[T::one(), mu]).unwrap();
+    along(&effect, &[at])[0]
+}
+
+#[test]
+fn the_capstan_grows_as_the_exponential_of_the_wrap() {
+    for mu in [0.02, 0.3, 4.0_f64] {
+        for x in [-6.0, -0.5, 0.0, 0.5, 6.0] {
+            let expected = 2.0 * ((mu * x).exp() - 1.0) / mu;
+            // The 1 that is taken off loses one part in 1e16 over mu·x ≥ 0.01.
+            assert_relative_eq!(wrapped(mu, x), expected, max_relative = 1e-13);
+        }
+        // Two wraps one after the other multiply their tensions: 1 + mu·g(a + b).
+        let tension = |x: f64| 1.0 + mu * wrapped(mu, x) / 2.0;
+        let product = tension(0.4) * tension(1.1);
+        assert_relative_eq!(tension(1.5), product, max_relative = 1e-14);
+    }
+    // Unwound for ever, nothing of the tension is left.
+    assert_eq!(wrapped(0.5, -1e6), -4.0);
+}
+
+#[test]
+fn the_capstan_is_linear_in_the_wrap_as_mu_goes_to_zero() {
+    for x in [-3.0, -1e-9, 1e-200, 0.25, 3.0, 1e6] {
+        // The next term of the series is mu·x²/2: 5e-7 of x at most.
+        for mu in [1e-12, 1e-16, 1e-100, f64::MIN_POSITIVE, f64::from_bits(1)] {
+            let next = mu * f64::abs(x) / 2.0;
+            assert_relative_eq!(wrapped(mu, x), 2.0 * x, max_relative = 1.01 * next + 1e-15);
+        }
+    }
+    for x in [-3.0, 1e-3, 0.25, 1e20] {
+        for mu in [f32::MIN_POSITIVE, 1e-40, f32::from_bits(1)] {
+            assert_eq!(wrapped(mu, x), 2.0 * x, "{mu:e} {x}");
         }
     }
 }

@@ -14,6 +14,7 @@ use proptest::prelude::*;
 fn make<T: Real>(name: &str) -> Effect<T> {
     let shapes: &[f64] = match name {
         "stribeck" => &[0.6, 1.7],
+        "capstan" => &[0.7, 0.3],
         "ripple" => &[3.3, 0.4],
         "tone" => &[1.9, 0.8],
         _ => &[0.7],

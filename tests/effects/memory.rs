@@ -3,6 +3,8 @@
 use crate::{along, make};
 use approx::assert_relative_eq;
 use bowden::effect::{EffectState, Motion, Situation};
+use bowden::Real;
+use proptest::prelude::*;
 
 /// Samples of one channel, all other numbers quiet.
 fn stroke(positions: impl IntoIterator<Item = f64>, dt: f64) -> Vec<Situation<f64>> {
@@ -164,30 +166,225 @@ fn presliding_dissipates_the_area_that_its_docs_state() {
     }
 }
 
+/// Dahl's curve at the given positions, with `r` = 0.7.
+fn dahl(positions: impl IntoIterator<Item = f64>) -> Vec<f64> {
+    along(&make("presliding-dahl"), &stroke(positions, 0.01))
+}
+
+#[test]
+fn dahls_branches_are_exponentials_at_any_step() {
+    let r = 0.7_f64;
+    // Up from 0.4 to 1.9, down to −1, up to 3: steps of many widths, one of them none.
+    let steps = (0..60).map(|k| [0.03, 0.001, 0.0, 0.08, 0.014][k % 5]);
+    let way: Vec<f64> = steps
+        .scan(0.0, |way, step| {
+            *way += step;
+            Some(*way)
+        })
+        .collect();
+    let length = way.last().unwrap();
+    let along_the = |from: f64, to: f64| {
+        let scale = (to - from) / length;
+        way.iter().map(move |s| from + scale * s)
+    };
+    let ends = [0.4, 1.9, -1.0, 3.0];
+    let strokes = ends
+        .windows(2)
+        .flat_map(|ends| along_the(ends[0], ends[1]).map(move |x| (ends[0], x, ends[1])));
+    let strokes: Vec<(f64, f64, f64)> = strokes.collect();
+    let found = dahl([ends[0]].into_iter().chain(strokes.iter().map(|at| at.1)));
+    assert_eq!(found[0], 0.0);
+    let (mut start, mut last) = (0.0, ends[0]);
+    for (&(from, x, to), &z) in strokes.iter().zip(&found[1..]) {
+        let branch = |start: f64| {
+            let way = (x - from).abs();
+            if to > from {
+                1.0 + (start - 1.0) * (-way / r).exp()
+            } else {
+                -1.0 + (start + 1.0) * (-way / r).exp()
+            }
+        };
+        if from != last {
+            // At the reversal: z where the branch before it ended.
+            let width = (from - last).abs();
+            let end = (from - last).signum();
+            start = end + (start - end) * (-width / r).exp();
+            last = from;
+        }
+        assert_relative_eq!(z, branch(start), max_relative = 1e-13, epsilon = 1e-14);
+    }
+}
+
+#[test]
+fn dahls_loop_has_the_area_and_the_height_that_its_docs_state() {
+    let r = 0.7_f64;
+    for amplitude in [0.1, 0.5, 2.0, 9.0] {
+        let cycle =
+            |k: i32| amplitude * (1.0 - f64::from((k.rem_euclid(4000) - 2000).abs()) / 1000.0);
+        let path: Vec<f64> = (0..=200_000).map(cycle).collect();
+        let curve = dahl(path.iter().copied());
+        assert!(curve.iter().all(|z| z.abs() <= 1.0));
+        // Each cycle forgets its start by exp(−4·X/r): 50 of them, 1e-12 at worst.
+        let height = (amplitude / r).tanh();
+        assert_relative_eq!(curve[198_000], height, max_relative = 1e-11);
+        assert_relative_eq!(curve[200_000], -height, max_relative = 1e-11);
+        let area: f64 = (196_001..=200_000)
+            .map(|k| 0.5 * (curve[k] + curve[k - 1]) * (path[k] - path[k - 1]))
+            .sum();
+        let expected = 4.0 * (amplitude - r * height);
+        // Trapezoids: dx²/12·(z' at the end − at the start) on each branch, z' ≤ 2/r.
+        let missed = 2.0 * (amplitude / 1000.0_f64).powi(2) / 12.0 * 2.0 / r;
+        assert_relative_eq!(area, expected, epsilon = missed);
+    }
+}
+
+#[test]
+fn dahls_curve_starts_as_the_stops_spring_and_ends_at_one() {
+    let [rest, early] = dahl([5.0, 5.0 + 7e-9])[..] else {
+        unreachable!()
+    };
+    assert_eq!(rest, 0.0);
+    assert_relative_eq!(early, 1e-8, max_relative = 1e-7); // 5 + 7e-9 is rounded to 9e-16
+    assert_eq!(dahl([0.0, 1e3]), [0.0, 1.0]);
+    assert_eq!(dahl([0.0, -1e3, -1e3, 0.7]), {
+        let back = 1.0 - 2.0 * (-1000.7_f64 / 0.7).exp();
+        [0.0, -1.0, -1.0, back]
+    });
+}
+
+#[test]
+fn dahls_curve_in_single_precision_does_not_stall_on_small_steps() {
+    let effect = make::<f32>("presliding-dahl").with_shape(0, 1.0).unwrap();
+    let mut state = EffectState::default();
+    let mut z = 0.0;
+    // Steps of 2^-20·r, exact in f32: without compensation z halts 3 % below 1.
+    for k in 0_u16..=5 * 1024 {
+        for fine in 0_u16..1024 {
+            let motion = Motion {
+                position: f32::from(k) / 1024.0 + f32::from(fine) / 1_048_576.0,
+                ..Motion::default()
+            };
+            let at = Situation {
+                motion,
+                ..Situation::default()
+            };
+            z = effect.regressor(&mut state, &at);
+        }
+    }
+    let way = 5.0 + 1023.0 / 1_048_576.0_f64;
+    assert_relative_eq!(f64::from(z), 1.0 - (-way).exp(), epsilon = 2e-7);
+}
+
+proptest! {
+    #[test]
+    fn dahls_curve_stays_within_one(
+        path in prop::collection::vec(prop_oneof![-3.0..3.0_f32, prop::num::f32::NORMAL], 1..200),
+        r in prop_oneof![0.01..3.0_f32, prop::num::f32::POSITIVE | prop::num::f32::NORMAL | prop::num::f32::SUBNORMAL],
+    ) {
+        let effect = make::<f32>("presliding-dahl").with_shape(0, r).unwrap();
+        let mut state = EffectState::default();
+        for position in path {
+            let motion = Motion { position, ..Motion::default() };
+            let z = effect.regressor(&mut state, &Situation { motion, ..Situation::default() });
+            prop_assert!(z.abs() <= 1.0, "{z}");
+        }
+    }
+
+    #[test]
+    fn degradation_stays_within_eta_and_has_its_sign(
+        path in prop::collection::vec((prop_oneof![-3.0..3.0_f32, prop::num::f32::NORMAL], -1.0..=1.0_f32), 1..200),
+        w_c in prop_oneof![0.01..30.0_f32, prop::num::f32::POSITIVE | prop::num::f32::NORMAL],
+    ) {
+        let effect = make::<f32>("degradation").with_shape(0, w_c).unwrap();
+        let path: Vec<_> = path.iter().map(|&(x, eta)| worked(x, eta)).collect();
+        for (at, value) in path.iter().zip(along(&effect, &path)) {
+            prop_assert!(value.abs() <= at.eta.abs() && value * at.eta >= 0.0, "{value} of {}", at.eta);
+        }
+    }
+}
+
+/// The transmission at an input and a hysteresis state.
+fn worked<T: Real>(position: T, eta: T) -> Situation<T> {
+    let input = Motion {
+        position,
+        ..Motion::default()
+    };
+    Situation {
+        eta,
+        input,
+        ..Situation::default()
+    }
+}
+
 #[test]
 fn degradation_accumulates_the_path_weighted_with_eta() {
-    let at = |position: f64, eta: f64| Situation {
-        eta,
-        input: Motion {
-            position,
-            ..Motion::default()
-        },
-        ..Situation::default()
-    };
     let path = [
-        at(1.0, 0.5),
-        at(3.0, 0.5),
-        at(2.0, -0.5),
-        at(2.0, -1.0),
-        at(6.0, 0.0),
+        worked(1.0, 0.5),
+        worked(3.0, 0.5),
+        worked(2.0, -0.5),
+        worked(2.0, -1.0),
+        worked(6.0, 0.0),
+        worked(6.0, 1.0),
     ];
-    // W = 0, then 0.5·2 = 1, then + 0.5·1, then + nothing, then + (1 + 0)/2·4.
-    assert_eq!(
-        along(&make("degradation"), &path),
-        [0.0, 0.5, -0.75, -1.5, 0.0]
-    );
-    let again = [path.as_slice(), &[at(6.0, 1.0)]].concat();
-    assert_eq!(along(&make("degradation"), &again).last(), Some(&3.5));
+    // W = 0, then 0.5·2 = 1, then + 0.5·1, then + nothing, then + (1 + 0)/2·4, + nothing.
+    let work = [0.0, 1.0, 1.5, 1.5, 3.5, 3.5];
+    for w_c in [0.7, 5.0] {
+        let effect = make::<f64>("degradation").with_shape(0, w_c).unwrap();
+        let values = along(&effect, &path);
+        for ((at, w), value) in path.iter().zip(work).zip(values) {
+            let expected = at.eta * (1.0 - (-w / w_c).exp());
+            assert_relative_eq!(value, expected, max_relative = 1e-15, epsilon = 1e-16);
+        }
+    }
+    // At little work it is eta·W/w_c, to the part W/w_c/2: here to the last bit.
+    let slow = 2.0_f64.powi(60);
+    let effect = make::<f64>("degradation").with_shape(0, slow).unwrap();
+    let linear: Vec<f64> = along(&effect, &path).iter().map(|v| v * slow).collect();
+    assert_eq!(linear, [0.0, 0.5, -0.75, -1.5, 0.0, 3.5]);
+}
+
+#[test]
+fn degradation_is_linear_in_the_work_at_first_and_ends_at_eta() {
+    // eta = x/4 from 0 to 4: the trapezoids are exact, W = x²/8.
+    let ramp: Vec<_> = (0..=400_u16)
+        .map(|k| 0.01 * f64::from(k))
+        .map(|x| worked(x, x / 4.0))
+        .collect();
+    for w_c in [20.0, 200.0, 2e6] {
+        let effect = make::<f64>("degradation").with_shape(0, w_c).unwrap();
+        for (at, value) in ramp.iter().zip(along(&effect, &ramp)) {
+            let w = at.input.position.powi(2) / 8.0;
+            let linear = at.eta * w / w_c;
+            // 1 − exp(−u) lies between u − u²/2 and u.
+            let short = linear * w / w_c / 2.0;
+            let rounding = 1e-13 * linear;
+            assert!(value <= linear + rounding && value >= linear - short - rounding);
+        }
+    }
+    let long = [worked(0.0, -0.8), worked(1e3, -0.8)];
+    assert_eq!(along(&make("degradation"), &long), [0.0, -0.8]);
+    let endless = [
+        worked(f32::MIN, 1.0),
+        worked(f32::MAX, 1.0),
+        worked(f32::MIN, 0.5),
+    ];
+    assert_eq!(along(&make("degradation"), &endless), [0.0, 1.0, 0.5]);
+}
+
+#[test]
+fn degradation_in_single_precision_counts_steps_far_below_the_work() {
+    let effect = make::<f32>("degradation").with_shape(0, 1e6).unwrap();
+    let mut state = EffectState::default();
+    let mut value = 0.0;
+    // 1e6 at once, then a million times 2^-6, a quarter of its ulp: a plain sum stands still.
+    let small = (0..1_000_000).map(|k| 1e6 + if k % 2 == 0 { 0.0 } else { 0.0625 });
+    for x in [0.0].into_iter().chain(small) {
+        value = effect.regressor(&mut state, &worked(x, 0.25));
+    }
+    // W = 0.25·(1e6 + 999 999·0.0625).
+    let work = 0.25 * (1e6 + 999_999.0 * 0.0625_f64);
+    let expected = 0.25 * (1.0 - (-work / 1e6).exp());
+    assert_relative_eq!(f64::from(value), expected, max_relative = 3e-7);
 }
 
 #[test]
