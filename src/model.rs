@@ -5,6 +5,8 @@
 //! y ← y + gain·regressor(y)                            (then each output stage, in order)
 //! ```
 //!
+//! A regressor's x is the position less the term's origin, see [`Term`].
+//!
 //! What is fitted on the bench is this struct, and it is what runs in firmware:
 //! no heap, a fixed capacity of `N` terms, config and state apart. Either part may
 //! be missing: no transmission (effects alone) or no terms.
@@ -34,7 +36,29 @@ pub enum Source {
     Channel(u8),
 }
 
-/// One effect of a model, with its gain.
+/// One effect of a model, with its gain and its zero of position.
+///
+/// # Origin
+/// The effect reads `motion.position − origin`; velocity and acceleration are the
+/// sensor's own. Where a sensor reads zero is arbitrary, but an effect such as `x·|x|`
+/// or `x·tanh(v/v_e)` is even, odd or largest about a place of its own: from another
+/// zero it is another function, which no gain mends. The bench finds that place, or
+/// picks it, and the firmware must use the same one with the same gain. Shapes that are
+/// positions (`x_h`) count from it. The transmission's input, also where an effect
+/// reads it beside its source (`degradation`), is not moved.
+///
+/// ```
+/// use bowden::effect::{Effect, Motion};
+/// use bowden::model::{Model, ModelState, Sample, Source, Term};
+///
+/// let effect = Effect::StiffnessProgressive; // x·|x|
+/// let spring = Term { effect, source: Source::Input, origin: 5.0, gain: 2.0 };
+/// let model = Model::<f64, 1>::try_new(None, &[spring])?;
+/// let input = Motion { position: 2.0, velocity: 0.0, acceleration: 0.0 };
+/// let sample = Sample { dt: 0.001, input, load: 0.0, channels: &[] };
+/// assert_eq!(model.step(&mut ModelState::new(), &sample), -18.0); // 2·(−3)·|−3|
+/// # Ok::<(), bowden::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -47,6 +71,9 @@ pub struct Term<T> {
     pub effect: Effect<T>,
     /// What it reads.
     pub source: Source,
+    /// Where its position counts from \[channel unit\]; 0 where a file leaves it out.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub origin: T,
     /// Its coefficient \[output unit / unit of the regressor\].
     pub gain: T,
 }
@@ -70,7 +97,8 @@ pub struct Sample<'a, T> {
 /// use bowden::effect::{Effect, Motion};
 /// use bowden::model::{Model, ModelState, Sample, Source, Term};
 ///
-/// let viscous = Term { effect: Effect::Viscous, source: Source::Input, gain: 3.0_f32 };
+/// let (effect, source) = (Effect::Viscous, Source::Input);
+/// let viscous = Term { effect, source, origin: 0.0, gain: 3.0_f32 };
 /// let model = Model::<f32, 4>::try_new(None, &[viscous])?;
 /// let mut state = ModelState::new();
 ///
@@ -96,16 +124,17 @@ fn padding<T: Real>() -> Term<T> {
     Term {
         effect: Effect::Offset,
         source: Source::Input,
+        origin: T::zero(),
         gain: T::zero(),
     }
 }
 
 impl<T: Real, const N: usize> Model<T, N> {
-    /// Checks the gains and the number of terms; all else was checked before.
+    /// Checks the number of terms, their origins and gains; all else was checked before.
     ///
     /// # Errors
     /// [`Error::Capacity`] where there are more than `N` terms, [`Error::NonFinite`]
-    /// where a gain is not finite.
+    /// where an origin or a gain is not finite.
     pub fn try_new(
         transmission: Option<Transmission<T>>,
         terms: &[Term<T>],
@@ -116,6 +145,7 @@ impl<T: Real, const N: usize> Model<T, N> {
             .ok_or(Error::Capacity("terms"))?
             .copy_from_slice(terms);
         for term in terms {
+            finite(term.origin, "origin")?;
             finite(term.gain, "gain")?;
         }
         Ok(Self {
@@ -145,7 +175,7 @@ impl<T: Real, const N: usize> Model<T, N> {
             && at.dt > T::zero()
             && (!input_is_read || at.input.position.is_finite())
             && self.terms().iter().all(|term| {
-                situation(term.source, at, T::zero(), T::zero())
+                situation(term, at, T::zero(), T::zero())
                     .is_some_and(|situation| situation.is_usable(term.effect.info().reads))
             })
     }
@@ -167,7 +197,7 @@ impl<T: Real, const N: usize> Model<T, N> {
     /// use bowden::effect::{Effect, Motion};
     /// use bowden::model::{Model, ModelState, Sample, Source, Term};
     ///
-    /// let term = |effect, gain| Term { effect, source: Source::Input, gain };
+    /// let term = |effect, gain| Term { effect, source: Source::Input, origin: 0.0, gain };
     /// let terms = [term(Effect::Viscous, 3.0), term(Effect::Inertia, 0.5)];
     /// let model = Model::<f64, 2>::try_new(None, &terms)?;
     ///
@@ -203,7 +233,7 @@ impl<T: Real, const N: usize> Model<T, N> {
                 if term.effect.is_output_stage() != stage {
                     continue;
                 }
-                let Some(situation) = situation(term.source, at, state.time, eta) else {
+                let Some(situation) = situation(term, at, state.time, eta) else {
                     continue;
                 };
                 let situation = Situation {
@@ -221,11 +251,15 @@ impl<T: Real, const N: usize> Model<T, N> {
 }
 
 /// What one term sees of the sample, or nothing where its channel is missing.
-fn situation<T: Real>(source: Source, at: &Sample<T>, time: T, eta: T) -> Option<Situation<T>> {
-    let motion = match source {
+fn situation<T: Real>(term: &Term<T>, at: &Sample<T>, time: T, eta: T) -> Option<Situation<T>> {
+    let mut motion = match term.source {
         Source::Input => at.input,
         Source::Channel(index) => *at.channels.get(usize::from(index))?,
     };
+    // A difference that overflows is a far place; a bad position stays a bad one.
+    if motion.position.is_finite() {
+        motion.position = saturate(motion.position - term.origin);
+    }
     let (dt, input, load) = (at.dt, at.input, at.load);
     Some(Situation {
         dt,

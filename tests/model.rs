@@ -21,6 +21,7 @@ fn term<T: Real>(name: &str, shapes: &[f64], source: Source, gain: f64) -> Term<
     Term {
         effect,
         source,
+        origin: T::zero(),
         gain: T::of(gain),
     }
 }
@@ -156,14 +157,11 @@ proptest! {
     fn the_output_is_finite_for_any_finite_sample(
         numbers in prop::collection::vec(prop::array::uniform8(prop::num::f32::NORMAL | prop::num::f32::ZERO), 1..10),
         gain in prop::num::f32::NORMAL,
+        origin in prop::num::f32::NORMAL | prop::num::f32::ZERO,
     ) {
-        let terms: Vec<Term<f32>> = CATALOGUE
-            .iter()
-            .map(|info| {
-                let shapes = [vec![], vec![0.7], vec![0.7, 0.7]];
-                shapes.iter().find_map(|shapes| Effect::try_from_name(info.name, shapes).ok()).unwrap()
-            })
-            .map(|effect| Term { effect, source: Source::Channel(0), gain })
+        let terms: Vec<Term<f32>> = every_effect()
+            .into_iter()
+            .map(|effect| Term { effect, source: Source::Channel(0), origin, gain })
             .collect();
         let model = Model::<f32, 64>::try_new(Some(cable()), &terms).unwrap();
         let mut state = ModelState::new();
@@ -171,6 +169,7 @@ proptest! {
             let input = Motion { position: a, velocity: b, acceleration: c };
             let channels = [Motion { position: d, velocity: e, acceleration: f }];
             let at = Sample { dt: dt.abs(), input, load, channels: &channels };
+            prop_assert_eq!(model.accepts(&at), dt != 0.0);
             let output = model.step(&mut state, &at);
             prop_assert!(output.is_finite() && state.time().is_finite());
             prop_assert!(state.eta().abs() <= 1.0);
@@ -197,6 +196,99 @@ proptest! {
             // eta loses 1e-6 a step where its branch is steep, and keeps some of it for 40.
             assert_relative_eq!(f64::from(a), b, max_relative = 1e-4, epsilon = 1e-4);
         }
+    }
+}
+
+/// Every effect of the catalogue, with shapes of 0.7.
+fn every_effect<T: Real>() -> Vec<Effect<T>> {
+    let shapes = [T::of(0.7); 2];
+    let make = |name| (0..=2).find_map(|n| Effect::try_from_name(name, &shapes[..n]).ok());
+    CATALOGUE
+        .iter()
+        .map(|info| make(info.name).unwrap())
+        .collect()
+}
+
+proptest! {
+    #[test]
+    fn every_effect_reads_its_position_from_its_origin_and_nothing_else_of_it(
+        record in record(),
+        origin in -2.0..2.0_f64,
+    ) {
+        for effect in every_effect::<f64>().into_iter().filter(|effect| !effect.is_output_stage()) {
+            for source in [Source::Input, TIP] {
+                let term = Term { effect, source, origin, gain: 1.0 };
+                let model = Model::<f64, 1>::try_new(Some(cable()), &[term]).unwrap();
+                let (mut state, mut memory) = (ModelState::new(), EffectState::new());
+                let mut eta = BoucWen::new();
+                for row in &record {
+                    let at = sample(row);
+                    let mut seen = [0.0];
+                    model.step_with(&mut state, &at, |index, share| seen[index] = share);
+                    cable().step(&mut eta, at.input.position); // from the sensor's own zero
+                    let read = if source == TIP { at.channels[1] } else { at.input };
+                    let motion = Motion { position: read.position - origin, ..read };
+                    let (dt, input, load, time) = (at.dt, at.input, at.load, state.time());
+                    let eta = eta.eta();
+                    let situation = Situation { dt, time, motion, input, load, eta, output: 0.0 };
+                    prop_assert_eq!(seen[0], effect.regressor(&mut memory, &situation), "{}", effect.name());
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn an_origin_moves_the_zero_of_a_progressive_spring_and_of_friction_along_the_stroke() {
+    let spring = term("stiffness-progressive", &[], TIP, 2.0);
+    let friction = term("position-friction", &[0.001], TIP, 1.0);
+    let [spring, friction] = [spring, friction].map(|term| Term {
+        origin: 1.5,
+        ..term
+    });
+    let model = Model::<f64, 2>::try_new(None, &[spring, friction]).unwrap();
+    for (x, v, expected) in [
+        (1.5, 4.0, [0.0, 0.0]),
+        (2.0, 4.0, [0.5, 0.5]),
+        (2.0, -4.0, [0.5, -0.5]),
+        (0.5, 4.0, [-2.0, -1.0]),
+    ] {
+        let channels = [motion(9.0, 9.0), motion(x, v)];
+        let at = Sample {
+            dt: 0.01,
+            input: motion(7.0, 7.0),
+            load: 0.0,
+            channels: &channels,
+        };
+        let mut shares = [f64::NAN; 2];
+        model.step_with(&mut ModelState::new(), &at, |k, share| shares[k] = share);
+        assert_eq!(shares, expected);
+    }
+}
+
+#[test]
+fn an_origin_far_off_saturates_and_hides_no_bad_position() {
+    let far = Term {
+        origin: f32::MIN,
+        ..term("stiffness-linear", &[], Source::Input, 1.0)
+    };
+    let model = Model::<f32, 1>::try_new(None, &[far]).unwrap();
+    let at = |position| Sample {
+        dt: 0.01,
+        input: Motion {
+            position,
+            ..Motion::default()
+        },
+        load: 0.0,
+        channels: &[],
+    };
+    let mut state = ModelState::new();
+    assert!(model.accepts(&at(f32::MAX)));
+    assert_eq!(model.step(&mut state, &at(f32::MAX)), f32::MAX);
+    assert_eq!(model.step(&mut state, &at(f32::MIN)), 0.0);
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        assert!(!model.accepts(&at(bad)));
+        assert_eq!(model.step(&mut state, &at(bad)), 0.0); // held
     }
 }
 
@@ -293,6 +385,11 @@ fn what_cannot_be_a_model_is_refused() {
         let model = Model::<f64, 1>::try_new(None, &[Term { gain, ..viscous }]);
         assert_eq!(model, Err(Error::NonFinite("gain")));
     }
+    for origin in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let terms = [viscous, Term { origin, ..viscous }];
+        let model = Model::<f64, 2>::try_new(None, &terms);
+        assert_eq!(model, Err(Error::NonFinite("origin")));
+    }
     let model = Model::<f64, 3>::try_new(None, &[viscous]).unwrap();
     assert_eq!(model.terms(), [viscous]);
 }
@@ -316,4 +413,96 @@ fn the_clock_of_an_f32_runs_true_for_hours() {
     // 2.8 h; a plain sum is 2.2 % behind by now. One ulp of 1e4 is 1e-3.
     let expected = f64::from(steps - 1) * f64::from(0.001_f32);
     assert_relative_eq!(f64::from(state.time()), expected, epsilon = 2e-3);
+}
+
+/// What is read from a file, here from values in memory.
+#[cfg(feature = "serde")]
+mod serde {
+    use super::{Effect, Model, Source, Term};
+    use serde::de::value::{Error, MapDeserializer, SeqDeserializer};
+    use serde::de::{Deserializer, IntoDeserializer, Visitor};
+    use serde::{forward_to_deserialize_any, Deserialize};
+
+    #[derive(Clone)]
+    enum Value {
+        Number(f64),
+        Text(&'static str),
+        Map(Vec<(&'static str, Value)>),
+        List(Vec<Value>),
+    }
+
+    impl IntoDeserializer<'_, Error> for Value {
+        type Deserializer = Self;
+        fn into_deserializer(self) -> Self {
+            self
+        }
+    }
+
+    impl<'de> Deserializer<'de> for Value {
+        type Error = Error;
+
+        fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+            match self {
+                Self::Number(number) => visitor.visit_f64(number),
+                Self::Text(text) => visitor.visit_str(text),
+                Self::Map(items) => visitor.visit_map(MapDeserializer::new(items.into_iter())),
+                Self::List(items) => visitor.visit_seq(SeqDeserializer::new(items.into_iter())),
+            }
+        }
+
+        fn deserialize_enum<V: Visitor<'de>>(
+            self,
+            name: &'static str,
+            variants: &'static [&'static str],
+            visitor: V,
+        ) -> Result<V::Value, Error> {
+            let Self::Text(text) = self else {
+                return self.deserialize_any(visitor);
+            };
+            let text: serde::de::value::StrDeserializer<Error> = text.into_deserializer();
+            text.deserialize_enum(name, variants, visitor)
+        }
+
+        forward_to_deserialize_any! {
+            bool i8 i16 i32 i64 u8 u16 u32 u64 f32 f64 char str string bytes byte_buf option unit
+            unit_struct newtype_struct seq tuple tuple_struct map struct identifier ignored_any
+        }
+    }
+
+    fn stored(origin: Option<f64>) -> Value {
+        let mut items = vec![
+            ("effect", Value::Text("stiffness-progressive")),
+            ("source", Value::Text("input")),
+            ("gain", Value::Number(2.0)),
+        ];
+        items.extend(origin.map(|origin| ("origin", Value::Number(origin))));
+        Value::Map(items)
+    }
+
+    #[test]
+    fn an_origin_that_is_left_out_is_zero() {
+        for (written, read) in [(None, 0.0), (Some(0.0), 0.0), (Some(-1.5), -1.5)] {
+            let expected = Term {
+                effect: Effect::StiffnessProgressive,
+                source: Source::Input,
+                origin: read,
+                gain: 2.0,
+            };
+            assert_eq!(Term::deserialize(stored(written)), Ok(expected));
+        }
+    }
+
+    #[test]
+    fn a_model_with_an_origin_that_is_not_finite_is_not_read() {
+        let read = |origin| {
+            let terms = Value::List(vec![stored(None), stored(Some(origin))]);
+            Model::<f64, 2>::deserialize(Value::Map(vec![("terms", terms)]))
+        };
+        let model = read(3.0).unwrap();
+        assert_eq!([0, 1].map(|k| model.terms()[k].origin), [0.0, 3.0]);
+        for bad in [f64::NAN, f64::INFINITY] {
+            let error = read(bad).unwrap_err().to_string();
+            assert_eq!(error, "origin is not finite");
+        }
+    }
 }
