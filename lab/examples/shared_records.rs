@@ -1,0 +1,242 @@
+//! Closes the loop on the shared measured records and prints what was reached.
+//!
+//! `cargo run --release -p bowden-lab --example shared_records [-- FOLDER [ROW…]]`;
+//! the folder holds one sub-folder a record (`emps/emps_estimation.csv`, …). Rows whose
+//! file is absent are skipped and said so. Columns: NRMSE of the filtered output [%] on
+//! the fit segment / held out.
+#![allow(clippy::unwrap_used)]
+
+use bowden_lab::channels::{Preparation, Prepared};
+use bowden_lab::closing::{close, structure};
+use bowden_lab::record::{read, Mode, Options};
+use std::path::{Path, PathBuf};
+
+struct Row {
+    name: &'static str,
+    file: &'static str,
+    mode: Mode,
+    columns: (&'static str, &'static str),
+    channels: &'static [(&'static str, &'static str)],
+    declare: &'static [&'static str],
+    skip: f64,
+    until: Option<f64>,
+    cutoff: f64,
+    rate: Option<f64>,
+    reach: (f64, f64),
+}
+
+const PLAIN: Row = Row {
+    name: "",
+    file: "",
+    mode: Mode::Displacement,
+    columns: ("", ""),
+    channels: &[],
+    declare: &["bouc-wen"],
+    skip: 0.0,
+    until: None,
+    cutoff: 20.0,
+    rate: None,
+    reach: (0.0, 0.0),
+};
+
+const ROWS: &[Row] = &[
+    Row {
+        name: "emps plain",
+        file: "emps/emps_estimation.csv",
+        columns: ("q_m", "force_N"),
+        reach: (5.0, 5.3),
+        ..PLAIN
+    },
+    Row {
+        name: "emps declared",
+        file: "emps/emps_estimation.csv",
+        columns: ("q_m", "force_N"),
+        declare: &["inertia", "viscous", "coulomb", "offset"],
+        reach: (2.9, 3.0),
+        ..PLAIN
+    },
+    Row {
+        name: "mr damper",
+        file: "mr_damper_utfsm/sine_25mm0x25Hz0x5A.csv",
+        columns: ("displacement_mm", "force_N"),
+        reach: (7.3, 9.3),
+        ..PLAIN
+    },
+    Row {
+        name: "piezo full range",
+        file: "piezo_stage/sine_1Hz_full_range.csv",
+        columns: ("control_V", "displacement_um"),
+        skip: 2.0,
+        cutoff: 40.0,
+        reach: (0.6, 0.9),
+        ..PLAIN
+    },
+    Row {
+        name: "piezo varying",
+        file: "piezo_stage/sine_1Hz_varying_amplitude.csv",
+        columns: ("control_V", "displacement_um"),
+        skip: 2.0,
+        cutoff: 40.0,
+        reach: (1.6, 2.4),
+        ..PLAIN
+    },
+    Row {
+        name: "pneumatic kdn_3bar",
+        file: "pneumatic_cylinder/kdn_3bar.csv",
+        columns: ("position_mm", "force_N"),
+        skip: 8.0,
+        cutoff: 8.0,
+        reach: (6.1, 6.8),
+        ..PLAIN
+    },
+    Row {
+        name: "faster",
+        file: "faster_fatigue_rig/faster.csv",
+        columns: ("displacement_mm", "force_norm"),
+        cutoff: 25.0,
+        rate: Some(128.0),
+        reach: (2.4, 2.2),
+        ..PLAIN
+    },
+    Row {
+        name: "davinci 4_23",
+        file: "davinci_cable_tool/tool4_l_4_23.csv",
+        mode: Mode::Torque,
+        columns: ("drive_torque_Nm", "jaw_torque_Nm"),
+        channels: &[("phi_p", "drive_angle_rad"), ("phi_d", "jaw_angle_rad")],
+        skip: 2.5,
+        reach: (13.0, 13.5),
+        ..PLAIN
+    },
+    Row {
+        name: "davinci 4_03",
+        file: "davinci_cable_tool/tool4_l_4_03.csv",
+        mode: Mode::Torque,
+        columns: ("drive_torque_Nm", "jaw_torque_Nm"),
+        channels: &[("phi_p", "drive_angle_rad"), ("phi_d", "jaw_angle_rad")],
+        skip: 2.5,
+        reach: (12.0, 15.0),
+        ..PLAIN
+    },
+    Row {
+        name: "tribometer",
+        file: "tribometer_friction/reciprocating_friction.csv",
+        columns: ("position_mm", "friction_N"),
+        skip: 20.0,
+        until: Some(209.0),
+        reach: (2.4, 3.8),
+        ..PLAIN
+    },
+];
+
+fn run(row: &Row, path: &Path) -> Result<(), String> {
+    let own = |(a, b): &(&str, &str)| ((*a).to_owned(), (*b).to_owned());
+    let options = Options {
+        mode: Some(row.mode),
+        time: Some("time_s".to_owned()),
+        input: Some(row.columns.0.to_owned()),
+        output: Some(row.columns.1.to_owned()),
+        channels: row.channels.iter().map(own).collect(),
+        skip: row.skip,
+        until: row.until,
+        rate: row.rate,
+    };
+    let record = read(path, &options).map_err(|e| e.to_string())?;
+    let data = Prepared::new(
+        &record,
+        Preparation {
+            cutoff: Some(row.cutoff),
+        },
+    )?;
+    let list: Vec<String> = row.declare.iter().map(|s| (*s).to_owned()).collect();
+    let started = std::time::Instant::now();
+    let ledger = close(&data, &structure(&list, &data)?, |_| ())?;
+    let seconds = started.elapsed().as_secs_f64();
+    let percent = |s: &bowden_lab::fit::Segments| {
+        let n = s.normalised(&data, &data.target);
+        format!(
+            "{:6.2} / {:6.2} / {:6.2}",
+            100.0 * n.fit,
+            100.0 * n.stop,
+            100.0 * n.held_out
+        )
+    };
+    println!(
+        "\n{} — reach {} / {} ({:?}, {seconds:.2} s)",
+        row.name, row.reach.0, row.reach.1, ledger.regime
+    );
+    println!(
+        "  declared                       {}",
+        percent(&ledger.declared.rmse)
+    );
+    for round in &ledger.rounds {
+        let term = round.candidate.term;
+        let rivals: Vec<_> = round
+            .rivals
+            .iter()
+            .map(|r| format!("{}@{:?}", r.term.effect.name(), r.term.source))
+            .collect();
+        println!(
+            "  {:20} {:10?} {} p {:?} share {:.3} blocks {} {:?} rivals {rivals:?}",
+            term.effect.name(),
+            term.source,
+            percent(&round.after),
+            round.p,
+            round.explained,
+            round.blocks_better,
+            round.grade
+        );
+    }
+    let last = ledger.last();
+    let named: Vec<_> = last
+        .free
+        .iter()
+        .zip(&last.values)
+        .zip(&last.on_bound)
+        .map(|((f, v), b)| format!("{:?}={v:.4}{}", f.role, if *b { "!" } else { "" }))
+        .collect();
+    println!("  shapes {}", named.join(" "));
+    println!("  gains {:?}", last.gains);
+    let rejected: Vec<_> = ledger
+        .rejected
+        .iter()
+        .map(|r| {
+            format!(
+                "{}@{:?} {:?}",
+                r.candidate.term.effect.name(),
+                r.candidate.term.source,
+                r.gate
+            )
+        })
+        .collect();
+    println!("  rejected {}", rejected.join(", "));
+    let floor = data.noise_floor / (last.rmse.fit / last.rmse.normalised(&data, &data.target).fit);
+    println!(
+        "  correlation time {:.3} s, noise floor {:.2} %",
+        ledger.correlation_time,
+        100.0 * floor
+    );
+    Ok(())
+}
+
+fn main() {
+    let mut arguments = std::env::args().skip(1);
+    let folder = arguments.next().map_or_else(
+        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/data")),
+        PathBuf::from,
+    );
+    let only: Vec<String> = arguments.collect();
+    for row in ROWS
+        .iter()
+        .filter(|r| only.is_empty() || only.iter().any(|o| r.name.contains(o.as_str())))
+    {
+        let path = folder.join(row.file);
+        if !path.exists() {
+            println!("{}: skipped, {} is not there", row.name, path.display());
+            continue;
+        }
+        if let Err(message) = run(row, &path) {
+            println!("{}: {message}", row.name);
+        }
+    }
+}

@@ -1,0 +1,273 @@
+//! Parameters with their confidence intervals.
+//!
+//! Block-cluster sandwich on the Jacobian of the final model (Liang and Zeger, 1986):
+//! residuals may have any colour inside a block. The sixteen blocks of the scan are the
+//! clusters, and Student's t with fifteen degrees of freedom gives the width.
+
+use crate::channels::Prepared;
+use crate::fit::Solution;
+use crate::record::Mode;
+use crate::scan::{blocks, BLOCKS};
+use crate::structure::{FitTerm, Role};
+use crate::units::Unit;
+use bowden::model::Source;
+use nalgebra::{DMatrix, DVector};
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+/// One parameter of a fitted model.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct Parameter {
+    /// The field's name: `kappa_eta`, `rho`, `viscous`, `coulomb.v_e`.
+    pub name: String,
+    /// Estimate.
+    pub value: f64,
+    /// Unit, where the record states the units of its columns.
+    pub unit: Option<String>,
+    /// 95 % interval; `None` where the parameter is not identified.
+    pub ci95: Option<[f64; 2]>,
+    /// Whether the record determines it.
+    pub identified: bool,
+    /// Index of the term it belongs to; `None` for the transmission.
+    #[serde(skip)]
+    pub term: Option<usize>,
+}
+
+/// Relative half-width above which a shape counts as not identified: its interval
+/// spans a factor of three.
+const SHAPE_WIDTH: f64 = 0.5;
+
+struct Entry<'a> {
+    name: String,
+    unit: Option<String>,
+    value: f64,
+    column: &'a [f64],
+    shape: bool,
+    bound: bool,
+    /// The reported value is this factor times the fitted one.
+    sign: f64,
+    term: Option<usize>,
+}
+
+/// The name of a term: the effect's own, with its channel where it reads another than the input.
+#[must_use]
+pub fn term_name(data: &Prepared, term: &FitTerm) -> String {
+    match term.source {
+        Source::Input => term.effect.name().to_owned(),
+        Source::Channel(_) => format!(
+            "{}@{}",
+            term.effect.name(),
+            data.channel(term.source).map_or("?", |c| c.name.as_str())
+        ),
+    }
+}
+
+/// Unit of a term's gain.
+fn gain_unit(data: &Prepared, term: &FitTerm) -> Option<String> {
+    let d = term.effect.dimension();
+    let channel = data.channel(term.source).and_then(|c| c.unit.as_deref());
+    let load = match data.load {
+        Some(i) => data.channels[i].unit.as_deref(),
+        None => data.input.unit.as_deref(),
+    };
+    Unit::one()
+        .times(data.output_unit.as_deref(), 1 - i32::from(d.output))
+        .times(channel, -i32::from(d.channel))
+        .times(load, -i32::from(d.load))
+        .times(data.input.unit.as_deref(), -i32::from(d.input))
+        .times(Some("s"), -i32::from(d.time))
+        .text()
+}
+
+fn shape_unit(data: &Prepared, term: &FitTerm, index: usize) -> Option<String> {
+    let d = term.effect.shape_info().get(index)?.dimension;
+    let channel = data.channel(term.source).and_then(|c| c.unit.as_deref());
+    Unit::one()
+        .times(data.output_unit.as_deref(), i32::from(d.output))
+        .times(channel, i32::from(d.channel))
+        .times(data.input.unit.as_deref(), i32::from(d.load))
+        .times(Some("s"), i32::from(d.time))
+        .text()
+}
+
+fn entries<'a>(data: &Prepared, solution: &'a Solution) -> Vec<Entry<'a>> {
+    let mut all = Vec::new();
+    let (input, output) = (data.input.unit.as_deref(), data.output_unit.as_deref());
+    let linear = |name: String, unit, k: usize, sign: f64, term| Entry {
+        name,
+        unit,
+        value: solution.gains[k],
+        column: &solution.columns[k],
+        shape: false,
+        bound: false,
+        sign,
+        term,
+    };
+    let mut next = 0;
+    if solution.structure.hysteresis {
+        let gain = Unit::one().times(output, 1).times(input, -1).text();
+        let plain = Unit::one().times(output, 1).text();
+        // (1): F = kappa_x x + kappa_eta eta; (6): tau_o = B tau_i − kappa_eta eta − T0.
+        let (names, sign) = match data.mode {
+            Mode::Torque => (["B", "kappa_eta", "T0"], -1.0),
+            Mode::Displacement => (["kappa_x", "kappa_eta", "offset"], 1.0),
+        };
+        all.push(linear(names[0].to_owned(), gain, 0, 1.0, None));
+        all.push(linear(names[1].to_owned(), plain.clone(), 1, sign, None));
+        all.push(linear(names[2].to_owned(), plain, 2, sign, None));
+        next = 3;
+    }
+    for (index, term) in solution.structure.terms.iter().enumerate() {
+        if !term.effect.is_output_stage() {
+            all.push(linear(
+                term_name(data, term),
+                gain_unit(data, term),
+                next,
+                1.0,
+                Some(index),
+            ));
+            next += 1;
+        }
+    }
+    for (j, free) in solution.free.iter().enumerate() {
+        let (name, unit, shape, term) = match free.role {
+            Role::Rho => (
+                "rho".to_owned(),
+                Unit::one().times(input, -1).text(),
+                true,
+                None,
+            ),
+            Role::Sigma => ("sigma".to_owned(), Unit::one().text(), true, None),
+            Role::N => ("n".to_owned(), Unit::one().text(), true, None),
+            Role::Eta0 => ("eta0".to_owned(), Unit::one().text(), false, None),
+            Role::Shape { term, index } => {
+                let fit = &solution.structure.terms[term];
+                let positive = !matches!(
+                    free.range,
+                    crate::structure::Range::Free | crate::structure::Range::Linear(..)
+                );
+                (
+                    format!(
+                        "{}.{}",
+                        term_name(data, fit),
+                        fit.effect.shape_names()[index]
+                    ),
+                    shape_unit(data, fit, index),
+                    positive,
+                    Some(term),
+                )
+            }
+            Role::Origin { term } => {
+                let fit = &solution.structure.terms[term];
+                let unit = data.channel(fit.source).and_then(|c| c.unit.clone());
+                (
+                    format!("{}.origin", term_name(data, fit)),
+                    unit,
+                    false,
+                    Some(term),
+                )
+            }
+            Role::Start { term } => {
+                let fit = &solution.structure.terms[term];
+                let unit = data.channel(fit.source).and_then(|c| c.unit.clone());
+                (
+                    format!("{}.start", term_name(data, fit)),
+                    unit,
+                    false,
+                    Some(term),
+                )
+            }
+            Role::Stage { term } => {
+                let fit = &solution.structure.terms[term];
+                (
+                    term_name(data, fit),
+                    gain_unit(data, fit),
+                    false,
+                    Some(term),
+                )
+            }
+        };
+        all.push(Entry {
+            name,
+            unit,
+            value: solution.values[j],
+            column: &solution.tangents[j],
+            shape,
+            bound: solution.on_bound[j],
+            sign: 1.0,
+            term,
+        });
+    }
+    all
+}
+
+/// Half-widths of the 95 % intervals; `None` where a column depends on the others.
+fn half_widths(data: &Prepared, solution: &Solution, columns: &[&[f64]]) -> Vec<Option<f64>> {
+    let rows = &data.split.fit;
+    let scale: Vec<f64> = columns
+        .iter()
+        .map(|c| rows.iter().map(|&i| c[i] * c[i]).sum::<f64>().sqrt())
+        .collect();
+    let used: Vec<usize> = (0..columns.len())
+        .filter(|&j| scale[j].is_finite() && scale[j] > 0.0)
+        .collect();
+    let m = used.len();
+    let x = DMatrix::from_fn(rows.len(), m, |k, j| {
+        columns[used[j]][rows[k]] / scale[used[j]]
+    });
+    let mut meat = DMatrix::zeros(m, m);
+    for block in blocks(data) {
+        let mut score = DVector::zeros(m);
+        for k in block {
+            score.axpy(solution.residual[rows[k]], &x.row(k).transpose(), 1.0);
+        }
+        meat += &score * score.transpose();
+    }
+    let none = vec![None; columns.len()];
+    let Some(bread) = (x.tr_mul(&x)).cholesky().map(|c| c.inverse()) else {
+        return none;
+    };
+    let correction = BLOCKS as f64 / (BLOCKS as f64 - 1.0);
+    let covariance = &bread * meat * &bread * correction;
+    let Ok(student) = StudentsT::new(0.0, 1.0, BLOCKS as f64 - 1.0) else {
+        return none;
+    };
+    let quantile = student.inverse_cdf(0.975);
+    let mut widths = none;
+    for (a, &j) in used.iter().enumerate() {
+        let variance = covariance[(a, a)];
+        if variance.is_finite() && variance >= 0.0 && bread[(a, a)] < 1e10 {
+            widths[j] = Some(quantile * variance.sqrt() / scale[j]);
+        }
+    }
+    widths
+}
+
+/// All parameters of a fitted model, gains first.
+#[must_use]
+pub fn parameters(data: &Prepared, solution: &Solution) -> Vec<Parameter> {
+    let entries = entries(data, solution);
+    // A parameter on its bound does not move: the others are conditional on it.
+    let moving: Vec<usize> = (0..entries.len()).filter(|&j| !entries[j].bound).collect();
+    let columns: Vec<&[f64]> = moving.iter().map(|&j| entries[j].column).collect();
+    let widths = half_widths(data, solution, &columns);
+    let mut of = vec![None; entries.len()];
+    for (&j, width) in moving.iter().zip(widths) {
+        of[j] = width;
+    }
+    entries
+        .into_iter()
+        .zip(of)
+        .map(|(entry, width)| {
+            let value = entry.sign * entry.value;
+            let width = width.filter(|w| !entry.shape || *w <= SHAPE_WIDTH * value.abs());
+            Parameter {
+                name: entry.name,
+                value,
+                unit: entry.unit,
+                ci95: width.map(|w| [value - w, value + w]),
+                identified: width.is_some(),
+                term: entry.term,
+            }
+        })
+        .collect()
+}
