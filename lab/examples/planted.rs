@@ -14,6 +14,14 @@ use bowden_lab::intervals::term_name;
 use bowden_lab::record::{parse, Options};
 use bowden_lab::synth::{effects, generate, Mode, Planted, Recipe};
 
+/// Family of an effect by its own name.
+fn family_of(name: &str) -> &'static str {
+    bowden::effect::CATALOGUE
+        .iter()
+        .find(|i| i.name == name)
+        .map_or("", |i| i.family.name())
+}
+
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let word = |i: usize, default: &str| {
@@ -88,7 +96,7 @@ fn main() {
                 )
                 .unwrap();
                 let seconds = started.elapsed().as_secs_f64();
-                let family = bowden_lab::synth_family(name);
+                let family = family_of(name);
                 let mut hit = false;
                 let found: Vec<String> = ledger
                     .rounds

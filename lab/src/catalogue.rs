@@ -6,7 +6,7 @@
 use crate::channels::{Channel, Prepared};
 use crate::record::Mode;
 use crate::structure::{FitTerm, Structure};
-use bowden::effect::{Effect, Family, CATALOGUE};
+use bowden::effect::{Effect, Family, Quantity, CATALOGUE};
 use bowden::model::Source;
 
 /// An effect that may be missing.
@@ -120,6 +120,12 @@ impl Collector<'_> {
         if there && !several {
             return;
         }
+        // Only an effect that reads the position has a zero of it.
+        let origin = if effect.info().reads.contains(&Quantity::Position) {
+            origin
+        } else {
+            0.0
+        };
         let family = effect.family();
         self.found.push(Candidate {
             term: FitTerm {

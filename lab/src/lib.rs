@@ -1,23 +1,26 @@
-//! The lab.
+//! The lab: closes the loop between a declared model and measured data.
+//!
+//! A record walks through the rooms in this order: [`record`] (read and check),
+//! [`channels`] (uniform time, one zero-phase smoother for all columns and the output),
+//! [`fit`] (variable projection), [`scan`] (which effect is missing?), [`closing`] (the
+//! loop and its ledger), [`verdict`], [`report`] and [`export`]. Every column of the
+//! regression is computed by the core crate, so that what is fitted here is what runs
+//! in firmware. [`synth`] makes test records and shares no code with any of these.
+
 pub mod catalogue;
 pub mod channels;
+pub mod cli;
 pub mod closing;
 pub mod columns;
+pub mod export;
 pub mod filter;
 pub mod fit;
 pub mod intervals;
 pub mod record;
+pub mod report;
 pub mod scan;
 pub mod spectrum;
 pub mod structure;
 pub mod synth;
 pub mod units;
-
-/// Family of an effect by its own name; empty where there is none.
-#[must_use]
-pub fn synth_family(name: &str) -> &'static str {
-    bowden::effect::CATALOGUE
-        .iter()
-        .find(|i| i.name == name)
-        .map_or("", |i| i.family.name())
-}
+pub mod verdict;

@@ -1,2 +1,13 @@
-//! The program.
-fn main() {}
+//! The program `bowden`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    match bowden_lab::cli::run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(line) => {
+            anstream::eprintln!("bowden: {line}");
+            ExitCode::from(2)
+        }
+    }
+}

@@ -20,8 +20,7 @@ pub fn default_cutoff(input: &[f64], rate: f64) -> f64 {
     let resolution = rate / (2 * (power.len() - 1)) as f64;
     // Two significant digits: a cut-off that can be said aloud and typed again.
     let raw = (8.0 * bin as f64 * resolution).clamp(20.0 / seconds, 0.2 * rate);
-    let scale = 10_f64.powf(raw.log10().floor() - 1.0);
-    (raw / scale).round() * scale
+    format!("{raw:.1e}").parse().unwrap_or(raw)
 }
 
 /// One-sided power spectrum under a Hann window, zero-padded to a power of two.

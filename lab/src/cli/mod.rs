@@ -1,0 +1,66 @@
+//! The program's subcommands, one file each; no logic of their own.
+
+mod close;
+mod record;
+
+use clap::{Parser, Subcommand};
+
+/// What went wrong, in one line, for exit status 2.
+pub type Failure = String;
+
+#[derive(Parser)]
+#[command(
+    name = "bowden",
+    version,
+    about = "Hysteretic cable transmissions: closes the loop between a model and measured data",
+    after_help = "Without a subcommand: `bowden close` on the embedded record.\nExit status: 0 with any verdict, 2 for bad use or a bad record."
+)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Fit the declared model, find the effect that it lacks, add it, compare.
+    Close(close::Close),
+    /// Write a generated record with an effect that is not declared, as CSV.
+    Record(record::Record),
+}
+
+/// Runs the program.
+///
+/// # Errors
+/// The line to be printed on stderr.
+pub fn run() -> Result<(), Failure> {
+    match Arguments::parse().command {
+        None => close::Close::default().run(),
+        Some(Command::Close(close)) => close.run(),
+        Some(Command::Record(record)) => record.run(),
+    }
+}
+
+/// Text on stdout, with colours only on a terminal; a reader that has gone away is no
+/// failure.
+fn say(text: &str) -> Result<(), Failure> {
+    use std::io::Write as _;
+    match writeln!(anstream::stdout(), "{text}") {
+        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(format!("stdout: {e}")),
+        _ => Ok(()),
+    }
+}
+
+/// Writes a whole file or none: into a neighbour first, which then takes its name.
+fn write_whole(path: &std::path::Path, bytes: &[u8]) -> Result<(), Failure> {
+    let failed = |e: std::io::Error| format!("{}: {e}", path.display());
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}.part", std::process::id()));
+    let part = path.with_file_name(name);
+    std::fs::write(&part, bytes)
+        .and_then(|()| std::fs::rename(&part, path))
+        .map_err(|e| {
+            // Nothing half-written stays behind; that it may be absent already is fine.
+            let _ = std::fs::remove_file(&part);
+            failed(e)
+        })
+}

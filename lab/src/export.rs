@@ -1,0 +1,264 @@
+//! The fitted model as a file: TOML for tools, Rust for firmware.
+//!
+//! Both hold the same numbers, printed so that they read back to the same bits.
+
+use crate::channels::Prepared;
+use crate::fit::Solution;
+use crate::record::Mode;
+use crate::structure::Role;
+use bowden::effect::Effect;
+use bowden::hysteresis::Shape;
+use bowden::model::{Model, Source, Term};
+use bowden::transmission::Transmission;
+use serde::{Deserialize, Serialize};
+use std::fmt::Write as _;
+
+/// A model as it stands in a file, schema `bowden.model/1`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ModelFile {
+    /// `bowden.model/1`.
+    pub schema: String,
+    /// `torque` or `displacement`.
+    pub mode: String,
+    /// Names of the channels that terms may read, in the order of the sample's channels.
+    pub channels: Vec<String>,
+    /// The transmission, where there is one.
+    pub transmission: Option<TransmissionFile>,
+    /// The effects, in order.
+    #[serde(default)]
+    pub terms: Vec<TermFile>,
+}
+
+/// The Bouc-Wen transmission of a model file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TransmissionFile {
+    /// B in torque mode (6), kappa_x in displacement mode (1).
+    pub gain: f64,
+    /// Amplitude of the hysteresis.
+    pub kappa_eta: f64,
+    /// T0 in torque mode (subtracted), the constant force in displacement mode (added).
+    pub offset: f64,
+    /// Bouc-Wen rho.
+    pub rho: f64,
+    /// Bouc-Wen sigma.
+    pub sigma: f64,
+    /// Bouc-Wen n.
+    pub n: f64,
+}
+
+/// One effect of a model file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TermFile {
+    /// The effect's own name.
+    pub effect: String,
+    /// `input`, or the name of a channel.
+    pub source: String,
+    /// Position from which the effect measures.
+    #[serde(default)]
+    pub origin: f64,
+    /// Its gain.
+    pub gain: f64,
+    /// Its shapes, in the core's order.
+    #[serde(default)]
+    pub shapes: Vec<ShapeFile>,
+}
+
+/// One shape parameter of an effect.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ShapeFile {
+    /// Its name in the effect's formula.
+    pub name: String,
+    /// Its value.
+    pub value: f64,
+}
+
+impl ModelFile {
+    /// The fitted model.
+    #[must_use]
+    pub fn new(data: &Prepared, solution: &Solution) -> Self {
+        let value = |role| solution.value(role).unwrap_or(0.0);
+        let sign = match data.mode {
+            Mode::Torque => -1.0,
+            Mode::Displacement => 1.0,
+        };
+        let transmission = solution.structure.hysteresis.then(|| TransmissionFile {
+            gain: solution.gains[0],
+            kappa_eta: sign * solution.gains[1],
+            offset: sign * solution.gains[2],
+            rho: value(Role::Rho),
+            sigma: value(Role::Sigma),
+            n: value(Role::N),
+        });
+        let terms = solution
+            .structure
+            .terms
+            .iter()
+            .enumerate()
+            .map(|(index, term)| TermFile {
+                effect: term.effect.name().to_owned(),
+                source: match term.source {
+                    Source::Input => "input".to_owned(),
+                    Source::Channel(_) => data
+                        .channel(term.source)
+                        .map_or_else(String::new, |c| c.name.clone()),
+                },
+                origin: term.origin,
+                gain: solution.gain(index),
+                shapes: term
+                    .effect
+                    .shape_names()
+                    .iter()
+                    .enumerate()
+                    .map(|(i, name)| ShapeFile {
+                        name: (*name).to_owned(),
+                        value: term.effect.shape(i).unwrap_or(0.0),
+                    })
+                    .collect(),
+            });
+        Self {
+            schema: "bowden.model/1".to_owned(),
+            mode: match data.mode {
+                Mode::Torque => "torque",
+                Mode::Displacement => "displacement",
+            }
+            .to_owned(),
+            channels: data.channels.iter().map(|c| c.name.clone()).collect(),
+            transmission,
+            terms: terms.collect(),
+        }
+    }
+
+    /// As TOML.
+    ///
+    /// # Errors
+    /// Where a number cannot be written, which no fitted model has.
+    pub fn toml(&self, remark: &str) -> Result<String, toml::ser::Error> {
+        Ok(format!("# {remark}\n{}", toml::to_string(self)?))
+    }
+
+    /// As a Rust function that builds the model in firmware, in single precision.
+    #[must_use]
+    pub fn rust(&self, remark: &str) -> String {
+        let number = |v: f64| format!("{:?}", v as f32);
+        let mut text = format!(
+            "//! {remark}\n//! Channels, in the order of `Sample::channels`: {}.\n\n",
+            if self.channels.is_empty() {
+                "none".to_owned()
+            } else {
+                self.channels.join(", ")
+            }
+        );
+        text.push_str("use bowden::effect::Effect;\nuse bowden::hysteresis::Shape;\nuse bowden::model::{Model, Source, Term};\nuse bowden::transmission::Transmission;\n\n");
+        let _ = writeln!(
+            text,
+            "/// The identified model.\npub fn model() -> Result<Model<f32, {}>, bowden::Error> {{",
+            self.terms.len()
+        );
+        match &self.transmission {
+            Some(t) => {
+                let _ = writeln!(
+                    text,
+                    "    let shape = Shape::try_new({}, {}, {})?;",
+                    number(t.rho),
+                    number(t.sigma),
+                    number(t.n)
+                );
+                let _ = writeln!(
+                    text,
+                    "    let transmission = Some(Transmission::{}({}, {}, {}, shape)?);",
+                    self.mode,
+                    number(t.gain),
+                    number(t.kappa_eta),
+                    number(t.offset)
+                );
+            }
+            None => text.push_str("    let transmission = None;\n"),
+        }
+        text.push_str("    let terms = [\n");
+        for term in &self.terms {
+            let source = match self.channels.iter().position(|c| *c == term.source) {
+                Some(index) if term.source != "input" => format!("Source::Channel({index})"),
+                _ => "Source::Input".to_owned(),
+            };
+            let shapes: Vec<String> = term.shapes.iter().map(|s| number(s.value)).collect();
+            let _ = writeln!(
+                text,
+                "        Term {{ effect: Effect::try_from_name({:?}, &[{}])?, source: {source}, origin: {}, gain: {} }},",
+                term.effect,
+                shapes.join(", "),
+                number(term.origin),
+                number(term.gain)
+            );
+        }
+        text.push_str("    ];\n    Model::try_new(transmission, &terms)\n}\n");
+        text
+    }
+
+    /// The core's model, as firmware would run it.
+    ///
+    /// # Errors
+    /// One sentence that says which part the core refuses.
+    pub fn model<const N: usize>(&self) -> Result<Model<f64, N>, String> {
+        let transmission = match &self.transmission {
+            None => None,
+            Some(t) => {
+                let refused = |e: bowden::Error| format!("transmission: {e}");
+                let shape = Shape::try_new(t.rho, t.sigma, t.n).map_err(refused)?;
+                Some(match self.mode.as_str() {
+                    "torque" => Transmission::torque(t.gain, t.kappa_eta, t.offset, shape)
+                        .map_err(refused)?,
+                    "displacement" => {
+                        Transmission::displacement(t.gain, t.kappa_eta, t.offset, shape)
+                            .map_err(refused)?
+                    }
+                    other => {
+                        return Err(format!(
+                            "mode {other:?}: torque or displacement was expected"
+                        ))
+                    }
+                })
+            }
+        };
+        let mut terms = Vec::with_capacity(self.terms.len());
+        for term in &self.terms {
+            let refused = |e: bowden::Error| format!("term {}: {e}", term.effect);
+            let shapes: Vec<f64> = term.shapes.iter().map(|s| s.value).collect();
+            let effect = Effect::try_from_name(&term.effect, &shapes).map_err(refused)?;
+            let named = effect.shape_names();
+            if let Some((given, expected)) = term
+                .shapes
+                .iter()
+                .zip(named)
+                .find(|(given, expected)| given.name != **expected)
+            {
+                return Err(format!(
+                    "term {}: shape {} where {expected} was expected",
+                    term.effect, given.name
+                ));
+            }
+            let source = match self.channels.iter().position(|c| *c == term.source) {
+                _ if term.source == "input" => Source::Input,
+                Some(index) => Source::Channel(
+                    u8::try_from(index).map_err(|_| "too many channels".to_owned())?,
+                ),
+                None => {
+                    return Err(format!(
+                        "term {}: no channel {:?}",
+                        term.effect, term.source
+                    ))
+                }
+            };
+            terms.push(Term {
+                effect,
+                source,
+                origin: term.origin,
+                gain: term.gain,
+            });
+        }
+        Model::try_new(transmission, &terms).map_err(|e| e.to_string())
+    }
+}

@@ -1,0 +1,219 @@
+//! The JSON of `bowden close --json`, schema `bowden.close/1`.
+
+use crate::catalogue::Candidate;
+use crate::channels::Prepared;
+use crate::closing::{Gate, Grade, Ledger};
+use crate::fit::{Segments, Solution};
+use crate::intervals::{parameters, term_name, Parameter};
+use crate::record::Mode;
+use crate::scan::{Regime, BLOCKS};
+use crate::verdict::verdict;
+use serde::Serialize;
+
+/// The whole object.
+#[derive(Debug, Clone, Serialize)]
+pub struct Report {
+    schema: &'static str,
+    record: RecordPart,
+    declared: ModelPart,
+    rounds: Vec<RoundPart>,
+    r#final: FinalPart,
+    rejected: Vec<RejectedPart>,
+    unneeded: Vec<()>,
+    unknown: Option<()>,
+    noise_floor: f64,
+    verdict: &'static str,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct RecordPart {
+    path: String,
+    samples: usize,
+    rate_hz: f64,
+    mode: &'static str,
+    cutoff_hz: f64,
+    blocks: usize,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct ModelPart {
+    effects: Vec<String>,
+    parameters: Vec<Parameter>,
+    rmse: Segments,
+    nrmse: Segments,
+    nrmse_raw: Segments,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct FinalPart {
+    effects: Vec<String>,
+    parameters: Vec<Parameter>,
+    rmse: Segments,
+    nrmse: Segments,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct RoundPart {
+    family: &'static str,
+    effect: &'static str,
+    channel: String,
+    grade: Grade,
+    coefficients: Vec<Coefficient>,
+    p: Option<f64>,
+    explained: f64,
+    confounded_with: Vec<Rival>,
+    rmse_before: Segments,
+    rmse_after: Segments,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct Coefficient {
+    name: String,
+    value: f64,
+    unit: Option<String>,
+    ci95: Option<[f64; 2]>,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct Rival {
+    family: &'static str,
+    channel: String,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct RejectedPart {
+    family: &'static str,
+    effect: &'static str,
+    channel: String,
+    gate: Gate,
+}
+
+/// The channel that a candidate reads, by name.
+fn channel(data: &Prepared, candidate: &Candidate) -> String {
+    data.channel(candidate.term.source)
+        .map_or_else(String::new, |c| c.name.clone())
+}
+
+/// Names of all parts of a model.
+pub(super) fn effects(data: &Prepared, solution: &Solution) -> Vec<String> {
+    let hysteresis = solution.structure.hysteresis.then(|| "bouc-wen".to_owned());
+    hysteresis
+        .into_iter()
+        .chain(solution.structure.terms.iter().map(|t| term_name(data, t)))
+        .collect()
+}
+
+/// Errors against the output as recorded, as shares of its standard deviation.
+fn raw(data: &Prepared, solution: &Solution) -> Segments {
+    let prediction = solution.unfiltered.iter().step_by(data.stride);
+    let residual: Vec<f64> = data
+        .target_raw
+        .iter()
+        .zip(prediction)
+        .map(|(y, p)| y - p)
+        .collect();
+    Segments::of(data, &residual).normalised(data, &data.target_raw)
+}
+
+/// Independent stretches of the fit segment, at most sixteen.
+pub(super) fn block_count(data: &Prepared, ledger: &Ledger) -> usize {
+    if ledger.regime == Regime::Blocks {
+        return BLOCKS;
+    }
+    let seconds = data.split.fit.len() as f64 * data.dt * data.stride as f64;
+    ((seconds / (3.0 * ledger.correlation_time)) as usize).min(BLOCKS - 1)
+}
+
+impl Report {
+    /// Collects everything about one run.
+    #[must_use]
+    pub fn new(path: &str, data: &Prepared, ledger: &Ledger) -> Self {
+        let last = ledger.last();
+        let rounds = ledger
+            .rounds
+            .iter()
+            .map(|round| {
+                let term = round.solution.structure.terms.len() - 1;
+                let own = parameters(data, &round.solution)
+                    .into_iter()
+                    .filter(|p| p.term == Some(term));
+                RoundPart {
+                    family: round.candidate.family.name(),
+                    effect: round.candidate.term.effect.name(),
+                    channel: channel(data, &round.candidate),
+                    grade: round.grade,
+                    coefficients: own
+                        .map(|p| Coefficient {
+                            name: p.name,
+                            value: p.value,
+                            unit: p.unit,
+                            ci95: p.ci95,
+                        })
+                        .collect(),
+                    p: round.p,
+                    explained: round.explained,
+                    confounded_with: round
+                        .rivals
+                        .iter()
+                        .map(|r| Rival {
+                            family: r.family.name(),
+                            channel: channel(data, r),
+                        })
+                        .collect(),
+                    rmse_before: round.before,
+                    rmse_after: round.after,
+                }
+            })
+            .collect();
+        Self {
+            schema: "bowden.close/1",
+            record: RecordPart {
+                path: path.to_owned(),
+                samples: data.samples,
+                rate_hz: data.rate,
+                mode: match data.mode {
+                    Mode::Torque => "torque",
+                    Mode::Displacement => "displacement",
+                },
+                cutoff_hz: data.cutoff,
+                blocks: block_count(data, ledger),
+            },
+            declared: ModelPart {
+                effects: effects(data, &ledger.declared),
+                parameters: parameters(data, &ledger.declared),
+                rmse: ledger.declared.rmse,
+                nrmse: ledger.declared.rmse.normalised(data, &data.target),
+                nrmse_raw: raw(data, &ledger.declared),
+            },
+            rounds,
+            r#final: FinalPart {
+                effects: effects(data, last),
+                parameters: parameters(data, last),
+                rmse: last.rmse,
+                nrmse: last.rmse.normalised(data, &data.target),
+            },
+            rejected: ledger
+                .rejected
+                .iter()
+                .map(|r| RejectedPart {
+                    family: r.candidate.family.name(),
+                    effect: r.candidate.term.effect.name(),
+                    channel: channel(data, &r.candidate),
+                    gate: r.gate,
+                })
+                .collect(),
+            unneeded: Vec::new(),
+            unknown: None,
+            noise_floor: data.noise_floor,
+            verdict: verdict(data, ledger).name(),
+        }
+    }
+}
+
+/// The report as one line of JSON.
+///
+/// # Errors
+/// Where a number is not finite, which no fitted model has.
+pub fn json(report: &Report) -> Result<String, serde_json::Error> {
+    serde_json::to_string(report)
+}

@@ -1,0 +1,272 @@
+//! The ledger for people: what was read, what was found, errors before and after.
+
+use super::json::{block_count, effects};
+use crate::channels::Prepared;
+use crate::closing::{Grade, Ledger};
+use crate::fit::Segments;
+use crate::intervals::{parameters, term_name, Parameter};
+use crate::record::Mode;
+use crate::scan::{Regime, BLOCKS};
+use crate::verdict::{sentence, verdict, Verdict};
+use anstyle::{AnsiColor, Style};
+use comfy_table::{presets, CellAlignment, ContentArrangement, Table, TableComponent};
+use std::fmt::Write as _;
+
+/// A number with as many digits as its interval bears.
+fn number(value: f64, half_width: Option<f64>) -> String {
+    let digits = match half_width {
+        Some(w) if w > 0.0 && w.is_finite() => (1.0 - w.log10().floor()).clamp(0.0, 12.0) as usize,
+        _ if value == 0.0 => 0,
+        _ => (3.0 - value.abs().log10().floor()).clamp(0.0, 12.0) as usize,
+    };
+    if value.abs() >= 1e7 || (value != 0.0 && value.abs() < 1e-5) {
+        format!("{value:.3e}")
+    } else {
+        format!("{value:.digits$}")
+    }
+}
+
+/// "12.34 ± 0.05 N·m", or what is to be said instead.
+fn estimate(parameter: &Parameter) -> String {
+    let unit = match parameter.unit.as_deref() {
+        Some("1") => String::new(),
+        Some(unit) => format!(" {unit}"),
+        None => " (no unit in the record)".to_owned(),
+    };
+    match parameter.ci95 {
+        Some([low, high]) => {
+            let half = 0.5 * (high - low);
+            format!(
+                "{} ± {}{unit}",
+                number(parameter.value, Some(half)),
+                number(half, Some(half))
+            )
+        }
+        None => format!(
+            "not identified (stands at {})",
+            number(parameter.value, None)
+        ),
+    }
+}
+
+fn cells(data: &Prepared, rmse: &Segments) -> [String; 4] {
+    let floor = if data.noise_floor > 0.0 {
+        format!("{:.1}", rmse.fit / data.noise_floor)
+    } else {
+        "–".to_owned()
+    };
+    let digits = |v: f64| number(v, Some(0.05 * v));
+    [
+        digits(rmse.fit),
+        digits(rmse.stop),
+        digits(rmse.held_out),
+        floor,
+    ]
+}
+
+fn table(header: &[&str], right: std::ops::Range<usize>) -> Table {
+    let mut table = Table::new();
+    table
+        .load_preset(presets::UTF8_HORIZONTAL_ONLY)
+        .remove_style(TableComponent::HorizontalLines)
+        .remove_style(TableComponent::LeftBorderIntersections)
+        .remove_style(TableComponent::MiddleIntersections)
+        .remove_style(TableComponent::RightBorderIntersections)
+        .set_content_arrangement(ContentArrangement::Dynamic);
+    if table.width().is_none() {
+        // Not a terminal: the same width on every machine.
+        table.set_width(120);
+    }
+    table.set_header(header);
+    for index in right {
+        if let Some(column) = table.column_mut(index) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+    table
+}
+
+/// One more line of the text; writing to a `String` cannot fail.
+macro_rules! line {
+    ($out:ident, $($text:tt)+) => {
+        let _ = writeln!($out, $($text)+);
+    };
+}
+
+/// The whole ledger as text, with ANSI styles that whoever prints it may strip.
+#[must_use]
+pub fn text(path: &str, data: &Prepared, ledger: &Ledger, chosen_cutoff: bool) -> String {
+    let mut out = String::new();
+    let bold = Style::new().bold();
+    let dim = Style::new().dimmed();
+    let mode = match data.mode {
+        Mode::Torque => "torque",
+        Mode::Displacement => "displacement",
+    };
+    let channels: Vec<&str> = data.channels.iter().map(|c| c.name.as_str()).collect();
+    let with = if channels.is_empty() {
+        String::new()
+    } else {
+        format!(", with {}", channels.join(", "))
+    };
+    let seconds = data.samples as f64 / data.rate;
+    line!(out, "{bold}bowden close{bold:#}  {path}");
+    line!(
+        out,
+        "read      {} samples, {} Hz, {seconds:.1} s; {mode} mode: {} → {}{with}",
+        data.samples,
+        number(data.rate, Some(1e-3 * data.rate)),
+        data.input.name,
+        data.output_name
+    );
+    let whence = if chosen_cutoff {
+        ""
+    } else {
+        " (8 × the input's highest tone)"
+    };
+    line!(
+            out,
+        "filtered  zero-phase at {} Hz{whence}; 60 % to fit, 15 % to stop, 25 % held out; {} blocks",
+        data.cutoff,
+        block_count(data, ledger)
+    );
+    for note in &data.notes {
+        line!(out, "{dim}note      {note}{dim:#}");
+    }
+    line!(
+        out,
+        "declared  {}\n",
+        effects(data, &ledger.declared).join(", ")
+    );
+
+    let unit = data
+        .output_unit
+        .as_deref()
+        .map_or_else(String::new, |u| format!(" [{u}]"));
+    let fit = format!("RMSE{unit} fit");
+    let mut rounds = table(
+        &[
+            "", "effect", "grade", "explains", &fit, "stop", "held out", "× floor",
+        ],
+        3..8,
+    );
+    let [a, b, c, d] = cells(data, &ledger.declared.rmse);
+    rounds.add_row([
+        String::new(),
+        "as declared".into(),
+        String::new(),
+        String::new(),
+        a,
+        b,
+        c,
+        d,
+    ]);
+    let mut added = table(
+        &[
+            "",
+            "coefficient (95 %)",
+            "p",
+            "blocks better",
+            "confounded with",
+        ],
+        0..0,
+    );
+    for (index, round) in ledger.rounds.iter().enumerate() {
+        let grade = match round.grade {
+            Grade::Strong => "strong",
+            Grade::Likely => "likely",
+            Grade::Weak => "weak",
+        };
+        let name = term_name(data, &round.candidate.term);
+        let [a, b, c, d] = cells(data, &round.after);
+        rounds.add_row([
+            format!("+{}", index + 1),
+            name.clone(),
+            grade.to_owned(),
+            format!("{:.1} %", 100.0 * round.explained),
+            a,
+            b,
+            c,
+            d,
+        ]);
+        let term = round.solution.structure.terms.len() - 1;
+        let own = parameters(data, &round.solution);
+        let coefficient = own
+            .iter()
+            .find(|p| p.term == Some(term) && p.name == name)
+            .map_or_else(String::new, estimate);
+        let rivals: Vec<String> = round
+            .rivals
+            .iter()
+            .map(|r| term_name(data, &r.term))
+            .collect();
+        added.add_row([
+            name,
+            coefficient,
+            round
+                .p
+                .map_or_else(|| "–".to_owned(), |p| format!("{p:.1e}")),
+            format!("{} of {BLOCKS}", round.blocks_better),
+            if rivals.is_empty() {
+                "–".to_owned()
+            } else {
+                rivals.join(", ")
+            },
+        ]);
+    }
+    line!(out, "{rounds}\n");
+    if !ledger.rounds.is_empty() {
+        line!(out, "{added}\n");
+    }
+
+    let last = ledger.last();
+    let mut final_parameters = table(&["final model", "value (95 %)"], 0..0);
+    for parameter in parameters(data, last) {
+        final_parameters.add_row([parameter.name.clone(), estimate(&parameter)]);
+    }
+    line!(out, "{final_parameters}\n");
+
+    let (before, after) = (
+        ledger.declared.rmse.normalised(data, &data.target),
+        last.rmse.normalised(data, &data.target),
+    );
+    line!(
+            out,
+        "error     held out: {:.2} % → {:.2} % of the output's standard deviation (fit: {:.2} % → {:.2} %)",
+        100.0 * before.held_out, 100.0 * after.held_out, 100.0 * before.fit, 100.0 * after.fit
+    );
+    if !ledger.rejected.is_empty() {
+        let list: Vec<String> = ledger
+            .rejected
+            .iter()
+            .map(|r| {
+                format!(
+                    "{} ({})",
+                    term_name(data, &r.candidate.term),
+                    r.gate.words()
+                )
+            })
+            .collect();
+        line!(out, "{dim}rejected  {}{dim:#}", list.join(", "));
+    }
+    if ledger.regime == Regime::Effect {
+        line!(
+            out,
+            "{dim}note      what is left stays correlated for {:.3} s: too long for sixteen independent blocks{dim:#}",
+            ledger.correlation_time
+        );
+    }
+    let found = verdict(data, ledger);
+    let colour = match found {
+        Verdict::Explained | Verdict::ExplainedColoured => AnsiColor::Green,
+        Verdict::Confounded | Verdict::UnderExcited => AnsiColor::Yellow,
+    };
+    let style = Style::new().bold().fg_color(Some(colour.into()));
+    line!(
+        out,
+        "verdict   {style}{}{style:#}. {}",
+        found.name(),
+        sentence(data, ledger)
+    );
+    out
+}

@@ -1,0 +1,137 @@
+//! One verdict for a whole run, and the sentence that goes with it.
+
+use crate::channels::Prepared;
+use crate::closing::Ledger;
+use crate::filter::ZeroPhase;
+use crate::fit::Solution;
+use crate::intervals::term_name;
+use crate::scan::{correlation_samples, Regime};
+
+/// What the run amounts to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// What is left is the sensor's noise.
+    Explained,
+    /// What is left is coloured, but nothing of the catalogue takes it.
+    ExplainedColoured,
+    /// An added effect has rivals that this record cannot tell from it.
+    Confounded,
+    /// Too few independent stretches for a test: names are proposals.
+    UnderExcited,
+}
+
+impl Verdict {
+    /// The name in the JSON.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Explained => "explained",
+            Self::ExplainedColoured => "explained-coloured",
+            Self::Confounded => "confounded",
+            Self::UnderExcited => "under-excited",
+        }
+    }
+}
+
+/// Error that counts as being at the noise floor, as a multiple of it: the floor is an
+/// estimate from the top of the band and assumes white noise.
+const AT_FLOOR: f64 = 1.2;
+/// A residual whose correlation time is at most this many times the filter's own counts
+/// as white noise behind the filter.
+const WHITE: f64 = 1.5;
+
+/// Correlation time of white noise behind the filter, in estimation samples.
+fn white_correlation(data: &Prepared) -> f64 {
+    let rate = 1.0 / data.dt;
+    let reach = (8.0 * rate / data.cutoff).ceil() as usize;
+    let mut impulse = vec![0.0; 2 * reach + 1];
+    impulse[reach] = 1.0;
+    let response = ZeroPhase::new(data.cutoff, rate).apply(&impulse);
+    // The autocorrelation of filtered white noise is that of the impulse response.
+    correlation_samples(&response) / data.stride as f64
+}
+
+/// Whether the residual looks like white noise behind the filter.
+#[must_use]
+pub fn is_white(data: &Prepared, solution: &Solution) -> bool {
+    let rest: Vec<f64> = data
+        .split
+        .fit
+        .iter()
+        .map(|&i| solution.residual[i])
+        .collect();
+    correlation_samples(&rest) <= WHITE * white_correlation(data).max(0.5)
+}
+
+/// The verdict on a ledger.
+#[must_use]
+pub fn verdict(data: &Prepared, ledger: &Ledger) -> Verdict {
+    let last = ledger.last();
+    if ledger.regime == Regime::Effect || ledger.rounds.iter().any(|r| r.p.is_none()) {
+        Verdict::UnderExcited
+    } else if ledger.rounds.iter().any(|r| !r.rivals.is_empty()) {
+        Verdict::Confounded
+    } else if last.rmse.fit <= AT_FLOOR * data.noise_floor || is_white(data, last) {
+        Verdict::Explained
+    } else {
+        Verdict::ExplainedColoured
+    }
+}
+
+/// The verdict in a sentence or two.
+#[must_use]
+pub fn sentence(data: &Prepared, ledger: &Ledger) -> String {
+    let last = ledger.last();
+    let added: Vec<String> = ledger
+        .rounds
+        .iter()
+        .map(|r| term_name(data, &r.candidate.term))
+        .collect();
+    let mut text = match added.len() {
+        0 => "The declared model lacks no effect that this record could show.".to_owned(),
+        _ => {
+            let kept = last.rmse.held_out / ledger.declared.rmse.held_out;
+            format!(
+                "The declared model lacks {}: with it the held-out error falls {:.1}-fold.",
+                added.join(", then "),
+                1.0 / kept
+            )
+        }
+    };
+    let rest = match verdict(data, ledger) {
+        Verdict::Explained => "What is left is the sensor's noise.".to_owned(),
+        Verdict::ExplainedColoured => {
+            "What is left is coloured, but nothing in the catalogue takes it.".to_owned()
+        }
+        Verdict::Confounded => {
+            let rivals: Vec<String> = ledger
+                .rounds
+                .iter()
+                .filter(|r| !r.rivals.is_empty())
+                .map(|r| {
+                    let names: Vec<String> =
+                        r.rivals.iter().map(|c| term_name(data, &c.term)).collect();
+                    format!(
+                        "{} from {}",
+                        term_name(data, &r.candidate.term),
+                        names.join(", ")
+                    )
+                })
+                .collect();
+            format!("This record cannot tell {}.", rivals.join("; nor "))
+        }
+        Verdict::UnderExcited => {
+            "The record has too few independent stretches for a test: take the names as proposals."
+                .to_owned()
+        }
+    };
+    text.push(' ');
+    text.push_str(&rest);
+    if ledger.rounds.len() > 3 {
+        text.push_str(
+            " Names after the third round carry little meaning: by then many effects would do.",
+        );
+    }
+    text
+}

@@ -1,0 +1,18 @@
+//! Identification as a whole: what is known to be in a record is found again.
+//!
+//! The records come from [`bowden_lab::synth`], which shares no code with the fit: an
+//! error in a common regressor or integrator cannot cancel out of sight.
+//!
+//! * [`recovery`]: planted Bouc-Wen parameters come back, and so do their intervals.
+//! * [`planted`]: an undeclared effect is found, named and taken away.
+//! * [`nulls`]: where nothing is missing, nothing is added.
+//! * [`determinism`]: the same record gives the same result, on any number of threads.
+//! * [`exported`]: what was fitted is what runs in firmware.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod determinism;
+mod exported;
+mod nulls;
+mod planted;
+mod recovery;
+mod rig;

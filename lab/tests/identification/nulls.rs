@@ -1,0 +1,98 @@
+//! Where nothing is missing, nothing is added.
+
+use crate::rig::{Made, MODES};
+use bowden_lab::closing::close;
+use bowden_lab::intervals::term_name;
+use bowden_lab::synth::{Mode, Recipe};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+use rayon::prelude::*;
+use std::sync::LazyLock;
+
+/// Records in each mode with nothing planted; the seeds differ from all other tests'.
+const SEEDS: u64 = 20;
+
+static RECORDS: LazyLock<Vec<(Mode, u64, Made)>> = LazyLock::new(|| {
+    let all: Vec<_> = MODES
+        .into_iter()
+        .flat_map(|mode| (1..=SEEDS).map(move |seed| (mode, seed)))
+        .collect();
+    all.into_par_iter()
+        .map(|(mode, seed)| {
+            let recipe = Recipe {
+                seed: 7000 + seed,
+                ..Recipe::new(mode)
+            };
+            (mode, seed, Made::new(&recipe))
+        })
+        .collect()
+});
+
+/// Noise of the sensor's rms with correlation `colour` from sample to sample.
+fn noise(colour: f64, seed: u64, samples: usize) -> Vec<f64> {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut draw = || -> f64 { StandardNormal.sample(&mut rng) };
+    let mut last = draw();
+    (0..samples)
+        .map(|_| {
+            let now = 0.05 * last;
+            last = colour * last + (1.0 - colour * colour).sqrt() * draw();
+            now
+        })
+        .collect()
+}
+
+/// What the loop adds to each record under noise of that colour: names, by record.
+fn added(colour: f64) -> Vec<String> {
+    // Made here, on the test's own thread: a worker must not wait for its own pool.
+    let records: &[(Mode, u64, Made)] = &RECORDS;
+    let found: Vec<Option<String>> = records
+        .par_iter()
+        .map(|(mode, seed, made)| {
+            let clean = &made.synthetic.truth.output;
+            let noise = noise(colour, 100 + seed, clean.len());
+            // The converter's counts, as the generator's.
+            let count = 200.0 / 65536.0;
+            let measured = clean
+                .iter()
+                .zip(noise)
+                .map(|(y, e)| ((y + e) / count).round() * count)
+                .collect();
+            let data = made.with_output(measured);
+            let ledger = close(&data, &made.declare(&["bouc-wen"]), |_| ()).unwrap();
+            let names: Vec<String> = ledger
+                .rounds
+                .iter()
+                .map(|r| {
+                    let name = term_name(&data, &r.candidate.term);
+                    format!("{name} (p {:?}, share {:.2})", r.p, r.explained)
+                })
+                .collect();
+            (!names.is_empty()).then(|| format!("{mode:?} {seed}: {}", names.join(", ")))
+        })
+        .collect();
+    found.into_iter().flatten().collect()
+}
+
+#[test]
+fn white_noise_adds_nothing_in_forty_records() {
+    let added = added(0.0);
+    assert!(added.is_empty(), "{added:#?}");
+}
+
+#[test]
+fn noise_with_a_correlation_of_0_9_adds_nothing_in_forty_records() {
+    let added = added(0.9);
+    assert!(added.is_empty(), "{added:#?}");
+}
+
+/// At 1 kHz this noise keeps its value for a tenth of a second, a tenth of the fastest
+/// tone's period: within one block it looks like motion. One in forty is what a test at
+/// 1 % with its two gates behind it may cost on four scans in ten.
+#[test]
+fn noise_with_a_correlation_of_0_99_adds_something_to_at_most_one_in_forty_records() {
+    let added = added(0.99);
+    println!("correlation 0.99: {} of {}: {added:#?}", added.len(), RECORDS.len());
+    assert!(added.len() <= 1, "{added:#?}");
+}
