@@ -1,0 +1,276 @@
+//! The program from outside: exit status, what goes to which stream, files written.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use std::process::{Command, Output};
+
+fn bowden(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_bowden"))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).unwrap()
+}
+
+/// Exit 2, nothing on stdout, and exactly one line on stderr.
+fn refused(arguments: &[&str]) -> String {
+    let output = bowden(arguments);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+    assert!(output.stdout.is_empty(), "{arguments:?}");
+    let line = text(&output.stderr).trim_end().to_owned();
+    assert_eq!(line.lines().count(), 1, "{line}");
+    line
+}
+
+fn record(folder: &tempfile::TempDir, name: &str, arguments: &[&str]) -> String {
+    let path = folder.path().join(name).display().to_string();
+    let mut all = vec!["record", "--out", &path];
+    all.extend(arguments);
+    assert!(bowden(&all).status.success());
+    path
+}
+
+#[test]
+fn without_arguments_the_embedded_record_gives_a_ledger_without_colours() {
+    let output = bowden(&[]);
+    assert_eq!(output.status.code(), Some(0));
+    let ledger = text(&output.stdout);
+    for word in [
+        "as declared",
+        "viscous@phi_p",
+        "held out",
+        "verdict",
+        "explained",
+    ] {
+        assert!(ledger.contains(word), "{word} is not in\n{ledger}");
+    }
+    assert!(
+        !ledger.contains('\u{1b}'),
+        "escape codes without a terminal"
+    );
+    assert!(output.stderr.is_empty());
+}
+
+#[test]
+fn the_embedded_record_is_the_one_that_the_named_command_writes() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = record(
+        &folder,
+        "r.csv",
+        &["--mode", "torque", "--effect", "viscous", "--seed", "7"],
+    );
+    let own: serde_json::Value =
+        serde_json::from_slice(&bowden(&["close", "--json"]).stdout).unwrap();
+    let file: serde_json::Value =
+        serde_json::from_slice(&bowden(&["close", &path, "--json"]).stdout).unwrap();
+    assert_eq!(own["final"], file["final"]);
+    assert_eq!(own["rounds"], file["rounds"]);
+}
+
+#[test]
+fn the_same_record_gives_the_same_bytes_whatever_the_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = record(
+        &folder,
+        "r.csv",
+        &[
+            "--mode",
+            "displacement",
+            "--effect",
+            "stribeck",
+            "--seed",
+            "3",
+        ],
+    );
+    let run = |threads: &str| {
+        Command::new(env!("CARGO_BIN_EXE_bowden"))
+            .args(["close", &path, "--json"])
+            .env("RAYON_NUM_THREADS", threads)
+            .output()
+            .unwrap()
+            .stdout
+    };
+    let first = run("1");
+    assert!(!first.is_empty());
+    assert_eq!(first, run("1"));
+    assert_eq!(first, run("3"));
+}
+
+#[test]
+fn the_json_is_laid_out_as_documented() {
+    let output = bowden(&["close", "--json"]);
+    assert!(output.stderr.is_empty());
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let keys = |value: &serde_json::Value| -> Vec<String> {
+        value.as_object().unwrap().keys().cloned().collect()
+    };
+    let sorted = |names: &[&str]| {
+        let mut names: Vec<String> = names.iter().map(|n| (*n).to_owned()).collect();
+        names.sort();
+        names
+    };
+    assert_eq!(report["schema"], "bowden.close/1");
+    assert_eq!(
+        keys(&report),
+        sorted(&[
+            "schema",
+            "record",
+            "declared",
+            "rounds",
+            "final",
+            "rejected",
+            "unneeded",
+            "unknown",
+            "noise_floor",
+            "verdict"
+        ])
+    );
+    assert_eq!(
+        keys(&report["record"]),
+        sorted(&["path", "samples", "rate_hz", "mode", "cutoff_hz", "blocks"])
+    );
+    assert_eq!(
+        keys(&report["declared"]),
+        sorted(&["effects", "parameters", "rmse", "nrmse", "nrmse_raw"])
+    );
+    assert_eq!(
+        keys(&report["final"]),
+        sorted(&["effects", "parameters", "rmse", "nrmse"])
+    );
+    assert_eq!(
+        keys(&report["declared"]["rmse"]),
+        sorted(&["fit", "stop", "held_out"])
+    );
+    assert_eq!(
+        keys(&report["declared"]["parameters"][0]),
+        sorted(&["name", "value", "unit", "ci95", "identified"])
+    );
+    let round = &report["rounds"][0];
+    assert_eq!(
+        keys(round),
+        sorted(&[
+            "family",
+            "effect",
+            "channel",
+            "grade",
+            "coefficients",
+            "p",
+            "explained",
+            "confounded_with",
+            "rmse_before",
+            "rmse_after"
+        ])
+    );
+    assert_eq!(
+        keys(&round["coefficients"][0]),
+        sorted(&["name", "value", "unit", "ci95"])
+    );
+    assert_eq!(
+        (round["family"].as_str(), round["channel"].as_str()),
+        (Some("viscous"), Some("phi_p"))
+    );
+    assert_eq!(
+        keys(&report["rejected"][0]),
+        sorted(&["family", "effect", "channel", "gate"])
+    );
+    assert!(report["unknown"].is_null());
+    assert!(round["rmse_after"]["held_out"].as_f64() < round["rmse_before"]["held_out"].as_f64());
+}
+
+#[test]
+fn a_bad_record_or_option_gives_one_line_and_status_two() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        path.display().to_string()
+    };
+    let missing = folder.path().join("missing.csv").display().to_string();
+    assert!(refused(&["close", &missing]).contains("missing.csv"));
+    assert!(refused(&["close", &folder.path().display().to_string()]).contains("bowden: "));
+    refused(&["close", &file("empty.csv", b"")]);
+    refused(&["close", &file("binary.csv", &[0, 159, 146, 150, 0, 0])]);
+    let text = refused(&["close", &file("text.csv", b"t,x,f\n0,0,0\n0.1,zero,1\n")]);
+    assert!(text.contains("text.csv:3") && text.contains('x'), "{text}");
+    let good = record(&folder, "good.csv", &["--seconds", "5"]);
+    for (option, value) in [
+        ("--cutoff", "-1"),
+        ("--cutoff", "NaN"),
+        ("--cutoff", "900"),
+        ("--cutoff", "0.01"),
+        ("--skip", "99"),
+        ("--rate", "0"),
+        ("--declare", "bouc-wen,nonsense"),
+        ("--declare", "viscous,viscous"),
+        ("--channel", "phi_p"),
+        ("--input", "nowhere"),
+        ("--model-out", "model.json"),
+    ] {
+        let line = refused(&["close", &good, &format!("{option}={value}")]);
+        assert!(line.starts_with("bowden: "), "{line}");
+    }
+    assert!(refused(&["record", "--effect", "nonsense"]).contains("nonsense"));
+    assert!(refused(&["record", "--effect", "viscous:much"]).contains("much"));
+    assert!(refused(&["record", "--seconds", "0"]).contains("seconds"));
+    // Usage errors are the argument parser's: several lines, but the same status.
+    assert_eq!(
+        bowden(&["close", "--no-such-option"]).status.code(),
+        Some(2)
+    );
+}
+
+#[test]
+fn a_model_file_is_whole_or_absent_and_reads_back_to_the_same_model() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = record(
+        &folder,
+        "r.csv",
+        &[
+            "--mode",
+            "displacement",
+            "--effect",
+            "drag-quadratic",
+            "--seed",
+            "5",
+        ],
+    );
+    let path = folder.path().join("model.toml");
+    let out = path.display().to_string();
+    assert!(bowden(&["close", &record, "--model-out", &out])
+        .status
+        .success());
+    let file: bowden_lab::export::ModelFile =
+        toml::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
+    let model = file.model::<8>().unwrap();
+    assert_eq!(model.terms().len(), file.terms.len());
+    assert_eq!(
+        model.transmission().unwrap().kappa_eta(),
+        file.transmission.as_ref().unwrap().kappa_eta
+    );
+    assert_eq!(
+        file,
+        toml::from_str(&toml::to_string(&file).unwrap()).unwrap()
+    );
+
+    let unknown = std::fs::read_to_string(&path)
+        .unwrap()
+        .replace("mode =", "mood =");
+    assert!(toml::from_str::<bowden_lab::export::ModelFile>(&unknown).is_err());
+
+    let nowhere = folder
+        .path()
+        .join("no-such-folder/model.toml")
+        .display()
+        .to_string();
+    refused(&["close", &record, "--model-out", &nowhere]);
+    let left: Vec<_> = std::fs::read_dir(folder.path())
+        .unwrap()
+        .map(|e| e.unwrap().file_name())
+        .collect();
+    assert!(
+        left.iter().all(|n| !n.to_string_lossy().contains("part")),
+        "{left:?}"
+    );
+}
