@@ -1,14 +1,18 @@
 //! Closes the loop on the shared measured records and prints what was reached.
 //!
-//! `cargo run --release -p bowden-lab --example shared_records [-- FOLDER [ROW…]]`;
+//! `cargo run --release -p bowden-lab --example shared_records -- FOLDER [ROW…]`;
 //! the folder holds one sub-folder a record (`emps/emps_estimation.csv`, …). Rows whose
-//! file is absent are skipped and said so. Columns: NRMSE of the filtered output [%] on
-//! the fit segment / held out.
+//! file is absent are skipped and said so. After the ledgers comes a table: NRMSE of the
+//! filtered output [%] on the fit segment / held out.
 #![allow(clippy::unwrap_used)]
 
 use bowden_lab::channels::{Preparation, Prepared};
-use bowden_lab::closing::{close, structure};
+use bowden_lab::closing::{close, structure, MOST_ROUNDS};
+use bowden_lab::fit::Segments;
+use bowden_lab::intervals::term_name;
 use bowden_lab::record::{read, Mode, Options};
+use bowden_lab::report::text;
+use bowden_lab::verdict::verdict;
 use std::path::{Path, PathBuf};
 
 struct Row {
@@ -129,7 +133,8 @@ const ROWS: &[Row] = &[
     },
 ];
 
-fn run(row: &Row, path: &Path) -> Result<(), String> {
+/// Prints the whole ledger; returns the row of the summary table.
+fn run(row: &Row, path: &Path) -> Result<String, String> {
     let own = |(a, b): &(&str, &str)| ((*a).to_owned(), (*b).to_owned());
     let options = Options {
         mode: Some(row.mode),
@@ -152,80 +157,52 @@ fn run(row: &Row, path: &Path) -> Result<(), String> {
     let started = std::time::Instant::now();
     let ledger = close(&data, &structure(&list, &data)?, |_| ())?;
     let seconds = started.elapsed().as_secs_f64();
-    let percent = |s: &bowden_lab::fit::Segments| {
+    println!("{}\n", text(row.name, &data, &ledger, true));
+    let percent = |s: &Segments| {
         let n = s.normalised(&data, &data.target);
-        format!(
-            "{:6.2} / {:6.2} / {:6.2}",
-            100.0 * n.fit,
-            100.0 * n.stop,
-            100.0 * n.held_out
-        )
+        (100.0 * n.fit, 100.0 * n.held_out)
     };
-    println!(
-        "\n{} — reach {} / {} ({:?}, {seconds:.2} s)",
-        row.name, row.reach.0, row.reach.1, ledger.regime
-    );
-    println!(
-        "  declared                       {}",
-        percent(&ledger.declared.rmse)
-    );
-    for round in &ledger.rounds {
-        let term = round.candidate.term;
-        let rivals: Vec<_> = round
-            .rivals
-            .iter()
-            .map(|r| format!("{}@{:?}", r.term.effect.name(), r.term.source))
-            .collect();
-        println!(
-            "  {:20} {:10?} {} p {:?} share {:.3} blocks {} {:?} rivals {rivals:?}",
-            term.effect.name(),
-            term.source,
-            percent(&round.after),
-            round.p,
-            round.explained,
-            round.blocks_better,
-            round.grade
-        );
-    }
-    let last = ledger.last();
-    let named: Vec<_> = last
-        .free
+    let (before, after) = (percent(&ledger.declared.rmse), percent(&ledger.last().rmse));
+    let names: Vec<String> = ledger
+        .rounds
         .iter()
-        .zip(&last.values)
-        .zip(&last.on_bound)
-        .map(|((f, v), b)| format!("{:?}={v:.4}{}", f.role, if *b { "!" } else { "" }))
+        .map(|r| term_name(&data, &r.candidate.term))
         .collect();
-    println!("  shapes {}", named.join(" "));
-    println!("  gains {:?}", last.gains);
-    let rejected: Vec<_> = ledger
-        .rejected
-        .iter()
-        .map(|r| {
-            format!(
-                "{}@{:?} {:?}",
-                r.candidate.term.effect.name(),
-                r.candidate.term.source,
-                r.gate
-            )
-        })
-        .collect();
-    println!("  rejected {}", rejected.join(", "));
-    let floor = data.noise_floor / (last.rmse.fit / last.rmse.normalised(&data, &data.target).fit);
-    println!(
-        "  correlation time {:.3} s, noise floor {:.2} %",
-        ledger.correlation_time,
-        100.0 * floor
-    );
-    Ok(())
+    let mut gates: Vec<&str> = ledger.rejected.iter().map(|r| r.gate.words()).collect();
+    gates.sort_unstable();
+    gates.dedup();
+    let stopped = match (ledger.rounds.len() >= MOST_ROUNDS, gates.is_empty()) {
+        (true, _) => "eight rounds".to_owned(),
+        (false, true) => "no candidate left".to_owned(),
+        (false, false) => gates.join("; "),
+    };
+    let met = if after.0 <= row.reach.0 && after.1 <= row.reach.1 {
+        "yes"
+    } else {
+        "**no**"
+    };
+    Ok(format!(
+        "| {} | {:.1} / {:.1} | {:.2} / {:.2} | {} / {} | {met} | {} | {} | {stopped} | {seconds:.1} s |",
+        row.name,
+        before.0,
+        before.1,
+        after.0,
+        after.1,
+        row.reach.0,
+        row.reach.1,
+        names.join(", "),
+        verdict(&data, &ledger).name()
+    ))
 }
 
 fn main() {
     let mut arguments = std::env::args().skip(1);
-    let folder = arguments.next().map_or_else(
-        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/data")),
-        PathBuf::from,
-    );
+    let Some(folder) = arguments.next().map(PathBuf::from) else {
+        println!("give the folder of the records");
+        return;
+    };
     let only: Vec<String> = arguments.collect();
+    let mut lines = Vec::new();
     for row in ROWS
         .iter()
         .filter(|r| only.is_empty() || only.iter().any(|o| r.name.contains(o.as_str())))
@@ -235,8 +212,14 @@ fn main() {
             println!("{}: skipped, {} is not there", row.name, path.display());
             continue;
         }
-        if let Err(message) = run(row, &path) {
-            println!("{}: {message}", row.name);
+        match run(row, &path) {
+            Ok(line) => lines.push(line),
+            Err(message) => lines.push(format!("| {} | {message} |", row.name)),
         }
+    }
+    println!("| record | declared | reached | to reach | met | added, in order | verdict | what stopped it | time |");
+    println!("|---|---|---|---|---|---|---|---|---|");
+    for line in lines {
+        println!("{line}");
     }
 }
