@@ -190,7 +190,7 @@ impl Collector<'_> {
     /// The strongest lines of the residual's order spectrum, each at its own phase and
     /// at a quarter period from it.
     ///
-    /// Orders from one and a half periods over the range up to where the usual speed
+    /// Orders from two and a half periods over the range (fewer are no ripple but a bent line) up to where the usual speed
     /// makes them faster than the cut-off.
     fn ripple(&mut self, source: Source, channel: &Channel) {
         let two_pi = 2.0 * std::f64::consts::PI;
@@ -202,7 +202,7 @@ impl Collector<'_> {
         let highest = (two_pi * self.data.cutoff / channel.speed).min(two_pi / range * 100.0);
         let rows = &self.data.split.fit;
         let mut lines: Vec<(f64, f64, f64)> = Vec::new();
-        let mut k = 6.0 * step;
+        let mut k = 10.0 * step;
         while k <= highest {
             let (mut s, mut c) = (0.0, 0.0);
             for &row in rows {

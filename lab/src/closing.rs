@@ -327,6 +327,10 @@ fn grade(
     }
 }
 
+/// Of the share that an effect removes on the fit segment, so much it has to remove on
+/// the stop-check.
+const CARRIED_OVER: f64 = 0.25;
+
 /// Share of the squared error that an effect has to remove.
 fn least_share(regime: Regime) -> f64 {
     match regime {
@@ -337,10 +341,6 @@ fn least_share(regime: Regime) -> f64 {
 
 /// The gates of a round; the number of blocks on which the new model is better.
 fn judge(data: &Prepared, old: &Solution, new: &Solution, regime: Regime) -> Result<usize, Gate> {
-    let most_worse = match regime {
-        Regime::Blocks => 1.02,
-        Regime::Effect => 1.10,
-    };
     if new.sse(data) > (1.0 - least_share(regime)) * old.sse(data) {
         return Err(Gate::Share);
     }
@@ -363,7 +363,17 @@ fn judge(data: &Prepared, old: &Solution, new: &Solution, regime: Regime) -> Res
     if !enough {
         return Err(Gate::Blocks);
     }
-    if new.rmse.stop > most_worse * old.rmse.stop {
+    let holds = match regime {
+        // The stop-check is the only part that no search has seen: what is real shows
+        // there too. A mere "not worse" lets one coloured null in fifty through.
+        Regime::Blocks => {
+            let explained = 1.0 - new.sse(data) / old.sse(data);
+            let there = 1.0 - (new.rmse.stop / old.rmse.stop).powi(2);
+            there >= CARRIED_OVER * explained
+        }
+        Regime::Effect => new.rmse.stop <= 1.10 * old.rmse.stop,
+    };
+    if !holds {
         return Err(Gate::StopCheck);
     }
     Ok(better)

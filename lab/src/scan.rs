@@ -20,6 +20,8 @@ const EXCITED: f64 = 1e-4;
 const FORWARD_SHARE: f64 = 0.01;
 /// Forward selection takes at most this many.
 const FORWARD_TERMS: usize = 8;
+/// A candidate that is tested by itself takes at least this share.
+const ALONE_SHARE: f64 = 0.05;
 /// Level of the test, before division by families and channels.
 const LEVEL: f64 = 0.01;
 /// A contender explains at least this share of what the best explains, at its trial
@@ -321,6 +323,48 @@ pub fn correlation_samples(residual: &[f64]) -> f64 {
     n as f64 / 2.0
 }
 
+/// The best candidate of each family and channel, tested by itself.
+fn alone(
+    space: &Workspace,
+    candidates: &[Candidate],
+    tried: &[usize],
+    level: f64,
+) -> (Vec<usize>, Vec<Option<f64>>) {
+    let of = |k: usize| {
+        (
+            candidates[space.kept[k]].family,
+            candidates[space.kept[k]].term.source,
+        )
+    };
+    let sse = space.residual.norm_squared();
+    let gain = |k: usize| {
+        let (_, score, norm) = space.partial(k, &[], &space.residual);
+        score * score / norm
+    };
+    let mut best: Vec<(usize, f64)> = Vec::new();
+    for k in 0..space.columns.len() {
+        let now = gain(k);
+        if now < ALONE_SHARE * sse || tried == [k] {
+            continue;
+        }
+        match best.iter_mut().find(|(b, _)| of(*b) == of(k)) {
+            Some(slot) if slot.1 < now => *slot = (k, now),
+            Some(_) => {}
+            None => best.push((k, now)),
+        }
+    }
+    best.into_iter()
+        .map(|(k, _)| {
+            (
+                k,
+                sign_flip_p(&space.scores(&space.columns[k], &space.residual)),
+            )
+        })
+        .filter(|(_, p)| *p <= level)
+        .map(|(k, p)| (k, Some(p)))
+        .unzip()
+}
+
 /// One pass over all candidates.
 #[must_use]
 pub fn scan(data: &Prepared, solution: &Solution, candidates: &[Candidate]) -> Scan {
@@ -358,7 +402,9 @@ pub fn scan(data: &Prepared, solution: &Solution, candidates: &[Candidate]) -> S
     };
     let mut dropped = Vec::new();
     let mut p_values: Vec<Option<f64>> = vec![None; set.len()];
+    let mut jointly = true;
     if regime == Regime::Blocks {
+        let together = set.clone();
         loop {
             let p: Vec<f64> = set.iter().map(|&j| p_of(&set, j)).collect();
             let worst = (0..set.len()).max_by(|&a, &b| p[a].total_cmp(&p[b]));
@@ -373,12 +419,19 @@ pub fn scan(data: &Prepared, solution: &Solution, candidates: &[Candidate]) -> S
                 }
             }
         }
+        if set.is_empty() {
+            // Two that stand in for a third may have killed each other: each family's
+            // best is tried once more by itself, still at the same corrected level.
+            (set, p_values) = alone(&space, candidates, &together, LEVEL / tests);
+            jointly = false;
+            dropped.retain(|(candidate, _)| set.iter().all(|&j| of(j) != *candidate));
+        }
     }
 
     let sse = space.residual.norm_squared();
     let mut findings: Vec<(f64, Finding)> = Vec::new();
     for (&j, p) in set.iter().zip(p_values) {
-        let (others, residual) = space.without(&set, j);
+        let (others, residual) = space.without(if jointly { &set } else { &[] }, j);
         let (column, score, norm) = space.partial(j, &others, &residual);
         let gain = score * score / norm;
         // One effect is added at a time, so a contender may do as well either beside the
@@ -416,8 +469,9 @@ pub fn scan(data: &Prepared, solution: &Solution, candidates: &[Candidate]) -> S
                 named.push((candidate, coefficient));
             }
         }
+        // One at a time: first the one that takes most when it comes alone.
         findings.push((
-            gain,
+            alone_gain,
             Finding {
                 candidate: of(j),
                 p,
