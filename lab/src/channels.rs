@@ -365,7 +365,7 @@ impl Prepared {
         let factor = match coarse {
             true => (1..=self.stride)
                 .rev()
-                .find(|c| self.stride % c == 0 && per_period / *c as f64 >= 8.0)
+                .find(|c| self.stride.is_multiple_of(*c) && per_period / *c as f64 >= 8.0)
                 .unwrap_or(1),
             false => 1,
         };

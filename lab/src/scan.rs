@@ -309,7 +309,7 @@ pub fn correlation_samples(residual: &[f64]) -> f64 {
             .sum()
     };
     let zero = correlation(0);
-    if !(zero > 0.0) {
+    if zero.is_nan() || zero <= 0.0 {
         return 1.0;
     }
     let mut last = 1.0;

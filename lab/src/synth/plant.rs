@@ -149,7 +149,7 @@ fn integrate(rig: &Rig, base: &Base, mode: Mode, grid: &Grid, running: &mut [Run
             Mode::Displacement => base.gain * u + loop_part + base.offset,
         });
         running.iter_mut().for_each(|effect| effect.step(&moment));
-        if i >= grid.first && (i - grid.first) % grid.every == 0 {
+        if i >= grid.first && (i - grid.first).is_multiple_of(grid.every) {
             moments.push(moment);
         }
     }
