@@ -143,10 +143,13 @@ pub fn text(path: &str, data: &Prepared, ledger: &Ledger, chosen_cutoff: bool) -
         .output_unit
         .as_deref()
         .map_or_else(String::new, |u| format!(" [{u}]"));
-    let fit = format!("RMSE{unit} fit");
+    line!(
+        out,
+        "RMSE{unit} of the filtered output, in multiples of the noise floor on the right:"
+    );
     let mut rounds = table(
         &[
-            "", "effect", "grade", "explains", &fit, "stop", "held out", "× floor",
+            "", "effect", "grade", "explains", "fit", "stop", "held out", "× floor",
         ],
         3..8,
     );

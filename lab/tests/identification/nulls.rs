@@ -93,6 +93,10 @@ fn noise_with_a_correlation_of_0_9_adds_nothing_in_forty_records() {
 #[test]
 fn noise_with_a_correlation_of_0_99_adds_something_to_at_most_one_in_forty_records() {
     let added = added(0.99);
-    println!("correlation 0.99: {} of {}: {added:#?}", added.len(), RECORDS.len());
+    println!(
+        "correlation 0.99: {} of {}: {added:#?}",
+        added.len(),
+        RECORDS.len()
+    );
     assert!(added.len() <= 1, "{added:#?}");
 }
