@@ -54,6 +54,16 @@ fn without_arguments_the_embedded_record_gives_a_ledger_without_colours() {
 }
 
 #[test]
+fn the_readme_shows_what_the_first_command_prints() {
+    let readme = include_str!("../../README.md");
+    let output = bowden(&[]);
+    // Of the rejected only the list's order could differ between processors.
+    for line in text(&output.stdout).lines().filter(|l| !l.starts_with("rejected")) {
+        assert!(readme.contains(line.trim_end()), "not in README.md: {line}");
+    }
+}
+
+#[test]
 fn the_embedded_record_is_the_one_that_the_named_command_writes() {
     let folder = tempfile::tempdir().unwrap();
     let path = record(
