@@ -151,35 +151,35 @@ struct Uniform {
     dt: f64,
     len: usize,
     position: Option<Vec<(usize, f64)>>,
-    gaps: Vec<Range<usize>>,
     stretched: usize,
 }
 
 impl Uniform {
-    fn new(time: &[f64], cutoff: Option<f64>) -> Self {
+    fn new(time: &[f64]) -> Result<Self, String> {
         let mut steps: Vec<f64> = time.windows(2).map(|w| w[1] - w[0]).collect();
         steps.sort_by(f64::total_cmp);
         let median = steps[steps.len() / 2];
         let span = time[time.len() - 1] - time[0];
-        // Without gaps the mean is the better estimate of the step.
-        let mean = span / (time.len() - 1) as f64;
-        let dt = if (mean / median - 1.0).abs() < 0.01 {
-            mean
-        } else {
-            median
-        };
+        // The mean of the steps that are no gaps.
+        let usual = steps.partition_point(|s| *s <= 3.0 * median);
+        let dt = steps[..usual].iter().sum::<f64>() / usual as f64;
         let uneven = time
             .iter()
             .enumerate()
             .any(|(i, t)| (t - time[0] - i as f64 * dt).abs() > 0.02 * dt);
         if !uneven {
-            return Self {
+            return Ok(Self {
                 dt,
                 len: time.len(),
                 position: None,
-                gaps: Vec::new(),
                 stretched: 0,
-            };
+            });
+        }
+        // Past this there is more gap than record, and the grid would not fit into memory.
+        if span / dt > 20.0 * time.len() as f64 {
+            return Err(format!(
+                "time spans {span:.6} s, but its usual step is {dt:.6} s: most of it is gap; cut it with --skip and --until"
+            ));
         }
         let len = (span / dt + 1e-6).floor() as usize + 1;
         let mut position = Vec::with_capacity(len);
@@ -192,24 +192,23 @@ impl Uniform {
             let fraction = ((t - time[left]) / (time[left + 1] - time[left])).clamp(0.0, 1.0);
             position.push((left, fraction));
         }
-        // A gap longer than half a period of the cut-off hides motion that matters.
-        let longest = (5.0 * dt).max(cutoff.map_or(0.0, |f| 0.5 / f));
-        let gaps: Vec<_> = time
-            .windows(2)
-            .filter(|w| w[1] - w[0] > longest)
-            .map(|w| {
-                let index = |t: f64| ((t - time[0]) / dt).round() as usize;
-                index(w[0])..index(w[1]).min(len)
-            })
-            .collect();
         let stretched = time.windows(2).filter(|w| w[1] - w[0] > 1.5 * dt).count();
-        Self {
+        Ok(Self {
             dt,
             len,
             position: Some(position),
-            gaps,
             stretched,
-        }
+        })
+    }
+
+    /// Gaps longer than half a period of the cut-off: they hide motion that matters.
+    fn gaps(&self, time: &[f64], cutoff: f64) -> Vec<Range<usize>> {
+        let longest = (5.0 * self.dt).max(0.5 / cutoff);
+        let index = |t: f64| ((t - time[0]) / self.dt).round() as usize;
+        time.windows(2)
+            .filter(|w| w[1] - w[0] > longest)
+            .map(|w| index(w[0])..index(w[1]).min(self.len))
+            .collect()
     }
 
     fn signal(&self, values: &[f64]) -> Vec<f64> {
@@ -229,7 +228,7 @@ impl Prepared {
     /// # Errors
     /// One sentence where the record is too short for the cut-off.
     pub fn new(record: &Record, preparation: Preparation) -> Result<Self, String> {
-        let uniform = Uniform::new(&record.time, preparation.cutoff);
+        let uniform = Uniform::new(&record.time)?;
         let rate = 1.0 / uniform.dt;
         let mut notes = record.notes.clone();
         if uniform.stretched > 0 {
@@ -306,7 +305,7 @@ impl Prepared {
         let mut valid = vec![true; n_estimation];
         let per_estimation = work_stride * stride;
         let guard = (1.0 / (cutoff * dt * stride as f64)).ceil() as usize;
-        for gap in &uniform.gaps {
+        for gap in &uniform.gaps(&record.time, cutoff) {
             let from = (gap.start / per_estimation).saturating_sub(guard);
             let to = (gap.end / per_estimation + guard).min(n_estimation - 1);
             valid[from..=to].fill(false);
@@ -457,3 +456,6 @@ fn noise_floor(output: &[f64], smoothed: &[f64], cutoff: f64, rate: f64) -> f64 
     let variance = removed.iter().map(|v| v * v).sum::<f64>() / n as f64 / share;
     variance.sqrt() * ZeroPhase::new(cutoff, rate).noise_gain()
 }
+
+#[cfg(test)]
+mod tests;
