@@ -245,9 +245,9 @@ impl Prepared {
             Some(cutoff) => return Err(format!("--cutoff {cutoff} Hz is too high: the record has {rate:.6} samples a second and allows at most {:.6} Hz", 0.4 * rate)),
             None => spectrum::default_cutoff(&input, rate),
         };
-        let work_stride = ((rate / (24.0 * cutoff)).floor() as usize).max(1);
+        let work_stride = ((rate / (24.0 * cutoff) + 1e-6).floor() as usize).max(1);
         let dt = uniform.dt * work_stride as f64;
-        let stride = ((1.0 / (4.0 * cutoff * dt)).floor() as usize).max(1);
+        let stride = ((1.0 / (4.0 * cutoff * dt) + 1e-6).floor() as usize).max(1);
         let n_work = n.div_ceil(work_stride);
         let n_estimation = n_work.div_ceil(stride);
 

@@ -58,7 +58,10 @@ fn the_readme_shows_what_the_first_command_prints() {
     let readme = include_str!("../../README.md");
     let output = bowden(&[]);
     // Of the rejected only the list's order could differ between processors.
-    for line in text(&output.stdout).lines().filter(|l| !l.starts_with("rejected")) {
+    for line in text(&output.stdout)
+        .lines()
+        .filter(|l| !l.starts_with("rejected"))
+    {
         assert!(readme.contains(line.trim_end()), "not in README.md: {line}");
     }
 }
