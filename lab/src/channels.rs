@@ -162,7 +162,9 @@ impl Uniform {
         let span = time[time.len() - 1] - time[0];
         // The mean of the steps that are no gaps.
         let usual = steps.partition_point(|s| *s <= 3.0 * median);
-        let dt = steps[..usual].iter().sum::<f64>() / usual as f64;
+        let mean = steps[..usual].iter().sum::<f64>() / usual as f64;
+        // Nine digits: what is beyond them is the rounding of the sum.
+        let dt: f64 = format!("{mean:.9e}").parse().unwrap_or(mean);
         let uneven = time
             .iter()
             .enumerate()
@@ -334,7 +336,7 @@ impl Prepared {
         Ok(Self {
             mode: record.mode,
             samples: record.time.len(),
-            rate,
+            rate: format!("{rate:.9e}").parse().unwrap_or(rate),
             cutoff,
             dt,
             stride,

@@ -9,28 +9,29 @@ fn ledger(made: &Made) -> String {
     let ledger = close(&made.data, &made.declare(&["bouc-wen"]), |_| ()).unwrap();
     assert!(
         ledger.rounds.len() >= 2,
-        "two effects are planted, so that the rounds after the first count as well"
+        "three effects are planted, so that the rounds after the first count as well"
     );
     format!("{ledger:?}")
 }
 
-fn two_effects() -> Made {
-    let mut recipe = with_effect(Mode::Torque, "viscous", 3.0, 11);
-    recipe.effects.push(Planted::new("delay"));
+fn three_effects() -> Made {
+    let mut recipe = with_effect(Mode::Displacement, "inertia", 3.0, 61);
+    recipe.effects.push(Planted::new("lag"));
+    recipe.effects.push(Planted::new("stiffness-quadratic"));
     Made::new(&recipe)
 }
 
 #[test]
 fn closing_twice_gives_the_same_ledger_to_the_last_bit() {
-    let made = two_effects();
+    let made = three_effects();
     assert_eq!(ledger(&made), ledger(&made));
     // Nor does it hang on anything that reading and preparing left behind.
-    assert_eq!(ledger(&made), ledger(&two_effects()));
+    assert_eq!(ledger(&made), ledger(&three_effects()));
 }
 
 #[test]
 fn the_number_of_threads_does_not_change_a_bit() {
-    let made = two_effects();
+    let made = three_effects();
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
