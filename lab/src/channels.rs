@@ -20,7 +20,7 @@ use std::ops::Range;
 /// How the record is to be prepared.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Preparation {
-    /// Cut-off [Hz]; from the spectrum of the input where `None`.
+    /// Cut-off \[Hz\]; from the spectrum of the input where `None`.
     pub cutoff: Option<f64>,
 }
 
@@ -111,11 +111,11 @@ pub struct Prepared {
     pub mode: Mode,
     /// Samples of the record after cutting.
     pub samples: usize,
-    /// Rate of the record [Hz], after making time uniform.
+    /// Rate of the record \[Hz\], after making time uniform.
     pub rate: f64,
-    /// Cut-off f_c [Hz].
+    /// Cut-off f_c \[Hz\].
     pub cutoff: f64,
-    /// Step of the work grid [s].
+    /// Step of the work grid \[s\].
     pub dt: f64,
     /// Work samples per estimation sample.
     pub stride: usize,

@@ -97,7 +97,7 @@ pub struct Ledger {
     pub rejected: Vec<Rejection>,
     /// Whether the record had blocks enough for p-values, in the last scan.
     pub regime: Regime,
-    /// Correlation time of the last residual [s].
+    /// Correlation time of the last residual \[s\].
     pub correlation_time: f64,
 }
 

@@ -45,7 +45,7 @@ pub struct ZeroPhase {
 }
 
 impl ZeroPhase {
-    /// A smoother with `cutoff` [Hz] for signals sampled at `rate` [Hz].
+    /// A smoother with `cutoff` \[Hz\] for signals sampled at `rate` \[Hz\].
     ///
     /// A cut-off at or above 0.45 of the rate is lowered to that.
     #[must_use]

@@ -63,7 +63,7 @@ pub struct Scan {
     pub findings: Vec<Finding>,
     /// What was chosen in the forward pass and dropped by the test.
     pub dropped: Vec<(Candidate, f64)>,
-    /// Correlation time of what the forward set leaves [s].
+    /// Correlation time of what the forward set leaves \[s\].
     pub correlation_time: f64,
 }
 

@@ -2,7 +2,7 @@
 
 use rustfft::{num_complex::Complex, FftPlanner};
 
-/// About eight times the highest tone of the input [Hz].
+/// About eight times the highest tone of the input \[Hz\].
 ///
 /// The highest tone is the highest frequency at which the amplitude spectrum (Hann
 /// window, mean removed) reaches a tenth of its peak. The result is kept between
