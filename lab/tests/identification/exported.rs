@@ -1,0 +1,255 @@
+//! What was fitted on the bench is what runs in firmware.
+//!
+//! A [`Model`] of the core is built from the numbers of a solution, as a user would do
+//! in firmware, and stepped sample by sample over the record. Behind the fit's own
+//! filter its output has to be the fit's own prediction.
+
+use crate::rig::Made;
+use bowden::effect::{Effect, Motion};
+use bowden::hysteresis::Shape;
+use bowden::model::{Model, ModelState, Sample, Source, Term};
+use bowden::transmission::Transmission;
+use bowden::Real;
+use bowden_lab::channels::Prepared;
+use bowden_lab::closing::close;
+use bowden_lab::fit::{fit, Solution};
+use bowden_lab::record;
+use bowden_lab::structure::Role;
+use bowden_lab::synth::{Mode, Planted, Recipe};
+
+fn term<T: Real>(solution: &Solution, index: usize) -> Term<T> {
+    let fitted = &solution.structure.terms[index];
+    let shapes: Vec<T> = (0..fitted.effect.shape_names().len())
+        .map(|shape| T::of(fitted.effect.shape(shape).unwrap()))
+        .collect();
+    Term {
+        effect: Effect::try_from_name(fitted.effect.name(), &shapes).unwrap(),
+        source: fitted.source,
+        origin: T::of(fitted.origin),
+        gain: T::of(solution.gain(index)),
+    }
+}
+
+/// The model as it would be written down in firmware, and the state that it starts in.
+fn firmware<T: Real>(data: &Prepared, solution: &Solution) -> (Model<T, 16>, ModelState<T, 16>) {
+    let value = |role| T::of(solution.value(role).unwrap());
+    let gain = |k: usize| T::of(solution.gains[k]);
+    let transmission = solution.structure.hysteresis.then(|| {
+        let shape = Shape::try_new(value(Role::Rho), value(Role::Sigma), value(Role::N)).unwrap();
+        match data.mode {
+            // (6) subtracts its hysteresis and its pretension, (1) adds.
+            record::Mode::Torque => Transmission::torque(gain(0), -gain(1), -gain(2), shape),
+            record::Mode::Displacement => {
+                Transmission::displacement(gain(0), gain(1), gain(2), shape)
+            }
+        }
+        .unwrap()
+    });
+    let terms: Vec<Term<T>> = (0..solution.structure.terms.len())
+        .map(|index| term(solution, index))
+        .collect();
+    let state = match solution.structure.hysteresis {
+        true => ModelState::with_eta(value(Role::Eta0)).unwrap(),
+        false => ModelState::new(),
+    };
+    (Model::try_new(transmission, &terms).unwrap(), state)
+}
+
+/// Sample by sample over the record, then through the filter.
+fn played<T: Real>(data: &Prepared, solution: &Solution) -> Vec<f64> {
+    let (model, mut state) = firmware::<T>(data, solution);
+    let narrow = |m: &Motion<f64>| Motion {
+        position: T::of(m.position),
+        velocity: T::of(m.velocity),
+        acceleration: T::of(m.acceleration),
+    };
+    let output: Vec<f64> = (0..data.work_len())
+        .map(|i| {
+            let input = narrow(&data.input.motion[i]);
+            let channels: Vec<Motion<T>> =
+                data.channels.iter().map(|c| narrow(&c.motion[i])).collect();
+            let load = match (data.mode, data.load) {
+                (_, Some(load)) => channels[load].position,
+                (record::Mode::Torque, None) => input.position,
+                (record::Mode::Displacement, None) => T::zero(),
+            };
+            let sample = Sample {
+                dt: T::of(data.dt),
+                input,
+                load,
+                channels: &channels,
+            };
+            assert!(model.accepts(&sample));
+            model.step(&mut state, &sample).to_f64().unwrap()
+        })
+        .collect();
+    data.filtered(&output)
+}
+
+/// Largest difference to the fit's prediction from `share` of the record on, over the
+/// largest prediction.
+fn difference(solution: &Solution, played: &[f64], share: f64) -> f64 {
+    let from = (share * played.len() as f64) as usize;
+    let largest = solution
+        .prediction
+        .iter()
+        .fold(0.0_f64, |m, p| m.max(p.abs()));
+    let worst = played
+        .iter()
+        .zip(&solution.prediction)
+        .skip(from)
+        .map(|(a, b)| (a - b).abs())
+        .fold(0.0, f64::max);
+    worst / largest
+}
+
+/// Rounding: the fit adds columns, the model adds terms.
+const F64: f64 = 1e-9;
+/// Sixteen roundings to `f32` of the largest output; inputs are rounded as well.
+const F32: f64 = 16.0 * f32::EPSILON as f64;
+
+fn assert_the_same(data: &Prepared, solution: &Solution, share: f64) {
+    let wide = difference(solution, &played::<f64>(data, solution), share);
+    assert!(wide < F64, "f64: {wide:e}");
+    let narrow = difference(solution, &played::<f32>(data, solution), share);
+    assert!(narrow < F32, "f32: {narrow:e}");
+    // Nothing is shown if the two are the same by being the same type.
+    assert!(narrow > 100.0 * f64::EPSILON, "f32: {narrow:e}");
+}
+
+fn made(mode: Mode, effects: &[&str]) -> Made {
+    Made::new(&Recipe {
+        seed: 61,
+        effects: effects.iter().map(|e| Planted::new(e)).collect(),
+        load: mode == Mode::Displacement,
+        ..Recipe::new(mode)
+    })
+}
+
+fn told(made: &Made, list: &[&str]) -> Solution {
+    fit(&made.data, &made.declare(list), None, 0.0).unwrap()
+}
+
+/// Whether a gain of the solution counts: at least 1e-3 of the output is the term's.
+fn contributes(solution: &Solution, name: &str) -> bool {
+    let terms = &solution.structure.terms;
+    let index = terms.iter().position(|t| t.effect.name() == name).unwrap();
+    solution.gain(index).abs() > 1e-6
+}
+
+#[test]
+fn a_model_that_the_loop_found_runs_the_same_in_firmware() {
+    let made = made(
+        Mode::Displacement,
+        &["inertia", "lag", "stiffness-quadratic"],
+    );
+    let ledger = close(&made.data, &made.declare(&["bouc-wen"]), |_| ()).unwrap();
+    let last = ledger.last();
+    assert!(last.structure.hysteresis && !last.structure.terms.is_empty());
+    let terms = &last.structure.terms;
+    assert!(
+        terms.iter().any(|t| t.effect.is_output_stage()),
+        "{terms:?}"
+    );
+    assert!(terms.iter().all(|t| !t.has_past()), "{terms:?}");
+    assert_the_same(&made.data, last, 0.0);
+}
+
+#[test]
+fn in_torque_mode_with_a_channel_and_a_delay_the_model_runs_the_same_in_firmware() {
+    let made = made(Mode::Torque, &["viscous", "delay"]);
+    let solution = told(&made, &["bouc-wen", "viscous@phi_p", "delay"]);
+    assert!(contributes(&solution, "viscous") && contributes(&solution, "delay"));
+    assert!(matches!(
+        solution.structure.terms[0].source,
+        Source::Channel(_)
+    ));
+    assert_the_same(&made.data, &solution, 0.0);
+}
+
+#[test]
+fn friction_under_the_transmitted_load_runs_the_same_in_firmware() {
+    // In torque mode the load is the input, else the record's own column.
+    for (mode, name) in [
+        (Mode::Torque, "load-friction@phi_p"),
+        (Mode::Displacement, "load-friction"),
+    ] {
+        let made = made(mode, &["load-friction"]);
+        let solution = told(&made, &["bouc-wen", name]);
+        assert!(contributes(&solution, "load-friction"));
+        assert_the_same(&made.data, &solution, 0.0);
+    }
+}
+
+#[test]
+fn effects_of_the_hysteresis_and_a_fitted_origin_run_the_same_in_firmware() {
+    let made = made(
+        Mode::Torque,
+        &["rate", "stiffness-quadratic", "degradation"],
+    );
+    let list = [
+        "bouc-wen",
+        "rate@tau_i",
+        "stiffness-quadratic@phi_p",
+        "degradation",
+        "asymmetry-eta",
+    ];
+    let solution = told(&made, &list);
+    assert!(solution.structure.terms.iter().any(|t| t.origin != 0.0));
+    assert!(contributes(&solution, "rate") && contributes(&solution, "degradation"));
+    assert_the_same(&made.data, &solution, 0.0);
+}
+
+#[test]
+fn a_model_without_hysteresis_runs_the_same_in_firmware() {
+    let made = made(Mode::Displacement, &["viscous"]);
+    let solution = told(&made, &["viscous", "stiffness", "offset", "coulomb", "lag"]);
+    assert!(!solution.structure.hysteresis);
+    assert_the_same(&made.data, &solution, 0.0);
+}
+
+/// A stop forgets: once it has slipped it does not know where it began. The fit knows of
+/// motion before the record (`start`), the firmware starts with the record, so the
+/// first part may differ. Both have slipped within the first quarter, and what the filter
+/// spreads of the difference has decayed below rounding by the middle.
+#[test]
+fn a_stop_runs_the_same_in_firmware_once_it_has_slipped() {
+    let made = made(Mode::Torque, &["presliding"]);
+    let solution = told(&made, &["bouc-wen", "presliding@phi_p"]);
+    assert!(contributes(&solution, "presliding"));
+    let term = &solution.structure.terms[0];
+    let early = solution.prediction.len() / 4 * made.data.stride;
+    let channel = made.data.channel(term.source).unwrap();
+    let positions = channel.motion[..early].iter().map(|m| m.position);
+    let moved = positions.clone().fold(f64::NEG_INFINITY, f64::max)
+        - positions.fold(f64::INFINITY, f64::min);
+    assert!(term.start != 0.0);
+    // Two half-widths from the lowest to the highest place, in whichever order, and it
+    // lies at its end wherever it began.
+    assert!(moved >= 2.0 * term.effect.shape(0).unwrap(), "{moved}");
+    assert_the_same(&made.data, &solution, 0.5);
+}
+
+/// Creep forgets exponentially, never quite. What it remembers from before the record is
+/// `-gain·start·exp(−t/tau)` of the prediction; the rest must be the firmware's.
+#[test]
+fn creep_runs_the_same_in_firmware_but_for_what_it_remembers_from_before() {
+    let made = made(Mode::Torque, &["creep"]);
+    let mut solution = told(&made, &["bouc-wen", "creep@tau_i"]);
+    let term = solution.structure.terms[0];
+    let (tau, gain) = (term.effect.shape(0).unwrap(), solution.gain(0));
+    assert!(contributes(&solution, "creep") && term.start != 0.0);
+    let before: Vec<f64> = (0..made.data.work_len())
+        .map(|i| -gain * term.start * (-(i as f64 + 1.0) * made.data.dt / tau).exp())
+        .collect();
+    let before = made.data.filtered(&before);
+    let played = played::<f64>(&made.data, &solution);
+    assert!(
+        difference(&solution, &played, 0.0) > 1e-3,
+        "nothing is remembered"
+    );
+    for (prediction, remembered) in solution.prediction.iter_mut().zip(before) {
+        *prediction -= remembered;
+    }
+    assert_the_same(&made.data, &solution, 0.0);
+}
