@@ -19,6 +19,7 @@ pub mod intervals;
 pub mod record;
 pub mod report;
 pub mod scan;
+pub mod solution;
 pub mod spectrum;
 pub mod structure;
 pub mod synth;
