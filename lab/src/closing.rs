@@ -331,6 +331,9 @@ fn grade(
 /// the stop-check.
 const CARRIED_OVER: f64 = 0.25;
 
+/// A share that searching a null has not been seen to reach.
+const LARGE: f64 = 0.3;
+
 /// Share of the squared error that an effect has to remove.
 fn least_share(regime: Regime) -> f64 {
     match regime {
@@ -369,7 +372,10 @@ fn judge(data: &Prepared, old: &Solution, new: &Solution, regime: Regime) -> Res
         Regime::Blocks => {
             let explained = 1.0 - new.sse(data) / old.sse(data);
             let there = 1.0 - (new.rmse.stop / old.rmse.stop).powi(2);
+            // Where much is missing at once, one effect removed may uncover another just
+            // there; what no null reaches need only not be worse.
             there >= CARRIED_OVER * explained
+                || (explained >= LARGE && new.rmse.stop <= 1.02 * old.rmse.stop)
         }
         Regime::Effect => new.rmse.stop <= 1.10 * old.rmse.stop,
     };
