@@ -43,6 +43,7 @@
 #[cfg(feature = "std")]
 extern crate std;
 
+pub mod control;
 pub mod effect;
 mod error;
 pub mod hysteresis;

@@ -59,6 +59,12 @@ impl<T: Real> Derivative<T> {
         Ok(Self { time_constant })
     }
 
+    /// The same where the time constant was checked before.
+    #[inline]
+    pub(crate) fn assumed(time_constant: T) -> Self {
+        Self { time_constant }
+    }
+
     /// The time constant \[s\].
     #[inline]
     #[must_use]
@@ -99,6 +105,15 @@ impl<T: Real> DerivativeState<T> {
         Self {
             last: None,
             rate: T::zero(),
+        }
+    }
+
+    /// A state that has seen `last` and stands at `rate`.
+    #[inline]
+    pub(crate) fn at(last: T, rate: T) -> Self {
+        Self {
+            last: Some(last),
+            rate,
         }
     }
 

@@ -1,0 +1,141 @@
+//! What a command may be: a range and, if wanted, a slew rate.
+
+use crate::error::finite;
+use crate::signal::clamp;
+use crate::{Error, Real};
+
+/// Range \[command unit\] and slew rate \[command unit/s\] of a command.
+///
+/// The range may be asymmetric. [`Limits::none`] is the range of the float itself, so
+/// that a command is finite in any case.
+///
+/// ```
+/// use bowden::control::Limits;
+/// let limits = Limits::try_new(-5.0, 20.0)?.with_slew(1000.0)?;
+/// assert_eq!(limits.apply(0.0, 9.0, 0.001), 1.0); // 1000/s for 1 ms
+/// assert_eq!(limits.apply(19.5, 90.0, 0.001), 20.0);
+/// # Ok::<(), bowden::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "Unchecked<T>",
+        bound(
+            serialize = "T: Real + serde::Serialize",
+            deserialize = "T: Real + serde::Deserialize<'de>"
+        )
+    )
+)]
+pub struct Limits<T> {
+    low: T,
+    high: T,
+    slew: Option<T>,
+}
+
+impl<T: Real> Limits<T> {
+    /// The range `low..=high` \[command unit\], without a slew rate.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] with `"low"` or `"high"`; [`Error::Inadmissible`] unless
+    /// `low < high`.
+    pub fn try_new(low: T, high: T) -> Result<Self, Error> {
+        let (low, high) = (finite(low, "low")?, finite(high, "high")?);
+        if low < high {
+            Ok(Self {
+                low,
+                high,
+                slew: None,
+            })
+        } else {
+            Err(Error::Inadmissible("low < high"))
+        }
+    }
+
+    /// Every finite command.
+    #[must_use]
+    pub fn none() -> Self {
+        Self {
+            low: T::min_value(),
+            high: T::max_value(),
+            slew: None,
+        }
+    }
+
+    /// The same range with a slew rate above zero \[command unit/s\].
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"slew"`.
+    pub fn with_slew(self, slew: T) -> Result<Self, Error> {
+        if finite(slew, "slew")? <= T::zero() {
+            return Err(Error::OutOfRange("slew"));
+        }
+        Ok(Self {
+            slew: Some(slew),
+            ..self
+        })
+    }
+
+    /// Least command \[command unit\].
+    #[must_use]
+    pub fn low(&self) -> T {
+        self.low
+    }
+
+    /// Greatest command \[command unit\].
+    #[must_use]
+    pub fn high(&self) -> T {
+        self.high
+    }
+
+    /// Slew rate \[command unit/s\], where there is one.
+    #[must_use]
+    pub fn slew(&self) -> Option<T> {
+        self.slew
+    }
+
+    /// Whether a command lies within the range.
+    #[must_use]
+    pub fn contains(&self, command: T) -> bool {
+        self.low <= command && command <= self.high
+    }
+
+    /// The command nearest to `wanted` that can follow `last` after `dt` \[s\].
+    ///
+    /// Always within the range, also where `last` is not, and within `slew·dt` of
+    /// `last` where that can be had. NaN in `wanted` or in a `last` that is needed
+    /// stays NaN; controllers refuse it before.
+    #[inline]
+    #[must_use]
+    pub fn apply(&self, last: T, wanted: T, dt: T) -> T {
+        let reachable = match self.slew {
+            Some(slew) => {
+                let reach = slew * dt;
+                clamp(wanted, last - reach, last + reach)
+            }
+            None => wanted,
+        };
+        clamp(reachable, self.low, self.high)
+    }
+}
+
+/// What is read before it is checked.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Unchecked<T> {
+    low: T,
+    high: T,
+    slew: Option<T>,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> TryFrom<Unchecked<T>> for Limits<T> {
+    type Error = Error;
+    fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
+        let limits = Self::try_new(raw.low, raw.high)?;
+        raw.slew.map_or(Ok(limits), |slew| limits.with_slew(slew))
+    }
+}

@@ -1,0 +1,19 @@
+//! Torque controllers that a bad sample cannot poison.
+//!
+//! Configuration and state are apart: a controller is checked once, in `try_new`, may
+//! live in flash and never changes; its state is `Copy` and can be saved and restored.
+//! One call a sample, with the time since the last one, which may vary.
+//!
+//! **Bad samples.** A NaN or an infinity in a measurement, in the reference or in `dt`, or
+//! a `dt` that is not positive, leaves the state as it was and holds the last good
+//! command; the [`Status`] says which input it was. After a stated number in a row the
+//! [`Fallback`]'s safe command goes out. The command is finite and within its [`Limits`]
+//! in every case.
+
+mod limits;
+mod pid;
+mod status;
+
+pub use limits::Limits;
+pub use pid::{AntiWindup, Damping, Pid, PidInput, PidOutput, PidSettings, PidState, PidTerms};
+pub use status::{Fallback, Fault, Status};

@@ -1,0 +1,79 @@
+//! What goes into a step of a [`Pid`](super::Pid), and what comes out.
+
+use crate::control::Status;
+use crate::Real;
+
+/// One sample for a [`Pid`](super::Pid).
+///
+/// ```
+/// use bowden::control::PidInput;
+/// let sample = PidInput { feed_forward: 12.0, ..PidInput::new(0.001, 25.0, 24.8) };
+/// assert_eq!((sample.measured, sample.velocity), (24.8, 0.0));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PidInput<T> {
+    /// Since the last call, also where that was a bad sample \[s\].
+    pub dt: T,
+    /// y_r \[output unit\], such as \[N·m\]
+    pub reference: T,
+    /// y \[output unit\], such as \[N·m\]
+    pub measured: T,
+    /// Measured distal velocity \[rad/s\]; only PIV (16) reads it.
+    pub velocity: T,
+    /// Added to the command before the limits \[command unit\]; 0 for none.
+    pub feed_forward: T,
+}
+
+impl<T: Real> PidInput<T> {
+    /// A sample without velocity and feed-forward: `dt` \[s\], the torques \[N·m\].
+    #[inline]
+    #[must_use]
+    pub fn new(dt: T, reference: T, measured: T) -> Self {
+        Self {
+            dt,
+            reference,
+            measured,
+            velocity: T::zero(),
+            feed_forward: T::zero(),
+        }
+    }
+}
+
+/// What a step of a [`Pid`](super::Pid) gives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PidOutput<T> {
+    /// What goes to the drive \[command unit\]: finite and within the limits.
+    pub command: T,
+    /// A good sample, or what was wrong and what is out instead.
+    pub status: Status,
+    /// Telemetry; on a bad sample, the terms of the last good one.
+    pub terms: PidTerms<T>,
+}
+
+/// Every term of the last good sample; they add up to `unlimited`.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PidTerms<T> {
+    /// e = y − y_r \[output unit\]
+    pub error: T,
+    /// −k_p·(y − b·y_r) \[command unit\]
+    pub proportional: T,
+    /// −k_i·∫e, with what the anti-windup did to it \[command unit\]
+    pub integral: T,
+    /// −k_d·d/dt(y − c·y_r), filtered \[command unit\]; zero with PIV
+    pub derivative: T,
+    /// −k_d·v_d of PIV \[command unit\]; zero with PI and PID
+    pub velocity: T,
+    /// As it was given \[command unit\].
+    pub feed_forward: T,
+    /// The sum before range and slew rate \[command unit\].
+    pub unlimited: T,
+    /// Whether range or slew rate changed the command.
+    pub saturated: bool,
+}

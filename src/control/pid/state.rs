@@ -1,0 +1,257 @@
+//! What a [`Pid`] remembers between samples.
+
+use super::{Pid, PidInput};
+use crate::control::status::{usable_dt, Held};
+use crate::control::Status;
+use crate::Real;
+
+/// State of a [`Pid`]: the integral, the filtered rate, the last good sample.
+///
+/// `Copy`: it can be saved and restored. Any state works with any [`Pid`]; to change
+/// the gains of a running one without a jump see [`Pid::take_over`].
+///
+/// ```
+/// use bowden::control::{Pid, PidInput, PidState};
+/// let pid = Pid::paper_pi();
+/// let mut state = PidState::new();
+/// pid.step(&mut state, &PidInput::new(0.001, 1.0, 0.5_f64));
+/// assert!(state.integral() > 0.0);
+/// state.reset();
+/// assert_eq!(state.integral(), 0.0);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "Unchecked<T>",
+        bound(
+            serialize = "T: Real + serde::Serialize",
+            deserialize = "T: Real + serde::Deserialize<'de>"
+        )
+    )
+)]
+pub struct PidState<T> {
+    /// The integral term \[command unit\].
+    pub(super) integral: T,
+    /// What rounding has added to it too much (Kahan's sum).
+    carry: T,
+    /// Filtered rate of y − c·y_r, zero where that is not used.
+    pub(super) rate: T,
+    pub(super) last: Option<Last<T>>,
+    pub(super) held: Held<T>,
+    /// Time of the bad samples since the last good one \[s\].
+    pub(super) gap: T,
+}
+
+/// The last good sample, and what came of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Last<T> {
+    pub(super) reference: T,
+    pub(super) measured: T,
+    pub(super) velocity: T,
+    pub(super) feed_forward: T,
+    pub(super) command: T,
+    pub(super) unlimited: T,
+}
+
+impl<T: Real> PidState<T> {
+    /// A state that has seen no sample; its command is zero.
+    ///
+    /// A slew rate starts from that zero; start with [`PidState::resume_from`] where
+    /// something else is out.
+    #[must_use]
+    pub fn new() -> Self {
+        Self {
+            integral: T::zero(),
+            carry: T::zero(),
+            rate: T::zero(),
+            last: None,
+            held: Held::new(T::zero()),
+            gap: T::zero(),
+        }
+    }
+
+    /// Starts anew so that the command goes on from `output` \[command unit\].
+    ///
+    /// At the sample `at`, with its feed-forward, the terms add up to `output` (which is
+    /// taken within the limits): for a start at a command that is already out, for the
+    /// hand-over from a human or from another controller. The rate starts at zero. The
+    /// next step at the same sample adds one step of the integral, nothing else. `at.dt`
+    /// is not read. Where [`AntiWindup::Clamp`](super::AntiWindup::Clamp) does not let
+    /// the integral go that far, it goes as far as it may.
+    ///
+    /// A number that is not finite, or an overflow, leaves the state as it was, but for
+    /// the count of bad samples, and is told.
+    ///
+    /// ```
+    /// use bowden::control::{Pid, PidInput, PidState, Status};
+    /// let pid = Pid::paper_pi();
+    /// let mut state = PidState::new();
+    /// let at = PidInput { feed_forward: 20.0, ..PidInput::new(0.001, 25.0, 25.0_f64) };
+    /// assert_eq!(state.resume_from(&pid, 42.0, &at), Status::Good);
+    /// assert_eq!(pid.step(&mut state, &at).command, 42.0);
+    /// ```
+    pub fn resume_from(&mut self, pid: &Pid<T>, output: T, at: &PidInput<T>) -> Status {
+        match pid.started_at(output, at) {
+            Ok((last, integral)) => {
+                *self = Self::new();
+                self.integral = integral;
+                self.take(last);
+                Status::Good
+            }
+            Err(fault) => self.held.bad(fault, &pid.settings().fallback),
+        }
+    }
+
+    /// Forgets integral, rate and samples; the command that is out stays known.
+    ///
+    /// A slew rate goes on from there. For a state that knows of no command, assign
+    /// [`PidState::new`].
+    pub fn reset(&mut self) {
+        *self = Self {
+            held: Held::new(self.held.command),
+            ..Self::new()
+        };
+    }
+
+    /// The command that is out \[command unit\].
+    #[inline]
+    #[must_use]
+    pub fn command(&self) -> T {
+        self.held.command
+    }
+
+    /// The integral term \[command unit\].
+    #[inline]
+    #[must_use]
+    pub fn integral(&self) -> T {
+        self.integral
+    }
+
+    /// The filtered rate of `y − c·y_r` \[output unit/s\]; zero where it is not used.
+    #[inline]
+    #[must_use]
+    pub fn rate(&self) -> T {
+        self.rate
+    }
+
+    /// How many samples in a row were bad; stays at `u32::MAX`.
+    #[inline]
+    #[must_use]
+    pub fn consecutive_bad(&self) -> u32 {
+        self.held.bad
+    }
+
+    /// Whether this is a state that steps can lead to: every number is finite.
+    #[cfg(any(feature = "serde", kani))]
+    pub(crate) fn is_valid(&self) -> bool {
+        let own = [self.integral, self.carry, self.rate, self.gap];
+        own.iter().all(|number| number.is_finite())
+            && self.gap >= T::zero()
+            && self.held.command.is_finite()
+            && self.last.is_none_or(|last| last.is_valid())
+    }
+
+    /// Adds to the integral; `f32` would lose a step below half an ulp.
+    #[inline]
+    pub(super) fn add(&mut self, change: T) {
+        let step = change - self.carry;
+        let total = self.integral + step;
+        self.carry = (total - self.integral) - step;
+        self.integral = total;
+    }
+
+    /// Puts the integral elsewhere.
+    #[inline]
+    pub(super) fn set_integral(&mut self, integral: T) {
+        self.integral = integral;
+        self.carry = T::zero();
+    }
+
+    /// The same, unless it is there already: then its carry stays.
+    #[inline]
+    pub(super) fn confine(&mut self, integral: T) {
+        if integral != self.integral {
+            self.set_integral(integral);
+        }
+    }
+
+    /// The integral of another state.
+    #[inline]
+    pub(super) fn restore_sum(&mut self, of: &Self) {
+        (self.integral, self.carry) = (of.integral, of.carry);
+    }
+
+    /// The integral less its carry: finite where both are.
+    #[inline]
+    pub(super) fn sum(&self) -> T {
+        self.integral - self.carry
+    }
+
+    /// Takes note of a good sample.
+    #[inline]
+    pub(super) fn take(&mut self, last: Last<T>) {
+        self.held.good(last.command);
+        self.gap = T::zero();
+        self.last = Some(last);
+    }
+
+    /// Counts the time of a bad sample, where it has any.
+    #[inline]
+    pub(super) fn wait(&mut self, dt: T) {
+        if let Ok(dt) = usable_dt(dt) {
+            let gap = self.gap + dt;
+            if gap.is_finite() {
+                self.gap = gap;
+            }
+        }
+    }
+}
+
+#[cfg(any(feature = "serde", kani))]
+impl<T: Real> Last<T> {
+    fn is_valid(&self) -> bool {
+        let samples = [self.reference, self.measured, self.velocity];
+        let commands = [self.feed_forward, self.command, self.unlimited];
+        samples.iter().chain(&commands).all(|x| x.is_finite())
+            && (self.measured - self.reference).is_finite()
+    }
+}
+
+/// What is read before it is checked.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Unchecked<T> {
+    integral: T,
+    carry: T,
+    rate: T,
+    last: Option<Last<T>>,
+    held: Held<T>,
+    gap: T,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> TryFrom<Unchecked<T>> for PidState<T> {
+    type Error = crate::Error;
+    fn try_from(raw: Unchecked<T>) -> Result<Self, crate::Error> {
+        let state = Self {
+            integral: raw.integral,
+            carry: raw.carry,
+            rate: raw.rate,
+            last: raw.last,
+            held: raw.held,
+            gap: raw.gap,
+        };
+        if state.is_valid() {
+            Ok(state)
+        } else {
+            Err(crate::Error::NonFinite("state"))
+        }
+    }
+}
