@@ -174,10 +174,43 @@ impl<T: Real, const N: usize> Model<T, N> {
         at.dt.is_finite()
             && at.dt > T::zero()
             && (!input_is_read || at.input.position.is_finite())
-            && self.terms().iter().all(|term| {
-                situation(term, at, T::zero(), T::zero())
-                    .is_some_and(|situation| situation.is_usable(term.effect.info().reads))
-            })
+            && self.first_blind_term(at).is_none()
+    }
+
+    /// The first term that cannot read what it needs from this sample.
+    pub(crate) fn first_blind_term(&self, at: &Sample<T>) -> Option<usize> {
+        self.terms().iter().position(|term| {
+            !situation(term, at, T::zero(), T::zero())
+                .is_some_and(|situation| situation.is_usable(term.effect.info().reads))
+        })
+    }
+
+    /// Advances the effects by one good sample; each share, output stages left out.
+    ///
+    /// `eta` is the caller's. `own` gives what a term reads in place of the sample's: its
+    /// motion, the input and the load.
+    pub(crate) fn effects(
+        &self,
+        state: &mut ModelState<T, N>,
+        at: &Sample<T>,
+        eta: T,
+        own: impl Fn(usize, Situation<T>) -> Situation<T>,
+    ) -> [T; N] {
+        let mut shares = [T::zero(); N];
+        state.tick(at.dt);
+        let places = self.terms().iter().zip(&mut state.effects).enumerate();
+        for ((index, (term, memory)), share) in places.zip(&mut shares) {
+            let seen = Term {
+                origin: T::zero(),
+                ..*term
+            };
+            if let Some(there) = situation(&seen, at, state.time, eta) {
+                let mut there = own(index, there);
+                there.motion.position = saturate(there.motion.position - term.origin);
+                *share = saturate(term.gain * term.effect.regressor(memory, &there));
+            }
+        }
+        shares
     }
 
     /// Advances by one sample and returns the predicted output.

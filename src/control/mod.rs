@@ -10,10 +10,14 @@
 //! [`Fallback`]'s safe command goes out. The command is finite and within its [`Limits`]
 //! in every case.
 
+mod compensator;
 mod limits;
 mod pid;
 mod status;
 
+pub use compensator::{
+    BenchRange, Compensator, CompensatorInput, CompensatorOutput, CompensatorState,
+};
 pub use limits::Limits;
 pub use pid::{AntiWindup, Damping, Pid, PidInput, PidOutput, PidSettings, PidState, PidTerms};
 pub use status::{Fallback, Fault, Status};
