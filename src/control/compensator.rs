@@ -110,8 +110,9 @@ impl<T: Real> BenchRange<T> {
 ///
 /// Two choices are made for effects that depend on the answer itself: an effect that
 /// reads the transmission's input or the load sees the ones of the sample (the last
-/// command, say), and an effect that reads eta sees that of the previous sample. Where
-/// no effect does so, the model's output after `command` is `desired`, to rounding.
+/// command, say; that converges while the effect's slope in them is below the cable's
+/// gain), and an effect that reads eta sees that of the previous sample. Where no effect
+/// does so, the model's output after `command` is `desired`, to rounding.
 ///
 /// ```
 /// use bowden::control::{Compensator, CompensatorInput, CompensatorState};
@@ -152,7 +153,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     /// # Errors
     /// [`Error::Inadmissible`] where the model has no transmission, where that has no
     /// inverse ([`Transmission::inverse`]), or where a term is an output stage (delay,
-    /// lag, gain, saturation, …): what reads the sum cannot be subtracted from it.
+    /// lag): what reads the sum cannot be subtracted from it.
     pub fn try_new(model: &Model<T, N>) -> Result<Self, Error> {
         let transmission = *model
             .transmission()

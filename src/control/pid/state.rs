@@ -251,7 +251,9 @@ impl<T: Real> TryFrom<Unchecked<T>> for PidState<T> {
         if state.is_valid() {
             Ok(state)
         } else {
-            Err(crate::Error::NonFinite("state"))
+            Err(crate::Error::Inadmissible(
+                "a state has finite numbers and no negative gap",
+            ))
         }
     }
 }

@@ -1,0 +1,168 @@
+//! A torque loop to copy into firmware: PI, feed-forward from the bench, safe commands.
+//!
+//! `cargo run --release --example torque_loop` runs it on a simulated joint, with bad
+//! samples and a dead sensor on the way, and prints what a telemetry channel would show.
+//!
+//! `TorqueLoop` is the part to copy. It has no heap and does not panic: the constructor
+//! checks everything once, at start-up; `tick` is one call of the timer interrupt. The
+//! paper drives the gearbox's input; here the drive takes the proximal torque \[N·m\].
+
+use bowden::control::{
+    AntiWindup, Compensator, CompensatorInput, CompensatorState, Fallback, Limits, Pid, PidInput,
+    PidOutput, PidSettings, PidState, Status,
+};
+use bowden::effect::{Effect, Motion};
+use bowden::hysteresis::{BoucWen, Shape};
+use bowden::model::{Model, Source, Term};
+use bowden::transmission::Transmission;
+use bowden::Error;
+
+// ---- the part to copy -------------------------------------------------------
+
+/// What the bench has identified, as `bowden close --model-out` writes it.
+fn identified() -> Result<Model<f32, 1>, Error> {
+    let shape = Shape::try_new(0.09582, 0.6, 3.871)?;
+    let cable = Transmission::torque(0.9978, 7.004, 0.05174, shape)?;
+    let viscous = Term {
+        effect: Effect::Viscous,
+        source: Source::Channel(0),
+        origin: 0.0,
+        gain: -0.4,
+    };
+    Model::try_new(Some(cable), &[viscous])
+}
+
+/// One joint: the configuration may live in flash, the state in RAM.
+struct TorqueLoop {
+    pi: Pid<f32>,
+    compensator: Compensator<f32, 1>,
+    pi_state: PidState<f32>,
+    compensator_state: CompensatorState<f32, 1>,
+}
+
+impl TorqueLoop {
+    fn try_new() -> Result<Self, Error> {
+        let pi = Pid::try_new(PidSettings {
+            // What the drive can give, and how fast it may change.
+            limits: Limits::try_new(-10.0, 60.0)?.with_slew(2000.0)?,
+            anti_windup: AntiWindup::BackCalculation { tracking_time: 0.1 },
+            // 20 ms without a good sample: let go.
+            fallback: Fallback::try_new(20, 0.0)?,
+            ..PidSettings::new(0.5, 25.0)
+        })?;
+        Ok(Self {
+            pi,
+            compensator: Compensator::try_new(&identified()?)?,
+            pi_state: PidState::new(),
+            compensator_state: CompensatorState::new(),
+        })
+    }
+
+    /// One sample: torques \[N·m\], velocity of the pulley \[rad/s\], `dt` \[s\].
+    fn tick(&mut self, dt: f32, reference: f32, measured: f32, velocity: f32) -> PidOutput<f32> {
+        let pulley = [Motion {
+            velocity,
+            ..Motion::default()
+        }];
+        // From the reference, not from the noisy measurement. A bad sample holds it.
+        let wish = CompensatorInput {
+            channels: &pulley,
+            ..CompensatorInput::new(dt, reference)
+        };
+        let bench = self.compensator.step(&mut self.compensator_state, &wish);
+        let sample = PidInput {
+            feed_forward: bench.command,
+            ..PidInput::new(dt, reference, measured)
+        };
+        self.pi.step(&mut self.pi_state, &sample)
+    }
+
+    /// Takes over from a command that is out already, without a jump.
+    fn start_at(&mut self, command: f32, reference: f32, measured: f32) {
+        let at = PidInput {
+            feed_forward: self.compensator_state.command(),
+            ..PidInput::new(0.0, reference, measured)
+        };
+        self.pi_state.resume_from(&self.pi, command, &at);
+    }
+}
+
+// ---- a joint to run it on ---------------------------------------------------
+
+/// A cable that is not quite what the bench saw, a drive's lag, a sensor's noise.
+struct Joint {
+    cable: Transmission<f64>,
+    eta: BoucWen<f64>,
+    drive: f64,
+    noise: u32,
+}
+
+impl Joint {
+    fn try_new() -> Result<Self, Error> {
+        let shape = Shape::try_new(0.11, 0.5, 3.0)?;
+        Ok(Self {
+            cable: Transmission::torque(0.93, 7.7, 0.3, shape)?,
+            eta: BoucWen::new(),
+            drive: 0.0,
+            noise: 1,
+        })
+    }
+
+    /// The distal torque 1 ms after a command, and as the sensor shows it.
+    fn step(&mut self, command: f64, velocity: f64) -> (f64, f64) {
+        self.drive += 0.5 * (command - self.drive);
+        let tau_o = self.cable.step(&mut self.eta, self.drive) - 0.5 * velocity;
+        self.noise = self
+            .noise
+            .wrapping_mul(1_664_525)
+            .wrapping_add(1_013_904_223);
+        let noise = 0.04 * (f64::from(self.noise >> 8) / f64::from(1 << 24) - 0.5);
+        (tau_o, tau_o + noise)
+    }
+}
+
+fn main() -> Result<(), Error> {
+    const DT: f64 = 1e-3;
+    let (mut torque_loop, mut joint) = (TorqueLoop::try_new()?, Joint::try_new()?);
+    let (mut command, mut measured, mut sum, mut count) = (0.0_f32, 0.0, 0.0, 0_u32);
+    torque_loop.start_at(command, 0.0, 0.0);
+
+    println!("     t  reference  output  command = feed-forward + proportional + integral");
+    for k in 0..12_000_u32 {
+        let t = DT * f64::from(k);
+        let reference = (25.0 + 10.0 * (1.571 * t).sin()) * t.min(1.0);
+        let velocity = 0.8 * (1.571 * t).cos();
+        let sensor = match k {
+            4000..=4004 => f32::NAN, // five lost samples
+            6000..=6099 => f32::NAN, // a cable that comes off, and is put back
+            _ => measured as f32,
+        };
+        let out = torque_loop.tick(DT as f32, reference as f32, sensor, velocity as f32);
+        command = out.command;
+        let (tau_o, sensed) = joint.step(f64::from(command), velocity);
+        measured = sensed;
+
+        if t > 8.0 {
+            sum += (tau_o - reference).powi(2);
+            count += 1;
+        }
+        let changed = matches!(k, 4000 | 4005 | 6000 | 6019 | 6100);
+        if k % 1000 == 0 || changed {
+            let terms = out.terms;
+            let note = match out.status {
+                Status::Good if terms.saturated => "limited".to_string(),
+                Status::Good => String::new(),
+                other => format!("{other:?}"),
+            };
+            println!(
+                "{t:6.3} {reference:10.3} {tau_o:7.3} {command:8.3} {:14.3} {:14.3} {:10.3}  {note}",
+                terms.feed_forward, terms.proportional, terms.integral,
+            );
+        }
+    }
+    println!(
+        "rms error of the output, t > 8 s: {:.3} N·m",
+        (sum / f64::from(count)).sqrt()
+    );
+    Ok(())
+}

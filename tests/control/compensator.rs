@@ -1,0 +1,260 @@
+//! The model turned round gives what the model then gives back.
+
+use bowden::control::{BenchRange, Compensator, CompensatorInput, CompensatorState, Fault, Status};
+use bowden::effect::{Effect, Motion};
+use bowden::hysteresis::Shape;
+use bowden::model::{Model, ModelState, Sample, Source, Term};
+use bowden::transmission::Transmission;
+use bowden::Error;
+
+fn cable(sigma: f64) -> Transmission<f64> {
+    let shape = Shape::try_new(0.095_82, sigma, 3.871).unwrap();
+    Transmission::torque(0.9978, 7.004, 0.051_74, shape).unwrap()
+}
+
+fn term(name: &str, shapes: &[f64], channel: u8, gain: f64) -> Term<f64> {
+    Term {
+        effect: Effect::try_from_name(name, shapes).unwrap(),
+        source: Source::Channel(channel),
+        origin: 0.1,
+        gain,
+    }
+}
+
+/// Friction with and without memory, inertia and ripple on two pulleys.
+fn model() -> Model<f64, 5> {
+    let terms = [
+        term("coulomb", &[0.05], 0, -0.8),
+        term("backlash", &[0.2], 0, 0.6),
+        term("inertia", &[], 1, -0.02),
+        term("stiffness-progressive", &[], 1, 1.5),
+        term("drift", &[], 1, 0.1),
+    ];
+    Model::try_new(Some(cable(0.6)), &terms).unwrap()
+}
+
+fn motion(t: f64, rate: f64) -> Motion<f64> {
+    Motion {
+        position: (rate * t).sin(),
+        velocity: rate * (rate * t).cos(),
+        acceleration: -rate * rate * (rate * t).sin(),
+    }
+}
+
+#[test]
+fn the_model_gives_the_desired_output_after_the_compensators_command() {
+    let model = model();
+    let compensator = Compensator::try_new(&model).unwrap();
+    let (mut state, mut plant) = (CompensatorState::new(), ModelState::new());
+    for k in 0..4000 {
+        let t = 1e-3 * f64::from(k);
+        let channels = [motion(t, 3.0), motion(t, 5.0)];
+        let desired = 25.0 + 10.0 * (1.57 * t).sin() + 3.0 * (2.18 * t).sin();
+        let wish = CompensatorInput {
+            channels: &channels,
+            ..CompensatorInput::new(1e-3, desired)
+        };
+        let out = compensator.step(&mut state, &wish);
+        assert_eq!(out.status, Status::Good);
+
+        let input = Motion {
+            position: out.command,
+            ..Motion::default()
+        };
+        let sample = Sample {
+            dt: 1e-3,
+            input,
+            load: out.command,
+            channels: &channels,
+        };
+        let got = model.step(&mut plant, &sample);
+        // 16 epsilons of all magnitudes in the equation (Inverse::step), which are < 150.
+        assert!(
+            (got - desired).abs() < 16.0 * f64::EPSILON * 150.0,
+            "{k}: {got} {desired}"
+        );
+        assert_eq!(out.eta, plant.eta());
+    }
+}
+
+#[test]
+fn models_that_cannot_be_turned_round_are_refused() {
+    let inadmissible =
+        |model: Model<f64, 2>| matches!(Compensator::try_new(&model), Err(Error::Inadmissible(_)));
+    assert!(inadmissible(Model::try_new(None, &[]).unwrap()));
+    assert!(inadmissible(
+        Model::try_new(Some(cable(98.36)), &[]).unwrap()
+    ));
+    for (stage, shapes) in [("delay", &[][..]), ("lag", &[0.01])] {
+        let stage = term(stage, shapes, 0, 0.1);
+        assert!(stage.effect.is_output_stage());
+        assert!(inadmissible(
+            Model::try_new(Some(cable(0.6)), &[stage]).unwrap()
+        ));
+    }
+}
+
+#[test]
+fn a_bad_sample_holds_the_command_and_the_state() {
+    let compensator = Compensator::try_new(&model()).unwrap();
+    let channels = [motion(0.3, 3.0), motion(0.3, 5.0)];
+    let good = CompensatorInput {
+        channels: &channels,
+        ..CompensatorInput::new(1e-3, 12.0)
+    };
+    let mut state = CompensatorState::new();
+    compensator.step(&mut state, &good);
+    let before = compensator.step(
+        &mut state,
+        &CompensatorInput {
+            desired: 13.0,
+            ..good
+        },
+    );
+    let mut reference = state;
+
+    let mut lost = channels;
+    lost[1].acceleration = f64::NAN;
+    for (bad, fault) in [
+        (
+            CompensatorInput {
+                dt: f64::NAN,
+                ..good
+            },
+            Fault::Dt,
+        ),
+        (CompensatorInput { dt: 0.0, ..good }, Fault::DtNotPositive),
+        (
+            CompensatorInput {
+                desired: f64::NAN,
+                ..good
+            },
+            Fault::Reference,
+        ),
+        (
+            CompensatorInput {
+                desired: f64::MAX,
+                ..good
+            },
+            Fault::Overflow,
+        ),
+        (
+            CompensatorInput {
+                channels: &lost,
+                ..good
+            },
+            Fault::Regressor(2),
+        ),
+        (
+            CompensatorInput {
+                channels: &channels[..1],
+                ..good
+            },
+            Fault::Regressor(2),
+        ),
+    ] {
+        let out = compensator.step(&mut state, &bad);
+        assert_eq!(out.status, Status::Held(fault));
+        assert_eq!((out.command, out.eta), (before.command, before.eta));
+    }
+    assert_eq!(state.consecutive_bad(), 6);
+    // What follows is as if they had not been.
+    let after = compensator.step(&mut state, &good);
+    assert_eq!(after, compensator.step(&mut reference, &good));
+    assert_eq!(state, reference);
+}
+
+#[test]
+fn beyond_the_benchs_range_an_effect_is_what_it_is_at_the_range() {
+    let compensator = Compensator::try_new(&model()).unwrap();
+    let low = Motion {
+        position: -0.5,
+        velocity: -1.0,
+        acceleration: -9.0,
+    };
+    let high = Motion {
+        position: 0.5,
+        velocity: 1.0,
+        acceleration: 9.0,
+    };
+    let source = Source::Channel(1);
+    let bound = compensator
+        .with_ranges(&[BenchRange { source, low, high }])
+        .unwrap();
+    let share = |compensator: &Compensator<f64, 5>, position, acceleration| {
+        let far = Motion {
+            position,
+            acceleration,
+            velocity: 0.0,
+        };
+        let channels = [Motion::default(), far];
+        let at = CompensatorInput {
+            channels: &channels,
+            ..CompensatorInput::new(1e-3, 5.0)
+        };
+        compensator.step(&mut CompensatorState::new(), &at).effects
+    };
+    assert_eq!(share(&bound, 7.0, -80.0), share(&compensator, 0.5, -9.0));
+    assert_eq!(share(&bound, 0.2, 4.0), share(&compensator, 0.2, 4.0));
+    assert_ne!(share(&compensator, 7.0, 0.0), share(&compensator, 0.5, 0.0));
+}
+
+#[test]
+fn the_load_is_confined_with_the_input() {
+    let friction = Term {
+        source: Source::Channel(0),
+        ..term("load-friction", &[0.05], 0, -0.1)
+    };
+    let model = Model::<f64, 1>::try_new(Some(cable(0.6)), &[friction]).unwrap();
+    let compensator = Compensator::try_new(&model).unwrap();
+    let low = Motion {
+        position: -40.0,
+        ..Motion::default()
+    };
+    let high = Motion {
+        position: 40.0,
+        ..Motion::default()
+    };
+    let source = Source::Input;
+    let bound = compensator
+        .with_ranges(&[BenchRange { source, low, high }])
+        .unwrap();
+    let share = |compensator: &Compensator<f64, 1>, load| {
+        let channels = [Motion {
+            velocity: 2.0,
+            ..Motion::default()
+        }];
+        let at = CompensatorInput {
+            load,
+            channels: &channels,
+            ..CompensatorInput::new(1e-3, 5.0)
+        };
+        compensator.step(&mut CompensatorState::new(), &at).effects
+    };
+    assert_eq!(share(&bound, 400.0), share(&compensator, 40.0));
+    assert_ne!(share(&compensator, 400.0), share(&compensator, 40.0));
+}
+
+#[test]
+fn ranges_are_checked() {
+    let compensator = Compensator::try_new(&model()).unwrap();
+    let (low, high) = (Motion::default(), motion(0.1, 1.0));
+    let source = Source::Channel(0);
+    assert!(compensator
+        .with_ranges(&[BenchRange {
+            source,
+            low: high,
+            high: low
+        }])
+        .is_err());
+    let source = Source::Channel(7);
+    let high = Motion::default();
+    let nobody = compensator.with_ranges(&[BenchRange { source, low, high }]);
+    assert!(matches!(nobody, Err(Error::Inadmissible(_))));
+    let low = Motion {
+        velocity: f64::NAN,
+        ..low
+    };
+    let refused = compensator.with_ranges(&[BenchRange { source, low, high }]);
+    assert!(matches!(refused, Err(Error::NonFinite(_))));
+}

@@ -1,0 +1,188 @@
+//! For any numbers: finite commands within their limits, a state that nothing poisons.
+
+use bowden::control::{
+    AntiWindup, Damping, Fallback, Limits, Pid, PidInput, PidSettings, PidState, Status,
+};
+use bowden::Real;
+use proptest::prelude::*;
+
+/// Any bit pattern, and often enough one that a sensor could give.
+fn any32() -> impl Strategy<Value = f32> {
+    prop_oneof![2 => -100.0..100.0_f32, 1 => any::<u32>().prop_map(f32::from_bits)]
+}
+
+fn any64() -> impl Strategy<Value = f64> {
+    prop_oneof![2 => -100.0..100.0_f64, 1 => any::<u64>().prop_map(f64::from_bits)]
+}
+
+fn period() -> impl Strategy<Value = f64> {
+    prop_oneof![4 => 1e-5..0.1_f64, 1 => any::<u64>().prop_map(f64::from_bits)]
+}
+
+/// Settings over all that `try_new` admits, gains within a firmware's reach.
+fn pid<T: Real>() -> impl Strategy<Value = Pid<T>> {
+    let gains = (0.0..1e4_f64, 0.0..1e4_f64, 0.0..1e3_f64, any::<bool>());
+    let shapes = (0_u8..3, 0.0..=1.0_f64, 0.0..=1.0_f64, 0_u8..4, 0.0..0.5_f64);
+    let range = (
+        -100.0..50.0_f64,
+        1e-3..100.0_f64,
+        0.0..=1.0_f64,
+        0.0..2e3_f64,
+    );
+    (gains, shapes, range).prop_map(
+        |((p, i, d, reverse), (kind, b, c, windup, tau), (low, width, safe, slew))| {
+            let sign = if reverse { -1.0 } else { 1.0 };
+            let limits = Limits::try_new(T::of(low), T::of(low + width)).unwrap();
+            let safe = limits.low() + T::of(safe) * (limits.high() - limits.low());
+            let safe = if limits.contains(safe) {
+                safe
+            } else {
+                limits.low()
+            };
+            let tracking_time = T::of(tau + 1e-3);
+            Pid::try_new(PidSettings {
+                k_p: T::of(sign * p),
+                k_i: T::of(sign * i),
+                k_d: T::of(if kind == 0 { 0.0 } else { sign * d }),
+                damping: match kind {
+                    2 => Damping::Velocity,
+                    _ => Damping::Rate { weight: T::of(c) },
+                },
+                derivative_time: T::of(tau),
+                setpoint_weight: T::of(b),
+                anti_windup: match windup {
+                    0 => AntiWindup::None,
+                    1 => AntiWindup::Clamp,
+                    2 => AntiWindup::BackCalculation { tracking_time },
+                    _ => AntiWindup::Conditional,
+                },
+                limits: if slew > 1e3 {
+                    limits
+                } else {
+                    limits.with_slew(T::of(slew + 0.1)).unwrap()
+                },
+                fallback: Fallback::try_new(5, safe).unwrap(),
+            })
+            .unwrap()
+        },
+    )
+}
+
+/// What must hold at every step, whatever the numbers are.
+fn holds<T: Real>(
+    pid: &Pid<T>,
+    state: &mut PidState<T>,
+    at: &PidInput<T>,
+) -> Result<(), TestCaseError> {
+    let before = *state;
+    let out = pid.step(state, at);
+    let limits = pid.settings().limits;
+    prop_assert!(out.command.is_finite() && limits.contains(out.command));
+    prop_assert!(state.integral().is_finite() && state.rate().is_finite());
+    prop_assert!(out.terms.unlimited.is_finite() && out.terms.error.is_finite());
+    match out.status {
+        Status::Good => {
+            prop_assert_eq!(state.consecutive_bad(), 0);
+            prop_assert_eq!(out.terms.error, at.measured - at.reference);
+            if let (Some(slew), true) = (limits.slew(), limits.contains(before.command())) {
+                let reach = slew * at.dt + T::of(4.0) * T::epsilon() * T::of(300.0);
+                prop_assert!((out.command - before.command()).abs() <= reach);
+            }
+        }
+        Status::Held(_) | Status::Safe(_) => {
+            prop_assert_eq!(state.integral(), before.integral());
+            prop_assert_eq!(state.rate(), before.rate());
+            prop_assert_eq!(pid.terms(state), pid.terms(&before));
+            prop_assert_eq!(state.consecutive_bad(), before.consecutive_bad() + 1);
+            let safe = pid.settings().fallback.command();
+            if matches!(out.status, Status::Safe(_)) {
+                prop_assert_eq!(Some(out.command), safe);
+                prop_assert!(state.consecutive_bad() >= 5);
+            }
+        }
+    }
+    Ok(())
+}
+
+fn config() -> ProptestConfig {
+    ProptestConfig {
+        cases: 256,
+        failure_persistence: None,
+        rng_seed: proptest::test_runner::RngSeed::Fixed(3),
+        ..ProptestConfig::default()
+    }
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    #[test]
+    fn any_f32_gives_a_finite_command_within_the_limits(
+        pid in pid::<f32>(),
+        samples in prop::collection::vec((period(), any32(), any32(), any32(), any32()), 1..60),
+    ) {
+        let mut state = PidState::new();
+        for (dt, reference, measured, velocity, feed_forward) in samples {
+            let at = PidInput { dt: f32::of(dt), reference, measured, velocity, feed_forward };
+            holds(&pid, &mut state, &at)?;
+        }
+    }
+
+    #[test]
+    fn any_f64_gives_a_finite_command_within_the_limits(
+        pid in pid::<f64>(),
+        samples in prop::collection::vec((period(), any64(), any64(), any64(), any64()), 1..60),
+    ) {
+        let mut state = PidState::new();
+        for (dt, reference, measured, velocity, feed_forward) in samples {
+            let at = PidInput { dt, reference, measured, velocity, feed_forward };
+            holds(&pid, &mut state, &at)?;
+        }
+    }
+
+    #[test]
+    fn any_hand_over_leaves_a_state_that_works(
+        from in pid::<f32>(),
+        to in pid::<f32>(),
+        output in any32(),
+        samples in prop::collection::vec((period(), any32(), any32(), any32(), any32()), 2..40),
+    ) {
+        let mut state = PidState::new();
+        let half = samples.len() / 2;
+        for (k, (dt, reference, measured, velocity, feed_forward)) in samples.into_iter().enumerate() {
+            let at = PidInput { dt: f32::of(dt), reference, measured, velocity, feed_forward };
+            if k == 0 {
+                state.resume_from(&from, output, &at);
+            }
+            if k == half {
+                let before = state.command();
+                to.take_over(&mut state);
+                prop_assert_eq!(state.command(), before);
+            }
+            holds(if k < half { &from } else { &to }, &mut state, &at)?;
+        }
+    }
+
+    #[test]
+    fn the_anti_windup_never_lets_the_integral_beyond_what_fills_the_limits(
+        k_p in 0.0..50.0_f64,
+        k_i in 0.1..500.0_f64,
+        samples in prop::collection::vec(-5.0..5.0_f64, 1..400),
+    ) {
+        for anti_windup in [AntiWindup::Clamp, AntiWindup::Conditional] {
+            let pid = Pid::try_new(PidSettings {
+                anti_windup,
+                limits: Limits::try_new(-10.0, 30.0).unwrap(),
+                ..PidSettings::new(k_p, k_i)
+            }).unwrap();
+            let mut state = PidState::new();
+            for &error in &samples {
+                pid.step(&mut state, &PidInput::new(1e-3, 0.0, error));
+                // Clamp: the range itself. Conditional: what the range leaves beside the
+                // proportional term, which is at most 5·k_p.
+                let room = if anti_windup == AntiWindup::Clamp { 0.0 } else { 5.0 * k_p };
+                prop_assert!((-10.0 - room..=30.0 + room).contains(&state.integral()));
+            }
+        }
+    }
+}
