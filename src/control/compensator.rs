@@ -68,6 +68,24 @@ pub struct CompensatorOutput<T> {
 }
 
 /// What the bench has seen of one source: the effects are not asked beyond it.
+///
+/// ```
+/// use bowden::control::{BenchRange, Compensator};
+/// use bowden::effect::{Effect, Motion};
+/// use bowden::hysteresis::Shape;
+/// use bowden::model::{Model, Source, Term};
+/// use bowden::transmission::Transmission;
+/// # fn main() -> Result<(), bowden::Error> {
+/// let cable = Transmission::torque(0.9978, 7.004, 0.05174, Shape::try_new(0.09582, 0.6, 3.871)?)?;
+/// let (effect, source) = (Effect::DragCubic, Source::Channel(0));
+/// let model = Model::<f32, 1>::try_new(Some(cable), &[Term { effect, source, origin: 0.0, gain: -0.1 }])?;
+/// let high = Motion { position: 1.5, velocity: 3.0, acceleration: 20.0 };
+/// let low = Motion { position: -1.5, velocity: -3.0, acceleration: -20.0 };
+/// let compensator = Compensator::try_new(&model)?.with_ranges(&[BenchRange { source, low, high }])?;
+/// # let _ = compensator;
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

@@ -9,11 +9,16 @@
 //! command; the [`Status`] says which input it was. After a stated number in a row the
 //! [`Fallback`]'s safe command goes out. The command is finite and within its [`Limits`]
 //! in every case.
+//!
+//! | controller | what it is | equations |
+//! |---|---|---|
+//! | [`Pid`] | PI, PID, PIV | (14)-(16) |
+//! | [`Compensator`] | the identified model turned round, as a feed-forward | (5)-(7) |
 
 mod compensator;
 mod limits;
-mod pid;
-mod status;
+pub(crate) mod pid;
+pub(crate) mod status;
 
 pub use compensator::{
     BenchRange, Compensator, CompensatorInput, CompensatorOutput, CompensatorState,

@@ -19,7 +19,7 @@
 
 mod settings;
 mod signals;
-mod state;
+pub(crate) mod state;
 
 pub use settings::{AntiWindup, Damping, PidSettings};
 pub use signals::{PidInput, PidOutput, PidTerms};

@@ -18,6 +18,9 @@ const LIMIT: f64 = 1e3;
 /// Nothing comes back where the crate refuses the sample.
 type Step = Box<dyn FnMut(f64, f64, f64) -> Option<f64>>;
 
+/// Makes one whose derivative is filtered over that time [s].
+type Make = fn(f64) -> Step;
+
 /// Derivative on the measurement through a lag of `tau` \[s\]; none at zero.
 fn ours(tau: f64) -> Step {
     let pid = Pid::try_new(PidSettings {
@@ -108,7 +111,7 @@ fn good(k: u32) -> (f64, f64) {
     )
 }
 
-fn agree(peer: fn(f64) -> Step, tau: f64) {
+fn agree(peer: Make, tau: f64) {
     let (mut ours, mut peer) = (ours(tau), peer(tau));
     for k in 0..20_000 {
         let (reference, measured) = good(k);
@@ -136,7 +139,7 @@ fn on_good_samples_peers_and_ours_give_the_same_command() {
 ///
 /// A sample with a bad measurement or reference takes the place of a good one; one with
 /// a bad dt is a call too many.
-fn reaction(make: fn(f64) -> Step, bad: (f64, f64, f64), in_place: bool) -> String {
+fn reaction(make: Make, bad: (f64, f64, f64), in_place: bool) -> String {
     let (mut run, mut undisturbed) = (make(0.02), make(0.02));
     let mut last = None;
     for k in 0..500 {
@@ -184,7 +187,7 @@ fn one_bad_sample_and_the_half_second_after_it_side_by_side() {
         ("dt negative", reference, measured, -DT),
         ("dt NaN", reference, measured, nan),
     ];
-    let crates: [(&str, fn(f64) -> Step, bool); 5] = [
+    let crates: [(&str, Make, bool); 5] = [
         ("bowden", ours, true),
         ("pid 4", pid_rs, false),
         ("robust-pid 0.1", robust_pid, true),

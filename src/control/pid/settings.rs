@@ -6,6 +6,12 @@ use crate::error::finite;
 use crate::{Error, Real};
 
 /// What the gain `k_d` multiplies.
+///
+/// ```
+/// use bowden::control::Damping;
+/// assert_eq!(Damping::on_error(), Damping::Rate { weight: 1.0 });
+/// assert_eq!(Damping::on_measurement(), Damping::Rate { weight: 0.0 });
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
@@ -37,6 +43,25 @@ impl<T: Real> Damping<T> {
 /// What keeps the integral from growing while the command is limited.
 ///
 /// Limited means: by the range or by the slew rate.
+///
+/// ```
+/// use bowden::control::{AntiWindup, Limits, Pid, PidInput, PidSettings, PidState};
+/// let integral = |anti_windup| {
+///     let limits = Limits::try_new(-10.0, 10.0)?;
+///     let pid = Pid::try_new(PidSettings { anti_windup, limits, ..PidSettings::new(2.0, 5.0) })?;
+///     let mut state = PidState::new();
+///     for _ in 0..1000 {
+///         pid.step(&mut state, &PidInput::new(0.001, 8.0, 0.0)); // wants 16 and more
+///     }
+///     Ok::<f64, bowden::Error>(state.integral())
+/// };
+/// assert!((integral(AntiWindup::None)? - 40.0).abs() < 1e-9);
+/// assert_eq!(integral(AntiWindup::Clamp)?, 10.0);
+/// assert_eq!(integral(AntiWindup::Conditional)?, 0.0);
+/// // Back-calculation gives up what the limits cut off, to the command itself and less.
+/// assert!(integral(AntiWindup::BackCalculation { tracking_time: 0.05 })? < 0.0);
+/// # Ok::<(), bowden::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]

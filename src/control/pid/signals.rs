@@ -56,6 +56,14 @@ pub struct PidOutput<T> {
 }
 
 /// Every term of the last good sample; they add up to `unlimited`.
+///
+/// ```
+/// use bowden::control::{Pid, PidInput, PidState};
+/// let at = PidInput { velocity: 0.1, feed_forward: 5.0, ..PidInput::new(0.001, 1.0, 0.5) };
+/// let terms = Pid::paper_piv().step(&mut PidState::new(), &at).terms;
+/// assert_eq!((terms.proportional, terms.velocity, terms.feed_forward), (15.0, -1.0, 5.0));
+/// assert_eq!(terms.unlimited, 15.0 + terms.integral - 1.0 + 5.0);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

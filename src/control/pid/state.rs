@@ -50,13 +50,13 @@ pub struct PidState<T> {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(super) struct Last<T> {
-    pub(super) reference: T,
-    pub(super) measured: T,
-    pub(super) velocity: T,
-    pub(super) feed_forward: T,
-    pub(super) command: T,
-    pub(super) unlimited: T,
+pub(crate) struct Last<T> {
+    pub(crate) reference: T,
+    pub(crate) measured: T,
+    pub(crate) velocity: T,
+    pub(crate) feed_forward: T,
+    pub(crate) command: T,
+    pub(crate) unlimited: T,
 }
 
 impl<T: Real> PidState<T> {
@@ -223,20 +223,20 @@ impl<T: Real> Last<T> {
     }
 }
 
-/// What is read before it is checked.
-#[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Unchecked<T> {
-    integral: T,
-    carry: T,
-    rate: T,
-    last: Option<Last<T>>,
-    held: Held<T>,
-    gap: T,
+/// What is read, or made by a proof, before it is checked.
+#[cfg(any(feature = "serde", kani))]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub(crate) struct Unchecked<T> {
+    pub(crate) integral: T,
+    pub(crate) carry: T,
+    pub(crate) rate: T,
+    pub(crate) last: Option<Last<T>>,
+    pub(crate) held: Held<T>,
+    pub(crate) gap: T,
 }
 
-#[cfg(feature = "serde")]
+#[cfg(any(feature = "serde", kani))]
 impl<T: Real> TryFrom<Unchecked<T>> for PidState<T> {
     type Error = crate::Error;
     fn try_from(raw: Unchecked<T>) -> Result<Self, crate::Error> {
