@@ -121,48 +121,76 @@ impl Joint {
     }
 }
 
-fn main() -> Result<(), Error> {
-    const DT: f64 = 1e-3;
+const DT: f64 = 1e-3;
+
+fn reference(t: f64) -> (f64, f64) {
+    let torque = (25.0 + 10.0 * (1.571 * t).sin()) * t.min(1.0);
+    (torque, 0.8 * (1.571 * t).cos())
+}
+
+/// Root mean square error of the true output after 8 s \[N·m\].
+fn quiet_run(bench: bool) -> Result<f64, Error> {
     let (mut torque_loop, mut joint) = (TorqueLoop::try_new()?, Joint::try_new()?);
-    let (mut command, mut measured, mut sum, mut count) = (0.0_f32, 0.0, 0.0, 0_u32);
-    torque_loop.start_at(command, 0.0, 0.0);
+    let (mut measured, mut sum) = (0.0, 0.0);
+    for k in 0..16_000_u32 {
+        let t = DT * f64::from(k);
+        let (wanted, velocity) = reference(t);
+        let out = if bench {
+            torque_loop.tick(DT as f32, wanted as f32, measured as f32, velocity as f32)
+        } else {
+            let sample = PidInput::new(DT as f32, wanted as f32, measured as f32);
+            torque_loop.pi.step(&mut torque_loop.pi_state, &sample)
+        };
+        let (tau_o, sensed) = joint.step(f64::from(out.command), velocity);
+        measured = sensed;
+        sum += if t < 8.0 {
+            0.0
+        } else {
+            (tau_o - wanted).powi(2)
+        };
+    }
+    Ok((sum / 8000.0).sqrt())
+}
+
+fn main() -> Result<(), Error> {
+    let (mut torque_loop, mut joint) = (TorqueLoop::try_new()?, Joint::try_new()?);
+    let mut measured = 0.0;
+    torque_loop.start_at(0.0, 0.0, 0.0);
 
     println!("     t  reference  output  command = feed-forward + proportional + integral");
     for k in 0..12_000_u32 {
         let t = DT * f64::from(k);
-        let reference = (25.0 + 10.0 * (1.571 * t).sin()) * t.min(1.0);
-        let velocity = 0.8 * (1.571 * t).cos();
+        let (wanted, velocity) = reference(t);
         let sensor = match k {
             4000..=4004 => f32::NAN, // five lost samples
-            6000..=6099 => f32::NAN, // a cable that comes off, and is put back
+            6000..=6099 => f32::NAN, // a connector that comes off, and is put back
             _ => measured as f32,
         };
-        let out = torque_loop.tick(DT as f32, reference as f32, sensor, velocity as f32);
-        command = out.command;
-        let (tau_o, sensed) = joint.step(f64::from(command), velocity);
+        let out = torque_loop.tick(DT as f32, wanted as f32, sensor, velocity as f32);
+        let (tau_o, sensed) = joint.step(f64::from(out.command), velocity);
         measured = sensed;
 
-        if t > 8.0 {
-            sum += (tau_o - reference).powi(2);
-            count += 1;
-        }
-        let changed = matches!(k, 4000 | 4005 | 6000 | 6019 | 6100);
-        if k % 1000 == 0 || changed {
+        if k % 1000 == 0 || matches!(k, 4005 | 6019 | 6100) {
             let terms = out.terms;
             let note = match out.status {
                 Status::Good if terms.saturated => "limited".to_string(),
                 Status::Good => String::new(),
-                other => format!("{other:?}"),
+                bad => format!("{bad:?}"),
             };
             println!(
-                "{t:6.3} {reference:10.3} {tau_o:7.3} {command:8.3} {:14.3} {:14.3} {:10.3}  {note}",
-                terms.feed_forward, terms.proportional, terms.integral,
+                "{t:6.3} {wanted:10.3} {tau_o:7.3} {:8.3} {:14.3} {:14.3} {:10.3}  {note}",
+                out.command, terms.feed_forward, terms.proportional, terms.integral,
             );
         }
     }
+    println!("rms error of the output without lost samples, 8 s to 16 s:");
     println!(
-        "rms error of the output, t > 8 s: {:.3} N·m",
-        (sum / f64::from(count)).sqrt()
+        "    PI alone                      {:.3} N·m",
+        quiet_run(false)?
+    );
+    println!(
+        "    PI with the bench's model     {:.3} N·m",
+        quiet_run(true)?
     );
     Ok(())
 }
