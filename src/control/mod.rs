@@ -13,13 +13,19 @@
 //! | controller | what it is | equations |
 //! |---|---|---|
 //! | [`Pid`] | PI, PID, PIV | (14)-(16) |
+//! | [`Adaptive`] | the robust adaptive law over any number of regressors | (17)-(26) |
 //! | [`Compensator`] | the identified model turned round, as a feed-forward | (5)-(7) |
 
+mod adaptive;
 mod compensator;
 mod limits;
 pub(crate) mod pid;
 pub(crate) mod status;
 
+pub use adaptive::{
+    Adaptive, AdaptiveInput, AdaptiveOutput, AdaptiveSettings, AdaptiveState, AdaptiveTerms,
+    Disturbance, ErrorState, Estimator, Form, LagRecursion, Leakage, SmoothSign,
+};
 pub use compensator::{
     BenchRange, Compensator, CompensatorInput, CompensatorOutput, CompensatorState,
 };

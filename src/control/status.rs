@@ -148,6 +148,12 @@ impl<T: Real> Held<T> {
         Status::Good
     }
 
+    /// Whether the safe command is out.
+    #[inline]
+    pub(crate) fn is_safe(&self, fallback: &Fallback<T>) -> bool {
+        fallback.command.is_some() && self.bad >= fallback.after
+    }
+
     /// Counts a bad sample, and lets the safe command out when there were enough.
     #[inline]
     pub(crate) fn bad(&mut self, fault: Fault, fallback: &Fallback<T>) -> Status {

@@ -1,0 +1,234 @@
+//! How one estimate adapts: gain, leakage, box.
+
+use super::compensated::Compensated;
+use crate::error::finite;
+use crate::{Error, Real};
+
+/// How an estimate leaks back to its prior, so that it cannot drift.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(rename_all = "kebab-case", deny_unknown_fields)
+)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Leakage<T> {
+    /// None: the box alone holds the estimate.
+    None,
+    /// At `rate` \[1/s\] always: the sigma of (24)-(26).
+    Constant {
+        /// Leakage \[1/s\], not negative.
+        rate: T,
+    },
+    /// Only where the estimate is further than `bound` from its prior (Remark 1).
+    ///
+    /// The rate rises from zero at `bound` to `rate` at twice that: the switching
+    /// sigma-modification of P. Ioannou, J. Sun, *Robust Adaptive Control*, 8.4.1, which
+    /// leaves no residue where the truth lies within the bound.
+    Switching {
+        /// Leakage from twice the bound on \[1/s\], not negative.
+        rate: T,
+        /// Distance from the prior without leakage \[unit of the estimate\], above zero.
+        bound: T,
+    },
+}
+
+impl<T: Real> Leakage<T> {
+    /// The rate \[1/s\] at a distance from the prior \[unit of the estimate\].
+    ///
+    /// ```
+    /// use bowden::control::Leakage;
+    /// let leakage = Leakage::Switching { rate: 0.1, bound: 2.0 };
+    /// assert_eq!(leakage.rate_at(-2.0), 0.0);
+    /// assert_eq!(leakage.rate_at(3.0), 0.05);
+    /// assert_eq!(leakage.rate_at(9.0), 0.1);
+    /// ```
+    #[inline]
+    #[must_use]
+    pub fn rate_at(&self, distance: T) -> T {
+        match *self {
+            Self::None => T::zero(),
+            Self::Constant { rate } => rate,
+            Self::Switching { rate, bound } => {
+                let excess = distance.abs() / bound - T::one();
+                if excess <= T::zero() {
+                    T::zero()
+                } else if excess < T::one() {
+                    rate * excess
+                } else {
+                    rate
+                }
+            }
+        }
+    }
+
+    /// The largest rate \[1/s\].
+    #[must_use]
+    pub fn rate(&self) -> T {
+        match *self {
+            Self::None => T::zero(),
+            Self::Constant { rate } | Self::Switching { rate, .. } => rate,
+        }
+    }
+}
+
+/// How one estimate `p` adapts: (24)-(26) in sampled time, with a box.
+///
+/// `p⁺ = (p + h·(gain·v + sigma·prior))/(1 + h·sigma)`, then into `[low, high]`, where v
+/// is what the law says (`-lambda·s·x` for a regressor x). The leakage is implicit: it
+/// cannot overshoot at any rate, and where the estimate settles, `prior +
+/// gain·v/sigma`, does not depend on h. It is computed as an increment and summed with
+/// compensation, so that a slow leakage does not stall in f32.
+///
+/// ```
+/// use bowden::control::{Estimator, Leakage};
+/// let velocity = Estimator {
+///     gain: 5e-4,
+///     leakage: Leakage::Constant { rate: 0.01 },
+///     prior: 2.7,
+///     ..Estimator::fixed(2.7).within(0.0, 6.0)
+/// };
+/// assert_eq!((velocity.initial, velocity.low, velocity.high), (2.7, 0.0, 6.0));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        deny_unknown_fields,
+        default,
+        bound(
+            serialize = "T: Real + serde::Serialize",
+            deserialize = "T: Real + serde::Deserialize<'de>"
+        )
+    )
+)]
+pub struct Estimator<T> {
+    /// Where the estimate starts \[unit of the estimate\], within the box.
+    pub initial: T,
+    /// Least value \[unit of the estimate\].
+    pub low: T,
+    /// Greatest value \[unit of the estimate\].
+    pub high: T,
+    /// Adaptation gain: gamma, mu or mu_i of (24)-(26), not negative.
+    pub gain: T,
+    /// Leakage to the prior.
+    pub leakage: Leakage<T>,
+    /// What the leakage pulls to \[unit of the estimate\]; zero in the paper.
+    pub prior: T,
+}
+
+impl<T: Real> Estimator<T> {
+    /// An estimate that keeps its value; start of a struct update.
+    #[must_use]
+    pub fn fixed(value: T) -> Self {
+        Self {
+            initial: value,
+            low: T::min_value(),
+            high: T::max_value(),
+            gain: T::zero(),
+            leakage: Leakage::None,
+            prior: T::zero(),
+        }
+    }
+
+    /// The same within a box \[unit of the estimate\].
+    #[must_use]
+    pub fn within(self, low: T, high: T) -> Self {
+        Self { low, high, ..self }
+    }
+
+    /// The same with a gain, and a leakage \[1/s\] to the prior.
+    #[must_use]
+    pub fn adapting(self, gain: T, leakage: T) -> Self {
+        let leakage = Leakage::Constant { rate: leakage };
+        Self {
+            gain,
+            leakage,
+            ..self
+        }
+    }
+
+    /// Whether a value \[unit of the estimate\] lies in the box; NaN does not.
+    #[must_use]
+    pub fn contains(&self, value: T) -> bool {
+        self.low <= value && value <= self.high
+    }
+
+    /// The estimate after `dt` \[s\] under the drive `v`; `None` where that overflows.
+    #[inline]
+    pub(crate) fn update(&self, p: Compensated<T>, dt: T, v: T) -> Option<Compensated<T>> {
+        let sigma = self.leakage.rate_at(p.value - self.prior);
+        // (p + h·(m·v + sigma·prior))/(1 + h·sigma) - p, without the cancellation.
+        let rate = self.gain * v - sigma * (p.value - self.prior);
+        let increment = dt * rate / (T::one() + dt * sigma);
+        p.add(increment, self.low, self.high)
+    }
+
+    /// Whether an estimate could have come from updates.
+    pub(super) fn holds(&self, estimate: &Compensated<T>) -> bool {
+        self.contains(estimate.value) && estimate.carry.is_finite()
+    }
+
+    /// Checks everything; `names` are those of the fields, in their order.
+    pub(super) fn check(&self, names: &Names) -> Result<(), Error> {
+        finite(self.low, names.low)?;
+        finite(self.high, names.high)?;
+        finite(self.prior, names.prior)?;
+        if self.low > self.high {
+            return Err(Error::OutOfRange(names.low));
+        }
+        if !self.contains(finite(self.initial, names.initial)?) {
+            return Err(Error::OutOfRange(names.initial));
+        }
+        if finite(self.gain, names.gain)? < T::zero() {
+            return Err(Error::OutOfRange(names.gain));
+        }
+        if finite(self.leakage.rate(), names.leakage)? < T::zero() {
+            return Err(Error::OutOfRange(names.leakage));
+        }
+        if let Leakage::Switching { bound, .. } = self.leakage {
+            if finite(bound, names.bound)? <= T::zero() {
+                return Err(Error::OutOfRange(names.bound));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<T: Real> Default for Estimator<T> {
+    /// Fixed at zero.
+    fn default() -> Self {
+        Self::fixed(T::zero())
+    }
+}
+
+/// What an error calls the fields of an estimator.
+pub(super) struct Names {
+    initial: &'static str,
+    low: &'static str,
+    high: &'static str,
+    gain: &'static str,
+    leakage: &'static str,
+    bound: &'static str,
+    prior: &'static str,
+}
+
+macro_rules! names {
+    ($of:literal) => {
+        Names {
+            initial: concat!($of, ".initial"),
+            low: concat!($of, ".low"),
+            high: concat!($of, ".high"),
+            gain: concat!($of, ".gain"),
+            leakage: concat!($of, ".leakage"),
+            bound: concat!($of, ".leakage.bound"),
+            prior: concat!($of, ".prior"),
+        }
+    };
+}
+
+pub(super) const BETA: Names = names!("beta");
+pub(super) const DELTA: Names = names!("delta");
+pub(super) const THETA: Names = names!("theta");

@@ -1,0 +1,158 @@
+//! The paper's robust adaptive law, (17)-(26), over any number of regressors.
+//!
+//! With the plant `y = alpha·u - theta'x - D` (11) and the errors `e = y - y_r`,
+//! `z = ∫e` and `s = e + lambda·z`, the virtual command
+//! `ubar = -k·s + y_r - (z + e')/lambda + theta_hat'x - delta_hat·T(s/eps)` (23) is
+//! scaled by beta_hat, the estimate of 1/alpha (19); the estimates follow (24)-(26).
+//! The paper's regressors are velocity and acceleration; **an effect found on the bench is
+//! the next one**, with its bench value as prior.
+//!
+//! **Two forms, two plants.** In sampled time e' makes an algebraic loop. The
+//! [literal form](Form::Literal) closes it through a filtered difference, for plants with
+//! inertia; the [lag form](Form::Lag) solves it, for plants that answer within a sample.
+//! Either diverges on the other's plant (tests `control_adaptive`).
+//!
+//! **Boxes.** Each estimate is clamped into its box. Where the box holds the truth, that
+//! cannot raise the Lyapunov function, and every invariant holds whatever was measured.
+//! The paper has none: [`AdaptiveSettings::paper`] has boxes as wide as the float. The lag
+//! form demands one for beta_hat, above zero, and one for delta_hat, not below zero.
+
+mod compensated;
+mod estimator;
+#[cfg(feature = "serde")]
+mod list;
+mod recursion;
+mod resume;
+mod settings;
+mod smooth_sign;
+mod state;
+mod step;
+
+use compensated::Compensated;
+pub use estimator::{Estimator, Leakage};
+pub use recursion::{Disturbance, ErrorState, LagRecursion};
+pub use settings::{AdaptiveSettings, Form};
+pub use smooth_sign::SmoothSign;
+pub use state::{AdaptiveInput, AdaptiveOutput, AdaptiveState, AdaptiveTerms};
+
+use crate::signal::Derivative;
+use crate::{Error, Real};
+
+/// Robust adaptive torque control over `N` regressors, (17)-(26).
+///
+/// ```
+/// use bowden::control::{Adaptive, AdaptiveInput, AdaptiveState};
+/// let law = Adaptive::<f32, 2>::paper();
+/// let mut state = AdaptiveState::new(&law);
+/// // dt \[s\], reference and measured torque [N·m], velocity and acceleration.
+/// let input = AdaptiveInput::new(0.001, 25.0, 24.7, [0.1, -0.3]);
+/// let output = law.step(&mut state, &input);
+/// assert_eq!(output.command, 0.0); // beta_hat starts at zero
+/// assert!(state.beta_hat() > 0.0); // and grows, as the torque is too low
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "AdaptiveSettings<T, N>",
+        into = "AdaptiveSettings<T, N>",
+        bound(
+            serialize = "T: Real + serde::Serialize",
+            deserialize = "T: Real + serde::Deserialize<'de>"
+        )
+    )
+)]
+pub struct Adaptive<T, const N: usize> {
+    settings: AdaptiveSettings<T, N>,
+    /// Of the error; only the literal form steps it.
+    derivative: Derivative<T>,
+    /// The largest step of the lag form.
+    longest: Option<T>,
+}
+
+impl<T: Real, const N: usize> Adaptive<T, N> {
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the field's name
+    /// (`"theta.gain"`); [`Error::Inadmissible`] where the safe command lies outside of the
+    /// limits, and with the condition of the lag form that does not hold: `beta.low > 0`,
+    /// `delta.low >= 0`, `h·lambda <= 1` or `h·lambda·g·(k + delta.high/epsilon) <= 1` with
+    /// g the plant's gain times `beta.high`. Then
+    /// [`AdaptiveSettings::largest_step`] says which step would do.
+    pub fn try_new(settings: AdaptiveSettings<T, N>) -> Result<Self, Error> {
+        settings.check()?;
+        Ok(Self::checked(settings))
+    }
+
+    fn checked(settings: AdaptiveSettings<T, N>) -> Self {
+        let time_constant = match settings.form {
+            Form::Literal { time_constant } => time_constant,
+            Form::Lag { .. } => T::zero(),
+        };
+        Self {
+            settings,
+            derivative: Derivative::assumed(time_constant),
+            longest: settings.largest_step(),
+        }
+    }
+
+    /// The settings.
+    #[must_use]
+    pub fn settings(&self) -> &AdaptiveSettings<T, N> {
+        &self.settings
+    }
+
+    /// Longest `dt` \[s\] that a step of the lag form accepts; `None`: any.
+    #[must_use]
+    pub fn largest_step(&self) -> Option<T> {
+        self.longest
+    }
+
+    /// Whether a state could have come from this law: finite, everything in its box.
+    ///
+    /// States that were stored may not be: check them before they are used. A step
+    /// takes a valid state to a valid state, whatever its input.
+    ///
+    /// ```
+    /// use bowden::control::{Adaptive, AdaptiveState};
+    /// let law = Adaptive::<f32, 2>::paper();
+    /// assert!(law.is_valid(&AdaptiveState::new(&law)));
+    /// ```
+    #[must_use]
+    pub fn is_valid(&self, state: &AdaptiveState<T, N>) -> bool {
+        let settings = &self.settings;
+        let theta = settings.theta.iter().zip(&state.theta);
+        state.z.value.abs() <= settings.z_limit
+            && state.z.carry.is_finite()
+            && settings.beta.holds(&state.beta)
+            && settings.delta.holds(&state.delta)
+            && { theta }.all(|(theta, estimate)| theta.holds(estimate))
+            && state.lag.is_finite()
+            && state.error_rate.rate().is_finite()
+            && settings.limits.contains(state.held.command)
+    }
+}
+
+impl<T: Real> Adaptive<T, 2> {
+    /// Table 2 of the paper: [`AdaptiveSettings::paper`].
+    #[must_use]
+    pub fn paper() -> Self {
+        Self::checked(AdaptiveSettings::paper())
+    }
+}
+
+impl<T, const N: usize> From<Adaptive<T, N>> for AdaptiveSettings<T, N> {
+    fn from(law: Adaptive<T, N>) -> Self {
+        law.settings
+    }
+}
+
+impl<T: Real, const N: usize> TryFrom<AdaptiveSettings<T, N>> for Adaptive<T, N> {
+    type Error = Error;
+    fn try_from(settings: AdaptiveSettings<T, N>) -> Result<Self, Error> {
+        Self::try_new(settings)
+    }
+}

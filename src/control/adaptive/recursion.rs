@@ -1,0 +1,71 @@
+//! What the lag form does to the error of a static plant, exactly.
+
+use super::SmoothSign;
+use crate::Real;
+
+/// The errors s \[N·m\] and z \[N·m·s\] of the closed loop.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ErrorState<T> {
+    /// Filtered error s = e + lambda·z \[N·m\], (18).
+    pub s: T,
+    /// Accumulated error z \[N·m·s\], (17).
+    pub z: T,
+}
+
+/// What acts on the errors in one step of the [`LagRecursion`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Disturbance<T> {
+    /// g = alpha·beta_hat, one where beta is known.
+    pub g: T,
+    /// delta_hat \[N·m\].
+    pub delta_hat: T,
+    /// `w = (g-1)·(r + (r⁺-r)/(h·lambda)) + (g·theta_hat - theta)'x - D` \[N·m\].
+    pub w: T,
+    /// `xi = (D⁺ - D) + theta'(x⁺ - x)` \[N·m\]: what the plant moves by itself.
+    pub xi: T,
+}
+
+/// The closed loop of lag form and static plant: one step of its errors.
+///
+/// On `y = alpha·u - theta'x - D` with u from the sample before, the errors obey
+/// `s⁺ = s - h·lambda·g·k·s - h·g·z + h·lambda·(w - g·delta_hat·T(s/eps)) - xi` and
+/// `z⁺ = z + h·(s - lambda·z)`, exactly, for any sequence of `h`, as long as no limit and
+/// no box of z is met. The box theorem is proved on it.
+///
+/// ```
+/// use bowden::control::{Disturbance, ErrorState, LagRecursion, SmoothSign};
+/// let gains = LagRecursion { gain: 24.0, lambda: 8.0, epsilon: 0.2, smooth_sign: SmoothSign::Tanh };
+/// let known = Disturbance { g: 1.0, delta_hat: 0.0, w: 0.0, xi: 0.0 };
+/// let next = gains.step(ErrorState { s: 1.0, z: 0.0 }, 0.001, &known);
+/// assert_eq!((next.s, next.z), (1.0 - 0.001 * 8.0 * 24.0, 0.001));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LagRecursion<T> {
+    /// Control gain k.
+    pub gain: T,
+    /// lambda \[1/s\].
+    pub lambda: T,
+    /// epsilon \[N·m\].
+    pub epsilon: T,
+    /// Which smooth sign.
+    pub smooth_sign: SmoothSign,
+}
+
+impl<T: Real> LagRecursion<T> {
+    /// The errors one sample of `dt` \[s\] later.
+    #[inline]
+    #[must_use]
+    pub fn step(&self, at: ErrorState<T>, dt: T, by: &Disturbance<T>) -> ErrorState<T> {
+        let sign = self.smooth_sign.of(at.s / self.epsilon);
+        let pull = self.gain * at.s + by.delta_hat * sign;
+        let ds = self.lambda * (by.w - by.g * pull) - by.g * at.z;
+        ErrorState {
+            s: at.s + dt * ds - by.xi,
+            z: at.z + dt * (at.s - self.lambda * at.z),
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! Hand-over without a jump: from another controller, or to other gains.
+
+use super::{Adaptive, AdaptiveInput, AdaptiveState, AdaptiveTerms};
+use crate::control::status::Held;
+use crate::signal::{clamp, DerivativeState};
+use crate::Real;
+
+/// Enough to exhaust an f64 between two values that differ by its largest.
+const HALVINGS: u32 = 64;
+
+impl<T: Real, const N: usize> AdaptiveState<T, N> {
+    /// A state whose first step on `input` commands `output` \[command unit\].
+    ///
+    /// Initial estimates; the accumulated error is chosen such that the law gives
+    /// `output`, feed-forward included. It cannot where beta_hat is zero, where z would
+    /// leave its box, where the limits exclude `output`, or where the sample is bad: then
+    /// the slew rate or the lag alone softens the jump.
+    ///
+    /// ```
+    /// use bowden::control::{Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState};
+    /// use bowden::control::{Estimator, Form};
+    /// let literal = Form::Literal { time_constant: 0.005 }; // \[s\]
+    /// let law = Adaptive::try_new(AdaptiveSettings {
+    ///     beta: Estimator::fixed(1.2).within(0.5, 2.0),
+    ///     delta: Estimator::fixed(7.0).within(0.0, 7.0),
+    ///     ..AdaptiveSettings::<f64, 1>::new(literal, 24.0, 8.0, 0.05)
+    /// })?;
+    /// let input = AdaptiveInput::new(0.001, 25.0, 24.0, [0.3]);
+    /// let mut state = AdaptiveState::resume_from(&law, 31.0, &input);
+    /// assert!((law.step(&mut state, &input).command - 31.0).abs() < 1e-9);
+    /// # Ok::<(), bowden::Error>(())
+    /// ```
+    #[must_use]
+    pub fn resume_from(law: &Adaptive<T, N>, output: T, input: &AdaptiveInput<T, N>) -> Self {
+        let mut state = Self::new(law);
+        if output.is_finite() {
+            let limits = &law.settings().limits;
+            state.held = Held::new(clamp(output, limits.low(), limits.high()));
+            law.settle(&mut state, input);
+        }
+        state
+    }
+}
+
+impl<T: Real, const N: usize> Adaptive<T, N> {
+    /// Takes a running state over from other settings without a jump of the command.
+    ///
+    /// The estimates stay, each in its new box; the accumulated error is chosen such that
+    /// the next step on `input` commands what is out now, as in
+    /// [`AdaptiveState::resume_from`].
+    ///
+    /// ```
+    /// use bowden::control::{Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState};
+    /// let quiet = Adaptive::<f64, 2>::paper();
+    /// let mut state = AdaptiveState::new(&quiet);
+    /// let input = AdaptiveInput::new(0.001, 25.0, 20.0, [0.1, 0.0]);
+    /// for _ in 0..100 {
+    ///     quiet.step(&mut state, &input);
+    /// }
+    /// let before = state.command();
+    /// let eager = Adaptive::try_new(AdaptiveSettings { gain: 30.0, ..*quiet.settings() })?;
+    /// eager.take_over(&mut state, &input);
+    /// assert!((eager.step(&mut state, &input).command - before).abs() < 1e-9);
+    /// # Ok::<(), bowden::Error>(())
+    /// ```
+    pub fn take_over(&self, state: &mut AdaptiveState<T, N>, input: &AdaptiveInput<T, N>) {
+        let settings = &self.settings;
+        let into = |value: T, low: T, high: T| super::Compensated::new(clamp(value, low, high));
+        state.beta = into(state.beta.value, settings.beta.low, settings.beta.high);
+        state.delta = into(state.delta.value, settings.delta.low, settings.delta.high);
+        for (estimate, theta) in state.theta.iter_mut().zip(&settings.theta) {
+            *estimate = into(estimate.value, theta.low, theta.high);
+        }
+        let limits = &settings.limits;
+        let command = clamp(state.held.command, limits.low(), limits.high());
+        state.held = Held::new(command);
+        self.settle(state, input);
+    }
+
+    /// Chooses z such that the law gives the held command on this input.
+    fn settle(&self, state: &mut AdaptiveState<T, N>, input: &AdaptiveInput<T, N>) {
+        let settings = &self.settings;
+        let limit = settings.z_limit;
+        state.z = super::Compensated::new(clamp(state.z.value, -limit, limit));
+        state.error_rate = DerivativeState::new();
+        let share = state.held.command - input.feed_forward;
+        let wanted = share / state.beta.value;
+        if !wanted.is_finite() {
+            return;
+        }
+        state.lag = share;
+        let mut terms = AdaptiveTerms {
+            error: input.measured - input.reference,
+            ..AdaptiveTerms::at_rest(state)
+        };
+        // ubar falls with z, and is linear in z but for the smooth sign, which lies
+        // within [-1, 1]: that brackets the answer.
+        let slope = settings.gain * settings.lambda + T::one() / settings.lambda;
+        terms.z = T::zero();
+        terms.s = terms.error;
+        let linear = (self.virtual_command(&terms, input) - wanted) / slope;
+        let reach = terms.delta_hat.abs() / slope;
+        if !(linear.is_finite() && reach.is_finite()) {
+            return;
+        }
+        let (mut low, mut high) = (linear - reach, linear + reach);
+        for _ in 0..HALVINGS {
+            terms.z = low + (high - low) * T::of(0.5);
+            terms.s = terms.error + settings.lambda * terms.z;
+            terms.smooth_sign = settings.smooth_sign.of(terms.s / settings.epsilon);
+            if self.virtual_command(&terms, input) > wanted {
+                low = terms.z;
+            } else {
+                high = terms.z;
+            }
+        }
+        if terms.z.is_finite() {
+            state.z = super::Compensated::new(clamp(terms.z, -limit, limit));
+        }
+    }
+}

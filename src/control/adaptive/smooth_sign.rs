@@ -1,0 +1,60 @@
+//! The smooth sign of the law: `tanh`, as the paper has it, or a clamped line.
+
+use crate::signal::clamp;
+use crate::Real;
+
+/// Which smooth sign `T(x)` stands in (23) and (25), with `x = s/epsilon`.
+///
+/// Both are odd, do not fall, have slope at most one and stay within `[-1, 1]`: all
+/// that the theorems use. The clamped line costs two comparisons and leaves less:
+/// the most of `x·(1 - T(x))` is 1/4 instead of 0.2785.
+///
+/// ```
+/// use bowden::control::SmoothSign;
+/// assert_eq!(SmoothSign::Clamp.of(0.5), 0.5);
+/// assert_eq!(SmoothSign::Clamp.of(-7.0), -1.0);
+/// assert!((SmoothSign::Tanh.of(0.5_f64) - 0.462_117).abs() < 1e-6);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum SmoothSign {
+    /// `tanh(x)`, (23) and (25).
+    #[default]
+    Tanh,
+    /// `x` within `[-1, 1]`.
+    Clamp,
+}
+
+/// Largest `x·(1 - tanh x)`: Lambert's W(1/e), at x = 0.639232. The paper's 0.2785.
+const TANH_RESIDUE: f64 = 0.278_464_542_761_073_8;
+
+impl SmoothSign {
+    /// `T(x)` within `[-1, 1]`; NaN stays NaN.
+    #[inline]
+    #[must_use]
+    pub fn of<T: Real>(self, x: T) -> T {
+        match self {
+            Self::Tanh => x.tanh(),
+            Self::Clamp => clamp(x, -T::one(), T::one()),
+        }
+    }
+
+    /// Largest `|x|·(1 - |T(x)|)`: what smoothing the sign costs the bounds.
+    ///
+    /// W(1/e) = 0.27846 for `tanh` (Lemma 1 of the paper's reference 50), 1/4 for the
+    /// clamped line.
+    ///
+    /// ```
+    /// use bowden::control::SmoothSign;
+    /// assert_eq!(SmoothSign::Clamp.residue::<f32>(), 0.25);
+    /// ```
+    #[must_use]
+    pub fn residue<T: Real>(self) -> T {
+        match self {
+            Self::Tanh => T::of(TANH_RESIDUE),
+            Self::Clamp => T::of(0.25),
+        }
+    }
+}
