@@ -12,6 +12,8 @@
 //! | [`transmission`] | displacement to force, torque to torque, and the inverse | (1), (5), (6) |
 //! | [`effect`] | viscous, Coulomb, Stribeck, backlash, …: one regressor each | |
 //! | [`model`] | a transmission plus effects: the predicted output | |
+//! | [`control`] | torque controllers that a bad sample cannot poison | (14)-(26) |
+//! | [`bound`] | what can be promised of the adaptive law | (27)-(38) |
 //! | [`signal`] | clamp, guard, play operator, filtered derivative | |
 //!
 //! Conventions: config and state are two types; everything is checked once, in
@@ -43,6 +45,7 @@
 #[cfg(feature = "std")]
 extern crate std;
 
+pub mod bound;
 pub mod control;
 pub mod effect;
 mod error;

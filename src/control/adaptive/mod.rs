@@ -124,12 +124,12 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     #[must_use]
     pub fn is_valid(&self, state: &AdaptiveState<T, N>) -> bool {
         let settings = &self.settings;
-        let theta = settings.theta.iter().zip(&state.theta);
+        let mut theta = settings.theta.iter().zip(&state.theta);
         state.z.value.abs() <= settings.z_limit
             && state.z.carry.is_finite()
             && settings.beta.holds(&state.beta)
             && settings.delta.holds(&state.delta)
-            && { theta }.all(|(theta, estimate)| theta.holds(estimate))
+            && theta.all(|(theta, estimate)| theta.holds(estimate))
             && state.lag.is_finite()
             && state.error_rate.rate().is_finite()
             && settings.limits.contains(state.held.command)

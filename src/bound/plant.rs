@@ -1,0 +1,164 @@
+//! What is known of the plant `y = alpha·u - theta'x - D`, (11).
+
+use crate::error::finite;
+use crate::{Error, Real};
+
+/// Where a constant of the plant is known to lie.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Interval<T> {
+    /// Least value \[unit of the constant\].
+    pub low: T,
+    /// Greatest value \[unit of the constant\].
+    pub high: T,
+}
+
+impl<T: Real> Interval<T> {
+    /// A constant that is known.
+    #[must_use]
+    pub fn exactly(value: T) -> Self {
+        Self {
+            low: value,
+            high: value,
+        }
+    }
+
+    /// From one value to another, neither needs to be the lower.
+    ///
+    /// ```
+    /// use bowden::bound::Interval;
+    /// assert_eq!(Interval::between(2.0, -1.0), Interval { low: -1.0, high: 2.0 });
+    /// ```
+    #[must_use]
+    pub fn between(a: T, b: T) -> Self {
+        if a < b {
+            Self { low: a, high: b }
+        } else {
+            Self { low: b, high: a }
+        }
+    }
+
+    /// Greatest magnitude in the interval.
+    #[must_use]
+    pub fn magnitude(&self) -> T {
+        self.furthest_from(T::zero())
+    }
+
+    /// Greatest distance from `point` in the interval.
+    #[must_use]
+    pub fn furthest_from(&self, point: T) -> T {
+        let (low, high) = ((self.low - point).abs(), (self.high - point).abs());
+        if low > high {
+            low
+        } else {
+            high
+        }
+    }
+}
+
+/// What is known of one regressor and its coefficient.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Known<T> {
+    /// Where theta_i lies \[N·m/unit of the regressor\].
+    pub theta: Interval<T>,
+    /// Greatest `|x_i|` \[unit of the regressor\]; only peak certificates read it.
+    pub magnitude: T,
+    /// Greatest rate of x_i \[unit/s\]; only sampled certificates read it.
+    pub rate: T,
+}
+
+/// What is known of the plant and its task: the input of every certificate.
+///
+/// ```
+/// use bowden::bound::{Interval, Plant};
+/// let plant = Plant {
+///     alpha: Interval { low: 0.95, high: 1.05 },
+///     reference: 38.0,      // [N·m]
+///     reference_rate: 22.3, // [N·m/s]
+///     delta_rate: 45.7,     // [N·m/s]
+///     ..Plant::<f64, 0>::new(1.0, 7.056)
+/// };
+/// assert_eq!(plant.delta, 7.056);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Plant<T, const N: usize> {
+    /// Gain alpha = B·N·A \[N·m/command unit\], above zero.
+    pub alpha: Interval<T>,
+    /// Bound Delta of `|D|` \[N·m\]: `kappa_eta + |T0| + |d|`, (12).
+    pub delta: T,
+    /// Bound of the rate of D \[N·m/s\]; only sampled certificates read it.
+    ///
+    /// Of the hysteresis: `kappa_eta·f/(B - kappa_eta·f)·|y'|` with f = rho·max(1,
+    /// 2·sigma), the steepest slope of eta in tau_i, since `tau_i' = y'/(B - kappa_eta·f)`
+    /// at worst. For the paper's first set with sigma = 1/2 and its reference, `|y_r'| <=
+    /// 22.24 N·m/s`, that is 45.7 N·m/s where y follows y_r.
+    pub delta_rate: T,
+    /// Coefficients and regressors.
+    pub regressors: [Known<T>; N],
+    /// Greatest `|y_r|` \[N·m\]; only peak certificates read it.
+    pub reference: T,
+    /// Greatest `|y_r'|` \[N·m/s\]; only sampled certificates read it.
+    pub reference_rate: T,
+}
+
+impl<T: Real, const N: usize> Plant<T, N> {
+    /// alpha \[N·m/command unit\] known, `|D| <= delta` \[N·m\]; all else is zero.
+    #[must_use]
+    pub fn new(alpha: T, delta: T) -> Self {
+        Self {
+            alpha: Interval::exactly(alpha),
+            delta,
+            delta_rate: T::zero(),
+            regressors: [Known::default(); N],
+            reference: T::zero(),
+            reference_rate: T::zero(),
+        }
+    }
+
+    /// Refuses what cannot be a plant.
+    pub(super) fn check(&self) -> Result<(), Error> {
+        ordered(&self.alpha, "alpha")?;
+        if self.alpha.low <= T::zero() {
+            return Err(Error::OutOfRange("alpha"));
+        }
+        not_negative(self.delta, "delta")?;
+        not_negative(self.delta_rate, "delta_rate")?;
+        not_negative(self.reference, "reference")?;
+        not_negative(self.reference_rate, "reference_rate")?;
+        for known in &self.regressors {
+            ordered(&known.theta, "theta")?;
+            not_negative(known.magnitude, "magnitude")?;
+            not_negative(known.rate, "rate")?;
+        }
+        Ok(())
+    }
+
+    /// Sum of `|theta_i|` times what `of` takes from regressor i.
+    pub(super) fn weighted(&self, of: impl Fn(&Known<T>) -> T) -> T {
+        let each = self.regressors.iter();
+        each.fold(T::zero(), |sum, known| {
+            sum + known.theta.magnitude() * of(known)
+        })
+    }
+}
+
+fn ordered<T: Real>(interval: &Interval<T>, name: &'static str) -> Result<(), Error> {
+    finite(interval.low, name)?;
+    if interval.low > finite(interval.high, name)? {
+        return Err(Error::OutOfRange(name));
+    }
+    Ok(())
+}
+
+fn not_negative<T: Real>(value: T, name: &'static str) -> Result<(), Error> {
+    if finite(value, name)? < T::zero() {
+        return Err(Error::OutOfRange(name));
+    }
+    Ok(())
+}

@@ -1,0 +1,96 @@
+//! Theorem 1 of the paper, with its constants as the paper has them.
+
+use super::truth::{adapting, bounded, literal, sum};
+use super::{Certificate, Interval, Kind, Plant};
+use crate::control::{Adaptive, Leakage};
+use crate::{Error, Real};
+
+/// Theorem 1's phi, theta, delta and (1 + lambda)·delta, (34)-(38).
+///
+/// With `V = s²/2 + z²/2 + alpha·beta~²/(2·gamma) + Delta~²/(2·mu) + sum
+/// theta~_i²/(2·mu_i)` (27), the law gives `V' <= -theta·V + phi` (34), so that
+/// limsup `|s|` and limsup `|z|` are at most `delta = sqrt(2·phi/theta)`, and limsup
+/// `|e| <= (1 + lambda)·delta`. A prior p0 puts `p* - p0` in the place of p* in phi.
+///
+/// Assumed: the literal form in continuous time with e' known; the plant (11) with
+/// constant alpha, theta in the stated intervals and `|D| <= Delta` at every time; constant
+/// leakage above zero and a gain above zero in every estimate; boxes, if any, that hold
+/// the truth; no limit met. The algebra (27)-(34) is right. The number is of no use:
+/// leakage is the slowest rate by far, so theta is tiny and delta huge.
+///
+/// ```
+/// use bowden::bound::{Plant, Theorem1};
+/// use bowden::control::Adaptive;
+/// let bound = Theorem1::try_new(&Adaptive::paper(), &Plant::new(0.5, 7.0_f64))?;
+/// assert!((bound.phi - 79.98).abs() < 0.005);
+/// assert_eq!(bound.theta, 0.01);
+/// assert!((bound.delta - 126.47).abs() < 0.01);
+/// # Ok::<(), bowden::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Theorem1<T> {
+    /// phi \[(N·m)²/s\], below (34).
+    pub phi: T,
+    /// theta \[1/s\]: the slowest of 2·lambda, 2·k·lambda and the leakages.
+    pub theta: T,
+    /// delta = sqrt(2·phi/theta): limsup of `|s|` \[N·m\] and of `|z|` \[N·m·s\].
+    pub delta: T,
+    /// (1 + lambda)·delta \[N·m\]: limsup of `|e|`, (38).
+    pub bound: T,
+}
+
+impl<T: Real> Theorem1<T> {
+    /// The constants of a law on a plant.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`], [`Error::OutOfRange`] with what is wrong with the plant;
+    /// [`Error::Inadmissible`] with the assumption that does not hold.
+    pub fn try_new<const N: usize>(
+        law: &Adaptive<T, N>,
+        plant: &Plant<T, N>,
+    ) -> Result<Self, Error> {
+        plant.check()?;
+        literal(law)?;
+        let settings = law.settings();
+        let two = T::of(2.0);
+        let lambda = settings.lambda;
+        let mut theta = two * lambda;
+        let mut slowest = |rate: T| {
+            if rate < theta {
+                theta = rate;
+            }
+        };
+        slowest(two * settings.gain * lambda);
+        let leaking = [settings.beta, settings.delta];
+        for estimator in leaking.iter().chain(&settings.theta) {
+            match estimator.leakage {
+                Leakage::Constant { rate } if rate > T::zero() => slowest(rate),
+                _ => return Err(Error::Inadmissible("constant leakage of every estimate")),
+            }
+        }
+        // Twice the residue is sigma·(p* - p0)²/(2·m).
+        let mut phi = two * sum(law, plant, |estimate| Ok(estimate.residue()))?;
+        let truth = Interval::exactly(plant.delta);
+        if let Some(delta) = adapting(&settings.delta, settings.frozen, truth)? {
+            phi += two * delta.residue();
+        }
+        phi += settings.smooth_sign.residue::<T>() * settings.epsilon * lambda * plant.delta;
+        let delta = bounded((two * phi / theta).sqrt())?;
+        Ok(Self {
+            phi,
+            theta,
+            delta,
+            bound: bounded((T::one() + lambda) * delta)?,
+        })
+    }
+
+    /// (1 + lambda)·delta as a certificate.
+    #[must_use]
+    pub fn certificate(&self) -> Certificate<T> {
+        Certificate {
+            kind: Kind::Theorem1,
+            value: self.bound,
+        }
+    }
+}

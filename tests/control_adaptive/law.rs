@@ -1,0 +1,246 @@
+//! One step against the paper's equations, written out; limits; refusals.
+
+use super::{lag, literal};
+use bowden::control::{
+    Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Fallback, Fault, Form,
+    Leakage, Limits, SmoothSign, Status,
+};
+use bowden::Error;
+
+#[test]
+fn a_step_is_equations_17_to_26() {
+    let law = Adaptive::<f64, 2>::paper();
+    let mut state = AdaptiveState::new(&law);
+    // The paper's symbols, advanced by hand beside it.
+    let (k, lambda, eps) = (24.0, 8.0, 0.05);
+    let (gamma, mu, mu_i, sigma) = (0.002 / 8.0, 0.05 / 8.0, 0.004 / 8.0, 0.01);
+    let (mut z, mut beta, mut delta, mut theta) = (0.0_f64, 0.0_f64, 7.0_f64, [0.0_f64; 2]);
+    let (h, mut rate, mut last) = (0.001, 0.0, None);
+    for step in 0..400 {
+        let t = h * f64::from(step);
+        let (y, y_r) = (20.0 + 4.0 * (3.0 * t).sin(), 25.0 + 10.0 * (1.5 * t).sin());
+        let x = [(2.0 * t).cos(), -2.0 * (2.0 * t).sin()];
+        let output = law.step(&mut state, &AdaptiveInput::new(h, y_r, y, x));
+
+        let e = y - y_r;
+        let s = e + lambda * z;
+        if let Some(last) = last {
+            let share = 1.0 - (-h / 0.005_f64).exp();
+            rate += share * ((e - last) / h - rate);
+        }
+        last = Some(e);
+        let tanh = (s / eps).tanh();
+        let ubar =
+            -k * s + y_r - (z + rate) / lambda + theta[0] * x[0] + theta[1] * x[1] - delta * tanh;
+        let u = beta * ubar;
+        z += h * e;
+        beta = (beta - h * gamma * lambda * s * ubar) / (1.0 + h * sigma);
+        delta = (delta + h * mu * lambda * s * tanh) / (1.0 + h * sigma);
+        for i in 0..2 {
+            theta[i] = (theta[i] - h * mu_i * lambda * s * x[i]) / (1.0 + h * sigma);
+        }
+        // 400 steps of rounding, on a command that beta_hat lets grow to thousands.
+        let close = |a: f64, b: f64| (a - b).abs() <= 1e-10 * (1.0 + b.abs());
+        assert_eq!(output.status, Status::Good);
+        assert!(close(output.command, u), "{step}: {} {u}", output.command);
+        assert!(close(output.terms.s, s) && close(output.terms.virtual_command, ubar));
+        assert!(close(state.accumulated_error(), z) && close(state.beta_hat(), beta));
+        assert!(close(state.delta_hat(), delta));
+        assert!(close(state.theta_hat()[0], theta[0]) && close(state.theta_hat()[1], theta[1]));
+    }
+}
+
+#[test]
+fn the_papers_settings_are_admissible_as_they_are() {
+    let checked = Adaptive::try_new(AdaptiveSettings::<f32, 2>::paper());
+    assert_eq!(checked, Ok(Adaptive::paper()));
+    assert_eq!(Adaptive::<f32, 2>::paper().largest_step(), None);
+}
+
+#[test]
+fn a_refusal_says_which_setting_or_condition() {
+    let refused = |settings| Adaptive::try_new(settings).err();
+    let lag = lag();
+    let out = |name| Some(Error::OutOfRange(name));
+    let unmet = |condition| Some(Error::Inadmissible(condition));
+    assert_eq!(refused(AdaptiveSettings { gain: 0.0, ..lag }), out("gain"));
+    let nan = AdaptiveSettings {
+        lambda: f64::NAN,
+        ..lag
+    };
+    assert_eq!(refused(nan), Some(Error::NonFinite("lambda")));
+    assert_eq!(
+        refused(AdaptiveSettings {
+            epsilon: -1.0,
+            ..lag
+        }),
+        out("epsilon")
+    );
+    let theta = [Estimator::fixed(9.0).within(-5.0, 5.0)];
+    assert_eq!(
+        refused(AdaptiveSettings { theta, ..lag }),
+        out("theta.initial")
+    );
+    let delta = Estimator {
+        gain: -1.0,
+        ..lag.delta
+    };
+    assert_eq!(
+        refused(AdaptiveSettings { delta, ..lag }),
+        out("delta.gain")
+    );
+    let leakage = Leakage::Switching {
+        rate: 0.1,
+        bound: 0.0,
+    };
+    let beta = Estimator {
+        leakage,
+        ..lag.beta
+    };
+    assert_eq!(
+        refused(AdaptiveSettings { beta, ..lag }),
+        out("beta.leakage.bound")
+    );
+    let beta = Estimator::fixed(1.0).within(0.0, 1.1);
+    let condition = "lag form: beta.low > 0";
+    assert_eq!(refused(AdaptiveSettings { beta, ..lag }), unmet(condition));
+    let delta = Estimator::fixed(1.0).within(-1.0, 7.0);
+    let condition = "lag form: delta.low >= 0";
+    assert_eq!(refused(AdaptiveSettings { delta, ..lag }), unmet(condition));
+    let form = Form::Lag {
+        step: 0.5,
+        plant_gain: 1e-3,
+    };
+    let condition = "lag form: h*lambda <= 1";
+    assert_eq!(refused(AdaptiveSettings { form, ..lag }), unmet(condition));
+    let sharp = AdaptiveSettings {
+        epsilon: 0.05,
+        ..lag
+    };
+    let condition = "lag form: h*lambda*g*(k + delta.high/epsilon) <= 1";
+    assert_eq!(refused(sharp), unmet(condition));
+    let fallback = Fallback::try_new(3, 50.0).unwrap();
+    let limits = Limits::try_new(-10.0, 10.0).unwrap();
+    let condition = "the safe command within the limits";
+    assert_eq!(
+        refused(AdaptiveSettings {
+            fallback,
+            limits,
+            ..lag
+        }),
+        unmet(condition)
+    );
+}
+
+#[test]
+fn the_step_that_is_offered_is_admissible_and_a_longer_one_is_not() {
+    let sharp = AdaptiveSettings {
+        epsilon: 0.05,
+        ..lag()
+    };
+    let largest = sharp.largest_step().unwrap();
+    // h·lambda·g⁺·(k + Dmax/eps) = 1 with 8·1.1·(24 + 140).
+    assert!((largest - 1.0 / 1443.2).abs() < 1e-12);
+    let at = |step| {
+        let form = Form::Lag {
+            step,
+            plant_gain: 1.0,
+        };
+        Adaptive::try_new(AdaptiveSettings { form, ..sharp })
+    };
+    assert!(at(largest * 1.000_001).is_err());
+    let law = at(largest).unwrap();
+    let mut state = AdaptiveState::new(&law);
+    let input = AdaptiveInput::new(largest, 1.0, 0.0, [0.0]);
+    assert_eq!(law.step(&mut state, &input).status, Status::Good);
+    let late = AdaptiveInput {
+        dt: largest * 1.01,
+        ..input
+    };
+    assert_eq!(
+        law.step(&mut state, &late).status,
+        Status::Held(Fault::DtTooLong)
+    );
+}
+
+#[test]
+fn against_a_limit_nothing_winds_up_and_the_command_comes_back_at_once() {
+    let limits = Limits::try_new(-5.0, 5.0).unwrap();
+    for settings in [literal(), lag()] {
+        let law = Adaptive::try_new(AdaptiveSettings { limits, ..settings }).unwrap();
+        let mut state = AdaptiveState::new(&law);
+        let short = AdaptiveInput::new(0.001, 30.0, 4.0, [0.3]);
+        for _ in 0..50 {
+            law.step(&mut state, &short);
+        }
+        let wound = state;
+        for _ in 0..60_000 {
+            let output = law.step(&mut state, &short);
+            assert!(output.terms.limited && output.command == 5.0);
+        }
+        assert_eq!(state.accumulated_error(), wound.accumulated_error());
+        assert_eq!(state.beta_hat(), wound.beta_hat());
+        assert_eq!(state.theta_hat(), wound.theta_hat());
+        // A minute at the limit, and it leaves it with the first sample that allows.
+        let over = AdaptiveInput::new(0.001, 4.0, 5.0, [0.3]);
+        assert!(law.step(&mut state, &over).command < 5.0);
+    }
+}
+
+#[test]
+fn a_frozen_law_keeps_its_estimates_and_integrates_all_the_same() {
+    let law = Adaptive::try_new(AdaptiveSettings {
+        frozen: true,
+        ..literal()
+    })
+    .unwrap();
+    let mut state = AdaptiveState::new(&law);
+    for _ in 0..100 {
+        law.step(&mut state, &AdaptiveInput::new(0.001, 3.0, 1.0, [1.0]));
+    }
+    assert_eq!((state.beta_hat(), state.delta_hat()), (1.0, 1.0));
+    assert_eq!(state.theta_hat(), [0.0]);
+    assert!((state.accumulated_error() + 0.2).abs() < 1e-15);
+}
+
+#[test]
+fn the_feed_forward_is_added_to_the_command_in_either_form() {
+    for settings in [literal(), lag()] {
+        let law = Adaptive::try_new(settings).unwrap();
+        let (mut with, mut without) = (AdaptiveState::new(&law), AdaptiveState::new(&law));
+        for step in 0..20 {
+            let plain = AdaptiveInput::new(0.001, 3.0, 0.1 * f64::from(step), [0.2]);
+            let fed = AdaptiveInput {
+                feed_forward: 2.5 * f64::from(step % 3),
+                ..plain
+            };
+            let a = law.step(&mut with, &fed);
+            let b = law.step(&mut without, &plain);
+            assert_eq!(a.terms.law, b.terms.law);
+            assert_eq!(a.command, b.command + fed.feed_forward);
+        }
+    }
+}
+
+#[test]
+fn either_smooth_sign_is_odd_bounded_and_no_steeper_than_one() {
+    for sign in [SmoothSign::Tanh, SmoothSign::Clamp] {
+        let mut worst = 0.0_f64;
+        for i in 0..40_000 {
+            let x = 1e-4 * f64::from(i);
+            let (here, next) = (sign.of(x), sign.of(x + 1e-4));
+            assert_eq!(sign.of(-x), -here);
+            assert!(next >= here && next <= 1.0);
+            // One rounding of a value near one.
+            assert!(next - here <= 1e-4 + 3e-16);
+            worst = worst.max(x * (1.0 - here));
+        }
+        // The grid of 1e-4 misses the top by at most 1e-8 (its curvature is about one).
+        assert!((worst - sign.residue::<f64>()).abs() < 1e-8);
+        assert_eq!(sign.of(f64::INFINITY), 1.0);
+        assert!(sign.of(f64::NAN).is_nan());
+    }
+    // W(1/e) solves w·e^w = 1/e.
+    let w = SmoothSign::Tanh.residue::<f64>();
+    assert!((w * w.exp() - (-1.0_f64).exp()).abs() < 1e-16);
+}
