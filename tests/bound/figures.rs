@@ -1,6 +1,8 @@
 //! The figures: computed by hand, by the paper's formulas, and published elsewhere.
 
-use bowden::bound::{Interval, Kind, Known, PeakContinuous, PeakSampled, Plant, Rms, Theorem1};
+use bowden::bound::{
+    Interval, Kind, Known, PeakContinuous, PeakSampled, PerStep, Plant, Rms, Theorem1,
+};
 use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form, Leakage, SmoothSign};
 
 /// The reference rig: alpha = B·0.6, theta = B·(2.7, 0.2), `|D| <= kappa_eta + T0`.
@@ -199,4 +201,58 @@ fn every_certificate_names_its_unit_and_assumptions() {
             .iter()
             .all(|text| !text.is_empty()));
     }
+}
+
+#[test]
+fn each_term_of_the_per_step_inequality_is_as_documented() {
+    // h, k, lambda, eps; alpha, g, Delta, delta.high; all chosen round.
+    let lag = Form::Lag {
+        step: 0.001,
+        plant_gain: 2.0,
+    };
+    let law = Adaptive::try_new(AdaptiveSettings {
+        smooth_sign: SmoothSign::Clamp,
+        beta: Estimator::fixed(0.5).within(0.4, 0.6).adapting(0.01, 0.5),
+        delta: Estimator::fixed(1.0).within(0.0, 4.0).adapting(0.1, 0.25),
+        theta: [Estimator::fixed(0.0).within(-1.0, 1.0).adapting(0.2, 0.125)],
+        ..AdaptiveSettings::<f64, 1>::new(lag, 20.0, 10.0, 0.2)
+    })
+    .unwrap();
+    let regressor = Known {
+        theta: Interval::exactly(0.5),
+        magnitude: 2.0,
+        rate: 4.0,
+    };
+    let plant = Plant {
+        delta_rate: 3.0,
+        regressors: [regressor],
+        reference: 10.0,
+        reference_rate: 20.0,
+        ..Plant::new(2.0, 5.0)
+    };
+    let step = PerStep::try_new(&law, &plant).unwrap();
+    let box_ = step.within;
+    // w: 0.2·(10 + 20/10) + |1.2·(-1) - 0.5|·2 + 5; Xi: 3 + 0.5·4.
+    assert!((box_.w - 10.8).abs() < 1e-12 && (box_.xi - 5.0).abs() < 1e-12);
+    let s: f64 = (10.8 + 0.5) / (0.8 * 19.99);
+    assert!((box_.s - s).abs() < 1e-12);
+    assert_eq!(step.target, 4.0);
+    // The slowest is theta's leakage.
+    assert!((step.rate - 0.125 / 1.000_125).abs() < 1e-15);
+    let leakage = 2.0 * 0.5 * 0.25 / 0.02 + 0.25 * 16.0 / 0.2 + 0.125 * 0.25 / 0.4;
+    let smoothing = 0.25 * 0.2 * 10.0 * 4.0;
+    let left = 10.0 * s * 1.0;
+    let plants_own = 25.0 / (2.0 * 20.0 * 10.0);
+    let ds: f64 = 12.0 * (20.0 * s + 4.0) + 1.2 * s / 10.0 + 10.0 * 10.8 + 5.0;
+    let ubar = 20.0 * s + s / 100.0 + 12.0 + 2.0 + 4.0;
+    let drives = 2.0 * 0.01 * (10.0 * s * ubar).powi(2)
+        + 0.1 * (10.0 * s).powi(2)
+        + 0.2 * (20.0 * s).powi(2);
+    let second = 0.0005 * (ds * ds + 4.0 * s * s + drives);
+    let input = leakage + smoothing + left + plants_own + second;
+    assert!(
+        (step.input - input).abs() < 1e-12 * input,
+        "{} {input}",
+        step.input
+    );
 }
