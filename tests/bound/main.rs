@@ -6,6 +6,7 @@
 mod continuous;
 mod figures;
 mod refused;
+mod rig;
 mod sampled;
 mod step;
 
