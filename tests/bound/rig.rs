@@ -36,7 +36,7 @@ fn errors(config: RigConfig<f64>, seconds: f64, h: f64, seed: u64) -> (f64, f64)
     let (law, reference) = (Adaptive::paper(), Reference::paper());
     let (mut plant, mut state) = (rig.start(seed), AdaptiveState::new(&law));
     let (mut peak, mut sum, mut count) = (0.0_f64, 0.0, 0.0);
-    while plant.sample().time < seconds {
+    while plant.sample().time < seconds && !plant.sample().diverged {
         let now = plant.sample();
         let x = [now.proximal.velocity, now.proximal.acceleration];
         let r = reference.at(now.time);
@@ -118,7 +118,7 @@ fn at_three_milliseconds_the_adaptive_law_stays_finite_where_pi_diverges() {
     let (pi, reference) = (Pid::paper_pi(), Reference::paper());
     let (mut plant, mut state) = (rig.start(0), PidState::new());
     let mut worst = 0.0_f64;
-    while plant.sample().time < 20.0 {
+    while plant.sample().time < 20.0 && !plant.sample().diverged {
         let now = plant.sample();
         let r = reference.at(now.time);
         let output = pi.step(&mut state, &PidInput::new(h, r, now.measured));
