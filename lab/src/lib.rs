@@ -5,13 +5,14 @@
 //! [`fit`] (variable projection), [`scan`] (which effect is missing?), [`closing`] (the
 //! loop and its ledger), [`verdict`], [`report`] and [`export`]. Every column of the
 //! regression is computed by the core crate, so that what is fitted here is what runs
-//! in firmware. [`synth`] makes test records and shares no code with any of these.
+//! in firmware. [`compare`] puts controllers on the core's simulated rig. [`synth`] makes test records and shares no code with any of these.
 
 pub mod catalogue;
 pub mod channels;
 pub mod cli;
 pub mod closing;
 pub mod columns;
+pub mod compare;
 pub mod export;
 pub mod filter;
 pub mod fit;
