@@ -1,6 +1,8 @@
 //! The program's subcommands, one file each; no logic of their own.
 
+mod certify;
 mod close;
+mod compare;
 mod record;
 
 use clap::{Parser, Subcommand};
@@ -24,6 +26,10 @@ struct Arguments {
 enum Command {
     /// Fit the declared model, find the effect that it lacks, add it, compare.
     Close(close::Close),
+    /// Try controllers on the simulated rig: errors, effort, and what can be promised.
+    Compare(compare::Compare),
+    /// Print what can be promised of the tracking error, and what that rests on.
+    Certify(certify::Certify),
     /// Write a generated record with an effect that is not declared, as CSV.
     Record(record::Record),
 }
@@ -36,6 +42,8 @@ pub fn run() -> Result<(), Failure> {
     match Arguments::parse().command {
         None => close::Close::default().run(),
         Some(Command::Close(close)) => close.run(),
+        Some(Command::Compare(compare)) => compare.run(),
+        Some(Command::Certify(certify)) => certify.run(),
         Some(Command::Record(record)) => record.run(),
     }
 }

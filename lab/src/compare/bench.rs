@@ -110,10 +110,7 @@ pub fn record(
             all,
             "{t:.4},{i:.6},{o:.6},{o:.6},{p:.8},{d:.8},{command:.6},{load:.6}"
         );
-        if rig
-            .step_with_load(&mut state, command, load, STEP)
-            .diverged
-        {
+        if rig.step_with_load(&mut state, command, load, STEP).diverged {
             return Err("the rig ran away on the bench".to_owned());
         }
     }
@@ -282,12 +279,7 @@ fn surroundings(
     let rows = edge..input.len().saturating_sub(edge);
 
     let drive = regress(&rows, 4, |k| {
-        let row = [
-            command[k].position,
-            p[k].velocity,
-            p[k].acceleration,
-            1.0,
-        ];
+        let row = [command[k].position, p[k].velocity, p[k].acceleration, 1.0];
         (row.to_vec(), input[k].position)
     })?;
     let spring = regress(&rows, 3, |k| {

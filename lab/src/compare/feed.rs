@@ -200,7 +200,8 @@ impl FeedForward {
                 ..CompensatorInput::new(dt, wanted.position)
             });
             torque = pass.torque;
-            let stretched = |of_joint: f64, of_torque: f64| of_joint + of_torque / s.cable_stiffness;
+            let stretched =
+                |of_joint: f64, of_torque: f64| of_joint + of_torque / s.cable_stiffness;
             proximal = Motion {
                 position: stretched(distal.position, torque.position),
                 velocity: stretched(distal.velocity, torque.velocity),
@@ -227,7 +228,9 @@ fn invertible(transmission: &Transmission<f64>) -> Result<Transmission<f64>, bow
     // With sigma = 1/2 the condition is rho <= B/kappa_eta; a knee that is sharper yet
     // is made as round as it must be.
     let rho = shape.rho().min(0.99 * b.abs() / kappa);
-    let sigma = (0.99 * b.abs() / (2.0 * kappa * rho)).min(shape.sigma()).max(0.5);
+    let sigma = (0.99 * b.abs() / (2.0 * kappa * rho))
+        .min(shape.sigma())
+        .max(0.5);
     let shape = Shape::try_new(rho, sigma, shape.n())?;
     let gentle = Transmission::torque(b, kappa, transmission.offset(), shape)?;
     gentle.inverse().map(|_| gentle)

@@ -102,17 +102,13 @@ const KINDS: [Kind; 7] = [
     Kind {
         name: "adaptive-quiet",
         rate: RATE,
-        law: |setup, _, prior| {
-            adaptive(&quiet_adaptive(&setup.adaptive), prior).map(Law::Adaptive)
-        },
+        law: |setup, _, prior| adaptive(&quiet_adaptive(&setup.adaptive), prior).map(Law::Adaptive),
         regressor: true,
     },
     Kind {
         name: "adaptive-250hz-quiet",
         rate: SLOW,
-        law: |setup, _, prior| {
-            adaptive(&quiet_adaptive(&setup.adaptive), prior).map(Law::Adaptive)
-        },
+        law: |setup, _, prior| adaptive(&quiet_adaptive(&setup.adaptive), prior).map(Law::Adaptive),
         regressor: true,
     },
 ];

@@ -231,8 +231,7 @@ impl Setup {
         }
         let refused = |what: &str, e: bowden::Error| format!("{label}: [{what}]: {e}");
         let none: &[bowden::model::Term<f64>] = &[];
-        bowden::rig::Rig::<f64, 0>::try_new(self.rig, none)
-            .map_err(|e| refused("rig", e))?;
+        bowden::rig::Rig::<f64, 0>::try_new(self.rig, none).map_err(|e| refused("rig", e))?;
         super::lineup::Laws::new(self).map_err(|(what, e)| refused(what, e))?;
         Ok(())
     }

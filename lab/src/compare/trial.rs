@@ -168,9 +168,9 @@ pub fn run(
         let feed_forward = feed
             .as_mut()
             .map_or(0.0, |feed| feed.step(&conditions.reference, t, dt).command);
-        let found = regressor
-            .as_mut()
-            .map_or(0.0, |found| found.step(&conditions.reference, t, dt).effects);
+        let found = regressor.as_mut().map_or(0.0, |found| {
+            found.step(&conditions.reference, t, dt).effects
+        });
         let (command, estimates) = match (&controller.law, &mut running) {
             (Law::Pid(pid), Running::Pid(state)) => {
                 let input = PidInput {

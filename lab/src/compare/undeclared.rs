@@ -86,8 +86,8 @@ impl Undeclared {
         let motions = path.motions(source);
         let (middle, reach, speed) = extent(motions);
         let shapes = shapes(name, reach, speed);
-        let effect = Effect::try_from_name(name, &shapes)
-            .map_err(|e| format!("--effect {name}: {e}"))?;
+        let effect =
+            Effect::try_from_name(name, &shapes).map_err(|e| format!("--effect {name}: {e}"))?;
         let origin = match effect.info().reads.contains(&Quantity::Position) {
             true => middle,
             false => 0.0,
@@ -117,8 +117,9 @@ impl Undeclared {
 fn usual(name: &str) -> Option<Source> {
     match name {
         "temperature" | "crosstalk" => None,
-        "gain" | "rate" | "rate-symmetric" | "creep" | "saturation-upper"
-        | "saturation-lower" => Some(Source::Input),
+        "gain" | "rate" | "rate-symmetric" | "creep" | "saturation-upper" | "saturation-lower" => {
+            Some(Source::Input)
+        }
         _ => Some(Source::Channel(1)),
     }
 }
@@ -126,7 +127,10 @@ fn usual(name: &str) -> Option<Source> {
 /// Plausible shapes, in the core's order.
 fn shapes(name: &str, reach: f64, speed: f64) -> Vec<f64> {
     match name {
-        "coulomb" | "load-friction" | "position-friction" | "drive-friction"
+        "coulomb"
+        | "load-friction"
+        | "position-friction"
+        | "drive-friction"
         | "back-drive-friction" => vec![0.08 * speed],
         "stribeck" => vec![0.3 * speed, 1.3],
         "capstan" => vec![0.08 * speed, 0.3 / reach],

@@ -1,0 +1,244 @@
+//! Certificates of a setup's laws: what can be promised, and what it rests on.
+
+use crate::compare::lineup::RATE;
+use crate::compare::setup::Setup;
+use bowden::bound::{
+    Certificate, Interval, Known, PeakContinuous, PeakSampled, PerStep, Plant, Rms, Theorem1,
+};
+use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form};
+use bowden::rig::RigConfig;
+use bowden::Error;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+/// One certificate of one law, or why there is none.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Line {
+    /// The law that it is of.
+    pub law: String,
+    /// Which theorem: `theorem1`, `rms`, `peak-continuous`, `peak-sampled`, `per-step`.
+    pub kind: &'static str,
+    /// What the value bounds.
+    pub bounds: Option<&'static str>,
+    /// The bound \[N·m\].
+    pub value: Option<f64>,
+    /// Unit of the value.
+    pub unit: &'static str,
+    /// Greater than the greatest reference: true, and worth nothing.
+    pub vacuous: bool,
+    /// Which condition is not met, where there is no value.
+    pub refused: Option<String>,
+    /// What the user must check.
+    pub assumptions: &'static [&'static str],
+}
+
+/// Greatest reference \[N·m\] and rate \[N·m/s\] of the paper's experiment.
+const REFERENCE: f64 = 38.0;
+const REFERENCE_RATE: f64 = 22.24;
+
+/// What is known of the rig as the plant (11), beta to within `spread`.
+fn plant(rig: &RigConfig<f64>, spread: f64) -> Plant<f64, 3> {
+    let alpha = rig.drive_gain * rig.b;
+    let slope = rig.rho * (2.0 * rig.sigma).max(1.0) * rig.kappa_eta;
+    // Velocity and acceleration of the proximal pulley while the reference is followed.
+    let compliance = 1.0 / rig.load_stiffness + 1.0 / rig.cable_stiffness;
+    let speed = REFERENCE_RATE * compliance;
+    let acceleration = 39.0 * compliance; // |y_r''| <= 10·(pi/2)² + 3·(2·pi·0.346)²
+    let known = |theta: f64, magnitude: f64, rate: f64| Known {
+        theta: Interval::exactly(theta),
+        magnitude,
+        rate,
+    };
+    Plant {
+        alpha: Interval {
+            low: alpha * (1.0 - spread),
+            high: alpha * (1.0 + spread),
+        },
+        delta_rate: slope / (rig.b - slope).max(1e-6) * REFERENCE_RATE,
+        reference: REFERENCE,
+        reference_rate: REFERENCE_RATE,
+        regressors: [
+            known(rig.b * rig.motor_damping, speed, acceleration),
+            known(rig.b * rig.motor_inertia, acceleration, 80.0 * compliance),
+            Known::default(),
+        ],
+        ..Plant::new(alpha, rig.kappa_eta + rig.t0.abs())
+    }
+}
+
+fn line(law: &str, kind: &'static str, certificate: Result<Certificate<f64>, Error>) -> Line {
+    match certificate {
+        Ok(certificate) => Line {
+            law: law.to_owned(),
+            kind,
+            bounds: Some(certificate.bounds()),
+            value: Some(certificate.value),
+            unit: certificate.unit(),
+            vacuous: certificate.value > REFERENCE,
+            refused: None,
+            assumptions: certificate.assumptions(),
+        },
+        Err(e) => Line {
+            law: law.to_owned(),
+            kind,
+            bounds: None,
+            value: None,
+            unit: "N·m",
+            vacuous: false,
+            refused: Some(e.to_string()),
+            assumptions: &[],
+        },
+    }
+}
+
+/// The laws of the setup: as they are, and as a firmware would box them.
+///
+/// # Errors
+/// One sentence where the core refuses the gains themselves.
+pub fn all(setup: &Setup) -> Result<Vec<Line>, String> {
+    let refused = |e: Error| format!("[adaptive]: {e}");
+    let settings = setup.adaptive.settings(0.0);
+    let law = Adaptive::try_new(settings).map_err(refused)?;
+    let known = plant(&setup.rig, 0.0);
+    let as_given = "adaptive, as given";
+    let mut lines = vec![
+        line(
+            as_given,
+            "theorem1",
+            Theorem1::try_new(&law, &known).map(|c| c.certificate()),
+        ),
+        line(
+            as_given,
+            "rms",
+            Rms::try_new(&law, &known).map(|c| c.certificate()),
+        ),
+        line(
+            as_given,
+            "peak-continuous",
+            PeakContinuous::try_new(&law, &known).map(|c| c.certificate()),
+        ),
+    ];
+    let alpha = known.alpha.low;
+    let boxed = |spread: f64, form: Form<f64>, epsilon: f64| {
+        let wide = |at: f64, by: f64| (at * (1.0 - by), at * (1.0 + by));
+        let (low, high) = wide(1.0 / alpha, spread);
+        let beta = Estimator {
+            initial: 1.0 / alpha,
+            ..settings.beta
+        };
+        let delta = Estimator {
+            initial: settings.delta.initial.clamp(0.0, known.delta),
+            ..settings.delta
+        };
+        let theta = |i: usize| {
+            let truth = known.regressors[i].theta.high;
+            let (low, high) = wide(truth, 0.3);
+            Estimator {
+                initial: truth,
+                ..settings.theta[i]
+            }
+            .within(low, high)
+        };
+        Adaptive::try_new(AdaptiveSettings {
+            form,
+            epsilon,
+            beta: beta.within(low, high),
+            delta: delta.within(0.0, known.delta),
+            theta: [theta(0), theta(1), settings.theta[2]],
+            ..settings
+        })
+    };
+    let lag = Form::Lag {
+        step: 1.0 / RATE,
+        plant_gain: alpha,
+    };
+    // Wide enough for one sample of delay: h·lambda·g·(k + Delta/epsilon) <= 1.
+    let epsilon = settings.epsilon.max(0.2);
+    for spread in [0.0, 0.05, 0.10, 0.20, 0.30] {
+        let percent = 100.0 * spread;
+        let name = format!("adaptive, boxes, beta within {percent:.0} %");
+        let continuous = boxed(spread, settings.form, settings.epsilon)
+            .and_then(|law| PeakContinuous::try_new(&law, &known))
+            .map(|c| c.certificate());
+        lines.push(line(&name, "peak-continuous", continuous));
+        let name = format!("lag form at 1 kHz, boxes, beta within {percent:.0} %");
+        let sampled = boxed(spread, lag, epsilon);
+        let peak = sampled.and_then(|law| PeakSampled::try_new(&law, &known));
+        lines.push(line(&name, "peak-sampled", peak.map(|c| c.certificate())));
+        if spread == 0.05 {
+            let step = sampled.and_then(|law| PerStep::try_new(&law, &known));
+            lines.push(line(&name, "per-step", step.map(|c| c.certificate())));
+        }
+    }
+    Ok(lines)
+}
+
+/// The certificate that stands beside each controller of `bowden compare`.
+///
+/// # Errors
+/// As [`all`].
+pub fn beside(setup: &Setup) -> Result<BTreeMap<String, Line>, String> {
+    let lines = all(setup)?;
+    let rms = lines.iter().find(|l| l.kind == "rms" && l.value.is_some());
+    Ok(rms
+        .map(|line| ("adaptive".to_owned(), line.clone()))
+        .into_iter()
+        .collect())
+}
+
+/// Schema `bowden.certify/1`.
+#[must_use]
+pub fn json(lines: &[Line]) -> String {
+    serde_json::json!({ "schema": "bowden.certify/1", "certificates": lines }).to_string()
+}
+
+/// For people.
+#[must_use]
+pub fn text(lines: &[Line]) -> String {
+    let mut out =
+        String::from("bowden certify: what the tracking error is promised to stay below\n\n");
+    let mut told: Vec<&[&str]> = Vec::new();
+    for line in lines {
+        let what = match (line.value, &line.refused) {
+            (Some(value), _) => {
+                let note = if line.vacuous {
+                    "  (vacuous: more than the reference itself)"
+                } else {
+                    ""
+                };
+                format!(
+                    "{} <= {value:.4} {}{note}",
+                    line.bounds.unwrap_or("|e|"),
+                    line.unit
+                )
+            }
+            (None, Some(reason)) => format!("none: {reason}"),
+            (None, None) => "none".to_owned(),
+        };
+        let _ = writeln!(out, "{:<46} {:<16} {what}", line.law, line.kind);
+        if !line.assumptions.is_empty() && !told.contains(&line.assumptions) {
+            told.push(line.assumptions);
+        }
+    }
+    out.push_str(
+        "\nBeta within p %: the box of beta_hat about 1/alpha, alpha = N_A·B of the rig.\n",
+    );
+    for list in told {
+        let names: Vec<&str> = lines
+            .iter()
+            .filter(|l| l.assumptions == list)
+            .map(|l| l.kind)
+            .fold(Vec::new(), |mut all, kind| {
+                if !all.contains(&kind) {
+                    all.push(kind);
+                }
+                all
+            });
+        let _ = writeln!(out, "\nTo check for {}:", names.join(", "));
+        for assumption in list {
+            let _ = writeln!(out, "  - {assumption}");
+        }
+    }
+    out
+}
