@@ -1,6 +1,6 @@
 //! Theorem 1 of the paper, with its constants as the paper has them.
 
-use super::truth::{adapting, bounded, literal, sum};
+use super::truth::{adapting, bounded, literal, stays, sum};
 use super::{Certificate, Interval, Kind, Plant};
 use crate::control::{Adaptive, Leakage};
 use crate::{Error, Real};
@@ -64,6 +64,10 @@ impl<T: Real> Theorem1<T> {
         slowest(two * settings.gain * lambda);
         let leaking = [settings.beta, settings.delta];
         for estimator in leaking.iter().chain(&settings.theta) {
+            // One that stays at the truth is no part of V, and below it is refused elsewhere.
+            if stays(estimator, settings.frozen) {
+                continue;
+            }
             match estimator.leakage {
                 Leakage::Constant { rate } if rate > T::zero() => slowest(rate),
                 _ => return Err(Error::Inadmissible("constant leakage of every estimate")),

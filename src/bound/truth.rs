@@ -41,7 +41,7 @@ impl<T: Real> Adapting<T> {
 }
 
 /// Whether an estimate stays at its initial value.
-fn stays<T: Real>(estimator: &Estimator<T>, frozen: bool) -> bool {
+pub(super) fn stays<T: Real>(estimator: &Estimator<T>, frozen: bool) -> bool {
     let idle = estimator.gain == T::zero() && estimator.leakage.rate() == T::zero();
     frozen || idle
 }

@@ -45,6 +45,26 @@ fn theorem_1_is_vacuous_as_the_paper_has_it() {
 }
 
 #[test]
+fn a_regressor_that_is_not_there_changes_nothing_in_theorem_1() {
+    let [first, second] = AdaptiveSettings::<f64, 2>::paper().theta;
+    let third = Estimator::fixed(0.0);
+    let paper = AdaptiveSettings::<f64, 2>::paper();
+    let law = Adaptive::try_new(AdaptiveSettings {
+        beta: paper.beta,
+        delta: paper.delta,
+        theta: [first, second, third],
+        ..AdaptiveSettings::<f64, 3>::new(paper.form, paper.gain, paper.lambda, paper.epsilon)
+    })
+    .unwrap();
+    let two = Theorem1::try_new(&Adaptive::paper(), &Plant::new(0.5, 7.0)).unwrap();
+    assert_eq!(Theorem1::try_new(&law, &Plant::new(0.5, 7.0)), Ok(two));
+    // One that is there and is left out of the law is refused.
+    let mut plant = Plant::<f64, 3>::new(0.5, 7.0);
+    plant.regressors[2].theta = Interval::exactly(0.3);
+    assert!(Theorem1::try_new(&law, &plant).is_err());
+}
+
+#[test]
 fn less_leakage_makes_theorem_1_worse_and_the_rms_certificate_better() {
     let mut last = (0.0, f64::INFINITY);
     for sigma in [0.1, 0.01, 0.001, 0.0001] {
