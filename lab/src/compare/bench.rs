@@ -93,7 +93,7 @@ pub fn record(
     let drive = Multisine::new(26.0 * to_units, &tones, &mut dice);
     let hand = Multisine::new(
         0.0,
-        &[(12.0, 0.07), (10.0, 0.19), (6.0, 0.41), (3.0, 0.83)],
+        &[(8.0, 0.07), (6.0, 0.19), (4.0, 0.41), (2.0, 0.83)],
         &mut dice,
     );
     let mut state = rig.start(seed);

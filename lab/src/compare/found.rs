@@ -12,6 +12,10 @@ use bowden::control::{Pid, PidSettings};
 /// Rate of the slow loops \[Hz\].
 pub const SLOW: f64 = 250.0;
 
+/// The reference rises from zero over this time \[s\]: a start that overshoots would
+/// decide what the adaptive law has learnt, instead of the effect.
+pub const RAMP: f64 = 2.0;
+
 /// Share of the paper's gains that the quiet loops have.
 pub const QUIET: f64 = 0.2;
 
@@ -58,12 +62,15 @@ fn quiet(pid: &Pid<f64>) -> Result<Law, bowden::Error> {
     Pid::try_new(quiet).map(Law::Pid)
 }
 
+/// A tenth of the gain, a smooth sign that starts at nothing, a slow rate of the error.
 fn quiet_adaptive(gains: &AdaptiveGains) -> AdaptiveGains {
     AdaptiveGains {
-        k: QUIET * gains.k,
+        k: 0.5 * QUIET * gains.k,
         // From zero, a quiet law would take minutes to find its beta_hat.
         beta: if gains.beta == 0.0 { 1.6 } else { gains.beta },
-        lambda: QUIET * gains.lambda,
+        delta: 0.0,
+        epsilon: 10.0 * gains.epsilon,
+        derivative_time: 10.0 * gains.derivative_time,
         ..*gains
     }
 }
@@ -127,6 +134,7 @@ pub fn outcome(
     let term = undeclared.term(&setup.rig, &conditions.reference)?;
     let conditions = Conditions {
         undeclared: vec![term],
+        reference: conditions.reference.with_ramp(RAMP),
         ..conditions.clone()
     };
     let identified = identify(&record(&setup.rig, &conditions.undeclared, seed)?)?;

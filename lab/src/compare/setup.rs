@@ -162,6 +162,27 @@ impl Default for AdaptiveGains {
 }
 
 impl AdaptiveGains {
+    /// As the core's settings over velocity and acceleration alone, (19)-(26).
+    #[must_use]
+    pub fn paper_settings(&self) -> AdaptiveSettings<f64, 2> {
+        let AdaptiveSettings {
+            form,
+            gain,
+            lambda,
+            epsilon,
+            beta,
+            delta,
+            theta: [velocity, acceleration, _],
+            ..
+        } = self.settings(0.0);
+        AdaptiveSettings {
+            beta,
+            delta,
+            theta: [velocity, acceleration],
+            ..AdaptiveSettings::new(form, gain, lambda, epsilon)
+        }
+    }
+
     /// As the core's settings, with a third regressor that starts at, and leaks to, `prior`.
     #[must_use]
     pub fn settings(&self, prior: f64) -> AdaptiveSettings<f64, 3> {

@@ -8,7 +8,17 @@ use bowden::model::{Source, Term};
 use bowden::rig::{Reference, RigConfig};
 
 /// Contribution of an effect that is named without a strength \[N·m rms\].
-pub const STRENGTH: f64 = 1.0;
+///
+/// A loop with the paper's gains bears no more of some: a viscous joint delays its own
+/// torque, and friction that falls with speed excites itself.
+#[must_use]
+pub fn usual_strength(name: &str) -> f64 {
+    match name {
+        "stribeck" => 0.1,
+        "viscous" | "drag-quadratic" | "drag-cubic" => 0.2,
+        _ => 0.5,
+    }
+}
 
 /// What `--effect` names: NAME, NAME:STRENGTH or NAME@CHANNEL:STRENGTH.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,7 +38,7 @@ impl Undeclared {
     /// One sentence that says what was expected.
     pub fn parse(text: &str) -> Result<Self, String> {
         let (what, strength) = match text.split_once(':') {
-            None => (text, STRENGTH),
+            None => (text, None),
             Some((what, strength)) => {
                 let value: f64 = strength.parse().map_err(|_| {
                     format!("--effect {text}: {strength:?} is no number of N·m; NAME:STRENGTH was expected")
@@ -38,7 +48,7 @@ impl Undeclared {
                         "--effect {text}: the strength must be above zero [N·m]"
                     ));
                 }
-                (what, value)
+                (what, Some(value))
             }
         };
         let (name, channel) = match what.split_once('@') {
@@ -55,7 +65,7 @@ impl Undeclared {
         Ok(Self {
             name: name.to_owned(),
             channel,
-            strength,
+            strength: strength.unwrap_or_else(|| usual_strength(name)),
         })
     }
 
@@ -89,6 +99,8 @@ impl Undeclared {
         let effect =
             Effect::try_from_name(name, &shapes).map_err(|e| format!("--effect {name}: {e}"))?;
         let origin = match effect.info().reads.contains(&Quantity::Position) {
+            // Friction that rises along the way; nowhere on the rig does it push.
+            true if name == "position-friction" => middle - 4.0 * reach,
             true => middle,
             false => 0.0,
         };

@@ -38,7 +38,7 @@ const REFERENCE: f64 = 38.0;
 const REFERENCE_RATE: f64 = 22.24;
 
 /// What is known of the rig as the plant (11), beta to within `spread`.
-fn plant(rig: &RigConfig<f64>, spread: f64) -> Plant<f64, 3> {
+fn plant(rig: &RigConfig<f64>, spread: f64) -> Plant<f64, 2> {
     let alpha = rig.drive_gain * rig.b;
     let slope = rig.rho * (2.0 * rig.sigma).max(1.0) * rig.kappa_eta;
     // Velocity and acceleration of the proximal pulley while the reference is followed.
@@ -61,7 +61,6 @@ fn plant(rig: &RigConfig<f64>, spread: f64) -> Plant<f64, 3> {
         regressors: [
             known(rig.b * rig.motor_damping, speed, acceleration),
             known(rig.b * rig.motor_inertia, acceleration, 80.0 * compliance),
-            Known::default(),
         ],
         ..Plant::new(alpha, rig.kappa_eta + rig.t0.abs())
     }
@@ -98,7 +97,7 @@ fn line(law: &str, kind: &'static str, certificate: Result<Certificate<f64>, Err
 /// One sentence where the core refuses the gains themselves.
 pub fn all(setup: &Setup) -> Result<Vec<Line>, String> {
     let refused = |e: Error| format!("[adaptive]: {e}");
-    let settings = setup.adaptive.settings(0.0);
+    let settings = setup.adaptive.paper_settings();
     let law = Adaptive::try_new(settings).map_err(refused)?;
     let known = plant(&setup.rig, 0.0);
     let as_given = "adaptive, as given";
@@ -145,7 +144,7 @@ pub fn all(setup: &Setup) -> Result<Vec<Line>, String> {
             epsilon,
             beta: beta.within(low, high),
             delta: delta.within(0.0, known.delta),
-            theta: [theta(0), theta(1), settings.theta[2]],
+            theta: [theta(0), theta(1)],
             ..settings
         })
     };

@@ -201,9 +201,13 @@ fn error(line: &Line) -> String {
 }
 
 /// How much less there is after than before.
-fn change(pair: &Pair) -> f64 {
-    let (before, after) = (pair.declared.rmse_true.mean, pair.found.rmse_true.mean);
-    100.0 * (after / before - 1.0)
+fn change(pair: &Pair) -> String {
+    let (before, after) = (&pair.declared, &pair.found);
+    if before.diverged + after.diverged > 0 {
+        return "-".to_owned();
+    }
+    let change = 100.0 * (after.rmse_true.mean / before.rmse_true.mean - 1.0);
+    format!("{change:+.0} %")
 }
 
 /// The loop closed through the controller, for people.
@@ -228,13 +232,13 @@ pub fn found_text(heading: &Heading, effect: &Undeclared, outcomes: &[Outcome]) 
         );
         let _ = writeln!(
             out,
-            "  {:<40} {:>9} {:>15} {:>12} {:>8}",
+            "  {:<40} {:>9} {:>15} {:>12} {:>9}",
             "true rmse [N·m], steady part", "no model", "declared model", "with found", "change"
         );
         for pair in &outcome.pairs {
             let _ = writeln!(
                 out,
-                "  {:<40} {:>9} {:>15} {:>12} {:>7.0} %",
+                "  {:<40} {:>9} {:>15} {:>12} {:>9}",
                 pair.controller,
                 error(&pair.plain),
                 error(&pair.declared),
