@@ -1,0 +1,57 @@
+//! `bowden certify`: the vacuous bound beside the ones that are not.
+
+use super::{bowden, json};
+
+#[test]
+fn theorem_1_is_vacuous_and_the_others_are_not() {
+    let report = json(&["certify", "--json"]);
+    assert_eq!(report["schema"], "bowden.certify/1");
+    let lines = report["certificates"].as_array().unwrap();
+    let of = |kind: &str| {
+        lines
+            .iter()
+            .filter(move |l| l["kind"] == kind && l["value"].is_f64())
+            .map(|l| {
+                (
+                    l["value"].as_f64().unwrap(),
+                    l["vacuous"].as_bool().unwrap(),
+                )
+            })
+            .collect::<Vec<_>>()
+    };
+    assert!(of("theorem1")
+        .iter()
+        .all(|(value, vacuous)| *value > 1000.0 && *vacuous));
+    assert_eq!(of("theorem1").len(), 1);
+    for kind in ["rms", "peak-continuous", "peak-sampled"] {
+        let certificates = of(kind);
+        assert!(!certificates.is_empty(), "{kind}");
+        assert!(certificates.iter().all(|(v, vacuous)| *v < 5.0 && !vacuous));
+    }
+    // A wider box of beta promises less.
+    let sampled: Vec<f64> = of("peak-sampled").iter().map(|(v, _)| *v).collect();
+    assert!(sampled.windows(2).all(|w| w[0] < w[1]), "{sampled:?}");
+}
+
+#[test]
+fn every_certificate_says_what_it_rests_on() {
+    let report = json(&["certify", "--json"]);
+    for line in report["certificates"].as_array().unwrap() {
+        if line["value"].is_f64() {
+            assert!(line["assumptions"].as_array().unwrap().len() >= 3);
+            assert_eq!(line["unit"], "N·m");
+        } else {
+            assert!(line["refused"].is_string());
+        }
+    }
+    let text = String::from_utf8(bowden(&["certify"]).stdout).unwrap();
+    assert!(text.contains("no dynamics between u and y"));
+}
+
+#[test]
+fn the_rms_certificate_holds_on_the_rig() {
+    let report = json(&["compare", "--noise", "0.02", "--seeds", "1", "--json"]);
+    let row = super::row(&report, "adaptive");
+    let promised = row["certificate"]["value"].as_f64().unwrap();
+    assert!(row["rmse_true"]["mean"].as_f64().unwrap() < promised);
+}

@@ -1,0 +1,150 @@
+//! The figures of the reference rig, as the program prints them; tolerances are those of
+//! the specification, except where a reason stands beside.
+
+use super::{bowden, json, row};
+use serde_json::Value;
+
+fn mean(report: &Value, controller: &str, what: &str) -> f64 {
+    row(report, controller)[what]["mean"].as_f64().unwrap()
+}
+
+#[test]
+fn with_a_quiet_sensor_the_adaptive_law_is_five_times_better_than_pi() {
+    let report = json(&["compare", "--noise", "0.02", "--seeds", "2", "--json"]);
+    for name in ["pi", "pid", "piv"] {
+        let error = mean(&report, name, "rmse_true");
+        assert!((0.57..=0.64).contains(&error), "{name} {error}");
+    }
+    let adaptive = mean(&report, "adaptive", "rmse_true");
+    assert!(adaptive < 0.07);
+    assert!(mean(&report, "pi", "rmse_true") / adaptive > 5.0);
+    // What gain alone reaches: the ratio to the matched PI is two, not fourteen.
+    let matched = mean(&report, "matched-pi", "rmse_true");
+    assert!((matched - 0.0955).abs() < 0.002); // the independent simulation's, seeds apart
+}
+
+#[test]
+fn with_the_experiments_noise_the_measured_errors_are_table_3s() {
+    let report = json(&["compare", "--noise", "0.28", "--seeds", "2", "--json"]);
+    for (name, expected) in [
+        ("pi", 0.60),
+        ("pid", 0.585),
+        ("piv", 0.61),
+        ("adaptive", 0.313),
+    ] {
+        let error = mean(&report, name, "rmse_measured");
+        assert!((error - expected).abs() <= 0.03, "{name} {error}");
+    }
+    let ratio =
+        mean(&report, "matched-pi", "rmse_measured") / mean(&report, "adaptive", "rmse_measured");
+    assert!((ratio - 1.0).abs() <= 0.10, "{ratio}");
+}
+
+#[test]
+fn a_moved_conduit_costs_every_law_something_and_the_adaptive_one_little() {
+    let report = json(&[
+        "compare",
+        "--noise",
+        "0.02",
+        "--varying",
+        "--seeds",
+        "3",
+        "--json",
+    ]);
+    // The independent simulation: 0.560 and 0.053; three slow random paths scatter by 10 %.
+    assert!((mean(&report, "pi", "rmse_true") - 0.560).abs() < 0.056);
+    assert!((mean(&report, "adaptive", "rmse_true") - 0.053).abs() < 0.010);
+}
+
+#[test]
+fn the_json_has_the_schema_that_was_promised() {
+    let report = json(&["compare", "--seconds", "14", "--seeds", "2", "--json"]);
+    assert_eq!(report["schema"], "bowden.compare/1");
+    let rows = report["rows"].as_array().unwrap();
+    let names: Vec<&str> = rows
+        .iter()
+        .map(|r| r["controller"].as_str().unwrap())
+        .collect();
+    assert_eq!(
+        names,
+        [
+            "pi",
+            "pid",
+            "piv",
+            "matched-pi",
+            "adaptive",
+            "adaptive-frozen",
+            "adaptive-feed-forward"
+        ]
+    );
+    for row in rows {
+        for key in ["rmse_true", "rmse_measured"] {
+            assert!(row[key]["mean"].as_f64().unwrap() > 0.0);
+            assert!(row[key]["sd"].as_f64().unwrap() >= 0.0);
+        }
+        assert!(row["peak"].is_f64() && row["effort"].is_f64());
+        assert_eq!(row["diverged"], 0);
+    }
+    assert!(row(&report, "pi")["certificate"].is_null());
+    let certificate = &row(&report, "adaptive")["certificate"];
+    assert_eq!(certificate["kind"], "rms");
+    assert!(certificate["value"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
+fn the_table_says_what_is_not_reproduced_and_what_was_calibrated() {
+    let output = bowden(&["compare", "--seconds", "14", "--seeds", "1"]);
+    let text = String::from_utf8(output.stdout).unwrap();
+    for said in [
+        "calibration, not validation",
+        "Not reproduced: PIV below PI",
+        "Transient, the first 12 s",
+        "0.5320 ± 0.0134",
+        "matched-pi",
+    ] {
+        assert!(text.contains(said), "{said:?} is missing in\n{text}");
+    }
+}
+
+#[test]
+fn the_same_command_prints_the_same_bytes() {
+    let run = || bowden(&["compare", "--seconds", "9", "--seeds", "3", "--json"]).stdout;
+    assert_eq!(run(), run());
+}
+
+#[test]
+fn a_trace_holds_what_the_figures_show() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("trace.csv");
+    let path = path.to_str().unwrap();
+    json(&[
+        "compare",
+        "--seconds",
+        "9",
+        "--seeds",
+        "2",
+        "--trace",
+        path,
+        "--json",
+    ]);
+    let text = std::fs::read_to_string(path).unwrap();
+    let mut lines = text.lines();
+    let header = lines.next().unwrap();
+    for column in [
+        "y_r",
+        "tau_o",
+        "tau_i",
+        "e [N·m]",
+        "beta_hat",
+        "theta_hat_2",
+    ] {
+        assert!(header.contains(column), "{column}");
+    }
+    let columns = header.split(',').count();
+    let mut rows = 0;
+    for line in lines {
+        assert_eq!(line.split(',').count(), columns, "{line}");
+        rows += 1;
+    }
+    assert_eq!(rows, 7 * 9000); // seven controllers, the first seed, 1 kHz
+}
