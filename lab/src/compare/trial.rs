@@ -12,6 +12,8 @@ pub const MOST_UNDECLARED: usize = 4;
 pub const TRANSIENT: f64 = 12.0;
 
 /// The law of a controller.
+// A handful exist at a time: a box would only cost `Copy`.
+#[allow(clippy::large_enum_variant)]
 #[derive(Debug, Clone, Copy)]
 pub enum Law {
     /// PI, PID or PIV.
