@@ -10,7 +10,9 @@ use super::trial::MOST_UNDECLARED;
 use crate::channels::{Channel, Preparation, Prepared};
 use crate::closing::{close, structure, Ledger};
 use crate::export::ModelFile;
+use crate::fit::Solution;
 use crate::record::{parse, Options};
+use crate::structure::FitTerm;
 use bowden::control::BenchRange;
 use bowden::effect::Motion;
 use bowden::model::{Source, Term};
@@ -129,15 +131,17 @@ pub struct Identified {
     pub surroundings: Surroundings,
     /// The declared model alone.
     pub declared: ModelFile,
-    /// The declared model with what was found; the round that is best where nothing was
-    /// fitted.
+    /// The declared model with what was found: the round that is best on the stop-check,
+    /// among those of which every term can be fed forward.
     pub found: ModelFile,
     /// Rms error of the declared model on the held-out part \[N·m\].
     pub before: f64,
     /// The same of the model with what was found \[N·m\].
     pub after: f64,
-    /// What was found, in words.
+    /// What was found and is fed forward, in words.
     pub names: Vec<String>,
+    /// What was found beside it and is not: it reads the sum, or worsened the stop-check.
+    pub left_out: Vec<String>,
     ranges: Vec<BenchRange<f64>>,
 }
 
@@ -160,29 +164,35 @@ pub fn identify(record: &Record) -> Result<Identified, String> {
     let ledger = close(&data, &declared, |_| {})?;
     let surroundings = surroundings(record, &options, preparation)?;
 
-    let held_out = |rounds: usize| match rounds {
-        0 => ledger.declared.rmse.held_out,
-        n => ledger.rounds[n - 1].after.held_out,
-    };
-    let rounds = (0..=ledger.rounds.len())
-        .min_by(|a, b| held_out(*a).total_cmp(&held_out(*b)))
-        .unwrap_or(0);
-    let solution = match rounds {
-        0 => &ledger.declared,
-        n => &ledger.rounds[n - 1].solution,
-    };
-    let names = solution
-        .structure
-        .terms
+    let solutions: Vec<&Solution> = std::iter::once(&ledger.declared)
+        .chain(ledger.rounds.iter().map(|round| &round.solution))
+        .collect();
+    // Chosen on the stop-check, so that the held-out figures are of data that chose nothing.
+    // A round with a stage that cannot be turned round would be fed forward without it,
+    // beside gains that were fitted with it.
+    let solution = solutions
         .iter()
-        .map(|term| {
+        .filter(|s| {
+            s.structure
+                .terms
+                .iter()
+                .all(|t| !t.effect.is_output_stage())
+        })
+        .min_by(|a, b| a.rmse.stop.total_cmp(&b.rmse.stop))
+        .map_or(&ledger.declared, |found| *found);
+    let named = |solution: &Solution| -> Vec<String> {
+        let name = |term: &FitTerm| {
             let channel = match term.source {
                 Source::Input => "tau_i",
                 Source::Channel(_) => data.channel(term.source).map_or("?", |c| c.name.as_str()),
             };
             format!("{}@{channel}", term.effect.name())
-        })
-        .collect();
+        };
+        solution.structure.terms.iter().map(name).collect()
+    };
+    let names = named(solution);
+    let mut left_out = solutions.last().map_or_else(Vec::new, |last| named(last));
+    left_out.retain(|name| !names.contains(name));
     let mut ranges = vec![range(Source::Input, &data.input)];
     for (index, channel) in data.channels.iter().enumerate() {
         let index = u8::try_from(index).map_err(|_| "too many channels".to_owned())?;
@@ -191,9 +201,10 @@ pub fn identify(record: &Record) -> Result<Identified, String> {
     Ok(Identified {
         declared: ModelFile::new(&data, &ledger.declared),
         found: ModelFile::new(&data, solution),
-        before: held_out(0),
-        after: held_out(rounds),
+        before: ledger.declared.rmse.held_out,
+        after: solution.rmse.held_out,
         names,
+        left_out,
         ranges,
         surroundings,
         ledger,

@@ -151,6 +151,7 @@ pub fn outcome(
                 law: (kind.law)(setup, &laws, prior).map_err(refused)?,
                 rate: kind.rate,
                 feed: None,
+                own_share: 0.0,
                 regressor: None,
             })
         };

@@ -89,17 +89,9 @@ pub fn lineup(setup: &Setup) -> Result<Vec<Controller>, String> {
         law,
         rate: RATE,
         feed: None,
+        own_share: 0.0,
         regressor: None,
     };
-    let own = AdaptiveSettings {
-        // The command that the model asks for comes beside the law's own.
-        beta: Estimator {
-            initial: 0.0,
-            ..laws.adaptive.settings().beta
-        },
-        ..*laws.adaptive.settings()
-    };
-    let fed = Adaptive::try_new(own).map_err(|e| format!("[adaptive]: {e}"))?;
     Ok(vec![
         plain("pi", Law::Pid(laws.pi)),
         plain("pid", Law::Pid(laws.pid)),
@@ -109,7 +101,8 @@ pub fn lineup(setup: &Setup) -> Result<Vec<Controller>, String> {
         plain("adaptive-frozen", Law::Adaptive(frozen(setup)?)),
         Controller {
             feed: Some(declared_feed(setup)?),
-            ..plain("adaptive-feed-forward", Law::Adaptive(fed))
+            own_share: 1.0 / (setup.rig.drive_gain * setup.rig.b),
+            ..plain("adaptive-feed-forward", Law::Adaptive(laws.adaptive))
         },
     ])
 }

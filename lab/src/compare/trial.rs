@@ -36,6 +36,9 @@ pub struct Controller {
     pub rate: f64,
     /// Added to its command.
     pub feed: Option<FeedForward>,
+    /// Command that the law itself gives for a torque \[units/(N·m)\]: the adaptive law
+    /// feeds the reference forward by beta_hat, and the model's command must not repeat it.
+    pub own_share: f64,
     /// What the third regressor reads: the found effects along the reference.
     pub regressor: Option<FeedForward>,
 }
@@ -167,9 +170,9 @@ pub fn run(
         let now = state.sample();
         let t = step as f64 * dt;
         let reference = conditions.reference.at(t);
-        let feed_forward = feed
-            .as_mut()
-            .map_or(0.0, |feed| feed.step(&conditions.reference, t, dt).command);
+        let feed_forward = feed.as_mut().map_or(0.0, |feed| {
+            feed.step(&conditions.reference, t, dt).command - controller.own_share * reference
+        });
         let found = regressor.as_mut().map_or(0.0, |found| {
             found.step(&conditions.reference, t, dt).effects
         });

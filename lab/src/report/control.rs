@@ -5,6 +5,7 @@ use crate::compare::found::{Outcome, Pair};
 use crate::compare::table::{Line, Spread};
 use crate::compare::undeclared::Undeclared;
 use serde_json::{json, Value};
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -230,6 +231,10 @@ pub fn found_text(heading: &Heading, effect: &Undeclared, outcomes: &[Outcome]) 
             "seed {}: on the bench `close` found {names}; held-out rmse {:.4} -> {:.4} N·m",
             outcome.seed, found.before, found.after
         );
+        if !found.left_out.is_empty() {
+            let left_out = found.left_out.join(", ");
+            let _ = writeln!(out, "  not fed forward: {left_out}");
+        }
         let _ = writeln!(
             out,
             "  {:<40} {:>9} {:>15} {:>12} {:>9}",
@@ -247,8 +252,43 @@ pub fn found_text(heading: &Heading, effect: &Undeclared, outcomes: &[Outcome]) 
             );
         }
     }
+    out.push_str(&over_seeds(outcomes));
     out.push_str(FOUND_NOTES);
     out
+}
+
+/// On how many seeds each controller follows better with what was found.
+fn over_seeds(outcomes: &[Outcome]) -> String {
+    let mut out = format!("\nover {} seeds: lower, the same, higher\n", outcomes.len());
+    let Some(first) = outcomes.first() else {
+        return out;
+    };
+    for (index, pair) in first.pairs.iter().enumerate() {
+        let (mut lower, mut same) = (0, 0);
+        for pair in outcomes.iter().filter_map(|o| o.pairs.get(index)) {
+            match against_before(pair) {
+                Ordering::Less => lower += 1,
+                Ordering::Equal => same += 1,
+                Ordering::Greater => {}
+            }
+        }
+        let higher = outcomes.len() - lower - same;
+        let _ = writeln!(
+            out,
+            "  {:<40} {lower:>9} {same:>15} {higher:>12}",
+            pair.controller
+        );
+    }
+    out
+}
+
+/// The error with what was found, against the error before; running away is worst.
+fn against_before(pair: &Pair) -> Ordering {
+    let error = |line: &Line| match line.diverged {
+        0 => line.rmse_true.mean,
+        _ => f64::INFINITY,
+    };
+    error(&pair.found).total_cmp(&error(&pair.declared))
 }
 
 const FOUND_NOTES: &str = "
@@ -293,6 +333,7 @@ pub fn found_json(heading: &Heading, effect: &Undeclared, outcomes: &[Outcome]) 
             json!({
                 "seed": outcome.seed,
                 "found": outcome.identified.names,
+                "left_out": outcome.identified.left_out,
                 "held_out": { "before": outcome.identified.before, "after": outcome.identified.after },
                 "pairs": pairs,
             })
