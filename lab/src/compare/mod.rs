@@ -2,7 +2,7 @@
 //!
 //! [`lineup`] says who runs, [`trial`] runs one of them, [`table`] puts seeds together.
 //! [`found`] closes the loop through the controller: an undeclared effect is switched on
-//! in the rig, the lab's own path identifies it from the rig's bench record ([`bench`]),
+//! in the rig, the lab's own path identifies it from the rig's bench record ([`mod@bench`]),
 //! and what was found becomes a feed-forward ([`feed`]) or a regressor.
 
 pub mod bench;
