@@ -60,6 +60,13 @@ pub mod transmission;
 pub use error::Error;
 pub use real::Real;
 
+/// What is proved of this crate; `proofs/README.md` says how to run it.
+#[cfg(kani)]
+#[path = "../proofs/mod.rs"]
+mod proofs;
+#[cfg(kani)]
+extern crate self as bowden;
+
 /// The README's example is compiled and run with the tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

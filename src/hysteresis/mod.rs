@@ -49,6 +49,9 @@ mod closed;
 mod garbage;
 mod number;
 mod path;
+#[cfg(kani)]
+#[path = "../../proofs/hysteresis.rs"]
+mod proofs;
 mod shape;
 mod stages;
 mod state;

@@ -36,33 +36,7 @@ pub(super) fn unload<N: Number>(zeta: N, path: N, c: N, n: N) -> (N, N) {
     let mut part = 0;
     while zeta.value() < -N::Float::of(NEAR_ZERO) && p.value() > zero {
         part += 1;
-        let a = -zeta;
-        let inverse = N::constant(N::Float::one()) / a;
-        let powered = c * ((n.shift(-N::Float::one())) * a.ln()).exp();
-        let x = powered * a;
-        let f = x.shift(N::Float::one());
-        let half_slope = (n * powered).scale(N::Float::of(0.5));
-        // The relative change of a over the path, times n: x changes by its exponential.
-        let bend = n * f * inverse;
-        let h = if part == MOST_PARTS {
-            p
-        } else {
-            shorter(p, bend, x.value() / f.value(), || x / f)
-        };
-        let turn = n * x - (n.shift(-N::Float::one()) * f).scale(N::Float::of(2.0));
-        let curve = half_slope * turn * inverse.scale(N::Float::of(1.0 / 6.0));
-        let denominator = (h * (half_slope + h * curve)).shift(N::Float::one());
-        let forward = if denominator.value() > N::Float::of(0.5) {
-            h * f / denominator
-        } else {
-            h * f / (h * half_slope).shift(N::Float::one())
-        };
-        if forward.value() >= a.value() {
-            let used = crossing(a, f, half_slope, curve, h);
-            return (N::constant(zero), p - used);
-        }
-        zeta = zeta + positive(forward);
-        p = p - h;
+        (zeta, p) = unload_part(zeta, p, part == MOST_PARTS, c, n);
     }
     if zeta.value() < zero && p.value() > zero {
         // f = 1 here, so that the rest of the way down is as long as it is deep.
@@ -74,6 +48,37 @@ pub(super) fn unload<N: Number>(zeta: N, path: N, c: N, n: N) -> (N, N) {
         };
     }
     (zeta, p)
+}
+
+/// One part of the path below zero; the last one takes all that is left.
+#[inline]
+pub(super) fn unload_part<N: Number>(zeta: N, p: N, last: bool, c: N, n: N) -> (N, N) {
+    let a = -zeta;
+    let inverse = N::constant(N::Float::one()) / a;
+    let powered = c * ((n.shift(-N::Float::one())) * a.ln()).exp();
+    let x = powered * a;
+    let f = x.shift(N::Float::one());
+    let half_slope = (n * powered).scale(N::Float::of(0.5));
+    // The relative change of a over the path, times n: x changes by its exponential.
+    let bend = n * f * inverse;
+    let h = if last {
+        p
+    } else {
+        shorter(p, bend, x.value() / f.value(), || x / f)
+    };
+    let turn = n * x - (n.shift(-N::Float::one()) * f).scale(N::Float::of(2.0));
+    let curve = half_slope * turn * inverse.scale(N::Float::of(1.0 / 6.0));
+    let denominator = (h * (half_slope + h * curve)).shift(N::Float::one());
+    let forward = if denominator.value() > N::Float::of(0.5) {
+        h * f / denominator
+    } else {
+        h * f / (h * half_slope).shift(N::Float::one())
+    };
+    if forward.value() >= a.value() {
+        let used = crossing(a, f, half_slope, curve, h);
+        return (N::constant(N::Float::zero()), p - used);
+    }
+    (zeta + positive(forward), p - h)
 }
 
 /// Path from `a` to zero: the root of `h·f = a·(1 + h·half_slope + h²·curve)`.
@@ -93,7 +98,7 @@ fn crossing<N: Number>(a: N, f: N, half_slope: N, curve: N, longest: N) -> N {
 /// Follows the path from `zeta >= 0` towards 1.
 #[inline]
 pub(super) fn load<N: Number>(zeta: N, path: N, n: N) -> N {
-    let (zero, one) = (N::Float::zero(), N::Float::one());
+    let zero = N::Float::zero();
     let (mut zeta, mut p) = (zeta, path);
     if p.value() > zero && zeta.value() >= zero && zeta.value() < N::Float::of(NEAR_ZERO) {
         (zeta, p) = leave_zero(p, n);
@@ -101,55 +106,61 @@ pub(super) fn load<N: Number>(zeta: N, path: N, n: N) -> N {
     let mut part = 0;
     while p.value() > zero && zeta.value() > zero {
         part += 1;
-        let room = (-zeta).shift(one);
-        if room.value() <= zero {
-            break;
-        }
-        if n.value() * room.value() <= N::Float::of(NEAR_SATURATION) {
-            return saturate(zeta, room, p, n);
-        }
-        let powered = (n.shift(-one) * zeta.ln()).exp();
-        let f = (-(zeta * powered)).shift(one);
-        let half_slope = (n * powered).scale(N::Float::of(0.5));
-        let concave = n.shift(-one) * f / zeta;
-        let rate = f / room;
-        let curve = (half_slope * (half_slope + concave)).scale(N::Float::of(1.0 / 3.0));
-        let h = if part == MOST_PARTS {
-            p
-        } else {
-            let h = shorter(p, rate, room.value(), || room);
-            // Within r <= 1 the step is monotone in h.
-            let h = if h.value() * rate.value() > one {
-                N::constant(one) / rate
-            } else {
-                h
-            };
-            let bend = (half_slope * concave).scale(N::Float::of(2.0));
-            let limit = N::Float::of(TOLERANCE);
-            if h.value() * h.value() * bend.value() > limit * limit {
-                N::constant(limit) / bend.sqrt()
-            } else {
-                h
-            }
-        };
-        let r = h * rate;
-        let r2 = r * r;
-        let series = (h * (half_slope + h * curve)).shift(one);
-        let denominator = series + (r2 * r2).scale(N::Float::of(27.0 / 256.0));
-        let forward = positive(h * f / denominator);
-        if forward.value() >= room.value() {
-            return N::constant(one);
-        }
-        zeta = zeta + forward;
-        p = p - h;
+        (zeta, p) = load_part(zeta, p, part == MOST_PARTS, n);
     }
     zeta
+}
+
+/// One part of the path above zero; the last one takes all that is left.
+#[inline]
+pub(super) fn load_part<N: Number>(zeta: N, p: N, last: bool, n: N) -> (N, N) {
+    let (one, end) = (N::Float::one(), N::constant(N::Float::zero()));
+    let room = (-zeta).shift(one);
+    if room.value() <= N::Float::zero() {
+        return (zeta, end);
+    }
+    if n.value() * room.value() <= N::Float::of(NEAR_SATURATION) {
+        return (saturate(zeta, room, p, n), end);
+    }
+    let powered = (n.shift(-one) * zeta.ln()).exp();
+    let f = (-(zeta * powered)).shift(one);
+    let half_slope = (n * powered).scale(N::Float::of(0.5));
+    let concave = n.shift(-one) * f / zeta;
+    let rate = f / room;
+    let curve = (half_slope * (half_slope + concave)).scale(N::Float::of(1.0 / 3.0));
+    let h = if last {
+        p
+    } else {
+        let h = shorter(p, rate, room.value(), || room);
+        // Within r <= 1 the step is monotone in h.
+        let h = if h.value() * rate.value() > one {
+            N::constant(one) / rate
+        } else {
+            h
+        };
+        let bend = (half_slope * concave).scale(N::Float::of(2.0));
+        let limit = N::Float::of(TOLERANCE);
+        if h.value() * h.value() * bend.value() > limit * limit {
+            N::constant(limit) / bend.sqrt()
+        } else {
+            h
+        }
+    };
+    let r = h * rate;
+    let r2 = r * r;
+    let series = (h * (half_slope + h * curve)).shift(one);
+    let denominator = series + (r2 * r2).scale(N::Float::of(27.0 / 256.0));
+    let forward = positive(h * f / denominator);
+    if forward.value() >= room.value() {
+        return (N::constant(one), end);
+    }
+    (zeta + forward, p - h)
 }
 
 /// The first part of the path from zero, where the inverse
 /// `p = zeta·(1 + zeta^n/(n+1) + …)` of the loading branch is short.
 #[inline]
-fn leave_zero<N: Number>(p: N, n: N) -> (N, N) {
+pub(super) fn leave_zero<N: Number>(p: N, n: N) -> (N, N) {
     let one = N::Float::one();
     // 0.09 for n = 1, 0.28 for n = 3.9: the omitted term stays below 1e-4.
     let reach = n / n.shift(N::Float::of(10.0));

@@ -21,6 +21,9 @@ mod compensated;
 mod estimator;
 #[cfg(feature = "serde")]
 mod list;
+#[cfg(kani)]
+#[path = "../../../proofs/adaptive/mod.rs"]
+mod proofs;
 mod recursion;
 mod resume;
 mod settings;

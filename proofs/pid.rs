@@ -1,0 +1,113 @@
+//! K1 of PI, PID and PIV.
+
+use super::any::{fallback, limits};
+use super::properties::control::pid_commands_within_its_limits;
+use super::stubs;
+use bowden::control::pid::state::{Last, Unchecked};
+use bowden::control::status::Held;
+use bowden::control::{AntiWindup, Damping, Pid, PidInput, PidSettings, PidState};
+
+/// Any settings that the constructor accepts, with this anti-windup.
+fn pid(anti_windup: AntiWindup<f32>, damping: Damping<f32>) -> Pid<f32> {
+    let settings = PidSettings {
+        k_p: kani::any(),
+        k_i: kani::any(),
+        k_d: kani::any(),
+        damping,
+        derivative_time: kani::any(),
+        setpoint_weight: kani::any(),
+        anti_windup,
+        limits: limits(),
+        fallback: fallback(),
+    };
+    let pid = Pid::try_new(settings);
+    kani::assume(pid.is_ok());
+    pid.unwrap_or(Pid::paper_pi())
+}
+
+/// Any state that steps can lead to.
+fn state() -> PidState<f32> {
+    let last = Last {
+        reference: kani::any(),
+        measured: kani::any(),
+        velocity: kani::any(),
+        feed_forward: kani::any(),
+        command: kani::any(),
+        unlimited: kani::any(),
+    };
+    let raw = Unchecked {
+        integral: kani::any(),
+        carry: kani::any(),
+        rate: kani::any(),
+        last: kani::any::<bool>().then_some(last),
+        held: Held {
+            command: kani::any(),
+            bad: kani::any(),
+        },
+        gap: kani::any(),
+    };
+    let state = PidState::try_from(raw);
+    kani::assume(state.is_ok());
+    state.unwrap_or_default()
+}
+
+/// All bit patterns.
+fn input() -> PidInput<f32> {
+    PidInput {
+        dt: kani::any(),
+        reference: kani::any(),
+        measured: kani::any(),
+        velocity: kani::any(),
+        feed_forward: kani::any(),
+    }
+}
+
+fn any_sample(anti_windup: AntiWindup<f32>, damping: Damping<f32>) {
+    let (pid, mut state, input) = (pid(anti_windup, damping), state(), input());
+    let before = state;
+    let kept = pid_commands_within_its_limits(&pid, &mut state, &input);
+    kani::cover!(state.consecutive_bad() == 0 && state.integral() != before.integral());
+    kani::cover!(input.measured.is_nan() && state.command() != before.command());
+    assert!(kept && state.is_valid());
+}
+
+fn rate() -> Damping<f32> {
+    Damping::Rate {
+        weight: kani::any(),
+    }
+}
+
+/// K1. PID, no anti-windup.
+#[kani::proof]
+#[kani::stub(libm::expm1f, stubs::expm1f)]
+fn pid_any_sample_none() {
+    any_sample(AntiWindup::None, rate());
+}
+
+/// K1. PID, the integral within the range.
+#[kani::proof]
+#[kani::stub(libm::expm1f, stubs::expm1f)]
+fn pid_any_sample_clamp() {
+    any_sample(AntiWindup::Clamp, rate());
+}
+
+/// K1. PID, conditional integration.
+#[kani::proof]
+#[kani::stub(libm::expm1f, stubs::expm1f)]
+fn pid_any_sample_conditional() {
+    any_sample(AntiWindup::Conditional, rate());
+}
+
+/// K1. PID, back-calculation.
+#[kani::proof]
+#[kani::stub(libm::expm1f, stubs::expm1f)]
+fn pid_any_sample_back_calculation() {
+    let tracking_time = kani::any();
+    any_sample(AntiWindup::BackCalculation { tracking_time }, rate());
+}
+
+/// K1. PIV.
+#[kani::proof]
+fn piv_any_sample() {
+    any_sample(AntiWindup::Conditional, Damping::Velocity);
+}

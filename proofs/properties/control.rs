@@ -1,0 +1,49 @@
+//! Controllers: the command, the state, the limits.
+
+use bowden::control::{Adaptive, AdaptiveInput, AdaptiveState, Limits};
+use bowden::control::{Pid, PidInput, PidState, Status};
+
+/// The command nearest to what is wanted: within the range, and within the slew rate of
+/// what was out where the range allows it.
+pub fn limits_are_kept(limits: &Limits<f32>, last: f32, wanted: f32, dt: f32) -> bool {
+    let command = limits.apply(last, wanted, dt);
+    let reach = limits.slew().map_or(f32::INFINITY, |slew| slew * dt);
+    let slewed = last - reach <= command && command <= last + reach;
+    limits.contains(command) && (slewed || !limits.contains(last))
+}
+
+/// Whatever the sample, the command is finite and within the limits; a bad one leaves the
+/// state but for its count.
+pub fn pid_commands_within_its_limits(
+    pid: &Pid<f32>,
+    state: &mut PidState<f32>,
+    at: &PidInput<f32>,
+) -> bool {
+    let before = *state;
+    let out = pid.step(state, at);
+    let untouched = state.integral() == before.integral() && state.rate() == before.rate();
+    out.command.is_finite()
+        && pid.settings().limits.contains(out.command)
+        && (out.status == Status::Good || untouched)
+        && state.integral().is_finite()
+        && state.rate().is_finite()
+}
+
+/// Whatever the sample, the command is finite and within the limits and the state stays
+/// valid: finite, every estimate in its box, z in its own.
+pub fn adaptive_commands_within_its_limits<const N: usize>(
+    law: &Adaptive<f32, N>,
+    state: &mut AdaptiveState<f32, N>,
+    input: &AdaptiveInput<f32, N>,
+) -> bool {
+    let before = *state;
+    let out = law.step(state, input);
+    let untouched = state.accumulated_error() == before.accumulated_error()
+        && state.beta_hat() == before.beta_hat()
+        && state.delta_hat() == before.delta_hat()
+        && state.theta_hat() == before.theta_hat();
+    out.command.is_finite()
+        && law.settings().limits.contains(out.command)
+        && (out.status == Status::Good || untouched)
+        && law.is_valid(state)
+}
