@@ -77,28 +77,29 @@ fn rate() -> Damping<f32> {
     }
 }
 
-/// K1. PID, no anti-windup.
+/// K1. PID without anti-windup: for any sample the command is finite and within its limits, the
+/// state stays valid, and a bad sample leaves it.
 #[kani::proof]
 #[kani::stub(libm::expm1f, stubs::expm1f)]
 fn pid_any_sample_none() {
     any_sample(AntiWindup::None, rate());
 }
 
-/// K1. PID, the integral within the range.
+/// K1. The same with the integral within the range.
 #[kani::proof]
 #[kani::stub(libm::expm1f, stubs::expm1f)]
 fn pid_any_sample_clamp() {
     any_sample(AntiWindup::Clamp, rate());
 }
 
-/// K1. PID, conditional integration.
+/// K1. The same with conditional integration.
 #[kani::proof]
 #[kani::stub(libm::expm1f, stubs::expm1f)]
 fn pid_any_sample_conditional() {
     any_sample(AntiWindup::Conditional, rate());
 }
 
-/// K1. PID, back-calculation.
+/// K1. The same with back-calculation.
 #[kani::proof]
 #[kani::stub(libm::expm1f, stubs::expm1f)]
 fn pid_any_sample_back_calculation() {
@@ -106,7 +107,7 @@ fn pid_any_sample_back_calculation() {
     any_sample(AntiWindup::BackCalculation { tracking_time }, rate());
 }
 
-/// K1. PIV.
+/// K1. The same of PIV, conditional integration.
 #[kani::proof]
 fn piv_any_sample() {
     any_sample(AntiWindup::Conditional, Damping::Velocity);

@@ -7,7 +7,7 @@ use super::stubs;
 use bowden::control::SmoothSign;
 use bowden::signal::{Derivative, DerivativeState, Play, PlayState};
 
-/// K6. Any two floats, any box.
+/// K6. Clamping an estimate onto a box moves it towards any truth that the box holds.
 #[kani::proof]
 fn projection() {
     let (p, truth, low, high): (f32, _, _, _) = (kani::any(), finite(), finite(), finite());
@@ -16,7 +16,7 @@ fn projection() {
     assert!(projection_moves_towards_the_truth(p, truth, low, high));
 }
 
-/// K7. All bit patterns.
+/// K7. The clamped line lies within ±1, is odd to the bit and never points the other way.
 #[kani::proof]
 fn smooth_sign_clamp() {
     let x: f32 = kani::any();
@@ -24,7 +24,8 @@ fn smooth_sign_clamp() {
     assert!(smooth_sign_is_a_sign(SmoothSign::Clamp, x));
 }
 
-/// K7. All bit patterns.
+/// K7. The clamped line leaves |x|·(1 - |T|) ≤ 1/4, to two ulps. (tanh: all 2³² inputs,
+/// `tests/exhaustive.rs`.)
 #[kani::proof]
 fn smooth_sign_clamp_residue() {
     let x: f32 = kani::any();
@@ -32,8 +33,10 @@ fn smooth_sign_clamp_residue() {
     assert!(smooth_sign_leaves_at_most_its_residue(SmoothSign::Clamp, x));
 }
 
-/// K8. Samples within ±1, 1/1024 s apart, any rate that such samples can lead to, any time
-/// constant; e^x - 1 by its contract.
+/// K8. The filtered rate exceeds neither the rate before nor the difference quotient, but
+/// for rounding.
+///
+/// Assumes: samples within ±1, 1/1024 s apart, a rate within ±2048, any time constant.
 #[kani::proof]
 #[kani::stub(libm::expm1f, stubs::expm1f)]
 fn derivative() {
@@ -54,7 +57,10 @@ fn derivative() {
     }
 }
 
-/// K10. Any limits, any command before and wanted, any `dt` above zero.
+/// K10. A command lies within the range, and within slew·dt of the one before wherever that
+/// lay in the range; so after a hand-over or a change of gains, too.
+///
+/// Assumes: any limits, finite commands, a finite dt above zero.
 #[kani::proof]
 fn slew_limit() {
     let (limits, last, wanted, dt) = (limits(), finite(), finite(), finite());
@@ -63,7 +69,7 @@ fn slew_limit() {
     assert!(limits_are_kept(&limits, last, wanted, dt));
 }
 
-/// K11. Any half-width, any state, all bit patterns of the input.
+/// K11. A play stays in the band around its input and moves only as far as it must.
 #[kani::proof]
 fn play() {
     let (play, input): (_, f32) = (Play::try_new(kani::any()), kani::any());

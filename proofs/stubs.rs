@@ -21,3 +21,8 @@ pub(crate) fn expm1f(x: f32) -> f32 {
 pub(crate) fn garbage(_: f32) -> f32 {
     kani::any()
 }
+
+/// The same of two arguments.
+pub(crate) fn garbage_of_two(_: f32, _: f32) -> f32 {
+    kani::any()
+}

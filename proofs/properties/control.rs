@@ -1,6 +1,6 @@
 //! Controllers: the command, the state, the limits.
 
-use bowden::control::{Adaptive, AdaptiveInput, AdaptiveState, Limits};
+use bowden::control::{Adaptive, AdaptiveInput, AdaptiveOutput, AdaptiveState, Limits};
 use bowden::control::{Pid, PidInput, PidState, Status};
 
 /// The command nearest to what is wanted: within the range, and within the slew rate of
@@ -46,4 +46,18 @@ pub fn adaptive_commands_within_its_limits<const N: usize>(
         && law.settings().limits.contains(out.command)
         && (out.status == Status::Good || untouched)
         && law.is_valid(state)
+}
+
+/// After a good sample the lag form's command lies between the one `before` and its target
+/// `beta_hat·ubar`, as far as their difference can be written.
+pub fn the_lag_does_not_pass_its_target<const N: usize>(
+    before: f32,
+    out: &AdaptiveOutput<f32, N>,
+) -> bool {
+    let wanted = out.terms.beta_hat * out.terms.virtual_command;
+    let farthest = before + (wanted - before);
+    let law = out.terms.law;
+    out.status != Status::Good
+        || (before <= law && law <= farthest)
+        || (farthest <= law && law <= before)
 }

@@ -4,5 +4,6 @@
 //! folder with `#[path]`. Each says in its name what must be true.
 
 pub mod control;
+pub mod effect;
 pub mod signal;
 pub mod tracking;

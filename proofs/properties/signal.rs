@@ -31,7 +31,7 @@ pub fn play_holds_its_band(play: &Play<f32>, state: PlayState<f32>, input: f32) 
 }
 
 /// The filtered rate exceeds neither the rate before nor the difference quotient, but for
-/// the rounding of two products and a sum.
+/// the rounding of two products and a sum, which near zero is an absolute one.
 pub fn rate_exceeds_nothing(
     derivative: &Derivative<f32>,
     state: DerivativeState<f32>,
@@ -44,7 +44,7 @@ pub fn rate_exceeds_nothing(
     let mut next = state;
     let rate = derivative.step(&mut next, sample, dt);
     let most = if before > quotient { before } else { quotient };
-    rate.abs() <= most * (1.0 + 2.0 * f32::EPSILON) && next.rate() == rate
+    rate.abs() <= most * (1.0 + 2.0 * f32::EPSILON) + f32::MIN_POSITIVE && next.rate() == rate
 }
 
 /// A smooth sign lies within ±1, is odd to the bit and never points the other way.

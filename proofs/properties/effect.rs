@@ -1,0 +1,16 @@
+//! Effects: finite for any sample.
+
+use bowden::effect::{Effect, EffectState, Situation};
+
+/// Whatever the sample, the regressor is finite; where a number that it reads is not, it is
+/// zero and the memory stays.
+pub fn a_regressor_is_finite(
+    effect: &Effect<f32>,
+    state: &mut EffectState<f32>,
+    at: &Situation<f32>,
+) -> bool {
+    let before = *state;
+    let value = effect.regressor(state, at);
+    let usable = at.is_usable(effect.info().reads);
+    value.is_finite() && (usable || (value == 0.0 && *state == before))
+}

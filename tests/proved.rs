@@ -1,0 +1,196 @@
+//! What the harnesses prove of one step, asked of many steps and of random ones.
+//!
+//! The same functions: `proofs/properties`. A harness tries every state and one step; here a
+//! few thousand runs, but with the controller, the plant and the libm that ship.
+
+#[path = "../proofs/properties/mod.rs"]
+mod properties;
+
+use bowden::control::*;
+use bowden::effect::{Effect, EffectState, Motion, Situation, CATALOGUE};
+use bowden::signal::{Derivative, DerivativeState, Play, PlayState};
+use properties::{control, effect, signal, tracking};
+use proptest::prelude::*;
+
+/// Any bit pattern, and often enough one that a sensor could give.
+fn any_float() -> impl Strategy<Value = f32> {
+    prop_oneof![2 => -100.0..100.0_f32, 1 => any::<u32>().prop_map(f32::from_bits)]
+}
+
+fn finite() -> impl Strategy<Value = f32> {
+    any_float().prop_map(|x| if x.is_finite() { x } else { 1.0 })
+}
+
+fn sign() -> impl Strategy<Value = SmoothSign> {
+    prop_oneof![Just(SmoothSign::Tanh), Just(SmoothSign::Clamp)]
+}
+
+proptest! {
+    #[test]
+    fn errors_never_leave_their_box(
+        sign in sign(),
+        start in (-0.43..=0.43_f32, -0.05375..=0.05375_f32),
+        steps in prop::collection::vec((0.8..=1.2_f32, 0.0..=4.0_f32, -8.0..=8.0_f32), 1..300),
+        worst in any::<bool>(),
+    ) {
+        let law = LagRecursion { gain: 24.0, lambda: 8.0, epsilon: 0.05, smooth_sign: sign };
+        let mut at = ErrorState { s: start.0, z: start.1 };
+        for (g, delta_hat, w) in steps {
+            // The adversary pushes outwards with all that it has.
+            let w = if worst { 8.0_f32.copysign(at.s) } else { w };
+            let by = Disturbance { g, delta_hat, w, xi: 0.0 };
+            prop_assert!(tracking::errors_stay_in_their_box(&law, at, 0.001, &by, 0.43));
+            at = law.step(at, 0.001, &by);
+        }
+    }
+
+    #[test]
+    fn the_law_keeps_the_error_in_its_box_on_a_static_plant(
+        sign in sign(),
+        g in 0.8..=1.2_f32,
+        disturbance in -5.0..5.0_f32,
+        reference in -10.0..10.0_f32,
+        s in -0.43..=0.43_f32,
+    ) {
+        // |w| = |(g - 1)·r - D| <= 0.2·10 + 5 < 8.
+        let law = Adaptive::<f32, 0>::try_new(AdaptiveSettings {
+            beta: Estimator::fixed(g).within(0.8, 1.2),
+            delta: Estimator::fixed(1.0).within(0.0, 4.0).adapting(6e-3, 0.01),
+            smooth_sign: sign,
+            ..AdaptiveSettings::new(Form::Lag { step: 0.001, plant_gain: 1.0 }, 24.0, 8.0, 0.05)
+        }).unwrap();
+        let plant = tracking::StaticPlant { gain: 1.0, disturbance };
+        // z = 0, and the command that gives this error.
+        let at = AdaptiveInput::new(0.001, reference, reference + s, []);
+        let mut state = AdaptiveState::resume_from(&law, reference + s + disturbance, &at);
+        for _ in 0..500 {
+            prop_assert!(tracking::the_law_keeps_the_box(
+                &law, &mut state, &plant, 0.001, reference, 0.43
+            ));
+        }
+    }
+
+    #[test]
+    fn a_projection_moves_towards_the_truth(
+        p in any_float(), truth in finite(), low in finite(), high in finite()
+    ) {
+        prop_assert!(p.is_nan() || signal::projection_moves_towards_the_truth(p, truth, low, high));
+    }
+
+    #[test]
+    fn a_smooth_sign_is_a_sign_and_leaves_at_most_its_residue(sign in sign(), x in any_float()) {
+        prop_assert!(signal::smooth_sign_is_a_sign(sign, x));
+        prop_assert!(signal::smooth_sign_leaves_at_most_its_residue(sign, x));
+    }
+
+    #[test]
+    fn a_play_holds_its_band(r in 0.0..50.0_f32, inputs in prop::collection::vec(any_float(), 1..50)) {
+        let play = Play::try_new(r).unwrap();
+        let mut state = PlayState::new();
+        for input in inputs {
+            prop_assert!(signal::play_holds_its_band(&play, state, input));
+            play.step(&mut state, input);
+        }
+    }
+
+    #[test]
+    fn a_filtered_rate_exceeds_nothing(
+        tau in 0.0..0.1_f32, dt in 1e-4..0.1_f32,
+        samples in prop::collection::vec(-100.0..100.0_f32, 2..50),
+    ) {
+        let filter = Derivative::try_new(tau).unwrap();
+        let mut state = DerivativeState::new();
+        filter.step(&mut state, samples[0], dt);
+        for pair in samples.windows(2) {
+            let change = pair[1] - pair[0];
+            prop_assert!(signal::rate_exceeds_nothing(&filter, state, change, pair[1], dt));
+            filter.step(&mut state, pair[1], dt);
+        }
+    }
+
+    #[test]
+    fn limits_are_kept(
+        low in -1e3..0.0_f32, width in 1e-3..1e3_f32, slew in 1e-3..1e6_f32,
+        last in finite(), wanted in finite(), dt in 1e-6..10.0_f32,
+    ) {
+        let limits = Limits::try_new(low, low + width).unwrap();
+        prop_assert!(control::limits_are_kept(&limits, last, wanted, dt));
+        let limits = limits.with_slew(slew).unwrap();
+        prop_assert!(control::limits_are_kept(&limits, last, wanted, dt));
+    }
+
+    #[test]
+    fn controllers_command_within_their_limits(
+        samples in prop::collection::vec(prop::array::uniform5(any_float()), 1..50),
+        literal in any::<bool>(),
+    ) {
+        let limits = Limits::try_new(-20.0, 60.0).unwrap().with_slew(1e4).unwrap();
+        let pid = Pid::try_new(PidSettings {
+            k_d: 2.0, derivative_time: 0.1, limits, ..PidSettings::new(30.0, 18.0)
+        }).unwrap();
+        let form = if literal {
+            Form::Literal { time_constant: 0.005 }
+        } else {
+            Form::Lag { step: 0.001, plant_gain: 1.0 }
+        };
+        let law = Adaptive::<f32, 1>::try_new(AdaptiveSettings {
+            beta: Estimator::fixed(1.0).within(0.8, 1.2).adapting(2.5e-4, 0.01),
+            delta: Estimator::fixed(1.0).within(0.0, 4.0).adapting(6e-3, 0.01),
+            theta: [Estimator::fixed(0.0).within(-5.0, 5.0).adapting(5e-4, 0.01)],
+            limits,
+            ..AdaptiveSettings::new(form, 24.0, 8.0, 0.05)
+        }).unwrap();
+        let (mut state, mut adapted) = (PidState::new(), AdaptiveState::new(&law));
+        for [dt, reference, measured, x, feed_forward] in samples {
+            // Mostly a millisecond, so that samples are good ones.
+            let dt = if dt > 0.0 && dt < 100.0 { 0.001 } else { dt };
+            let at = PidInput { velocity: x, feed_forward, ..PidInput::new(dt, reference, measured) };
+            prop_assert!(control::pid_commands_within_its_limits(&pid, &mut state, &at));
+            let at = AdaptiveInput {
+                feed_forward, ..AdaptiveInput::new(dt, reference, measured, [x])
+            };
+            prop_assert!(control::adaptive_commands_within_its_limits(&law, &mut adapted, &at));
+        }
+    }
+
+    #[test]
+    fn the_lag_does_not_pass_its_target(
+        samples in prop::collection::vec((1e-5..=1e-3_f32, -50.0..50.0_f32, -50.0..50.0_f32), 1..100),
+    ) {
+        let form = Form::Lag { step: 0.001, plant_gain: 1.0 };
+        let law = Adaptive::<f32, 0>::try_new(AdaptiveSettings {
+            beta: Estimator::fixed(1.0).within(1.0, 1.0),
+            delta: Estimator::fixed(1.0).within(0.0, 1.0),
+            ..AdaptiveSettings::new(form, 24.0, 8.0, 0.05)
+        }).unwrap();
+        let mut state = AdaptiveState::new(&law);
+        for (dt, reference, measured) in samples {
+            // Without limits and feed-forward the command that is out is the lag's.
+            let before = state.command();
+            let out = law.step(&mut state, &AdaptiveInput::new(dt, reference, measured, []));
+            prop_assert_eq!(out.status, Status::Good);
+            prop_assert!(control::the_lag_does_not_pass_its_target(before, &out));
+        }
+    }
+
+    #[test]
+    fn regressors_are_finite(numbers in prop::array::uniform32(any_float()), steps in 1_usize..4) {
+        for info in CATALOGUE {
+            for shape in [0.1, 1.0, 30.0_f32] {
+                let count = Effect::<f32>::try_from_name(info.name, &[]).map_or_else(
+                    |_| if Effect::<f32>::try_from_name(info.name, &[shape]).is_ok() { 1 } else { 2 },
+                    |_| 0,
+                );
+                let effect = Effect::try_from_name(info.name, &[shape; 2][..count]).unwrap();
+                let mut state = EffectState::new();
+                for at in numbers.chunks_exact(10).take(steps) {
+                    let motion = Motion { position: at[0], velocity: at[1], acceleration: at[2] };
+                    let at = Situation {
+                        motion, input: motion, dt: at[3], time: at[4], load: at[5], eta: at[6], output: at[7],
+                    };
+                    prop_assert!(effect::a_regressor_is_finite(&effect, &mut state, &at));
+                }
+            }
+        }
+    }
+}
