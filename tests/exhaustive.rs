@@ -11,6 +11,7 @@ mod signal;
 
 use bowden::control::SmoothSign;
 use bowden::Real;
+use std::panic::resume_unwind;
 
 /// How many of all `f32` make `is_so` true, on every core.
 fn count(is_so: impl Fn(f32) -> bool + Sync) -> u64 {
@@ -25,7 +26,7 @@ fn count(is_so: impl Fn(f32) -> bool + Sync) -> u64 {
             })
             .collect();
         { shards.into_iter() }
-            .map(|shard| shard.join().unwrap() as u64)
+            .map(|shard| shard.join().unwrap_or_else(|panic| resume_unwind(panic)) as u64)
             .sum()
     })
 }

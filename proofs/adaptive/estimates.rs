@@ -28,30 +28,6 @@ fn estimate_in_its_box() {
     assert!(after.is_none_or(|after| estimator.holds(&after)));
 }
 
-/// K9. Without excitation a leak moves the estimate towards its prior and never beyond it,
-/// but for half an ulp of the prior.
-///
-/// Assumes: dt = 1/1024 s, leakage rate ∈ [0, 1e4]/s, |estimate|, |prior| ≤ 1000, nothing
-/// owed by rounding.
-#[kani::proof]
-fn leak_to_the_prior() {
-    let rate = within(0.0, 1e4);
-    let estimator = Estimator {
-        prior: within(-1000.0, 1000.0),
-        ..Estimator::<f32>::fixed(0.0).adapting(1.0, rate)
-    };
-    let before = within(-1000.0, 1000.0);
-    let after = estimator.update(Compensated::new(before), 1.0 / 1024.0, 0.0);
-    let value = after.map_or(f32::NAN, |after| after.value);
-    let tolerance = f32::EPSILON * estimator.prior.abs();
-    kani::cover!(value < before && value > estimator.prior && estimator.prior > 1.0);
-    if before >= estimator.prior {
-        assert!(value <= before && value >= estimator.prior - tolerance);
-    } else {
-        assert!(value >= before && value <= estimator.prior + tolerance);
-    }
-}
-
 /// K9. Without excitation a leak to zero never grows an estimate or turns its sign.
 ///
 /// Assumes: dt = 1/1024 s, leakage rate ∈ [0, 1e4]/s, |estimate| ≤ 1000, nothing owed by

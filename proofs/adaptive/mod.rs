@@ -1,6 +1,4 @@
-//! Proofs of the adaptive law: K1, K2, K4, K5, K9, K12 over its own states.
+//! Proofs of the adaptive law over its own states: K4, K5, K9.
 
 mod estimates;
-mod samples;
 mod state;
-mod tracking;

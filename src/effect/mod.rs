@@ -13,9 +13,6 @@
 mod bounds;
 mod family;
 mod info;
-#[cfg(kani)]
-#[path = "../../proofs/effects.rs"]
-mod proofs;
 mod shaped;
 mod situation;
 mod sum;
