@@ -132,3 +132,13 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_time_constant_of_minus_zero_is_none() {
+    // It is not below zero, so it is accepted; dt/-0.0 is minus infinity.
+    let derivative = Derivative::try_new(-0.0_f32).unwrap();
+    let mut state = DerivativeState::new();
+    derivative.step(&mut state, 1.0, 0.5);
+    assert_eq!(derivative.step(&mut state, 2.0, 0.5), 2.0);
+    assert_eq!(derivative.step(&mut state, 1.0, 0.5), -2.0);
+}

@@ -87,8 +87,9 @@ impl<T: Real> Derivative<T> {
         };
         let quotient = (sample - last) / dt;
         if dt > T::zero() && dt.is_finite() && quotient.is_finite() {
-            // 0/0 cannot occur: dt > 0, so that a time constant of zero gives e^(-inf).
-            let share = -(-dt / self.time_constant).exp_m1();
+            // 0/0 cannot occur: dt > 0, so that a time constant of zero gives e^(-inf), and
+            // one of -0.0 the same.
+            let share = -(-(dt / self.time_constant).abs()).exp_m1();
             // Two products instead of share·(quotient - rate), which could overflow.
             state.rate = (T::one() - share) * state.rate + share * quotient;
             state.last = Some(sample);
