@@ -1,6 +1,11 @@
-//! Arbitrary estimators.
+//! Arbitrary laws, states and samples.
 
-use super::super::{Estimator, Leakage};
+use super::super::compensated::Compensated;
+use super::super::{Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState};
+use super::super::{Estimator, Form, Leakage, SmoothSign};
+use crate::control::status::Held;
+use crate::proofs::any::{fallback, finite, limits};
+use crate::signal::{Derivative, DerivativeState};
 
 /// Any leakage.
 pub(super) fn leakage() -> Leakage<f32> {
@@ -24,5 +29,72 @@ pub(super) fn estimator(leakage: Leakage<f32>) -> Estimator<f32> {
         gain: kani::any(),
         leakage,
         prior: kani::any(),
+    }
+}
+
+/// Any law of this form: more than the constructor accepts, for only the order of the
+/// boxes, the range and a safe command within it are taken from its checks.
+pub(super) fn law<const N: usize>(form: Form<f32>, smooth_sign: SmoothSign) -> Adaptive<f32, N> {
+    let settings = AdaptiveSettings {
+        form,
+        gain: kani::any(),
+        lambda: kani::any(),
+        epsilon: kani::any(),
+        smooth_sign,
+        beta: estimator(leakage()),
+        delta: estimator(leakage()),
+        theta: core::array::from_fn(|_| estimator(leakage())),
+        z_limit: kani::any(),
+        frozen: kani::any(),
+        limits: limits(),
+        fallback: fallback(),
+    };
+    kani::assume(settings.fallback.check_within(&settings.limits).is_ok());
+    Adaptive {
+        settings,
+        derivative: Derivative::assumed(kani::any()),
+        longest: kani::any(),
+    }
+}
+
+fn sum() -> Compensated<f32> {
+    Compensated {
+        value: kani::any(),
+        carry: kani::any(),
+    }
+}
+
+/// Any state that is valid for the law.
+pub(super) fn state<const N: usize>(law: &Adaptive<f32, N>) -> AdaptiveState<f32, N> {
+    let seen = DerivativeState::at(finite(), finite());
+    let state = AdaptiveState {
+        z: sum(),
+        error_rate: if kani::any() {
+            seen
+        } else {
+            DerivativeState::new()
+        },
+        lag: kani::any(),
+        beta: sum(),
+        delta: sum(),
+        theta: core::array::from_fn(|_| sum()),
+        held: Held {
+            command: kani::any(),
+            bad: kani::any(),
+        },
+    };
+    kani::assume(law.is_valid(&state));
+    state
+}
+
+/// All bit patterns.
+pub(super) fn input<const N: usize>() -> AdaptiveInput<f32, N> {
+    AdaptiveInput {
+        dt: kani::any(),
+        reference: kani::any(),
+        next_reference: kani::any(),
+        measured: kani::any(),
+        regressors: core::array::from_fn(|_| kani::any()),
+        feed_forward: kani::any(),
     }
 }

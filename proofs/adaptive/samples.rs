@@ -1,0 +1,64 @@
+//! K1, K4, K5: any sample, any gains, any valid state.
+//!
+//! [`estimates`](super::estimates) proves that one estimate keeps its box whatever drives it;
+//! here the update returns anything that this leaves, and the virtual command anything at
+//! all. So the claims rest on the checks of the step, not on its arithmetic.
+
+use super::super::compensated::Compensated;
+use super::super::{Adaptive, AdaptiveInput, AdaptiveTerms, Estimator, Form, SmoothSign};
+use super::state::{input, law, state};
+use crate::proofs::properties::control::adaptive_commands_within_its_limits;
+use crate::proofs::stubs;
+use crate::Real;
+
+/// What `estimate_in_its_box` proves of an update, and no more.
+fn any_update<T: Real>(
+    estimator: &Estimator<T>,
+    _: Compensated<T>,
+    _: T,
+    _: T,
+) -> Option<Compensated<T>> {
+    let sum = Compensated {
+        value: T::of(kani::any()),
+        carry: T::of(kani::any()),
+    };
+    kani::assume(estimator.holds(&sum));
+    kani::any::<bool>().then_some(sum)
+}
+
+/// Any virtual command, NaN included.
+pub(super) fn any_virtual_command<T: Real, const N: usize>(
+    _: &Adaptive<T, N>,
+    _: &AdaptiveTerms<T, N>,
+    _: &AdaptiveInput<T, N>,
+) -> T {
+    T::of(kani::any())
+}
+
+fn any_sample<const N: usize>(form: Form<f32>, smooth_sign: SmoothSign) {
+    let law = law::<N>(form, smooth_sign);
+    let (mut state, input) = (state(&law), input());
+    let before = state;
+    let kept = adaptive_commands_within_its_limits(&law, &mut state, &input);
+    kani::cover!(state.held.bad == 0 && state.beta.value != before.beta.value);
+    kani::cover!(input.measured.is_nan() && state.held.command != before.held.command);
+    assert!(kept);
+}
+
+/// K1, K4, K5. Lag form, two regressors: for any sample the command is finite and within
+/// its limits, the state stays valid, and a bad sample leaves it.
+///
+/// Assumes: nothing of gains, sample or valid state; the update of an estimate as proved by
+/// estimate_in_its_box, any virtual command.
+#[kani::proof]
+#[kani::unwind(3)]
+#[kani::stub(libm::tanhf, stubs::tanhf)]
+#[kani::stub(Estimator::update, any_update)]
+#[kani::stub(Adaptive::virtual_command, any_virtual_command)]
+fn lag_any_sample() {
+    let form = Form::Lag {
+        step: kani::any(),
+        plant_gain: kani::any(),
+    };
+    any_sample::<2>(form, SmoothSign::Tanh);
+}
