@@ -22,7 +22,7 @@ fn smooth_sign_clamp() {
     assert!(smooth_sign_is_a_sign(SmoothSign::Clamp, x));
 }
 
-/// K7. The clamped line leaves |x|·(1 - |T|) ≤ 1/4, to two ulps. (tanh: all 2³² inputs,
+/// K7. The clamped line leaves x·(1 - T) ≤ 1/4 for x ≥ 0, to two ulps. (tanh: all 2³² inputs,
 /// `tests/exhaustive.rs`.)
 #[kani::proof]
 fn smooth_sign_clamp_residue() {

@@ -1,0 +1,45 @@
+//! K2: the whole shipped step of the lag form.
+
+use super::super::{Adaptive, AdaptiveSettings, AdaptiveState, Compensated};
+use super::super::{Estimator, Form, SmoothSign};
+use crate::control::status::Held;
+use crate::proofs::any::within;
+use crate::proofs::properties::tracking::{the_law_keeps_the_box, StaticPlant};
+
+/// Table 2 in lag form at 1 kHz on a plant of known gain, estimates at rest.
+fn paper() -> Adaptive<f32, 0> {
+    let lag = Form::Lag {
+        step: 0.001,
+        plant_gain: 1.0,
+    };
+    Adaptive::checked(AdaptiveSettings {
+        beta: Estimator::fixed(1.0).within(1.0, 1.0),
+        delta: Estimator::fixed(0.0).within(0.0, 0.0),
+        smooth_sign: SmoothSign::Clamp,
+        frozen: true,
+        ..AdaptiveSettings::new(lag, 24.0, 8.0, 0.05)
+    })
+}
+
+/// K2. The controller's step on a static plant with a sample of delay, as firmware runs it:
+/// |s| ≤ 0.43 N·m stays so.
+///
+/// Assumes: Table 2 at 1 kHz, g = 1, no regressor, delta_hat = 0, reference 0, a disturbance
+/// at rest of up to 8 N·m, nothing owed by rounding.
+#[kani::proof]
+fn slow_tracking_box_of_the_law() {
+    let (law, most) = (paper(), 0.43);
+    let plant = StaticPlant {
+        gain: 1.0,
+        disturbance: within(-8.0, 8.0),
+    };
+    let command = within(-60.0, 60.0);
+    let mut state = AdaptiveState::new(&law);
+    state.z = Compensated::new(within(-most / 8.0, most / 8.0));
+    state.lag = command;
+    state.held = Held::new(command);
+    let before = state.z.value;
+    let kept = the_law_keeps_the_box(&law, &mut state, &plant, 0.001, 0.0, most);
+    kani::cover!(before < -0.05 && state.z.value > before && plant.disturbance > 7.9);
+    assert!(kept);
+}
