@@ -91,6 +91,32 @@ fn line(law: &str, kind: &'static str, certificate: Result<Certificate<f64>, Err
     }
 }
 
+/// What the machine-checked box assumes: a reference and a disturbance at rest.
+const RESTING: &str = "lag form at 1 kHz, |D| <= 8 N·m at rest, g 20 %";
+const RESTING_DISTURBANCE: f64 = 8.0;
+
+/// The law of the proofs: the setup's gains in lag form, g = alpha·beta_hat in 0.8..=1.2.
+fn resting(settings: &AdaptiveSettings<f64, 2>) -> Result<Adaptive<f64, 0>, Error> {
+    let lag = Form::Lag {
+        step: 1.0 / RATE,
+        plant_gain: 1.0,
+    };
+    let gains = AdaptiveSettings::new(lag, settings.gain, settings.lambda, settings.epsilon);
+    Adaptive::try_new(AdaptiveSettings {
+        beta: Estimator {
+            initial: 1.0,
+            ..settings.beta
+        }
+        .within(0.8, 1.2),
+        delta: Estimator {
+            initial: 0.0,
+            ..settings.delta
+        }
+        .within(0.0, 4.0),
+        ..gains
+    })
+}
+
 /// The laws of the setup: as they are, and as a firmware would box them.
 ///
 /// # Errors
@@ -152,6 +178,11 @@ pub fn all(setup: &Setup) -> Result<Vec<Line>, String> {
         step: 1.0 / RATE,
         plant_gain: alpha,
     };
+    let resting = resting(&settings).and_then(|law| {
+        let peak = PeakSampled::try_new(&law, &Plant::new(1.0, RESTING_DISTURBANCE))?;
+        Ok(peak.certificate())
+    });
+    lines.push(line(RESTING, "peak-sampled", resting));
     // Wide enough for one sample of delay: h·lambda·g·(k + Delta/epsilon) <= 1.
     let epsilon = settings.epsilon.max(0.2);
     for spread in [0.0, 0.05, 0.10, 0.20, 0.30] {
@@ -215,13 +246,15 @@ pub fn text(lines: &[Line]) -> String {
             (None, Some(reason)) => format!("none: {reason}"),
             (None, None) => "none".to_owned(),
         };
-        let _ = writeln!(out, "{:<46} {:<16} {what}", line.law, line.kind);
+        let _ = writeln!(out, "{:<47} {:<16} {what}", line.law, line.kind);
         if !line.assumptions.is_empty() && !told.contains(&line.assumptions) {
             told.push(line.assumptions);
         }
     }
     out.push_str(
-        "\nBeta within p %: the box of beta_hat about 1/alpha, alpha = N_A·B of the rig.\n",
+        "\nBeta within p %: the box of beta_hat about 1/alpha, alpha = N_A·B of the rig.\n\
+         The line at rest is what the proofs check of the shipped f32 step, with a little room for\n\
+         rounding: |s| <= 0.43 N·m, |e| <= 0.86 N·m with Table 2's gains (proofs/README.md).\n",
     );
     for list in told {
         let names: Vec<&str> = lines

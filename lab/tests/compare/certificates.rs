@@ -31,6 +31,10 @@ fn theorem_1_is_vacuous_and_the_others_are_not() {
     // A wider box of beta promises less.
     let sampled: Vec<f64> = of("peak-sampled").iter().map(|(v, _)| *v).collect();
     assert!(sampled.windows(2).all(|w| w[0] < w[1]), "{sampled:?}");
+    // 2·W/(g⁻·(k - 1/lambda²)) by hand; the proofs have 0.86, with room for f32.
+    let at_rest = 2.0 * 8.0 / (0.8 * (24.0 - 1.0 / 64.0));
+    assert!((sampled[0] - at_rest).abs() < 1e-9, "{sampled:?}");
+    assert!(at_rest < 0.86);
 }
 
 #[test]
