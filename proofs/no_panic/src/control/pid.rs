@@ -1,0 +1,47 @@
+//! `control/pid.rs`, `control/pid/`
+
+use crate::{any, never_panics};
+use bowden::control::{Damping, Pid, PidInput, PidSettings, PidState};
+use bowden::Real;
+use std::hint::black_box;
+
+pub fn all<T: Real>() -> Option<()> {
+    never_panics!(control_pid_settings_on_error, Damping::<T>::on_error());
+    never_panics!(
+        control_pid_settings_on_measurement,
+        Damping::<T>::on_measurement()
+    );
+    never_panics!(
+        control_pid_settings_new,
+        PidSettings::<T>::new(any(), any())
+    );
+    never_panics!(
+        control_pid_signals_new,
+        PidInput::<T>::new(any(), any(), any())
+    );
+    never_panics!(control_pid_paper_pi, Pid::<T>::paper_pi());
+    never_panics!(control_pid_paper_pid, Pid::<T>::paper_pid());
+    never_panics!(control_pid_paper_piv, Pid::<T>::paper_piv());
+    never_panics!(control_pid_matched_pi, Pid::<T>::matched_pi());
+
+    let settings = black_box(PidSettings::<T>::new(any(), any()));
+    never_panics!(control_pid_try_new, Pid::try_new(settings));
+    let pid = black_box(Pid::try_new(settings)).ok()?;
+    let at = black_box(PidInput::new(any(), any(), any()));
+    never_panics!(control_pid_state_new, PidState::<T>::new());
+    let mut state = black_box(PidState::new());
+    never_panics!(control_pid_settings, *pid.settings());
+    never_panics!(control_pid_step, pid.step(&mut state, &at));
+    never_panics!(control_pid_terms, pid.terms(black_box(&state)));
+    never_panics!(control_pid_take_over, pid.take_over(black_box(&mut state)));
+    never_panics!(
+        control_pid_state_resume_from,
+        state.resume_from(&pid, any(), &at)
+    );
+    never_panics!(control_pid_state_reset, black_box(&mut state).reset());
+    never_panics!(control_pid_state_command, state.command());
+    never_panics!(control_pid_state_integral, state.integral());
+    never_panics!(control_pid_state_rate, state.rate());
+    never_panics!(control_pid_state_consecutive_bad, state.consecutive_bad());
+    Some(())
+}

@@ -1,0 +1,62 @@
+//! `hysteresis/`
+
+use crate::{any, never_panics};
+use bowden::hysteresis::*;
+use bowden::Real;
+use std::hint::black_box;
+
+pub fn all<T: Real>() -> Option<()> {
+    never_panics!(hysteresis_state_new, BoucWen::<T>::new());
+    never_panics!(hysteresis_state_with_eta, BoucWen::<T>::with_eta(any()));
+    let mut state = black_box(BoucWen::<T>::new());
+    never_panics!(hysteresis_state_eta, state.eta());
+    never_panics!(hysteresis_state_input, state.input());
+    never_panics!(hysteresis_state_start, Sensitivity::<T>::start(any()));
+
+    never_panics!(
+        hysteresis_shape_try_new,
+        Shape::<T>::try_new(any(), any(), any())
+    );
+    let shape = black_box(Shape::<T>::try_new(any(), any(), any())).ok()?;
+    never_panics!(hysteresis_shape_rho, shape.rho());
+    never_panics!(hysteresis_shape_sigma, shape.sigma());
+    never_panics!(hysteresis_shape_n, shape.n());
+    never_panics!(hysteresis_shape_advance, shape.advance(any(), any()));
+    never_panics!(
+        hysteresis_shape_advance_four_stage,
+        shape.advance_four_stage(any(), any())
+    );
+    let sensitivity = black_box(Sensitivity::start(any()));
+    never_panics!(
+        hysteresis_shape_advance_with_sensitivity,
+        shape.advance_with_sensitivity(sensitivity, any())
+    );
+    never_panics!(hysteresis_shape_slope, shape.slope(any(), any()));
+    never_panics!(hysteresis_shape_step, shape.step(&mut state, any()));
+
+    let textbook = Textbook::<T> {
+        a: any(),
+        beta: any(),
+        gamma: any(),
+        n: any(),
+        alpha: any(),
+        k: any(),
+        d: any(),
+    };
+    never_panics!(hysteresis_textbook_class, textbook.class());
+    never_panics!(
+        hysteresis_textbook_from_textbook,
+        Shape::from_textbook(textbook)
+    );
+    let actuator = Actuator::<T> {
+        yield_torque: any(),
+        stiffness: any(),
+        post_yield_ratio: any(),
+        knee: any(),
+    };
+    never_panics!(
+        hysteresis_textbook_from_actuator,
+        Shape::from_actuator(actuator)
+    );
+    Some(())
+}

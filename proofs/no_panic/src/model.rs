@@ -1,0 +1,60 @@
+//! `model.rs`
+
+use crate::effect::motion;
+use crate::transmission::transmission;
+use crate::{any, never_panics};
+use bowden::effect::{Effect, Motion};
+use bowden::model::{Model, ModelState, Sample, Source, Term};
+use bowden::Real;
+use std::hint::black_box;
+
+/// Any term.
+pub fn term<T: Real>() -> Term<T> {
+    black_box(Term {
+        effect: Effect::Viscous,
+        source: Source::Input,
+        origin: T::zero(),
+        gain: T::zero(),
+    })
+}
+
+/// Any model of at most two terms.
+pub fn model<T: Real>() -> Option<Model<T, 2>> {
+    let transmission = black_box(Some(transmission()?));
+    black_box(Model::try_new(
+        transmission,
+        black_box(&[term(), term()][..]),
+    ))
+    .ok()
+}
+
+pub fn all<T: Real>() -> Option<()> {
+    let transmission = black_box(Some(transmission::<T>()?));
+    let terms = [term::<T>(), term()];
+    let terms = black_box(&terms[..]);
+    never_panics!(model_try_new, Model::<T, 2>::try_new(transmission, terms));
+    let model = model::<T>()?;
+    never_panics!(model_transmission, model.transmission());
+    never_panics!(model_terms, model.terms());
+    never_panics!(model_new, ModelState::<T, 2>::new());
+    never_panics!(model_with_eta, ModelState::<T, 2>::with_eta(any()));
+    let mut state = black_box(ModelState::new());
+    let channels: [Motion<T>; 2] = [motion(), motion()];
+    let sample = Sample {
+        dt: any(),
+        input: motion(),
+        load: any(),
+        channels: black_box(&channels[..]),
+    };
+    never_panics!(model_accepts, model.accepts(&sample));
+    never_panics!(model_step, model.step(&mut state, &sample));
+    never_panics!(model_step_with, {
+        model.step_with(&mut state, &sample, |term, share| {
+            black_box((term, share));
+        })
+    });
+    never_panics!(model_eta, state.eta());
+    never_panics!(model_time, state.time());
+    never_panics!(model_output, state.output());
+    Some(())
+}
