@@ -1,0 +1,121 @@
+//! The robust adaptive law.
+
+use crate::numbers::Numbers;
+use crate::properties::control::{
+    adaptive_commands_within_its_limits, the_lag_does_not_pass_its_target,
+};
+use bowden::control::{
+    Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Form, Leakage, Limits,
+    SmoothSign,
+};
+
+/// Whatever the gains, the samples and the order of hand-overs: a finite command within the
+/// limits, every estimate in its box, and a bad sample leaves the state.
+pub fn check(data: &[u8]) {
+    let _ = run(&mut Numbers::new(data));
+}
+
+fn estimator(from: &mut Numbers) -> Option<Estimator<f32>> {
+    let leakage = match from.byte()? % 3 {
+        0 => Leakage::None,
+        1 => Leakage::Constant { rate: from.any()? },
+        _ => Leakage::Switching {
+            rate: from.any()?,
+            bound: from.any()?,
+        },
+    };
+    let value = Estimator {
+        gain: from.any()?,
+        prior: from.any()?,
+        leakage,
+        ..Estimator::fixed(from.any()?)
+    };
+    Some(if from.flag()? {
+        value.within(from.any()?, from.any()?)
+    } else {
+        value
+    })
+}
+
+fn law(from: &mut Numbers) -> Option<Adaptive<f32, 2>> {
+    let form = if from.flag()? {
+        Form::Literal {
+            time_constant: from.any()?,
+        }
+    } else {
+        Form::Lag {
+            step: from.dt()?,
+            plant_gain: from.any()?,
+        }
+    };
+    let smooth_sign = if from.flag()? {
+        SmoothSign::Tanh
+    } else {
+        SmoothSign::Clamp
+    };
+    Adaptive::try_new(AdaptiveSettings {
+        smooth_sign,
+        beta: estimator(from)?,
+        delta: estimator(from)?,
+        theta: [estimator(from)?, estimator(from)?],
+        z_limit: from.any()?,
+        frozen: from.flag()?,
+        limits: from.limits()?,
+        fallback: from.fallback()?,
+        ..AdaptiveSettings::new(form, from.any()?, from.any()?, from.any()?)
+    })
+    .ok()
+}
+
+fn sample(from: &mut Numbers) -> Option<AdaptiveInput<f32, 2>> {
+    Some(AdaptiveInput {
+        dt: from.dt()?,
+        reference: from.any()?,
+        next_reference: from.any()?,
+        measured: from.any()?,
+        regressors: [from.any()?, from.any()?],
+        feed_forward: from.any()?,
+    })
+}
+
+fn run(from: &mut Numbers) -> Option<()> {
+    let law = if from.flag()? {
+        law(from)?
+    } else {
+        Adaptive::paper()
+    };
+    let free = law.settings().limits == Limits::none();
+    let lags = matches!(law.settings().form, Form::Lag { .. });
+    let mut state = AdaptiveState::new(&law);
+    let mut lag = Some(state.command());
+    loop {
+        match from.byte()? {
+            0..=15 => {
+                state.reset(&law);
+                lag = Some(state.command());
+            }
+            16..=31 => {
+                state = AdaptiveState::resume_from(&law, from.any()?, &sample(from)?);
+                lag = None;
+            }
+            32..=47 => {
+                law.take_over(&mut state, &sample(from)?);
+                lag = None;
+            }
+            _ => {
+                let at = sample(from)?;
+                let mut again = state;
+                assert!(adaptive_commands_within_its_limits(&law, &mut state, &at));
+                let out = law.step(&mut again, &at);
+                assert!(again == state, "the same sample gives the same state");
+                if let (Some(before), true, true) = (lag, free, lags) {
+                    assert!(the_lag_does_not_pass_its_target(before, &out));
+                }
+                if out.status == bowden::control::Status::Good {
+                    lag = Some(out.terms.law);
+                }
+            }
+        }
+        assert!(law.is_valid(&state));
+    }
+}

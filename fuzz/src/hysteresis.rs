@@ -1,0 +1,91 @@
+//! The Bouc-Wen state.
+
+use crate::numbers::Numbers;
+use bowden::hysteresis::{Actuator, BoucWen, Sensitivity, Shape, Textbook};
+use bowden::Real;
+
+/// Whatever the shape and the input: eta stays within ±1, moves with the input, and a bad
+/// input leaves the state.
+pub fn check(data: &[u8]) {
+    let mut from = Numbers::new(data);
+    let _ = match from.flag() {
+        Some(true) => run::<f32>(&mut from),
+        _ => run::<f64>(&mut from),
+    };
+}
+
+fn shape<T: Real>(from: &mut Numbers) -> Option<Shape<T>> {
+    match from.byte()? % 4 {
+        0 => {
+            let textbook: Textbook<T> = Textbook {
+                a: from.any()?,
+                beta: from.any()?,
+                gamma: from.any()?,
+                n: from.any()?,
+                alpha: from.any()?,
+                k: from.any()?,
+                d: from.any()?,
+            };
+            let report = Shape::from_textbook(textbook).ok()?;
+            let found = report.normalised;
+            assert!(found.kappa_x.is_finite() && found.kappa_eta.is_finite());
+            Some(found.shape)
+        }
+        1 => {
+            let actuator: Actuator<T> = Actuator {
+                yield_torque: from.any()?,
+                stiffness: from.any()?,
+                post_yield_ratio: from.any()?,
+                knee: from.any()?,
+            };
+            Some(Shape::from_actuator(actuator).ok()?.shape)
+        }
+        _ => from.shape(),
+    }
+}
+
+/// Whether `next` lies where a change of the input may take eta.
+fn follows<T: Real>(eta: T, change: T, next: T) -> bool {
+    next.abs() <= T::one()
+        && (if change > T::zero() {
+            next >= eta
+        } else if change < T::zero() {
+            next <= eta
+        } else {
+            next == eta
+        })
+}
+
+fn run<T: Real>(from: &mut Numbers) -> Option<()> {
+    let shape = shape::<T>(from)?;
+    let start = from.any()?;
+    let mut state = BoucWen::with_eta(start).unwrap_or_default();
+    let mut sensitivity = Sensitivity::start(state.eta());
+    loop {
+        let (input, before): (T, _) = (from.any()?, state);
+        let eta = shape.step(&mut state, input);
+        assert!(eta == state.eta());
+        if !input.is_finite() {
+            assert!(state == before);
+            continue;
+        }
+        assert!(state.input() == Some(input));
+        let change = input - before.input().unwrap_or(input);
+        assert!(follows(before.eta(), change, eta));
+        let staged = shape.advance_four_stage(before.eta(), change);
+        assert!(follows(
+            before.eta(),
+            if change.is_finite() {
+                change
+            } else {
+                T::zero()
+            },
+            staged
+        ));
+        let was = sensitivity.eta;
+        sensitivity = shape.advance_with_sensitivity(sensitivity, change);
+        if change.is_finite() {
+            assert!(follows(was, change, sensitivity.eta));
+        }
+    }
+}

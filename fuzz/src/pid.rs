@@ -1,0 +1,86 @@
+//! PID, PI and PIV.
+
+use crate::numbers::Numbers;
+use crate::properties::control::{limits_are_kept, pid_commands_within_its_limits};
+use bowden::control::{AntiWindup, Damping, Pid, PidInput, PidSettings, PidState, Status};
+
+/// Whatever the settings, the samples and the order of hand-overs: a finite command within
+/// the limits, and a bad sample leaves the state.
+pub fn check(data: &[u8]) {
+    let _ = run(&mut Numbers::new(data));
+}
+
+fn pid(from: &mut Numbers) -> Option<Pid<f32>> {
+    let anti_windup = match from.byte()? % 4 {
+        0 => AntiWindup::None,
+        1 => AntiWindup::Clamp,
+        2 => AntiWindup::Conditional,
+        _ => AntiWindup::BackCalculation {
+            tracking_time: from.any()?,
+        },
+    };
+    let damping = match from.byte()? % 4 {
+        0 => Damping::Velocity,
+        1 => Damping::on_error(),
+        2 => Damping::on_measurement(),
+        _ => Damping::Rate {
+            weight: from.any()?,
+        },
+    };
+    Pid::try_new(PidSettings {
+        k_p: from.any()?,
+        k_i: from.any()?,
+        k_d: from.any()?,
+        damping,
+        derivative_time: from.any()?,
+        setpoint_weight: from.any()?,
+        anti_windup,
+        limits: from.limits()?,
+        fallback: from.fallback()?,
+    })
+    .ok()
+}
+
+fn sample(from: &mut Numbers) -> Option<PidInput<f32>> {
+    Some(PidInput {
+        dt: from.dt()?,
+        reference: from.any()?,
+        measured: from.any()?,
+        velocity: from.any()?,
+        feed_forward: from.any()?,
+    })
+}
+
+fn run(from: &mut Numbers) -> Option<()> {
+    let pids = [pid(from)?, pid(from)?];
+    let mut active = 0;
+    let mut state = PidState::new();
+    loop {
+        let pid = &pids[active];
+        match from.byte()? {
+            0..=15 => state.reset(),
+            16..=31 => {
+                active = 1 - active;
+                pids[active].take_over(&mut state);
+            }
+            32..=63 => {
+                let output = from.any()?;
+                let before = state;
+                if state.resume_from(pid, output, &sample(from)?) == Status::Good {
+                    assert!(pid.settings().limits.contains(state.command()));
+                } else {
+                    assert!(state.integral() == before.integral());
+                }
+            }
+            _ => {
+                let (at, last) = (sample(from)?, state.command());
+                assert!(pid_commands_within_its_limits(pid, &mut state, &at));
+                assert!(pid.terms(&state).unlimited.is_finite());
+                if at.dt > 0.0 && at.dt.is_finite() && at.measured.is_finite() {
+                    let limits = &pid.settings().limits;
+                    assert!(limits_are_kept(limits, last, at.measured, at.dt));
+                }
+            }
+        }
+    }
+}
