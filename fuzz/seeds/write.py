@@ -38,7 +38,7 @@ def pid():
 def adaptive():
     estimator = b"\x01" + x(0.01) + numbers(0.005, 0, 0.5) + b"\x01" + numbers(0.1, 2)
     law = b"\x01\x00" + DT + x(1) + b"\x01" + estimator * 4 + x(20) + b"\x00"
-    law += LIMITS + FALLBACK + numbers(24, 8, 0.05)
+    law += LIMITS + FALLBACK + numbers(24, 8, 0.2)
     steps = b"".join(b"\xff" + DT + numbers(r, r, y, 0.1, 0.2, 0) for r, y in SAMPLES)
     return law + steps
 

@@ -6,7 +6,7 @@ use crate::properties::control::{
 };
 use bowden::control::{
     Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Form, Leakage, Limits,
-    SmoothSign,
+    SmoothSign, Status,
 };
 
 /// Whatever the gains, the samples and the order of hand-overs: a finite command within the
@@ -111,8 +111,11 @@ fn run(from: &mut Numbers) -> Option<()> {
                 if let (Some(before), true, true) = (lag, free, lags) {
                     assert!(the_lag_does_not_pass_its_target(before, &out));
                 }
-                if out.status == bowden::control::Status::Good {
-                    lag = Some(out.terms.law);
+                match out.status {
+                    Status::Good => lag = Some(out.terms.law),
+                    // The next good sample starts from the safe command.
+                    Status::Safe(_) => lag = None,
+                    Status::Held(_) => {}
                 }
             }
         }

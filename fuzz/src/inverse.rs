@@ -64,5 +64,7 @@ fn reaches<T: Real>(
         + cable.offset().abs()
         + cable.kappa_eta().abs()
         + steepest * (input.abs() + last.abs());
-    !asked || (cable.output(input, eta) - desired).abs() <= T::of(16.0) * T::epsilon() * size
+    // Below the least normal number an input has no relative precision left.
+    let tolerance = T::of(16.0) * T::epsilon() * size + T::min_positive_value();
+    !asked || (cable.output(input, eta) - desired).abs() <= tolerance
 }
