@@ -2,7 +2,8 @@
 //!
 //! A target is three lines in `targets/` that call `check` of the module of its name. The
 //! properties are those that the harnesses prove of one step (`../proofs/properties`); here
-//! they are asked of runs of many steps, found by coverage. `cargo test --lib --no-default-features` in this folder
+//! they are asked of runs of many steps, found by coverage. In this folder
+//! `cargo test --lib --no-default-features`
 //! replays `seeds/` through every `check`, on any toolchain.
 
 pub mod adaptive;
