@@ -258,7 +258,7 @@ impl<T: Real> Inverse<T> {
     /// The input [input unit] at which the forward model gives `desired_output`.
     ///
     /// The forward model then returns `desired_output` to 16 machine epsilons of the
-    /// magnitudes in its equation, the last input's included. Newton along the path inside
+    /// magnitudes in its equation, the last input's included, or to the least normal number. Newton along the path inside
     /// a bracket that always holds the answer: a handful of evaluations is usual, 100 the most. A
     /// state that has seen no input keeps its eta in this step, as the forward model
     /// does. A desired output that is not finite, or out of the reach of floats, leaves
