@@ -1,0 +1,97 @@
+//! Variable projection: gains by QR, shapes by Levenberg-Marquardt.
+//!
+//! The output is linear in the gains once the shapes are known, so the gains are
+//! eliminated (Golub and Pereyra, 1973; Kaufman's derivative, 1975) and the search
+//! runs over rho, sigma, n, eta(0) and the effects' own shapes only. The hysteresis
+//! column comes with its exact sensitivities in the same pass.
+
+mod linear;
+mod search;
+mod settle;
+mod starts;
+
+use crate::channels::Prepared;
+pub use crate::solution::{Segments, Solution};
+use crate::structure::{Role, Structure};
+use search::descend;
+use settle::{choose, settle};
+use starts::starts;
+
+/// Fits a structure: all starts for a while on a coarse grid, the best three to the end.
+///
+/// `from` is the optimum of the round before (its structure is a prefix of this one).
+/// `stage_gain` starts the gain of an output stage that is new.
+#[must_use]
+pub fn fit(
+    data: &Prepared,
+    structure: &Structure,
+    from: Option<&Solution>,
+    stage_gain: f64,
+) -> Option<Solution> {
+    use rayon::prelude::*;
+    let free = structure.free(data);
+    let starts = starts(data, structure, &free, from, stage_gain);
+    let (coarse, fine) = (data.for_search(true), data.for_search(false));
+    let run = |data: &Prepared,
+               from: &[Vec<f64>],
+               most: usize,
+               tolerance: f64,
+               keep: usize|
+     -> Vec<Vec<f64>> {
+        let mut reached: Vec<(f64, Vec<f64>)> = from
+            .par_iter()
+            .map(|start| descend(data, structure, &free, start, most, tolerance))
+            .collect::<Vec<_>>()
+            .into_iter()
+            .flatten()
+            .collect();
+        reached.sort_by(|a, b| a.0.total_cmp(&b.0));
+        reached.truncate(keep);
+        reached.into_iter().map(|(_, values)| values).collect()
+    };
+    let rough = run(&coarse, &starts, 12, 1e-3, 3);
+    let better = run(&coarse, &rough, 70, 1e-6, 3);
+    let best = run(&fine, &better, 30, 1e-7, 3);
+    let settled: Vec<Option<Solution>> = best
+        .into_par_iter()
+        .map(|values| settle(data, structure, &free, values))
+        .collect();
+    let mut settled: Vec<Solution> = settled.into_iter().flatten().collect();
+    settled.sort_by(|a, b| a.rmse.fit.total_cmp(&b.rmse.fit));
+    choose(settled)
+}
+
+/// One short search from the present optimum, on the coarse grid: the sum of squares
+/// there and the structure with its shapes refined.
+#[must_use]
+pub fn glance(
+    data: &Prepared,
+    structure: &Structure,
+    from: &Solution,
+    stage_gain: f64,
+) -> Option<(f64, Structure, f64)> {
+    let free = structure.free(data);
+    let starts = starts(data, structure, &free, Some(from), stage_gain);
+    // The present optimum may have bent the loop to stand in for what is missing.
+    let rough = starts
+        .iter()
+        .enumerate()
+        .filter(|(index, _)| [0, 2, 6].contains(index))
+        .filter_map(|(_, start)| descend(data, structure, &free, start, 10, 1e-3));
+    let (_, start) = rough.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let (sse, values) = descend(data, structure, &free, &start, 30, 1e-4)?;
+    let mut refined = structure.clone();
+    let mut gain = stage_gain;
+    for (f, &v) in free.iter().zip(&values) {
+        match f.role {
+            Role::Shape { term, index } => {
+                refined.terms[term].effect = refined.terms[term].effect.with_shape(index, v).ok()?
+            }
+            Role::Origin { term } => refined.terms[term].origin = v,
+            Role::Start { term } => refined.terms[term].start = v,
+            Role::Stage { term } if term + 1 == structure.terms.len() => gain = v,
+            _ => {}
+        }
+    }
+    Some((sse, refined, gain))
+}

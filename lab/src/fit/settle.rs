@@ -1,0 +1,88 @@
+//! From the values that a search reached to a solution, and the choice among several.
+
+use super::search::{evaluate, Evaluation};
+use super::{Segments, Solution};
+use crate::channels::Prepared;
+use crate::structure::{Free, Role, Structure};
+
+/// Assembles the solution at given values.
+pub(super) fn settle(
+    data: &Prepared,
+    structure: &Structure,
+    free: &[Free],
+    values: Vec<f64>,
+) -> Option<Solution> {
+    let Evaluation {
+        raw,
+        columns,
+        linear,
+        ..
+    } = evaluate(data, structure, free, &values, None)?;
+    let gains = linear.gains;
+    let moves = raw.moves(data, free, &values)?;
+    let tangents: Vec<Vec<f64>> = (0..free.len())
+        .map(|j| data.filtered(&raw.tangent(&moves, j, &gains)))
+        .collect();
+    let columns: Vec<Vec<f64>> = columns.iter().map(|c| c.to_vec()).collect();
+    let sum = |columns: &[Vec<f64>]| -> Vec<f64> {
+        let n = columns.first().map_or(0, Vec::len);
+        (0..n)
+            .map(|i| columns.iter().zip(&gains).map(|(c, g)| g * c[i]).sum())
+            .collect()
+    };
+    let (prediction, unfiltered) = if columns.is_empty() {
+        (vec![0.0; data.target.len()], vec![0.0; data.work_len()])
+    } else {
+        (sum(&columns), sum(&raw.columns))
+    };
+    let residual: Vec<f64> = data
+        .target
+        .iter()
+        .zip(&prediction)
+        .map(|(y, p)| y - p)
+        .collect();
+    let rmse = Segments::of(data, &residual);
+    let on_bound = free
+        .iter()
+        .zip(&values)
+        .map(|(f, &v)| f.range.at_bound(f.range.encode(v)))
+        .collect();
+    let mut fitted = structure.clone();
+    for (f, &v) in free.iter().zip(&values) {
+        match f.role {
+            Role::Shape { term, index } => {
+                fitted.terms[term].effect = fitted.terms[term].effect.with_shape(index, v).ok()?
+            }
+            Role::Origin { term } => fitted.terms[term].origin = v,
+            Role::Start { term } => fitted.terms[term].start = v,
+            _ => {}
+        }
+    }
+    Some(Solution {
+        structure: fitted,
+        free: free.to_vec(),
+        values,
+        gains,
+        columns,
+        tangents,
+        prediction,
+        unfiltered,
+        eta: raw.eta,
+        residual,
+        rmse,
+        on_bound,
+    })
+}
+
+/// Among optima within 5 % the best on the stop-check; two shapes on bounds are refused
+/// while anything else is left.
+pub(super) fn choose(mut settled: Vec<Solution>) -> Option<Solution> {
+    if settled.iter().any(|s| s.shapes_on_bound() < 2) {
+        settled.retain(|s| s.shapes_on_bound() < 2);
+    }
+    let best = settled.first()?.rmse.fit;
+    settled
+        .into_iter()
+        .filter(|s| s.rmse.fit <= 1.05 * best)
+        .min_by(|a, b| a.rmse.stop.total_cmp(&b.rmse.stop))
+}
