@@ -3,7 +3,7 @@
 use super::effect::{build, reads_load, usual_channel, Extent, Regressor};
 use super::recipe::{refuse, Mode, Planted, Recipe, RecipeError};
 use super::rig::{Channel, Moment, Rig};
-use super::{effects, PlantedTruth};
+use super::{effects, outsiders, PlantedTruth};
 use rand_chacha::ChaCha8Rng;
 
 /// One planted effect while the record is being made.
@@ -26,7 +26,7 @@ impl Running {
         rng: &mut ChaCha8Rng,
     ) -> Result<Self, RecipeError> {
         let (name, mode) = (planted.effect.as_str(), recipe.mode);
-        if !effects(mode).contains(&name) {
+        if !effects(mode).contains(&name) && !outsiders().contains(&name) {
             return refuse(format!(
                 "effect `{name}`: one of {} was expected",
                 effects(mode).join(", ")

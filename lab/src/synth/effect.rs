@@ -4,7 +4,7 @@ use super::excitation::Motion;
 use super::recipe::{Mode, Recipe};
 use super::rig::{Channel, Moment, Rig};
 use super::sensor::spread;
-use super::{friction, memory, shape};
+use super::{friction, memory, outside, shape};
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 
@@ -67,6 +67,9 @@ pub(super) fn usual_channel(effect: &str, mode: Mode) -> Option<Channel> {
     match (effect, mode) {
         ("offset" | "drift" | "pretension" | "tone" | "delay" | "lag", _) => None,
         ("asymmetry-eta" | "asymmetry-eta-squared" | "degradation" | "pinching", _) => None,
+        ("reversal-spike", _) => None,
+        ("bump-load", Mode::Displacement) => Some(Channel::Load),
+        ("bump-load", Mode::Torque) => Some(Channel::Input),
         ("temperature", _) => Some(Channel::Temperature),
         ("crosstalk", _) => Some(Channel::Auxiliary),
         ("gain", Mode::Displacement) => Some(Channel::Load),
@@ -193,4 +196,5 @@ pub(super) fn build(
     friction::build(effect, extent, rng)
         .or_else(|| shape::build(effect, extent, rng))
         .or_else(|| memory::build(effect, extent, input, rng))
+        .or_else(|| outside::build(effect, extent, input, rng))
 }

@@ -34,6 +34,7 @@ mod excitation;
 mod friction;
 mod hysteresis;
 mod memory;
+mod outside;
 mod plant;
 mod recipe;
 mod rig;
@@ -42,6 +43,7 @@ mod shape;
 mod stage;
 
 pub use effect::effects;
+pub use outside::outsiders;
 pub use plant::generate;
 pub use recipe::{Base, Mode, Planted, Recipe, RecipeError};
 

@@ -1,0 +1,145 @@
+//! One planted record through the loop and through the two usual criteria.
+
+use crate::criteria::{self, Chosen};
+use bowden::effect::{Family, CATALOGUE};
+use bowden_lab::catalogue::candidates;
+use bowden_lab::channels::{Preparation, Prepared};
+use bowden_lab::closing::{close, structure};
+use bowden_lab::fit::Segments;
+use bowden_lab::record::{parse, Options};
+use bowden_lab::synth::{generate, Mode, Planted, Recipe};
+
+/// What one record gave.
+pub struct Outcome {
+    /// The family of each round and those of its rivals.
+    pub rounds: Vec<Vec<Family>>,
+    /// Held-out error of the last model over what the noise leaves.
+    pub reached: f64,
+    /// Columns of the catalogue that were tried.
+    pub columns: usize,
+    pub bic: Chosen,
+    pub err: Chosen,
+    /// For a reader who wants to see the single record.
+    pub line: String,
+}
+
+/// The family of an effect of the catalogue.
+pub fn family_of(effect: &str) -> Option<Family> {
+    CATALOGUE
+        .iter()
+        .find(|info| info.name == effect)
+        .map(|info| info.family)
+}
+
+/// A record of that kind with those effects at those strengths.
+pub fn recipe(mode: Mode, planted: &[(&str, f64)], colour: f64, seed: u64) -> Recipe {
+    let names = |words: &[&str]| {
+        planted
+            .iter()
+            .any(|(effect, _)| words.iter().any(|w| effect.contains(w)))
+    };
+    Recipe {
+        seed,
+        colour,
+        effects: planted
+            .iter()
+            .map(|&(effect, strength)| Planted {
+                strength,
+                ..Planted::new(effect)
+            })
+            .collect(),
+        load: mode == Mode::Displacement && names(&["load", "capstan", "drive"]),
+        ..Recipe::new(mode)
+    }
+}
+
+/// Generates, writes as CSV, reads and closes, as a user would.
+pub fn run(recipe: &Recipe) -> Outcome {
+    let made = generate(recipe).unwrap();
+    let mut options = Options::default();
+    if made.column("aux").is_some() {
+        options.channels.push(("aux".to_owned(), "aux".to_owned()));
+    }
+    let record = parse(made.to_csv().as_bytes(), "planted", &options).unwrap();
+    let data = Prepared::new(&record, Preparation::default()).unwrap();
+    let mut clean = record.clone();
+    clean.output.values.clone_from(&made.truth.output);
+    let preparation = Preparation {
+        cutoff: Some(data.cutoff),
+    };
+    let clean = Prepared::new(&clean, preparation).unwrap();
+    let noise: Vec<f64> = data
+        .target
+        .iter()
+        .zip(&clean.target)
+        .map(|(measured, clean)| measured - clean)
+        .collect();
+    let floor = Segments::of(&data, &noise).held_out;
+    let declared = structure(&["bouc-wen".to_owned()], &data).unwrap();
+    let ledger = close(&data, &declared, |_| ()).unwrap();
+    let tried = candidates(&data, &ledger.declared.structure, &ledger.declared.residual);
+    let library = criteria::Library::new(&data, &ledger.declared, &tried);
+    let rounds: Vec<Vec<Family>> = ledger
+        .rounds
+        .iter()
+        .map(|round| {
+            std::iter::once(round.candidate.family)
+                .chain(round.rivals.iter().map(|c| c.family))
+                .collect()
+        })
+        .collect();
+    let names: Vec<String> = ledger
+        .rounds
+        .iter()
+        .map(|round| {
+            let rivals: Vec<_> = round.rivals.iter().map(|c| c.term.effect.name()).collect();
+            format!("{}{rivals:?}", round.candidate.term.effect.name())
+        })
+        .collect();
+    let turned_down: Vec<String> = ledger
+        .rejected
+        .iter()
+        .map(|r| format!("{}:{:?}", r.candidate.term.effect.name(), r.gate))
+        .collect();
+    let planted: Vec<String> = recipe
+        .effects
+        .iter()
+        .map(|p| format!("{}*{:.2}", p.effect, p.strength))
+        .collect();
+    let reached = ledger.last().rmse.held_out / floor;
+    let before = ledger.declared.rmse.held_out / floor;
+    Outcome {
+        reached,
+        columns: tried.len(),
+        bic: library.bic(floor),
+        err: library.err(floor),
+        line: format!(
+            "{:?} {} colour {} planted {planted:?}: {before:.2} -> {reached:.2} ({:?}) {} | {}",
+            recipe.mode,
+            recipe.seed,
+            recipe.colour,
+            ledger.regime,
+            names.join(", "),
+            turned_down.join(" ")
+        ),
+        rounds,
+    }
+}
+
+impl Outcome {
+    /// How many of the planted families were named, or stand among the rivals of a name.
+    pub fn found(&self, planted: &[Family]) -> usize {
+        planted
+            .iter()
+            .filter(|f| self.rounds.iter().any(|round| round.contains(f)))
+            .count()
+    }
+
+    /// Rounds that name nothing that was planted, rivals included.
+    pub fn wrong(&self, planted: &[Family]) -> usize {
+        self.rounds
+            .iter()
+            .filter(|round| planted.iter().all(|f| !round.contains(f)))
+            .count()
+    }
+}
