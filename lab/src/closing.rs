@@ -1,11 +1,12 @@
 //! Closing the loop: fit, scan, add one effect, refit, compare, again.
 
-use crate::catalogue::{candidates, declared, simplicity, Candidate};
+use crate::attempt::{attempt, Accepted};
+use crate::catalogue::{declared, Candidate};
 use crate::channels::Prepared;
-use crate::fit::{fit, glance, Segments, Solution};
-use crate::scan::{blocks, scan, Finding, Regime, BLOCKS};
+use crate::fit::{fit, Segments, Solution};
+use crate::joint::{joint, superseded};
+use crate::scan::Regime;
 use crate::structure::Structure;
-use nalgebra::{DMatrix, DVector};
 
 /// At most this many effects are added.
 pub const MOST_ROUNDS: usize = 8;
@@ -24,6 +25,8 @@ pub enum Gate {
     StopCheck,
     /// The joint refit did not converge.
     Refit,
+    /// It had been added, but what was added later does its work as well.
+    Superseded,
 }
 
 impl Gate {
@@ -36,6 +39,7 @@ impl Gate {
             Self::Blocks => "not on enough blocks",
             Self::StopCheck => "worse on the stop-check",
             Self::Refit => "no fit",
+            Self::Superseded => "superseded by later ones",
         }
     }
 }
@@ -95,7 +99,8 @@ pub struct Ledger {
     pub rounds: Vec<Round>,
     /// What was turned down in the last scan of each round.
     pub rejected: Vec<Rejection>,
-    /// Whether the record had blocks enough for p-values, in the last scan.
+    /// Whether the record had blocks enough for p-values, in the last scan and wherever
+    /// an effect was added.
     pub regime: Regime,
     /// Correlation time of the last residual \[s\].
     pub correlation_time: f64,
@@ -157,157 +162,65 @@ pub fn close(
         correlation_time: 0.0,
     };
     while ledger.rounds.len() < MOST_ROUNDS {
+        let round = ledger.rounds.len() + 1;
         let now = ledger.last().clone();
-        progress(&format!("round {}: scanning", ledger.rounds.len() + 1));
-        let candidates = candidates(data, &now.structure, &now.residual);
-        let result = scan(data, &now, &candidates);
-        ledger.regime = result.regime;
-        ledger.correlation_time = result.correlation_time;
-        ledger.rejected = result
-            .dropped
-            .iter()
-            .map(|&(candidate, p)| Rejection {
-                candidate,
-                gate: Gate::P,
-                p: Some(p),
-            })
-            .collect();
-        let mut accepted = None;
-        for finding in &result.findings {
-            progress(&format!(
-                "round {}: trying {}",
-                ledger.rounds.len() + 1,
-                finding.candidate.term.effect.name()
-            ));
-            let Some(duel) = duel(data, &now, finding) else {
-                ledger.rejected.push(Rejection {
-                    candidate: finding.candidate,
-                    gate: Gate::Refit,
-                    p: finding.p,
-                });
-                continue;
-            };
-            // The whole set of starts is worth its time only where the quick one came near.
-            let near = duel.rest <= 1.0 - 0.5 * least_share(result.regime);
-            let tried = near
-                .then(|| fit(data, &duel.structure, Some(&now), duel.stage_gain))
-                .ok_or(Gate::Share);
-            let verdict = tried
-                .and_then(|new| new.ok_or(Gate::Refit))
-                .and_then(|new| {
-                    let better = judge(data, &now, &new, result.regime)?;
-                    Ok((new, better))
-                });
-            match verdict {
-                Ok((solution, blocks_better)) => {
-                    accepted = Some((finding.p, duel, solution, blocks_better));
-                    break;
-                }
-                Err(gate) => ledger.rejected.push(Rejection {
-                    candidate: duel.candidate,
-                    gate,
-                    p: finding.p,
-                }),
-            }
-        }
-        let Some((p, duel, solution, blocks_better)) = accepted else {
-            break;
-        };
-        let explained = 1.0 - solution.sse(data) / now.sse(data);
-        let grade = grade(
-            explained,
-            p,
-            &duel.rivals,
-            blocks_better,
-            ledger.rounds.len() + 1,
-        );
-        ledger.rounds.push(Round {
-            candidate: duel.candidate,
-            p,
-            rivals: duel.rivals,
-            grade,
-            explained,
-            blocks_better,
-            before: now.rmse,
-            after: solution.rmse,
-            solution,
+        let tried = attempt(data, &now, |what| {
+            progress(&format!("round {round}: {what}"))
         });
+        ledger.regime = tried.regime;
+        ledger.correlation_time = tried.correlation_time;
+        let accepted = match &tried.accepted {
+            Some(accepted) => vec![accepted.clone()],
+            None => {
+                progress(&format!("round {round}: trying several at once"));
+                joint(data, &now, &tried, MOST_ROUNDS - ledger.rounds.len())
+            }
+        };
+        ledger.rejected = tried.rejected;
+        if accepted.is_empty() {
+            break;
+        }
+        for one in accepted {
+            let round = add(data, ledger.last(), one, ledger.rounds.len() + 1);
+            ledger.rounds.push(round);
+        }
+    }
+    progress("looking for what later effects have made superfluous");
+    if let Some((kept, gone)) = superseded(data, &ledger) {
+        ledger.rounds.clear();
+        for one in kept {
+            let round = add(data, ledger.last(), one, ledger.rounds.len() + 1);
+            ledger.rounds.push(round);
+        }
+        ledger.rejected.extend(gone);
+    }
+    // A later scan may find blocks enough: that does not test what came in before.
+    if ledger.rounds.iter().any(|round| round.p.is_none()) {
+        ledger.regime = Regime::Effect;
     }
     Ok(ledger)
 }
 
-/// A rival removes at least this share of the squared error that the best removes ...
-const RIVAL_SHARE: f64 = 0.90;
-/// ... and leaves at most this many times what the best leaves. Where one effect is
-/// right, it leaves noise, and what only resembles it leaves many times that.
-const RIVAL_REST: f64 = 2.0;
-
-/// Who explains it best once its shapes and the hysteresis are refitted.
-struct Duel {
-    candidate: Candidate,
-    structure: Structure,
-    stage_gain: f64,
-    rivals: Vec<Candidate>,
-    /// Squared error that is left, as a share of that before.
-    rest: f64,
-}
-
-/// Refits every contender beside the present model; of those that do equally well the
-/// simplest is named and the others are its rivals.
-fn duel(data: &Prepared, now: &Solution, finding: &Finding) -> Option<Duel> {
-    use rayon::prelude::*;
-    let coarse = data.for_search(true);
-    let (before, ..) = glance(&coarse, &now.structure, now, 0.0)?;
-    let outcomes: Vec<Option<(f64, Structure, f64)>> = finding
-        .contenders
-        .par_iter()
-        .map(|(candidate, coefficient)| {
-            let mut structure = now.structure.clone();
-            structure.terms.push(candidate.term);
-            glance(&coarse, &structure, now, *coefficient)
-        })
-        .collect();
-    let fitted: Vec<(Candidate, f64, Structure, f64)> = finding
-        .contenders
-        .iter()
-        .zip(outcomes)
-        .filter_map(|((candidate, _), outcome)| {
-            outcome.map(|(sse, structure, gain)| (*candidate, sse, structure, gain))
-        })
-        .collect();
-    let best = fitted
-        .iter()
-        .map(|(_, sse, ..)| *sse)
-        .fold(f64::INFINITY, f64::min);
-    let as_good =
-        |sse: f64| before - sse >= RIVAL_SHARE * (before - best) && sse <= RIVAL_REST * best;
-    let mut equals: Vec<(Candidate, f64, Structure, f64)> = fitted
-        .into_iter()
-        .filter(|(_, sse, ..)| as_good(*sse))
-        .collect();
-    equals.sort_by(|a, b| {
-        simplicity(&a.0.term.effect)
-            .cmp(&simplicity(&b.0.term.effect))
-            .then(a.1.total_cmp(&b.1))
-    });
-    let mut equals = equals.into_iter();
-    let (candidate, sse, structure, stage_gain) = equals.next()?;
-    let mut rivals: Vec<Candidate> = Vec::new();
-    for (rival, ..) in equals {
-        let same = |other: &Candidate| {
-            (other.family, other.term.source) == (rival.family, rival.term.source)
-        };
-        if !same(&candidate) && !rivals.iter().any(same) {
-            rivals.push(rival);
-        }
-    }
-    Some(Duel {
+fn add(data: &Prepared, now: &Solution, accepted: Accepted, round: usize) -> Round {
+    let Accepted {
         candidate,
-        structure,
-        stage_gain,
+        p,
         rivals,
-        rest: sse / before,
-    })
+        blocks_better,
+        solution,
+    } = accepted;
+    let explained = 1.0 - solution.sse(data) / now.sse(data);
+    Round {
+        grade: grade(explained, p, &rivals, blocks_better, round),
+        candidate,
+        p,
+        rivals,
+        explained,
+        blocks_better,
+        before: now.rmse,
+        after: solution.rmse,
+        solution,
+    }
 }
 
 fn grade(
@@ -325,115 +238,4 @@ fn grade(
     } else {
         Grade::Weak
     }
-}
-
-/// Of the share that an effect removes on the fit segment, so much it has to remove on
-/// the stop-check.
-const CARRIED_OVER: f64 = 0.25;
-
-/// A share that searching a null has not been seen to reach.
-const LARGE: f64 = 0.3;
-
-/// Share of the squared error that an effect has to remove.
-fn least_share(regime: Regime) -> f64 {
-    match regime {
-        Regime::Blocks => 0.05,
-        Regime::Effect => 0.10,
-    }
-}
-
-/// The gates of a round; the number of blocks on which the new model is better.
-fn judge(data: &Prepared, old: &Solution, new: &Solution, regime: Regime) -> Result<usize, Gate> {
-    if new.sse(data) > (1.0 - least_share(regime)) * old.sse(data) {
-        return Err(Gate::Share);
-    }
-    let (before, after) = (left_out(data, old), left_out(data, new));
-    let ratios: Vec<f64> = before
-        .iter()
-        .zip(&after)
-        .map(|(b, a)| (b / a).ln())
-        .collect();
-    let better = ratios.iter().filter(|r| **r > 0.0).count();
-    let enough = match regime {
-        Regime::Blocks => {
-            let n = ratios.len() as f64;
-            let mean = ratios.iter().sum::<f64>() / n;
-            let variance = ratios.iter().map(|r| (r - mean).powi(2)).sum::<f64>() / (n - 1.0);
-            mean > (variance / n).sqrt() && better >= 10
-        }
-        Regime::Effect => better >= 9,
-    };
-    if !enough {
-        return Err(Gate::Blocks);
-    }
-    let holds = match regime {
-        // The stop-check is the only part that no search has seen: what is real shows
-        // there too. A mere "not worse" lets one coloured null in fifty through.
-        Regime::Blocks => {
-            let explained = 1.0 - new.sse(data) / old.sse(data);
-            let there = 1.0 - (new.rmse.stop / old.rmse.stop).powi(2);
-            // Where much is missing at once, one effect removed may uncover another just
-            // there; what no null reaches need only not be worse.
-            there >= CARRIED_OVER * explained
-                || (explained >= LARGE && new.rmse.stop <= 1.02 * old.rmse.stop)
-        }
-        Regime::Effect => new.rmse.stop <= 1.10 * old.rmse.stop,
-    };
-    if !holds {
-        return Err(Gate::StopCheck);
-    }
-    Ok(better)
-}
-
-/// Loss on each block with the gains fitted on the others, shapes frozen.
-fn left_out(data: &Prepared, solution: &Solution) -> Vec<f64> {
-    let rows = &data.split.fit;
-    let blocks = blocks(data);
-    let m = solution.columns.len();
-    let scale: Vec<f64> = solution
-        .columns
-        .iter()
-        .map(|c| {
-            rows.iter()
-                .map(|&i| c[i] * c[i])
-                .sum::<f64>()
-                .sqrt()
-                .max(1e-300)
-        })
-        .collect();
-    let parts: Vec<(DMatrix<f64>, DVector<f64>)> = blocks
-        .iter()
-        .map(|block| {
-            let rows = &rows[block.clone()];
-            let x = DMatrix::from_fn(rows.len(), m, |k, j| {
-                solution.columns[j][rows[k]] / scale[j]
-            });
-            let y = DVector::from_iterator(rows.len(), rows.iter().map(|&i| solution.residual[i]));
-            (x.tr_mul(&x), x.tr_mul(&y))
-        })
-        .collect();
-    // Gains move from their fitted values by what the residual asks for.
-    let mut losses = Vec::with_capacity(BLOCKS);
-    for (out, block) in blocks.iter().enumerate() {
-        let mut gram = DMatrix::zeros(m, m);
-        let mut score = DVector::zeros(m);
-        for (_, (g, s)) in parts.iter().enumerate().filter(|(b, _)| *b != out) {
-            gram += g;
-            score += s;
-        }
-        let change = nalgebra::SVD::new(gram, true, true)
-            .solve(&score, 1e-10)
-            .unwrap_or_else(|_| DVector::zeros(m));
-        let loss: f64 = rows[block.clone()]
-            .iter()
-            .map(|&i| {
-                let moved: f64 = (0..m)
-                    .map(|j| change[j] * solution.columns[j][i] / scale[j])
-                    .sum();
-                (solution.residual[i] - moved).powi(2)
-            })
-            .sum();
-        losses.push(loss.max(1e-300));
-    }
-    losses
 }

@@ -1,8 +1,10 @@
 //! Parameters with their confidence intervals.
 //!
-//! Block-cluster sandwich on the Jacobian of the final model (Liang and Zeger, 1986):
-//! residuals may have any colour inside a block. The sixteen blocks of the scan are the
-//! clusters, and Student's t with fifteen degrees of freedom gives the width.
+//! Block jackknife on the Jacobian of the final model: residuals may have any colour
+//! inside a block. The sixteen blocks of the scan are left out in turn, and Student's t
+//! with fifteen degrees of freedom gives the width. This is the cluster sandwich of Liang
+//! and Zeger (1986) with the correction for few clusters (CR3; Bell and McCaffrey, 2002):
+//! without it a block's residuals are too small, since the block itself was fitted.
 
 use crate::channels::Prepared;
 use crate::fit::Solution;
@@ -35,6 +37,10 @@ pub struct Parameter {
 /// Relative half-width above which a shape counts as not identified: its interval
 /// spans a factor of three.
 const SHAPE_WIDTH: f64 = 0.5;
+
+/// A parameter whose variance grows by more than this without one block is known from
+/// that block alone.
+const ALONE: f64 = 30.0;
 
 struct Entry<'a> {
     name: String,
@@ -214,27 +220,39 @@ fn half_widths(data: &Prepared, solution: &Solution, columns: &[&[f64]]) -> Vec<
     let x = DMatrix::from_fn(rows.len(), m, |k, j| {
         columns[used[j]][rows[k]] / scale[used[j]]
     });
-    let mut meat = DMatrix::zeros(m, m);
-    for block in blocks(data) {
-        let mut score = DVector::zeros(m);
-        for k in block {
-            score.axpy(solution.residual[rows[k]], &x.row(k).transpose(), 1.0);
-        }
-        meat += &score * score.transpose();
-    }
     let none = vec![None; columns.len()];
-    let Some(bread) = (x.tr_mul(&x)).cholesky().map(|c| c.inverse()) else {
+    let gram = x.tr_mul(&x);
+    let Some(bread) = gram.clone().cholesky().map(|c| c.inverse()) else {
         return none;
     };
-    let correction = BLOCKS as f64 / (BLOCKS as f64 - 1.0);
-    let covariance = &bread * meat * &bread * correction;
+    let mut variances = vec![0.0; m];
+    for block in blocks(data) {
+        let part = x.rows(block.start, block.len());
+        let residual =
+            DVector::from_iterator(block.len(), block.map(|k| solution.residual[rows[k]]));
+        let score = part.tr_mul(&residual);
+        // By how much each parameter would move without this block.
+        let rest = (&gram - part.tr_mul(&part)).cholesky().map(|c| c.inverse());
+        let plain = &bread * &score;
+        let moved = rest.as_ref().map(|rest| rest * &score);
+        for (j, variance) in variances.iter_mut().enumerate() {
+            // What hangs on this block alone (eta0 does) cannot be told without it: then
+            // the step is that of the whole fit.
+            let step = match (&rest, &moved) {
+                (Some(rest), Some(moved)) if rest[(j, j)] <= ALONE * bread[(j, j)] => moved[j],
+                _ => plain[j],
+            };
+            *variance += step * step;
+        }
+    }
+    let correction = (BLOCKS as f64 - 1.0) / BLOCKS as f64;
     let Ok(student) = StudentsT::new(0.0, 1.0, BLOCKS as f64 - 1.0) else {
         return none;
     };
     let quantile = student.inverse_cdf(0.975);
     let mut widths = none;
     for (a, &j) in used.iter().enumerate() {
-        let variance = covariance[(a, a)];
+        let variance = correction * variances[a];
         if variance.is_finite() && variance >= 0.0 && bread[(a, a)] < 1e10 {
             widths[j] = Some(quantile * variance.sqrt() / scale[j]);
         }

@@ -7,16 +7,20 @@
 //! regression is computed by the core crate, so that what is fitted here is what runs
 //! in firmware. [`compare`] puts controllers on the core's simulated rig. [`synth`] makes test records and shares no code with any of these.
 
+mod attempt;
 pub mod catalogue;
 pub mod channels;
 pub mod cli;
 pub mod closing;
 pub mod columns;
 pub mod compare;
+mod duel;
 pub mod export;
 pub mod filter;
 pub mod fit;
+mod gates;
 pub mod intervals;
+mod joint;
 pub mod record;
 pub mod report;
 pub mod scan;

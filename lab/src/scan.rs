@@ -10,10 +10,12 @@ use crate::catalogue::Candidate;
 use crate::channels::Prepared;
 use crate::columns::{effect_column, stage_column};
 use crate::fit::Solution;
+use bowden::effect::Family;
 use nalgebra::DVector;
 
-/// Number of blocks.
-pub const BLOCKS: usize = 16;
+mod blocks;
+pub use blocks::{blocks, correlation_samples, sign_flip_p, BLOCKS};
+
 /// A candidate with less of its squared norm left after projection is not excited.
 const EXCITED: f64 = 1e-4;
 /// Forward selection goes on while a candidate takes this share of the squared error.
@@ -65,35 +67,12 @@ pub struct Scan {
     pub dropped: Vec<(Candidate, f64)>,
     /// Correlation time of what the forward set leaves \[s\].
     pub correlation_time: f64,
-}
-
-/// Sixteen blocks of equal path length over the rows of the fit segment.
-///
-/// Each is a range of positions in `data.split.fit`.
-#[must_use]
-pub fn blocks(data: &Prepared) -> Vec<std::ops::Range<usize>> {
-    let rows = &data.split.fit;
-    let path = |k: usize| data.path[rows[k]];
-    let (first, total) = (path(0), path(rows.len() - 1) - path(0));
-    let mut ranges = Vec::with_capacity(BLOCKS);
-    let mut from = 0;
-    for block in 1..=BLOCKS {
-        let end = first + total * block as f64 / BLOCKS as f64;
-        // Every block keeps a few rows, also where the input rests.
-        let least = from + 2;
-        let most = rows.len() - 2 * (BLOCKS - block);
-        let mut to = if block == BLOCKS {
-            rows.len()
-        } else {
-            (from..rows.len())
-                .find(|&k| path(k) > end)
-                .unwrap_or(rows.len())
-        };
-        to = to.clamp(least.min(most), most);
-        ranges.push(from..to);
-        from = to;
-    }
-    ranges
+    /// Level of one test: what is left of the whole level for each family and channel.
+    pub level: f64,
+    /// What was chosen before any test, with the coefficient that each has by itself.
+    pub forward: Vec<(Candidate, f64)>,
+    /// Share of the squared error that the forward set takes at its trial shapes.
+    pub forward_share: f64,
 }
 
 /// Columns on the fit rows, orthogonal to all that the model can move.
@@ -274,55 +253,6 @@ impl Workspace {
     }
 }
 
-/// Share of all sign patterns whose sum is at least as far from zero as the real one.
-///
-/// Patterns are walked in Gray-code order: each differs from the last in one sign.
-#[must_use]
-pub fn sign_flip_p(scores: &[f64; BLOCKS]) -> f64 {
-    let observed = scores.iter().sum::<f64>().abs();
-    // Equal up to the rounding of a walk over 2^15 patterns.
-    let threshold = observed - 1e-9 * scores.iter().map(|s| s.abs()).sum::<f64>();
-    let mut sum: f64 = scores.iter().sum();
-    let mut signs = [1.0; BLOCKS];
-    let patterns = 1_u32 << (BLOCKS - 1);
-    let mut as_far = 1_u32;
-    for pattern in 1..patterns {
-        // The last block keeps its sign: a pattern and its negative have the same sum.
-        let flip = pattern.trailing_zeros() as usize;
-        signs[flip] = -signs[flip];
-        sum += 2.0 * signs[flip] * scores[flip];
-        if sum.abs() >= threshold {
-            as_far += 1;
-        }
-    }
-    f64::from(as_far) / f64::from(patterns)
-}
-
-/// Time after which the autocorrelation has fallen to 1/e, in samples.
-#[must_use]
-pub fn correlation_samples(residual: &[f64]) -> f64 {
-    let n = residual.len();
-    let mean = residual.iter().sum::<f64>() / n.max(1) as f64;
-    let correlation = |lag: usize| -> f64 {
-        (lag..n)
-            .map(|i| (residual[i] - mean) * (residual[i - lag] - mean))
-            .sum()
-    };
-    let zero = correlation(0);
-    if zero.is_nan() || zero <= 0.0 {
-        return 1.0;
-    }
-    let mut last = 1.0;
-    for lag in 1..n / 2 {
-        let now = correlation(lag) / zero;
-        if now <= (-1.0_f64).exp() {
-            return lag as f64 - 1.0 + (last - (-1.0_f64).exp()) / (last - now);
-        }
-        last = now;
-    }
-    n as f64 / 2.0
-}
-
 /// The best candidate of each family and channel, tested by itself.
 fn alone(
     space: &Workspace,
@@ -365,6 +295,54 @@ fn alone(
         .unzip()
 }
 
+/// Periods over the range of motion up to which a ripple may be but a bent line.
+const FEW_PERIODS: f64 = 5.0;
+
+/// A ripple of few periods contends with every curve of the same position, however
+/// little that curve does at its trial shape: its bends move when it is refitted.
+fn lines(
+    data: &Prepared,
+    space: &Workspace,
+    candidates: &[Candidate],
+    j: usize,
+    named: &[(Candidate, f64)],
+) -> Vec<(Candidate, f64)> {
+    let ripple = candidates[space.kept[j]].term;
+    let range = 2.0 * data.channel(ripple.source).map_or(0.0, |c| c.reach);
+    let periods = ripple.effect.shape(0).unwrap_or(0.0) * range / (2.0 * std::f64::consts::PI);
+    if ripple.effect.family() != Family::Ripple || periods > FEW_PERIODS {
+        return Vec::new();
+    }
+    let mut best: Vec<(f64, Candidate, f64)> = Vec::new();
+    for k in 0..space.columns.len() {
+        let candidate = candidates[space.kept[k]];
+        let name = candidate.term.effect.name();
+        let curve = matches!(candidate.family, Family::Stiffness | Family::Saturation)
+            || name == "dead-zone";
+        let known = named
+            .iter()
+            .any(|(c, _)| c.term.effect.name() == name && c.term.source == candidate.term.source);
+        if !curve || known || candidate.term.source != ripple.source {
+            continue;
+        }
+        let (_, score, norm) = space.partial(k, &[], &space.residual);
+        let entry = (
+            score * score / norm,
+            candidate,
+            score / norm / space.norms[k],
+        );
+        match best
+            .iter_mut()
+            .find(|(_, c, _)| c.term.effect.name() == name)
+        {
+            Some(slot) if slot.0 < entry.0 => *slot = entry,
+            Some(_) => {}
+            None => best.push(entry),
+        }
+    }
+    best.into_iter().map(|(_, c, gain)| (c, gain)).collect()
+}
+
 /// One pass over all candidates.
 #[must_use]
 pub fn scan(data: &Prepared, solution: &Solution, candidates: &[Candidate]) -> Scan {
@@ -385,6 +363,14 @@ pub fn scan(data: &Prepared, solution: &Solution, candidates: &[Candidate]) -> S
     } else {
         Regime::Effect
     };
+    let forward: Vec<(Candidate, f64)> = set
+        .iter()
+        .map(|&j| {
+            let (_, score, norm) = space.partial(j, &[], &space.residual);
+            (of(j), score / norm / space.norms[j])
+        })
+        .collect();
+    let forward_share = 1.0 - rest.norm_squared() / space.residual.norm_squared();
 
     let tests = {
         let mut families: Vec<_> = candidates.iter().map(|c| c.family).collect();
@@ -469,6 +455,7 @@ pub fn scan(data: &Prepared, solution: &Solution, candidates: &[Candidate]) -> S
                 named.push((candidate, coefficient));
             }
         }
+        named.extend(lines(data, &space, candidates, j, &named));
         // One at a time: first the one that takes most when it comes alone.
         findings.push((
             alone_gain,
@@ -486,6 +473,9 @@ pub fn scan(data: &Prepared, solution: &Solution, candidates: &[Candidate]) -> S
         findings: findings.into_iter().map(|(_, f)| f).collect(),
         dropped,
         correlation_time: correlation * step,
+        level: LEVEL / tests,
+        forward,
+        forward_share,
     }
 }
 

@@ -13,9 +13,10 @@ mod starts;
 use crate::channels::Prepared;
 pub use crate::solution::{Segments, Solution};
 use crate::structure::{Role, Structure};
-use search::descend;
+use search::{descend, descend_fully};
 use settle::{choose, settle};
 use starts::starts;
+pub use starts::Known;
 
 /// Fits a structure: all starts for a while on a coarse grid, the best three to the end.
 ///
@@ -26,6 +27,17 @@ pub fn fit(
     data: &Prepared,
     structure: &Structure,
     from: Option<&Solution>,
+    stage_gain: f64,
+) -> Option<Solution> {
+    fit_from(data, structure, from.map(Known::of).as_ref(), stage_gain)
+}
+
+/// As [`fit`], from values that need not be those of a whole solution.
+#[must_use]
+pub fn fit_from(
+    data: &Prepared,
+    structure: &Structure,
+    from: Option<&Known>,
     stage_gain: f64,
 ) -> Option<Solution> {
     use rayon::prelude::*;
@@ -51,7 +63,10 @@ pub fn fit(
     };
     let rough = run(&coarse, &starts, 12, 1e-3, 3);
     let better = run(&coarse, &rough, 70, 1e-6, 3);
-    let best = run(&fine, &better, 30, 1e-7, 3);
+    let best: Vec<Vec<f64>> = better
+        .par_iter()
+        .filter_map(|start| descend_fully(&fine, structure, &free, start))
+        .collect();
     let settled: Vec<Option<Solution>> = best
         .into_par_iter()
         .map(|values| settle(data, structure, &free, values))
@@ -68,6 +83,17 @@ pub fn glance(
     data: &Prepared,
     structure: &Structure,
     from: &Solution,
+    stage_gain: f64,
+) -> Option<(f64, Structure, f64)> {
+    glance_from(data, structure, &Known::of(from), stage_gain)
+}
+
+/// As [`glance`], from values that need not be those of a whole solution.
+#[must_use]
+pub fn glance_from(
+    data: &Prepared,
+    structure: &Structure,
+    from: &Known,
     stage_gain: f64,
 ) -> Option<(f64, Structure, f64)> {
     let free = structure.free(data);

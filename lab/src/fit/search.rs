@@ -76,7 +76,10 @@ impl<'a> Reduced<'a> {
     fn new(data: &'a Prepared, structure: &'a Structure, free: &'a [Free], start: &[f64]) -> Self {
         let line = DVector::from_iterator(
             free.len(),
-            free.iter().zip(start).map(|(f, &v)| f.range.encode(v)),
+            free.iter().zip(start).map(|(f, &v)| match f.range {
+                Range::Free => v,
+                range => range.encode(v).clamp(-START, START),
+            }),
         );
         let mut problem = Self {
             data,
@@ -148,6 +151,14 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Reduced<'_> {
     }
 }
 
+/// A search that gains less than this share of the squared error was the last.
+const GAINED: f64 = 0.01;
+/// At most so many searches after the first.
+const AGAIN: usize = 6;
+/// How far out on the line a bounded parameter may start: beyond this the map is so flat
+/// that a search would take the parameter for one without influence.
+const START: f64 = 5.0;
+
 /// Searches from one start with about `most` evaluations; the sum of squares and the
 /// values reached.
 pub(super) fn descend(
@@ -173,4 +184,26 @@ pub(super) fn descend(
     let (problem, _) = solver.minimize(problem);
     let sse = problem.now.as_ref()?.residual.norm_squared();
     Some((sse, problem.values()))
+}
+
+/// Searches again from where the last search stopped until that gains nothing more: a
+/// search may stop because its trust region has shrunk, and not at an optimum.
+pub(super) fn descend_fully(
+    data: &Prepared,
+    structure: &Structure,
+    free: &[Free],
+    start: &[f64],
+) -> Option<Vec<f64>> {
+    let (mut sse, mut values) = descend(data, structure, free, start, 30, 1e-7)?;
+    for _ in 0..AGAIN {
+        let (less, better) = descend(data, structure, free, &values, 30, 1e-7)?;
+        let gained = 1.0 - less / sse;
+        if less < sse {
+            (sse, values) = (less, better);
+        }
+        if gained.is_nan() || gained < GAINED {
+            break;
+        }
+    }
+    Some(values)
 }

@@ -4,12 +4,62 @@ use super::Solution;
 use crate::channels::Prepared;
 use crate::structure::{Free, Range, Role, Structure};
 
+/// Where an earlier fit ended: the values of its free parameters.
+#[derive(Debug, Clone)]
+pub struct Known(Vec<(Role, f64)>);
+
+impl Known {
+    /// The values of a solution.
+    #[must_use]
+    pub fn of(solution: &Solution) -> Self {
+        let roles = solution.free.iter().map(|f| f.role);
+        Self(roles.zip(solution.values.iter().copied()).collect())
+    }
+
+    /// The gain from which an output stage is to start.
+    pub fn set_stage(&mut self, term: usize, gain: f64) {
+        self.0.push((Role::Stage { term }, gain));
+    }
+
+    /// The values of what is left when a term is taken out.
+    #[must_use]
+    pub fn without(&self, gone: usize) -> Self {
+        let renamed = |role: Role| -> Option<Role> {
+            let moved = |term: usize| match term.cmp(&gone) {
+                std::cmp::Ordering::Less => Some(term),
+                std::cmp::Ordering::Equal => None,
+                std::cmp::Ordering::Greater => Some(term - 1),
+            };
+            Some(match role {
+                Role::Shape { term, index } => Role::Shape {
+                    term: moved(term)?,
+                    index,
+                },
+                Role::Origin { term } => Role::Origin { term: moved(term)? },
+                Role::Start { term } => Role::Start { term: moved(term)? },
+                Role::Stage { term } => Role::Stage { term: moved(term)? },
+                own => own,
+            })
+        };
+        let kept = self.0.iter().filter_map(|&(r, v)| Some((renamed(r)?, v)));
+        Self(kept.collect())
+    }
+
+    fn value(&self, role: Role) -> Option<f64> {
+        self.0.iter().find(|(r, _)| *r == role).map(|(_, v)| *v)
+    }
+}
+
+/// The hysteresis state at the start is searched from inside its range: on the end of it
+/// the map is flat, and a search from there never gets away.
+const INSIDE: f64 = 0.9;
+
 /// Eight deterministic starts, and the present optimum where there is one.
 pub(super) fn starts(
     data: &Prepared,
     structure: &Structure,
     free: &[Free],
-    from: Option<&Solution>,
+    from: Option<&Known>,
     stage_gain: f64,
 ) -> Vec<Vec<f64>> {
     let x = data.input.reach;
@@ -31,13 +81,8 @@ pub(super) fn starts(
                 (Role::Rho, Some((rho, ..))) => rho / x,
                 (Role::Sigma, Some((_, sigma, _))) => sigma,
                 (Role::N, Some((.., n))) => n,
-                (Role::Eta0, Some(_)) => present(Role::Eta0).unwrap_or(0.0),
-                (Role::Stage { term }, _) => {
-                    let known = from
-                        .filter(|s| term < s.structure.terms.len())
-                        .and_then(|s| s.value(f.role));
-                    known.unwrap_or(stage_gain)
-                }
+                (Role::Eta0, Some(_)) => present(Role::Eta0).unwrap_or(0.0).clamp(-INSIDE, INSIDE),
+                (Role::Stage { .. }, _) => present(f.role).unwrap_or(stage_gain),
                 (Role::Shape { term, index }, _) => {
                     structure.terms[term].effect.shape(index).unwrap_or(0.0)
                 }
