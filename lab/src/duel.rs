@@ -13,9 +13,9 @@ const RIVAL_SHARE: f64 = 0.90;
 const RIVAL_REST: f64 = 2.0;
 
 /// Where the best comes down to the noise, the simplest of the equals is named that leaves
-/// at most this many times what the best leaves: on a few hundred independent values more
-/// is no chance.
-const NAMED_REST: f64 = 1.2;
+/// at most this many times what the best leaves: two hundred independent values make the
+/// best then e^9.5 times likelier.
+const NAMED_REST: f64 = 1.1;
 /// Error that counts as noise, in units of the estimated floor.
 const AT_NOISE: f64 = 1.2;
 

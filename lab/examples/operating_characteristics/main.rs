@@ -302,10 +302,13 @@ fn intervals(wanted: &Wanted) {
     }
 }
 
+/// A cell's name, and what prints it.
+type Part = (&'static str, fn(&Wanted));
+
 fn main() {
     let wanted = Wanted::read();
     let started = std::time::Instant::now();
-    let parts: [(&str, fn(&Wanted)); 5] = [
+    let parts: [Part; 5] = [
         ("nulls", nulls),
         ("single", single),
         ("three", three),
