@@ -5,7 +5,7 @@ use bowden::effect::{Family, CATALOGUE};
 use bowden_lab::catalogue::candidates;
 use bowden_lab::channels::{Preparation, Prepared};
 use bowden_lab::closing::{close, structure};
-use bowden_lab::fit::Segments;
+use bowden_lab::fit::{fit, Segments};
 use bowden_lab::record::{parse, Options};
 use bowden_lab::synth::{generate, Mode, Planted, Recipe};
 
@@ -15,6 +15,8 @@ pub struct Outcome {
     pub rounds: Vec<Vec<Family>>,
     /// Held-out error of the last model over what the noise leaves.
     pub reached: f64,
+    /// The same of a fit that was told of the planted effects, where they can be declared.
+    pub told: Option<f64>,
     /// Columns of the catalogue that were tried.
     pub columns: usize,
     pub bic: Chosen,
@@ -108,8 +110,18 @@ pub fn run(recipe: &Recipe) -> Outcome {
         .collect();
     let reached = ledger.last().rmse.held_out / floor;
     let before = ledger.declared.rmse.held_out / floor;
+    let mut list = vec!["bouc-wen".to_owned()];
+    list.extend(made.truth.effects.iter().map(|e| match e.channel {
+        Some(channel) => format!("{}@{channel}", e.effect),
+        None => e.effect.clone(),
+    }));
+    let told = structure(&list, &data)
+        .ok()
+        .and_then(|told| fit(&data, &told, None, 0.0))
+        .map(|told| told.rmse.held_out / floor);
     Outcome {
         reached,
+        told,
         columns: tried.len(),
         bic: library.bic(floor),
         err: library.err(floor),
