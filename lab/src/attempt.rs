@@ -6,7 +6,7 @@ use crate::closing::{Gate, Rejection};
 use crate::duel::duel;
 use crate::fit::{fit, Solution};
 use crate::gates::{judge, Evidence};
-use crate::scan::{scan, Regime};
+use crate::scan::{scan, Finding, Regime};
 
 /// An effect that passed all gates, and the model with it.
 #[derive(Debug, Clone)]
@@ -57,44 +57,65 @@ pub(crate) fn attempt(data: &Prepared, now: &Solution, mut progress: impl FnMut(
         correlation_time: result.correlation_time,
         level: result.level,
     };
-    let near = 1.0 - 0.5 * evidence.least_share(data, 1);
-    for finding in &result.findings {
+    'findings: for finding in &result.findings {
         progress(&format!("trying {}", finding.candidate.term.effect.name()));
-        let Some(duel) = duel(data, now, finding) else {
-            attempt.rejected.push(Rejection {
-                candidate: finding.candidate,
-                gate: Gate::Refit,
-                p: finding.p,
-            });
-            continue;
-        };
-        // The whole set of starts is worth its time only where the quick one came near.
-        let fitted = (duel.rest <= near)
-            .then(|| fit(data, &duel.structure, Some(now), duel.stage_gain))
-            .ok_or(Gate::Share);
-        let verdict = fitted
-            .and_then(|new| new.ok_or(Gate::Refit))
-            .and_then(|new| {
-                let better = judge(data, now, &new, &evidence)?;
-                Ok((new, better))
-            });
-        match verdict {
-            Ok((solution, blocks_better)) => {
-                attempt.accepted = Some(Accepted {
-                    candidate: duel.candidate,
-                    p: finding.p,
-                    rivals: duel.rivals,
-                    blocks_better,
-                    solution,
-                });
-                break;
+        for finding in [Some(finding.clone()), by_itself(finding)]
+            .into_iter()
+            .flatten()
+        {
+            match passes(data, now, &finding, &evidence) {
+                Ok(accepted) => {
+                    attempt.accepted = Some(accepted);
+                    break 'findings;
+                }
+                Err(rejection) => {
+                    let own = rejection.candidate == finding.candidate;
+                    attempt.rejected.push(rejection);
+                    if own {
+                        break;
+                    }
+                }
             }
-            Err(gate) => attempt.rejected.push(Rejection {
-                candidate: duel.candidate,
-                gate,
-                p: finding.p,
-            }),
         }
     }
     attempt
+}
+
+/// The finding without those that contend with it, where there are such: who fits better
+/// than it may be turned down where it stands.
+fn by_itself(finding: &Finding) -> Option<Finding> {
+    let mut own = finding.clone();
+    own.contenders.truncate(1);
+    (finding.contenders.len() > 1).then_some(own)
+}
+
+/// Puts who explains a finding best through the gates.
+fn passes(
+    data: &Prepared,
+    now: &Solution,
+    finding: &Finding,
+    evidence: &Evidence,
+) -> Result<Accepted, Rejection> {
+    let rejected = |candidate: Candidate, gate: Gate| Rejection {
+        candidate,
+        gate,
+        p: finding.p,
+    };
+    let duel = duel(data, now, finding).ok_or(rejected(finding.candidate, Gate::Refit))?;
+    // The whole set of starts is worth its time only where the quick one came near.
+    let near = 1.0 - 0.5 * evidence.least_share(data, 1);
+    if duel.rest > near {
+        return Err(rejected(duel.candidate, Gate::Share));
+    }
+    let solution = fit(data, &duel.structure, Some(now), duel.stage_gain)
+        .ok_or(rejected(duel.candidate, Gate::Refit))?;
+    let blocks_better =
+        judge(data, now, &solution, evidence).map_err(|gate| rejected(duel.candidate, gate))?;
+    Ok(Accepted {
+        candidate: duel.candidate,
+        p: finding.p,
+        rivals: duel.rivals,
+        blocks_better,
+        solution,
+    })
 }
