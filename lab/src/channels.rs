@@ -414,6 +414,23 @@ impl Prepared {
         }
     }
 
+    /// The output behind the smoother, on the work grid.
+    #[must_use]
+    pub fn output(&self) -> &[f64] {
+        &self.output
+    }
+
+    /// The same record with another output, given on the work grid.
+    #[must_use]
+    pub fn with_output(&self, output: Vec<f64>) -> Self {
+        Self {
+            target: self.filtered(&output),
+            target_raw: output.iter().step_by(self.stride).copied().collect(),
+            output,
+            ..self.clone()
+        }
+    }
+
     /// Samples on the work grid.
     #[must_use]
     pub fn work_len(&self) -> usize {

@@ -68,7 +68,7 @@ pub fn term_name(data: &Prepared, term: &FitTerm) -> String {
 }
 
 /// Unit of a term's gain.
-fn gain_unit(data: &Prepared, term: &FitTerm) -> Option<String> {
+pub(crate) fn gain_unit(data: &Prepared, term: &FitTerm) -> Option<String> {
     let d = term.effect.dimension();
     let channel = data.channel(term.source).and_then(|c| c.unit.as_deref());
     let load = match data.load {
@@ -84,7 +84,7 @@ fn gain_unit(data: &Prepared, term: &FitTerm) -> Option<String> {
         .text()
 }
 
-fn shape_unit(data: &Prepared, term: &FitTerm, index: usize) -> Option<String> {
+pub(crate) fn shape_unit(data: &Prepared, term: &FitTerm, index: usize) -> Option<String> {
     let d = term.effect.shape_info().get(index)?.dimension;
     let channel = data.channel(term.source).and_then(|c| c.unit.as_deref());
     Unit::one()

@@ -5,7 +5,9 @@
 //! [`fit`] (variable projection), [`scan`] (which effect is missing?), [`closing`] (the
 //! loop and its ledger), [`verdict`], [`report`] and [`export`]. Every column of the
 //! regression is computed by the core crate, so that what is fitted here is what runs
-//! in firmware. [`compare`] puts controllers on the core's simulated rig. [`synth`] makes test records and shares no code with any of these.
+//! in firmware. [`compare`] puts controllers on the core's simulated rig, [`power`] says
+//! what a run could have missed, [`plan`] which experiment would tell what this record
+//! cannot. [`synth`] makes test records and shares no code with any of these.
 
 mod attempt;
 pub mod catalogue;
@@ -21,6 +23,9 @@ pub mod fit;
 mod gates;
 pub mod intervals;
 mod joint;
+pub mod plan;
+pub mod power;
+mod projection;
 pub mod record;
 pub mod report;
 pub mod scan;

@@ -172,6 +172,7 @@ fn the_json_is_laid_out_as_documented() {
             "p",
             "explained",
             "confounded_with",
+            "experiment",
             "rmse_before",
             "rmse_after"
         ])

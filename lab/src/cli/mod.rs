@@ -3,6 +3,9 @@
 mod certify;
 mod close;
 mod compare;
+mod plan;
+mod power;
+mod reading;
 mod record;
 
 use clap::{Parser, Subcommand};
@@ -30,6 +33,10 @@ enum Command {
     Compare(compare::Compare),
     /// Print what can be promised of the tracking error, and what that rests on.
     Certify(certify::Certify),
+    /// Say how small an effect would have been found on a record.
+    Power(power::Power),
+    /// Plan the experiment that tells what a record cannot: its motion, as CSV.
+    Plan(plan::Plan),
     /// Write a generated record with an effect that is not declared, as CSV.
     Record(record::Record),
 }
@@ -44,6 +51,8 @@ pub fn run() -> Result<(), Failure> {
         Some(Command::Close(close)) => close.run(),
         Some(Command::Compare(compare)) => compare.run(),
         Some(Command::Certify(certify)) => certify.run(),
+        Some(Command::Power(power)) => power.run(),
+        Some(Command::Plan(plan)) => plan.run(),
         Some(Command::Record(record)) => record.run(),
     }
 }

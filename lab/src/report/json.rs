@@ -5,6 +5,7 @@ use crate::channels::Prepared;
 use crate::closing::{Gate, Grade, Ledger};
 use crate::fit::{Segments, Solution};
 use crate::intervals::{parameters, term_name, Parameter};
+use crate::plan::{separate, Experiment};
 use crate::record::Mode;
 use crate::scan::{Regime, BLOCKS};
 use crate::verdict::verdict;
@@ -62,6 +63,7 @@ struct RoundPart {
     p: Option<f64>,
     explained: f64,
     confounded_with: Vec<Rival>,
+    experiment: Option<Experiment>,
     rmse_before: Segments,
     rmse_after: Segments,
 }
@@ -160,6 +162,7 @@ impl Report {
                             channel: channel(data, r),
                         })
                         .collect(),
+                    experiment: separate(data, round),
                     rmse_before: round.before,
                     rmse_after: round.after,
                 }

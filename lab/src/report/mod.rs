@@ -3,7 +3,9 @@
 pub mod certificates;
 pub mod control;
 mod json;
+mod power;
 mod terminal;
 
 pub use json::{json, Report};
+pub use power::{power_json, power_text};
 pub use terminal::text;

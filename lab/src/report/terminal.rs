@@ -5,6 +5,7 @@ use crate::channels::Prepared;
 use crate::closing::{Grade, Ledger};
 use crate::fit::Segments;
 use crate::intervals::{parameters, term_name, Parameter};
+use crate::plan::separate;
 use crate::record::Mode;
 use crate::scan::{Regime, BLOCKS};
 use crate::verdict::{sentence, verdict, Verdict};
@@ -13,7 +14,7 @@ use comfy_table::{presets, CellAlignment, ContentArrangement, Table, TableCompon
 use std::fmt::Write as _;
 
 /// A number with as many digits as its interval bears.
-fn number(value: f64, half_width: Option<f64>) -> String {
+pub(super) fn number(value: f64, half_width: Option<f64>) -> String {
     let digits = match half_width {
         Some(w) if w > 0.0 && w.is_finite() => (1.0 - w.log10().floor()).clamp(0.0, 12.0) as usize,
         _ if value == 0.0 => 0,
@@ -64,7 +65,7 @@ fn cells(data: &Prepared, rmse: &Segments) -> [String; 4] {
     ]
 }
 
-fn table(header: &[&str], right: std::ops::Range<usize>) -> Table {
+pub(super) fn table(header: &[&str], right: std::ops::Range<usize>) -> Table {
     let mut table = Table::new();
     table
         .load_preset(presets::UTF8_HORIZONTAL_ONLY)
@@ -220,6 +221,13 @@ pub fn text(path: &str, data: &Prepared, ledger: &Ledger, chosen_cutoff: bool) -
     line!(out, "{rounds}\n");
     if !ledger.rounds.is_empty() {
         line!(out, "{added}\n");
+    }
+    for experiment in ledger.rounds.iter().filter_map(|r| separate(data, r)) {
+        line!(out, "to separate: {}", experiment.trajectory);
+        for aim in &experiment.aims {
+            line!(out, "  {}", aim.words());
+        }
+        line!(out, "");
     }
 
     let last = ledger.last();

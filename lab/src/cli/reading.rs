@@ -1,0 +1,111 @@
+//! What all commands have in common that read a record.
+
+use super::Failure;
+use crate::channels::{Preparation, Prepared};
+use crate::closing::structure;
+use crate::record::{Mode, Options};
+use crate::structure::Structure;
+use clap::{Args, ValueEnum};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::IsTerminal as _;
+use std::time::Duration;
+
+#[derive(Clone, Copy, ValueEnum)]
+pub enum ModeName {
+    Torque,
+    Displacement,
+}
+
+#[derive(Args, Default)]
+pub struct Reading {
+    /// Torque (tau_i to tau_o) or displacement (x to f); from the columns where silent.
+    #[arg(long, value_enum)]
+    pub mode: Option<ModeName>,
+    /// Column of the time [s]; `t` where it is not given.
+    #[arg(long, value_name = "COL")]
+    pub time: Option<String>,
+    /// Column of the input; `tau_i` or `x` where it is not given.
+    #[arg(long, value_name = "COL")]
+    pub input: Option<String>,
+    /// Column of the output; `tau_o` or `f` where it is not given.
+    #[arg(long, value_name = "COL")]
+    pub output: Option<String>,
+    /// A further channel: phi_p, phi_d (angles), temperature, load, or any other name.
+    #[arg(long, value_name = "NAME=COL")]
+    pub channel: Vec<String>,
+    /// The model that is declared: bouc-wen and any effects; NAME@CHANNEL reads a channel.
+    #[arg(long, value_delimiter = ',', value_name = "A,B,…")]
+    pub declare: Vec<String>,
+    /// Leave out the first seconds.
+    #[arg(long, value_name = "SECONDS")]
+    pub skip: Option<f64>,
+    /// Leave out what comes after this time.
+    #[arg(long, value_name = "SECONDS")]
+    pub until: Option<f64>,
+    /// Cut-off of the one filter [Hz]; from the input's spectrum where it is not given.
+    #[arg(long, value_name = "HZ")]
+    pub cutoff: Option<f64>,
+    /// Take time from the row number, at this rate.
+    #[arg(long, value_name = "HZ")]
+    pub rate: Option<f64>,
+}
+
+impl Reading {
+    pub fn options(&self) -> Result<Options, Failure> {
+        if let Some(cutoff) = self.cutoff {
+            if !(cutoff.is_finite() && cutoff > 0.0) {
+                return Err(format!(
+                    "--cutoff {cutoff}: a positive frequency in Hz was expected"
+                ));
+            }
+        }
+        let pair = |text: &String| {
+            text.split_once('=')
+                .map(|(name, column)| (name.to_owned(), column.to_owned()))
+                .ok_or_else(|| format!("--channel {text}: NAME=COL was expected"))
+        };
+        Ok(Options {
+            mode: self.mode.map(|m| match m {
+                ModeName::Torque => Mode::Torque,
+                ModeName::Displacement => Mode::Displacement,
+            }),
+            time: self.time.clone(),
+            input: self.input.clone(),
+            output: self.output.clone(),
+            channels: self.channel.iter().map(pair).collect::<Result<_, _>>()?,
+            skip: self.skip.unwrap_or(0.0),
+            until: self.until,
+            rate: self.rate,
+        })
+    }
+
+    /// A record on its grids, and the declared model.
+    pub fn prepare(
+        &self,
+        record: &crate::record::Record,
+    ) -> Result<(Prepared, Structure), Failure> {
+        let named = |message: String| format!("{}: {message}", record.path);
+        let cutoff = self.cutoff;
+        let data = Prepared::new(record, Preparation { cutoff }).map_err(named)?;
+        let list = if self.declare.is_empty() {
+            vec!["bouc-wen".to_owned()]
+        } else {
+            self.declare.clone()
+        };
+        let structure = structure(&list, &data).map_err(named)?;
+        Ok((data, structure))
+    }
+}
+
+/// A spinner on a terminal, nothing elsewhere.
+pub fn progress() -> ProgressBar {
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new_spinner();
+    if let Ok(style) = ProgressStyle::with_template("{spinner} {elapsed} {msg}") {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(Duration::from_millis(100));
+    bar
+}
