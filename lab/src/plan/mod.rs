@@ -53,9 +53,12 @@ pub struct Aim {
     pub correlation_now: f64,
     /// The same, expected of the experiment.
     pub correlation_then: f64,
-    /// Rms that a wrong name would leave in the experiment, in multiples of the present
-    /// residual's; of a parameter, how many times stronger it shows.
-    pub left: f64,
+    /// Rms that a wrong name leaves on the record, in multiples of the present error; of a
+    /// parameter, one.
+    pub left_now: f64,
+    /// The same, expected of the experiment; of a parameter, how many times as strongly it
+    /// shows.
+    pub left_then: f64,
 }
 
 /// What stays of a contribution once its rival has imitated what it can.
@@ -117,7 +120,7 @@ pub fn separate(data: &Prepared, round: &Round) -> Option<Experiment> {
     let here = model.on(data)?;
     let own = here.span.off(here.column(named)?);
     // A rival is as large as it must be to look like the named one on this record.
-    let rivals: Vec<(FitTerm, f64, f64)> = round
+    let rivals: Vec<(FitTerm, f64, Apart)> = round
         .rivals
         .iter()
         .filter_map(|rival| {
@@ -125,7 +128,7 @@ pub fn separate(data: &Prepared, round: &Round) -> Option<Experiment> {
             let column = here.span.off(here.column(&term)?);
             let size = gain * own.dot(&column) / column.norm_squared();
             let now = pair(&here, (named, gain), (&term, size))?;
-            size.is_finite().then_some((term, size, now.correlation))
+            size.is_finite().then_some((term, size, now))
         })
         .collect();
     let noise = round.after.fit.max(f64::MIN_POSITIVE);
@@ -143,9 +146,10 @@ pub fn separate(data: &Prepared, round: &Round) -> Option<Experiment> {
                 aims.push(Aim {
                     what: term_name(data, named),
                     rival: Some(term_name(data, term)),
-                    correlation_now: *now,
+                    correlation_now: now.correlation,
                     correlation_then: then.correlation,
-                    left: then.left / noise,
+                    left_now: now.left / noise,
+                    left_then: then.left / noise,
                 });
             }
             Some((worst, describe(data, &planned, &motion, aims)))
@@ -195,15 +199,16 @@ impl Aim {
     /// In words: "viscous from delay: correlation 0.98 → 0.41, …".
     #[must_use]
     pub fn words(&self) -> String {
-        let (now, then, left) = (self.correlation_now, self.correlation_then, self.left);
+        let Self { what, .. } = self;
+        let (now, then) = (self.correlation_now, self.correlation_then);
         match &self.rival {
             Some(rival) => format!(
-                "{} from {rival}: correlation {now:.3} → {then:.3}, a wrong name would leave {left:.1} times the present error",
-                self.what
+                "{what} from {rival}: a wrong name leaves {:.1} → {:.1} times the present error (projected correlation {now:.3} → {then:.3})",
+                self.left_now, self.left_then
             ),
             None => format!(
-                "{}: shows {left:.1} times as strongly, imitated by the others {now:.3} → {then:.3}",
-                self.what
+                "{what}: shows {:.1} times as strongly (share that others imitate {now:.3} → {then:.3})",
+                self.left_then
             ),
         }
     }

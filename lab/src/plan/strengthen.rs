@@ -71,7 +71,8 @@ pub fn strengthen(data: &Prepared, solution: &Solution) -> Option<Experiment> {
                     rival: None,
                     correlation_now: imitated,
                     correlation_then: left,
-                    left: then / now,
+                    left_now: 1.0,
+                    left_then: then / now,
                 });
             }
             (score >= WORTH.ln()).then(|| (score, describe(data, &planned, &motion, aims)))
