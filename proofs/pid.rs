@@ -1,4 +1,4 @@
-//! K1 of PI, PID and PIV.
+//! K1 and K10 of PI, PID and PIV.
 
 use super::any::{fallback, limits};
 use super::properties::control::pid_commands_within_its_limits;
@@ -111,4 +111,16 @@ fn pid_any_sample_back_calculation() {
 #[kani::proof]
 fn piv_any_sample() {
     any_sample(AntiWindup::Conditional, Damping::Velocity);
+}
+
+/// K10. Other settings take a running PID over: the command that is out stays, from which a
+/// slew rate goes on, the state stays valid, and only the integral moves.
+#[kani::proof]
+fn pid_take_over() {
+    let (pid, mut state) = (pid(AntiWindup::Conditional, rate()), state());
+    let before = state;
+    pid.take_over(&mut state);
+    kani::cover!(state.integral() != before.integral());
+    let kept = state.command().to_bits() == before.command().to_bits();
+    assert!(kept && state.rate() == before.rate() && state.is_valid());
 }

@@ -1,8 +1,9 @@
-//! K6, K7, K11: saturation, smooth sign, play.
+//! K6, K7, K10, K11: saturation, smooth sign, limits, play.
 
-use super::any::finite;
+use super::any::{finite, within};
+use super::properties::control::limits_are_kept;
 use super::properties::signal::*;
-use bowden::control::SmoothSign;
+use bowden::control::{Limits, SmoothSign};
 use bowden::signal::{Play, PlayState};
 
 /// K6. Clamping an estimate onto a box moves it towards any truth that the box holds.
@@ -29,6 +30,23 @@ fn smooth_sign_clamp_residue() {
     let x: f32 = kani::any();
     kani::cover!(x > 0.49 && x < 0.51);
     assert!(smooth_sign_leaves_at_most_its_residue(SmoothSign::Clamp, x));
+}
+
+/// K10. A command lies within the range, and within slew·dt of the one before wherever that
+/// lay in the range; so after a hand-over or a change of gains, too.
+///
+/// Assumes: any range, 1024 units/s, dt = 1/1024 s, commands within ±1000.
+#[kani::proof]
+fn slew_limit() {
+    let range = Limits::try_new(kani::any(), kani::any());
+    let limits = range.and_then(|range| range.with_slew(1024.0));
+    kani::assume(limits.is_ok());
+    if let Ok(limits) = limits {
+        let (last, wanted) = (within(-1000.0, 1000.0), within(-1000.0, 1000.0));
+        let dt = 1.0 / 1024.0;
+        kani::cover!(limits.contains(last) && limits.apply(last, wanted, dt) < wanted - 1.0);
+        assert!(limits_are_kept(&limits, last, wanted, dt));
+    }
 }
 
 /// K11. A play stays in the band around its input and moves only as far as it must; a bad

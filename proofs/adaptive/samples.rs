@@ -9,6 +9,7 @@ use super::super::{Adaptive, AdaptiveInput, AdaptiveTerms, Estimator, Form, Smoo
 use super::state::{input, law, state};
 use crate::proofs::properties::control::adaptive_commands_within_its_limits;
 use crate::proofs::stubs;
+use crate::signal::{Derivative, DerivativeState};
 use crate::Real;
 
 /// What `estimate_in_its_box` proves of an update, and no more.
@@ -33,6 +34,23 @@ pub(super) fn any_virtual_command<T: Real, const N: usize>(
     _: &AdaptiveInput<T, N>,
 ) -> T {
     T::of(kani::any())
+}
+
+/// Any rate and any memory of it, NaN included.
+fn any_rate<T: Real>(_: &Derivative<T>, state: &mut DerivativeState<T>, _: T, _: T) -> T {
+    *state = DerivativeState::at(T::of(kani::any()), T::of(kani::any()));
+    state.rate()
+}
+
+/// What `a_bad_rate_shows` proves of the literal form's virtual command, and no more.
+fn any_command_of_a_rate<T: Real, const N: usize>(
+    _: &Adaptive<T, N>,
+    terms: &AdaptiveTerms<T, N>,
+    _: &AdaptiveInput<T, N>,
+) -> T {
+    let command = T::of(kani::any());
+    kani::assume(!command.is_finite() || terms.error_rate.is_finite());
+    command
 }
 
 fn any_sample<const N: usize>(form: Form<f32>, smooth_sign: SmoothSign) {
@@ -61,4 +79,23 @@ fn lag_any_sample() {
         plant_gain: kani::any(),
     };
     any_sample::<2>(form, SmoothSign::Tanh);
+}
+
+/// K1. Literal form, two regressors: where the error's rate is not finite, the virtual
+/// command is not either, and the step refuses the sample.
+#[kani::proof]
+#[kani::unwind(3)]
+fn a_bad_rate_shows() {
+    let time_constant = kani::any();
+    let law = law::<2>(Form::Literal { time_constant }, SmoothSign::Clamp);
+    let state = state(&law);
+    let terms = AdaptiveTerms {
+        error_rate: kani::any(),
+        s: kani::any(),
+        smooth_sign: kani::any(),
+        ..AdaptiveTerms::at_rest(&state)
+    };
+    let command = law.virtual_command(&terms, &input());
+    kani::cover!(terms.error_rate.is_infinite());
+    assert!(terms.error_rate.is_finite() || !command.is_finite());
 }

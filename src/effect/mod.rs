@@ -13,6 +13,9 @@
 mod bounds;
 mod family;
 mod info;
+#[cfg(kani)]
+#[path = "../../proofs/effects.rs"]
+mod proofs;
 mod shaped;
 mod situation;
 mod sum;

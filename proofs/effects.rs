@@ -1,0 +1,134 @@
+//! K14: regressors are finite, and so are their memories, for any sample.
+//!
+//! `Effect::regressor` chooses the effect and calls `evaluate`; to call that spares the
+//! solver the other forty effects.
+
+use super::*;
+use crate::proofs::any::finite;
+use crate::proofs::stubs;
+
+/// All bit patterns.
+fn situation() -> Situation<f32> {
+    let motion = || Motion {
+        position: kani::any(),
+        velocity: kani::any(),
+        acceleration: kani::any(),
+    };
+    Situation {
+        dt: kani::any(),
+        time: kani::any(),
+        motion: motion(),
+        input: motion(),
+        load: kani::any(),
+        eta: kani::any(),
+        output: kani::any(),
+    }
+}
+
+/// No sample yet, or a memory of any finite numbers.
+fn state() -> EffectState<f32> {
+    let memory = [finite(), finite(), finite(), finite()];
+    EffectState {
+        memory: kani::any::<bool>().then_some(memory),
+    }
+}
+
+/// A tuple: to compare arrays is a loop for the solver.
+fn bits(state: &EffectState<f32>) -> Option<(u32, u32, u32, u32)> {
+    let bits = |[a, b, c, d]: [f32; 4]| (a.to_bits(), b.to_bits(), c.to_bits(), d.to_bits());
+    state.memory.map(bits)
+}
+
+fn remembers_finite_numbers(state: &EffectState<f32>) -> bool {
+    state
+        .memory
+        .is_none_or(|[a, b, c, d]| a.is_finite() && b.is_finite() && c.is_finite() && d.is_finite())
+}
+
+/// Whatever the sample, the regressor and the memory are finite; where a number that it
+/// reads is not, it is zero and the memory stays.
+fn any_sample<R: Regressor<f32>>(effect: Result<R, Error>) {
+    kani::assume(effect.is_ok());
+    if let Ok(effect) = effect {
+        let (mut state, at) = (state(), situation());
+        let before = bits(&state);
+        let value = evaluate(&effect, &mut state, &at);
+        kani::cover!(before.is_some() && before != bits(&state));
+        assert!(value.is_finite() && remembers_finite_numbers(&state));
+        assert!(at.is_usable(R::INFO.reads) || (value == 0.0 && before == bits(&state)));
+    }
+}
+
+/// An effect that reads everything and whose formula gives any float.
+struct Anything;
+
+impl Regressor<f32> for Anything {
+    const INFO: &'static Info = &Info {
+        reads: &[
+            Quantity::Dt,
+            Quantity::Time,
+            Quantity::Position,
+            Quantity::Velocity,
+            Quantity::Acceleration,
+            Quantity::Input,
+            Quantity::Load,
+            Quantity::Eta,
+            Quantity::Output,
+        ],
+        ..*<offset::Offset as Regressor<f32>>::INFO
+    };
+
+    fn value(&self, _: &mut EffectState<f32>, _: &Situation<f32>) -> f32 {
+        kani::any()
+    }
+}
+
+/// K14. A regressor without memory is finite for any sample, whatever its formula gives;
+/// where a number that it reads is not finite, it is zero.
+#[kani::proof]
+#[kani::unwind(10)]
+fn any_formula_is_finite() {
+    let (mut state, at) = (state(), situation());
+    let value = evaluate(&Anything, &mut state, &at);
+    kani::cover!(value > 1.0);
+    assert!(value.is_finite());
+    assert!(at.is_usable(<Anything as Regressor<f32>>::INFO.reads) || value == 0.0);
+}
+
+/// K14. Backlash: its regressor and its memory are finite for any sample; a bad one moves
+/// neither.
+#[kani::proof]
+#[kani::unwind(10)]
+fn backlash_is_finite() {
+    any_sample(backlash::Backlash::try_new(kani::any()));
+}
+
+/// K14. The same of presliding.
+#[kani::proof]
+#[kani::unwind(10)]
+fn presliding_is_finite() {
+    any_sample(presliding::Presliding::try_new(kani::any()));
+}
+
+/// K14. The same of creep.
+#[kani::proof]
+#[kani::unwind(10)]
+#[kani::stub(libm::expm1f, stubs::expm1f)]
+fn creep_is_finite() {
+    any_sample(creep::Creep::try_new(kani::any()));
+}
+
+/// K14. The same of the lag.
+#[kani::proof]
+#[kani::unwind(10)]
+#[kani::stub(libm::expm1f, stubs::expm1f)]
+fn lag_effect_is_finite() {
+    any_sample(lag::Lag::try_new(kani::any()));
+}
+
+/// K14. The same of delay.
+#[kani::proof]
+#[kani::unwind(10)]
+fn delay_is_finite() {
+    any_sample(Ok(delay::Delay));
+}
