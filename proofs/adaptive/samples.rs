@@ -99,3 +99,18 @@ fn a_bad_rate_shows() {
     kani::cover!(terms.error_rate.is_infinite());
     assert!(terms.error_rate.is_finite() || !command.is_finite());
 }
+
+/// K1, K5. The literal form as the lag form above.
+///
+/// Assumes: nothing of gains, sample, valid state or filtered rate; the update of an
+/// estimate as proved by estimate_in_its_box, the virtual command as by a_bad_rate_shows.
+#[kani::proof]
+#[kani::unwind(3)]
+#[kani::stub(libm::tanhf, stubs::tanhf)]
+#[kani::stub(Derivative::step, any_rate)]
+#[kani::stub(Estimator::update, any_update)]
+#[kani::stub(Adaptive::virtual_command, any_command_of_a_rate)]
+fn literal_any_sample() {
+    let time_constant = kani::any();
+    any_sample::<2>(Form::Literal { time_constant }, SmoothSign::Tanh);
+}
