@@ -12,7 +12,7 @@
 //!    residual's colour and breaks its bond with the motion. The output is that behind the
 //!    smoother at 2.5 f_c, on the work grid; the filter at f_c follows as for the record.
 //! 3. A screen by linear theory finds where nine trials of ten pass the sign-flip test with
-//!    a twentieth of the squared error ([`screen`]).
+//!    a twentieth of the squared error (`screen`).
 //! 4. From there the amplitude goes up or down by the square root of two, and by the fourth
 //!    root at the end, and **every trial is closed as a whole**: fits, scan, duel, gates
 //!    and all rounds. The effect counts as found where its family is named in any round or
