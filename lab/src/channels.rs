@@ -10,12 +10,19 @@
 //! effects run (about 24 samples per period of f_c); the *estimation* grid, on which
 //! least squares runs (about 4 per period, since nothing above f_c is left). Starts are
 //! searched on a coarser work grid that ends with the fit segment.
+//!
+//! Several records of one rig lie behind each other on one set of grids
+//! ([`Prepared::joined`]). Whatever runs along time, a filter, the hysteresis, an effect
+//! with memory, begins anew with each of them.
 
 use crate::filter::{derivative, ZeroPhase};
-use crate::record::{Mode, Record};
-use crate::spectrum;
+use crate::record::Mode;
 use bowden::effect::Motion;
 use std::ops::Range;
+
+mod build;
+mod search;
+mod uniform;
 
 /// How the record is to be prepared.
 #[derive(Debug, Clone, Copy, Default)]
@@ -44,31 +51,17 @@ pub struct Channel {
 }
 
 impl Channel {
+    /// A channel on the work grid; `used` is what the fit may see of it.
     fn new(
         name: String,
         unit: Option<String>,
-        smoothed: &[f64],
-        stride: usize,
-        dt: f64,
-        used: &Range<usize>,
+        motion: Vec<Motion<f64>>,
+        used: &[Range<usize>],
     ) -> Self {
-        let velocity = derivative(smoothed, dt);
-        let acceleration = derivative(&velocity, dt);
-        let motion: Vec<_> = (0..smoothed.len())
-            .step_by(stride)
-            .map(|i| Motion {
-                position: smoothed[i],
-                velocity: velocity[i],
-                acceleration: acceleration[i],
-            })
-            .collect();
-        let inside = &motion[used.clone()];
-        let low = inside
-            .iter()
-            .map(|m| m.position)
-            .fold(f64::INFINITY, f64::min);
-        let high = inside
-            .iter()
+        let inside = || used.iter().flat_map(|range| &motion[range.clone()]);
+        let count = used.iter().map(ExactSizeIterator::len).sum::<usize>();
+        let low = inside().map(|m| m.position).fold(f64::INFINITY, f64::min);
+        let high = inside()
             .map(|m| m.position)
             .fold(f64::NEG_INFINITY, f64::max);
         let (middle, reach) = (0.5 * (low + high), 0.5 * (high - low));
@@ -78,9 +71,8 @@ impl Channel {
         } else {
             middle
         };
-        let speed = (inside.iter().map(|m| m.velocity * m.velocity).sum::<f64>()
-            / inside.len().max(1) as f64)
-            .sqrt();
+        let speed =
+            (inside().map(|m| m.velocity * m.velocity).sum::<f64>() / count.max(1) as f64).sqrt();
         Self {
             name,
             unit,
@@ -93,25 +85,71 @@ impl Channel {
     }
 }
 
-/// The trailing segments: fit and select, stop-check, held out.
+/// Position, velocity and acceleration of a smoothed signal on the work grid.
+fn motion(smoothed: &[f64], stride: usize, dt: f64) -> Vec<Motion<f64>> {
+    let velocity = derivative(smoothed, dt);
+    let acceleration = derivative(&velocity, dt);
+    (0..smoothed.len())
+        .step_by(stride)
+        .map(|i| Motion {
+            position: smoothed[i],
+            velocity: velocity[i],
+            acceleration: acceleration[i],
+        })
+        .collect()
+}
+
+/// What of several records is held out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum HeldOut {
+    /// The last quarter of each.
+    #[default]
+    Trailing,
+    /// The last record as a whole; of the others the last fifth is the stop-check.
+    LastRecord,
+}
+
+/// One record among those that are fitted together: where it lies on the grids.
 #[derive(Debug, Clone)]
+pub struct Piece {
+    /// Where it came from, as it is named in messages.
+    pub path: String,
+    /// Samples after cutting.
+    pub samples: usize,
+    /// Its own rate \[Hz\], after making time uniform.
+    pub rate: f64,
+    /// Its samples on the work grid.
+    pub work: Range<usize>,
+    /// Its samples on the estimation grid.
+    pub rows: Range<usize>,
+    /// What the records before it take together \[s\].
+    pub since: f64,
+    /// Whether the fit sees any of it.
+    pub fitted: bool,
+}
+
+/// The segments: fit and select, stop-check, held out. Trailing, but for a record that is
+/// held out as a whole.
+#[derive(Debug, Clone, Default)]
 pub struct Split {
-    /// The first 60 %: parameters are fitted and effects selected here.
+    /// The first 60 % (80 % where a whole record is held out): parameters are fitted and effects selected here.
     pub fit: Vec<usize>,
-    /// The next 15 %: a round must not make this worse.
+    /// The next 15 % (20 %): a round must not make this worse.
     pub stop: Vec<usize>,
-    /// The last 25 %: seen by nothing, only reported.
+    /// The last 25 %, or the last record: seen by nothing, only reported.
     pub held_out: Vec<usize>,
 }
 
-/// A record on its grids, ready to be fitted.
+/// A record, or several of one rig, on common grids, ready to be fitted.
 #[derive(Debug, Clone)]
 pub struct Prepared {
     /// Torque or displacement input.
     pub mode: Mode,
-    /// Samples of the record after cutting.
+    /// The records, in their order: at least one.
+    pub pieces: Vec<Piece>,
+    /// Samples after cutting, of all records.
     pub samples: usize,
-    /// Rate of the record \[Hz\], after making time uniform.
+    /// Rate \[Hz\], after making time uniform: that of the fastest record.
     pub rate: f64,
     /// Cut-off f_c \[Hz\].
     pub cutoff: f64,
@@ -146,274 +184,7 @@ pub struct Prepared {
     smoother: ZeroPhase,
 }
 
-/// Uniform time: the step, and the signals on it.
-struct Uniform {
-    dt: f64,
-    len: usize,
-    position: Option<Vec<(usize, f64)>>,
-    stretched: usize,
-}
-
-impl Uniform {
-    fn new(time: &[f64]) -> Result<Self, String> {
-        let mut steps: Vec<f64> = time.windows(2).map(|w| w[1] - w[0]).collect();
-        steps.sort_by(f64::total_cmp);
-        let median = steps[steps.len() / 2];
-        let span = time[time.len() - 1] - time[0];
-        // The mean of the steps that are no gaps.
-        let usual = steps.partition_point(|s| *s <= 3.0 * median);
-        let mean = steps[..usual].iter().sum::<f64>() / usual as f64;
-        // Nine digits: what is beyond them is the rounding of the sum.
-        let dt: f64 = format!("{mean:.9e}").parse().unwrap_or(mean);
-        let uneven = time
-            .iter()
-            .enumerate()
-            .any(|(i, t)| (t - time[0] - i as f64 * dt).abs() > 0.02 * dt);
-        if !uneven {
-            return Ok(Self {
-                dt,
-                len: time.len(),
-                position: None,
-                stretched: 0,
-            });
-        }
-        // Past this there is more gap than record, and the grid would not fit into memory.
-        if span / dt > 20.0 * time.len() as f64 {
-            return Err(format!(
-                "time spans {span:.6} s, but its usual step is {dt:.6} s: most of it is gap; cut it with --skip and --until"
-            ));
-        }
-        let len = (span / dt + 1e-6).floor() as usize + 1;
-        let mut position = Vec::with_capacity(len);
-        let mut left = 0;
-        for k in 0..len {
-            let t = time[0] + k as f64 * dt;
-            while left + 2 < time.len() && time[left + 1] <= t {
-                left += 1;
-            }
-            let fraction = ((t - time[left]) / (time[left + 1] - time[left])).clamp(0.0, 1.0);
-            position.push((left, fraction));
-        }
-        let stretched = time.windows(2).filter(|w| w[1] - w[0] > 1.5 * dt).count();
-        Ok(Self {
-            dt,
-            len,
-            position: Some(position),
-            stretched,
-        })
-    }
-
-    /// Gaps longer than half a period of the cut-off: they hide motion that matters.
-    fn gaps(&self, time: &[f64], cutoff: f64) -> Vec<Range<usize>> {
-        let longest = (5.0 * self.dt).max(0.5 / cutoff);
-        let index = |t: f64| ((t - time[0]) / self.dt).round() as usize;
-        time.windows(2)
-            .filter(|w| w[1] - w[0] > longest)
-            .map(|w| index(w[0])..index(w[1]).min(self.len))
-            .collect()
-    }
-
-    fn signal(&self, values: &[f64]) -> Vec<f64> {
-        match &self.position {
-            None => values.to_vec(),
-            Some(position) => position
-                .iter()
-                .map(|&(i, f)| values[i] + f * (values[i + 1] - values[i]))
-                .collect(),
-        }
-    }
-}
-
 impl Prepared {
-    /// Puts a record on its grids.
-    ///
-    /// # Errors
-    /// One sentence where the record is too short for the cut-off.
-    pub fn new(record: &Record, preparation: Preparation) -> Result<Self, String> {
-        let uniform = Uniform::new(&record.time)?;
-        let rate = 1.0 / uniform.dt;
-        let mut notes = record.notes.clone();
-        if uniform.stretched > 0 {
-            notes.push(format!(
-                "time is not uniform: {} steps are longer than 1.5 samples; resampled at {rate:.6} Hz",
-                uniform.stretched
-            ));
-        }
-        let input = uniform.signal(&record.input.values);
-        let output = uniform.signal(&record.output.values);
-        let n = uniform.len;
-        let cutoff = match preparation.cutoff {
-            Some(cutoff) if cutoff < 0.4 * rate => cutoff,
-            Some(cutoff) => return Err(format!("--cutoff {cutoff} Hz is too high: the record has {rate:.6} samples a second and allows at most {:.6} Hz", 0.4 * rate)),
-            None => spectrum::default_cutoff(&input, rate),
-        };
-        let work_stride = ((rate / (24.0 * cutoff) + 1e-6).floor() as usize).max(1);
-        let dt = uniform.dt * work_stride as f64;
-        let stride = ((1.0 / (4.0 * cutoff * dt) + 1e-6).floor() as usize).max(1);
-        let n_work = n.div_ceil(work_stride);
-        let n_estimation = n_work.div_ceil(stride);
-
-        let edge = ((3.0 / (cutoff * dt * stride as f64)).ceil() as usize).max(1);
-        if n_estimation < 2 * edge + 160 {
-            return Err(format!(
-                "the record is too short: {:.3} s at a cut-off of {cutoff:.4} Hz; at least {:.3} s are needed, or a higher --cutoff",
-                n as f64 * uniform.dt,
-                (2 * edge + 160) as f64 * dt * stride as f64
-            ));
-        }
-        let usable = n_estimation - 2 * edge;
-        let fit_end = edge + usable * 60 / 100;
-        let stop_end = edge + usable * 75 / 100;
-        // Shapes and origins are chosen on what the fit may see.
-        let seen = edge * stride..fit_end * stride;
-
-        let smooth = ZeroPhase::new(2.5 * cutoff, rate);
-        let smoothed_output = smooth.apply(&output);
-        let channel = |column: &crate::record::Column, values: &[f64]| {
-            Channel::new(
-                column.name.clone(),
-                column.unit.clone(),
-                &smooth.apply(values),
-                work_stride,
-                uniform.dt,
-                &seen,
-            )
-        };
-        let input_channel = channel(&record.input, &input);
-        let channels: Vec<_> = record
-            .channels
-            .iter()
-            .map(|c| channel(c, &uniform.signal(&c.values)))
-            .collect();
-        let load = channels.iter().position(|c| c.name == "load");
-
-        let smoother = ZeroPhase::new(cutoff, 1.0 / dt);
-        let on_work: Vec<f64> = smoothed_output
-            .iter()
-            .step_by(work_stride)
-            .copied()
-            .collect();
-        let target: Vec<f64> = smoother
-            .apply(&on_work)
-            .into_iter()
-            .step_by(stride)
-            .collect();
-        let target_raw: Vec<f64> = output
-            .iter()
-            .step_by(work_stride * stride)
-            .copied()
-            .collect();
-
-        let mut valid = vec![true; n_estimation];
-        let per_estimation = work_stride * stride;
-        let guard = (1.0 / (cutoff * dt * stride as f64)).ceil() as usize;
-        for gap in &uniform.gaps(&record.time, cutoff) {
-            let from = (gap.start / per_estimation).saturating_sub(guard);
-            let to = (gap.end / per_estimation + guard).min(n_estimation - 1);
-            valid[from..=to].fill(false);
-        }
-        let keep = |range: Range<usize>| -> Vec<usize> { range.filter(|&i| valid[i]).collect() };
-        let split = Split {
-            fit: keep(edge..fit_end),
-            stop: keep(fit_end..stop_end),
-            held_out: keep(stop_end..n_estimation - edge),
-        };
-        if split.fit.len() < 96 || split.stop.len() < 20 || split.held_out.len() < 20 {
-            return Err("the gaps in time leave too few samples to fit".to_owned());
-        }
-
-        let mut travelled = 0.0;
-        let mut path = Vec::with_capacity(n_estimation);
-        for (i, pair) in input_channel.motion.iter().enumerate() {
-            if i > 0 {
-                travelled += (pair.position - input_channel.motion[i - 1].position).abs();
-            }
-            if i % stride == 0 {
-                path.push(travelled);
-            }
-        }
-        let noise_floor = noise_floor(&output, &smoothed_output, cutoff, rate);
-        Ok(Self {
-            mode: record.mode,
-            samples: record.time.len(),
-            rate: format!("{rate:.9e}").parse().unwrap_or(rate),
-            cutoff,
-            dt,
-            stride,
-            input: input_channel,
-            channels,
-            load,
-            output_name: record.output.name.clone(),
-            output_unit: record.output.unit.clone(),
-            output: on_work,
-            target,
-            target_raw,
-            split,
-            noise_floor,
-            path,
-            notes,
-            smoother,
-        })
-    }
-
-    /// The same record as far as the fit segment goes, on a work grid that is coarser
-    /// where the estimation grid allows; for the search of shapes.
-    ///
-    /// `coarse` = false keeps the work grid. The estimation grid stays as it is.
-    #[must_use]
-    pub fn for_search(&self, coarse: bool) -> Self {
-        let per_period = 1.0 / (self.cutoff * self.dt);
-        let factor = match coarse {
-            true => (1..=self.stride)
-                .rev()
-                .find(|c| self.stride.is_multiple_of(*c) && per_period / *c as f64 >= 8.0)
-                .unwrap_or(1),
-            false => 1,
-        };
-        let last = self.split.fit.last().map_or(0, |l| l + 1);
-        // The filter needs what follows: three periods of the cut-off.
-        let margin = (3.0 * per_period / self.stride as f64).ceil() as usize;
-        let rows = (last + margin).min(self.target.len());
-        let work = ((rows - 1) * self.stride + 1).min(self.work_len());
-        let thin = |channel: &Channel| Channel {
-            motion: channel.motion[..work]
-                .iter()
-                .step_by(factor)
-                .copied()
-                .collect(),
-            ..channel.clone()
-        };
-        let dt = self.dt * factor as f64;
-        let stride = self.stride / factor;
-        let smoother = ZeroPhase::new(self.cutoff, 1.0 / dt);
-        let output: Vec<f64> = self.output[..work]
-            .iter()
-            .step_by(factor)
-            .copied()
-            .collect();
-        let target = smoother
-            .apply(&output)
-            .into_iter()
-            .step_by(stride)
-            .collect();
-        Self {
-            dt,
-            stride,
-            input: thin(&self.input),
-            channels: self.channels.iter().map(thin).collect(),
-            output,
-            target,
-            split: Split {
-                fit: self.split.fit.clone(),
-                stop: Vec::new(),
-                held_out: Vec::new(),
-            },
-            smoother,
-            notes: Vec::new(),
-            ..self.clone()
-        }
-    }
-
     /// The output behind the smoother, on the work grid.
     #[must_use]
     pub fn output(&self) -> &[f64] {
@@ -440,11 +211,16 @@ impl Prepared {
     /// A column of the work grid through the filter, on the estimation grid.
     #[must_use]
     pub fn filtered(&self, column: &[f64]) -> Vec<f64> {
-        self.smoother
-            .apply(column)
-            .into_iter()
-            .step_by(self.stride)
-            .collect()
+        filtered(&self.smoother, &self.pieces, self.stride, column)
+    }
+
+    /// Time of a row \[s\], with the records behind each other.
+    #[must_use]
+    pub fn moment(&self, row: usize) -> f64 {
+        let piece = self.pieces.iter().find(|p| p.rows.contains(&row));
+        piece.map_or(0.0, |p| {
+            p.since + (row - p.rows.start) as f64 * self.stride as f64 * self.dt
+        })
     }
 
     /// The channel that an effect reads.
@@ -457,23 +233,15 @@ impl Prepared {
     }
 }
 
-/// Rms of white noise behind the filter at `cutoff`, estimated from what the
-/// smoother at 2.5 times that took away.
-fn noise_floor(output: &[f64], smoothed: &[f64], cutoff: f64, rate: f64) -> f64 {
-    // Differences of neighbours see the noise at the top of the band and not the signal.
-    let n = output.len();
-    let removed: Vec<f64> = output.iter().zip(smoothed).map(|(a, b)| a - b).collect();
-    let passed = ZeroPhase::new(2.5 * cutoff, rate).noise_gain();
-    // What is left of white noise after taking away its smoothed part: 1 − 2 h0 + sum h².
-    let mut impulse = vec![0.0; 4001];
-    impulse[2000] = 1.0;
-    let centre = ZeroPhase::new(2.5 * cutoff, rate).apply(&impulse)[2000];
-    let share = 1.0 - 2.0 * centre + passed * passed;
-    if share <= 0.02 {
-        return 0.0;
-    }
-    let variance = removed.iter().map(|v| v * v).sum::<f64>() / n as f64 / share;
-    variance.sqrt() * ZeroPhase::new(cutoff, rate).noise_gain()
+/// A column of the work grid through the filter, each record by itself.
+fn filtered(smoother: &ZeroPhase, pieces: &[Piece], stride: usize, column: &[f64]) -> Vec<f64> {
+    pieces
+        .iter()
+        .flat_map(|piece| {
+            let own = smoother.apply(&column[piece.work.clone()]);
+            own.into_iter().step_by(stride)
+        })
+        .collect()
 }
 
 #[cfg(test)]
