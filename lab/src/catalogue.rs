@@ -5,7 +5,7 @@
 
 use crate::channels::{Channel, Prepared};
 use crate::record::Mode;
-use crate::structure::{FitTerm, Structure};
+use crate::structure::{FitTerm, Structure, MOST_RECORDS};
 use bowden::effect::{Effect, Family, Quantity, CATALOGUE};
 use bowden::model::Source;
 
@@ -132,7 +132,7 @@ impl Collector<'_> {
                 effect,
                 source,
                 origin,
-                start: 0.0,
+                start: [0.0; MOST_RECORDS],
             },
             family,
         });
@@ -185,6 +185,26 @@ impl Collector<'_> {
         self.ripple(source, channel);
         self.add(source, o, "rate", &[]);
         self.add(source, o, "rate-symmetric", &[]);
+    }
+
+    /// Fifteen positions inside the segment that the fit sees; of several records also
+    /// where each begins, as the rig may have been touched before.
+    fn steps(&self) -> Vec<f64> {
+        let fit = &self.data.split.fit;
+        let (Some(&first), Some(&last)) = (fit.first(), fit.last()) else {
+            return Vec::new();
+        };
+        if let [_, next @ ..] = &self.data.pieces[..] {
+            if !next.is_empty() {
+                let inside = (1..=15).map(|k| self.data.moment(fit[fit.len() * k / 16]));
+                let begins = next.iter().filter(|p| p.fitted).map(|p| p.since);
+                return inside.chain(begins).collect();
+            }
+        }
+        let place = |k: i32| first as f64 + (last - first) as f64 * f64::from(k) / 16.0;
+        (1..=15)
+            .map(|k| place(k) * self.data.stride as f64 * self.data.dt)
+            .collect()
     }
 
     /// The strongest lines of the residual's order spectrum, each at its own phase and
@@ -320,19 +340,8 @@ impl Collector<'_> {
             self.add(input, 0.0, "pinching", &[w]);
         }
         self.add(input, 0.0, "drift", &[]);
-        // Fifteen positions inside the segment that the fit sees.
-        let fit = &self.data.split.fit;
-        let (Some(&first), Some(&last)) = (fit.first(), fit.last()) else {
-            return;
-        };
-        for k in 1..=15 {
-            let row = first as f64 + (last - first) as f64 * f64::from(k) / 16.0;
-            self.add(
-                input,
-                0.0,
-                "pretension",
-                &[row * self.data.stride as f64 * self.data.dt],
-            );
+        for t_s in self.steps() {
+            self.add(input, 0.0, "pretension", &[t_s]);
         }
     }
 }
@@ -439,7 +448,7 @@ pub fn declared(name: &str, data: &Prepared) -> Result<FitTerm, String> {
         effect,
         source,
         origin,
-        start: 0.0,
+        start: [0.0; MOST_RECORDS],
     })
 }
 

@@ -2,11 +2,16 @@
 //!
 //! Every column comes from the functions that run in firmware: the hysteresis from
 //! [`bowden::hysteresis::Shape`], the effects from [`bowden::effect::Effect`].
+//!
+//! Where several records lie behind each other, every state begins anew with each. Time
+//! is that since the record's beginning, as a rig warms up anew; only the step of the
+//! pretension counts from the first record on: what has slipped stays so in the next one.
 
-use crate::channels::Prepared;
+use crate::channels::{Channel, Piece, Prepared};
 use crate::structure::{FitTerm, Free, Role, Structure};
-use bowden::effect::{Effect, EffectState, Motion, Situation};
+use bowden::effect::{Effect, EffectState, Family, Motion, Situation};
 use bowden::hysteresis::{Sensitivity, Shape};
+use std::ops::Range;
 
 /// Columns on the work grid, before the filter.
 pub struct RawColumns {
@@ -18,7 +23,8 @@ pub struct RawColumns {
     pub eta: Vec<f64>,
     /// The structure at these values.
     terms: Vec<FitTerm>,
-    shape: Option<(Shape<f64>, f64)>,
+    /// The hysteresis, and its state at the start of each record.
+    shape: Option<(Shape<f64>, Vec<f64>)>,
     stages: Stages,
 }
 
@@ -29,6 +35,8 @@ pub struct Moves(Vec<Vec<(usize, Vec<f64>)>>);
 struct Stages {
     list: Vec<(usize, FitTerm, f64)>,
     dt: f64,
+    /// The records on the work grid.
+    records: Vec<Range<usize>>,
     /// The columns before the stages; empty where there is no stage.
     before: Vec<Vec<f64>>,
     /// Which free parameter belongs to which stage: its gain, or one of its shapes.
@@ -36,14 +44,37 @@ struct Stages {
 }
 
 impl Stages {
+    fn none(data: &Prepared) -> Self {
+        Self {
+            list: Vec::new(),
+            dt: data.dt,
+            records: data.pieces.iter().map(|p| p.work.clone()).collect(),
+            before: Vec::new(),
+            owner: Vec::new(),
+        }
+    }
+
     fn through(&self, column: &mut [f64], which: std::ops::Range<usize>) {
         for (_, term, gain) in &self.list[which] {
-            apply_stage(&term.effect, *gain, column, self.dt);
+            self.apply(&term.effect, *gain, column);
         }
+    }
+
+    fn apply(&self, effect: &Effect<f64>, gain: f64, column: &mut [f64]) {
+        for record in &self.records {
+            apply_stage(effect, gain, &mut column[record.clone()], self.dt);
+        }
+    }
+
+    /// What a stage adds for a gain of one.
+    fn alone(&self, effect: &Effect<f64>, output: &[f64]) -> Vec<f64> {
+        let mut column = output.to_vec();
+        self.apply(effect, 1.0, &mut column);
+        column.iter().zip(output).map(|(a, b)| a - b).collect()
     }
 }
 
-/// output += gain · stage(output), along the work grid.
+/// output += gain · stage(output), along one record.
 fn apply_stage(effect: &Effect<f64>, gain: f64, column: &mut [f64], dt: f64) {
     let mut state = EffectState::default();
     let mut at = Situation {
@@ -58,10 +89,8 @@ fn apply_stage(effect: &Effect<f64>, gain: f64, column: &mut [f64], dt: f64) {
 
 /// What a stage adds for a gain of one.
 #[must_use]
-pub fn stage_column(effect: &Effect<f64>, output: &[f64], dt: f64) -> Vec<f64> {
-    let mut column = output.to_vec();
-    apply_stage(effect, 1.0, &mut column, dt);
-    column.iter().zip(output).map(|(a, b)| a - b).collect()
+pub fn stage_column(data: &Prepared, effect: &Effect<f64>, output: &[f64]) -> Vec<f64> {
+    Stages::none(data).alone(effect, output)
 }
 
 /// The regressor of one effect along the work grid; `None` where its channel is missing.
@@ -73,37 +102,58 @@ pub fn effect_column(data: &Prepared, term: &FitTerm, eta: &[f64]) -> Option<Vec
         (crate::record::Mode::Torque, None) => Some(&data.input.motion),
         (crate::record::Mode::Displacement, None) => None,
     };
-    let mut state = EffectState::default();
     let mut column = Vec::with_capacity(eta.len());
-    if let (true, Some(first)) = (term.has_past(), channel.motion.first()) {
-        let before = Motion {
-            position: first.position - term.origin - term.start,
-            ..*first
+    for (record, piece) in data.pieces.iter().enumerate() {
+        let mut state = before(data, term, channel, record, piece);
+        let since = match term.effect.family() {
+            Family::Pretension => piece.since,
+            _ => 0.0,
         };
-        let at = Situation {
-            dt: data.dt,
-            motion: before,
-            input: data.input.motion[0],
-            ..Situation::default()
-        };
-        term.effect.regressor(&mut state, &at);
-    }
-    for (i, (motion, &eta)) in channel.motion.iter().zip(eta).enumerate() {
-        let at = Situation {
-            dt: data.dt,
-            time: i as f64 * data.dt,
-            motion: Motion {
-                position: motion.position - term.origin,
-                ..*motion
-            },
-            input: data.input.motion[i],
-            load: load.map_or(0.0, |l| l[i].position),
-            eta,
-            output: 0.0,
-        };
-        column.push(term.effect.regressor(&mut state, &at));
+        for (k, i) in piece.work.clone().enumerate() {
+            let motion = &channel.motion[i];
+            let at = Situation {
+                dt: data.dt,
+                time: since + k as f64 * data.dt,
+                motion: Motion {
+                    position: motion.position - term.origin,
+                    ..*motion
+                },
+                input: data.input.motion[i],
+                load: load.map_or(0.0, |l| l[i].position),
+                eta: eta[i],
+                output: 0.0,
+            };
+            column.push(term.effect.regressor(&mut state, &at));
+        }
     }
     Some(column)
+}
+
+/// What an effect remembers at the beginning of a record.
+fn before(
+    data: &Prepared,
+    term: &FitTerm,
+    channel: &Channel,
+    record: usize,
+    piece: &Piece,
+) -> EffectState<f64> {
+    let mut state = EffectState::default();
+    if !term.has_past() || piece.work.is_empty() {
+        return state;
+    }
+    let first = &channel.motion[piece.work.start];
+    let start = term.start.get(record).copied().unwrap_or(0.0);
+    let at = Situation {
+        dt: data.dt,
+        motion: Motion {
+            position: first.position - term.origin - start,
+            ..*first
+        },
+        input: data.input.motion[piece.work.start],
+        ..Situation::default()
+    };
+    term.effect.regressor(&mut state, &at);
+    state
 }
 
 /// All columns for the given values of the free parameters.
@@ -125,7 +175,7 @@ pub fn raw_columns(
                 terms[term].effect = terms[term].effect.with_shape(index, v).ok()?
             }
             Role::Origin { term } => terms[term].origin = v,
-            Role::Start { term } => terms[term].start = v,
+            Role::Start { term, record } => terms[term].start[record] = v,
             _ => {}
         }
     }
@@ -136,12 +186,16 @@ pub fn raw_columns(
     if structure.hysteresis {
         let bouc_wen =
             Shape::try_new(value(Role::Rho)?, value(Role::Sigma)?, value(Role::N)?).ok()?;
-        let eta0 = value(Role::Eta0)?;
-        trace(data, &bouc_wen, eta0, &mut eta);
-        columns.push(data.input.motion.iter().map(|m| m.position).collect());
-        columns.push(eta.clone());
-        columns.push(vec![1.0; n]);
-        fixed.extend([true, false, true]);
+        // What nobody has fitted (a record that is held out) begins in the middle.
+        let eta0 = |record| value(Role::Eta0 { record }).unwrap_or(0.0);
+        let eta0: Vec<f64> = (0..data.pieces.len()).map(eta0).collect();
+        trace(data, &bouc_wen, &eta0, &mut eta);
+        let input: Vec<f64> = data.input.motion.iter().map(|m| m.position).collect();
+        for record in 0..structure.own_gains.max(1) {
+            let own = |column: &[f64]| of_record(data, structure, column, record);
+            columns.extend([own(&input), own(&eta), own(&vec![1.0; n])]);
+            fixed.extend([true, false, true]);
+        }
         shape = Some((bouc_wen, eta0));
     }
     let mut list = Vec::new();
@@ -161,7 +215,7 @@ pub fn raw_columns(
             list.push((index, *term, gain));
         } else {
             columns.push(effect_column(data, term, &eta)?);
-            fixed.push(!term.effect.reads_eta() && free.iter().all(|f| !matches!(f.role, Role::Shape { term, .. } | Role::Origin { term } | Role::Start { term } if term == index)));
+            fixed.push(!term.effect.reads_eta() && free.iter().all(|f| !matches!(f.role, Role::Shape { term, .. } | Role::Origin { term } | Role::Start { term, .. } if term == index)));
         }
     }
     let before = if list.is_empty() {
@@ -171,9 +225,9 @@ pub fn raw_columns(
     };
     let stages = Stages {
         list,
-        dt: data.dt,
         before,
         owner,
+        ..Stages::none(data)
     };
     if !stages.list.is_empty() {
         fixed.fill(false);
@@ -191,26 +245,44 @@ pub fn raw_columns(
     })
 }
 
+/// A column of the transmission: as it is, or on one record alone where each has its own.
+fn of_record(data: &Prepared, structure: &Structure, column: &[f64], record: usize) -> Vec<f64> {
+    if structure.own_gains == 0 {
+        return column.to_vec();
+    }
+    let mut own = vec![0.0; column.len()];
+    if let Some(piece) = data.pieces.get(record) {
+        own[piece.work.clone()].copy_from_slice(&column[piece.work.clone()]);
+    }
+    own
+}
+
 /// The hysteresis state along the work grid.
-fn trace(data: &Prepared, shape: &Shape<f64>, eta0: f64, eta: &mut [f64]) {
-    let mut state = eta0;
-    let mut last = data.input.motion[0].position;
-    for (slot, motion) in eta.iter_mut().zip(&data.input.motion) {
-        state = shape.advance(state, motion.position - last);
-        last = motion.position;
-        *slot = state;
+fn trace(data: &Prepared, shape: &Shape<f64>, eta0: &[f64], eta: &mut [f64]) {
+    for (piece, &eta0) in data.pieces.iter().zip(eta0) {
+        let motion = &data.input.motion[piece.work.clone()];
+        let mut state = eta0;
+        let mut last = motion.first().map_or(0.0, |m| m.position);
+        for (slot, motion) in eta[piece.work.clone()].iter_mut().zip(motion) {
+            state = shape.advance(state, motion.position - last);
+            last = motion.position;
+            *slot = state;
+        }
     }
 }
 
 /// The hysteresis state and its sensitivities along the work grid.
-fn trajectory(data: &Prepared, shape: &Shape<f64>, eta0: f64) -> Vec<Sensitivity<f64>> {
-    let mut state = Sensitivity::start(eta0);
-    let mut last = data.input.motion[0].position;
+fn trajectory(data: &Prepared, shape: &Shape<f64>, eta0: &[f64]) -> Vec<Sensitivity<f64>> {
     let mut all = Vec::with_capacity(data.work_len());
-    for motion in &data.input.motion {
-        state = shape.advance_with_sensitivity(state, motion.position - last);
-        last = motion.position;
-        all.push(state);
+    for (piece, &eta0) in data.pieces.iter().zip(eta0) {
+        let motion = &data.input.motion[piece.work.clone()];
+        let mut state = Sensitivity::start(eta0);
+        let mut last = motion.first().map_or(0.0, |m| m.position);
+        for motion in motion {
+            state = shape.advance_with_sensitivity(state, motion.position - last);
+            last = motion.position;
+            all.push(state);
+        }
     }
     all
 }
@@ -265,26 +337,42 @@ fn eta_derivative(
 impl RawColumns {
     /// The slopes of all columns in all free parameters.
     #[must_use]
-    pub fn moves(&self, data: &Prepared, free: &[Free], values: &[f64]) -> Option<Moves> {
+    pub fn moves(
+        &self,
+        data: &Prepared,
+        structure: &Structure,
+        free: &[Free],
+        values: &[f64],
+    ) -> Option<Moves> {
         let mut moves: Vec<Vec<(usize, Vec<f64>)>> = vec![Vec::new(); free.len()];
         let mut sensitivities: Vec<(usize, Vec<f64>)> = Vec::new();
         let mut k = 0;
         if let Some((shape, eta0)) = &self.shape {
-            let trajectory = trajectory(data, shape, *eta0);
+            let trajectory = trajectory(data, shape, eta0);
             for (j, f) in free.iter().enumerate() {
                 let pick: fn(&Sensitivity<f64>) -> f64 = match f.role {
                     Role::Rho => |s| s.d_rho,
                     Role::Sigma => |s| s.d_sigma,
                     Role::N => |s| s.d_n,
-                    Role::Eta0 => |s| s.d_eta0,
+                    Role::Eta0 { .. } => |s| s.d_eta0,
                     _ => continue,
                 };
-                sensitivities.push((j, trajectory.iter().map(pick).collect()));
+                let mut slope: Vec<f64> = trajectory.iter().map(pick).collect();
+                if let Role::Eta0 { record } = f.role {
+                    // The state of one record moves no other.
+                    let own = data.pieces.get(record).map_or(0..0, |p| p.work.clone());
+                    slope[..own.start].fill(0.0);
+                    slope[own.end..].fill(0.0);
+                }
+                sensitivities.push((j, slope));
             }
             for (j, s) in &sensitivities {
-                moves[*j].push((1, s.clone()));
+                for record in 0..structure.own_gains.max(1) {
+                    let own = of_record(data, structure, s, record);
+                    moves[*j].push((3 * record + 1, own));
+                }
             }
-            k = 3;
+            k = structure.base();
         }
         for (index, term) in self.terms.iter().enumerate() {
             if term.effect.is_output_stage() {
@@ -314,9 +402,13 @@ impl RawColumns {
                             central_difference(data, &moved, values[j], step, &self.eta)?,
                         ));
                     }
-                    Role::Start { term: of } if of == index => {
+                    Role::Start { term: of, record } if of == index => {
                         let step = 1e-5 * data.channel(term.source)?.reach;
-                        let moved = |v: f64| Some(FitTerm { start: v, ..*term });
+                        let moved = |v: f64| {
+                            let mut term = *term;
+                            term.start[record] = v;
+                            Some(term)
+                        };
                         moves[j].push((
                             k,
                             central_difference(data, &moved, values[j], step, &self.eta)?,
@@ -367,16 +459,14 @@ impl RawColumns {
         position: usize,
         shape: Option<usize>,
     ) {
-        let Stages {
-            list, dt, before, ..
-        } = &self.stages;
+        let Stages { list, before, .. } = &self.stages;
         let mut output: Vec<f64> = (0..tangent.len())
             .map(|i| before.iter().zip(gains).map(|(c, g)| g * c[i]).sum())
             .collect();
         self.stages.through(&mut output, 0..position);
         let (_, term, gain) = &list[position];
         let mut part = match shape {
-            None => stage_column(&term.effect, &output, *dt),
+            None => self.stages.alone(&term.effect, &output),
             Some(index) => {
                 let value = term.effect.shape(index).unwrap_or(0.0);
                 let h = 1e-5 * value.abs().max(1e-9);
@@ -387,8 +477,8 @@ impl RawColumns {
                     return;
                 };
                 let (up, down) = (
-                    stage_column(&up, &output, *dt),
-                    stage_column(&down, &output, *dt),
+                    self.stages.alone(&up, &output),
+                    self.stages.alone(&down, &output),
                 );
                 up.iter()
                     .zip(&down)

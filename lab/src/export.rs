@@ -77,18 +77,25 @@ pub struct ShapeFile {
 }
 
 impl ModelFile {
-    /// The fitted model.
+    /// The fitted model; where each record has gains of its own, with the first one's.
     #[must_use]
     pub fn new(data: &Prepared, solution: &Solution) -> Self {
+        Self::of_record(data, solution, 0)
+    }
+
+    /// The fitted model with the gains of one record, where each has its own.
+    #[must_use]
+    pub fn of_record(data: &Prepared, solution: &Solution, record: usize) -> Self {
+        let own = 3 * record.min(solution.structure.own_gains.saturating_sub(1));
         let value = |role| solution.value(role).unwrap_or(0.0);
         let sign = match data.mode {
             Mode::Torque => -1.0,
             Mode::Displacement => 1.0,
         };
         let transmission = solution.structure.hysteresis.then(|| TransmissionFile {
-            gain: solution.gains[0],
-            kappa_eta: sign * solution.gains[1],
-            offset: sign * solution.gains[2],
+            gain: solution.gains[own],
+            kappa_eta: sign * solution.gains[own + 1],
+            offset: sign * solution.gains[own + 2],
             rho: value(Role::Rho),
             sigma: value(Role::Sigma),
             n: value(Role::N),

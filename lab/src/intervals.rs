@@ -95,6 +95,26 @@ pub(crate) fn shape_unit(data: &Prepared, term: &FitTerm, index: usize) -> Optio
         .text()
 }
 
+/// Names of the transmission's gains, and the sign with which the last two enter.
+pub(crate) fn gain_names(mode: Mode) -> ([&'static str; 3], f64) {
+    match mode {
+        Mode::Torque => (["B", "kappa_eta", "T0"], -1.0),
+        Mode::Displacement => (["kappa_x", "kappa_eta", "offset"], 1.0),
+    }
+}
+
+/// A parameter of one record among several: `B.2` is the second one's.
+pub(crate) fn numbered(name: &str, record: usize) -> String {
+    format!("{name}.{}", record + 1)
+}
+
+fn of_record(data: &Prepared, name: &str, record: usize) -> String {
+    match data.pieces.len() {
+        1 => name.to_owned(),
+        _ => numbered(name, record),
+    }
+}
+
 fn entries<'a>(data: &Prepared, solution: &'a Solution) -> Vec<Entry<'a>> {
     let mut all = Vec::new();
     let (input, output) = (data.input.unit.as_deref(), data.output_unit.as_deref());
@@ -113,14 +133,30 @@ fn entries<'a>(data: &Prepared, solution: &'a Solution) -> Vec<Entry<'a>> {
         let gain = Unit::one().times(output, 1).times(input, -1).text();
         let plain = Unit::one().times(output, 1).text();
         // (1): F = kappa_x x + kappa_eta eta; (6): tau_o = B tau_i − kappa_eta eta − T0.
-        let (names, sign) = match data.mode {
-            Mode::Torque => (["B", "kappa_eta", "T0"], -1.0),
-            Mode::Displacement => (["kappa_x", "kappa_eta", "offset"], 1.0),
+        let (names, sign) = gain_names(data.mode);
+        let own = |name: &str, record: usize| match solution.structure.own_gains {
+            0 => name.to_owned(),
+            _ => numbered(name, record),
         };
-        all.push(linear(names[0].to_owned(), gain, 0, 1.0, None));
-        all.push(linear(names[1].to_owned(), plain.clone(), 1, sign, None));
-        all.push(linear(names[2].to_owned(), plain, 2, sign, None));
-        next = 3;
+        for record in 0..solution.structure.own_gains.max(1) {
+            let k = 3 * record;
+            all.push(linear(own(names[0], record), gain.clone(), k, 1.0, None));
+            all.push(linear(
+                own(names[1], record),
+                plain.clone(),
+                k + 1,
+                sign,
+                None,
+            ));
+            all.push(linear(
+                own(names[2], record),
+                plain.clone(),
+                k + 2,
+                sign,
+                None,
+            ));
+        }
+        next = solution.structure.base();
     }
     for (index, term) in solution.structure.terms.iter().enumerate() {
         if !term.effect.is_output_stage() {
@@ -144,7 +180,12 @@ fn entries<'a>(data: &Prepared, solution: &'a Solution) -> Vec<Entry<'a>> {
             ),
             Role::Sigma => ("sigma".to_owned(), Unit::one().text(), true, None),
             Role::N => ("n".to_owned(), Unit::one().text(), true, None),
-            Role::Eta0 => ("eta0".to_owned(), Unit::one().text(), false, None),
+            Role::Eta0 { record } => (
+                of_record(data, "eta0", record),
+                Unit::one().text(),
+                false,
+                None,
+            ),
             Role::Shape { term, index } => {
                 let fit = &solution.structure.terms[term];
                 let positive = !matches!(
@@ -172,11 +213,11 @@ fn entries<'a>(data: &Prepared, solution: &'a Solution) -> Vec<Entry<'a>> {
                     Some(term),
                 )
             }
-            Role::Start { term } => {
+            Role::Start { term, record } => {
                 let fit = &solution.structure.terms[term];
                 let unit = data.channel(fit.source).and_then(|c| c.unit.clone());
                 (
-                    format!("{}.start", term_name(data, fit)),
+                    of_record(data, &format!("{}.start", term_name(data, fit)), record),
                     unit,
                     false,
                     Some(term),

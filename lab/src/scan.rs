@@ -132,7 +132,7 @@ impl Workspace {
             .map(|candidate| {
                 let term = &candidate.term;
                 let raw = if term.effect.is_output_stage() {
-                    stage_column(&term.effect, &solution.unfiltered, data.dt)
+                    stage_column(data, &term.effect, &solution.unfiltered)
                 } else {
                     effect_column(data, term, &solution.eta)?
                 };

@@ -103,7 +103,7 @@ impl Solution {
         if self.structure.terms[term].effect.is_output_stage() {
             return self.value(Role::Stage { term }).unwrap_or(0.0);
         }
-        let base = if self.structure.hysteresis { 3 } else { 0 };
+        let base = self.structure.base();
         let before = self.structure.terms[..term]
             .iter()
             .filter(|t| !t.effect.is_output_stage())
@@ -116,7 +116,7 @@ impl Solution {
         self.free
             .iter()
             .zip(&self.on_bound)
-            .filter(|(f, on)| **on && !matches!(f.role, Role::Eta0 | Role::Start { .. }))
+            .filter(|(f, on)| **on && !matches!(f.role, Role::Eta0 { .. } | Role::Start { .. }))
             .count()
     }
 }

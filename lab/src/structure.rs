@@ -5,6 +5,9 @@ use crate::record::Mode;
 use bowden::effect::{Effect, Family};
 use bowden::model::Source;
 
+/// At most so many records are fitted together: each brings unknown states of its own.
+pub const MOST_RECORDS: usize = 16;
+
 /// One effect in a model under fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FitTerm {
@@ -14,9 +17,9 @@ pub struct FitTerm {
     pub source: Source,
     /// The origin from which it measures position.
     pub origin: f64,
-    /// How far the channel had moved just before the record began: what an effect with
+    /// How far the channel had moved just before each record began: what an effect with
     /// memory remembers of that is unknown and is fitted.
-    pub start: f64,
+    pub start: [f64; MOST_RECORDS],
 }
 
 impl FitTerm {
@@ -35,6 +38,9 @@ impl FitTerm {
 pub struct Structure {
     /// Whether a Bouc-Wen transmission is part of it.
     pub hysteresis: bool,
+    /// How many records have a gain, kappa_eta and offset of their own; 0 where these are
+    /// common to all.
+    pub own_gains: usize,
     /// The effects, in the order in which they came.
     pub terms: Vec<FitTerm>,
 }
@@ -114,8 +120,11 @@ pub enum Role {
     Sigma,
     /// Bouc-Wen n.
     N,
-    /// The hysteresis state at the first sample.
-    Eta0,
+    /// The hysteresis state at the first sample of a record.
+    Eta0 {
+        /// Index of the record.
+        record: usize,
+    },
     /// Shape `index` of term `term`.
     Shape {
         /// Index of the term.
@@ -128,10 +137,12 @@ pub enum Role {
         /// Index of the term.
         term: usize,
     },
-    /// What term `term` remembers from before the record.
+    /// What term `term` remembers from before a record.
     Start {
         /// Index of the term.
         term: usize,
+        /// Index of the record.
+        record: usize,
     },
     /// The gain of an output stage: it acts on all columns, so it is not linear.
     Stage {
@@ -178,10 +189,10 @@ impl Structure {
                 role: Role::N,
                 range: Range::Above(1.0, N.0, N.1),
             });
-            free.push(Free {
-                role: Role::Eta0,
+            free.extend(fitted(data).map(|record| Free {
+                role: Role::Eta0 { record },
                 range: Range::Linear(-1.0, 1.0),
-            });
+            }));
         }
         for (term, fit) in self.terms.iter().enumerate() {
             let Some(channel) = data.channel(fit.source) else {
@@ -199,10 +210,10 @@ impl Structure {
             }
             if fit.has_past() {
                 let reach = 2.0 * channel.reach;
-                free.push(Free {
-                    role: Role::Start { term },
+                free.extend(fitted(data).map(|record| Free {
+                    role: Role::Start { term, record },
                     range: Range::Linear(-reach, reach),
-                });
+                }));
             }
             if self.origin_matters(fit) {
                 let (middle, reach) = (channel.middle, channel.reach);
@@ -254,15 +265,24 @@ impl Structure {
         }
     }
 
+    /// Number of the transmission's linear gains: three, or three of each record.
+    #[must_use]
+    pub fn base(&self) -> usize {
+        match self.hysteresis {
+            true => 3 * self.own_gains.max(1),
+            false => 0,
+        }
+    }
+
     /// Number of linear gains.
     #[must_use]
     pub fn linear(&self) -> usize {
-        let base = if self.hysteresis { 3 } else { 0 };
-        base + self
-            .terms
-            .iter()
-            .filter(|t| !t.effect.is_output_stage())
-            .count()
+        self.base()
+            + self
+                .terms
+                .iter()
+                .filter(|t| !t.effect.is_output_stage())
+                .count()
     }
 
     /// Whether a gain must not be negative.
@@ -271,14 +291,19 @@ impl Structure {
     /// takes energy out. In torque mode the sign follows the encoder's mounting.
     #[must_use]
     pub fn sign_kept(&self, mode: Mode) -> Vec<bool> {
-        let base = if self.hysteresis { 3 } else { 0 };
-        let mut kept = vec![false; base];
+        let mut kept = vec![false; self.base()];
         for term in self.terms.iter().filter(|t| !t.effect.is_output_stage()) {
             let friction = matches!(term.effect.family(), Family::Viscous | Family::Coulomb);
             kept.push(friction && mode == Mode::Displacement && term.source == Source::Input);
         }
         kept
     }
+}
+
+/// The records of which the fit sees something: only their states at the start can be told.
+fn fitted(data: &Prepared) -> impl Iterator<Item = usize> + '_ {
+    let pieces = data.pieces.iter().take(MOST_RECORDS).enumerate();
+    pieces.filter(|(_, p)| p.fitted).map(|(record, _)| record)
 }
 
 /// The range over which a shape is fitted; `None` where it stays as it was set.
@@ -301,8 +326,7 @@ fn shape_range(
         "v_s" => Range::Log(1e-2 * speed, 0.5 * speed),
         "a" => Range::Linear(0.5, 3.0),
         "t_s" => {
-            let at =
-                |row: Option<&usize>| row.map_or(0.0, |&r| r as f64 * data.stride as f64 * data.dt);
+            let at = |row: Option<&usize>| row.map_or(0.0, |&r| data.moment(r));
             Range::Linear(at(data.split.fit.first()), at(data.split.fit.last()))
         }
         "x_h" | "x_s" => Range::Linear(-reach, reach),

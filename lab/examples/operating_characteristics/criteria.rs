@@ -78,7 +78,7 @@ impl<'a> Library<'a> {
         for candidate in tried {
             let term = &candidate.term;
             let raw = if term.effect.is_output_stage() {
-                Some(stage_column(&term.effect, &declared.unfiltered, data.dt))
+                Some(stage_column(data, &term.effect, &declared.unfiltered))
             } else {
                 effect_column(data, term, &declared.eta)
             };

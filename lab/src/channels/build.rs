@@ -4,6 +4,7 @@ use super::uniform::{usual_step, Uniform};
 use super::{filtered, motion, Channel, HeldOut, Piece, Preparation, Prepared, Split, ZeroPhase};
 use crate::record::{Column, Record};
 use crate::spectrum;
+use crate::structure::MOST_RECORDS;
 use bowden::effect::Motion;
 use std::ops::Range;
 
@@ -73,6 +74,12 @@ impl Prepared {
         held_out: HeldOut,
     ) -> Result<Self, String> {
         let first = records.first().ok_or("no record was given")?;
+        if records.len() > MOST_RECORDS {
+            return Err(format!(
+                "{} records: at most {MOST_RECORDS} can be fitted together",
+                records.len()
+            ));
+        }
         let several = records.len() > 1;
         let named = |record: &Record, message: String| match several {
             true => format!("{}: {message}", record.path),

@@ -2,27 +2,41 @@
 
 use super::reading::{progress, Reading};
 use super::Failure;
-use crate::closing::close;
+use crate::channels::{HeldOut, Prepared};
+use crate::closing::{close, Ledger};
 use crate::export::ModelFile;
-use crate::record::{parse, read};
+use crate::record::{agree, parse, read, Options, Record};
 use crate::report::{json, text, Report};
 use crate::synth::{generate, Planted, Recipe};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
 /// Name of the embedded record: the command that writes the same one to a file.
 const EMBEDDED: &str = "(embedded: bowden record --mode torque --effect viscous --seed 7)";
 
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum PerFile {
+    /// B (or kappa_x), kappa_eta and T0 (or the offset).
+    Gains,
+}
+
 #[derive(Args, Default)]
 pub struct Close {
-    /// A CSV file with a header; the embedded record where it is not given.
-    record: Option<PathBuf>,
+    /// CSV files with a header, several of one rig for one joint model; the embedded
+    /// record where none is given. Of three or more the last is held out as a whole.
+    #[arg(value_name = "RECORD")]
+    records: Vec<PathBuf>,
     #[command(flatten)]
     reading: Reading,
+    /// What may differ from file to file, as after a change of the rig's configuration.
+    /// Then the end of each file is held out.
+    #[arg(long, value_enum, value_name = "WHAT")]
+    per_file: Option<PerFile>,
     /// Print one JSON object on stdout instead of tables.
     #[arg(long)]
     json: bool,
-    /// Write the final model: .toml for tools, .rs for firmware.
+    /// Write the final model: .toml for tools, .rs for firmware. With --per-file gains one
+    /// for each file: NAME-1.toml, NAME-2.toml, …
     #[arg(long, value_name = "FILE.toml")]
     model_out: Option<PathBuf>,
 }
@@ -33,43 +47,32 @@ impl Close {
         if let Some(path) = &self.model_out {
             model_form(path)?;
         }
+        if self.per_file.is_some() && self.records.len() < 2 {
+            return Err("--per-file gains: more than one file was expected".to_owned());
+        }
         let bar = progress();
         bar.set_message("reading");
-        let (label, record) = match &self.record {
-            Some(path) => {
-                let label = path.display().to_string();
-                (label, read(path, &options).map_err(|e| e.to_string())?)
-            }
-            None => {
-                let recipe = Recipe {
-                    effects: vec![Planted::new("viscous")],
-                    seed: 7,
-                    ..Recipe::new(crate::synth::Mode::Torque)
-                };
-                let csv = generate(&recipe).map_err(|e| e.to_string())?.to_csv();
-                (
-                    EMBEDDED.to_owned(),
-                    parse(csv.as_bytes(), EMBEDDED, &options).map_err(|e| e.to_string())?,
-                )
-            }
+        let records = self.read(&options)?;
+        let label: Vec<&str> = records.iter().map(|r| r.path.as_str()).collect();
+        let label = label.join(", ");
+        let (data, mut structure) = match &records[..] {
+            [one] => self.reading.prepare(one)?,
+            all => self.reading.prepare_joined(all, self.held_out())?,
         };
-        let (data, structure) = self.reading.prepare(&record)?;
+        if self.per_file.is_some() {
+            if !structure.hysteresis {
+                return Err(
+                    "--per-file gains: they are those of bouc-wen, which --declare leaves out"
+                        .to_owned(),
+                );
+            }
+            structure.own_gains = records.len();
+        }
         let ledger = close(&data, &structure, |what| bar.set_message(what.to_owned()))
             .map_err(|message| format!("{label}: {message}"))?;
         bar.finish_and_clear();
         if let Some(path) = &self.model_out {
-            let file = ModelFile::new(&data, ledger.last());
-            let remark = format!(
-                "Identified by bowden {} from {label}",
-                env!("CARGO_PKG_VERSION")
-            );
-            let text = match model_form(path)? {
-                Form::Toml => file
-                    .toml(&remark)
-                    .map_err(|e| format!("{}: {e}", path.display()))?,
-                Form::Rust => file.rust(&remark),
-            };
-            super::write_whole(path, text.as_bytes())?;
+            write_models(path, &label, &data, &ledger)?;
         }
         if self.json {
             let text = json(&Report::new(&label, &data, &ledger)).map_err(|e| e.to_string())?;
@@ -78,6 +81,84 @@ impl Close {
             super::say(text(&label, &data, &ledger, self.reading.cutoff.is_some()).trim_end())
         }
     }
+
+    /// With gains of its own a file says nothing of another one's: the end of each is held
+    /// out then.
+    fn held_out(&self) -> HeldOut {
+        match self.per_file.is_none() && self.records.len() > 2 {
+            true => HeldOut::LastRecord,
+            false => HeldOut::Trailing,
+        }
+    }
+
+    fn read(&self, options: &Options) -> Result<Vec<Record>, Failure> {
+        if self.records.is_empty() {
+            return Ok(vec![embedded(options)?]);
+        }
+        for (index, path) in self.records.iter().enumerate() {
+            if self.records[..index].contains(path) {
+                return Err(format!("{}: given twice", path.display()));
+            }
+        }
+        let read = |path: &PathBuf| read(path, options).map_err(|e| e.to_string());
+        let mut records = self
+            .records
+            .iter()
+            .map(read)
+            .collect::<Result<Vec<_>, _>>()?;
+        agree(&mut records).map_err(|e| e.to_string())?;
+        Ok(records)
+    }
+}
+
+fn embedded(options: &Options) -> Result<Record, Failure> {
+    let recipe = Recipe {
+        effects: vec![Planted::new("viscous")],
+        seed: 7,
+        ..Recipe::new(crate::synth::Mode::Torque)
+    };
+    let csv = generate(&recipe).map_err(|e| e.to_string())?.to_csv();
+    parse(csv.as_bytes(), EMBEDDED, options).map_err(|e| e.to_string())
+}
+
+/// Writes the final model; where each file has gains of its own, one model for each.
+fn write_models(path: &Path, label: &str, data: &Prepared, ledger: &Ledger) -> Result<(), Failure> {
+    let last = ledger.last();
+    let version = env!("CARGO_PKG_VERSION");
+    if last.structure.own_gains == 0 {
+        let remark = format!("Identified by bowden {version} from {label}");
+        return write_model(path, &ModelFile::new(data, last), &remark);
+    }
+    for (record, piece) in data.pieces.iter().enumerate() {
+        let remark = format!(
+            "Identified by bowden {version} from {label}; gains of {}",
+            piece.path
+        );
+        let file = ModelFile::of_record(data, last, record);
+        write_model(&numbered(path, record), &file, &remark)?;
+    }
+    Ok(())
+}
+
+/// `name.toml` as `name-1.toml` for the first record.
+fn numbered(path: &Path, record: usize) -> PathBuf {
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push(format!("-{}", record + 1));
+    if let Some(extension) = path.extension() {
+        name.push(".");
+        name.push(extension);
+    }
+    path.with_file_name(name)
+}
+
+fn write_model(path: &Path, file: &ModelFile, remark: &str) -> Result<(), Failure> {
+    let text = match model_form(path)? {
+        Form::Toml => file
+            .toml(remark)
+            .map_err(|e| format!("{}: {e}", path.display()))?,
+        Form::Rust => file.rust(remark),
+    };
+    super::write_whole(path, text.as_bytes())
 }
 
 enum Form {

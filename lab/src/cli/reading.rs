@@ -1,9 +1,9 @@
 //! What all commands have in common that read a record.
 
 use super::Failure;
-use crate::channels::{Preparation, Prepared};
+use crate::channels::{HeldOut, Preparation, Prepared};
 use crate::closing::structure;
-use crate::record::{Mode, Options};
+use crate::record::{Mode, Options, Record};
 use crate::structure::Structure;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -80,20 +80,33 @@ impl Reading {
     }
 
     /// A record on its grids, and the declared model.
-    pub fn prepare(
-        &self,
-        record: &crate::record::Record,
-    ) -> Result<(Prepared, Structure), Failure> {
+    pub fn prepare(&self, record: &Record) -> Result<(Prepared, Structure), Failure> {
         let named = |message: String| format!("{}: {message}", record.path);
         let cutoff = self.cutoff;
         let data = Prepared::new(record, Preparation { cutoff }).map_err(named)?;
+        let structure = self.declared(&data).map_err(named)?;
+        Ok((data, structure))
+    }
+
+    /// Several records on common grids, and the declared model.
+    pub fn prepare_joined(
+        &self,
+        records: &[Record],
+        held_out: HeldOut,
+    ) -> Result<(Prepared, Structure), Failure> {
+        let cutoff = self.cutoff;
+        let data = Prepared::joined(records, Preparation { cutoff }, held_out)?;
+        let structure = self.declared(&data)?;
+        Ok((data, structure))
+    }
+
+    fn declared(&self, data: &Prepared) -> Result<Structure, String> {
         let list = if self.declare.is_empty() {
             vec!["bouc-wen".to_owned()]
         } else {
             self.declare.clone()
         };
-        let structure = structure(&list, &data).map_err(named)?;
-        Ok((data, structure))
+        structure(&list, data)
     }
 }
 

@@ -114,7 +114,7 @@ pub fn glance_from(
                 refined.terms[term].effect = refined.terms[term].effect.with_shape(index, v).ok()?
             }
             Role::Origin { term } => refined.terms[term].origin = v,
-            Role::Start { term } => refined.terms[term].start = v,
+            Role::Start { term, record } => refined.terms[term].start[record] = v,
             Role::Stage { term } if term + 1 == structure.terms.len() => gain = v,
             _ => {}
         }

@@ -135,7 +135,9 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Reduced<'_> {
     fn jacobian(&self) -> Option<DMatrix<f64>> {
         let now = self.now.as_ref()?;
         let rows = &self.data.split.fit;
-        let moves = now.raw.moves(self.data, self.free, &self.values())?;
+        let moves = now
+            .raw
+            .moves(self.data, self.structure, self.free, &self.values())?;
         let mut jacobian = DMatrix::zeros(rows.len(), self.free.len());
         for (j, free) in self.free.iter().enumerate() {
             let tangent = self

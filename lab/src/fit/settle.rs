@@ -19,7 +19,7 @@ pub(super) fn settle(
         ..
     } = evaluate(data, structure, free, &values, None)?;
     let gains = linear.gains;
-    let moves = raw.moves(data, free, &values)?;
+    let moves = raw.moves(data, structure, free, &values)?;
     let tangents: Vec<Vec<f64>> = (0..free.len())
         .map(|j| data.filtered(&raw.tangent(&moves, j, &gains)))
         .collect();
@@ -54,7 +54,7 @@ pub(super) fn settle(
                 fitted.terms[term].effect = fitted.terms[term].effect.with_shape(index, v).ok()?
             }
             Role::Origin { term } => fitted.terms[term].origin = v,
-            Role::Start { term } => fitted.terms[term].start = v,
+            Role::Start { term, record } => fitted.terms[term].start[record] = v,
             _ => {}
         }
     }

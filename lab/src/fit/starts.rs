@@ -36,7 +36,10 @@ impl Known {
                     index,
                 },
                 Role::Origin { term } => Role::Origin { term: moved(term)? },
-                Role::Start { term } => Role::Start { term: moved(term)? },
+                Role::Start { term, record } => Role::Start {
+                    term: moved(term)?,
+                    record,
+                },
                 Role::Stage { term } => Role::Stage { term: moved(term)? },
                 own => own,
             })
@@ -81,13 +84,15 @@ pub(super) fn starts(
                 (Role::Rho, Some((rho, ..))) => rho / x,
                 (Role::Sigma, Some((_, sigma, _))) => sigma,
                 (Role::N, Some((.., n))) => n,
-                (Role::Eta0, Some(_)) => present(Role::Eta0).unwrap_or(0.0).clamp(-INSIDE, INSIDE),
+                (Role::Eta0 { .. }, Some(_)) => {
+                    present(f.role).unwrap_or(0.0).clamp(-INSIDE, INSIDE)
+                }
                 (Role::Stage { .. }, _) => present(f.role).unwrap_or(stage_gain),
                 (Role::Shape { term, index }, _) => {
                     structure.terms[term].effect.shape(index).unwrap_or(0.0)
                 }
                 (Role::Origin { term }, _) => structure.terms[term].origin,
-                (Role::Start { term }, _) => structure.terms[term].start,
+                (Role::Start { term, record }, _) => structure.terms[term].start[record],
                 (role, None) => present(role).unwrap_or(0.5),
             })
             .collect()

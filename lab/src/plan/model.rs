@@ -50,7 +50,7 @@ impl Model {
         let own = |role: Role| match role {
             Role::Shape { term, .. }
             | Role::Origin { term }
-            | Role::Start { term }
+            | Role::Start { term, .. }
             | Role::Stage { term } => term == last,
             _ => false,
         };
@@ -63,7 +63,7 @@ impl Model {
     /// The model along a motion.
     pub(super) fn on<'a>(&self, data: &'a Prepared) -> Option<Placed<'a>> {
         let raw = raw_columns(data, &self.structure, &self.free, &self.values)?;
-        let moves = raw.moves(data, &self.free, &self.values)?;
+        let moves = raw.moves(data, &self.structure, &self.free, &self.values)?;
         let mut columns: Vec<Vec<f64>> = raw.columns.iter().map(|c| data.filtered(c)).collect();
         for j in 0..self.free.len() {
             columns.push(data.filtered(&raw.tangent(&moves, j, &self.gains)));
@@ -88,7 +88,7 @@ impl Placed<'_> {
     /// What an effect adds for a gain of one, on the rows of the fit segment.
     pub(super) fn column(&self, term: &FitTerm) -> Option<DVector<f64>> {
         let raw = if term.effect.is_output_stage() {
-            stage_column(&term.effect, &self.output, self.data.dt)
+            stage_column(self.data, &term.effect, &self.output)
         } else {
             effect_column(self.data, term, &self.eta)?
         };

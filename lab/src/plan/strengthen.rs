@@ -42,9 +42,12 @@ pub fn strengthen(data: &Prepared, solution: &Solution) -> Option<Experiment> {
         .enumerate()
         .filter(|(j, p)| {
             // How the record began is no property of the rig.
-            let passing = j
-                .checked_sub(linear)
-                .is_some_and(|f| matches!(solution.free[f].role, Role::Eta0 | Role::Start { .. }));
+            let passing = j.checked_sub(linear).is_some_and(|f| {
+                matches!(
+                    solution.free[f].role,
+                    Role::Eta0 { .. } | Role::Start { .. }
+                )
+            });
             !p.identified && !passing
         })
         .filter_map(|(j, p)| {

@@ -198,7 +198,15 @@ fn moves(index: usize, name: &str) -> bool {
 /// The trajectory of that kind for a record.
 #[must_use]
 pub fn trajectory(data: &Prepared, kind: Kind) -> Trajectory {
-    let position = |c: &crate::channels::Channel| c.motion.iter().map(|m| m.position).collect();
+    // Of several records the first one's motion is played.
+    let samples = data
+        .pieces
+        .first()
+        .map_or(0..data.work_len(), |p| p.work.clone());
+    let position = |c: &crate::channels::Channel| {
+        let motion = c.motion[samples.clone()].iter();
+        motion.map(|m| m.position).collect()
+    };
     let source = Source {
         data,
         signals: std::iter::once(&data.input)
@@ -206,7 +214,7 @@ pub fn trajectory(data: &Prepared, kind: Kind) -> Trajectory {
             .map(position)
             .collect(),
         stroke_time: data.input.reach / data.input.speed.max(1e-300),
-        seconds: (data.work_len() - 1) as f64 * data.dt,
+        seconds: (samples.len() - 1) as f64 * data.dt,
     };
     let seconds = source.seconds;
     let hold = (4.0 * source.stroke_time).clamp(HOLD.0, HOLD.1);

@@ -70,7 +70,7 @@ pub(super) fn contribution(
     term: &FitTerm,
 ) -> Option<Contribution> {
     let raw = if term.effect.is_output_stage() {
-        stage_column(&term.effect, &solution.unfiltered, data.dt)
+        stage_column(data, &term.effect, &solution.unfiltered)
     } else {
         effect_column(data, term, &solution.eta)?
     };

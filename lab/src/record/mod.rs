@@ -22,6 +22,7 @@
 //! # Ok::<(), bowden_lab::record::RecordError>(())
 //! ```
 
+mod agree;
 mod checks;
 mod clipping;
 mod error;
@@ -34,6 +35,7 @@ mod text;
 mod time;
 mod units;
 
+pub use agree::agree;
 pub use error::RecordError;
 
 use std::path::Path;

@@ -1,7 +1,8 @@
 //! The JSON of `bowden close --json`, schema `bowden.close/1`.
 
+use super::several::{nrmse_by_file, rmse_by_file, FileErrors};
 use crate::catalogue::Candidate;
-use crate::channels::Prepared;
+use crate::channels::{Piece, Prepared};
 use crate::closing::{Gate, Grade, Ledger};
 use crate::fit::{Segments, Solution};
 use crate::intervals::{parameters, term_name, Parameter};
@@ -15,7 +16,10 @@ use serde::Serialize;
 #[derive(Debug, Clone, Serialize)]
 pub struct Report {
     schema: &'static str,
-    record: RecordPart,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    record: Option<RecordPart>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    records: Option<Vec<RecordPart>>,
     declared: ModelPart,
     rounds: Vec<RoundPart>,
     r#final: FinalPart,
@@ -34,6 +38,8 @@ struct RecordPart {
     mode: &'static str,
     cutoff_hz: f64,
     blocks: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    held_out: Option<&'static str>,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -43,6 +49,26 @@ struct ModelPart {
     rmse: Segments,
     nrmse: Segments,
     nrmse_raw: Segments,
+    #[serde(flatten)]
+    by_file: ByFile,
+}
+
+/// Present where there are several records.
+#[derive(Debug, Clone, Serialize)]
+struct ByFile {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rmse_by_file: Option<Vec<FileErrors>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    nrmse_by_file: Option<Vec<FileErrors>>,
+}
+
+impl ByFile {
+    fn new(data: &Prepared, solution: &Solution) -> Self {
+        Self {
+            rmse_by_file: rmse_by_file(data, solution),
+            nrmse_by_file: nrmse_by_file(data, solution),
+        }
+    }
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -51,6 +77,8 @@ struct FinalPart {
     parameters: Vec<Parameter>,
     rmse: Segments,
     nrmse: Segments,
+    #[serde(flatten)]
+    by_file: ByFile,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -131,6 +159,19 @@ impl Report {
     #[must_use]
     pub fn new(path: &str, data: &Prepared, ledger: &Ledger) -> Self {
         let last = ledger.last();
+        let several = data.pieces.len() > 1;
+        let part = |path: &str, samples, rate_hz, held_out| RecordPart {
+            path: path.to_owned(),
+            samples,
+            rate_hz,
+            mode: match data.mode {
+                Mode::Torque => "torque",
+                Mode::Displacement => "displacement",
+            },
+            cutoff_hz: data.cutoff,
+            blocks: block_count(data, ledger),
+            held_out,
+        };
         let rounds = ledger
             .rounds
             .iter()
@@ -170,23 +211,26 @@ impl Report {
             .collect();
         Self {
             schema: "bowden.close/1",
-            record: RecordPart {
-                path: path.to_owned(),
-                samples: data.samples,
-                rate_hz: data.rate,
-                mode: match data.mode {
-                    Mode::Torque => "torque",
-                    Mode::Displacement => "displacement",
-                },
-                cutoff_hz: data.cutoff,
-                blocks: block_count(data, ledger),
-            },
+            record: (!several).then(|| part(path, data.samples, data.rate, None)),
+            records: several.then(|| {
+                let whole = data.pieces.iter().any(|p| !p.fitted);
+                let own = |p: &Piece| match (p.fitted, whole) {
+                    (false, _) => "whole",
+                    (true, true) => "nothing",
+                    (true, false) => "trailing",
+                };
+                let pieces = data.pieces.iter();
+                pieces
+                    .map(|p| part(&p.path, p.samples, p.rate, Some(own(p))))
+                    .collect()
+            }),
             declared: ModelPart {
                 effects: effects(data, &ledger.declared),
                 parameters: parameters(data, &ledger.declared),
                 rmse: ledger.declared.rmse,
                 nrmse: ledger.declared.rmse.normalised(data, &data.target),
                 nrmse_raw: raw(data, &ledger.declared),
+                by_file: ByFile::new(data, &ledger.declared),
             },
             rounds,
             r#final: FinalPart {
@@ -194,6 +238,7 @@ impl Report {
                 parameters: parameters(data, last),
                 rmse: last.rmse,
                 nrmse: last.rmse.normalised(data, &data.target),
+                by_file: ByFile::new(data, last),
             },
             rejected: ledger
                 .rejected

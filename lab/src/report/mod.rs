@@ -4,6 +4,7 @@ pub mod certificates;
 pub mod control;
 mod json;
 mod power;
+mod several;
 mod terminal;
 
 pub use json::{json, Report};

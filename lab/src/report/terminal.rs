@@ -1,6 +1,7 @@
 //! The ledger for people: what was read, what was found, errors before and after.
 
 use super::json::{block_count, effects};
+use super::several;
 use crate::channels::Prepared;
 use crate::closing::{Grade, Ledger};
 use crate::fit::Segments;
@@ -28,7 +29,7 @@ pub(super) fn number(value: f64, half_width: Option<f64>) -> String {
 }
 
 /// "12.34 ± 0.05 N·m", or what is to be said instead.
-fn estimate(parameter: &Parameter) -> String {
+pub(super) fn estimate(parameter: &Parameter) -> String {
     let unit = match parameter.unit.as_deref() {
         Some("1") => String::new(),
         Some(unit) => format!(" {unit}"),
@@ -126,9 +127,10 @@ pub fn text(path: &str, data: &Prepared, ledger: &Ledger, chosen_cutoff: bool) -
         " (8 × the input's highest tone)"
     };
     line!(
-            out,
-        "filtered  zero-phase at {} Hz{whence}; 60 % to fit, 15 % to stop, 25 % held out; {} blocks",
+        out,
+        "filtered  zero-phase at {} Hz{whence}; {}; {} blocks",
         data.cutoff,
+        several::split(data),
         block_count(data, ledger)
     );
     for note in &data.notes {
@@ -222,6 +224,7 @@ pub fn text(path: &str, data: &Prepared, ledger: &Ledger, chosen_cutoff: bool) -
     if !ledger.rounds.is_empty() {
         line!(out, "{added}\n");
     }
+    out.push_str(&several::errors(data, ledger));
     for experiment in ledger.rounds.iter().filter_map(|r| separate(data, r)) {
         line!(out, "to separate: {}", experiment.trajectory);
         for aim in &experiment.aims {
@@ -232,7 +235,12 @@ pub fn text(path: &str, data: &Prepared, ledger: &Ledger, chosen_cutoff: bool) -
 
     let last = ledger.last();
     let mut final_parameters = table(&["final model", "value (95 %)"], 0..0);
-    for parameter in parameters(data, last) {
+    let own_gains = match last.structure.own_gains {
+        0 => 0,
+        _ => last.structure.base(),
+    };
+    out.push_str(&several::gains(data, last));
+    for parameter in parameters(data, last).into_iter().skip(own_gains) {
         final_parameters.add_row([parameter.name.clone(), estimate(&parameter)]);
     }
     line!(out, "{final_parameters}\n");

@@ -1,37 +1,90 @@
 //! The blocks, the exact test on their scores, and how long they have to be.
 
 use crate::channels::Prepared;
+use std::ops::Range;
 
 /// Number of blocks.
 pub const BLOCKS: usize = 16;
 
 /// Sixteen blocks of equal path length over the rows of the fit segment.
 ///
-/// Each is a range of positions in `data.split.fit`.
+/// Each is a range of positions in `data.split.fit`. Of several records each gets as many
+/// blocks as are nearest to its share of the path, so that none straddles two of them;
+/// only a record with less than half a block's path shares one with its neighbour.
 #[must_use]
-pub fn blocks(data: &Prepared) -> Vec<std::ops::Range<usize>> {
-    let rows = &data.split.fit;
-    let path = |k: usize| data.path[rows[k]];
-    let (first, total) = (path(0), path(rows.len() - 1) - path(0));
+pub fn blocks(data: &Prepared) -> Vec<Range<usize>> {
+    let path = path(data);
     let mut ranges = Vec::with_capacity(BLOCKS);
-    let mut from = 0;
-    for block in 1..=BLOCKS {
-        let end = first + total * block as f64 / BLOCKS as f64;
+    for (part, count) in parts(data, &path) {
+        divide(&path, part, count, &mut ranges);
+    }
+    ranges
+}
+
+/// Path length at each row of the fit segment; what lies between two records' fit
+/// segments does not count.
+fn path(data: &Prepared) -> Vec<f64> {
+    let rows = &data.split.fit;
+    let mut skipped = 0.0;
+    let mut last: Option<usize> = None;
+    let mut all = Vec::with_capacity(rows.len());
+    for piece in &data.pieces {
+        let begin = rows.partition_point(|&row| row < piece.rows.start);
+        let end = rows.partition_point(|&row| row < piece.rows.end);
+        if let (Some(last), true) = (last, begin < end) {
+            skipped += data.path[rows[begin]] - data.path[last];
+        }
+        all.extend(rows[begin..end].iter().map(|&row| data.path[row] - skipped));
+        last = rows[..end].last().copied();
+    }
+    all
+}
+
+/// The fit rows in parts with a number of blocks each: a part a record where they allow.
+fn parts(data: &Prepared, path: &[f64]) -> Vec<(Range<usize>, usize)> {
+    let rows = &data.split.fit;
+    let (Some(first), Some(last)) = (path.first(), path.last()) else {
+        return Vec::new();
+    };
+    let mut parts = Vec::new();
+    let (mut from, mut used) = (0, 0);
+    for piece in &data.pieces {
+        let to = rows.partition_point(|&row| row < piece.rows.end);
+        if to == rows.len() || to < from + 2 {
+            continue;
+        }
+        let share = (path[to - 1] - first) / (last - first);
+        let until = (share * BLOCKS as f64).round() as usize;
+        let rows_left = to >= from + 2 * (until - used) && rows.len() >= to + 2 * (BLOCKS - until);
+        if until > used && until < BLOCKS && rows_left {
+            parts.push((from..to, until - used));
+            (from, used) = (to, until);
+        }
+    }
+    parts.push((from..rows.len(), BLOCKS - used));
+    parts
+}
+
+/// Blocks of equal path length over some of the rows.
+fn divide(path: &[f64], rows: Range<usize>, count: usize, ranges: &mut Vec<Range<usize>>) {
+    let (first, total) = (path[rows.start], path[rows.end - 1] - path[rows.start]);
+    let mut from = rows.start;
+    for block in 1..=count {
+        let end = first + total * block as f64 / count as f64;
         // Every block keeps a few rows, also where the input rests.
         let least = from + 2;
-        let most = rows.len() - 2 * (BLOCKS - block);
-        let mut to = if block == BLOCKS {
-            rows.len()
+        let most = rows.end - 2 * (count - block);
+        let mut to = if block == count {
+            rows.end
         } else {
-            (from..rows.len())
-                .find(|&k| path(k) > end)
-                .unwrap_or(rows.len())
+            (from..rows.end)
+                .find(|&k| path[k] > end)
+                .unwrap_or(rows.end)
         };
         to = to.clamp(least.min(most), most);
         ranges.push(from..to);
         from = to;
     }
-    ranges
 }
 
 /// Share of all sign patterns whose sum is at least as far from zero as the real one.

@@ -49,7 +49,7 @@ fn firmware<T: Real>(data: &Prepared, solution: &Solution) -> (Model<T, 16>, Mod
         .map(|index| term(solution, index))
         .collect();
     let state = match solution.structure.hysteresis {
-        true => ModelState::with_eta(value(Role::Eta0)).unwrap(),
+        true => ModelState::with_eta(value(Role::Eta0 { record: 0 })).unwrap(),
         false => ModelState::new(),
     };
     (Model::try_new(transmission, &terms).unwrap(), state)
@@ -223,7 +223,7 @@ fn a_stop_runs_the_same_in_firmware_once_it_has_slipped() {
     let positions = channel.motion[..early].iter().map(|m| m.position);
     let moved = positions.clone().fold(f64::NEG_INFINITY, f64::max)
         - positions.fold(f64::INFINITY, f64::min);
-    assert!(term.start != 0.0);
+    assert!(term.start[0] != 0.0);
     // Two half-widths from the lowest to the highest place, in whichever order, and it
     // lies at its end wherever it began.
     assert!(moved >= 2.0 * term.effect.shape(0).unwrap(), "{moved}");
@@ -238,9 +238,9 @@ fn creep_runs_the_same_in_firmware_but_for_what_it_remembers_from_before() {
     let mut solution = told(&made, &["bouc-wen", "creep@tau_i"]);
     let term = solution.structure.terms[0];
     let (tau, gain) = (term.effect.shape(0).unwrap(), solution.gain(0));
-    assert!(contributes(&solution, "creep") && term.start != 0.0);
+    assert!(contributes(&solution, "creep") && term.start[0] != 0.0);
     let before: Vec<f64> = (0..made.data.work_len())
-        .map(|i| -gain * term.start * (-(i as f64 + 1.0) * made.data.dt / tau).exp())
+        .map(|i| -gain * term.start[0] * (-(i as f64 + 1.0) * made.data.dt / tau).exp())
         .collect();
     let before = made.data.filtered(&before);
     let played = played::<f64>(&made.data, &solution);

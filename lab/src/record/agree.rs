@@ -1,0 +1,151 @@
+//! Several records of one rig: the same mode, channels and units in all of them.
+
+use super::{Column, Mode, Record, RecordError};
+
+/// Units of one kind, each with its size in the first one.
+const SIZES: [&[(&str, f64)]; 7] = [
+    &[
+        ("m", 1.0),
+        ("cm", 1e-2),
+        ("mm", 1e-3),
+        ("µm", 1e-6),
+        ("um", 1e-6),
+        ("nm", 1e-9),
+    ],
+    &[
+        ("rad", 1.0),
+        ("mrad", 1e-3),
+        ("deg", std::f64::consts::PI / 180.0),
+        ("°", std::f64::consts::PI / 180.0),
+    ],
+    &[("N", 1.0), ("kN", 1e3), ("mN", 1e-3), ("µN", 1e-6)],
+    &[
+        ("N·m", 1.0),
+        ("Nm", 1.0),
+        ("N*m", 1.0),
+        ("mN·m", 1e-3),
+        ("mNm", 1e-3),
+        ("kN·m", 1e3),
+    ],
+    &[("V", 1.0), ("mV", 1e-3)],
+    &[("A", 1.0), ("mA", 1e-3)],
+    &[("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("bar", 1e5)],
+];
+
+/// By what a value is to be multiplied to go from one unit to the other.
+fn factor(from: &str, to: &str) -> Option<f64> {
+    let size = |kind: &[(&str, f64)], unit: &str| {
+        let named = kind.iter().find(|(name, _)| *name == unit);
+        named.map(|(_, size)| *size)
+    };
+    SIZES
+        .iter()
+        .find_map(|kind| Some(size(kind, from)? / size(kind, to)?))
+}
+
+/// Brings all records to the channels and the units of the first one.
+///
+/// # Errors
+/// One line with file and column where a mode, a channel or a unit differs.
+pub fn agree(records: &mut [Record]) -> Result<(), RecordError> {
+    let Some((first, others)) = records.split_first_mut() else {
+        return Ok(());
+    };
+    for other in others {
+        follow(first, other).map_err(|error| error.in_file(&other.path))?;
+    }
+    Ok(())
+}
+
+fn follow(first: &Record, other: &mut Record) -> Result<(), RecordError> {
+    let words = |mode| match mode {
+        Mode::Torque => "torque",
+        Mode::Displacement => "displacement",
+    };
+    if first.mode != other.mode {
+        return Err(RecordError::new(format!(
+            "input of {} mode; {} mode was expected, as in {}",
+            words(other.mode),
+            words(first.mode),
+            first.path
+        ))
+        .on(&other.input.name));
+    }
+    let missing = |name: &str| {
+        RecordError::new(format!(
+            "no such channel; it was expected, as in {}",
+            first.path
+        ))
+        .on(name)
+    };
+    if let Some(more) = other
+        .channels
+        .iter()
+        .find(|c| first.channel(&c.name).is_none())
+    {
+        return Err(RecordError::new(format!(
+            "a channel that {} does not have; the same channels were expected in all files",
+            first.path
+        ))
+        .on(&more.name));
+    }
+    let mut notes = Vec::new();
+    notes.extend(convert(&first.input, &mut other.input, &first.path)?);
+    notes.extend(convert(&first.output, &mut other.output, &first.path)?);
+    let mut channels = Vec::with_capacity(first.channels.len());
+    for column in &first.channels {
+        let own = other.channels.iter().position(|c| c.name == column.name);
+        let mut own = other
+            .channels
+            .swap_remove(own.ok_or_else(|| missing(&column.name))?);
+        notes.extend(convert(column, &mut own, &first.path)?);
+        channels.push(own);
+    }
+    other.channels = channels;
+    other.notes.extend(notes);
+    Ok(())
+}
+
+/// Brings a column to the unit of its namesake; says so where that changes its values.
+fn convert(first: &Column, other: &mut Column, path: &str) -> Result<Option<String>, RecordError> {
+    if first.unit == other.unit {
+        return Ok(None);
+    }
+    let shown = |unit: &Option<String>| match unit {
+        Some(unit) => format!("unit {unit}"),
+        None => "no unit".to_owned(),
+    };
+    let (from, to) = (shown(&other.unit), shown(&first.unit));
+    let known = match (&other.unit, &first.unit) {
+        (Some(own), Some(unit)) => factor(own, unit),
+        _ => None,
+    };
+    let Some(factor) = known else {
+        let message = format!("has {from}; {to} was expected, as in {path}");
+        return Err(RecordError::new(message).on(&other.name));
+    };
+    other.unit.clone_from(&first.unit);
+    if factor == 1.0 {
+        return Ok(None);
+    }
+    other.values.iter_mut().for_each(|value| *value *= factor);
+    Ok(Some(format!(
+        "`{}` converted from {from} to {to}",
+        other.name
+    )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_of_one_kind_convert_and_others_do_not() {
+        assert_eq!(factor("mm", "mm"), Some(1.0));
+        // One rounding of the quotient.
+        assert!((factor("mm", "µm").unwrap() / 1000.0 - 1.0).abs() < 1e-15);
+        assert!((factor("deg", "rad").unwrap() * 180.0 / std::f64::consts::PI - 1.0).abs() < 1e-15);
+        assert_eq!(factor("mm", "N"), None);
+        assert_eq!(factor("K", "°C"), None);
+    }
+}
