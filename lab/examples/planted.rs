@@ -98,7 +98,7 @@ fn main() {
                 let seconds = started.elapsed().as_secs_f64();
                 let family = family_of(name);
                 let mut hit = false;
-                let found: Vec<String> = ledger
+                let mut found: Vec<String> = ledger
                     .rounds
                     .iter()
                     .map(|r| {
@@ -122,6 +122,10 @@ fn main() {
                         )
                     })
                     .collect();
+                if let Some(unknown) = &ledger.unknown {
+                    extra += 1;
+                    found.push(format!("UNKNOWN {}", unknown.variable.words(&data)));
+                }
                 let ratio = ledger.last().rmse.held_out / floor;
                 total += 1;
                 right += i32::from(hit);

@@ -25,10 +25,23 @@ pub(crate) struct Attempt {
     pub(crate) rejected: Vec<Rejection>,
     pub(crate) regime: Regime,
     pub(crate) correlation_time: f64,
+    /// Level of one test.
+    pub(crate) level: f64,
     /// What the scan chose before any test, with the coefficient each has by itself.
     pub(crate) forward: Vec<(Candidate, f64)>,
     /// Share of the squared error that all of these take together.
     pub(crate) forward_share: f64,
+}
+
+impl Attempt {
+    /// What its scan knows.
+    pub(crate) fn evidence(&self) -> Evidence {
+        Evidence {
+            regime: self.regime,
+            correlation_time: self.correlation_time,
+            level: self.level,
+        }
+    }
 }
 
 /// Scans and tries.
@@ -49,14 +62,11 @@ pub(crate) fn attempt(data: &Prepared, now: &Solution, mut progress: impl FnMut(
             .collect(),
         regime: result.regime,
         correlation_time: result.correlation_time,
+        level: result.level,
         forward: result.forward,
         forward_share: result.forward_share,
     };
-    let evidence = Evidence {
-        regime: result.regime,
-        correlation_time: result.correlation_time,
-        level: result.level,
-    };
+    let evidence = attempt.evidence();
     'findings: for finding in &result.findings {
         progress(&format!("trying {}", finding.candidate.term.effect.name()));
         for finding in [Some(finding.clone()), by_itself(finding)]

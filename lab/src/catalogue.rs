@@ -66,7 +66,7 @@ pub fn simplicity(effect: &Effect<f64>) -> (usize, usize) {
 
 /// What a channel is to the effects, told from its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
+pub(crate) enum Kind {
     /// An angle or a displacement: something moves.
     Motion,
     /// The transmitted torque, input of the torque mode.
@@ -76,7 +76,7 @@ enum Kind {
     Other,
 }
 
-fn kind(mode: Mode, source: Source, channel: &Channel) -> Kind {
+pub(crate) fn kind(mode: Mode, source: Source, channel: &Channel) -> Kind {
     match (source, mode) {
         (Source::Input, Mode::Displacement) => Kind::Motion,
         (Source::Input, Mode::Torque) => Kind::Torque,

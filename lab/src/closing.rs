@@ -7,6 +7,8 @@ use crate::fit::{fit, Segments, Solution};
 use crate::joint::{joint, superseded};
 use crate::scan::Regime;
 use crate::structure::Structure;
+use crate::tones::tone;
+use crate::unknown::{instead, unnamed, Unknown};
 
 /// At most this many effects are added.
 pub const MOST_ROUNDS: usize = 8;
@@ -99,6 +101,8 @@ pub struct Ledger {
     pub rounds: Vec<Round>,
     /// What was turned down in the last scan of each round.
     pub rejected: Vec<Rejection>,
+    /// What is there besides and has no name.
+    pub unknown: Option<Unknown>,
     /// Whether the record had blocks enough for p-values, in the last scan and wherever
     /// an effect was added.
     pub regime: Regime,
@@ -107,9 +111,18 @@ pub struct Ledger {
 }
 
 impl Ledger {
-    /// The last accepted model.
+    /// The last accepted model, a table for what has no name included.
     #[must_use]
     pub fn last(&self) -> &Solution {
+        match &self.unknown {
+            Some(unknown) => &unknown.solution,
+            None => self.named(),
+        }
+    }
+
+    /// The last accepted model of effects that have a name.
+    #[must_use]
+    pub fn named(&self) -> &Solution {
         self.rounds.last().map_or(&self.declared, |r| &r.solution)
     }
 }
@@ -158,6 +171,7 @@ pub fn close(
         declared,
         rounds: Vec::new(),
         rejected: Vec::new(),
+        unknown: None,
         regime: Regime::Blocks,
         correlation_time: 0.0,
     };
@@ -176,17 +190,38 @@ pub fn close(
                 joint(data, &now, &tried, MOST_ROUNDS - ledger.rounds.len())
             }
         };
-        ledger.rejected = tried.rejected;
+        ledger.rejected.clone_from(&tried.rejected);
+        let accepted = if accepted.is_empty() {
+            progress(&format!("round {round}: looking for a tone"));
+            match tone(data, &now, &tried) {
+                Ok(accepted) => vec![accepted],
+                Err(rejection) => {
+                    ledger.rejected.extend(rejection);
+                    Vec::new()
+                }
+            }
+        } else {
+            accepted
+        };
         if accepted.is_empty() {
+            progress("looking for what has no name");
+            ledger.unknown = unnamed(data, &now, &tried);
             break;
         }
         for one in accepted {
+            ledger.unknown = instead(data, ledger.last(), &one, &tried);
+            if ledger.unknown.is_some() {
+                break;
+            }
             let round = add(data, ledger.last(), one, ledger.rounds.len() + 1);
             ledger.rounds.push(round);
         }
+        if ledger.unknown.is_some() {
+            break;
+        }
     }
     progress("looking for what later effects have made superfluous");
-    if let Some((kept, gone)) = superseded(data, &ledger) {
+    if let (Some((kept, gone)), None) = (superseded(data, &ledger), &ledger.unknown) {
         ledger.rounds.clear();
         for one in kept {
             let round = add(data, ledger.last(), one, ledger.rounds.len() + 1);

@@ -9,6 +9,7 @@
 
 use crate::channels::{Channel, Piece, Prepared};
 use crate::structure::{FitTerm, Free, Role, Structure};
+use crate::unknown::Variable;
 use bowden::effect::{Effect, EffectState, Family, Motion, Situation};
 use bowden::hysteresis::{Sensitivity, Shape};
 use std::ops::Range;
@@ -217,6 +218,11 @@ pub fn raw_columns(
             columns.push(effect_column(data, term, &eta)?);
             fixed.push(!term.effect.reads_eta() && free.iter().all(|f| !matches!(f.role, Role::Shape { term, .. } | Role::Origin { term } | Role::Start { term, .. } if term == index)));
         }
+    }
+    if let Some(table) = &structure.table {
+        // Its slopes in eta's parameters are left out: a search needs them only roughly.
+        columns.extend(table.columns(data, &eta)?);
+        fixed.resize(columns.len(), table.variable != Variable::Eta);
     }
     let before = if list.is_empty() {
         Vec::new()

@@ -63,22 +63,7 @@ pub(crate) fn judge(
     if new.sse(data) > (1.0 - evidence.least_share(data, freedoms)) * old.sse(data) {
         return Err(Gate::Share);
     }
-    let (before, after) = (left_out(data, old), left_out(data, new));
-    let ratios: Vec<f64> = before
-        .iter()
-        .zip(&after)
-        .map(|(b, a)| (b / a).ln())
-        .collect();
-    let better = ratios.iter().filter(|r| **r > 0.0).count();
-    let enough = match regime {
-        Regime::Blocks => {
-            let n = ratios.len() as f64;
-            let mean = ratios.iter().sum::<f64>() / n;
-            let variance = ratios.iter().map(|r| (r - mean).powi(2)).sum::<f64>() / (n - 1.0);
-            mean > (variance / n).sqrt() && better >= 10
-        }
-        Regime::Effect => better >= 9,
-    };
+    let (better, enough) = on_blocks(data, old, new, regime);
     if !enough {
         return Err(Gate::Blocks);
     }
@@ -98,6 +83,32 @@ pub(crate) fn judge(
         return Err(Gate::StopCheck);
     }
     Ok(better)
+}
+
+/// On how many blocks left out the new model is better, and whether that is enough.
+pub(crate) fn on_blocks(
+    data: &Prepared,
+    old: &Solution,
+    new: &Solution,
+    regime: Regime,
+) -> (usize, bool) {
+    let (before, after) = (left_out(data, old), left_out(data, new));
+    let ratios: Vec<f64> = before
+        .iter()
+        .zip(&after)
+        .map(|(b, a)| (b / a).ln())
+        .collect();
+    let better = ratios.iter().filter(|r| **r > 0.0).count();
+    let enough = match regime {
+        Regime::Blocks => {
+            let n = ratios.len() as f64;
+            let mean = ratios.iter().sum::<f64>() / n;
+            let variance = ratios.iter().map(|r| (r - mean).powi(2)).sum::<f64>() / (n - 1.0);
+            mean > (variance / n).sqrt() && better >= 10
+        }
+        Regime::Effect => better >= 9,
+    };
+    (better, enough)
 }
 
 /// Loss on each block with the gains fitted on the others, shapes frozen.

@@ -247,8 +247,14 @@ fn entries<'a>(data: &Prepared, solution: &'a Solution) -> Vec<Entry<'a>> {
     all
 }
 
-/// Half-widths of the 95 % intervals; `None` where a column depends on the others.
-fn half_widths(data: &Prepared, solution: &Solution, columns: &[&[f64]]) -> Vec<Option<f64>> {
+/// By how much each column's factor would move without each block, times the correction
+/// for their number: variances are sums of the squares. NaN for a column that depends on
+/// the others; `None` where all do.
+pub(crate) fn jackknife(
+    data: &Prepared,
+    solution: &Solution,
+    columns: &[&[f64]],
+) -> Option<Vec<Vec<f64>>> {
     let rows = &data.split.fit;
     let scale: Vec<f64> = columns
         .iter()
@@ -261,12 +267,10 @@ fn half_widths(data: &Prepared, solution: &Solution, columns: &[&[f64]]) -> Vec<
     let x = DMatrix::from_fn(rows.len(), m, |k, j| {
         columns[used[j]][rows[k]] / scale[used[j]]
     });
-    let none = vec![None; columns.len()];
     let gram = x.tr_mul(&x);
-    let Some(bread) = gram.clone().cholesky().map(|c| c.inverse()) else {
-        return none;
-    };
-    let mut variances = vec![0.0; m];
+    let bread = gram.clone().cholesky().map(|c| c.inverse())?;
+    let correction = ((BLOCKS as f64 - 1.0) / BLOCKS as f64).sqrt();
+    let mut steps = Vec::with_capacity(BLOCKS);
     for block in blocks(data) {
         let part = x.rows(block.start, block.len());
         let residual =
@@ -276,29 +280,40 @@ fn half_widths(data: &Prepared, solution: &Solution, columns: &[&[f64]]) -> Vec<
         let rest = (&gram - part.tr_mul(&part)).cholesky().map(|c| c.inverse());
         let plain = &bread * &score;
         let moved = rest.as_ref().map(|rest| rest * &score);
-        for (j, variance) in variances.iter_mut().enumerate() {
+        let mut all = vec![f64::NAN; columns.len()];
+        for (j, &column) in used.iter().enumerate() {
             // What hangs on this block alone (eta0 does) cannot be told without it: then
             // the step is that of the whole fit.
             let step = match (&rest, &moved) {
                 (Some(rest), Some(moved)) if rest[(j, j)] <= ALONE * bread[(j, j)] => moved[j],
                 _ => plain[j],
             };
-            *variance += step * step;
+            if bread[(j, j)] < 1e10 {
+                all[column] = correction * step / scale[column];
+            }
         }
+        steps.push(all);
     }
-    let correction = (BLOCKS as f64 - 1.0) / BLOCKS as f64;
-    let Ok(student) = StudentsT::new(0.0, 1.0, BLOCKS as f64 - 1.0) else {
-        return none;
+    Some(steps)
+}
+
+/// Student's t with one degree of freedom less than there are blocks, for 95 %.
+pub(crate) fn quantile() -> Option<f64> {
+    let student = StudentsT::new(0.0, 1.0, BLOCKS as f64 - 1.0).ok()?;
+    Some(student.inverse_cdf(0.975))
+}
+
+/// Half-widths of the 95 % intervals; `None` where a column depends on the others.
+fn half_widths(data: &Prepared, solution: &Solution, columns: &[&[f64]]) -> Vec<Option<f64>> {
+    let (Some(steps), Some(quantile)) = (jackknife(data, solution, columns), quantile()) else {
+        return vec![None; columns.len()];
     };
-    let quantile = student.inverse_cdf(0.975);
-    let mut widths = none;
-    for (a, &j) in used.iter().enumerate() {
-        let variance = correction * variances[a];
-        if variance.is_finite() && variance >= 0.0 && bread[(a, a)] < 1e10 {
-            widths[j] = Some(quantile * variance.sqrt() / scale[j]);
-        }
-    }
-    widths
+    (0..columns.len())
+        .map(|j| {
+            let variance: f64 = steps.iter().map(|step| step[j] * step[j]).sum();
+            (variance.is_finite() && variance >= 0.0).then(|| quantile * variance.sqrt())
+        })
+        .collect()
 }
 
 /// All parameters of a fitted model, gains first.
@@ -307,7 +322,10 @@ pub fn parameters(data: &Prepared, solution: &Solution) -> Vec<Parameter> {
     let entries = entries(data, solution);
     // A parameter on its bound does not move: the others are conditional on it.
     let moving: Vec<usize> = (0..entries.len()).filter(|&j| !entries[j].bound).collect();
-    let columns: Vec<&[f64]> = moving.iter().map(|&j| entries[j].column).collect();
+    let mut columns: Vec<&[f64]> = moving.iter().map(|&j| entries[j].column).collect();
+    // A table beside them is no parameter, but they are no better known than beside it.
+    let table = solution.columns.len() - solution.structure.table_gains();
+    columns.extend(solution.columns[table..].iter().map(Vec::as_slice));
     let widths = half_widths(data, solution, &columns);
     let mut of = vec![None; entries.len()];
     for (&j, width) in moving.iter().zip(widths) {

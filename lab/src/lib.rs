@@ -33,5 +33,7 @@ pub mod solution;
 pub mod spectrum;
 pub mod structure;
 pub mod synth;
+mod tones;
 pub mod units;
+pub mod unknown;
 pub mod verdict;

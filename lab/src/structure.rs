@@ -2,6 +2,7 @@
 
 use crate::channels::{Channel, Prepared};
 use crate::record::Mode;
+use crate::unknown::Table;
 use bowden::effect::{Effect, Family};
 use bowden::model::Source;
 
@@ -43,6 +44,8 @@ pub struct Structure {
     pub own_gains: usize,
     /// The effects, in the order in which they came.
     pub terms: Vec<FitTerm>,
+    /// A curve over one variable, for what has no name.
+    pub table: Option<Table>,
 }
 
 /// A free parameter's range, mapped to the whole line so that bounds hold by construction.
@@ -283,6 +286,13 @@ impl Structure {
                 .iter()
                 .filter(|t| !t.effect.is_output_stage())
                 .count()
+            + self.table_gains()
+    }
+
+    /// How many of the linear gains, the last ones, are those of the table.
+    #[must_use]
+    pub fn table_gains(&self) -> usize {
+        self.table.as_ref().map_or(0, |table| table.shapes.len())
     }
 
     /// Whether a gain must not be negative.
@@ -296,6 +306,7 @@ impl Structure {
             let friction = matches!(term.effect.family(), Family::Viscous | Family::Coulomb);
             kept.push(friction && mode == Mode::Displacement && term.source == Source::Input);
         }
+        kept.resize(kept.len() + self.table_gains(), false);
         kept
     }
 }

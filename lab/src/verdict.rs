@@ -15,6 +15,8 @@ pub enum Verdict {
     Explained,
     /// What is left is coloured, but nothing of the catalogue takes it.
     ExplainedColoured,
+    /// What is left depends on something measured, in a way that has no name.
+    Unknown,
     /// An added effect has rivals that this record cannot tell from it.
     Confounded,
     /// Too few independent stretches for a test: names are proposals.
@@ -28,6 +30,7 @@ impl Verdict {
         match self {
             Self::Explained => "explained",
             Self::ExplainedColoured => "explained-coloured",
+            Self::Unknown => "unknown",
             Self::Confounded => "confounded",
             Self::UnderExcited => "under-excited",
         }
@@ -68,7 +71,10 @@ pub fn is_white(data: &Prepared, solution: &Solution) -> bool {
 #[must_use]
 pub fn verdict(data: &Prepared, ledger: &Ledger) -> Verdict {
     let last = ledger.last();
-    if ledger.regime == Regime::Effect || ledger.rounds.iter().any(|r| r.p.is_none()) {
+    let untested = ledger.rounds.iter().any(|r| r.p.is_none());
+    if ledger.unknown.is_some() && !untested {
+        Verdict::Unknown
+    } else if ledger.regime == Regime::Effect || untested {
         Verdict::UnderExcited
     } else if ledger.rounds.iter().any(|r| !r.rivals.is_empty()) {
         Verdict::Confounded
@@ -77,6 +83,17 @@ pub fn verdict(data: &Prepared, ledger: &Ledger) -> Verdict {
     } else {
         Verdict::ExplainedColoured
     }
+}
+
+/// What the residual depends on without a name.
+#[must_use]
+pub fn unknown_words(data: &Prepared, ledger: &Ledger) -> Option<String> {
+    let unknown = ledger.unknown.as_ref()?;
+    Some(format!(
+        "The residual depends on {}; the catalogue explains {:.0} % of it.",
+        unknown.variable.words(data),
+        100.0 * unknown.q
+    ))
 }
 
 /// The verdict in a sentence or two.
@@ -89,6 +106,9 @@ pub fn sentence(data: &Prepared, ledger: &Ledger) -> String {
         .map(|r| term_name(data, &r.candidate.term))
         .collect();
     let mut text = match added.len() {
+        0 if ledger.unknown.is_some() => {
+            "The declared model lacks something that is in no catalogue.".to_owned()
+        }
         0 => "The declared model lacks no effect that this record could show.".to_owned(),
         _ => {
             let kept = last.rmse.held_out / ledger.declared.rmse.held_out;
@@ -104,6 +124,7 @@ pub fn sentence(data: &Prepared, ledger: &Ledger) -> String {
         Verdict::ExplainedColoured => {
             "What is left is coloured, but nothing in the catalogue takes it.".to_owned()
         }
+        Verdict::Unknown => unknown_words(data, ledger).unwrap_or_default(),
         Verdict::Confounded => {
             let rivals: Vec<String> = ledger
                 .rounds

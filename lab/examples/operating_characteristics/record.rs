@@ -21,6 +21,8 @@ pub struct Outcome {
     pub columns: usize,
     pub bic: Chosen,
     pub err: Chosen,
+    /// What the residual depends on without a name, and whose it is.
+    pub unknown: Option<(&'static str, String)>,
     /// For a reader who wants to see the single record.
     pub line: String,
 }
@@ -108,6 +110,10 @@ pub fn run(recipe: &Recipe) -> Outcome {
         .iter()
         .map(|p| format!("{}*{:.2}", p.effect, p.strength))
         .collect();
+    let unknown = ledger.unknown.as_ref().map(|u| {
+        let channel = data.channel(u.variable.source()).unwrap();
+        (u.variable.name(&data), channel.name.clone())
+    });
     let reached = ledger.last().rmse.held_out / floor;
     let before = ledger.declared.rmse.held_out / floor;
     let mut list = vec!["bouc-wen".to_owned()];
@@ -126,15 +132,18 @@ pub fn run(recipe: &Recipe) -> Outcome {
         bic: library.bic(floor),
         err: library.err(floor),
         line: format!(
-            "{:?} {} colour {} planted {planted:?}: {before:.2} -> {reached:.2} ({:?}) {} | {}",
+            "{:?} {} colour {} planted {planted:?}: {before:.2} -> {reached:.2} ({:?}) {}; unknown {:?} q {:.2} | {}",
             recipe.mode,
             recipe.seed,
             recipe.colour,
             ledger.regime,
             names.join(", "),
+            unknown,
+            ledger.unknown.as_ref().map_or(f64::NAN, |u| u.q),
             turned_down.join(" ")
         ),
         rounds,
+        unknown,
     }
 }
 
@@ -147,8 +156,14 @@ impl Outcome {
             .count()
     }
 
-    /// Rounds that name nothing that was planted, rivals included.
+    /// Rounds that name nothing that was planted, rivals included, and an "unknown" where
+    /// nothing is.
     pub fn wrong(&self, planted: &[Family]) -> usize {
+        self.wrong_names(planted) + usize::from(self.unknown.is_some())
+    }
+
+    /// Rounds that name nothing that was planted, rivals included.
+    pub fn wrong_names(&self, planted: &[Family]) -> usize {
         self.rounds
             .iter()
             .filter(|round| planted.iter().all(|f| !round.contains(f)))

@@ -1,7 +1,7 @@
 //! Grids, gaps and the noise floor.
 
 use super::*;
-use crate::record::Column;
+use crate::record::{Column, Record};
 
 fn record(time: Vec<f64>, f: impl Fn(f64) -> f64) -> Record {
     let column = |name: &str, values: Vec<f64>| Column {

@@ -125,13 +125,19 @@ fn embedded(options: &Options) -> Result<Record, Failure> {
 fn write_models(path: &Path, label: &str, data: &Prepared, ledger: &Ledger) -> Result<(), Failure> {
     let last = ledger.last();
     let version = env!("CARGO_PKG_VERSION");
+    let missing = ledger.unknown.as_ref().map_or_else(String::new, |unknown| {
+        format!(
+            ". NOT IN THIS MODEL: the table of what depends on {} and has no name",
+            unknown.variable.words(data)
+        )
+    });
     if last.structure.own_gains == 0 {
-        let remark = format!("Identified by bowden {version} from {label}");
+        let remark = format!("Identified by bowden {version} from {label}{missing}");
         return write_model(path, &ModelFile::new(data, last), &remark);
     }
     for (record, piece) in data.pieces.iter().enumerate() {
         let remark = format!(
-            "Identified by bowden {version} from {label}; gains of {}",
+            "Identified by bowden {version} from {label}; gains of {}{missing}",
             piece.path
         );
         let file = ModelFile::of_record(data, last, record);

@@ -45,7 +45,8 @@ impl Model {
         let gone = model.structure.terms.pop()?;
         let last = model.structure.terms.len();
         if !gone.effect.is_output_stage() {
-            model.gains.pop();
+            let linear = model.gains.len() - model.structure.table_gains();
+            model.gains.remove(linear.checked_sub(1)?);
         }
         let own = |role: Role| match role {
             Role::Shape { term, .. }

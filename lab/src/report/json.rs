@@ -1,5 +1,6 @@
 //! The JSON of `bowden close --json`, schema `bowden.close/1`.
 
+use super::curve::UnknownPart;
 use super::several::{nrmse_by_file, rmse_by_file, FileErrors};
 use crate::catalogue::Candidate;
 use crate::channels::{Piece, Prepared};
@@ -25,7 +26,7 @@ pub struct Report {
     r#final: FinalPart,
     rejected: Vec<RejectedPart>,
     unneeded: Vec<()>,
-    unknown: Option<()>,
+    unknown: Option<UnknownPart>,
     noise_floor: f64,
     verdict: &'static str,
 }
@@ -251,7 +252,7 @@ impl Report {
                 })
                 .collect(),
             unneeded: Vec::new(),
-            unknown: None,
+            unknown: ledger.unknown.as_ref().map(|u| UnknownPart::new(data, u)),
             noise_floor: data.noise_floor,
             verdict: verdict(data, ledger).name(),
         }

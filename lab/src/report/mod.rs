@@ -2,6 +2,7 @@
 
 pub mod certificates;
 pub mod control;
+mod curve;
 mod json;
 mod power;
 mod several;

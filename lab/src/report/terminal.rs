@@ -1,5 +1,6 @@
 //! The ledger for people: what was read, what was found, errors before and after.
 
+use super::curve;
 use super::json::{block_count, effects};
 use super::several;
 use crate::channels::Prepared;
@@ -233,6 +234,9 @@ pub fn text(path: &str, data: &Prepared, ledger: &Ledger, chosen_cutoff: bool) -
         line!(out, "");
     }
 
+    if let Some(section) = curve::text(data, ledger) {
+        line!(out, "{section}");
+    }
     let last = ledger.last();
     let mut final_parameters = table(&["final model", "value (95 %)"], 0..0);
     let own_gains = match last.structure.own_gains {
@@ -278,7 +282,7 @@ pub fn text(path: &str, data: &Prepared, ledger: &Ledger, chosen_cutoff: bool) -
     let found = verdict(data, ledger);
     let colour = match found {
         Verdict::Explained | Verdict::ExplainedColoured => AnsiColor::Green,
-        Verdict::Confounded | Verdict::UnderExcited => AnsiColor::Yellow,
+        Verdict::Unknown | Verdict::Confounded | Verdict::UnderExcited => AnsiColor::Yellow,
     };
     let style = Style::new().bold().fg_color(Some(colour.into()));
     line!(

@@ -61,7 +61,7 @@ fn added(colour: f64) -> Vec<String> {
                 .collect();
             let data = made.with_output(measured);
             let ledger = close(&data, &made.declare(&["bouc-wen"]), |_| ()).unwrap();
-            let names: Vec<String> = ledger
+            let mut names: Vec<String> = ledger
                 .rounds
                 .iter()
                 .map(|r| {
@@ -69,6 +69,8 @@ fn added(colour: f64) -> Vec<String> {
                     format!("{name} (p {:?}, share {:.2})", r.p, r.explained)
                 })
                 .collect();
+            let unknown = ledger.unknown.as_ref();
+            names.extend(unknown.map(|u| format!("unknown {:?}", u.variable)));
             (!names.is_empty()).then(|| format!("{mode:?} {seed}: {}", names.join(", ")))
         })
         .collect();

@@ -1,0 +1,200 @@
+//! A curve over one variable as a term of the model: ten hat functions.
+//!
+//! Of the ten directions only those are kept in which the rest of the model cannot move:
+//! a curve is told apart from a constant, or from the declared stiffness, by nothing.
+
+use super::variables::Variable;
+use crate::channels::Prepared;
+use crate::fit::Solution;
+use crate::projection::{rows, Span};
+use crate::scan::{blocks, BLOCKS};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+
+/// Hat functions of a curve that is tested.
+pub(super) const HATS: usize = 10;
+/// A direction of which less than this is left beside the model is no part of the curve.
+const APART: f64 = 0.01;
+/// Knots closer than this share of the range are one.
+const CLOSE: f64 = 1e-3;
+
+/// A curve between knots, linear in its gains: one column for each of its shapes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    /// What it is a function of.
+    pub variable: Variable,
+    /// Where, in rising order.
+    pub knots: Vec<f64>,
+    /// Values at the knots, for a gain of one each.
+    pub shapes: Vec<Vec<f64>>,
+}
+
+impl Table {
+    /// One column a shape, on the work grid.
+    #[must_use]
+    pub fn columns(&self, data: &Prepared, eta: &[f64]) -> Option<Vec<Vec<f64>>> {
+        let values = self.variable.values(data, eta)?;
+        let mut columns = vec![Vec::with_capacity(values.len()); self.shapes.len()];
+        for value in values {
+            let (left, share) = self.place(value);
+            for (column, shape) in columns.iter_mut().zip(&self.shapes) {
+                column.push(shape[left] + share * (shape[left + 1] - shape[left]));
+            }
+        }
+        Some(columns)
+    }
+
+    /// The knot on the left, and how far on to the next one; constant beyond the ends.
+    fn place(&self, value: f64) -> (usize, f64) {
+        let last = self.knots.len() - 2;
+        let left = self.knots.partition_point(|k| *k <= value);
+        let left = left.saturating_sub(1).min(last);
+        let (a, b) = (self.knots[left], self.knots[left + 1]);
+        (left, ((value - a) / (b - a)).clamp(0.0, 1.0))
+    }
+}
+
+/// What the residual of a model has of a variable, to first order.
+#[derive(Debug, Clone)]
+pub(super) struct Scored {
+    pub(super) table: Table,
+    /// Share of the squared error.
+    pub(super) share: f64,
+    /// Exact sign-flip p-value of the whole curve.
+    pub(super) p: f64,
+}
+
+/// Fits a curve over the variable to what a model leaves, off all that it can move.
+pub(super) fn score(
+    data: &Prepared,
+    now: &Solution,
+    moved: &Span,
+    variable: Variable,
+    count: usize,
+) -> Option<Scored> {
+    let hats = hats(data, now, variable, count)?;
+    let raw: Vec<DVector<f64>> = hats
+        .columns(data, &now.eta)?
+        .iter()
+        .map(|column| rows(data, &data.filtered(column)))
+        .collect();
+    let whole = DMatrix::from_columns(&raw);
+    let left: Vec<DVector<f64>> = raw.into_iter().map(|c| moved.off(c)).collect();
+    let left = DMatrix::from_columns(&left);
+    // Directions of unit norm before the projection, in falling order of what is left.
+    let root = whole.tr_mul(&whole).cholesky()?.l().try_inverse()?;
+    let inner = &root * left.tr_mul(&left) * root.transpose();
+    let eigen = SymmetricEigen::new(inner);
+    let mut shapes = Vec::new();
+    let mut units = Vec::new();
+    for (k, &rest) in eigen.eigenvalues.iter().enumerate() {
+        if rest > APART {
+            let weights = root.transpose() * eigen.eigenvectors.column(k);
+            units.push(&left * &weights / rest.sqrt());
+            shapes.push(weights.iter().copied().collect());
+        }
+    }
+    if shapes.is_empty() {
+        return None;
+    }
+    let residual = moved.off(rows(data, &now.residual));
+    let gain: f64 = units.iter().map(|u| u.dot(&residual).powi(2)).sum();
+    Some(Scored {
+        share: gain / residual.norm_squared(),
+        p: flips(data, &units, &residual),
+        table: Table { shapes, ..hats },
+    })
+}
+
+/// Hat functions with knots at the quantiles of the fit segment.
+fn hats(data: &Prepared, now: &Solution, variable: Variable, count: usize) -> Option<Table> {
+    let values = variable.values(data, &now.eta)?;
+    let mut seen: Vec<f64> = data
+        .split
+        .fit
+        .iter()
+        .map(|&i| values[i * data.stride])
+        .collect();
+    seen.sort_by(f64::total_cmp);
+    let (first, last) = (*seen.first()?, *seen.last()?);
+    let mut knots: Vec<f64> = Vec::with_capacity(count);
+    for k in 0..count {
+        let at = seen[(seen.len() - 1) * k / (count - 1)];
+        let apart = knots
+            .last()
+            .is_none_or(|&k| at - k > CLOSE * (last - first));
+        if at.is_finite() && apart {
+            knots.push(at);
+        }
+    }
+    let n = knots.len();
+    let unit = |k: usize| (0..n).map(|j| f64::from(u8::from(j == k))).collect();
+    (n >= 4).then(|| Table {
+        variable,
+        shapes: (0..n).map(unit).collect(),
+        knots,
+    })
+}
+
+/// Share of all sign patterns of the blocks under which the curve takes as much.
+fn flips(data: &Prepared, units: &[DVector<f64>], residual: &DVector<f64>) -> f64 {
+    let scores: Vec<DVector<f64>> = blocks(data)
+        .into_iter()
+        .map(|block| {
+            let part = |u: &DVector<f64>| block.clone().map(|k| u[k] * residual[k]).sum();
+            DVector::from_iterator(units.len(), units.iter().map(part))
+        })
+        .collect();
+    let mut sum: DVector<f64> = scores.iter().sum();
+    // Equal up to the rounding of a walk over 2^15 patterns.
+    let threshold = sum.norm_squared() * (1.0 - 1e-9);
+    let mut signs = [1.0; BLOCKS];
+    let patterns = 1_u32 << (BLOCKS - 1);
+    let mut as_far = 1_u32;
+    for pattern in 1..patterns {
+        let flip = pattern.trailing_zeros() as usize;
+        signs[flip] = -signs[flip];
+        sum.axpy(2.0 * signs[flip], &scores[flip], 1.0);
+        if sum.norm_squared() >= threshold {
+            as_far += 1;
+        }
+    }
+    f64::from(as_far) / f64::from(patterns)
+}
+
+/// Whether a variable that starts anew with each stroke says where in the stroke the
+/// motion is: then all strokes are alike, and it would stand for anything periodic.
+pub(super) fn is_phase(data: &Prepared, now: &Solution, variable: Variable) -> bool {
+    let share = phase_share(data, now, variable);
+    variable.is_local() && share.is_none_or(|share| share > PHASE)
+}
+
+/// A curve of the variable that tells more than this of where the motion is, and how
+/// fast, tells the phase.
+const PHASE: f64 = 0.8;
+
+/// The smaller of what a curve over it tells of the directed position and of the speed.
+fn phase_share(data: &Prepared, now: &Solution, variable: Variable) -> Option<f64> {
+    let hats = hats(data, now, variable, HATS)?;
+    let mut span = Span::default();
+    for column in hats.columns(data, &now.eta)? {
+        let thin: Vec<f64> = column.iter().step_by(data.stride).copied().collect();
+        span.add(rows(data, &thin));
+    }
+    let channel = data.channel(variable.source())?;
+    let told = |of: &dyn Fn(f64, f64) -> f64| {
+        let all: Vec<f64> = channel
+            .motion
+            .iter()
+            .step_by(data.stride)
+            .map(|m| of(m.position - channel.middle, m.velocity))
+            .collect();
+        let column = rows(data, &all);
+        let mean = column.mean();
+        let column = column.map(|v| v - mean);
+        let norm = column.norm_squared();
+        1.0 - span.off(column).norm_squared() / norm
+    };
+    let place = told(&|x, v| if v < 0.0 { -x } else { x });
+    let speed = told(&|_, v| v.abs());
+    Some(place.min(speed))
+}

@@ -1,0 +1,197 @@
+//! The verdict: what has no name is said to have none, and a tone is a tone.
+//!
+//! The records come from [`bowden_lab::synth`], which shares no code with the fit; the
+//! seeds are none that the method was developed on. The declared model is Bouc-Wen alone.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use bowden::effect::Family;
+use bowden_lab::channels::{Preparation, Prepared};
+use bowden_lab::closing::{close, structure, Ledger};
+use bowden_lab::intervals::term_name;
+use bowden_lab::record::{parse, Options};
+use bowden_lab::report::{json, text, Report};
+use bowden_lab::synth::{generate, Mode, Planted, Recipe, Synthetic};
+use bowden_lab::unknown::curve;
+use bowden_lab::verdict::{sentence, verdict, Verdict};
+use rayon::prelude::*;
+
+/// Records of each kind in each mode.
+const SEEDS: std::ops::Range<u64> = 61_000..61_006;
+const MODES: [Mode; 2] = [Mode::Torque, Mode::Displacement];
+
+struct Closed {
+    made: Synthetic,
+    data: Prepared,
+    ledger: Ledger,
+}
+
+impl Closed {
+    fn new(mode: Mode, planted: &[(&str, f64)], colour: f64, seed: u64) -> Self {
+        let effects = planted.iter().map(|&(effect, strength)| Planted {
+            strength,
+            ..Planted::new(effect)
+        });
+        let recipe = Recipe {
+            seed,
+            colour,
+            effects: effects.collect(),
+            load: mode == Mode::Displacement && planted.iter().any(|(e, _)| e.contains("load")),
+            ..Recipe::new(mode)
+        };
+        let made = generate(&recipe).unwrap();
+        let record = parse(made.to_csv().as_bytes(), "made.csv", &Options::default()).unwrap();
+        let data = Prepared::new(&record, Preparation::default()).unwrap();
+        let declared = structure(&["bouc-wen".to_owned()], &data).unwrap();
+        let ledger = close(&data, &declared, |_| ()).unwrap();
+        Self { made, data, ledger }
+    }
+
+    /// On what the residual depends, and whose that is.
+    fn unknown(&self) -> Option<(&'static str, &str)> {
+        let variable = self.ledger.unknown.as_ref()?.variable;
+        let channel = self.data.channel(variable.source()).unwrap();
+        Some((variable.name(&self.data), channel.name.as_str()))
+    }
+
+    fn names(&self) -> Vec<String> {
+        let rounds = self.ledger.rounds.iter();
+        rounds
+            .map(|r| term_name(&self.data, &r.candidate.term))
+            .collect()
+    }
+
+    fn line(&self) -> String {
+        format!(
+            "names {:?}, unknown {:?}: {:?}",
+            self.names(),
+            self.unknown(),
+            verdict(&self.data, &self.ledger)
+        )
+    }
+}
+
+/// All records of a kind, both modes, in the order of modes and seeds.
+fn records(planted: &[(&str, f64)], colour: f64) -> Vec<Closed> {
+    let all: Vec<(Mode, u64)> = MODES
+        .into_iter()
+        .flat_map(|mode| SEEDS.map(move |seed| (mode, seed)))
+        .collect();
+    all.into_par_iter()
+        .map(|(mode, seed)| Closed::new(mode, planted, colour, seed))
+        .collect()
+}
+
+/// Of twelve records at most one may miss: the rate that is claimed is nine in ten.
+fn mostly(all: &[Closed], holds: impl Fn(&Closed) -> bool) {
+    let missed: Vec<String> = all.iter().filter(|c| !holds(c)).map(Closed::line).collect();
+    assert!(missed.len() <= 1, "{missed:#?}");
+}
+
+fn is_unknown(closed: &Closed, variables: &[&str], channels: &[&str]) -> bool {
+    verdict(&closed.data, &closed.ledger) == Verdict::Unknown
+        && closed
+            .unknown()
+            .is_some_and(|(v, c)| variables.contains(&v) && channels.contains(&c))
+}
+
+#[test]
+fn a_bump_over_position_is_unknown_and_no_name_is_given() {
+    let all = records(&[("bump-position", 3.0)], 0.0);
+    mostly(&all, |c| is_unknown(c, &["position"], &["phi_p", "x"]));
+    mostly(&all, |c| c.names().is_empty());
+    // The curve peaks where the bump is: within a width and the distance of two knots.
+    mostly(&all, |c| {
+        let truth = &c.made.truth.effects[0];
+        let shape = |name: &str| truth.shapes.iter().find(|(n, _)| *n == name).unwrap().1;
+        let knots = curve(&c.data, c.ledger.last());
+        let peak = knots
+            .iter()
+            .max_by(|a, b| a.value.abs().total_cmp(&b.value.abs()));
+        peak.is_some_and(|k| {
+            (k.at - shape("place")).abs() <= 2.0 * shape("width")
+                && k.value.signum() == truth.gain.signum()
+                && k.ci95.is_some_and(|[low, high]| low * high > 0.0)
+        })
+    });
+}
+
+#[test]
+fn a_bump_over_the_load_is_unknown_and_no_name_is_given() {
+    let all = records(&[("bump-load", 3.0)], 0.0);
+    mostly(&all, |c| is_unknown(c, &["load"], &["tau_i", "load"]));
+    mostly(&all, |c| c.names().is_empty());
+}
+
+#[test]
+fn a_spike_after_reversals_is_unknown() {
+    let all = records(&[("reversal-spike", 3.0)], 0.0);
+    let local = ["reversal-distance", "reversal-time"];
+    mostly(&all, |c| is_unknown(c, &local, &["tau_i", "x"]));
+}
+
+#[test]
+fn a_tone_as_strong_as_the_noise_is_named_with_its_frequency() {
+    let all = records(&[("tone", 1.0)], 0.0);
+    mostly(&all, |c| {
+        let truth = c.made.truth.effects[0].shapes[0].1;
+        let tone = c
+            .ledger
+            .rounds
+            .iter()
+            .find(|r| r.candidate.family == Family::Tone);
+        // A twentieth of one over the length of the segment that is fitted, 12 s.
+        tone.and_then(|r| r.solution.structure.terms.last())
+            .and_then(|term| term.effect.shape(0))
+            .is_some_and(|f| (f - truth).abs() < 0.05 / 12.0)
+            && c.ledger.unknown.is_none()
+    });
+}
+
+#[test]
+fn where_nothing_is_missing_nothing_is_unknown_and_there_is_no_tone() {
+    for colour in [0.0, 0.9, 0.99] {
+        for closed in records(&[], colour) {
+            let tone = closed
+                .ledger
+                .rounds
+                .iter()
+                .any(|r| r.candidate.family == Family::Tone);
+            assert!(
+                closed.ledger.unknown.is_none() && !tone,
+                "colour {colour}: {}",
+                closed.line()
+            );
+        }
+    }
+}
+
+#[test]
+fn the_report_of_something_unknown_says_so_in_both_forms_and_is_the_same_on_one_thread() {
+    let closed = Closed::new(Mode::Displacement, &[("bump-position", 3.0)], 0.0, 61_100);
+    let printed = json(&Report::new("made.csv", &closed.data, &closed.ledger)).unwrap();
+    let report: serde_json::Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!(report["verdict"], "unknown");
+    let unknown = &report["unknown"];
+    assert_eq!(unknown["variable"], "position");
+    assert_eq!(unknown["channel"], "x");
+    assert!(unknown["q"].as_f64().unwrap() < 1.0);
+    assert!(unknown["p"].as_f64().unwrap() < 1e-3);
+    assert!(unknown["curve"].as_array().unwrap().len() >= 10);
+    let rmse = |when: &str| unknown[when]["held_out"].as_f64().unwrap();
+    assert!(rmse("rmse_after") < 0.2 * rmse("rmse_before"));
+    assert_eq!(rmse("rmse_after"), report["final"]["rmse"]["held_out"]);
+
+    let told = sentence(&closed.data, &closed.ledger);
+    assert!(told.contains("depends on x"), "{told}");
+    let ledger = text("made.csv", &closed.data, &closed.ledger, false);
+    assert!(ledger.contains("unknown: The residual depends on x; the catalogue explains"));
+
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .unwrap();
+    let again =
+        pool.install(|| Closed::new(Mode::Displacement, &[("bump-position", 3.0)], 0.0, 61_100));
+    let again = json(&Report::new("made.csv", &again.data, &again.ledger)).unwrap();
+    assert_eq!(printed, again);
+}
