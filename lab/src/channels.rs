@@ -16,10 +16,11 @@
 //! with memory, begins anew with each of them.
 
 use crate::filter::{derivative, ZeroPhase};
-use crate::record::Mode;
+use crate::record::{Defect, Mode};
 use bowden::effect::Motion;
 use std::ops::Range;
 
+mod blind;
 mod build;
 mod search;
 mod uniform;
@@ -181,6 +182,8 @@ pub struct Prepared {
     pub path: Vec<f64>,
     /// Remarks for the user.
     pub notes: Vec<String>,
+    /// What is wrong with the measurement itself.
+    pub defects: Vec<Defect>,
     smoother: ZeroPhase,
 }
 

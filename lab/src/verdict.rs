@@ -5,6 +5,7 @@ use crate::closing::Ledger;
 use crate::filter::ZeroPhase;
 use crate::fit::Solution;
 use crate::intervals::term_name;
+use crate::record::Defect;
 use crate::scan::{correlation_samples, Regime};
 
 /// What the run amounts to.
@@ -21,6 +22,8 @@ pub enum Verdict {
     Confounded,
     /// Too few independent stretches for a test: names are proposals.
     UnderExcited,
+    /// What was concluded rests on a measurement that is spoilt.
+    DataDefect,
 }
 
 impl Verdict {
@@ -33,6 +36,7 @@ impl Verdict {
             Self::Unknown => "unknown",
             Self::Confounded => "confounded",
             Self::UnderExcited => "under-excited",
+            Self::DataDefect => "data-defect",
         }
     }
 }
@@ -67,12 +71,31 @@ pub fn is_white(data: &Prepared, solution: &Solution) -> bool {
     correlation_samples(&rest) <= WHITE * white_correlation(data).max(0.5)
 }
 
+/// Defects that spoil what was concluded: grave ones of time, input, output, and of the
+/// channels that the model reads.
+fn spoils<'a>(data: &'a Prepared, last: &'a Solution) -> impl Iterator<Item = &'a Defect> {
+    let reads = |name: &str| {
+        let mut sources = last
+            .structure
+            .terms
+            .iter()
+            .filter_map(|t| data.channel(t.source));
+        sources.any(|channel| channel.name == name)
+    };
+    data.defects.iter().filter(move |defect| {
+        let name = defect.channel.as_str();
+        defect.grave && (data.channels.iter().all(|c| c.name != name) || reads(name))
+    })
+}
+
 /// The verdict on a ledger.
 #[must_use]
 pub fn verdict(data: &Prepared, ledger: &Ledger) -> Verdict {
     let last = ledger.last();
     let untested = ledger.rounds.iter().any(|r| r.p.is_none());
-    if ledger.unknown.is_some() && !untested {
+    if spoils(data, last).next().is_some() {
+        Verdict::DataDefect
+    } else if ledger.unknown.is_some() && !untested {
         Verdict::Unknown
     } else if ledger.regime == Regime::Effect || untested {
         Verdict::UnderExcited
@@ -145,6 +168,12 @@ pub fn sentence(data: &Prepared, ledger: &Ledger) -> String {
         Verdict::UnderExcited => {
             "The record has too few independent stretches for a test: take the names as proposals."
                 .to_owned()
+        }
+        Verdict::DataDefect => {
+            let list: Vec<String> = spoils(data, last)
+                .map(|defect| format!("{} ({})", defect.channel, defect.kind.name()))
+                .collect();
+            format!("But the measurement itself is spoilt: {}.", list.join(", "))
         }
     };
     text.push(' ');

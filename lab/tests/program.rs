@@ -134,6 +134,7 @@ fn the_json_is_laid_out_as_documented() {
             "rounds",
             "final",
             "rejected",
+            "defects",
             "unneeded",
             "unknown",
             "noise_floor",

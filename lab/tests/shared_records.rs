@@ -85,6 +85,8 @@ impl Row {
             rate: self.rate,
         };
         let record = read(&path, &options).unwrap_or_else(|line| panic!("{line}"));
+        let grave: Vec<_> = record.defects.iter().filter(|d| d.grave).collect();
+        assert!(grave.is_empty(), "{grave:?}");
         let cutoff = Some(self.cutoff);
         let data = Prepared::new(&record, Preparation { cutoff }).unwrap();
         let declare: Vec<String> = self.declare.iter().map(|s| (*s).to_owned()).collect();

@@ -1,8 +1,9 @@
 //! From records to their grids.
 
+use super::blind::{blind, bridged};
 use super::uniform::{usual_step, Uniform};
 use super::{filtered, motion, Channel, HeldOut, Piece, Preparation, Prepared, Split, ZeroPhase};
-use crate::record::{Column, Record};
+use crate::record::{Column, Defect, Record};
 use crate::spectrum;
 use crate::structure::MOST_RECORDS;
 use bowden::effect::Motion;
@@ -105,7 +106,9 @@ impl Prepared {
             .map(|(r, own)| Uniform::new(&r.time, *own, step).map_err(|m| named(r, m)))
             .collect::<Result<Vec<_>, _>>()?;
         let inputs = records.iter().zip(&uniform);
-        let inputs: Vec<_> = inputs.map(|(r, u)| u.signal(&r.input.values)).collect();
+        let inputs: Vec<_> = inputs
+            .map(|(r, u)| u.signal(&bridged(r, &r.input)))
+            .collect();
         let cutoff = cutoff(preparation, &inputs, step, slowest)?;
         let grid = Grid::new(step, cutoff);
 
@@ -120,6 +123,7 @@ impl Prepared {
             let placed = place(record, uniform, &inputs[index], &grid, last, shares)
                 .map_err(|m| named(record, m))?;
             whole.note(record, uniform, several);
+            whole.blame(record, several);
             whole.add(record, 1.0 / steps[index], placed, &grid);
         }
         whole.finish(first, &grid)
@@ -181,7 +185,7 @@ fn place(
         edge,
         ..
     } = grid;
-    let output = uniform.signal(&record.output.values);
+    let output = uniform.signal(&bridged(record, &record.output));
     let rate = 1.0 / grid.step;
     let mut n_work = uniform.len.div_ceil(thinning);
     // The next record begins on the estimation grid.
@@ -214,7 +218,7 @@ fn place(
         record
             .channels
             .iter()
-            .map(|c| moving(&uniform.signal(&c.values))),
+            .map(|c| moving(&uniform.signal(&bridged(record, c)))),
     );
     let thinned =
         |values: &[f64], by: usize| -> Vec<f64> { values.iter().step_by(by).copied().collect() };
@@ -225,8 +229,12 @@ fn place(
 
     let mut valid = vec![true; n_estimation];
     let per_estimation = thinning * stride;
-    let guard = (1.0 / (cutoff * dt * stride as f64)).ceil() as usize;
-    for gap in &uniform.gaps(&record.time, cutoff) {
+    let period = (1.0 / (cutoff * dt * stride as f64)).ceil() as usize;
+    let gaps = uniform.gaps(&record.time, cutoff).into_iter();
+    let blind = blind(record, period, edge)
+        .map(|(stretch, guard)| (uniform.stretch(&record.time, &stretch), guard));
+    // What stands in for a missing stretch is as wrong as the ends are.
+    for (gap, guard) in gaps.map(|gap| (gap, edge)).chain(blind) {
         let from = (gap.start / per_estimation).saturating_sub(guard);
         let to = (gap.end / per_estimation + guard).min(n_estimation - 1);
         if from <= to {
@@ -260,6 +268,7 @@ struct Collected {
     /// Noise floor and fit samples of each record.
     noise: Vec<(f64, usize)>,
     notes: Vec<String>,
+    defects: Vec<Defect>,
 }
 
 impl Collected {
@@ -275,6 +284,17 @@ impl Collected {
         self.notes.extend(notes.map(|note| match several {
             true => format!("{}: {note}", record.path),
             false => note,
+        }));
+    }
+
+    /// What is wrong with a record; of several, each says its file.
+    fn blame(&mut self, record: &Record, several: bool) {
+        self.defects.extend(record.defects.iter().map(|defect| {
+            let mut own = defect.clone();
+            if several {
+                own.message = format!("{}: {}", record.path, own.message);
+            }
+            own
         }));
     }
 
@@ -322,7 +342,7 @@ impl Collected {
         }
         let split = &self.split;
         if split.fit.len() < 96 || split.stop.len() < 20 || split.held_out.len() < 20 {
-            return Err("the gaps in time leave too few samples to fit".to_owned());
+            return Err("gaps in time and defects leave too few samples to fit".to_owned());
         }
         let smoother = ZeroPhase::new(grid.cutoff, 1.0 / grid.dt);
         Ok(Prepared {
@@ -344,6 +364,7 @@ impl Collected {
             noise_floor: common_floor(&self.noise),
             path,
             notes: self.notes,
+            defects: self.defects,
             pieces: self.pieces,
             smoother,
         })

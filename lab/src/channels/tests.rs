@@ -21,6 +21,7 @@ fn record(time: Vec<f64>, f: impl Fn(f64) -> f64) -> Record {
         output: column("f", y),
         channels: Vec::new(),
         notes: Vec::new(),
+        defects: Vec::new(),
         time,
     }
 }

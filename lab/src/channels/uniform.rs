@@ -81,6 +81,13 @@ impl Uniform {
             .collect()
     }
 
+    /// A stretch of samples on the uniform grid.
+    pub(super) fn stretch(&self, time: &[f64], samples: &Range<usize>) -> Range<usize> {
+        let index = |i: usize| ((time[i] - time[0]) / self.dt).round() as usize;
+        let last = samples.end.clamp(1, time.len()) - 1;
+        index(samples.start)..(index(last) + 1).min(self.len)
+    }
+
     pub(super) fn signal(&self, values: &[f64]) -> Vec<f64> {
         let Some(position) = &self.position else {
             return values.to_vec();

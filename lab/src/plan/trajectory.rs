@@ -310,6 +310,7 @@ impl Trajectory {
             input,
             channels: signals.collect(),
             notes: Vec::new(),
+            defects: Vec::new(),
         };
         let cutoff = Some(data.cutoff);
         Prepared::new(&record, Preparation { cutoff }).ok()

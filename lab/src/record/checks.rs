@@ -32,7 +32,7 @@ pub(super) fn options(options: &Options) -> Result<(), RecordError> {
     }
 }
 
-/// Refuses an input or output that stands still or was clipped.
+/// Refuses an input or output that stands still or was clipped heavily.
 pub(super) fn record(table: &Table, header: &Header, roles: &Roles) -> Result<(), RecordError> {
     let [input, output, ..] = table.values.as_slice() else {
         return Ok(());
@@ -51,12 +51,9 @@ pub(super) fn record(table: &Table, header: &Header, roles: &Roles) -> Result<()
         }
     }
     for (_, index, values, other) in ends {
-        if let Some(clipped) = clipping::find(values, other) {
-            let line = table
-                .lines
-                .get(clipped.first)
-                .copied()
-                .unwrap_or(header.line);
+        if let Some(clipped) = clipping::heavy(values, other) {
+            let first = clipped.plateaus.first().map_or(0, |plateau| plateau.start);
+            let line = table.lines.get(first).copied().unwrap_or(header.line);
             return Err(RecordError::at(line, clipped.to_string()).on(name(index)));
         }
     }

@@ -13,21 +13,21 @@ use std::ops::Range;
 
 /// Shortest plateau that counts [samples].
 const SHORTEST: usize = 5;
-/// Share of the samples that must lie on such plateaus.
-const SHARE: f64 = 0.01;
+/// Share of the samples on such plateaus from which a record is refused.
+const REFUSED: f64 = 0.05;
+/// Share below which a plateau may be a turning point.
+const TOLD: f64 = 1e-3;
 
 /// Plateaus of a clipped signal at one of its two extremes.
 pub(super) struct Clipped {
-    /// First sample on a plateau.
-    pub(super) first: usize,
-    level: f64,
-    plateaus: usize,
+    pub(super) level: f64,
+    pub(super) plateaus: Vec<Range<usize>>,
     share: f64,
 }
 
 impl fmt::Display for Clipped {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (level, plateaus, share) = (self.level, self.plateaus, 100.0 * self.share);
+        let (level, plateaus, share) = (self.level, self.plateaus.len(), 100.0 * self.share);
         let times = if plateaus == 1 {
             "once".to_owned()
         } else {
@@ -41,24 +41,30 @@ impl fmt::Display for Clipped {
     }
 }
 
-/// Looks for clipping of `signal`, with the other end of the transmission beside it.
-pub(super) fn find(signal: &[f64], other: &[f64]) -> Option<Clipped> {
+/// Looks for clipping of `signal` so heavy that nothing can be concluded, with the other end
+/// of the transmission beside it.
+pub(super) fn heavy(signal: &[f64], other: &[f64]) -> Option<Clipped> {
+    let mut ends = ends(signal, other).into_iter();
+    ends.find(|clipped| clipped.share >= REFUSED)
+}
+
+/// Looks for clipping of `signal` at its upper and its lower end.
+pub(super) fn ends(signal: &[f64], other: &[f64]) -> Vec<Clipped> {
     let (low, high) = range(signal);
     let judge = Judge::new(signal, other);
-    [high, low].into_iter().find_map(|level| {
+    let end = |level: f64| {
         let clipped: Vec<_> = plateaus(signal, level)
             .filter(|plateau| judge.is_clipped(plateau))
             .collect();
         let samples: usize = clipped.iter().map(ExactSizeIterator::len).sum();
         let share = samples as f64 / signal.len() as f64;
-        let first = clipped.first()?.start;
-        (share >= SHARE).then_some(Clipped {
-            first,
+        (share >= TOLD).then_some(Clipped {
             level,
-            plateaus: clipped.len(),
+            plateaus: clipped,
             share,
         })
-    })
+    };
+    [high, low].into_iter().filter_map(end).collect()
 }
 
 /// Runs of the extreme value that have samples before and after them.

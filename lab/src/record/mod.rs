@@ -25,6 +25,7 @@
 mod agree;
 mod checks;
 mod clipping;
+mod defects;
 mod error;
 mod file;
 mod header;
@@ -36,6 +37,7 @@ mod time;
 mod units;
 
 pub use agree::agree;
+pub use defects::{Defect, DefectKind};
 pub use error::RecordError;
 
 use std::path::Path;
@@ -104,6 +106,8 @@ pub struct Record {
     pub channels: Vec<Column>,
     /// What the reader did that the user may want to know.
     pub notes: Vec<String>,
+    /// What is wrong with the measurement itself.
+    pub defects: Vec<Defect>,
 }
 
 impl Record {
@@ -153,9 +157,8 @@ fn parse_lines(bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
     let table = rows::read(&mut rows, &header, &roles, options)?;
     checks::record(&table, &header, &roles)?;
 
-    let mut notes = roles.notes;
-    notes.extend(table.notes);
-    let mut values = table.values.into_iter();
+    let mut table = table;
+    let mut values = std::mem::take(&mut table.values).into_iter();
     let mut column = |name: &str, index: usize| Column {
         name: name.to_owned(),
         unit: header.columns[index].unit.clone(),
@@ -164,11 +167,18 @@ fn parse_lines(bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
     let name = |index: usize| header.columns[index].name.as_str();
     let input = column(name(roles.input), roles.input);
     let output = column(name(roles.output), roles.output);
-    let channels = roles
+    let channels: Vec<Column> = roles
         .channels
         .iter()
         .map(|(name, index)| column(name, *index))
         .collect();
+    let defects = defects::find(&defects::Measured {
+        table: &table,
+        clock: roles.time.map(name),
+        columns: [&input, &output].into_iter().chain(&channels).collect(),
+    });
+    let mut notes = roles.notes;
+    notes.extend(table.notes);
     Ok(Record {
         path: String::new(),
         mode: roles.mode,
@@ -177,5 +187,6 @@ fn parse_lines(bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
         output,
         channels,
         notes,
+        defects,
     })
 }

@@ -133,19 +133,6 @@ impl Clock {
                 self.rows
             ));
         }
-        let step = median_step(kept);
-        let gaps = kept
-            .windows(2)
-            .filter(|pair| pair[1] - pair[0] > 1.5 * step)
-            .count();
-        if gaps > 0 {
-            let longest = kept
-                .windows(2)
-                .fold(0.0, |longest: f64, pair| longest.max(pair[1] - pair[0]));
-            notes.push(format!(
-                "{gaps} gaps in time, the longest {longest:.4} s where {step:.4} s is usual"
-            ));
-        }
         notes
     }
 }

@@ -8,7 +8,7 @@ use crate::closing::{Gate, Grade, Ledger};
 use crate::fit::{Segments, Solution};
 use crate::intervals::{parameters, term_name, Parameter};
 use crate::plan::{separate, Experiment};
-use crate::record::Mode;
+use crate::record::{Defect, Mode};
 use crate::scan::{Regime, BLOCKS};
 use crate::verdict::verdict;
 use serde::Serialize;
@@ -25,6 +25,7 @@ pub struct Report {
     rounds: Vec<RoundPart>,
     r#final: FinalPart,
     rejected: Vec<RejectedPart>,
+    defects: Vec<Defect>,
     unneeded: Vec<()>,
     unknown: Option<UnknownPart>,
     noise_floor: f64,
@@ -251,6 +252,7 @@ impl Report {
                     gate: r.gate,
                 })
                 .collect(),
+            defects: data.defects.clone(),
             unneeded: Vec::new(),
             unknown: ledger.unknown.as_ref().map(|u| UnknownPart::new(data, u)),
             noise_floor: data.noise_floor,

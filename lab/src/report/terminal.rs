@@ -8,7 +8,7 @@ use crate::closing::{Grade, Ledger};
 use crate::fit::Segments;
 use crate::intervals::{parameters, term_name, Parameter};
 use crate::plan::separate;
-use crate::record::Mode;
+use crate::record::{Defect, Mode};
 use crate::scan::{Regime, BLOCKS};
 use crate::verdict::{sentence, verdict, Verdict};
 use anstyle::{AnsiColor, Style};
@@ -50,6 +50,29 @@ pub(super) fn estimate(parameter: &Parameter) -> String {
             number(parameter.value, None)
         ),
     }
+}
+
+/// Stretches that are listed; the JSON has all.
+const LISTED: usize = 3;
+
+/// "tau_o stuck …: lines 120–480, …".
+fn defect_line(defect: &Defect) -> String {
+    let range = |[from, to]: &[usize; 2]| format!("{from}–{to}");
+    let mut lines: Vec<String> = defect.ranges.iter().take(LISTED).map(range).collect();
+    if defect.ranges.len() > LISTED {
+        lines.push(format!("{} more", defect.ranges.len() - LISTED));
+    }
+    let out = if defect.is_blind() {
+        "; left out of the fit"
+    } else {
+        ""
+    };
+    format!(
+        "{}: {}{out} (lines {})",
+        defect.channel,
+        defect.message,
+        lines.join(", ")
+    )
 }
 
 fn cells(data: &Prepared, rmse: &Segments) -> [String; 4] {
@@ -136,6 +159,9 @@ pub fn text(path: &str, data: &Prepared, ledger: &Ledger, chosen_cutoff: bool) -
     );
     for note in &data.notes {
         line!(out, "{dim}note      {note}{dim:#}");
+    }
+    for defect in &data.defects {
+        line!(out, "defect    {}", defect_line(defect));
     }
     line!(
         out,
@@ -283,6 +309,7 @@ pub fn text(path: &str, data: &Prepared, ledger: &Ledger, chosen_cutoff: bool) -
     let colour = match found {
         Verdict::Explained | Verdict::ExplainedColoured => AnsiColor::Green,
         Verdict::Unknown | Verdict::Confounded | Verdict::UnderExcited => AnsiColor::Yellow,
+        Verdict::DataDefect => AnsiColor::Red,
     };
     let style = Style::new().bold().fg_color(Some(colour.into()));
     line!(

@@ -21,23 +21,17 @@ pub fn blocks(data: &Prepared) -> Vec<Range<usize>> {
     ranges
 }
 
-/// Path length at each row of the fit segment; what lies between two records' fit
-/// segments does not count.
+/// Path length at each row of the fit segment; what was gone where rows are left out does
+/// not count, or the block around it would be left with hardly any.
 fn path(data: &Prepared) -> Vec<f64> {
     let rows = &data.split.fit;
-    let mut skipped = 0.0;
-    let mut last: Option<usize> = None;
-    let mut all = Vec::with_capacity(rows.len());
-    for piece in &data.pieces {
-        let begin = rows.partition_point(|&row| row < piece.rows.start);
-        let end = rows.partition_point(|&row| row < piece.rows.end);
-        if let (Some(last), true) = (last, begin < end) {
-            skipped += data.path[rows[begin]] - data.path[last];
-        }
-        all.extend(rows[begin..end].iter().map(|&row| data.path[row] - skipped));
-        last = rows[..end].last().copied();
+    let mut path = vec![0.0; rows.len()];
+    for k in 1..rows.len() {
+        let next = rows[k] == rows[k - 1] + 1;
+        let gone = data.path[rows[k]] - data.path[rows[k - 1]];
+        path[k] = path[k - 1] + if next { gone } else { 0.0 };
     }
-    all
+    path
 }
 
 /// The fit rows in parts with a number of blocks each: a part a record where they allow.

@@ -1,0 +1,108 @@
+//! Time stamps that do not say when the samples were taken.
+//!
+//! Uneven samples with true stamps are resampled and do no harm. But where a logger stamps
+//! late, the stamps are wrong and the samples lie evenly. The signals tell which it is: a
+//! sample lies between its neighbours as time does, so that the stamps, or else the row
+//! numbers, predict it better.
+
+use super::Found;
+use crate::record::time::median_step;
+use crate::record::Column;
+use std::ops::Range;
+
+/// Rows to either side over which the stamps are compared with even ones.
+const REACH: usize = 25;
+/// By how much even rows must predict better (ratio of squared errors).
+const BETTER: f64 = 2.0;
+/// Error that the stamps make in a signal, as a share of its spread, from which it is told.
+const TOLD: f64 = 0.003;
+/// Share from which it spoils what depends on time.
+const GRAVE: f64 = 0.01;
+/// Shifts that are shown, in steps, and how near two of them are one stretch.
+const SHOWN: f64 = 0.1;
+
+pub(super) fn find(time: &[f64], columns: &[&Column]) -> Option<Found> {
+    let step = median_step(time);
+    let shifts = shifts(time, step);
+    let signals = columns.iter().take(2).map(|c| c.values.as_slice());
+    // The end that shows it best.
+    let error = signals
+        .filter(|signal| rows_predict(time, signal, step))
+        .map(|signal| error(&shifts, signal))
+        .fold(0.0, f64::max);
+    if error < TOLD {
+        return None;
+    }
+    let known: Vec<f64> = shifts.iter().flatten().copied().collect();
+    let rms = (known.iter().map(|s| s * s).sum::<f64>() / known.len() as f64).sqrt();
+    Some(Found {
+        message: format!(
+            "the stamps jitter by {:.0} % of a step (rms), but the samples lie evenly: an error of {:.1} % of a signal's spread; --rate HZ takes time from the row number",
+            100.0 * rms,
+            100.0 * error
+        ),
+        grave: error > GRAVE,
+        samples: stretches(&shifts),
+    })
+}
+
+/// By how many steps each stamp is off the even ones around it; `None` near a gap.
+fn shifts(time: &[f64], step: f64) -> Vec<Option<f64>> {
+    let at = |i: usize| -> Option<f64> {
+        let from = i.checked_sub(REACH)?;
+        let around = time.get(from..=i + REACH)?;
+        let span = around.last()? - around.first()?;
+        let rows = 2.0 * REACH as f64;
+        // A row more or less over the window is a gap, not jitter.
+        if (span / step - rows).abs() > 0.1 * rows {
+            return None;
+        }
+        let mean = around.iter().sum::<f64>() / around.len() as f64;
+        Some((time[i] - mean) / step)
+    };
+    (0..time.len()).map(at).collect()
+}
+
+/// Whether even rows predict a signal better than its stamps do.
+fn rows_predict(time: &[f64], signal: &[f64], step: f64) -> bool {
+    let (mut by_stamps, mut by_rows) = (0.0, 0.0);
+    for (t, s) in time.windows(3).zip(signal.windows(3)) {
+        if t[2] - t[0] > 4.0 * step {
+            continue;
+        }
+        let fraction = (t[1] - t[0]) / (t[2] - t[0]);
+        by_stamps += (s[1] - s[0] - fraction * (s[2] - s[0])).powi(2);
+        by_rows += (s[1] - 0.5 * (s[0] + s[2])).powi(2);
+    }
+    by_stamps > BETTER * by_rows
+}
+
+/// Rms of what the shifts make of the signal, as a share of its spread.
+fn error(shifts: &[Option<f64>], signal: &[f64]) -> f64 {
+    let count = signal.len() as f64;
+    let mean = signal.iter().sum::<f64>() / count;
+    let spread = signal.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count;
+    let (mut sum, mut known) = (0.0, 0.0_f64);
+    for (i, shift) in shifts.iter().enumerate().skip(2) {
+        if let (Some(shift), Some(next)) = (shift, signal.get(i + 2)) {
+            sum += (shift * (next - signal[i - 2]) / 4.0).powi(2);
+            known += 1.0;
+        }
+    }
+    (sum / known.max(1.0) / spread).sqrt()
+}
+
+/// Where the stamps are off.
+fn stretches(shifts: &[Option<f64>]) -> Vec<Range<usize>> {
+    let mut stretches: Vec<Range<usize>> = Vec::new();
+    for (i, shift) in shifts.iter().enumerate() {
+        if shift.is_none_or(|s| s.abs() < SHOWN) {
+            continue;
+        }
+        match stretches.last_mut() {
+            Some(last) if i - last.end <= REACH => last.end = i + 1,
+            _ => stretches.push(i..i + 1),
+        }
+    }
+    stretches
+}

@@ -1,0 +1,357 @@
+//! Damaged records: each fault is named with its lines, and nothing else is.
+//!
+//! The damage is done here, to the cells of generated records, by code of its own.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use bowden_lab::channels::{Preparation, Prepared};
+use bowden_lab::closing::{close, structure, Ledger};
+use bowden_lab::record::{parse, Defect, DefectKind, Options, Record};
+use bowden_lab::synth::{generate, Mode, Planted, Recipe};
+use bowden_lab::verdict::{sentence, verdict, Verdict};
+
+/// Cells of a record, row by row, without the header.
+struct Cells {
+    header: String,
+    rows: Vec<Vec<f64>>,
+}
+
+/// Columns of a generated record in torque mode.
+const T: usize = 0;
+const TAU_I: usize = 1;
+const TAU_O: usize = 2;
+const PHI_P: usize = 3;
+
+impl Cells {
+    fn of(recipe: &Recipe) -> Self {
+        let text = generate(recipe).unwrap().to_csv();
+        let mut lines = text.lines();
+        let header = lines.next().unwrap().to_owned();
+        let row = |line: &str| line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        Self {
+            header,
+            rows: lines.map(row).collect(),
+        }
+    }
+
+    fn read(&self) -> Record {
+        let row = |row: &Vec<f64>| row.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
+        let rows: Vec<String> = self.rows.iter().map(row).collect();
+        let text = format!("{}\n{}\n", self.header, rows.join("\n"));
+        parse(text.as_bytes(), "r.csv", &Options::default()).unwrap_or_else(|e| panic!("{e}"))
+    }
+
+    /// The sensor repeats the value of row `from` until row `to`.
+    fn freeze(&mut self, column: usize, from: usize, to: usize) {
+        let value = self.rows[from][column];
+        self.rows[from..=to]
+            .iter_mut()
+            .for_each(|row| row[column] = value);
+    }
+
+    fn low_and_high(&self, column: usize) -> (f64, f64) {
+        let values = || self.rows.iter().map(|row| row[column]);
+        (
+            values().fold(f64::MAX, f64::min),
+            values().fold(f64::MIN, f64::max),
+        )
+    }
+}
+
+/// Line of the file in which row `row` stands: the header is line 1.
+fn line(row: usize) -> usize {
+    row + 2
+}
+
+/// Twenty seconds at 500 Hz with an effect to be found.
+fn recipe() -> Recipe {
+    Recipe {
+        rate: 500.0,
+        seed: 7,
+        effects: vec![Planted::new("viscous")],
+        ..Recipe::new(Mode::Torque)
+    }
+}
+
+fn only(record: &Record) -> &Defect {
+    match record.defects.as_slice() {
+        [one] => one,
+        all => panic!("{all:#?}"),
+    }
+}
+
+fn assert_named(defect: &Defect, kind: DefectKind, channel: &str) {
+    assert_eq!(
+        (defect.kind, defect.channel.as_str()),
+        (kind, channel),
+        "{defect:?}"
+    );
+    assert!(!defect.message.contains('\n'));
+}
+
+/// Pseudo-random in −1…1, by row: the fraction of a large sine (an old trick of shaders).
+fn noise(row: usize) -> f64 {
+    2.0 * ((row as f64 * 12.9898).sin() * 43758.5453).rem_euclid(1.0) - 1.0
+}
+
+fn closed(record: &Record) -> (Prepared, Ledger) {
+    let data = Prepared::new(record, Preparation::default()).unwrap();
+    let declared = structure(&["bouc-wen".to_owned()], &data).unwrap();
+    let ledger = close(&data, &declared, |_| ()).unwrap();
+    (data, ledger)
+}
+
+#[test]
+fn a_sound_record_has_no_defects_whatever_its_sensors() {
+    for mode in [Mode::Torque, Mode::Displacement] {
+        for seed in 1..=2 {
+            let plain = Recipe {
+                seed,
+                seconds: 12.0,
+                ..Recipe::new(mode)
+            };
+            for recipe in [
+                plain.clone(),
+                Recipe {
+                    holds: true,
+                    ..plain.clone()
+                },
+                Recipe {
+                    holds: true,
+                    noise: 0.0,
+                    ..plain.clone()
+                },
+                Recipe {
+                    noise: 0.0,
+                    quantisation: 0.0,
+                    resolution: 0.0,
+                    ..plain.clone()
+                },
+                // Ten bits over the range.
+                Recipe {
+                    noise: 0.0,
+                    quantisation: 0.04,
+                    ..plain.clone()
+                },
+                Recipe {
+                    effects: vec![Planted::new("coulomb")],
+                    noise: 0.01,
+                    ..plain.clone()
+                },
+                Recipe {
+                    effects: vec![Planted::new("backlash")],
+                    rate: 100.0,
+                    ..plain.clone()
+                },
+            ] {
+                let record = Cells::of(&recipe).read();
+                assert_eq!(record.defects, [], "{recipe:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn dry_friction_and_a_switched_input_are_flat_by_nature() {
+    let mut switched = Cells::of(&recipe());
+    let mut flat = Cells::of(&recipe());
+    for row in 0..flat.rows.len() {
+        let up = |value: f64| if value > 0.0 { 4.0 } else { -4.0 };
+        switched.rows[row][TAU_I] = up((row as f64 / 400.0).sin());
+        flat.rows[row][TAU_O] = up(flat.rows[row][PHI_P]);
+    }
+    assert_eq!(switched.read().defects, []);
+    assert_eq!(flat.read().defects, []);
+}
+
+#[test]
+fn a_stuck_sensor_is_named_with_its_lines() {
+    for (column, name) in [(TAU_I, "tau_i"), (TAU_O, "tau_o"), (PHI_P, "phi_p")] {
+        let mut cells = Cells::of(&recipe());
+        cells.freeze(column, 3000, 3199);
+        cells.freeze(column, 6100, 6400);
+        let record = cells.read();
+        let defect = only(&record);
+        assert_named(defect, DefectKind::Stuck, name);
+        assert_eq!(
+            defect.ranges,
+            [[line(3000), line(3199)], [line(6100), line(6400)]]
+        );
+    }
+}
+
+#[test]
+fn a_sensor_that_dies_before_the_end_is_stuck() {
+    for (column, name) in [(TAU_I, "tau_i"), (TAU_O, "tau_o"), (PHI_P, "phi_p")] {
+        let mut cells = Cells::of(&recipe());
+        let last = cells.rows.len() - 1;
+        cells.freeze(column, 9000, last);
+        let record = cells.read();
+        assert_named(only(&record), DefectKind::Stuck, name);
+        assert_eq!(only(&record).ranges, [[line(9000), line(last)]]);
+    }
+}
+
+#[test]
+fn mild_clipping_is_a_defect_and_heavy_clipping_a_refusal() {
+    let mut cells = Cells::of(&recipe());
+    let (_, high) = cells.low_and_high(TAU_O);
+    let cut = |cells: &mut Cells, level: f64| {
+        cells
+            .rows
+            .iter_mut()
+            .for_each(|row| row[TAU_O] = row[TAU_O].min(level));
+    };
+    let above = |cells: &Cells, level: f64| {
+        cells.rows.iter().filter(|row| row[TAU_O] > level).count() as f64
+    };
+    let level = high - 0.8;
+    // What stands above the level is what is clipped, but for noise at its edges.
+    let lost = above(&cells, level) / cells.rows.len() as f64;
+    assert!(lost > 0.002 && lost < 0.05, "{lost}");
+    let mut heavy = Cells::of(&recipe());
+    cut(&mut cells, level);
+    let record = cells.read();
+    let defect = only(&record);
+    assert_named(defect, DefectKind::Clipping, "tau_o");
+    let named: usize = defect.ranges.iter().map(|[from, to]| to - from + 1).sum();
+    let named = named as f64 / cells.rows.len() as f64;
+    assert!(named > 0.7 * lost && named <= lost, "{named} of {lost}");
+    for [from, to] in &defect.ranges {
+        assert!(cells.rows[from - 2..=to - 2]
+            .iter()
+            .all(|row| row[TAU_O] == level));
+    }
+
+    let level = 0.5 * high;
+    cut(&mut heavy, level);
+    let rows: Vec<String> = heavy
+        .rows
+        .iter()
+        .map(|r| format!("{},{},{}", r[0], r[1], r[2]))
+        .collect();
+    let text = format!("t,tau_i,tau_o\n{}\n", rows.join("\n"));
+    let error = parse(text.as_bytes(), "r.csv", &Options::default()).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("column `tau_o`: clipped: flat at"),
+        "{error}"
+    );
+}
+
+#[test]
+fn missing_rows_are_named_by_the_lines_around_them() {
+    let mut cells = Cells::of(&recipe());
+    cells.rows.drain(7000..7250);
+    cells.rows.drain(2000..2010);
+    let record = cells.read();
+    assert_named(only(&record), DefectKind::Gap, "t");
+    assert_eq!(
+        only(&record).ranges,
+        [[line(1999), line(2000)], [line(6989), line(6990)]]
+    );
+    let (data, ledger) = closed(&record);
+    assert_ne!(verdict(&data, &ledger), Verdict::DataDefect);
+}
+
+#[test]
+fn stamps_that_jitter_are_told_from_samples_that_lie_unevenly() {
+    // 40 Hz, so that a shift of a third of a step is seen.
+    let every = 25;
+    let source = Cells::of(&Recipe {
+        rate: 1000.0,
+        noise: 0.01,
+        seconds: 40.0,
+        ..recipe()
+    });
+    let rows = 1..source.rows.len() / every - 1;
+    let shift = |k: usize| (8.0 * noise(k)).round() as isize;
+    let at = |k: usize, by: isize| &source.rows[(k * every).saturating_add_signed(by)];
+    let thinned = |row: &dyn Fn(usize) -> Vec<f64>| Cells {
+        header: source.header.clone(),
+        rows: rows.clone().map(row).collect(),
+    };
+    let sound = thinned(&|k| at(k, 0).clone());
+    let uneven = thinned(&|k| at(k, shift(k)).clone());
+    let jittered = thinned(&|k| {
+        let mut row = at(k, 0).clone();
+        row[T] = at(k, shift(k))[T];
+        row
+    });
+    assert_eq!(sound.read().defects, []);
+    assert_eq!(uneven.read().defects, []);
+    let record = jittered.read();
+    assert_named(only(&record), DefectKind::Jitter, "t");
+    let ranges = &only(&record).ranges;
+    let named: usize = ranges.iter().map(|[from, to]| to - from + 1).sum();
+    // But for the ends, where there is nothing to compare with.
+    assert!(named as f64 > 0.9 * rows.len() as f64, "{ranges:?}");
+}
+
+#[test]
+fn coarse_steps_are_a_defect_only_where_they_matter() {
+    for (column, name) in [(TAU_I, "tau_i"), (TAU_O, "tau_o"), (PHI_P, "phi_p")] {
+        let counted = |counts: f64| {
+            let mut cells = Cells::of(&recipe());
+            let (low, high) = cells.low_and_high(column);
+            let step = (high - low) / counts;
+            for row in &mut cells.rows {
+                row[column] = (row[column] / step).round() * step;
+            }
+            cells.read()
+        };
+        let record = counted(10.0);
+        assert_named(only(&record), DefectKind::Quantisation, name);
+        assert_eq!(only(&record).ranges, [[line(0), line(9999)]]);
+        // Ten bits.
+        assert_eq!(counted(1024.0).defects, []);
+    }
+}
+
+#[test]
+fn what_is_concluded_from_a_stuck_input_is_a_data_defect() {
+    let mut cells = Cells::of(&recipe());
+    cells.freeze(TAU_I, 2500, 3300);
+    let (data, ledger) = closed(&cells.read());
+    assert_eq!(verdict(&data, &ledger), Verdict::DataDefect);
+    assert!(sentence(&data, &ledger).contains("tau_i (stuck)"));
+}
+
+#[test]
+fn a_short_dropout_of_the_output_is_left_out_and_changes_no_name() {
+    let sound = closed(&Cells::of(&recipe()).read());
+    let mut cells = Cells::of(&recipe());
+    cells.freeze(TAU_O, 2500, 2650);
+    cells.freeze(TAU_O, 8800, 8900);
+    let (data, ledger) = closed(&cells.read());
+    let names = |ledger: &Ledger| -> Vec<&str> {
+        ledger
+            .rounds
+            .iter()
+            .map(|r| r.candidate.term.effect.name())
+            .collect()
+    };
+    assert_eq!(names(&ledger), names(&sound.1));
+    assert_eq!(verdict(&data, &ledger), verdict(&sound.0, &sound.1));
+    // On the rows that are left both models are as good: the dropped stretches, bridged,
+    // are off by whole N·m, the noise behind the filter by 0.01.
+    let rms = |residual: &[f64], rows: &[usize]| {
+        let squares: f64 = rows.iter().map(|&i| residual[i].powi(2)).sum();
+        (squares / rows.len() as f64).sqrt()
+    };
+    for rows in [&data.split.fit, &data.split.held_out] {
+        let with = rms(&ledger.last().residual, rows);
+        let without = rms(&sound.1.last().residual, rows);
+        assert!((with / without - 1.0).abs() < 0.05, "{with} {without}");
+    }
+}
+
+#[test]
+fn a_stuck_channel_that_nothing_reads_leaves_the_verdict() {
+    let mut cells = Cells::of(&recipe());
+    cells.freeze(4, 2500, 3300);
+    let record = cells.read();
+    assert_named(only(&record), DefectKind::Stuck, "phi_d");
+    let (data, ledger) = closed(&record);
+    assert_ne!(verdict(&data, &ledger), Verdict::DataDefect);
+}
