@@ -7,6 +7,7 @@
 //! without it a block's residuals are too small, since the block itself was fitted.
 
 use crate::channels::Prepared;
+use crate::excitation;
 use crate::fit::Solution;
 use crate::record::Mode;
 use crate::scan::{blocks, BLOCKS};
@@ -29,9 +30,20 @@ pub struct Parameter {
     pub ci95: Option<[f64; 2]>,
     /// Whether the record determines it.
     pub identified: bool,
+    /// Why not, and what would show it; `None` where it is identified.
+    pub refused: Option<Refusal>,
     /// Index of the term it belongs to; `None` for the transmission.
     #[serde(skip)]
     pub term: Option<usize>,
+}
+
+/// Why a record does not determine a parameter.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct Refusal {
+    /// "at its upper bound", "moves with kappa_eta", …
+    pub reason: String,
+    /// The motion that would show it.
+    pub excitation: String,
 }
 
 /// Relative half-width above which a shape counts as not identified: its interval
@@ -42,13 +54,18 @@ const SHAPE_WIDTH: f64 = 0.5;
 /// that block alone.
 const ALONE: f64 = 30.0;
 
+/// Correlation of two estimates from which one is said to move with the other.
+const WITH: f64 = 0.9;
+
 struct Entry<'a> {
     name: String,
     unit: Option<String>,
     value: f64,
     column: &'a [f64],
     shape: bool,
-    bound: bool,
+    /// "lower" or "upper", where it lies on one.
+    bound: Option<&'static str>,
+    excitation: &'static str,
     /// The reported value is this factor times the fitted one.
     sign: f64,
     term: Option<usize>,
@@ -118,13 +135,20 @@ fn of_record(data: &Prepared, name: &str, record: usize) -> String {
 fn entries<'a>(data: &Prepared, solution: &'a Solution) -> Vec<Entry<'a>> {
     let mut all = Vec::new();
     let (input, output) = (data.input.unit.as_deref(), data.output_unit.as_deref());
-    let linear = |name: String, unit, k: usize, sign: f64, term| Entry {
+    let linear = |name: String, unit, k: usize, sign: f64, term: Option<usize>| Entry {
         name,
         unit,
         value: solution.gains[k],
         column: &solution.columns[k],
         shape: false,
-        bound: false,
+        bound: None,
+        excitation: match term {
+            None => excitation::TRANSMISSION,
+            Some(index) => {
+                let term: &FitTerm = &solution.structure.terms[index];
+                excitation::of_family(term.effect.family())
+            }
+        },
         sign,
         term,
     };
@@ -239,12 +263,69 @@ fn entries<'a>(data: &Prepared, solution: &'a Solution) -> Vec<Entry<'a>> {
             value: solution.values[j],
             column: &solution.tangents[j],
             shape,
-            bound: solution.on_bound[j],
+            bound: solution.on_bound[j].then(|| free.range.nearest(solution.values[j])),
+            excitation: excitation::of_role(solution, free.role),
             sign: 1.0,
             term,
         });
     }
     all
+}
+
+/// Columns on the rows of the fit segment, at unit norm.
+struct Design {
+    /// Norm of each column.
+    scale: Vec<f64>,
+    /// Which of them are no zeros.
+    used: Vec<usize>,
+    x: DMatrix<f64>,
+    gram: DMatrix<f64>,
+}
+
+impl Design {
+    fn new(data: &Prepared, columns: &[&[f64]]) -> Self {
+        let rows = &data.split.fit;
+        let scale: Vec<f64> = columns
+            .iter()
+            .map(|c| rows.iter().map(|&i| c[i] * c[i]).sum::<f64>().sqrt())
+            .collect();
+        let used: Vec<usize> = (0..columns.len())
+            .filter(|&j| scale[j].is_finite() && scale[j] > 0.0)
+            .collect();
+        let x = DMatrix::from_fn(rows.len(), used.len(), |k, j| {
+            columns[used[j]][rows[k]] / scale[used[j]]
+        });
+        let gram = x.tr_mul(&x);
+        Self {
+            scale,
+            used,
+            x,
+            gram,
+        }
+    }
+
+    fn bread(&self) -> Option<DMatrix<f64>> {
+        self.gram.clone().cholesky().map(|c| c.inverse())
+    }
+
+    /// For each column the other one with whose estimate its own is most correlated.
+    fn partners(&self) -> Vec<Option<(usize, f64)>> {
+        // Without an inverse the columns themselves tell who goes with whom.
+        let covariance = self.bread().unwrap_or_else(|| self.gram.clone());
+        let mut partners = vec![None; self.scale.len()];
+        for (a, &j) in self.used.iter().enumerate() {
+            let correlation = |b: usize| {
+                let scale = (covariance[(a, a)] * covariance[(b, b)]).sqrt();
+                (covariance[(a, b)] / scale).abs()
+            };
+            partners[j] = (0..self.used.len())
+                .filter(|&b| b != a)
+                .map(|b| (self.used[b], correlation(b)))
+                .filter(|(_, correlation)| correlation.is_finite())
+                .max_by(|x, y| x.1.total_cmp(&y.1));
+        }
+        partners
+    }
 }
 
 /// By how much each column's factor would move without each block, times the correction
@@ -256,19 +337,14 @@ pub(crate) fn jackknife(
     columns: &[&[f64]],
 ) -> Option<Vec<Vec<f64>>> {
     let rows = &data.split.fit;
-    let scale: Vec<f64> = columns
-        .iter()
-        .map(|c| rows.iter().map(|&i| c[i] * c[i]).sum::<f64>().sqrt())
-        .collect();
-    let used: Vec<usize> = (0..columns.len())
-        .filter(|&j| scale[j].is_finite() && scale[j] > 0.0)
-        .collect();
-    let m = used.len();
-    let x = DMatrix::from_fn(rows.len(), m, |k, j| {
-        columns[used[j]][rows[k]] / scale[used[j]]
-    });
-    let gram = x.tr_mul(&x);
-    let bread = gram.clone().cholesky().map(|c| c.inverse())?;
+    let design = Design::new(data, columns);
+    let Design {
+        scale,
+        used,
+        x,
+        gram,
+    } = &design;
+    let bread = design.bread()?;
     let correction = ((BLOCKS as f64 - 1.0) / BLOCKS as f64).sqrt();
     let mut steps = Vec::with_capacity(BLOCKS);
     for block in blocks(data) {
@@ -277,7 +353,7 @@ pub(crate) fn jackknife(
             DVector::from_iterator(block.len(), block.map(|k| solution.residual[rows[k]]));
         let score = part.tr_mul(&residual);
         // By how much each parameter would move without this block.
-        let rest = (&gram - part.tr_mul(&part)).cholesky().map(|c| c.inverse());
+        let rest = (gram - part.tr_mul(&part)).cholesky().map(|c| c.inverse());
         let plain = &bread * &score;
         let moved = rest.as_ref().map(|rest| rest * &score);
         let mut all = vec![f64::NAN; columns.len()];
@@ -316,33 +392,60 @@ fn half_widths(data: &Prepared, solution: &Solution, columns: &[&[f64]]) -> Vec<
         .collect()
 }
 
+/// Why a parameter is not identified.
+fn refusal(entry: &Entry<'_>, wide: bool, partner: Option<(&str, f64)>) -> Refusal {
+    let with = partner
+        .filter(|(_, correlation)| *correlation >= WITH)
+        .map(|(name, _)| format!("moves with {name}"));
+    let reason = match (entry.bound, with) {
+        (Some(end), _) => format!("at its {end} bound"),
+        (None, Some(with)) if wide => format!("interval wider than half its value, {with}"),
+        (None, Some(with)) => with,
+        (None, None) if wide => "interval wider than half its value".to_owned(),
+        (None, None) => "nothing in the record depends on it alone".to_owned(),
+    };
+    Refusal {
+        reason,
+        excitation: entry.excitation.to_owned(),
+    }
+}
+
 /// All parameters of a fitted model, gains first.
 #[must_use]
 pub fn parameters(data: &Prepared, solution: &Solution) -> Vec<Parameter> {
     let entries = entries(data, solution);
     // A parameter on its bound does not move: the others are conditional on it.
-    let moving: Vec<usize> = (0..entries.len()).filter(|&j| !entries[j].bound).collect();
+    let moving: Vec<usize> = (0..entries.len())
+        .filter(|&j| entries[j].bound.is_none())
+        .collect();
     let mut columns: Vec<&[f64]> = moving.iter().map(|&j| entries[j].column).collect();
+    let partners = Design::new(data, &columns).partners();
     // A table beside them is no parameter, but they are no better known than beside it.
     let table = solution.columns.len() - solution.structure.table_gains();
     columns.extend(solution.columns[table..].iter().map(Vec::as_slice));
     let widths = half_widths(data, solution, &columns);
-    let mut of = vec![None; entries.len()];
-    for (&j, width) in moving.iter().zip(widths) {
-        of[j] = width;
+    let mut of = vec![(None, None); entries.len()];
+    for (k, &j) in moving.iter().enumerate() {
+        let partner = partners[k].map(|(other, r)| (moving[other], r));
+        of[j] = (widths[k], partner);
     }
+    let names: Vec<String> = entries.iter().map(|entry| entry.name.clone()).collect();
     entries
         .into_iter()
         .zip(of)
-        .map(|(entry, width)| {
+        .map(|(entry, (width, partner))| {
             let value = entry.sign * entry.value;
+            let wide = width.is_some();
             let width = width.filter(|w| !entry.shape || *w <= SHAPE_WIDTH * value.abs());
+            let partner = partner.map(|(other, r)| (names[other].as_str(), r));
+            let refused = width.is_none().then(|| refusal(&entry, wide, partner));
             Parameter {
                 name: entry.name,
                 value,
                 unit: entry.unit,
                 ci95: width.map(|w| [value - w, value + w]),
                 identified: width.is_some(),
+                refused,
                 term: entry.term,
             }
         })

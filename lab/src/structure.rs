@@ -106,6 +106,16 @@ impl Range {
         }
     }
 
+    /// The bound that is nearer to a value, in words.
+    #[must_use]
+    pub fn nearest(self, value: f64) -> &'static str {
+        if self.encode(value) < 0.0 {
+            "lower"
+        } else {
+            "upper"
+        }
+    }
+
     /// Whether the point lies within 1 % of the range's width from an end.
     #[must_use]
     pub fn at_bound(self, u: f64) -> bool {

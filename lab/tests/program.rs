@@ -159,7 +159,7 @@ fn the_json_is_laid_out_as_documented() {
     );
     assert_eq!(
         keys(&report["declared"]["parameters"][0]),
-        sorted(&["name", "value", "unit", "ci95", "identified"])
+        sorted(&["name", "value", "unit", "ci95", "identified", "refused"])
     );
     let round = &report["rounds"][0];
     assert_eq!(

@@ -70,16 +70,17 @@ impl Close {
         }
         let ledger = close(&data, &structure, |what| bar.set_message(what.to_owned()))
             .map_err(|message| format!("{label}: {message}"))?;
-        bar.finish_and_clear();
         if let Some(path) = &self.model_out {
             write_models(path, &label, &data, &ledger)?;
         }
-        if self.json {
-            let text = json(&Report::new(&label, &data, &ledger)).map_err(|e| e.to_string())?;
-            super::say(&text)
+        bar.set_message("looking for declared parts that are not needed");
+        let report = if self.json {
+            json(&Report::new(&label, &data, &ledger)).map_err(|e| e.to_string())?
         } else {
-            super::say(text(&label, &data, &ledger, self.reading.cutoff.is_some()).trim_end())
-        }
+            text(&label, &data, &ledger, self.reading.cutoff.is_some())
+        };
+        bar.finish_and_clear();
+        super::say(report.trim_end())
     }
 
     /// With gains of its own a file says nothing of another one's: the end of each is held

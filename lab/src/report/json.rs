@@ -10,6 +10,7 @@ use crate::intervals::{parameters, term_name, Parameter};
 use crate::plan::{separate, Experiment};
 use crate::record::{Defect, Mode};
 use crate::scan::{Regime, BLOCKS};
+use crate::unneeded::{unneeded, Unneeded};
 use crate::verdict::verdict;
 use serde::Serialize;
 
@@ -26,7 +27,7 @@ pub struct Report {
     r#final: FinalPart,
     rejected: Vec<RejectedPart>,
     defects: Vec<Defect>,
-    unneeded: Vec<()>,
+    unneeded: Vec<Unneeded>,
     unknown: Option<UnknownPart>,
     noise_floor: f64,
     verdict: &'static str,
@@ -253,7 +254,7 @@ impl Report {
                 })
                 .collect(),
             defects: data.defects.clone(),
-            unneeded: Vec::new(),
+            unneeded: unneeded(data, ledger),
             unknown: ledger.unknown.as_ref().map(|u| UnknownPart::new(data, u)),
             noise_floor: data.noise_floor,
             verdict: verdict(data, ledger).name(),

@@ -10,6 +10,7 @@ use crate::intervals::{parameters, term_name, Parameter};
 use crate::plan::separate;
 use crate::record::{Defect, Mode};
 use crate::scan::{Regime, BLOCKS};
+use crate::unneeded::unneeded;
 use crate::verdict::{sentence, verdict, Verdict};
 use anstyle::{AnsiColor, Style};
 use comfy_table::{presets, CellAlignment, ContentArrangement, Table, TableComponent};
@@ -45,10 +46,11 @@ pub(super) fn estimate(parameter: &Parameter) -> String {
                 number(half, Some(half))
             )
         }
-        None => format!(
-            "not identified (stands at {})",
-            number(parameter.value, None)
-        ),
+        None => {
+            let reason = parameter.refused.as_ref().map_or("", |r| r.reason.as_str());
+            let stands = number(parameter.value, None);
+            format!("not identified: {reason}; stands at {stands}")
+        }
     }
 }
 
@@ -270,10 +272,26 @@ pub fn text(path: &str, data: &Prepared, ledger: &Ledger, chosen_cutoff: bool) -
         _ => last.structure.base(),
     };
     out.push_str(&several::gains(data, last));
-    for parameter in parameters(data, last).into_iter().skip(own_gains) {
-        final_parameters.add_row([parameter.name.clone(), estimate(&parameter)]);
+    let all = parameters(data, last);
+    for parameter in &all[own_gains..] {
+        final_parameters.add_row([parameter.name.clone(), estimate(parameter)]);
     }
     line!(out, "{final_parameters}\n");
+    let refused = || all.iter().filter_map(|p| Some((p, p.refused.as_ref()?)));
+    for (parameter, refusal) in refused() {
+        line!(
+            out,
+            "to identify {}: {}",
+            parameter.name,
+            refusal.excitation
+        );
+    }
+    if refused().next().is_some() {
+        line!(
+            out,
+            "{dim}bowden plan writes a motion where it knows one{dim:#}\n"
+        );
+    }
 
     let (before, after) = (
         ledger.declared.rmse.normalised(data, &data.target),
@@ -297,6 +315,16 @@ pub fn text(path: &str, data: &Prepared, ledger: &Ledger, chosen_cutoff: bool) -
             })
             .collect();
         line!(out, "{dim}rejected  {}{dim:#}", list.join(", "));
+    }
+    for part in unneeded(data, ledger) {
+        let (without, with) = (part.held_out_without, last.rmse.held_out);
+        line!(
+            out,
+            "unneeded  {}: held out {} without it, {} with it",
+            part.effect,
+            number(without, Some(0.01 * without)),
+            number(with, Some(0.01 * with))
+        );
     }
     if ledger.regime == Regime::Effect {
         line!(

@@ -7,6 +7,7 @@
 //! * [`planted`]: an undeclared effect is found, named and taken away.
 //! * [`nulls`]: where nothing is missing, nothing is added.
 //! * [`determinism`]: the same record gives the same result, on any number of threads.
+//! * [`unneeded`]: declared parts that the record does not need are told.
 //! * [`exported`]: what was fitted is what runs in firmware.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
@@ -16,3 +17,4 @@ mod nulls;
 mod planted;
 mod recovery;
 mod rig;
+mod unneeded;
