@@ -134,9 +134,10 @@ fn a_parameter_on_its_bound_is_reported_as_not_identified() {
             sigma: 1.2,
             n: 1.6,
         };
-        for (name, role, base) in [
+        for (name, end, role, base) in [
             (
                 "sigma",
+                "lower",
                 Role::Sigma,
                 Base {
                     sigma: 0.5,
@@ -145,14 +146,15 @@ fn a_parameter_on_its_bound_is_reported_as_not_identified() {
             ),
             (
                 "sigma",
+                "upper",
                 Role::Sigma,
                 Base {
                     sigma: 1e4,
                     ..plain
                 },
             ),
-            ("n", Role::N, Base { n: 1.0, ..plain }),
-            ("n", Role::N, Base { n: 200.0, ..plain }),
+            ("n", "lower", Role::N, Base { n: 1.0, ..plain }),
+            ("n", "upper", Role::N, Base { n: 200.0, ..plain }),
         ] {
             let made = Made::new(&Recipe {
                 seed: 5,
@@ -171,14 +173,55 @@ fn a_parameter_on_its_bound_is_reported_as_not_identified() {
                 !parameter.identified && parameter.ci95.is_none(),
                 "{parameter:?}"
             );
+            let refusal = parameter.refused.as_ref().unwrap();
+            assert_eq!(refusal.reason, format!("at its {end} bound"));
+            assert!(refusal.excitation.contains("strokes"), "{refusal:?}");
             // What does not hang on it is still there: with the true value out of reach
             // the loop's height moves by less than 1 %.
             let height = named(&found, "kappa_eta");
-            assert!(height.identified, "{height:?}");
+            assert!(height.identified && height.refused.is_none(), "{height:?}");
             assert!(
                 (height.value / base.kappa_eta - 1.0).abs() < 0.01,
                 "{height:?}"
             );
+        }
+    }
+}
+
+/// Strokes of a tenth of the knee: kappa_eta eta is kappa_eta rho x there, which neither
+/// the product's factors nor the line beside it can be told from.
+#[test]
+fn parameters_that_move_with_each_other_name_each_other() {
+    for mode in MODES {
+        let amplitude = Recipe::new(mode).amplitude;
+        let made = Made::new(&Recipe {
+            seed: 5,
+            base: Some(Base {
+                gain: 0.95,
+                kappa_eta: 40.0,
+                offset: 0.05,
+                rho: 0.1 / amplitude,
+                sigma: 1.2,
+                n: 1.6,
+            }),
+            ..Recipe::new(mode)
+        });
+        let found = made.parameters(&told(&made, &["bouc-wen"]));
+        assert!(found.iter().all(|p| p.identified == p.refused.is_none()));
+        let refused: Vec<_> = found
+            .iter()
+            .filter_map(|p| Some((p.name.as_str(), p.refused.as_ref()?)))
+            .collect();
+        assert!(
+            refused
+                .iter()
+                .any(|(name, r)| ["rho", "kappa_eta"].contains(name)
+                    && r.reason.contains("moves with ")),
+            "{refused:#?}"
+        );
+        for (name, refusal) in refused {
+            assert!(!refusal.reason.ends_with(&format!("moves with {name}")));
+            assert!(!refusal.excitation.is_empty());
         }
     }
 }
