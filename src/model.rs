@@ -1,9 +1,11 @@
 //! The model: a transmission plus effects, sample by sample.
 //!
 //! ```text
-//! y = transmission(input, eta) + Σ gain·regressor      (all terms that are no output stages)
+//! u = input + Σ gain·regressor                         (the input stages)
+//! y = transmission(u, eta) + Σ gain·regressor          (all terms that are no stages)
 //! y ← y + gain·regressor(y)                            (then each output stage, in order)
 //! ```
+//! Only the transmission sees u; every effect reads what the sensors say.
 //!
 //! A regressor's x is the position less the term's origin, see [`Term`].
 //!
@@ -185,7 +187,7 @@ impl<T: Real, const N: usize> Model<T, N> {
         })
     }
 
-    /// Advances the effects by one good sample; each share, output stages left out.
+    /// Advances the effects by one good sample; each share, for models without stages.
     ///
     /// `eta` is the caller's. `own` gives what a term reads in place of the sample's: its
     /// motion, the input and the load.
@@ -224,7 +226,8 @@ impl<T: Real, const N: usize> Model<T, N> {
     /// The same step, which also tells each term's share of the output.
     ///
     /// `share(index, gain·regressor)` is called once a term, output stages last; on
-    /// a bad sample it is not called. What the shares leave is the transmission's.
+    /// a bad sample it is not called. What the shares leave is the transmission's, to
+    /// which the work of the input stages belongs: for them it is not called either.
     ///
     /// ```
     /// use bowden::effect::{Effect, Motion};
@@ -255,7 +258,8 @@ impl<T: Real, const N: usize> Model<T, N> {
         state.tick(at.dt);
         let (mut output, eta) = match &self.transmission {
             Some(transmission) => {
-                let force = transmission.step(&mut state.hysteresis, at.input.position);
+                let moved = self.staged_input(state, at);
+                let force = transmission.step(&mut state.hysteresis, moved);
                 (saturate(force), state.hysteresis.eta())
             }
             None => (T::zero(), T::zero()),
@@ -263,7 +267,7 @@ impl<T: Real, const N: usize> Model<T, N> {
         for stage in [false, true] {
             let places = self.terms().iter().zip(&mut state.effects).enumerate();
             for (index, (term, memory)) in places {
-                if term.effect.is_output_stage() != stage {
+                if term.effect.is_output_stage() != stage || term.effect.is_input_stage() {
                     continue;
                 }
                 let Some(situation) = situation(term, at, state.time, eta) else {
@@ -280,6 +284,18 @@ impl<T: Real, const N: usize> Model<T, N> {
         }
         state.output = output;
         output
+    }
+
+    /// What the input stages make of the input.
+    fn staged_input(&self, state: &mut ModelState<T, N>, at: &Sample<T>) -> T {
+        let places = self.terms().iter().zip(&mut state.effects);
+        let stages = places.filter(|(term, _)| term.effect.is_input_stage());
+        stages.fold(at.input.position, |moved, (term, memory)| {
+            match situation(term, at, state.time, T::zero()) {
+                Some(there) => saturate(moved + term.gain * term.effect.regressor(memory, &there)),
+                None => moved,
+            }
+        })
     }
 }
 

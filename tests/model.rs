@@ -5,6 +5,7 @@ use approx::assert_relative_eq;
 use bowden::effect::{Effect, EffectState, Motion, Situation, CATALOGUE};
 use bowden::hysteresis::{BoucWen, Shape};
 use bowden::model::{Model, ModelState, Sample, Source, Term};
+use bowden::signal::{Play, PlayState};
 use bowden::transmission::Transmission;
 use bowden::{Error, Real};
 use proptest::prelude::*;
@@ -113,6 +114,26 @@ proptest! {
     }
 
     #[test]
+    fn a_play_in_series_stands_before_the_transmission_and_the_terms_read_past_it(
+        record in record(),
+        half in 0.01..2.0_f64,
+    ) {
+        let terms = [term("viscous", &[], Source::Input, 0.3), term("play-in-series", &[half], Source::Input, 1.0)];
+        let model = Model::<f64, 2>::try_new(Some(cable()), &terms).unwrap();
+        let (play, mut at_play) = (Play::try_new(half).unwrap(), PlayState::new());
+        let (mut state, mut eta) = (ModelState::new(), BoucWen::new());
+        for row in &record {
+            let at = sample(row);
+            let force = cable().step(&mut eta, play.step(&mut at_play, at.input.position));
+            let mut order = vec![];
+            let output = model.step_with(&mut state, &at, |index, _| order.push(index));
+            // x + (play − x) is the play but for one rounding.
+            assert_relative_eq!(output, force + 0.3 * at.input.velocity, epsilon = 1e-12);
+            prop_assert_eq!(order, [0]); // what the play does belongs to the transmission
+        }
+    }
+
+    #[test]
     fn the_shares_and_the_transmission_add_up_to_the_output(record in record()) {
         let model = Model::<f64, 8>::try_new(Some(cable()), &several()).unwrap();
         let (mut state, mut silent, mut eta) = (ModelState::new(), ModelState::new(), BoucWen::new());
@@ -215,7 +236,8 @@ proptest! {
         record in record(),
         origin in -2.0..2.0_f64,
     ) {
-        for effect in every_effect::<f64>().into_iter().filter(|effect| !effect.is_output_stage()) {
+        let stage = |effect: &Effect<f64>| effect.is_output_stage() || effect.is_input_stage();
+        for effect in every_effect::<f64>().into_iter().filter(|effect| !stage(effect)) {
             for source in [Source::Input, TIP] {
                 let term = Term { effect, source, origin, gain: 1.0 };
                 let model = Model::<f64, 1>::try_new(Some(cable()), &[term]).unwrap();

@@ -15,7 +15,7 @@
 
 use super::status::{usable, usable_dt};
 use super::{Fault, Status};
-use crate::effect::{Motion, Situation};
+use crate::effect::{Effect, Motion, Situation};
 use crate::error::finite;
 use crate::hysteresis::BoucWen;
 use crate::model::{Model, ModelState, Sample, Source};
@@ -170,15 +170,22 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     ///
     /// # Errors
     /// [`Error::Inadmissible`] where the model has no transmission, where that has no
-    /// inverse ([`Transmission::inverse`]), or where a term is an output stage (delay,
-    /// lag): what reads the sum cannot be subtracted from it.
+    /// inverse ([`Transmission::inverse`]), where a term is an output stage (delay,
+    /// lag): what reads the sum cannot be subtracted from it, or where one is an input
+    /// stage (a play in series): its inverse jumps.
     pub fn try_new(model: &Model<T, N>) -> Result<Self, Error> {
         let transmission = *model
             .transmission()
             .ok_or(Error::Inadmissible("the model has a transmission"))?;
-        let mut terms = model.terms().iter();
-        if terms.any(|term| term.effect.is_output_stage()) {
+        let any = |stage: fn(&Effect<T>) -> bool| {
+            let mut terms = model.terms().iter();
+            terms.any(|term| stage(&term.effect))
+        };
+        if any(Effect::is_output_stage) {
             return Err(Error::Inadmissible("no term is an output stage"));
+        }
+        if any(Effect::is_input_stage) {
+            return Err(Error::Inadmissible("no term is an input stage"));
         }
         Ok(Self {
             transmission,

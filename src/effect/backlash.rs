@@ -2,7 +2,8 @@
 //!
 //! Formulas: `play(x; r) − x`, the difference that a gap of half-width r makes (the
 //! play is flat over the distance 2·r after each reversal), and
-//! `x − clamp(x, −r, r)`, a spring with a gap around zero.
+//! `x − clamp(x, −r, r)`, a spring with a gap around zero. In series the same play acts
+//! on the transmission's input: hysteresis and gain then see `play(x; r)` instead of x.
 //!
 //! Source: M. Nordin, P.-O. Gutman, "Controlling mechanical systems with backlash
 //! — a survey", *Automatica* 38(10), 2002; for the play, M. A. Krasnosel'skii,
@@ -48,6 +49,38 @@ impl<T: Real> Regressor<T> for Backlash<T> {
         let play = clamp(before, x - self.r, x + self.r);
         state.memory = Some([play, T::zero(), T::zero(), T::zero()]);
         play - x
+    }
+}
+
+shaped! {
+    /// A play in series: slack between what is measured and what moves the transmission.
+    ///
+    /// An input stage (see [`Effect::is_input_stage`](super::Effect::is_input_stage)): with
+    /// a gain of one the transmission sees `play(x; r)`; with less, a part of the gap is
+    /// bridged. It starts in mid-gap.
+    ///
+    /// ```
+    /// use bowden::{effect::backlash::PlayInSeries, Error};
+    /// assert_eq!(PlayInSeries::try_new(0.5)?.r(), 0.5);
+    /// assert_eq!(PlayInSeries::try_new(0.0), Err(Error::OutOfRange("r")));
+    /// # Ok::<(), Error>(())
+    /// ```
+    PlayInSeries {
+        /// Half of the gap \[input unit\].
+        r: Positive, Dimension::POSITION;
+    }
+}
+
+impl<T: Real> Regressor<T> for PlayInSeries<T> {
+    const INFO: &'static Info = &Info {
+        name: "play-in-series",
+        formula: "play(x; r) − x, added to the input",
+        ..*<Backlash<T> as Regressor<T>>::INFO
+    };
+
+    #[inline]
+    fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
+        Backlash { r: self.r }.value(state, at)
     }
 }
 

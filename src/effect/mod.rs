@@ -92,7 +92,7 @@ macro_rules! effects {
         ///
         /// ```
         /// let with_memory = bowden::effect::CATALOGUE.iter().filter(|info| info.memory);
-        /// assert_eq!(with_memory.count(), 7);
+        /// assert_eq!(with_memory.count(), 8);
         /// ```
         pub const CATALOGUE: &[&Info] = &[
             $($(<$module::$plain as Regressor<f64>>::INFO,)+)*
@@ -205,7 +205,7 @@ effects! {
         gravity: Gravity;
         ripple: Ripple;
         position_friction: PositionFriction;
-        backlash: Backlash DeadZone;
+        backlash: Backlash PlayInSeries DeadZone;
         lag: Lag;
         creep: Creep;
         presliding: Presliding PreslidingDahl;
@@ -272,6 +272,15 @@ impl<T: Real> Effect<T> {
     #[must_use]
     pub fn is_output_stage(&self) -> bool {
         self.info().reads.contains(&Quantity::Output)
+    }
+
+    /// Whether it acts on the transmission's input instead of adding to the output.
+    ///
+    /// Its dimension is then the input's, and its gain a number. Where there is no
+    /// transmission it does nothing.
+    #[must_use]
+    pub fn is_input_stage(&self) -> bool {
+        matches!(self, Self::PlayInSeries(_))
     }
 
     /// Whether it remembers earlier samples.

@@ -159,12 +159,37 @@ impl<T: Real, const N: usize> Plant<T, N> {
         state.is_finite()
     }
 
+    /// The torque that the transmission sees behind the input stages.
+    #[inline]
+    fn staged_input(&self, state: &mut PlantState<T, N>, input: Motion<T>, h: T) -> T {
+        let mut moved = input.position;
+        for (term, memory) in self.undeclared().iter().zip(&mut state.effects) {
+            if term.effect.is_input_stage() {
+                let at = Situation {
+                    dt: h,
+                    time: state.time,
+                    motion: match term.source {
+                        Source::Input => input,
+                        Source::Channel(0) => state.proximal,
+                        Source::Channel(_) => state.distal,
+                    },
+                    input,
+                    load: input.position,
+                    ..Situation::default()
+                };
+                moved = saturate(moved + term.gain * term.effect.regressor(memory, &at));
+            }
+        }
+        moved
+    }
+
     /// The distal torque: the transmission, then the effects as a model has them.
     #[inline]
     fn output(&self, state: &mut PlantState<T, N>, input: Motion<T>, h: T) -> T {
         let (b, kappa_eta, t0) = state.configuration;
-        let eta = self.shape.step(&mut state.hysteresis, input.position);
-        let mut output = b * input.position - kappa_eta * eta - t0;
+        let moved = self.staged_input(state, input, h);
+        let eta = self.shape.step(&mut state.hysteresis, moved);
+        let mut output = b * moved - kappa_eta * eta - t0;
         if self.len == 0 {
             return output;
         }
@@ -174,7 +199,7 @@ impl<T: Real, const N: usize> Plant<T, N> {
         };
         for stage in [false, true] {
             for (term, memory) in self.undeclared().iter().zip(&mut state.effects) {
-                if term.effect.is_output_stage() != stage {
+                if term.effect.is_output_stage() != stage || term.effect.is_input_stage() {
                     continue;
                 }
                 let mut motion = match term.source {

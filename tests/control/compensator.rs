@@ -92,6 +92,10 @@ fn models_that_cannot_be_turned_round_are_refused() {
             Model::try_new(Some(cable(0.6)), &[stage]).unwrap()
         ));
     }
+    let slack = term("play-in-series", &[0.2], 0, 1.0);
+    assert!(inadmissible(
+        Model::try_new(Some(cable(0.6)), &[slack]).unwrap()
+    ));
 }
 
 #[test]

@@ -91,6 +91,7 @@ fn what_an_effect_reads_tells_output_stages_and_hysteresis() {
             .collect::<Vec<_>>()
     };
     assert_eq!(that(Effect::is_output_stage), ["delay", "lag"]);
+    assert_eq!(that(Effect::is_input_stage), ["play-in-series"]);
     let eta = [
         "asymmetry-eta",
         "asymmetry-eta-squared",

@@ -36,6 +36,10 @@ pub struct Record {
     /// Correlation of the noise from sample to sample; 0 is white.
     #[arg(long, default_value_t = 0.0)]
     colour: f64,
+    /// Half-width of a play in series, between the input and the transmission
+    /// [N·m or mm].
+    #[arg(long, default_value_t = 0.0)]
+    play: f64,
     /// Where to write; stdout where it is not given.
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
@@ -92,6 +96,7 @@ impl Record {
             rate: self.rate,
             noise: self.noise,
             colour: self.colour,
+            play: self.play,
             effects,
             ..Recipe::new(mode)
         };

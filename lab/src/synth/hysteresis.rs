@@ -18,3 +18,15 @@ pub(super) fn step(base: &Base, eta: f64, dt: f64, rates: [f64; 3]) -> f64 {
     let k4 = derivative(base, eta + dt * k3, rates[2]);
     eta + dt / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
 }
+
+/// The output of a play of half-width `half` that was at `last`: it moves only while it is
+/// pushed.
+pub(super) fn follow(last: f64, input: f64, half: f64) -> f64 {
+    if input - last > half {
+        input - half
+    } else if last - input > half {
+        input + half
+    } else {
+        last
+    }
+}

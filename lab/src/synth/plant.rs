@@ -45,7 +45,7 @@ pub fn generate(recipe: &Recipe) -> Result<Synthetic, RecipeError> {
     }
 
     let grid = grid(recipe)?;
-    let run = integrate(&rig, &base, recipe.mode, &grid, &mut running);
+    let run = integrate(&rig, &base, recipe, &grid, &mut running);
     let mut output = run.output;
     let unit = if recipe.noise > 0.0 {
         recipe.noise
@@ -129,22 +129,30 @@ struct Run {
     output: Vec<f64>,
 }
 
-fn integrate(rig: &Rig, base: &Base, mode: Mode, grid: &Grid, running: &mut [Running]) -> Run {
+fn integrate(rig: &Rig, base: &Base, recipe: &Recipe, grid: &Grid, running: &mut [Running]) -> Run {
     let steps = grid.first + (grid.samples - 1) * grid.every + 1;
     let (mut output, mut moments) = (Vec::with_capacity(steps), Vec::with_capacity(grid.samples));
     let mut eta = 0.0;
     let mut rate = 0.0;
+    let mut follower = rig.at(-(grid.first as f64) * grid.h, grid.h).input.x;
     for i in 0..steps {
         let t = (i as f64 - grid.first as f64) * grid.h;
         let mut moment = rig.at(t, grid.h);
+        let before = follower;
+        follower = hysteresis::follow(follower, moment.input.x, recipe.play);
         if i > 0 {
-            let rates = [rate, rig.input_rate(t - 0.5 * grid.h), moment.input.v];
+            let rates = if recipe.play > 0.0 {
+                // The play's output has corners: its mean rate over the step.
+                [(follower - before) / grid.h; 3]
+            } else {
+                [rate, rig.input_rate(t - 0.5 * grid.h), moment.input.v]
+            };
             eta = hysteresis::step(base, eta, grid.h, rates);
         }
         rate = moment.input.v;
         moment.eta = eta;
-        let (u, loop_part) = (moment.input.x, base.kappa_eta * eta);
-        output.push(match mode {
+        let (u, loop_part) = (follower, base.kappa_eta * eta);
+        output.push(match recipe.mode {
             Mode::Torque => base.gain * u - loop_part - base.offset,
             Mode::Displacement => base.gain * u + loop_part + base.offset,
         });

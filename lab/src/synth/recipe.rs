@@ -85,6 +85,9 @@ pub struct Recipe {
     pub load: bool,
     /// The transmission; drawn from the seed where it is `None`.
     pub base: Option<Base>,
+    /// Half-width of a play in series, between the input and the transmission
+    /// \[N·m or mm\]; 0 is none.
+    pub play: f64,
 }
 
 impl Recipe {
@@ -112,6 +115,7 @@ impl Recipe {
             temperature: false,
             load: false,
             base: None,
+            play: 0.0,
         }
     }
 
@@ -131,6 +135,7 @@ impl Recipe {
             ("input noise", self.input_noise),
             ("quantisation", self.quantisation),
             ("resolution", self.resolution),
+            ("play", self.play),
         ];
         for (name, value) in sizes {
             if !(0.0..=1e6).contains(&value) {

@@ -59,6 +59,7 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(effect_parity, effect.parity());
     never_panics!(effect_reads_eta, effect.reads_eta());
     never_panics!(effect_is_output_stage, effect.is_output_stage());
+    never_panics!(effect_is_input_stage, effect.is_input_stage());
     never_panics!(effect_has_memory, effect.has_memory());
     Some(())
 }
