@@ -105,7 +105,8 @@ impl Collector<'_> {
         let Ok(effect) = Effect::try_from_name(name, shapes) else {
             return;
         };
-        if effect.reads_eta() && !self.structure.hysteresis {
+        let loops = effect.reads_eta() || effect.is_input_stage();
+        if loops && !self.structure.hysteresis {
             return;
         }
         let several = matches!(
@@ -173,6 +174,12 @@ impl Collector<'_> {
         }
         for r in [0.03, 0.1, 0.3] {
             self.add(source, o, "backlash", &[r * reach]);
+        }
+        // A torque has no slack: only a motion can be handed on late.
+        if source == Source::Input {
+            for r in [0.01, 0.03, 0.1, 0.3] {
+                self.add(source, o, "play-in-series", &[r * reach]);
+            }
         }
         for r in [0.08, 0.16, 0.3, 0.55] {
             self.add(source, o, "dead-zone", &[r * reach]);
@@ -420,7 +427,7 @@ pub fn declared(name: &str, data: &Prepared) -> Result<FitTerm, String> {
         | "drive-friction"
         | "back-drive-friction" => &[0.05 * channel.speed],
         "stribeck" => &[0.3 * channel.speed, 1.0],
-        "backlash" | "dead-zone" | "presliding" => &[0.1 * channel.reach],
+        "backlash" | "play-in-series" | "dead-zone" | "presliding" => &[0.1 * channel.reach],
         "lag" => &[channel.reach / channel.speed.max(1e-300)],
         "creep" => &[1.0],
         "pinching" => &[0.3],
@@ -428,7 +435,10 @@ pub fn declared(name: &str, data: &Prepared) -> Result<FitTerm, String> {
         "temperature" => &[channel.middle],
         _ => &[],
     };
-    let whole = matches!(own, "offset" | "gain" | "delay" | "lag" | "drift");
+    let whole = matches!(
+        own,
+        "offset" | "gain" | "delay" | "lag" | "drift" | "play-in-series"
+    );
     let (source, origin) = if whole {
         (Source::Input, 0.0)
     } else {
@@ -442,7 +452,7 @@ pub fn declared(name: &str, data: &Prepared) -> Result<FitTerm, String> {
         )
     };
     let effect = Effect::try_from_name(own, shapes).map_err(|_| {
-        format!("--declare {name}: not an effect that can be declared; known: bouc-wen, offset, gain, viscous, drag, coulomb, stribeck, asymmetry, load-friction, capstan, direction, inertia, stiffness, gravity, position-friction, backlash, delay, lag, creep, rate, presliding, pinching, degradation, drift, temperature, saturation, crosstalk")
+        format!("--declare {name}: not an effect that can be declared; known: bouc-wen, offset, gain, viscous, drag, coulomb, stribeck, asymmetry, load-friction, capstan, direction, inertia, stiffness, gravity, position-friction, backlash, play-in-series, delay, lag, creep, rate, presliding, pinching, degradation, drift, temperature, saturation, crosstalk")
     })?;
     Ok(FitTerm {
         effect,

@@ -12,7 +12,13 @@ use crate::structure::{FitTerm, Free, Role, Structure};
 use crate::unknown::Variable;
 use bowden::effect::{Effect, EffectState, Family, Motion, Situation};
 use bowden::hysteresis::{Sensitivity, Shape};
+use loops::{seen, trace, trajectory};
 use std::ops::Range;
+
+mod loops;
+mod series;
+
+pub use series::series_column;
 
 /// Columns on the work grid, before the filter.
 pub struct RawColumns {
@@ -26,6 +32,8 @@ pub struct RawColumns {
     terms: Vec<FitTerm>,
     /// The hysteresis, and its state at the start of each record.
     shape: Option<(Shape<f64>, Vec<f64>)>,
+    /// The input behind the input stages.
+    seen: Vec<f64>,
     stages: Stages,
 }
 
@@ -184,18 +192,19 @@ pub fn raw_columns(
     let mut fixed = Vec::with_capacity(structure.linear());
     let mut eta = vec![0.0; n];
     let mut shape = None;
+    let seen = seen(data, &terms)?;
     if structure.hysteresis {
         let bouc_wen =
             Shape::try_new(value(Role::Rho)?, value(Role::Sigma)?, value(Role::N)?).ok()?;
         // What nobody has fitted (a record that is held out) begins in the middle.
         let eta0 = |record| value(Role::Eta0 { record }).unwrap_or(0.0);
         let eta0: Vec<f64> = (0..data.pieces.len()).map(eta0).collect();
-        trace(data, &bouc_wen, &eta0, &mut eta);
-        let input: Vec<f64> = data.input.motion.iter().map(|m| m.position).collect();
+        trace(data, &seen, &bouc_wen, &eta0, &mut eta);
+        let staged = terms.iter().any(|t| t.effect.is_input_stage());
         for record in 0..structure.own_gains.max(1) {
             let own = |column: &[f64]| of_record(data, structure, column, record);
-            columns.extend([own(&input), own(&eta), own(&vec![1.0; n])]);
-            fixed.extend([true, false, true]);
+            columns.extend([own(&seen), own(&eta), own(&vec![1.0; n])]);
+            fixed.extend([!staged, false, true]);
         }
         shape = Some((bouc_wen, eta0));
     }
@@ -214,7 +223,7 @@ pub fn raw_columns(
                 }
             }
             list.push((index, *term, gain));
-        } else {
+        } else if !term.effect.is_input_stage() {
             columns.push(effect_column(data, term, &eta)?);
             fixed.push(!term.effect.reads_eta() && free.iter().all(|f| !matches!(f.role, Role::Shape { term, .. } | Role::Origin { term } | Role::Start { term, .. } if term == index)));
         }
@@ -247,6 +256,7 @@ pub fn raw_columns(
         eta,
         terms,
         shape,
+        seen,
         stages,
     })
 }
@@ -261,36 +271,6 @@ fn of_record(data: &Prepared, structure: &Structure, column: &[f64], record: usi
         own[piece.work.clone()].copy_from_slice(&column[piece.work.clone()]);
     }
     own
-}
-
-/// The hysteresis state along the work grid.
-fn trace(data: &Prepared, shape: &Shape<f64>, eta0: &[f64], eta: &mut [f64]) {
-    for (piece, &eta0) in data.pieces.iter().zip(eta0) {
-        let motion = &data.input.motion[piece.work.clone()];
-        let mut state = eta0;
-        let mut last = motion.first().map_or(0.0, |m| m.position);
-        for (slot, motion) in eta[piece.work.clone()].iter_mut().zip(motion) {
-            state = shape.advance(state, motion.position - last);
-            last = motion.position;
-            *slot = state;
-        }
-    }
-}
-
-/// The hysteresis state and its sensitivities along the work grid.
-fn trajectory(data: &Prepared, shape: &Shape<f64>, eta0: &[f64]) -> Vec<Sensitivity<f64>> {
-    let mut all = Vec::with_capacity(data.work_len());
-    for (piece, &eta0) in data.pieces.iter().zip(eta0) {
-        let motion = &data.input.motion[piece.work.clone()];
-        let mut state = Sensitivity::start(eta0);
-        let mut last = motion.first().map_or(0.0, |m| m.position);
-        for motion in motion {
-            state = shape.advance_with_sensitivity(state, motion.position - last);
-            last = motion.position;
-            all.push(state);
-        }
-    }
-    all
 }
 
 /// d column / d parameter by central differences: the effects' shapes are few and smooth.
@@ -354,7 +334,7 @@ impl RawColumns {
         let mut sensitivities: Vec<(usize, Vec<f64>)> = Vec::new();
         let mut k = 0;
         if let Some((shape, eta0)) = &self.shape {
-            let trajectory = trajectory(data, shape, eta0);
+            let trajectory = trajectory(data, &self.seen, shape, eta0);
             for (j, f) in free.iter().enumerate() {
                 let pick: fn(&Sensitivity<f64>) -> f64 = match f.role {
                     Role::Rho => |s| s.d_rho,
@@ -381,7 +361,7 @@ impl RawColumns {
             k = structure.base();
         }
         for (index, term) in self.terms.iter().enumerate() {
-            if term.effect.is_output_stage() {
+            if term.effect.is_output_stage() || term.effect.is_input_stage() {
                 continue;
             }
             for (j, f) in free.iter().enumerate() {
@@ -438,7 +418,9 @@ impl RawColumns {
             }
             k += 1;
         }
-        Some(Moves(moves))
+        let mut moves = Moves(moves);
+        moves.add_series(data, structure, free, values)?;
+        Some(moves)
     }
 
     /// d output / d free parameter `j` for the given gains, before the filter.

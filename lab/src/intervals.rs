@@ -183,7 +183,7 @@ fn entries<'a>(data: &Prepared, solution: &'a Solution) -> Vec<Entry<'a>> {
         next = solution.structure.base();
     }
     for (index, term) in solution.structure.terms.iter().enumerate() {
-        if !term.effect.is_output_stage() {
+        if term.is_linear() {
             all.push(linear(
                 term_name(data, term),
                 gain_unit(data, term),

@@ -8,7 +8,6 @@
 
 use crate::catalogue::Candidate;
 use crate::channels::Prepared;
-use crate::columns::{effect_column, stage_column};
 use crate::fit::Solution;
 use bowden::effect::Family;
 use nalgebra::DVector;
@@ -131,11 +130,7 @@ impl Workspace {
             .par_iter()
             .map(|candidate| {
                 let term = &candidate.term;
-                let raw = if term.effect.is_output_stage() {
-                    stage_column(data, &term.effect, &solution.unfiltered)
-                } else {
-                    effect_column(data, term, &solution.eta)?
-                };
+                let raw = solution.adds(data, term)?;
                 let mut column = on_rows(rows, &data.filtered(&raw));
                 let norm = column.norm();
                 if !(norm.is_finite() && norm > 0.0) {

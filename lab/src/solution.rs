@@ -1,7 +1,8 @@
 //! A fitted model on a record, and its errors.
 
 use crate::channels::Prepared;
-use crate::structure::{Free, Role, Structure};
+use crate::columns::{effect_column, series_column, stage_column};
+use crate::structure::{FitTerm, Free, Role, Structure};
 
 /// Root mean square errors of the three segments, in the output's unit.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -100,15 +101,33 @@ impl Solution {
     /// Gain of term `term`, linear or not.
     #[must_use]
     pub fn gain(&self, term: usize) -> f64 {
-        if self.structure.terms[term].effect.is_output_stage() {
+        let effect = &self.structure.terms[term].effect;
+        if effect.is_output_stage() {
             return self.value(Role::Stage { term }).unwrap_or(0.0);
+        }
+        if effect.is_input_stage() {
+            return 1.0;
         }
         let base = self.structure.base();
         let before = self.structure.terms[..term]
             .iter()
-            .filter(|t| !t.effect.is_output_stage())
+            .filter(|t| t.is_linear())
             .count();
         self.gains[base + before]
+    }
+
+    /// What a term that is not in the model would add to its output for a gain of one, on
+    /// the work grid; `None` where its channel is missing.
+    #[must_use]
+    pub fn adds(&self, data: &Prepared, term: &FitTerm) -> Option<Vec<f64>> {
+        if term.effect.is_output_stage() {
+            return Some(stage_column(data, &term.effect, &self.unfiltered));
+        }
+        if term.effect.is_input_stage() {
+            let at = (self.free.as_slice(), self.values.as_slice());
+            return series_column(data, &self.structure, at, &self.gains, term);
+        }
+        effect_column(data, term, &self.eta)
     }
 
     /// How many shapes that belong to the model stopped on a bound.

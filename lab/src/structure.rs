@@ -24,6 +24,13 @@ pub struct FitTerm {
 }
 
 impl FitTerm {
+    /// Whether its gain is one of the linear ones: that of an output stage acts on all
+    /// columns, and an input stage has a gain of one.
+    #[must_use]
+    pub fn is_linear(&self) -> bool {
+        !self.effect.is_output_stage() && !self.effect.is_input_stage()
+    }
+
     /// Whether the effect remembers motion from before the record.
     #[must_use]
     pub fn has_past(&self) -> bool {
@@ -290,13 +297,7 @@ impl Structure {
     /// Number of linear gains.
     #[must_use]
     pub fn linear(&self) -> usize {
-        self.base()
-            + self
-                .terms
-                .iter()
-                .filter(|t| !t.effect.is_output_stage())
-                .count()
-            + self.table_gains()
+        self.base() + self.terms.iter().filter(|t| t.is_linear()).count() + self.table_gains()
     }
 
     /// How many of the linear gains, the last ones, are those of the table.
@@ -312,7 +313,7 @@ impl Structure {
     #[must_use]
     pub fn sign_kept(&self, mode: Mode) -> Vec<bool> {
         let mut kept = vec![false; self.base()];
-        for term in self.terms.iter().filter(|t| !t.effect.is_output_stage()) {
+        for term in self.terms.iter().filter(|t| t.is_linear()) {
             let friction = matches!(term.effect.family(), Family::Viscous | Family::Coulomb);
             kept.push(friction && mode == Mode::Displacement && term.source == Source::Input);
         }

@@ -3,8 +3,8 @@
 //! By size and not by significance: on a long record every part is significant. Each part is
 //! taken out of the final model, the others are refitted, and where the error on held-out
 //! data grows by less than a tenth the part is not needed. Without its hysteresis a
-//! transmission is a line, gain and offset; effects that read the hysteresis state go
-//! with it. Parts are judged one at a time: of two that can each stand in for the
+//! transmission is a line, gain and offset; effects that read the hysteresis state
+//! and stages before it go with it. Parts are judged one at a time: of two that can each stand in for the
 //! other both are listed, and one of them is needed.
 
 use crate::catalogue::declared;
@@ -12,7 +12,7 @@ use crate::channels::Prepared;
 use crate::closing::Ledger;
 use crate::fit::{fit_from, Known, Solution};
 use crate::intervals::term_name;
-use crate::structure::Structure;
+use crate::structure::{FitTerm, Structure};
 use crate::unknown::{Table, Variable};
 use bowden::model::Source;
 use serde::Serialize;
@@ -70,7 +70,8 @@ fn without_hysteresis(data: &Prepared, full: &Solution) -> Option<Solution> {
     if structure.table.as_ref().is_some_and(over_eta) {
         structure.table = None;
     }
-    while let Some(term) = structure.terms.iter().position(|t| t.effect.reads_eta()) {
+    let goes = |t: &FitTerm| t.effect.reads_eta() || t.effect.is_input_stage();
+    while let Some(term) = structure.terms.iter().position(goes) {
         structure.terms.remove(term);
         known = known.without(term);
     }

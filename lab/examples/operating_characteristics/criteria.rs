@@ -11,7 +11,6 @@
 use bowden::effect::Family;
 use bowden_lab::catalogue::Candidate;
 use bowden_lab::channels::Prepared;
-use bowden_lab::columns::{effect_column, stage_column};
 use bowden_lab::fit::Solution;
 use nalgebra::{DMatrix, DVector};
 
@@ -76,13 +75,7 @@ impl<'a> Library<'a> {
         }
         let (mut families, mut columns) = (Vec::new(), Vec::new());
         for candidate in tried {
-            let term = &candidate.term;
-            let raw = if term.effect.is_output_stage() {
-                Some(stage_column(data, &term.effect, &declared.unfiltered))
-            } else {
-                effect_column(data, term, &declared.eta)
-            };
-            if let Some(raw) = raw {
+            if let Some(raw) = declared.adds(data, &candidate.term) {
                 columns.push(data.filtered(&raw));
                 families.push(candidate.family);
             }

@@ -172,12 +172,7 @@ pub fn identify(record: &Record) -> Result<Identified, String> {
     // beside gains that were fitted with it.
     let solution = solutions
         .iter()
-        .filter(|s| {
-            s.structure
-                .terms
-                .iter()
-                .all(|t| !t.effect.is_output_stage())
-        })
+        .filter(|s| s.structure.terms.iter().all(|t| t.is_linear()))
         .min_by(|a, b| a.rmse.stop.total_cmp(&b.rmse.stop))
         .map_or(&ledger.declared, |found| *found);
     let named = |solution: &Solution| -> Vec<String> {

@@ -120,7 +120,7 @@ impl FeedForward {
         let terms: Vec<Term<f64>> = model
             .terms()
             .iter()
-            .filter(|term| !term.effect.is_output_stage())
+            .filter(|term| !term.effect.is_output_stage() && !term.effect.is_input_stage())
             .copied()
             .collect();
         let channels = channels

@@ -1,7 +1,7 @@
 //! A fitted model on another motion: its columns, and what an effect would add there.
 
 use crate::channels::Prepared;
-use crate::columns::{effect_column, raw_columns, stage_column};
+use crate::columns::{effect_column, raw_columns, series_column, stage_column};
 use crate::fit::Solution;
 use crate::projection::{rows, Span};
 use crate::structure::{FitTerm, Free, Role, Structure};
@@ -9,6 +9,7 @@ use bowden::effect::Quantity;
 use nalgebra::DVector;
 
 /// A model with all its values, apart from any record.
+#[derive(Clone)]
 pub(super) struct Model {
     structure: Structure,
     free: Vec<Free>,
@@ -19,6 +20,7 @@ pub(super) struct Model {
 /// The model on a motion.
 pub(super) struct Placed<'a> {
     data: &'a Prepared,
+    model: Model,
     eta: Vec<f64>,
     /// The prediction on the work grid.
     output: Vec<f64>,
@@ -44,7 +46,7 @@ impl Model {
         let mut model = Self::whole(solution);
         let gone = model.structure.terms.pop()?;
         let last = model.structure.terms.len();
-        if !gone.effect.is_output_stage() {
+        if gone.is_linear() {
             let linear = model.gains.len() - model.structure.table_gains();
             model.gains.remove(linear.checked_sub(1)?);
         }
@@ -78,6 +80,7 @@ impl Model {
         Some(Placed {
             span: Span::of(data, columns.iter()),
             data,
+            model: self.clone(),
             eta: raw.eta,
             output,
             columns,
@@ -90,6 +93,10 @@ impl Placed<'_> {
     pub(super) fn column(&self, term: &FitTerm) -> Option<DVector<f64>> {
         let raw = if term.effect.is_output_stage() {
             stage_column(self.data, &term.effect, &self.output)
+        } else if term.effect.is_input_stage() {
+            let model = &self.model;
+            let at = (model.free.as_slice(), model.values.as_slice());
+            series_column(self.data, &model.structure, at, &model.gains, term)?
         } else {
             effect_column(self.data, term, &self.eta)?
         };

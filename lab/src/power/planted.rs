@@ -1,7 +1,6 @@
 //! The user's record with an effect in it that was not there.
 
 use crate::channels::Prepared;
-use crate::columns::{effect_column, stage_column};
 use crate::fit::Solution;
 use crate::structure::FitTerm;
 
@@ -69,11 +68,7 @@ pub(super) fn contribution(
     solution: &Solution,
     term: &FitTerm,
 ) -> Option<Contribution> {
-    let raw = if term.effect.is_output_stage() {
-        stage_column(data, &term.effect, &solution.unfiltered)
-    } else {
-        effect_column(data, term, &solution.eta)?
-    };
+    let raw = solution.adds(data, term)?;
     let rms = spread(&raw);
     let unit: Vec<f64> = raw.iter().map(|c| c / rms).collect();
     unit.iter()

@@ -8,6 +8,7 @@
 //! * [`nulls`]: where nothing is missing, nothing is added.
 //! * [`determinism`]: the same record gives the same result, on any number of threads.
 //! * [`unneeded`]: declared parts that the record does not need are told.
+//! * [`series`]: a play between the input and the transmission is found with its width.
 //! * [`exported`]: what was fitted is what runs in firmware.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
@@ -17,4 +18,5 @@ mod nulls;
 mod planted;
 mod recovery;
 mod rig;
+mod series;
 mod unneeded;
