@@ -64,6 +64,27 @@ fn held_out(data: &Prepared) -> Option<&Piece> {
     data.pieces.iter().find(|piece| !piece.fitted)
 }
 
+/// How long the records are, in words.
+pub(super) fn size(data: &Prepared) -> String {
+    let hertz = |rate: f64| number(rate, Some(1e-3 * rate));
+    let own = data.pieces.iter().map(|p| p.samples as f64 / p.rate);
+    match &data.pieces[..] {
+        pieces @ [_, _, ..] => format!(
+            "{} samples in {} files, {:.1} s together, brought to {} Hz",
+            data.samples,
+            pieces.len(),
+            own.sum::<f64>(),
+            hertz(data.rate)
+        ),
+        _ => format!(
+            "{} samples, {} Hz, {:.1} s",
+            data.samples,
+            hertz(data.rate),
+            data.samples as f64 / data.rate
+        ),
+    }
+}
+
 /// How the records are split, in words.
 pub(super) fn split(data: &Prepared) -> String {
     let trailing = "60 % to fit, 15 % to stop, 25 % held out";

@@ -137,13 +137,11 @@ pub fn text(path: &str, data: &Prepared, ledger: &Ledger, chosen_cutoff: bool) -
     } else {
         format!(", with {}", channels.join(", "))
     };
-    let seconds = data.samples as f64 / data.rate;
     line!(out, "{bold}bowden close{bold:#}  {path}");
     line!(
         out,
-        "read      {} samples, {} Hz, {seconds:.1} s; {mode} mode: {} → {}{with}",
-        data.samples,
-        number(data.rate, Some(1e-3 * data.rate)),
+        "read      {}; {mode} mode: {} → {}{with}",
+        several::size(data),
         data.input.name,
         data.output_name
     );

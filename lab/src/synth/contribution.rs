@@ -48,7 +48,8 @@ impl Running {
             },
         };
         let input = Extent::of(rig, Channel::Input, recipe);
-        let extent = Extent::of(rig, channel.unwrap_or(Channel::Input), recipe);
+        let mut extent = Extent::of(rig, channel.unwrap_or(Channel::Input), recipe);
+        extent.mean = planted.origin.unwrap_or(extent.mean);
         let regressor = build(name, &extent, &input, rng);
         let sign = regressor
             .as_ref()
@@ -96,8 +97,14 @@ impl Running {
         }
     }
 
-    /// Chooses the gain so that the sampled contribution has the wanted rms.
-    pub(super) fn scale(&mut self, sampled: &[f64], wanted: f64) -> Result<(), RecipeError> {
+    /// Chooses the gain so that the sampled contribution has the wanted rms, or takes the
+    /// given one.
+    pub(super) fn scale(
+        &mut self,
+        sampled: &[f64],
+        wanted: f64,
+        given: Option<f64>,
+    ) -> Result<(), RecipeError> {
         let count = sampled.len() as f64;
         let size = match self.truth.effect.as_str() {
             "offset" => (sampled.iter().map(|value| value * value).sum::<f64>() / count).sqrt(),
@@ -109,8 +116,8 @@ impl Running {
                 self.truth.effect
             ));
         }
-        self.truth.gain = self.sign * wanted / size;
-        self.truth.rms = wanted;
+        self.truth.gain = given.unwrap_or(self.sign * wanted / size);
+        self.truth.rms = given.map_or(wanted, |gain| gain.abs() * size);
         self.truth.contribution = sampled
             .iter()
             .map(|value| self.truth.gain * value)

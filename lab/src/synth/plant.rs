@@ -58,7 +58,7 @@ pub fn generate(recipe: &Recipe) -> Result<Synthetic, RecipeError> {
         .filter(|(effect, _)| !effect.is_stage())
     {
         let sampled = grid.sampled(&effect.fine);
-        effect.scale(&sampled, planted.strength * unit)?;
+        effect.scale(&sampled, planted.strength * unit, planted.gain)?;
         let fine = std::mem::take(&mut effect.fine);
         output
             .iter_mut()

@@ -20,6 +20,11 @@ pub struct Planted {
     pub strength: f64,
     /// The channel that it reads; each effect has a default.
     pub channel: Option<String>,
+    /// The gain itself, in place of the strength: so several records can be of one rig.
+    /// A delay or a lag has none.
+    pub gain: Option<f64>,
+    /// Where its position counts from; the middle of its motion where it is `None`.
+    pub origin: Option<f64>,
 }
 
 impl Planted {
@@ -29,6 +34,8 @@ impl Planted {
             effect: effect.to_owned(),
             strength: 3.0,
             channel: None,
+            gain: None,
+            origin: None,
         }
     }
 }
@@ -162,6 +169,18 @@ impl Recipe {
             let (name, strength) = (&planted.effect, planted.strength);
             return refuse(format!(
                 "strength {strength} of {name}: a positive number was expected"
+            ));
+        }
+        let given = |p: &Planted| {
+            p.gain
+                .into_iter()
+                .chain(p.origin)
+                .any(|v| !(v.abs() <= 1e6))
+        };
+        if let Some(planted) = self.effects.iter().find(|p| given(p)) {
+            let name = &planted.effect;
+            return refuse(format!(
+                "gain and origin of {name}: finite numbers were expected"
             ));
         }
         match &self.base {

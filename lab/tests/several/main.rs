@@ -1,0 +1,8 @@
+//! Several records of one rig, fitted together.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod grids;
+mod joint;
+mod measured;
+mod program;
+mod rig;

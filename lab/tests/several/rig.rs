@@ -1,0 +1,73 @@
+//! Records of one rig on different motions, the way of a user's files.
+
+use bowden_lab::channels::{HeldOut, Preparation, Prepared};
+use bowden_lab::closing::{close, structure, Ledger};
+use bowden_lab::record::{parse, Options, Record};
+use bowden_lab::structure::Structure;
+use bowden_lab::synth::{generate, Base, Mode, Planted, Recipe, Synthetic};
+
+/// A transmission in the paper's range.
+pub const CABLE: Base = Base {
+    gain: 0.95,
+    kappa_eta: 4.0,
+    offset: 0.05,
+    rho: 0.3,
+    sigma: 1.2,
+    n: 1.6,
+};
+
+/// A record of that transmission; the seed changes motion and noise alone.
+pub fn on(base: Base, mode: Mode, seed: u64) -> Recipe {
+    Recipe {
+        base: Some(base),
+        seed,
+        ..Recipe::new(mode)
+    }
+}
+
+/// An effect of that gain, whatever the motion.
+pub fn with_gain(effect: &str, gain: f64) -> Planted {
+    Planted {
+        gain: Some(gain),
+        ..Planted::new(effect)
+    }
+}
+
+/// Files that a user could have recorded, with their truths.
+pub struct Files {
+    pub truths: Vec<Synthetic>,
+    pub records: Vec<Record>,
+}
+
+impl Files {
+    pub fn new(recipes: &[Recipe]) -> Self {
+        let truths: Vec<_> = recipes.iter().map(|r| generate(r).unwrap()).collect();
+        let records = truths.iter().enumerate().map(|(index, truth)| {
+            let csv = truth.to_csv();
+            parse(csv.as_bytes(), &format!("{index}.csv"), &Options::default()).unwrap()
+        });
+        Self {
+            records: records.collect(),
+            truths,
+        }
+    }
+
+    pub fn joined(&self, held_out: HeldOut) -> Prepared {
+        Prepared::joined(&self.records, Preparation::default(), held_out).unwrap()
+    }
+}
+
+/// The declared model: the transmission alone.
+pub fn declared(data: &Prepared) -> Structure {
+    structure(&["bouc-wen".to_owned()], data).unwrap()
+}
+
+pub fn closed(data: &Prepared) -> Ledger {
+    close(data, &declared(data), |_| ()).unwrap()
+}
+
+/// Effects that a run added, by name.
+pub fn added(ledger: &Ledger) -> Vec<&'static str> {
+    let rounds = ledger.rounds.iter();
+    rounds.map(|r| r.candidate.term.effect.name()).collect()
+}
