@@ -4,7 +4,7 @@ use bowden_lab::channels::{HeldOut, Preparation, Prepared};
 use bowden_lab::closing::{close, structure, Ledger};
 use bowden_lab::record::{parse, Options, Record};
 use bowden_lab::structure::Structure;
-use bowden_lab::synth::{generate, Base, Mode, Planted, Recipe, Synthetic};
+use bowden_lab::synth::{generate, Base, Mode, Planted, Recipe};
 
 /// A transmission in the paper's range.
 pub const CABLE: Base = Base {
@@ -33,22 +33,19 @@ pub fn with_gain(effect: &str, gain: f64) -> Planted {
     }
 }
 
-/// Files that a user could have recorded, with their truths.
+/// Files that a user could have recorded.
 pub struct Files {
-    pub truths: Vec<Synthetic>,
     pub records: Vec<Record>,
 }
 
 impl Files {
     pub fn new(recipes: &[Recipe]) -> Self {
-        let truths: Vec<_> = recipes.iter().map(|r| generate(r).unwrap()).collect();
-        let records = truths.iter().enumerate().map(|(index, truth)| {
-            let csv = truth.to_csv();
+        let records = recipes.iter().enumerate().map(|(index, recipe)| {
+            let csv = generate(recipe).unwrap().to_csv();
             parse(csv.as_bytes(), &format!("{index}.csv"), &Options::default()).unwrap()
         });
         Self {
             records: records.collect(),
-            truths,
         }
     }
 
