@@ -80,7 +80,7 @@ pub(crate) fn attempt(data: &Prepared, now: &Solution, mut progress: impl FnMut(
                 }
                 Err(rejection) => {
                     let own = rejection.candidate == finding.candidate;
-                    attempt.rejected.push(rejection);
+                    attempt.rejected.push(*rejection);
                     if own {
                         break;
                     }
@@ -105,11 +105,10 @@ fn passes(
     now: &Solution,
     finding: &Finding,
     evidence: &Evidence,
-) -> Result<Accepted, Rejection> {
-    let rejected = |candidate: Candidate, gate: Gate| Rejection {
-        candidate,
-        gate,
-        p: finding.p,
+) -> Result<Accepted, Box<Rejection>> {
+    let rejected = |candidate: Candidate, gate: Gate| {
+        let p = finding.p;
+        Box::new(Rejection { candidate, gate, p })
     };
     let duel = duel(data, now, finding).ok_or(rejected(finding.candidate, Gate::Refit))?;
     // The whole set of starts is worth its time only where the quick one came near.

@@ -5,8 +5,10 @@ use super::Failure;
 use crate::channels::{HeldOut, Prepared};
 use crate::closing::{close, Ledger};
 use crate::export::ModelFile;
+use crate::fit::{fit, Solution};
 use crate::record::{agree, parse, read, Options, Record};
 use crate::report::{json, text, Report};
+use crate::structure::Structure;
 use crate::synth::{generate, Planted, Recipe};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -55,7 +57,7 @@ impl Close {
         let records = self.read(&options)?;
         let label: Vec<&str> = records.iter().map(|r| r.path.as_str()).collect();
         let label = label.join(", ");
-        let (data, mut structure) = match &records[..] {
+        let (mut data, mut structure) = match &records[..] {
             [one] => self.reading.prepare(one)?,
             all => self.reading.prepare_joined(all, self.held_out())?,
         };
@@ -70,6 +72,10 @@ impl Close {
         }
         let ledger = close(&data, &structure, |what| bar.set_message(what.to_owned()))
             .map_err(|message| format!("{label}: {message}"))?;
+        if self.per_file.is_none() && records.len() > 1 {
+            bar.set_message("trying each file with gains of its own");
+            data.notes.extend(hint(&data, &ledger.declared));
+        }
         if let Some(path) = &self.model_out {
             write_models(path, &label, &data, &ledger)?;
         }
@@ -110,6 +116,28 @@ impl Close {
         agree(&mut records).map_err(|e| e.to_string())?;
         Ok(records)
     }
+}
+
+/// Files of several configurations fitted as one: gains of their own for each leave less
+/// than this share of the declared model's error.
+const OTHER_CONFIGURATION: f64 = 0.5;
+
+/// What to try where the files do not seem to be of one configuration.
+fn hint(data: &Prepared, declared: &Solution) -> Option<String> {
+    if !declared.structure.hysteresis {
+        return None;
+    }
+    let structure = Structure {
+        own_gains: data.pieces.len(),
+        ..declared.structure.clone()
+    };
+    let own = fit(data, &structure, None, 0.0)?.rmse.fit / declared.rmse.fit;
+    (own < OTHER_CONFIGURATION).then(|| {
+        format!(
+            "with gains of its own for each file the declared model leaves {:.0} % of this error on the fit segments: try --per-file gains",
+            100.0 * own
+        )
+    })
 }
 
 fn embedded(options: &Options) -> Result<Record, Failure> {

@@ -175,7 +175,7 @@ impl Recipe {
             p.gain
                 .into_iter()
                 .chain(p.origin)
-                .any(|v| !(v.abs() <= 1e6))
+                .any(|v| v.is_nan() || v.abs() > 1e6)
         };
         if let Some(planted) = self.effects.iter().find(|p| given(p)) {
             let name = &planted.effect;
