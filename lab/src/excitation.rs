@@ -19,7 +19,15 @@ pub(crate) fn of_role(solution: &Solution, role: Role) -> &'static str {
             "a known motion just before the record; it belongs to this record only"
         }
         Role::Origin { .. } => "strokes on both sides of the origin",
-        Role::Shape { term, .. } | Role::Stage { term } => of_family(family(term)),
+        Role::Shape { term, index } => {
+            let names = solution.structure.terms[term].effect.shape_names();
+            match names.get(index) {
+                // The width of a change of sign, whatever it belongs to.
+                Some(&"v_e") => of_family(Family::Coulomb),
+                _ => of_family(family(term)),
+            }
+        }
+        Role::Stage { term } => of_family(family(term)),
     }
 }
 

@@ -4,9 +4,6 @@ use crate::record::{Column, Defect, DefectKind, Record};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// Share of a record that a channel's defects may take out of the fit.
-const MOST_OF_A_CHANNEL: f64 = 0.1;
-
 /// Stretches without a measurement, which are left out of the fit, each with how much
 /// beside it goes with it: a clipped top is off by little, and so is what the filter
 /// carries beyond it, but a line through a stuck stretch is as wrong as the record's ends.
@@ -15,12 +12,7 @@ pub(super) fn blind(
     period: usize,
     edge: usize,
 ) -> impl Iterator<Item = (Range<usize>, usize)> + '_ {
-    let left_out = |defect: &&Defect| {
-        let samples: usize = defect.samples.iter().map(ExactSizeIterator::len).sum();
-        let end = [&record.input.name, &record.output.name].contains(&&defect.channel);
-        defect.is_blind() && (end || samples as f64 <= MOST_OF_A_CHANNEL * record.time.len() as f64)
-    };
-    let defects = record.defects.iter().filter(left_out);
+    let defects = record.defects.iter().filter(|defect| defect.left_out);
     defects.flat_map(move |defect| {
         let clipped = defect.kind == DefectKind::Clipping;
         let guard = if clipped { period } else { edge };

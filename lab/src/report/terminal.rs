@@ -64,7 +64,7 @@ fn defect_line(defect: &Defect) -> String {
     if defect.ranges.len() > LISTED {
         lines.push(format!("{} more", defect.ranges.len() - LISTED));
     }
-    let out = if defect.is_blind() {
+    let out = if defect.left_out {
         "; left out of the fit"
     } else {
         ""

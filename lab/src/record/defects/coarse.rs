@@ -39,6 +39,7 @@ pub(super) fn find(signal: &[f64], other: &Companion) -> Option<Found> {
             100.0 * share
         ),
         grave: share > GRAVE,
+        most: 1.0,
         samples: std::iter::once(0..signal.len()).collect(),
     })
 }

@@ -43,6 +43,7 @@ pub(super) fn find(time: &[f64]) -> Option<Found> {
             100.0 * share
         ),
         grave: share > GRAVE,
+        most: 1.0,
         samples,
     })
 }

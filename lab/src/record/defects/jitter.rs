@@ -42,6 +42,7 @@ pub(super) fn find(time: &[f64], columns: &[&Column]) -> Option<Found> {
             100.0 * error
         ),
         grave: error > GRAVE,
+        most: 1.0,
         samples: stretches(&shifts),
     })
 }

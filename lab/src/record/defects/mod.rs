@@ -63,18 +63,16 @@ pub struct Defect {
     /// Whether it spoils what is concluded from this column.
     #[serde(skip)]
     pub grave: bool,
+    /// Whether the stretches hold no measurement and are left out of the fit.
+    #[serde(skip)]
+    pub left_out: bool,
     /// The stretches as samples of the record.
     #[serde(skip)]
     pub samples: Vec<Range<usize>>,
 }
 
-impl Defect {
-    /// Whether the stretches hold no measurement, so that nothing is to be fitted there.
-    #[must_use]
-    pub fn is_blind(&self) -> bool {
-        matches!(self.kind, DefectKind::Clipping | DefectKind::Stuck)
-    }
-}
+/// Share of the record that a channel's defects may take out of the fit.
+const MOST_OF_A_CHANNEL: f64 = 0.1;
 
 /// Share of blind samples from which a conclusion is spoilt. Of the output they are just
 /// left out; the input goes on to act through what remembers it.
@@ -131,7 +129,10 @@ pub(super) fn find(measured: &Measured<'_>) -> Vec<Defect> {
             _ => None,
         };
         let coarse = coarse::find(&column.values, others[0]);
-        let named = |kind, found: Option<Found>| found.map(|f| f.named(kind, &column.name, lines));
+        let most = if index < 2 { 1.0 } else { MOST_OF_A_CHANNEL };
+        let named = |kind, found: Option<Found>| {
+            found.map(|found| Found { most, ..found }.named(kind, &column.name, lines))
+        };
         all.extend(named(DefectKind::Stuck, stuck));
         all.extend(named(DefectKind::Clipping, clipped));
         all.extend(named(DefectKind::Quantisation, coarse));
@@ -144,13 +145,17 @@ struct Found {
     samples: Vec<Range<usize>>,
     message: String,
     grave: bool,
+    /// Share of the record that may be left out for it.
+    most: f64,
 }
 
 impl Found {
     fn named(self, kind: DefectKind, column: &str, lines: &[usize]) -> Defect {
         let line = |sample: usize| lines.get(sample).copied().unwrap_or(sample + 2);
         let range = |s: &Range<usize>| [line(s.start), line(s.end.max(s.start + 1) - 1)];
+        let blind = matches!(kind, DefectKind::Clipping | DefectKind::Stuck);
         Defect {
+            left_out: blind && share(&self.samples, lines.len()) <= self.most,
             kind,
             channel: column.to_owned(),
             ranges: self.samples.iter().map(range).collect(),
@@ -188,6 +193,7 @@ fn clipped(
             100.0 * share
         ),
         grave: share > few,
+        most: 1.0,
         samples,
     })
 }

@@ -55,6 +55,7 @@ pub(super) fn find(signal: &[f64], others: &[&Companion], few: f64) -> Option<Fo
             100.0 * share
         ),
         grave: share > few,
+        most: 1.0,
         samples,
     })
 }
@@ -110,10 +111,12 @@ impl<'a> Judge<'a> {
         let usual = moving
             .get((USUAL * moving.len() as f64) as usize)
             .map(|s| s.abs());
-        let innocent = runs
-            .iter()
-            .filter(|run| !suspects.contains(run))
-            .map(ExactSizeIterator::len);
+        let is_suspect = |run: &&Range<usize>| {
+            let found = suspects.binary_search_by_key(&run.start, |suspect| suspect.start);
+            found.is_ok()
+        };
+        let innocent = runs.iter().filter(|run| !is_suspect(run));
+        let innocent = innocent.map(ExactSizeIterator::len);
         let (low, high) = crate::record::checks::range(signal);
         Self {
             signal,
