@@ -74,10 +74,10 @@ pub struct Defect {
 /// Share of the record that a channel's defects may take out of the fit.
 const MOST_OF_A_CHANNEL: f64 = 0.1;
 
-/// Share of blind samples from which a conclusion is spoilt. Of the output they are just
-/// left out; the input goes on to act through what remembers it.
-const GRAVE_OUTPUT: f64 = 0.05;
-const GRAVE_OTHER: f64 = 0.01;
+/// Share of blind samples from which a conclusion is spoilt. They are left out; but what was
+/// not seen of the input goes on to act through the hysteresis.
+const GRAVE: f64 = 0.05;
+const GRAVE_INPUT: f64 = 0.01;
 
 /// What the detectors look at.
 pub(super) struct Measured<'a> {
@@ -112,11 +112,7 @@ pub(super) fn find(measured: &Measured<'_>) -> Vec<Defect> {
             1 => (vec![&at_input], &input.values),
             _ => (vec![&at_input, &at_output], &input.values),
         };
-        let few = if index == 1 {
-            GRAVE_OUTPUT
-        } else {
-            GRAVE_OTHER
-        };
+        let few = if index == 0 { GRAVE_INPUT } else { GRAVE };
         let stuck = stuck::find(&column.values, &others, few);
         let spoilt = |plateau: &Range<usize>| {
             let stuck = stuck.iter().flat_map(|found| &found.samples);
