@@ -1,6 +1,6 @@
 //! Closing the loop: fit, scan, add one effect, refit, compare, again.
 
-use crate::attempt::{attempt, Accepted};
+use crate::attempt::{attempt, Accepted, Attempt};
 use crate::catalogue::{declared, Candidate};
 use crate::channels::Prepared;
 use crate::fit::{fit, Segments, Solution};
@@ -12,6 +12,10 @@ use crate::unknown::{instead, unnamed, Unknown};
 
 /// At most this many effects are added.
 pub const MOST_ROUNDS: usize = 8;
+
+/// Beside a table for what has no name an effect removes at least this share of the squared
+/// error: the table's steps leave a rest that effects would fill.
+const BESIDE_TABLE: f64 = 0.5;
 
 /// Why a candidate was not added.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
@@ -183,26 +187,15 @@ pub fn close(
         });
         ledger.regime = tried.regime;
         ledger.correlation_time = tried.correlation_time;
-        let accepted = match &tried.accepted {
-            Some(accepted) => vec![accepted.clone()],
-            None => {
-                progress(&format!("round {round}: trying several at once"));
-                joint(data, &now, &tried, MOST_ROUNDS - ledger.rounds.len())
+        if ledger.unknown.is_some() {
+            if !beside_table(data, &mut ledger, tried) {
+                break;
             }
-        };
-        ledger.rejected.clone_from(&tried.rejected);
-        let accepted = if accepted.is_empty() {
-            progress(&format!("round {round}: looking for a tone"));
-            match tone(data, &now, &tried) {
-                Ok(accepted) => vec![accepted],
-                Err(rejection) => {
-                    ledger.rejected.extend(rejection);
-                    Vec::new()
-                }
-            }
-        } else {
-            accepted
-        };
+            continue;
+        }
+        let accepted = proposed(data, &mut ledger, &now, &tried, |what| {
+            progress(&format!("round {round}: {what}"))
+        });
         if accepted.is_empty() {
             progress("looking for what has no name");
             ledger.unknown = unnamed(data, &now, &tried);
@@ -216,24 +209,78 @@ pub fn close(
             let round = add(data, ledger.last(), one, ledger.rounds.len() + 1);
             ledger.rounds.push(round);
         }
-        if ledger.unknown.is_some() {
-            break;
-        }
     }
     progress("looking for what later effects have made superfluous");
-    if let (Some((kept, gone)), None) = (superseded(data, &ledger), &ledger.unknown) {
-        ledger.rounds.clear();
-        for one in kept {
-            let round = add(data, ledger.last(), one, ledger.rounds.len() + 1);
-            ledger.rounds.push(round);
-        }
-        ledger.rejected.extend(gone);
-    }
+    take_back(data, &mut ledger);
     // A later scan may find blocks enough: that does not test what came in before.
     if ledger.rounds.iter().any(|round| round.p.is_none()) {
         ledger.regime = Regime::Effect;
     }
     Ok(ledger)
+}
+
+/// What the library, alone or several at once, or else a tone would add.
+fn proposed(
+    data: &Prepared,
+    ledger: &mut Ledger,
+    now: &Solution,
+    tried: &Attempt,
+    mut progress: impl FnMut(&str),
+) -> Vec<Accepted> {
+    ledger.rejected.clone_from(&tried.rejected);
+    if let Some(accepted) = &tried.accepted {
+        return vec![accepted.clone()];
+    }
+    progress("trying several at once");
+    let accepted = joint(data, now, tried, MOST_ROUNDS - ledger.rounds.len());
+    if !accepted.is_empty() {
+        return accepted;
+    }
+    progress("looking for a tone");
+    match tone(data, now, tried) {
+        Ok(accepted) => vec![accepted],
+        Err(rejection) => {
+            ledger.rejected.extend(rejection);
+            Vec::new()
+        }
+    }
+}
+
+/// Adds a name beside the table of what has none, where it is not the table's own misfit.
+fn beside_table(data: &Prepared, ledger: &mut Ledger, tried: Attempt) -> bool {
+    let now = ledger.last().clone();
+    let Some(accepted) = tried.accepted else {
+        return false;
+    };
+    if accepted.solution.sse(data) > (1.0 - BESIDE_TABLE) * now.sse(data) {
+        return false;
+    }
+    if let Some(unknown) = &mut ledger.unknown {
+        unknown.solution = accepted.solution.clone();
+    }
+    let round = add(data, &now, accepted, ledger.rounds.len() + 1);
+    ledger.rounds.push(round);
+    true
+}
+
+/// Takes rounds back that the later ones, or the table, make superfluous.
+fn take_back(data: &Prepared, ledger: &mut Ledger) {
+    let Some(kept) = superseded(data, ledger) else {
+        return;
+    };
+    ledger.rounds.clear();
+    for one in kept.rounds {
+        let round = add(data, ledger.named(), one, ledger.rounds.len() + 1);
+        ledger.rounds.push(round);
+    }
+    ledger.rejected.extend(kept.gone);
+    let named = ledger.named().clone();
+    if let Some(unknown) = &mut ledger.unknown {
+        unknown.share = 1.0 - kept.full.sse(data) / named.sse(data);
+        unknown.before = named.rmse;
+        unknown.after = kept.full.rmse;
+        unknown.solution = kept.full;
+    }
 }
 
 fn add(data: &Prepared, now: &Solution, accepted: Accepted, round: usize) -> Round {

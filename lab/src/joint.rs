@@ -8,7 +8,7 @@
 
 use crate::attempt::{attempt, Accepted, Attempt};
 use crate::channels::Prepared;
-use crate::closing::{Gate, Ledger, Rejection};
+use crate::closing::{Gate, Ledger, Rejection, Round};
 use crate::fit::{fit_from, glance_from, Known, Solution};
 use crate::scan::Regime;
 use crate::structure::Structure;
@@ -72,15 +72,21 @@ fn together(data: &Prepared, now: &Solution, tried: &Attempt, most: usize) -> Op
     fit_from(data, &structure, Some(&known), 0.0)
 }
 
-/// What is left of the rounds when those are taken back whose work the later ones do as
-/// well, and those; `None` where all are needed.
-pub(crate) fn superseded(
-    data: &Prepared,
-    ledger: &Ledger,
-) -> Option<(Vec<Accepted>, Vec<Rejection>)> {
-    if ledger.rounds.len() < 2 {
-        return None;
-    }
+/// What is left of the rounds when those are taken back whose work the later ones, or the
+/// table, do as well.
+pub(crate) struct Kept {
+    /// The rounds that are needed.
+    pub(crate) rounds: Vec<Accepted>,
+    /// The others.
+    pub(crate) gone: Vec<Rejection>,
+    /// The model of the rounds that are needed, with the table where there is one.
+    pub(crate) full: Solution,
+}
+
+/// The rounds that are needed; `None` where nothing changes.
+pub(crate) fn superseded(data: &Prepared, ledger: &Ledger) -> Option<Kept> {
+    // One round stands for itself, unless there is a table.
+    let least = usize::from(ledger.unknown.is_none());
     let own = ledger.declared.structure.terms.len();
     let mut full = ledger.last().clone();
     let mut kept: Vec<Accepted> = ledger
@@ -95,7 +101,7 @@ pub(crate) fn superseded(
         })
         .collect();
     let mut gone = Vec::new();
-    while kept.len() > 1 {
+    while kept.len() > least {
         let Some(term) = replaceable(data, &full, own) else {
             break;
         };
@@ -117,10 +123,19 @@ pub(crate) fn superseded(
         });
         full = shorter;
     }
-    if gone.is_empty() {
+    let beside_table = |round: &Round| round.solution.structure.table.is_some();
+    if gone.is_empty() && !ledger.rounds.iter().any(beside_table) {
         return None;
     }
-    Some((chain(data, &ledger.declared, &full, kept)?, gone))
+    let mut named = full.clone();
+    if named.structure.table.take().is_some() {
+        named = fit_from(data, &named.structure, Some(&Known::of(&full)), 0.0)?;
+    }
+    Some(Kept {
+        rounds: chain(data, &ledger.declared, &named, kept)?,
+        gone,
+        full,
+    })
 }
 
 /// Without the members, from number `own` on, that the others can replace.

@@ -92,9 +92,7 @@ pub(crate) fn instead(
     let (solution, p) = fitted(data, now, &moved, &found, tried)?;
     let alone = rest(data, accepted.solution.sse(data), &accepted.solution, now);
     let curve = rest(data, solution.sse(data), &solution, now);
-    if explains(now.sse(data), alone, curve)
-        || !on_blocks(data, &accepted.solution, &solution, Regime::Blocks).1
-    {
+    if alone <= LEFT * curve || !on_blocks(data, &accepted.solution, &solution, Regime::Blocks).1 {
         return None;
     }
     let beside = &accepted.solution;
@@ -105,6 +103,10 @@ pub(crate) fn instead(
         .map(|(c, _)| *c)
         .collect();
     let two = best_names(data, now, &forward, &beside.structure)?;
+    // Where much else is missing the curve, too, leaves most of it: then a name is no worse.
+    if two <= LEFT * curve {
+        return None;
+    }
     finish(data, now, solution, p, two.min(alone))
 }
 
