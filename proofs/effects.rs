@@ -132,3 +132,42 @@ fn lag_effect_is_finite() {
 fn delay_is_finite() {
     any_sample(Ok(delay::Delay));
 }
+
+/// What `sum_is_finite` proves of a step of the sum, and no more.
+fn any_sum<T: Real>([sum, carry]: [T; 2], step: T) -> [T; 2] {
+    let [total, lost] = [T::of(kani::any()), T::of(kani::any())];
+    let finite = sum.is_finite() && carry.is_finite() && step.is_finite();
+    kani::assume(!finite || (total.is_finite() && lost.is_finite()));
+    [total, lost]
+}
+
+/// K14. The compensated sum in which an effect remembers is finite after any finite step.
+#[kani::proof]
+fn sum_is_finite() {
+    let (before, step) = ([finite(), finite()], finite());
+    let [total, carry] = sum::add(before, step);
+    kani::cover!(total == f32::MAX && carry == 0.0);
+    assert!(total.is_finite() && carry.is_finite());
+}
+
+/// K14. As backlash above: Dahl's curve.
+///
+/// Assumes: nothing of sample or memory; the sum as proved by sum_is_finite.
+#[kani::proof]
+#[kani::unwind(10)]
+#[kani::stub(libm::expm1f, stubs::expm1f)]
+#[kani::stub(sum::add, any_sum)]
+fn dahl_is_finite() {
+    any_sample(presliding::PreslidingDahl::try_new(kani::any()));
+}
+
+/// K14. As backlash above: degradation, with the work done.
+///
+/// Assumes: nothing of sample or memory; the sum as proved by sum_is_finite.
+#[kani::proof]
+#[kani::unwind(10)]
+#[kani::stub(libm::expm1f, stubs::expm1f)]
+#[kani::stub(sum::add, any_sum)]
+fn degradation_is_finite() {
+    any_sample(degradation::Degradation::try_new(kani::any()));
+}

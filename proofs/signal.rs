@@ -1,10 +1,13 @@
-//! K6, K7, K10, K11: saturation, smooth sign, limits, play.
+//! K6, K7, K8, K10, K11: saturation, smooth sign, derivative, limits, play.
 
 use super::any::{finite, within};
 use super::properties::control::limits_are_kept;
 use super::properties::signal::*;
+use bowden::control::limits::around;
 use bowden::control::{Limits, SmoothSign};
-use bowden::signal::{Play, PlayState};
+use bowden::signal::{Derivative, DerivativeState, Play, PlayState};
+use bowden::Real;
+use core::sync::atomic::{AtomicU32, Ordering};
 
 /// K6. Clamping an estimate onto a box moves it towards any truth that the box holds.
 #[kani::proof]
@@ -30,6 +33,20 @@ fn smooth_sign_clamp_residue() {
     let x: f32 = kani::any();
     kani::cover!(x > 0.49 && x < 0.51);
     assert!(smooth_sign_leaves_at_most_its_residue(SmoothSign::Clamp, x));
+}
+
+/// K8. From rate zero on, the rate of a signal within ±E never exceeds 2·E/tau: it stays
+/// within share/dt·(x ± 1.1·E) around the signal x, and 2.1·share/dt is less.
+///
+/// Assumes: E = 1, tau = 5 ms, dt = 1/1024 s.
+#[kani::proof]
+fn derivative_of_a_bounded_signal() {
+    if let Ok(filter) = Derivative::try_new(0.005) {
+        let (last, sample) = (within(-1.0, 1.0), within(-1.0, 1.0));
+        let state = DerivativeState::at(last, within(-400.0, 400.0));
+        kani::cover!(state.rate() > 300.0 && sample < -0.9);
+        assert!(rate_stays_by_its_signal(&filter, state, last, sample, 0.1));
+    }
 }
 
 /// K10. A command lies within the range, and within slew·dt of the one before wherever that
@@ -66,5 +83,53 @@ fn play() {
             .output()
             .is_some_and(|y| y < input - play.half_width()));
         assert!(play_holds_its_band(&play, state, input));
+    }
+}
+
+/// Where the slew limit lets a command get to; the bits, for a stub has no other memory.
+static LOW: AtomicU32 = AtomicU32::new(0);
+static HIGH: AtomicU32 = AtomicU32::new(0);
+
+/// What `slew_reaches_around` proves of the limit's ends, and no more; they are kept.
+fn any_ends<T: Real>(last: T, _: T) -> (T, T) {
+    let (low, high): (f32, f32) = (kani::any(), kani::any());
+    let (there, back) = (T::of(low.into()), T::of(high.into()));
+    kani::assume(there <= last && last <= back);
+    LOW.store(low.to_bits(), Ordering::Relaxed);
+    HIGH.store(high.to_bits(), Ordering::Relaxed);
+    (there, back)
+}
+
+/// K10. A slew limit's ends lie on either side of the command before, whatever rate and dt.
+///
+/// Assumes: a slew rate and a dt above zero, a finite command before.
+#[kani::proof]
+fn slew_reaches_around() {
+    let (slew, dt, last) = (finite(), finite(), finite());
+    kani::assume(slew > 0.0 && dt > 0.0);
+    let (low, high) = around(last, slew * dt);
+    kani::cover!(low < last && last < high && high < 1000.0);
+    assert!(low <= last && last <= high);
+}
+
+/// K10. The same as slew_limit for any slew rate, dt and command: within the range, and
+/// within the limit's ends wherever the command before lay in the range.
+///
+/// Assumes: any limits, a finite command before and wanted; the ends as proved by
+/// slew_reaches_around.
+#[kani::proof]
+#[kani::stub(around, any_ends)]
+fn slew_limit_any_rate() {
+    let limits =
+        Limits::try_new(kani::any(), kani::any()).and_then(|range| range.with_slew(kani::any()));
+    kani::assume(limits.is_ok());
+    if let Ok(limits) = limits {
+        let (last, wanted) = (finite(), finite());
+        let command = limits.apply(last, wanted, kani::any());
+        let (low, high) = (LOW.load(Ordering::Relaxed), HIGH.load(Ordering::Relaxed));
+        let (low, high) = (f32::from_bits(low), f32::from_bits(high));
+        kani::cover!(limits.contains(last) && command < wanted - 1.0 && high > last);
+        let slewed = low <= command && command <= high;
+        assert!(limits.contains(command) && (slewed || !limits.contains(last)));
     }
 }

@@ -5,6 +5,7 @@
 //! little more, for the rounding of f32, and `|e| = |s - lambda·z| <= 2·S`.
 
 use super::any::within;
+use super::properties::tracking::errors_stay_within_theorem_1;
 use super::properties::tracking::{errors_stay_in_their_box, in_box};
 use super::stubs;
 use bowden::control::{Disturbance, ErrorState, LagRecursion, SmoothSign};
@@ -95,4 +96,21 @@ fn tracking_box_second_set() {
         smooth_sign: SmoothSign::Clamp,
     };
     a_step_keeps_the_box(&law, 0.002, &any_disturbance(7.0, 8.0, 0.0), 0.85);
+}
+
+/// K2. Theorem 1's bound is carried over a step: |s| ≤ delta and |z| ≤ delta stay so, hence
+/// |e| ≤ (1 + lambda)·delta, whatever delta the theorem gives. (Table 2: 126.5 N·m.)
+///
+/// Assumes: Table 2 at 1 kHz, delta ∈ [0.5, 1000] N·m, |w| ≤ 8 N·m, g ∈ [0.8, 1.2],
+/// delta_hat ∈ [0, 4] N·m, |xi| ≤ 0.008 N·m a sample.
+#[kani::proof]
+fn theorem_1_is_carried_over() {
+    let (law, delta) = (paper(SmoothSign::Clamp), within(0.5, 1000.0));
+    let at = ErrorState {
+        s: within(-1000.0, 1000.0),
+        z: within(-1000.0, 1000.0),
+    };
+    let by = any_disturbance(4.0, 8.0, 0.008);
+    kani::cover!(at.s > 0.95 * delta && at.z < -0.95 * delta && delta < 1.0);
+    assert!(errors_stay_within_theorem_1(&law, at, 0.001, &by, delta));
 }

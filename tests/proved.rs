@@ -6,9 +6,13 @@
 #[path = "../proofs/properties/mod.rs"]
 mod properties;
 
+use bowden::bound::{Plant, Theorem1};
 use bowden::control::*;
 use bowden::effect::{Effect, EffectState, Motion, Situation, CATALOGUE};
+use bowden::hysteresis::Shape;
+use bowden::model::{Model, Source, Term};
 use bowden::signal::{Derivative, DerivativeState, Play, PlayState};
+use bowden::transmission::Transmission;
 use properties::{control, effect, signal, tracking};
 use proptest::prelude::*;
 
@@ -41,6 +45,26 @@ proptest! {
             let by = Disturbance { g, delta_hat, w, xi: 0.0 };
             prop_assert!(tracking::errors_stay_in_their_box(&law, at, 0.001, &by, 0.43));
             at = law.step(at, 0.001, &by);
+        }
+    }
+
+    #[test]
+    fn theorem_1_is_carried_over_every_step(
+        sign in sign(),
+        start in (-1.0..=1.0_f32, -1.0..=1.0_f32),
+        steps in prop::collection::vec(
+            (0.8..=1.2_f32, 0.0..=4.0_f32, -8.0..=8.0_f32, -0.008..=0.008_f32), 1..300
+        ),
+    ) {
+        let paper = Adaptive::<f32, 2>::paper();
+        let theorem = Theorem1::try_new(&paper, &Plant::new(1.0, 7.056)).unwrap();
+        let law = LagRecursion { gain: 24.0, lambda: 8.0, epsilon: 0.05, smooth_sign: sign };
+        let mut at = ErrorState { s: start.0 * theorem.delta, z: start.1 * theorem.delta };
+        for (g, delta_hat, w, xi) in steps {
+            let by = Disturbance { g, delta_hat, w, xi };
+            prop_assert!(tracking::errors_stay_within_theorem_1(&law, at, 0.001, &by, theorem.delta));
+            at = law.step(at, 0.001, &by);
+            prop_assert!((at.s - law.lambda * at.z).abs() <= theorem.bound);
         }
     }
 
@@ -109,6 +133,22 @@ proptest! {
     }
 
     #[test]
+    fn the_rate_of_a_bounded_signal_stays_by_it(
+        tau in 1e-3..0.1_f32, samples in prop::collection::vec(-1.0..=1.0_f32, 2..200),
+        edges in any::<bool>(),
+    ) {
+        let filter = Derivative::try_new(tau).unwrap();
+        let (mut state, dt) = (DerivativeState::new(), 1.0 / 1024.0);
+        let sample = |x: f32| if edges { 1.0_f32.copysign(x) } else { x };
+        filter.step(&mut state, sample(samples[0]), dt);
+        for pair in samples.windows(2) {
+            let (last, next) = (sample(pair[0]), sample(pair[1]));
+            prop_assert!(signal::rate_stays_by_its_signal(&filter, state, last, next, 1e-4));
+            filter.step(&mut state, next, dt);
+        }
+    }
+
+    #[test]
     fn limits_are_kept(
         low in -1e3..0.0_f32, width in 1e-3..1e3_f32, slew in 1e-3..1e6_f32,
         last in finite(), wanted in finite(), dt in 1e-6..10.0_f32,
@@ -170,6 +210,55 @@ proptest! {
             let out = law.step(&mut state, &AdaptiveInput::new(dt, reference, measured, []));
             prop_assert_eq!(out.status, Status::Good);
             prop_assert!(control::the_lag_does_not_pass_its_target(before, &out));
+        }
+    }
+
+    #[test]
+    fn a_hand_over_keeps_the_command(
+        at in prop::array::uniform5(any_float()), samples in 0_usize..50, high in 5.0..60.0_f32,
+        literal in any::<bool>(),
+    ) {
+        let quiet = Adaptive::<f32, 2>::paper();
+        let mut state = AdaptiveState::new(&quiet);
+        for _ in 0..samples {
+            quiet.step(&mut state, &AdaptiveInput::new(0.001, 25.0, 20.0, [0.1, 0.0]));
+        }
+        let form = if literal {
+            Form::Literal { time_constant: 0.005 }
+        } else {
+            Form::Lag { step: 0.001, plant_gain: 1.0 }
+        };
+        let eager = Adaptive::<f32, 2>::try_new(AdaptiveSettings {
+            beta: Estimator::fixed(1.0).within(0.8, 1.2),
+            delta: Estimator::fixed(1.0).within(0.0, 4.0),
+            z_limit: 0.5,
+            limits: Limits::try_new(-5.0, high).unwrap(),
+            ..AdaptiveSettings::new(form, 12.0, 8.0, 0.05)
+        }).unwrap();
+        let [dt, reference, measured, x, feed_forward] = at;
+        let input = AdaptiveInput {
+            feed_forward, ..AdaptiveInput::new(dt, reference, measured, [x, 0.0])
+        };
+        prop_assert!(control::a_hand_over_keeps_the_command(&eager, &mut state, &input));
+    }
+
+    #[test]
+    fn a_compensator_commands_what_is_finite(
+        samples in prop::collection::vec(prop::array::uniform4(any_float()), 1..50),
+        sigma in 0.5..2.0_f32,
+    ) {
+        let shape = Shape::try_new(0.095_82, sigma, 3.871).unwrap();
+        let cable = Transmission::torque(0.997_8, 2.0, 0.051_74, shape).unwrap();
+        let (effect, source) = (Effect::DragCubic, Source::Channel(0));
+        let friction = Term { effect, source, origin: 0.0, gain: -0.5 };
+        let model = Model::<f32, 1>::try_new(Some(cable), &[friction]).unwrap();
+        let compensator = Compensator::try_new(&model).unwrap();
+        let mut state = CompensatorState::new();
+        for [dt, desired, velocity, load] in samples {
+            let dt = if dt > 0.0 && dt < 100.0 { 0.001 } else { dt };
+            let pulley = [Motion { velocity, ..Motion::default() }];
+            let at = CompensatorInput { load, channels: &pulley, ..CompensatorInput::new(dt, desired) };
+            prop_assert!(control::compensator_commands_are_finite(&compensator, &mut state, &at));
         }
     }
 

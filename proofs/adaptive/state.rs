@@ -98,3 +98,26 @@ pub(super) fn input<const N: usize>() -> AdaptiveInput<f32, N> {
         feed_forward: kani::any(),
     }
 }
+
+fn finite_sum() -> Compensated<f32> {
+    Compensated {
+        value: finite(),
+        carry: finite(),
+    }
+}
+
+/// Any state of finite numbers, of whichever law it was.
+pub(super) fn finite_state<const N: usize>() -> AdaptiveState<f32, N> {
+    AdaptiveState {
+        z: finite_sum(),
+        error_rate: DerivativeState::at(finite(), finite()),
+        lag: finite(),
+        beta: finite_sum(),
+        delta: finite_sum(),
+        theta: core::array::from_fn(|_| finite_sum()),
+        held: Held {
+            command: finite(),
+            bad: kani::any(),
+        },
+    }
+}

@@ -1,9 +1,11 @@
-//! K2: the whole shipped step of the lag form.
+//! K2, K12: the whole shipped step of the lag form.
 
-use super::super::{Adaptive, AdaptiveSettings, AdaptiveState, Compensated};
+use super::super::{Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Compensated};
 use super::super::{Estimator, Form, SmoothSign};
+use super::samples::any_virtual_command;
 use crate::control::status::Held;
 use crate::proofs::any::within;
+use crate::proofs::properties::control::the_lag_does_not_pass_its_target;
 use crate::proofs::properties::tracking::{the_law_keeps_the_box, StaticPlant};
 
 /// Table 2 in lag form at 1 kHz on a plant of known gain, estimates at rest.
@@ -42,4 +44,22 @@ fn slow_tracking_box_of_the_law() {
     let kept = the_law_keeps_the_box(&law, &mut state, &plant, 0.001, 0.0, most);
     kani::cover!(before < -0.05 && state.z.value > before && plant.disturbance > 7.9);
     assert!(kept);
+}
+
+/// K12. The lag's command lies between the one before and its target, but for the rounding
+/// of one subtraction and one sum.
+///
+/// Assumes: h·lambda = 0.008, beta_hat = 1, a command before within ±1000, any virtual
+/// command.
+#[kani::proof]
+#[kani::unwind(2)]
+#[kani::stub(Adaptive::virtual_command, any_virtual_command)]
+fn lag_between() {
+    let law = paper();
+    let mut state = AdaptiveState::new(&law);
+    state.lag = within(-1000.0, 1000.0);
+    let before = state.lag;
+    let out = law.step(&mut state, &AdaptiveInput::new(0.001, 0.0, 0.0, []));
+    kani::cover!(out.terms.law > before && out.terms.law < out.terms.virtual_command);
+    assert!(the_lag_does_not_pass_its_target(before, &out));
 }

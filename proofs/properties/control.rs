@@ -1,7 +1,9 @@
 //! Controllers: the command, the state, the limits.
 
 use bowden::control::{Adaptive, AdaptiveInput, AdaptiveOutput, AdaptiveState, Limits};
+use bowden::control::{Compensator, CompensatorInput, CompensatorState};
 use bowden::control::{Pid, PidInput, PidState, Status};
+use bowden::signal::clamp;
 
 /// The command nearest to what is wanted: within the range, and within the slew rate of
 /// what was out where the range allows it.
@@ -46,6 +48,36 @@ pub fn adaptive_commands_within_its_limits<const N: usize>(
         && law.settings().limits.contains(out.command)
         && (out.status == Status::Good || untouched)
         && law.is_valid(state)
+}
+
+/// Other settings that take a running law over leave the command that is out, as far as
+/// their range allows it, and make the state one of theirs.
+pub fn a_hand_over_keeps_the_command<const N: usize>(
+    law: &Adaptive<f32, N>,
+    state: &mut AdaptiveState<f32, N>,
+    input: &AdaptiveInput<f32, N>,
+) -> bool {
+    let limits = &law.settings().limits;
+    let before = clamp(state.command(), limits.low(), limits.high());
+    law.take_over(state, input);
+    state.command() == before && law.is_valid(state)
+}
+
+/// Whatever the sample, the compensator's command and the share of the effects are finite
+/// and eta lies within ±1; a bad sample leaves command and eta.
+pub fn compensator_commands_are_finite<const N: usize>(
+    compensator: &Compensator<f32, N>,
+    state: &mut CompensatorState<f32, N>,
+    at: &CompensatorInput<f32>,
+) -> bool {
+    let before = *state;
+    let out = compensator.step(state, at);
+    let untouched = state.command() == before.command() && state.eta() == before.eta();
+    out.command.is_finite()
+        && out.effects.is_finite()
+        && out.eta.abs() <= 1.0
+        && out.command == state.command()
+        && (out.status == Status::Good || untouched)
 }
 
 /// After a good sample the lag form's command lies between the one `before` and its target

@@ -47,6 +47,27 @@ pub fn rate_exceeds_nothing(
     rate.abs() <= most * (1.0 + 2.0 * f32::EPSILON) + f32::MIN_POSITIVE && next.rate() == rate
 }
 
+/// The filtered rate of a signal within ±1, sampled at 1024 Hz, stays within
+/// `share/dt·(x ± (1 + slack))`, where x is the sample: what rounding adds in a step, the
+/// share of the old rate that is lost makes good.
+pub fn rate_stays_by_its_signal(
+    derivative: &Derivative<f32>,
+    state: DerivativeState<f32>,
+    last: f32,
+    sample: f32,
+    slack: f32,
+) -> bool {
+    let dt = 1.0 / 1024.0;
+    // What a step of one gives from rest is share/dt.
+    let mut at_rest = DerivativeState::new();
+    derivative.step(&mut at_rest, 0.0, dt);
+    let slope = derivative.step(&mut at_rest, 1.0, dt);
+    let by = |rate: f32, x: f32| (rate - slope * x).abs() <= slope * (1.0 + slack);
+    let mut next = state;
+    let rate = derivative.step(&mut next, sample, dt);
+    !by(state.rate(), last) || (by(rate, sample) && next.rate() == rate)
+}
+
 /// A smooth sign lies within ±1, is odd to the bit and never points the other way.
 pub fn smooth_sign_is_a_sign(sign: SmoothSign, x: f32) -> bool {
     let (here, there) = (sign.of(x), sign.of(-x));

@@ -19,6 +19,21 @@ pub fn errors_stay_in_their_box(
     !in_box(law, at, most) || in_box(law, law.step(at, dt, by), most)
 }
 
+/// Theorem 1's `|s| <= delta`, `|z| <= delta` hold after a step of `dt` \[s\] where they did
+/// before, and with them `|e| <= (1 + lambda)·delta`.
+pub fn errors_stay_within_theorem_1(
+    law: &LagRecursion<f32>,
+    at: ErrorState<f32>,
+    dt: f32,
+    by: &Disturbance<f32>,
+    delta: f32,
+) -> bool {
+    let held = |at: ErrorState<f32>| at.s.abs() <= delta && at.z.abs() <= delta;
+    let next = law.step(at, dt, by);
+    let error = next.s - law.lambda * next.z;
+    !held(at) || (held(next) && error.abs() <= (1.0 + law.lambda) * delta)
+}
+
 /// A plant that answers within a sample: `y = gain·u - disturbance`.
 #[derive(Debug, Clone, Copy)]
 pub struct StaticPlant {

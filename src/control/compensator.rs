@@ -23,6 +23,10 @@ use crate::signal::clamp;
 use crate::transmission::{Inverse, Mode, Transmission};
 use crate::{Error, Real};
 
+#[cfg(kani)]
+#[path = "../../proofs/compensator.rs"]
+mod proofs;
+
 /// One sample for a [`Compensator`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CompensatorInput<'a, T> {

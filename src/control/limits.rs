@@ -112,13 +112,19 @@ impl<T: Real> Limits<T> {
     pub fn apply(&self, last: T, wanted: T, dt: T) -> T {
         let reachable = match self.slew {
             Some(slew) => {
-                let reach = slew * dt;
-                clamp(wanted, last - reach, last + reach)
+                let (low, high) = around(last, slew * dt);
+                clamp(wanted, low, high)
             }
             None => wanted,
         };
         clamp(reachable, self.low, self.high)
     }
+}
+
+/// From where to where one gets from `last` within `reach`.
+#[inline]
+pub(crate) fn around<T: Real>(last: T, reach: T) -> (T, T) {
+    (last - reach, last + reach)
 }
 
 /// What is read before it is checked.

@@ -18,7 +18,7 @@
 
 mod adaptive;
 mod compensator;
-mod limits;
+pub(crate) mod limits;
 pub(crate) mod pid;
 pub(crate) mod status;
 

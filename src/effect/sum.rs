@@ -10,8 +10,10 @@ use crate::Real;
 pub(super) fn add<T: Real>([sum, carry]: [T; 2], step: T) -> [T; 2] {
     let step = saturate(step - carry);
     let total = sum + step;
-    if total.is_finite() {
-        [total, (total - sum) - step]
+    // At the end of the floats `total - sum` may overflow where the total does not.
+    let lost = (total - sum) - step;
+    if lost.is_finite() {
+        [total, lost]
     } else {
         [saturate(total), T::zero()]
     }

@@ -159,11 +159,21 @@ impl<T: Real> Estimator<T> {
     /// The estimate after `dt` \[s\] under the drive `v`; `None` where that overflows.
     #[inline]
     pub(crate) fn update(&self, p: Compensated<T>, dt: T, v: T) -> Option<Compensated<T>> {
-        let sigma = self.leakage.rate_at(p.value - self.prior);
-        // (p + h·(m·v + sigma·prior))/(1 + h·sigma) - p, without the cancellation.
-        let rate = self.gain * v - sigma * (p.value - self.prior);
-        let increment = dt * rate / (T::one() + dt * sigma);
-        p.add(increment, self.low, self.high)
+        p.add(
+            self.increment(p.value - self.prior, dt, v),
+            self.low,
+            self.high,
+        )
+    }
+
+    /// How far an estimate moves that is a `distance` from its prior.
+    ///
+    /// `(p + h·(m·v + sigma·prior))/(1 + h·sigma) - p`, without the cancellation.
+    #[inline]
+    pub(super) fn increment(&self, distance: T, dt: T, v: T) -> T {
+        let sigma = self.leakage.rate_at(distance);
+        let rate = self.gain * v - sigma * distance;
+        dt * rate / (T::one() + dt * sigma)
     }
 
     /// Whether an estimate could have come from updates.

@@ -89,6 +89,20 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
             return;
         }
         state.lag = share;
+        let z = self.z_that_gives(wanted, state, input);
+        if z.is_finite() {
+            state.z = super::Compensated::new(clamp(z, -limit, limit));
+        }
+    }
+
+    /// z at which the virtual command is `wanted`; not finite where the law overflows.
+    pub(super) fn z_that_gives(
+        &self,
+        wanted: T,
+        state: &AdaptiveState<T, N>,
+        input: &AdaptiveInput<T, N>,
+    ) -> T {
+        let settings = &self.settings;
         let mut terms = AdaptiveTerms {
             error: input.measured - input.reference,
             ..AdaptiveTerms::at_rest(state)
@@ -101,7 +115,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         let linear = (self.virtual_command(&terms, input) - wanted) / slope;
         let reach = terms.delta_hat.abs() / slope;
         if !(linear.is_finite() && reach.is_finite()) {
-            return;
+            return T::nan();
         }
         let (mut low, mut high) = (linear - reach, linear + reach);
         for _ in 0..HALVINGS {
@@ -114,8 +128,6 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
                 high = terms.z;
             }
         }
-        if terms.z.is_finite() {
-            state.z = super::Compensated::new(clamp(terms.z, -limit, limit));
-        }
+        terms.z
     }
 }

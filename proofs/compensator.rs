@@ -1,0 +1,91 @@
+//! K1: any sample to the compensator, whatever model it turns round.
+
+use super::*;
+use crate::hysteresis::Shape;
+use crate::proofs::any::{finite, within};
+use crate::proofs::properties::control::compensator_commands_are_finite;
+
+/// Any shares of the effects, NaN included.
+fn any_shares<T: Real, const N: usize>(
+    _: &Model<T, N>,
+    _: &mut ModelState<T, N>,
+    _: &Sample<T>,
+    _: T,
+    _: impl Fn(usize, Situation<T>) -> Situation<T>,
+) -> [T; N] {
+    core::array::from_fn(|_| T::of(kani::any()))
+}
+
+/// Any term, or none, that cannot read what it needs.
+fn any_blind_term<T: Real, const N: usize>(_: &Model<T, N>, _: &Sample<T>) -> Option<usize> {
+    kani::any::<bool>().then(kani::any)
+}
+
+/// Any root of the inverse, NaN included.
+fn any_root<T: Real>(_: &Inverse<T>, _: T, _: T, _: T, _: T, _: T) -> T {
+    T::of(kani::any())
+}
+
+/// What the hysteresis' rows prove of a step, and no more.
+fn any_eta<T: Real>(_: &Shape<T>, _: T, _: T) -> T {
+    T::of(kani::any_where(|eta: &f64| eta.abs() <= 1.0))
+}
+
+/// Any transmission that has an inverse, with any one term.
+fn compensator() -> Result<Compensator<f32, 1>, Error> {
+    let shape = Shape::try_new(kani::any(), kani::any(), kani::any())?;
+    let (gain, kappa_eta, offset) = (kani::any(), kani::any(), kani::any());
+    let transmission = if kani::any() {
+        Transmission::torque(gain, kappa_eta, offset, shape)
+    } else {
+        Transmission::displacement(gain, kappa_eta, offset, shape)
+    }?;
+    Compensator::try_new(&Model::try_new(Some(transmission), &[])?)
+}
+
+/// K1. The compensator: for any sample the command is finite and eta within ±1, and a bad
+/// sample leaves both.
+///
+/// Assumes: nothing of transmission, sample or valid state; any shares of the effects, any
+/// root of the inverse, a step of the hysteresis as the rows of K3 prove it.
+#[kani::proof]
+#[kani::unwind(6)]
+#[kani::stub(Model::effects, any_shares)]
+#[kani::stub(Model::first_blind_term, any_blind_term)]
+#[kani::stub(Inverse::solve, any_root)]
+#[kani::stub(Shape::advance, any_eta)]
+fn compensator_any_sample() {
+    let compensator = compensator();
+    kani::assume(compensator.is_ok());
+    let hysteresis = BoucWen::with_eta(within(-1.0, 1.0));
+    if let (Ok(compensator), Ok(mut hysteresis)) = (compensator, hysteresis) {
+        if kani::any() {
+            // The first sample is taken over as it is: any input that there can be.
+            compensator
+                .transmission
+                .shape()
+                .step(&mut hysteresis, finite());
+        }
+        let mut state = CompensatorState {
+            bad: kani::any(),
+            ..CompensatorState::from_hysteresis(hysteresis)
+        };
+        let motion = || Motion {
+            position: kani::any(),
+            velocity: kani::any(),
+            acceleration: kani::any(),
+        };
+        let at = CompensatorInput {
+            dt: kani::any(),
+            desired: kani::any(),
+            input: motion(),
+            load: kani::any(),
+            channels: &[],
+        };
+        let before = state;
+        let kept = compensator_commands_are_finite(&compensator, &mut state, &at);
+        kani::cover!(state.bad == 0 && state.eta() != before.eta());
+        kani::cover!(at.desired.is_nan() && state.bad > 1);
+        assert!(kept);
+    }
+}
