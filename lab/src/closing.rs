@@ -240,7 +240,7 @@ fn proposed(
     match tone(data, now, tried) {
         Ok(accepted) => vec![accepted],
         Err(rejection) => {
-            ledger.rejected.extend(rejection);
+            ledger.rejected.extend(rejection.map(|boxed| *boxed));
             Vec::new()
         }
     }

@@ -37,7 +37,7 @@ pub(crate) fn tone(
     data: &Prepared,
     now: &Solution,
     tried: &Attempt,
-) -> Result<Accepted, Option<Rejection>> {
+) -> Result<Accepted, Option<Box<Rejection>>> {
     if data.pieces.len() > 1 {
         // A tone has no common phase in records that were taken one after the other.
         return Err(None);
@@ -52,11 +52,11 @@ pub(crate) fn tone(
     structure.terms.push(term);
     let solution = fit(data, &structure, Some(now), 0.0).ok_or(None)?;
     let rejected = |gate| {
-        Some(Rejection {
+        Some(Box::new(Rejection {
             candidate,
             gate,
             p: Some(p),
-        })
+        }))
     };
     let blocks_better = judge(data, now, &solution, &tried.evidence()).map_err(rejected)?;
     Ok(Accepted {
