@@ -198,3 +198,76 @@ fn phase_share(data: &Prepared, now: &Solution, variable: Variable) -> Option<f6
     let speed = told(&|_, v| v.abs());
     Some(place.min(speed))
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::channels::Preparation;
+    use crate::closing::structure;
+    use crate::fit::fit;
+    use crate::record::{parse, Options};
+    use bowden::model::Source;
+    use std::f64::consts::TAU;
+    use std::fmt::Write as _;
+
+    /// 60 s at 100 Hz of a line over that motion, closed with a linear stiffness.
+    fn line(motion: impl Fn(f64) -> f64) -> (Prepared, Solution) {
+        let mut text = "t [s],x [mm],f [N]\n".to_owned();
+        for i in 0..6000 {
+            let t = f64::from(i) / 100.0;
+            let x = motion(t);
+            let _ = writeln!(text, "{t},{x},{}", 2.0 * x + 0.1 * (37.0 * t).sin());
+        }
+        let record = parse(text.as_bytes(), "line.csv", &Options::default()).unwrap();
+        let cutoff = Some(8.0);
+        let data = Prepared::new(&record, Preparation { cutoff }).unwrap();
+        let declared = structure(&["stiffness-linear".to_owned()], &data).unwrap();
+        let solution = fit(&data, &declared, None, 0.0).unwrap();
+        (data, solution)
+    }
+
+    const LOCAL: [Variable; 2] = [
+        Variable::ReversalDistance(Source::Input),
+        Variable::ReversalTime(Source::Input),
+    ];
+
+    #[test]
+    fn since_the_last_reversal_is_a_phase_where_all_strokes_are_alike() {
+        let (data, now) = line(|t| 10.0 * (TAU * 0.7 * t).sin());
+        for variable in LOCAL {
+            assert!(is_phase(&data, &now, variable), "{variable:?}");
+        }
+        assert!(!is_phase(&data, &now, Variable::Position(Source::Input)));
+    }
+
+    #[test]
+    fn since_the_last_reversal_is_no_phase_where_strokes_differ() {
+        let (data, now) =
+            line(|t| 6.0 * (TAU * 0.31 * t).sin() + 5.0 * (TAU * 0.83 * t + 1.0).sin());
+        for variable in LOCAL {
+            assert!(!is_phase(&data, &now, variable), "{variable:?}");
+        }
+    }
+
+    #[test]
+    fn a_table_is_the_line_through_its_knots_and_constant_beyond() {
+        let (data, now) = line(|t| 10.0 * (TAU * 0.7 * t).sin());
+        let table = Table {
+            variable: Variable::Position(Source::Input),
+            knots: vec![-5.0, 0.0, 5.0],
+            shapes: vec![vec![1.0, 3.0, -1.0]],
+        };
+        let columns = table.columns(&data, &now.eta).unwrap();
+        for (value, motion) in columns[0].iter().zip(&data.input.motion) {
+            let x = motion.position;
+            let expected = if x < 0.0 {
+                3.0 + 0.4 * x.max(-5.0)
+            } else {
+                3.0 - 0.8 * x.min(5.0)
+            };
+            // Rounding of a few operations on numbers of order one.
+            assert!((value - expected).abs() < 1e-12);
+        }
+    }
+}
