@@ -123,10 +123,11 @@ fn a_bump_over_the_load_is_unknown_and_no_name_is_given() {
 }
 
 #[test]
-fn a_spike_after_reversals_is_unknown() {
+fn a_spike_after_reversals_is_unknown_and_no_name_is_given() {
     let all = records(&[("reversal-spike", 3.0)], 0.0);
     let local = ["reversal-distance", "reversal-time"];
     mostly(&all, |c| is_unknown(c, &local, &["tau_i", "x"]));
+    mostly(&all, |c| c.names().is_empty());
 }
 
 #[test]

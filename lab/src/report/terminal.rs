@@ -224,10 +224,16 @@ pub fn text(path: &str, data: &Prepared, ledger: &Ledger, chosen_cutoff: bool) -
         ]);
         let term = round.solution.structure.terms.len() - 1;
         let own = parameters(data, &round.solution);
-        let coefficient = own
+        let gain = own
             .iter()
             .find(|p| p.term == Some(term) && p.name == name)
-            .map_or_else(String::new, estimate);
+            .map(estimate);
+        // An input stage has no gain: its width says how large it is.
+        let width = || {
+            let own = own.iter().find(|p| p.name == format!("{name}.r"))?;
+            Some(format!("r = {}", estimate(own)))
+        };
+        let coefficient = gain.or_else(width).unwrap_or_default();
         let rivals: Vec<String> = round
             .rivals
             .iter()
@@ -275,7 +281,12 @@ pub fn text(path: &str, data: &Prepared, ledger: &Ledger, chosen_cutoff: bool) -
         final_parameters.add_row([parameter.name.clone(), estimate(parameter)]);
     }
     line!(out, "{final_parameters}\n");
-    let refused = || all.iter().filter_map(|p| Some((p, p.refused.as_ref()?)));
+    // What the states were before the record is no part of the model.
+    let of_the_model = |p: &&Parameter| !p.name.starts_with("eta0") && !p.name.contains(".start");
+    let refused = || {
+        let own = all.iter().filter(of_the_model);
+        own.filter_map(|p| Some((p, p.refused.as_ref()?)))
+    };
     for (parameter, refusal) in refused() {
         line!(
             out,
