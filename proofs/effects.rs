@@ -171,3 +171,10 @@ fn dahl_is_finite() {
 fn degradation_is_finite() {
     any_sample(degradation::Degradation::try_new(kani::any()));
 }
+
+/// K14. The contract of saturation: whatever comes in, what goes out is finite.
+#[kani::proof_for_contract(saturate)]
+fn saturate_contract() {
+    let x: f32 = kani::any();
+    kani::cover!(saturate(x) != x && !x.is_nan());
+}

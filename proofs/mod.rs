@@ -12,6 +12,7 @@
 #![allow(dead_code, unused_imports)]
 
 pub(crate) mod any;
+mod construction;
 mod contracts;
 mod pid;
 pub(crate) mod properties;

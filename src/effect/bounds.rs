@@ -3,6 +3,7 @@
 use crate::Real;
 
 /// The nearest finite value: infinities become the largest, NaN becomes 0.
+#[cfg_attr(kani, kani::ensures(|result| result.is_finite()))]
 #[inline]
 pub(crate) fn saturate<T: Real>(value: T) -> T {
     if value.is_finite() {
