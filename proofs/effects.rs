@@ -103,6 +103,13 @@ fn backlash_is_finite() {
     any_sample(backlash::Backlash::try_new(kani::any()));
 }
 
+/// K14. The same of the play in series.
+#[kani::proof]
+#[kani::unwind(10)]
+fn play_in_series_is_finite() {
+    any_sample(backlash::PlayInSeries::try_new(kani::any()));
+}
+
 /// K14. The same of presliding.
 #[kani::proof]
 #[kani::unwind(10)]
