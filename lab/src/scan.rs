@@ -13,6 +13,7 @@ use bowden::effect::Family;
 use nalgebra::DVector;
 
 mod blocks;
+pub(crate) use blocks::share_of_patterns;
 pub use blocks::{blocks, correlation_samples, sign_flip_p, BLOCKS};
 
 /// A candidate with less of its squared norm left after projection is not excited.

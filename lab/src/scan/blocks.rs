@@ -81,28 +81,34 @@ fn divide(path: &[f64], rows: Range<usize>, count: usize, ranges: &mut Vec<Range
     }
 }
 
-/// Share of all sign patterns whose sum is at least as far from zero as the real one.
+/// Share of all sign patterns that count, the real one always among them.
 ///
 /// Patterns are walked in Gray-code order: each differs from the last in one sign.
+/// `counts(block, sign)` is told which block's sign has changed, and to what.
+pub(crate) fn share_of_patterns(mut counts: impl FnMut(usize, f64) -> bool) -> f64 {
+    let mut signs = [1.0; BLOCKS];
+    let patterns = 1_u32 << (BLOCKS - 1);
+    let mut counted = 1_u32;
+    for pattern in 1..patterns {
+        // The last block keeps its sign: a pattern and its negative have the same sum.
+        let flip = pattern.trailing_zeros() as usize;
+        signs[flip] = -signs[flip];
+        counted += u32::from(counts(flip, signs[flip]));
+    }
+    f64::from(counted) / f64::from(patterns)
+}
+
+/// Share of all sign patterns whose sum is at least as far from zero as the real one.
 #[must_use]
 pub fn sign_flip_p(scores: &[f64; BLOCKS]) -> f64 {
     let observed = scores.iter().sum::<f64>().abs();
     // Equal up to the rounding of a walk over 2^15 patterns.
     let threshold = observed - 1e-9 * scores.iter().map(|s| s.abs()).sum::<f64>();
     let mut sum: f64 = scores.iter().sum();
-    let mut signs = [1.0; BLOCKS];
-    let patterns = 1_u32 << (BLOCKS - 1);
-    let mut as_far = 1_u32;
-    for pattern in 1..patterns {
-        // The last block keeps its sign: a pattern and its negative have the same sum.
-        let flip = pattern.trailing_zeros() as usize;
-        signs[flip] = -signs[flip];
-        sum += 2.0 * signs[flip] * scores[flip];
-        if sum.abs() >= threshold {
-            as_far += 1;
-        }
-    }
-    f64::from(as_far) / f64::from(patterns)
+    share_of_patterns(|block, sign| {
+        sum += 2.0 * sign * scores[block];
+        sum.abs() >= threshold
+    })
 }
 
 /// Time after which the autocorrelation has fallen to 1/e, in samples.

@@ -7,7 +7,7 @@ use super::variables::Variable;
 use crate::channels::Prepared;
 use crate::fit::Solution;
 use crate::projection::{rows, Span};
-use crate::scan::{blocks, BLOCKS};
+use crate::scan::{blocks, share_of_patterns};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 /// Hat functions of a curve that is tested.
@@ -149,18 +149,10 @@ fn flips(data: &Prepared, units: &[DVector<f64>], residual: &DVector<f64>) -> f6
     let mut sum: DVector<f64> = scores.iter().sum();
     // Equal up to the rounding of a walk over 2^15 patterns.
     let threshold = sum.norm_squared() * (1.0 - 1e-9);
-    let mut signs = [1.0; BLOCKS];
-    let patterns = 1_u32 << (BLOCKS - 1);
-    let mut as_far = 1_u32;
-    for pattern in 1..patterns {
-        let flip = pattern.trailing_zeros() as usize;
-        signs[flip] = -signs[flip];
-        sum.axpy(2.0 * signs[flip], &scores[flip], 1.0);
-        if sum.norm_squared() >= threshold {
-            as_far += 1;
-        }
-    }
-    f64::from(as_far) / f64::from(patterns)
+    share_of_patterns(|block, sign| {
+        sum.axpy(2.0 * sign, &scores[block], 1.0);
+        sum.norm_squared() >= threshold
+    })
 }
 
 /// Whether a variable that starts anew with each stroke says where in the stroke the
