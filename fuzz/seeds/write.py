@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the seeds called `start`: plain settings and a few good samples.
+"""Writes the seeds that no fuzzer found: plain settings and a few good samples.
 
 python3 fuzz/seeds/write.py
 
@@ -52,10 +52,13 @@ def hysteresis():
     return b"\x00\x02" + SHAPE + x(0) + numbers(*(r for r, _ in SAMPLES))
 
 
-def model():
-    term = b"\x02\x02" + numbers(0, 1)
+def model(term=b"\x02\x02" + numbers(0, 1)):
     sample = lambda r: ZERO_MOTION + DT + numbers(r, 1, 0) + x(0) + b"\x01"
     return b"\x01\x01" + CABLE + b"\x01" + term + b"".join(sample(r) for r, _ in SAMPLES)
+
+
+def play_in_series():
+    return model(b"\x1f" + x(0.5) + b"\x02" + numbers(0, 1))
 
 
 def inverse():
@@ -65,3 +68,4 @@ def inverse():
 here = pathlib.Path(__file__).parent
 for make in (pid, adaptive, compensator, hysteresis, model, inverse):
     (here / make.__name__ / "start").write_bytes(make())
+(here / "model" / "play_in_series").write_bytes(play_in_series())
