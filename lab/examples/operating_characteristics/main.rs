@@ -2,12 +2,13 @@
 //!
 //! ```text
 //! cargo run --release -p bowden-lab --example operating_characteristics
-//!     [-- --seeds K --first SEED --show CELL --strength S --effect NAME --lines]
+//!     [-- --seeds K --first SEED --seconds T --show CELL --strength S --effect NAME --lines]
 //! ```
 //! Records come from a generator that shares no code with the fit, twenty seconds at
-//! 1 kHz, written as CSV and read back; the declared model is Bouc-Wen alone. Both modes
-//! take turns. Cells: `nulls`, `single`, `three`, `outside`, `intervals` (all by default). K seeds a
-//! cell, 100 by default, from SEED on. `--lines` prints each record as well.
+//! 1 kHz (or T seconds, but for `intervals`), written as CSV and read back; the declared
+//! model is Bouc-Wen alone. Both modes take turns, and so do the members of a family.
+//! Cells: `nulls`, `single` (one a family and strength), `three`, `outside`, `intervals`, all
+//! by default. K seeds a cell, 100 by default, from SEED on. `--lines` prints each record.
 //!
 //! An effect counts as found if its family is named or stands among the rivals of a name
 //! (a confounded set); a name is false if neither it nor a rival of it was planted.
@@ -20,7 +21,7 @@ mod criteria;
 mod record;
 
 use bowden::effect::Family;
-use bowden_lab::synth::{effects, outsiders, Mode};
+use bowden_lab::synth::{effects, outsiders, Mode, Recipe};
 use criteria::Chosen;
 use rand::seq::SliceRandom;
 use rand::{Rng, SeedableRng};
@@ -34,6 +35,7 @@ const MODES: [Mode; 2] = [Mode::Torque, Mode::Displacement];
 struct Wanted {
     seeds: u64,
     first: u64,
+    seconds: f64,
     cells: Vec<String>,
     strengths: Vec<f64>,
     only: Vec<String>,
@@ -45,6 +47,7 @@ impl Wanted {
         let mut wanted = Self {
             seeds: 100,
             first: 20_000,
+            seconds: 20.0,
             cells: Vec::new(),
             strengths: vec![0.3, 1.0, 3.0],
             only: Vec::new(),
@@ -56,6 +59,7 @@ impl Wanted {
             match word.as_str() {
                 "--seeds" => wanted.seeds = next().parse().unwrap(),
                 "--first" => wanted.first = next().parse().unwrap(),
+                "--seconds" => wanted.seconds = next().parse().unwrap(),
                 "--show" => wanted.cells.push(next()),
                 "--strength" => wanted.strengths = vec![next().parse().unwrap()],
                 "--effect" => wanted.only.push(next()),
@@ -107,7 +111,11 @@ fn cell(
         .into_par_iter()
         .map(|(mode, seed, planting)| {
             let families = planting.iter().filter_map(|(e, _)| family_of(e)).collect();
-            (families, run(&recipe(mode, &planting, colour, seed)))
+            let recipe = Recipe {
+                seconds: wanted.seconds,
+                ..recipe(mode, &planting, colour, seed)
+            };
+            (families, run(&recipe))
         })
         .collect();
     for (families, outcome) in all.iter().filter(|_| wanted.lines) {
@@ -205,18 +213,16 @@ fn single(wanted: &Wanted) {
             }
         }
         for (family, members) in families {
-            let mut own = Vec::new();
-            for name in members {
-                let records: Vec<_> = wanted
-                    .seeds()
-                    .into_iter()
-                    .filter(|(mode, _)| {
-                        effects(*mode).contains(&name) && can_be_missing(*mode, name)
-                    })
-                    .map(|(mode, seed)| (mode, seed, vec![(name, strength)]))
-                    .collect();
-                own.extend(cell(wanted, 0.0, records));
-            }
+            // Members and modes take turns: a family is a cell, and has K records.
+            let kinds: Vec<_> = MODES
+                .iter()
+                .flat_map(|mode| members.iter().map(move |name| (*mode, *name)))
+                .filter(|(mode, name)| effects(*mode).contains(name) && can_be_missing(*mode, name))
+                .collect();
+            let records = (wanted.first..wanted.first + wanted.seeds)
+                .zip(kinds.iter().cycle())
+                .map(|(seed, &(mode, name))| (mode, seed, vec![(name, strength)]));
+            let own = cell(wanted, 0.0, records.collect());
             if !own.is_empty() {
                 row(family, &own);
             }
