@@ -2,7 +2,7 @@
 
 use crate::catalogue::{candidates, Candidate};
 use crate::channels::Prepared;
-use crate::closing::{Gate, Rejection};
+use crate::closing::{Gate, Rejection, Round};
 use crate::duel::duel;
 use crate::fit::{fit, Solution};
 use crate::gates::{judge, Evidence};
@@ -16,6 +16,18 @@ pub(crate) struct Accepted {
     pub(crate) rivals: Vec<Candidate>,
     pub(crate) blocks_better: usize,
     pub(crate) solution: Solution,
+}
+
+impl From<&Round> for Accepted {
+    fn from(round: &Round) -> Self {
+        Self {
+            candidate: round.candidate,
+            p: round.p,
+            rivals: round.rivals.clone(),
+            blocks_better: round.blocks_better,
+            solution: round.solution.clone(),
+        }
+    }
 }
 
 /// What came of it.

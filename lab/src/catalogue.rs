@@ -18,6 +18,15 @@ pub struct Candidate {
     pub family: Family,
 }
 
+impl Candidate {
+    /// Whether the other is the same effect of the same channel, of whatever shape.
+    #[must_use]
+    pub fn is_like(&self, other: &Self) -> bool {
+        let name = |one: &Self| (one.term.effect.name(), one.term.source);
+        name(self) == name(other)
+    }
+}
+
 /// From the simplest to the least simple: of two rivals the earlier one is named.
 pub const SIMPLICITY: [Family; 28] = [
     Family::Offset,

@@ -3,15 +3,20 @@
 use crate::attempt::{attempt, Accepted, Attempt};
 use crate::catalogue::{declared, Candidate};
 use crate::channels::Prepared;
+use crate::duel::is_noise;
 use crate::fit::{fit, Segments, Solution};
 use crate::joint::{joint, superseded};
+use crate::revisit::revisited;
 use crate::scan::Regime;
 use crate::structure::Structure;
 use crate::tones::tone;
-use crate::unknown::{instead, unnamed, Unknown};
+use crate::unknown::{instead, unnamed, Behind, Unknown};
 
 /// At most this many effects are added.
 pub const MOST_ROUNDS: usize = 8;
+
+/// So often the rounds are looked at again, and others looked for.
+const PASSES: usize = 3;
 
 /// Beside a table for what has no name an effect removes at least this share of the squared
 /// error: the table's steps leave a rest that effects would fill.
@@ -33,6 +38,8 @@ pub enum Gate {
     Refit,
     /// It had been added, but what was added later does its work as well.
     Superseded,
+    /// It passed all others, but what is left is noise already.
+    AtNoise,
 }
 
 impl Gate {
@@ -46,6 +53,7 @@ impl Gate {
             Self::StopCheck => "worse on the stop-check",
             Self::Refit => "no fit",
             Self::Superseded => "superseded by later ones",
+            Self::AtNoise => "only noise is left",
         }
     }
 }
@@ -179,6 +187,33 @@ pub fn close(
         regime: Regime::Blocks,
         correlation_time: 0.0,
     };
+    let mut gone = Vec::new();
+    for _ in 0..PASSES {
+        grow(data, &mut ledger, &mut progress);
+        progress("looking for what later effects have made superfluous");
+        gone.extend(take_back(data, &mut ledger));
+        progress("looking at each name beside the others");
+        let Some(anew) = revisited(data, &ledger) else {
+            break;
+        };
+        replace(data, &mut ledger, anew.rounds);
+        if anew.gone.is_empty() {
+            break;
+        }
+        gone.extend(anew.gone);
+    }
+    let is_back = |one: &Candidate| ledger.rounds.iter().any(|r| r.candidate.is_like(one));
+    gone.retain(|rejection: &Rejection| !is_back(&rejection.candidate));
+    ledger.rejected.extend(gone);
+    // A later scan may find blocks enough: that does not test what came in before.
+    if ledger.rounds.iter().any(|round| round.p.is_none()) {
+        ledger.regime = Regime::Effect;
+    }
+    Ok(ledger)
+}
+
+/// Adds rounds until nothing passes.
+fn grow(data: &Prepared, ledger: &mut Ledger, mut progress: impl FnMut(&str)) {
     while ledger.rounds.len() < MOST_ROUNDS {
         let round = ledger.rounds.len() + 1;
         let now = ledger.last().clone();
@@ -188,17 +223,34 @@ pub fn close(
         ledger.regime = tried.regime;
         ledger.correlation_time = tried.correlation_time;
         if ledger.unknown.is_some() {
-            if !beside_table(data, &mut ledger, tried) {
+            if !beside_table(data, ledger, tried) {
                 break;
             }
             continue;
         }
-        let accepted = proposed(data, &mut ledger, &now, &tried, |what| {
+        if only_noise(data, &now) {
+            ledger.rejected = tried.rejected;
+            ledger.rejected.extend(tried.accepted.map(|one| Rejection {
+                candidate: one.candidate,
+                gate: Gate::AtNoise,
+                p: one.p,
+            }));
+            break;
+        }
+        let mut accepted = proposed(data, ledger, &now, &tried, |what| {
             progress(&format!("round {round}: {what}"))
         });
         if accepted.is_empty() {
             progress("looking for what has no name");
-            ledger.unknown = unnamed(data, &now, &tried);
+            match unnamed(data, &now, &tried) {
+                Some(Behind::Unknown(unknown)) => ledger.unknown = Some(*unknown),
+                Some(Behind::Names(names)) if ledger.rounds.len() + names.len() <= MOST_ROUNDS => {
+                    accepted = names
+                }
+                _ => {}
+            }
+        }
+        if accepted.is_empty() {
             break;
         }
         for one in accepted {
@@ -210,13 +262,12 @@ pub fn close(
             ledger.rounds.push(round);
         }
     }
-    progress("looking for what later effects have made superfluous");
-    take_back(data, &mut ledger);
-    // A later scan may find blocks enough: that does not test what came in before.
-    if ledger.rounds.iter().any(|round| round.p.is_none()) {
-        ledger.regime = Regime::Effect;
-    }
-    Ok(ledger)
+}
+
+/// Whether nothing is left to be named: what a right model leaves is below the floor by what
+/// its parameters have taken, and on the stop-check above it by as much.
+fn only_noise(data: &Prepared, now: &Solution) -> bool {
+    now.rmse.fit <= data.noise_floor && is_noise(data.noise_floor, now.rmse.stop)
 }
 
 /// What the library, alone or several at once, or else a tone would add.
@@ -263,23 +314,28 @@ fn beside_table(data: &Prepared, ledger: &mut Ledger, tried: Attempt) -> bool {
     true
 }
 
-/// Takes rounds back that the later ones, or the table, make superfluous.
-fn take_back(data: &Prepared, ledger: &mut Ledger) {
+/// Takes rounds back that the later ones, or the table, make superfluous; which they were.
+fn take_back(data: &Prepared, ledger: &mut Ledger) -> Vec<Rejection> {
     let Some(kept) = superseded(data, ledger) else {
-        return;
+        return Vec::new();
     };
-    ledger.rounds.clear();
-    for one in kept.rounds {
-        let round = add(data, ledger.named(), one, ledger.rounds.len() + 1);
-        ledger.rounds.push(round);
-    }
-    ledger.rejected.extend(kept.gone);
+    replace(data, ledger, kept.rounds);
     let named = ledger.named().clone();
     if let Some(unknown) = &mut ledger.unknown {
         unknown.share = 1.0 - kept.full.sse(data) / named.sse(data);
         unknown.before = named.rmse;
         unknown.after = kept.full.rmse;
         unknown.solution = kept.full;
+    }
+    kept.gone
+}
+
+/// These rounds in the place of those that were.
+fn replace(data: &Prepared, ledger: &mut Ledger, rounds: Vec<Accepted>) {
+    ledger.rounds.clear();
+    for one in rounds {
+        let round = add(data, ledger.named(), one, ledger.rounds.len() + 1);
+        ledger.rounds.push(round);
     }
 }
 

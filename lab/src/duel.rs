@@ -63,8 +63,10 @@ pub(crate) fn duel(data: &Prepared, now: &Solution, finding: &Finding) -> Option
         .filter(|(_, sse, ..)| as_good(*sse))
         .collect();
     // Where much else is missing, what each of them leaves says little.
-    let rows = data.split.fit.len() as f64;
-    let at_noise = best <= rows * (AT_NOISE * data.noise_floor).powi(2);
+    let at_noise = is_noise(
+        data.noise_floor,
+        (best / data.split.fit.len() as f64).sqrt(),
+    );
     let clearly_more = |sse: f64| at_noise && sse > NAMED_REST * best;
     equals.sort_by(|a, b| {
         clearly_more(a.1)
@@ -90,4 +92,9 @@ pub(crate) fn duel(data: &Prepared, now: &Solution, finding: &Finding) -> Option
         rivals,
         rest: sse / before,
     })
+}
+
+/// Whether an error counts as noise.
+pub(crate) fn is_noise(floor: f64, rmse: f64) -> bool {
+    rmse <= AT_NOISE * floor
 }

@@ -7,6 +7,7 @@
 //! beside the others. No gate is lowered.
 
 use crate::attempt::{attempt, Accepted, Attempt};
+use crate::catalogue::Candidate;
 use crate::channels::Prepared;
 use crate::closing::{Gate, Ledger, Rejection, Round};
 use crate::fit::{fit_from, glance_from, Known, Solution};
@@ -30,15 +31,21 @@ pub(crate) fn joint(
     tried: &Attempt,
     most: usize,
 ) -> Vec<Accepted> {
-    search(data, now, tried, most.min(MEMBERS)).unwrap_or_default()
+    let set = &tried.forward[..tried.forward.len().min(most).min(MEMBERS)];
+    if tried.regime == Regime::Effect || tried.forward_share < WORTH || set.len() < 2 {
+        return Vec::new();
+    }
+    these(data, now, set)
 }
 
-fn search(data: &Prepared, now: &Solution, tried: &Attempt, most: usize) -> Option<Vec<Accepted>> {
-    if tried.regime == Regime::Effect || tried.forward_share < WORTH || tried.forward.len() < 2 {
-        return None;
-    }
+/// The same, of a set that is given.
+pub(crate) fn these(data: &Prepared, now: &Solution, set: &[(Candidate, f64)]) -> Vec<Accepted> {
+    search(data, now, set).unwrap_or_default()
+}
+
+fn search(data: &Prepared, now: &Solution, set: &[(Candidate, f64)]) -> Option<Vec<Accepted>> {
     let own = now.structure.terms.len();
-    let mut full = together(data, now, tried, most)?;
+    let mut full = together(data, now, set)?;
     if full.sse(data) > LEFT * now.sse(data) {
         return None;
     }
@@ -46,7 +53,7 @@ fn search(data: &Prepared, now: &Solution, tried: &Attempt, most: usize) -> Opti
     let mut found: Vec<Accepted> = Vec::new();
     // Each is taken from the front and, if it is found again, comes back at the end.
     for _ in own..full.structure.terms.len() {
-        let without = drop_term(data, &full, own)?;
+        let without = drop_terms(data, &full, &[own])?;
         match attempt(data, &without, |_| ()).accepted {
             Some(accepted) => {
                 full = accepted.solution.clone();
@@ -61,11 +68,11 @@ fn search(data: &Prepared, now: &Solution, tried: &Attempt, most: usize) -> Opti
     chain(data, now, &full, found)
 }
 
-/// All of the forward set beside the present model.
-fn together(data: &Prepared, now: &Solution, tried: &Attempt, most: usize) -> Option<Solution> {
+/// All of the set beside the present model.
+fn together(data: &Prepared, now: &Solution, set: &[(Candidate, f64)]) -> Option<Solution> {
     let mut structure = now.structure.clone();
     let mut known = Known::of(now);
-    for (candidate, coefficient) in tried.forward.iter().take(most) {
+    for (candidate, coefficient) in set {
         known.set_stage(structure.terms.len(), *coefficient);
         structure.terms.push(candidate.term);
     }
@@ -89,23 +96,13 @@ pub(crate) fn superseded(data: &Prepared, ledger: &Ledger) -> Option<Kept> {
     let least = usize::from(ledger.unknown.is_none());
     let own = ledger.declared.structure.terms.len();
     let mut full = ledger.last().clone();
-    let mut kept: Vec<Accepted> = ledger
-        .rounds
-        .iter()
-        .map(|round| Accepted {
-            candidate: round.candidate,
-            p: round.p,
-            rivals: round.rivals.clone(),
-            blocks_better: round.blocks_better,
-            solution: round.solution.clone(),
-        })
-        .collect();
+    let mut kept: Vec<Accepted> = ledger.rounds.iter().map(Accepted::from).collect();
     let mut gone = Vec::new();
     while kept.len() > least {
         let Some(term) = replaceable(data, &full, own) else {
             break;
         };
-        let Some(shorter) = drop_term(data, &full, term) else {
+        let Some(shorter) = drop_terms(data, &full, &[term]) else {
             break;
         };
         // The quick look does not count: what is left has to be as good once it is fitted,
@@ -141,7 +138,7 @@ pub(crate) fn superseded(data: &Prepared, ledger: &Ledger) -> Option<Kept> {
 /// Without the members, from number `own` on, that the others can replace.
 fn thinned(data: &Prepared, mut full: Solution, own: usize) -> Option<Solution> {
     while let Some(term) = replaceable(data, &full, own) {
-        full = drop_term(data, &full, term)?;
+        full = drop_terms(data, &full, &[term])?;
     }
     (full.structure.terms.len() > own).then_some(full)
 }
@@ -173,13 +170,18 @@ fn shortened(full: &Solution, term: usize) -> (Structure, Known) {
     (structure, Known::of(full).without(term))
 }
 
-fn drop_term(data: &Prepared, full: &Solution, term: usize) -> Option<Solution> {
-    let (structure, known) = shortened(full, term);
+/// Fitted anew without these terms, the last of them first.
+pub(crate) fn drop_terms(data: &Prepared, full: &Solution, terms: &[usize]) -> Option<Solution> {
+    let (mut structure, mut known) = (full.structure.clone(), Known::of(full));
+    for &term in terms {
+        structure.terms.remove(term);
+        known = known.without(term);
+    }
     fit_from(data, &structure, Some(&known), 0.0)
 }
 
 /// The models between the present one and the full one: one effect a round.
-fn chain(
+pub(crate) fn chain(
     data: &Prepared,
     now: &Solution,
     full: &Solution,

@@ -29,6 +29,7 @@ pub mod power;
 mod projection;
 pub mod record;
 pub mod report;
+mod revisit;
 pub mod scan;
 pub mod solution;
 pub mod spectrum;

@@ -13,8 +13,10 @@ use bowden::effect::Family;
 use nalgebra::DVector;
 
 mod blocks;
+mod pairs;
 pub(crate) use blocks::share_of_patterns;
 pub use blocks::{blocks, correlation_samples, sign_flip_p, BLOCKS};
+pub(crate) use pairs::{pairs, Pair};
 
 /// A candidate with less of its squared norm left after projection is not excited.
 const EXCITED: f64 = 1e-4;

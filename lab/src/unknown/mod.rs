@@ -7,6 +7,10 @@
 //! the curve is compared with the best that one or two refitted names do. Where they
 //! clearly fall short, the verdict is *unknown*: the variable is named, the curve is
 //! printed, and it stays in the model as a table so that the error still falls.
+//!
+//! Two names may each be poor and together right: a friction and a drag make one curve over
+//! the velocity, of which a viscous term takes the best part. So the pairs over the curve's
+//! variable are tried as pairs.
 
 mod curve;
 mod hats;
@@ -15,10 +19,11 @@ mod variables;
 use crate::attempt::{Accepted, Attempt};
 use crate::catalogue::{candidates, Candidate};
 use crate::channels::Prepared;
-use crate::fit::{fit, glance_from, Known, Segments, Solution};
+use crate::fit::{fit, fit_from, glance_from, Known, Segments, Solution};
 use crate::gates::{judge, on_blocks};
+use crate::joint::these;
 use crate::projection::Span;
-use crate::scan::{blocks, correlation_samples, scan, Regime};
+use crate::scan::{blocks, correlation_samples, pairs, scan, Pair, Regime};
 use crate::structure::Structure;
 pub use curve::{curve, Knot};
 pub use hats::Table;
@@ -43,6 +48,12 @@ const CLEARLY: f64 = 1.1;
 const LEFT: f64 = 2.0;
 /// So many names are tried alone and by twos.
 const NAMES: usize = 4;
+/// What leaves more than this, in units of the noise floor, leaves more than noise.
+const MUCH_LEFT: f64 = 2.0;
+/// So many others are tried beside a pair.
+const COMPANY: usize = 2;
+/// So many pairs over the curve's variable are refitted.
+const PAIRS: usize = 6;
 
 /// A dependence that has no name.
 #[derive(Debug, Clone)]
@@ -63,15 +74,37 @@ pub struct Unknown {
     pub solution: Solution,
 }
 
-/// Once the library has nothing more: the curve that it does not explain.
-pub(crate) fn unnamed(data: &Prepared, now: &Solution, tried: &Attempt) -> Option<Unknown> {
+/// What is behind a curve that passes the test.
+pub(crate) enum Behind {
+    /// Nothing that has a name.
+    Unknown(Box<Unknown>),
+    /// Names that were not found by themselves, through all gates beside each other.
+    Names(Vec<Accepted>),
+}
+
+/// Once the library has nothing more: the curve that it does not explain, or the two of it
+/// that do.
+pub(crate) fn unnamed(data: &Prepared, now: &Solution, tried: &Attempt) -> Option<Behind> {
     let all = Variable::all(data, now.structure.hysteresis);
     let moved = moved(data, now);
     let found = curves(data, now, &moved, &all);
     let (solution, p) = fitted(data, now, &moved, &found, tried)?;
     let forward: Vec<Candidate> = tried.forward.iter().map(|(c, _)| *c).collect();
     let names = best_names(data, now, &forward, &now.structure)?;
-    finish(data, now, solution, p, names)
+    let two = best_pair(data, now, &solution);
+    let least = two.as_ref().map_or(names, |(left, _)| left.min(names));
+    let curve = rest(data, solution.sse(data), &solution, now);
+    let Some(unknown) = finish(data, now, solution, p, least) else {
+        return two.map(|(_, pair)| Behind::Names(these(data, now, &pair)));
+    };
+    if is_much(data, curve) {
+        // Much is missing beside it: then the names are compared when they, too, have company.
+        let more = two.and_then(|(_, pair)| with_company(data, now, &pair));
+        if let Some((_, names)) = more.filter(|(left, _)| *left <= curve) {
+            return Some(Behind::Names(names));
+        }
+    }
+    Some(Behind::Unknown(Box::new(unknown)))
 }
 
 /// In the place of a name that is about to be added: the curve over the same variable,
@@ -92,6 +125,10 @@ pub(crate) fn instead(
     let (solution, p) = fitted(data, now, &moved, &found, tried)?;
     let alone = rest(data, accepted.solution.sse(data), &accepted.solution, now);
     let curve = rest(data, solution.sse(data), &solution, now);
+    if is_much(data, curve) {
+        // Let the name bring to light what else is missing.
+        return None;
+    }
     if alone <= LEFT * curve || !on_blocks(data, &accepted.solution, &solution, Regime::Blocks).1 {
         return None;
     }
@@ -102,7 +139,8 @@ pub(crate) fn instead(
         .iter()
         .map(|(c, _)| *c)
         .collect();
-    let two = best_names(data, now, &forward, &beside.structure)?;
+    let beside = best_names(data, now, &forward, &beside.structure)?;
+    let two = best_pair(data, now, &solution).map_or(beside, |(left, _)| left.min(beside));
     // Where much else is missing the curve, too, leaves most of it: then a name is no worse.
     if two <= LEFT * curve {
         return None;
@@ -260,6 +298,83 @@ fn regime(data: &Prepared, solution: &Solution) -> Regime {
     }
 }
 
+/// The pair over the variable of a curve that leaves least, and what it leaves.
+fn best_pair(data: &Prepared, now: &Solution, curve: &Solution) -> Option<(f64, Pair)> {
+    use rayon::prelude::*;
+    let variable = curve.structure.table.as_ref()?.variable;
+    let coarse = data.for_search(true);
+    let tried = over(data, now, &[variable], PAIRS);
+    let rests: Vec<Option<f64>> = tried
+        .par_iter()
+        .map(|pair| {
+            left(
+                data,
+                &coarse,
+                now,
+                &now.structure,
+                pair.iter().map(|(c, _)| *c),
+            )
+        })
+        .collect();
+    let rests = rests.into_iter().zip(tried);
+    rests
+        .filter_map(|(left, pair)| Some((left?, pair)))
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// Whether so much is left that something else must be missing.
+fn is_much(data: &Prepared, sse: f64) -> bool {
+    sse > data.split.fit.len() as f64 * (MUCH_LEFT * data.noise_floor).powi(2)
+}
+
+/// The pair and what the scan finds beside it, through all gates, and what they leave.
+fn with_company(data: &Prepared, now: &Solution, pair: &Pair) -> Option<(f64, Vec<Accepted>)> {
+    let mut structure = now.structure.clone();
+    structure.terms.extend(pair.iter().map(|(c, _)| c.term));
+    let both = fit_from(data, &structure, Some(&Known::of(now)), 0.0)?;
+    let others = candidates(data, &both.structure, &both.residual);
+    let beside = scan(data, &both, &others).forward;
+    let set: Vec<(Candidate, f64)> = pair
+        .iter()
+        .copied()
+        .chain(beside.into_iter().take(COMPANY))
+        .collect();
+    let names = these(data, now, &set);
+    let model = &names.last()?.solution;
+    Some((rest(data, model.sse(data), model, now), names))
+}
+
+/// The pairs of names over any of the variables that take most, at their trial shapes.
+pub(crate) fn over(
+    data: &Prepared,
+    now: &Solution,
+    variables: &[Variable],
+    most: usize,
+) -> Vec<Pair> {
+    let mut over = candidates(data, &now.structure, &now.residual);
+    over.retain(|candidate| {
+        let own = Variable::of(candidate);
+        variables.iter().any(|variable| own.contains(variable))
+    });
+    pairs(data, now, &over, most)
+}
+
+/// What names leave beside what `base` has, after a short search.
+fn left(
+    data: &Prepared,
+    coarse: &Prepared,
+    now: &Solution,
+    base: &Structure,
+    names: impl Iterator<Item = Candidate>,
+) -> Option<f64> {
+    let mut structure = base.clone();
+    structure.terms.extend(names.map(|c| c.term));
+    let (sse, ..) = glance_from(coarse, &structure, &Known::of(now), 0.0)?;
+    let added = structure.free(data).len() + structure.linear();
+    let had = now.free.len() + now.gains.len();
+    Some(penalised(data, sse, added.saturating_sub(had)))
+}
+
 /// The least that one or two names leave, beside what `base` has.
 fn best_names(
     data: &Prepared,
@@ -279,14 +394,7 @@ fn best_names(
     let before = now.sse(data);
     let rests: Vec<Option<f64>> = sets
         .par_iter()
-        .map(|set| {
-            let mut structure = base.clone();
-            structure.terms.extend(set.iter().map(|c| c.term));
-            let (sse, ..) = glance_from(&coarse, &structure, &Known::of(now), 0.0)?;
-            let added = structure.free(data).len() + structure.linear();
-            let had = now.free.len() + now.gains.len();
-            Some(penalised(data, sse, added.saturating_sub(had)))
-        })
+        .map(|set| left(data, &coarse, now, base, set.iter().copied()))
         .collect();
     Some(rests.into_iter().flatten().fold(before, f64::min))
 }
