@@ -7,11 +7,13 @@
 //! * [`planted`]: an undeclared effect is found, named and taken away.
 //! * [`nulls`]: where nothing is missing, nothing is added.
 //! * [`determinism`]: the same record gives the same result, on any number of threads.
+//! * [`beside`]: effects that are found only beside each other.
 //! * [`unneeded`]: declared parts that the record does not need are told.
 //! * [`series`]: a play between the input and the transmission is found with its width.
 //! * [`exported`]: what was fitted is what runs in firmware.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod beside;
 mod determinism;
 mod exported;
 mod nulls;
