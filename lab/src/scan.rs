@@ -317,9 +317,7 @@ fn lines(
         let name = candidate.term.effect.name();
         let curve = matches!(candidate.family, Family::Stiffness | Family::Saturation)
             || name == "dead-zone";
-        let known = named
-            .iter()
-            .any(|(c, _)| c.term.effect.name() == name && c.term.source == candidate.term.source);
+        let known = named.iter().any(|(c, _)| c.is_like(&candidate));
         if !curve || known || candidate.term.source != ripple.source {
             continue;
         }
@@ -445,10 +443,7 @@ pub fn scan(data: &Prepared, solution: &Solution, candidates: &[Candidate]) -> S
         let mut named: Vec<(Candidate, f64)> = Vec::new();
         for (_, k, coefficient) in contenders {
             let candidate = of(k);
-            let known = named.iter().any(|(c, _)| {
-                c.term.effect.name() == candidate.term.effect.name()
-                    && c.term.source == candidate.term.source
-            });
+            let known = named.iter().any(|(c, _)| c.is_like(&candidate));
             if !known && named.len() < CONTENDERS {
                 named.push((candidate, coefficient));
             }

@@ -23,13 +23,12 @@ pub(crate) fn pairs(
         .map(|column| (column.norm_squared(), column.dot(&space.residual)))
         .collect();
     let of = |k: usize| candidates[space.kept[k]];
-    let name = |k: usize| (of(k).term.effect.name(), of(k).term.source);
     let mut found: Vec<(f64, usize, usize, f64, f64)> = Vec::new();
     for (i, &(a, score_a)) in alone.iter().enumerate() {
         for (j, &(b, score_b)) in alone.iter().enumerate().skip(i + 1) {
             let inner = space.columns[i].dot(&space.columns[j]);
             let determinant = a * b - inner * inner;
-            if name(i) == name(j) || determinant < EXCITED * a * b {
+            if of(i).is_like(&of(j)) || determinant < EXCITED * a * b {
                 continue;
             }
             let one = (score_a * b - score_b * inner) / determinant;
@@ -37,7 +36,7 @@ pub(crate) fn pairs(
             let gain = one * score_a + two * score_b;
             let entry = (gain, i, j, one / space.norms[i], two / space.norms[j]);
             let alike = |&(_, p, q, ..): &(f64, usize, usize, f64, f64)| {
-                (name(p), name(q)) == (name(i), name(j))
+                of(p).is_like(&of(i)) && of(q).is_like(&of(j))
             };
             match found.iter_mut().find(|other| alike(other)) {
                 Some(slot) if slot.0 < gain => *slot = entry,
