@@ -8,6 +8,7 @@
 
 use bowden_lab::channels::{Preparation, Prepared};
 use bowden_lab::closing::{close, structure, MOST_ROUNDS};
+use bowden_lab::final_fit::FinalFit;
 use bowden_lab::fit::Segments;
 use bowden_lab::intervals::term_name;
 use bowden_lab::record::{read, Mode, Options};
@@ -156,13 +157,14 @@ fn run(row: &Row, path: &Path) -> Result<String, String> {
     let list: Vec<String> = row.declare.iter().map(|s| (*s).to_owned()).collect();
     let started = std::time::Instant::now();
     let ledger = close(&data, &structure(&list, &data)?, |_| ())?;
+    let done = FinalFit::new(&data, &ledger);
     let seconds = started.elapsed().as_secs_f64();
-    println!("{}\n", text(row.name, &data, &ledger, true));
+    println!("{}\n", text(row.name, &data, &ledger, &done, true));
     let percent = |s: &Segments| {
         let n = s.normalised(&data, &data.target);
         (100.0 * n.fit, 100.0 * n.held_out)
     };
-    let (before, after) = (percent(&ledger.declared.rmse), percent(&ledger.last().rmse));
+    let (before, after) = (percent(&ledger.declared.rmse), percent(&done.rmse));
     let names: Vec<String> = ledger
         .rounds
         .iter()

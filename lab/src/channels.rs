@@ -205,6 +205,16 @@ impl Prepared {
         }
     }
 
+    /// The same record with the stop-check segment among what is fitted.
+    #[must_use]
+    pub fn with_stop_fitted(&self) -> Self {
+        let mut wide = self.clone();
+        wide.split.fit.extend(&self.split.stop);
+        // Of several records each has its own stop-check, between the others' segments.
+        wide.split.fit.sort_unstable();
+        wide
+    }
+
     /// Samples on the work grid.
     #[must_use]
     pub fn work_len(&self) -> usize {

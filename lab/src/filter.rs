@@ -116,6 +116,13 @@ impl ZeroPhase {
     }
 }
 
+/// What the smoother leaves of the amplitude at `frequency` \[Hz\].
+#[must_use]
+pub fn gain(cutoff: f64, rate: f64, frequency: f64) -> f64 {
+    let warped = |f: f64| (PI * f / rate).tan();
+    1.0 / (1.0 + (warped(frequency) / warped(cutoff)).powi(8))
+}
+
 /// The derivative by fourth-order central differences; lower order at the ends.
 #[must_use]
 pub fn derivative(signal: &[f64], dt: f64) -> Vec<f64> {
@@ -154,8 +161,7 @@ mod tests {
             let input = sine(frequency, rate, 4000);
             let output = filter.apply(&input);
             // |H|^2 of the fourth-order low-pass at the pre-warped frequency.
-            let ratio = (PI * frequency / rate).tan() / (PI * cutoff / rate).tan();
-            let gain = 1.0 / (1.0 + ratio.powi(8));
+            let gain = gain(cutoff, rate, frequency);
             for i in 1000..3000 {
                 // The transient of the ends has decayed to 1e-9 after a second.
                 assert!(

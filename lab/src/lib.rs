@@ -3,7 +3,7 @@
 //! A record walks through the rooms in this order: [`record`] (read and check),
 //! [`channels`] (uniform time, one zero-phase smoother for all columns and the output),
 //! [`fit`] (variable projection), [`scan`] (which effect is missing?), [`closing`] (the
-//! loop and its ledger), [`verdict`], [`report`] and [`export`]. Every column of the
+//! loop and its ledger), [`final_fit`], [`verdict`], [`report`] and [`export`]. Every column of the
 //! regression is computed by the core crate, so that what is fitted here is what runs
 //! in firmware. [`compare`] puts controllers on the core's simulated rig, [`power`] says
 //! what a run could have missed, [`plan`] which experiment would tell what this record
@@ -20,6 +20,7 @@ mod duel;
 mod excitation;
 pub mod export;
 pub mod filter;
+pub mod final_fit;
 pub mod fit;
 mod gates;
 pub mod intervals;
@@ -40,3 +41,4 @@ pub mod units;
 pub mod unknown;
 pub mod unneeded;
 pub mod verdict;
+mod whiteness;

@@ -10,6 +10,7 @@
 use crate::catalogue::declared;
 use crate::channels::Prepared;
 use crate::closing::Ledger;
+use crate::final_fit::FinalFit;
 use crate::fit::{fit_from, Known, Solution};
 use crate::intervals::term_name;
 use crate::structure::{FitTerm, Structure};
@@ -31,9 +32,9 @@ pub struct Unneeded {
 
 /// The parts of the declared model without which the final model is as good.
 #[must_use]
-pub fn unneeded(data: &Prepared, ledger: &Ledger) -> Vec<Unneeded> {
+pub fn unneeded(ledger: &Ledger, done: &FinalFit) -> Vec<Unneeded> {
     use rayon::prelude::*;
-    let last = ledger.last();
+    let (data, last) = (&done.data, &done.solution);
     let own = ledger.declared.structure.terms.len();
     let hysteresis = last.structure.hysteresis.then_some(None);
     let parts: Vec<Option<usize>> = hysteresis.into_iter().chain((0..own).map(Some)).collect();

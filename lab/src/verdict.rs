@@ -2,11 +2,12 @@
 
 use crate::channels::Prepared;
 use crate::closing::Ledger;
-use crate::filter::ZeroPhase;
+use crate::final_fit::FinalFit;
 use crate::fit::Solution;
 use crate::intervals::term_name;
 use crate::record::Defect;
-use crate::scan::{correlation_samples, Regime};
+use crate::scan::Regime;
+use crate::whiteness::is_white;
 
 /// What the run amounts to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
@@ -44,32 +45,6 @@ impl Verdict {
 /// Error that counts as being at the noise floor, as a multiple of it: the floor is an
 /// estimate from the top of the band and assumes white noise.
 const AT_FLOOR: f64 = 1.2;
-/// A residual whose correlation time is at most this many times the filter's own counts
-/// as white noise behind the filter.
-const WHITE: f64 = 1.5;
-
-/// Correlation time of white noise behind the filter, in estimation samples.
-fn white_correlation(data: &Prepared) -> f64 {
-    let rate = 1.0 / data.dt;
-    let reach = (8.0 * rate / data.cutoff).ceil() as usize;
-    let mut impulse = vec![0.0; 2 * reach + 1];
-    impulse[reach] = 1.0;
-    let response = ZeroPhase::new(data.cutoff, rate).apply(&impulse);
-    // The autocorrelation of filtered white noise is that of the impulse response.
-    correlation_samples(&response) / data.stride as f64
-}
-
-/// Whether the residual looks like white noise behind the filter.
-#[must_use]
-pub fn is_white(data: &Prepared, solution: &Solution) -> bool {
-    let rest: Vec<f64> = data
-        .split
-        .fit
-        .iter()
-        .map(|&i| solution.residual[i])
-        .collect();
-    correlation_samples(&rest) <= WHITE * white_correlation(data).max(0.5)
-}
 
 /// Defects that spoil what was concluded: grave ones of time, input, output, and of the
 /// channels that the model reads.
@@ -121,7 +96,7 @@ pub fn unknown_words(data: &Prepared, ledger: &Ledger) -> Option<String> {
 
 /// The verdict in a sentence or two.
 #[must_use]
-pub fn sentence(data: &Prepared, ledger: &Ledger) -> String {
+pub fn sentence(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     let last = ledger.last();
     let added: Vec<String> = ledger
         .rounds
@@ -134,7 +109,7 @@ pub fn sentence(data: &Prepared, ledger: &Ledger) -> String {
         }
         0 => "The declared model lacks no effect that this record could show.".to_owned(),
         _ => {
-            let kept = last.rmse.held_out / ledger.declared.rmse.held_out;
+            let kept = done.rmse.held_out / ledger.declared.rmse.held_out;
             format!(
                 "The declared model lacks {}: with it the held-out error falls {:.1}-fold.",
                 added.join(", then "),

@@ -151,7 +151,7 @@ fn the_json_is_laid_out_as_documented() {
     );
     assert_eq!(
         keys(&report["final"]),
-        sorted(&["effects", "parameters", "rmse", "nrmse"])
+        sorted(&["effects", "refitted", "parameters", "rmse", "nrmse"])
     );
     assert_eq!(
         keys(&report["declared"]["rmse"]),

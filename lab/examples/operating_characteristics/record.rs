@@ -5,6 +5,7 @@ use bowden::effect::{Family, CATALOGUE};
 use bowden_lab::catalogue::candidates;
 use bowden_lab::channels::{Preparation, Prepared};
 use bowden_lab::closing::{close, structure};
+use bowden_lab::final_fit::FinalFit;
 use bowden_lab::fit::{fit, Segments};
 use bowden_lab::record::{parse, Options};
 use bowden_lab::synth::{generate, Mode, Planted, Recipe};
@@ -15,8 +16,11 @@ pub struct Outcome {
     pub rounds: Vec<Vec<Family>>,
     /// Held-out error of the last model over what the noise leaves.
     pub reached: f64,
-    /// The same of a fit that was told of the planted effects, where they can be declared.
-    pub told: Option<f64>,
+    /// The same of the final model, whose parameters have seen the stop-check as well.
+    pub delivered: f64,
+    /// As `reached` and `delivered`, of a fit that was told of the planted effects, where
+    /// they can be declared.
+    pub told: Option<[f64; 2]>,
     /// Columns of the catalogue that were tried.
     pub columns: usize,
     pub bic: Chosen,
@@ -115,6 +119,7 @@ pub fn run(recipe: &Recipe) -> Outcome {
         (u.variable.name(&data), channel.name.clone())
     });
     let reached = ledger.last().rmse.held_out / floor;
+    let delivered = FinalFit::new(&data, &ledger).rmse.held_out / floor;
     let before = ledger.declared.rmse.held_out / floor;
     let mut list = vec!["bouc-wen".to_owned()];
     list.extend(made.truth.effects.iter().map(|e| match e.channel {
@@ -124,15 +129,19 @@ pub fn run(recipe: &Recipe) -> Outcome {
     let told = structure(&list, &data)
         .ok()
         .and_then(|told| fit(&data, &told, None, 0.0))
-        .map(|told| told.rmse.held_out / floor);
+        .map(|told| {
+            let done = FinalFit::of(&data, &told).rmse.held_out;
+            [told.rmse.held_out / floor, done / floor]
+        });
     Outcome {
         reached,
+        delivered,
         told,
         columns: tried.len(),
         bic: library.bic(floor),
         err: library.err(floor),
         line: format!(
-            "{:?} {} colour {} planted {planted:?}: {before:.2} -> {reached:.2} ({:?}) {}; unknown {:?} q {:.2} | {}",
+            "{:?} {} colour {} planted {planted:?}: {before:.2} -> {reached:.2}, {delivered:.2} ({:?}) {}; unknown {:?} q {:.2} | {}",
             recipe.mode,
             recipe.seed,
             recipe.colour,

@@ -5,6 +5,7 @@ use super::Failure;
 use crate::channels::{HeldOut, Prepared};
 use crate::closing::{close, Ledger};
 use crate::export::ModelFile;
+use crate::final_fit::FinalFit;
 use crate::fit::{fit, Solution};
 use crate::record::{agree, parse, read, Options, Record};
 use crate::report::{json, text, Report};
@@ -76,14 +77,16 @@ impl Close {
             bar.set_message("trying each file with gains of its own");
             data.notes.extend(hint(&data, &ledger.declared));
         }
+        bar.set_message("fitting the final model");
+        let done = FinalFit::new(&data, &ledger);
         if let Some(path) = &self.model_out {
-            write_models(path, &label, &data, &ledger)?;
+            write_models(path, &label, &ledger, &done)?;
         }
         bar.set_message("looking for declared parts that are not needed");
         let report = if self.json {
-            json(&Report::new(&label, &data, &ledger)).map_err(|e| e.to_string())?
+            json(&Report::new(&label, &data, &ledger, &done)).map_err(|e| e.to_string())?
         } else {
-            text(&label, &data, &ledger, self.reading.cutoff.is_some())
+            text(&label, &data, &ledger, &done, self.reading.cutoff.is_some())
         };
         bar.finish_and_clear();
         super::say(report.trim_end())
@@ -151,8 +154,8 @@ fn embedded(options: &Options) -> Result<Record, Failure> {
 }
 
 /// Writes the final model; where each file has gains of its own, one model for each.
-fn write_models(path: &Path, label: &str, data: &Prepared, ledger: &Ledger) -> Result<(), Failure> {
-    let last = ledger.last();
+fn write_models(path: &Path, label: &str, ledger: &Ledger, done: &FinalFit) -> Result<(), Failure> {
+    let (data, last) = (&done.data, &done.solution);
     let version = env!("CARGO_PKG_VERSION");
     let missing = ledger.unknown.as_ref().map_or_else(String::new, |unknown| {
         format!(

@@ -3,6 +3,7 @@
 use super::reading::{progress, Reading};
 use super::Failure;
 use crate::closing::close;
+use crate::final_fit::FinalFit;
 use crate::plan::{separate_first, strengthen, trajectory};
 use crate::record::read;
 use clap::Args;
@@ -32,7 +33,10 @@ impl Plan {
         bar.set_message("planning");
         let separated = separate_first(&data, &ledger);
         let confounded = separated.is_some();
-        let planned = separated.or_else(|| strengthen(&data, ledger.last()));
+        let planned = separated.or_else(|| {
+            let done = FinalFit::new(&data, &ledger);
+            strengthen(&done.data, &done.solution)
+        });
         bar.finish_and_clear();
         let Some(experiment) = planned else {
             anstream::eprintln!(

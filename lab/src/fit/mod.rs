@@ -76,6 +76,16 @@ pub fn fit_from(
     choose(settled)
 }
 
+/// Searches the optimum of a solution again, from where it is, on another split of its record.
+#[must_use]
+pub fn refit(data: &Prepared, from: &Solution) -> Option<Solution> {
+    let structure = &from.structure;
+    let free = structure.free(data);
+    let fine = data.for_search(false);
+    let values = descend_fully(&fine, structure, &free, &from.values)?;
+    settle(data, structure, &free, values)
+}
+
 /// One short search from the present optimum, on the coarse grid: the sum of squares
 /// there and the structure with its shapes refined.
 #[must_use]

@@ -3,6 +3,7 @@
 use super::terminal::number;
 use crate::channels::Prepared;
 use crate::closing::Ledger;
+use crate::final_fit::FinalFit;
 use crate::fit::Segments;
 use crate::unknown::{curve, Knot, Unknown};
 use crate::verdict::unknown_words;
@@ -28,7 +29,7 @@ pub(super) struct UnknownPart {
 }
 
 impl UnknownPart {
-    pub(super) fn new(data: &Prepared, unknown: &Unknown) -> Self {
+    pub(super) fn new(data: &Prepared, unknown: &Unknown, done: &FinalFit) -> Self {
         let channel = data.channel(unknown.variable.source());
         Self {
             variable: unknown.variable.name(data),
@@ -36,7 +37,7 @@ impl UnknownPart {
             share: unknown.share,
             p: unknown.p,
             q: unknown.q,
-            curve: curve(data, &unknown.solution),
+            curve: curve(&done.data, &done.solution),
             rmse_before: unknown.before,
             rmse_after: unknown.after,
         }
@@ -44,9 +45,9 @@ impl UnknownPart {
 }
 
 /// The section of the ledger; nothing where there is no such curve.
-pub(super) fn text(data: &Prepared, ledger: &Ledger) -> Option<String> {
+pub(super) fn text(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Option<String> {
     let unknown = ledger.unknown.as_ref()?;
-    let knots = curve(data, &unknown.solution);
+    let knots = curve(&done.data, &done.solution);
     let every = knots.len().div_ceil(LINES).max(1);
     let largest = knots.iter().map(|k| k.value.abs()).fold(0.0, f64::max);
     let unit = |unit: Option<String>| unit.map_or_else(String::new, |u| format!(" [{u}]"));

@@ -5,6 +5,7 @@ use super::several::{nrmse_by_file, rmse_by_file, FileErrors};
 use crate::catalogue::Candidate;
 use crate::channels::{Piece, Prepared};
 use crate::closing::{Gate, Grade, Ledger};
+use crate::final_fit::FinalFit;
 use crate::fit::{Segments, Solution};
 use crate::intervals::{parameters, term_name, Parameter};
 use crate::plan::{separate, Experiment};
@@ -77,6 +78,8 @@ impl ByFile {
 #[derive(Debug, Clone, Serialize)]
 struct FinalPart {
     effects: Vec<String>,
+    /// Whether the parameters have seen the stop-check segment as well.
+    refitted: bool,
     parameters: Vec<Parameter>,
     rmse: Segments,
     nrmse: Segments,
@@ -160,8 +163,8 @@ pub(super) fn block_count(data: &Prepared, ledger: &Ledger) -> usize {
 impl Report {
     /// Collects everything about one run.
     #[must_use]
-    pub fn new(path: &str, data: &Prepared, ledger: &Ledger) -> Self {
-        let last = ledger.last();
+    pub fn new(path: &str, data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Self {
+        let last = &done.solution;
         let several = data.pieces.len() > 1;
         let part = |path: &str, samples, rate_hz, held_out| RecordPart {
             path: path.to_owned(),
@@ -238,9 +241,10 @@ impl Report {
             rounds,
             r#final: FinalPart {
                 effects: effects(data, last),
-                parameters: parameters(data, last),
-                rmse: last.rmse,
-                nrmse: last.rmse.normalised(data, &data.target),
+                refitted: done.refitted,
+                parameters: parameters(&done.data, last),
+                rmse: done.rmse,
+                nrmse: done.rmse.normalised(data, &data.target),
                 by_file: ByFile::new(data, last),
             },
             rejected: ledger
@@ -254,8 +258,11 @@ impl Report {
                 })
                 .collect(),
             defects: data.defects.clone(),
-            unneeded: unneeded(data, ledger),
-            unknown: ledger.unknown.as_ref().map(|u| UnknownPart::new(data, u)),
+            unneeded: unneeded(ledger, done),
+            unknown: ledger
+                .unknown
+                .as_ref()
+                .map(|u| UnknownPart::new(data, u, done)),
             noise_floor: data.noise_floor,
             verdict: verdict(data, ledger).name(),
         }

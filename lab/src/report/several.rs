@@ -3,6 +3,7 @@
 use super::terminal::{estimate, number, table};
 use crate::channels::{Piece, Prepared};
 use crate::closing::Ledger;
+use crate::final_fit::FinalFit;
 use crate::fit::Solution;
 use crate::intervals::{gain_names, numbered, parameters};
 use serde::Serialize;
@@ -98,10 +99,10 @@ pub(super) fn split(data: &Prepared) -> String {
 }
 
 /// Errors by file before and after, as a table; empty for a single record.
-pub(super) fn errors(data: &Prepared, ledger: &Ledger) -> String {
+pub(super) fn errors(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     let (Some(before), Some(after)) = (
         nrmse_by_file(data, &ledger.declared),
-        nrmse_by_file(data, ledger.last()),
+        nrmse_by_file(data, &done.solution),
     ) else {
         return String::new();
     };

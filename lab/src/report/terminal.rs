@@ -5,6 +5,7 @@ use super::json::{block_count, effects};
 use super::several;
 use crate::channels::Prepared;
 use crate::closing::{Grade, Ledger};
+use crate::final_fit::FinalFit;
 use crate::fit::Segments;
 use crate::intervals::{parameters, term_name, Parameter};
 use crate::plan::separate;
@@ -123,7 +124,13 @@ macro_rules! line {
 
 /// The whole ledger as text, with ANSI styles that whoever prints it may strip.
 #[must_use]
-pub fn text(path: &str, data: &Prepared, ledger: &Ledger, chosen_cutoff: bool) -> String {
+pub fn text(
+    path: &str,
+    data: &Prepared,
+    ledger: &Ledger,
+    done: &FinalFit,
+    chosen_cutoff: bool,
+) -> String {
     let mut out = String::new();
     let bold = Style::new().bold();
     let dim = Style::new().dimmed();
@@ -253,11 +260,24 @@ pub fn text(path: &str, data: &Prepared, ledger: &Ledger, chosen_cutoff: bool) -
             },
         ]);
     }
+    if done.refitted {
+        let [a, b, c, d] = cells(data, &done.rmse);
+        rounds.add_row([
+            String::new(),
+            "refit on fit + stop".into(),
+            String::new(),
+            String::new(),
+            a,
+            b,
+            c,
+            d,
+        ]);
+    }
     line!(out, "{rounds}\n");
     if !ledger.rounds.is_empty() {
         line!(out, "{added}\n");
     }
-    out.push_str(&several::errors(data, ledger));
+    out.push_str(&several::errors(data, ledger, done));
     for experiment in ledger.rounds.iter().filter_map(|r| separate(data, r)) {
         line!(out, "to separate: {}", experiment.trajectory);
         for aim in &experiment.aims {
@@ -266,17 +286,17 @@ pub fn text(path: &str, data: &Prepared, ledger: &Ledger, chosen_cutoff: bool) -
         line!(out, "");
     }
 
-    if let Some(section) = curve::text(data, ledger) {
+    if let Some(section) = curve::text(data, ledger, done) {
         line!(out, "{section}");
     }
-    let last = ledger.last();
+    let last = &done.solution;
     let mut final_parameters = table(&["final model", "value (95 %)"], 0..0);
     let own_gains = match last.structure.own_gains {
         0 => 0,
         _ => last.structure.base(),
     };
-    out.push_str(&several::gains(data, last));
-    let all = parameters(data, last);
+    out.push_str(&several::gains(&done.data, last));
+    let all = parameters(&done.data, last);
     for parameter in &all[own_gains..] {
         final_parameters.add_row([parameter.name.clone(), estimate(parameter)]);
     }
@@ -304,7 +324,7 @@ pub fn text(path: &str, data: &Prepared, ledger: &Ledger, chosen_cutoff: bool) -
 
     let (before, after) = (
         ledger.declared.rmse.normalised(data, &data.target),
-        last.rmse.normalised(data, &data.target),
+        done.rmse.normalised(data, &data.target),
     );
     line!(
             out,
@@ -325,8 +345,8 @@ pub fn text(path: &str, data: &Prepared, ledger: &Ledger, chosen_cutoff: bool) -
             .collect();
         line!(out, "{dim}rejected  {}{dim:#}", list.join(", "));
     }
-    for part in unneeded(data, ledger) {
-        let (without, with) = (part.held_out_without, last.rmse.held_out);
+    for part in unneeded(ledger, done) {
+        let (without, with) = (part.held_out_without, done.rmse.held_out);
         line!(
             out,
             "unneeded  {}: held out {} without it, {} with it",
@@ -353,7 +373,7 @@ pub fn text(path: &str, data: &Prepared, ledger: &Ledger, chosen_cutoff: bool) -
         out,
         "verdict   {style}{}{style:#}. {}",
         found.name(),
-        sentence(data, ledger)
+        sentence(data, ledger, done)
     );
     out
 }

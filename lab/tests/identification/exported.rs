@@ -12,6 +12,7 @@ use bowden::transmission::Transmission;
 use bowden::Real;
 use bowden_lab::channels::Prepared;
 use bowden_lab::closing::close;
+use bowden_lab::final_fit::FinalFit;
 use bowden_lab::fit::{fit, Solution};
 use bowden_lab::record;
 use bowden_lab::structure::Role;
@@ -144,8 +145,10 @@ fn a_model_that_the_loop_found_runs_the_same_in_firmware() {
         &["inertia", "lag", "stiffness-quadratic"],
     );
     let ledger = close(&made.data, &made.declare(&["bouc-wen"]), |_| ()).unwrap();
-    let last = ledger.last();
-    assert!(last.structure.hysteresis && !last.structure.terms.is_empty());
+    // What is delivered, and what `--model-out` writes.
+    let done = FinalFit::new(&made.data, &ledger);
+    let last = &done.solution;
+    assert!(done.refitted && last.structure.hysteresis && !last.structure.terms.is_empty());
     let terms = &last.structure.terms;
     assert!(
         terms.iter().any(|t| t.effect.is_output_stage()),

@@ -8,12 +8,14 @@
 //! * [`nulls`]: where nothing is missing, nothing is added.
 //! * [`determinism`]: the same record gives the same result, on any number of threads.
 //! * [`beside`]: effects that are found only beside each other.
+//! * [`delivered`]: the final model has seen all but what is held out, and is nearer to the truth.
 //! * [`unneeded`]: declared parts that the record does not need are told.
 //! * [`series`]: a play between the input and the transmission is found with its width.
 //! * [`exported`]: what was fitted is what runs in firmware.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod beside;
+mod delivered;
 mod determinism;
 mod exported;
 mod nulls;
