@@ -2,7 +2,6 @@
 
 use crate::channels::Prepared;
 use crate::closing::Ledger;
-use crate::final_fit::FinalFit;
 use crate::fit::Solution;
 use crate::intervals::term_name;
 use crate::record::Defect;
@@ -96,7 +95,7 @@ pub fn unknown_words(data: &Prepared, ledger: &Ledger) -> Option<String> {
 
 /// The verdict in a sentence or two.
 #[must_use]
-pub fn sentence(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
+pub fn sentence(data: &Prepared, ledger: &Ledger) -> String {
     let last = ledger.last();
     let added: Vec<String> = ledger
         .rounds
@@ -109,7 +108,8 @@ pub fn sentence(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
         }
         0 => "The declared model lacks no effect that this record could show.".to_owned(),
         _ => {
-            let kept = done.rmse.held_out / ledger.declared.rmse.held_out;
+            // Both have been fitted to the same data.
+            let kept = last.rmse.held_out / ledger.declared.rmse.held_out;
             format!(
                 "The declared model lacks {}: with it the held-out error falls {:.1}-fold.",
                 added.join(", then "),

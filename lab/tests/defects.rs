@@ -5,7 +5,6 @@
 
 use bowden_lab::channels::{Preparation, Prepared};
 use bowden_lab::closing::{close, structure, Ledger};
-use bowden_lab::final_fit::FinalFit;
 use bowden_lab::record::{parse, Defect, DefectKind, Options, Record};
 use bowden_lab::synth::{generate, Mode, Planted, Recipe};
 use bowden_lab::verdict::{sentence, verdict, Verdict};
@@ -315,8 +314,7 @@ fn what_is_concluded_from_a_stuck_input_is_a_data_defect() {
     cells.freeze(TAU_I, 2500, 3300);
     let (data, ledger) = closed(&cells.read());
     assert_eq!(verdict(&data, &ledger), Verdict::DataDefect);
-    let done = FinalFit::new(&data, &ledger);
-    assert!(sentence(&data, &ledger, &done).contains("tau_i (stuck)"));
+    assert!(sentence(&data, &ledger).contains("tau_i (stuck)"));
 }
 
 #[test]

@@ -214,7 +214,7 @@ fn the_report_of_something_unknown_says_so_in_both_forms_and_is_the_same_on_one_
     let delivered = report["final"]["rmse"]["held_out"].as_f64().unwrap();
     assert!((delivered / last - 1.0).abs() < 0.1, "{delivered} {last}");
 
-    let told = sentence(&closed.data, &closed.ledger, &closed.done());
+    let told = sentence(&closed.data, &closed.ledger);
     assert!(told.contains("depends on x"), "{told}");
     let ledger = text(
         "made.csv",

@@ -373,7 +373,7 @@ pub fn text(
         out,
         "verdict   {style}{}{style:#}. {}",
         found.name(),
-        sentence(data, ledger, done)
+        sentence(data, ledger)
     );
     out
 }
