@@ -1,5 +1,6 @@
-//! The spectrum of the input, from which the default cut-off is taken.
+//! Spectra: of the input, from which the default cut-off is taken, and of the fit segment.
 
+use crate::channels::Prepared;
 use rustfft::{num_complex::Complex, FftPlanner};
 
 /// About eight times the highest tone of the input \[Hz\].
@@ -38,6 +39,25 @@ pub fn power(signal: &[f64]) -> Vec<f64> {
         .plan_fft_forward(size)
         .process(&mut buffer);
     buffer[..=size / 2].iter().map(|c| c.norm_sqr()).collect()
+}
+
+/// Power at each multiple of one over the fit segment's length, mean removed and gaps taken
+/// as zero, under a window that is told the place and the length \[samples\].
+pub(crate) fn power_of_fit(
+    data: &Prepared,
+    signal: &[f64],
+    window: impl Fn(f64, f64) -> f64,
+) -> Option<Vec<f64>> {
+    let fit = &data.split.fit;
+    let (&first, &last) = (fit.first()?, fit.last()?);
+    let n = last - first + 1;
+    let mean = fit.iter().map(|&i| signal[i]).sum::<f64>() / fit.len() as f64;
+    let mut buffer = vec![Complex::new(0.0, 0.0); n];
+    for &i in fit {
+        buffer[i - first].re = (signal[i] - mean) * window((i - first) as f64 + 0.5, n as f64);
+    }
+    FftPlanner::new().plan_fft_forward(n).process(&mut buffer);
+    Some(buffer[..=n / 2].iter().map(|c| c.norm_sqr()).collect())
 }
 
 #[cfg(test)]

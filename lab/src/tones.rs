@@ -11,10 +11,11 @@ use crate::channels::Prepared;
 use crate::closing::Rejection;
 use crate::fit::{fit, Solution};
 use crate::gates::judge;
+use crate::spectrum::power_of_fit;
 use crate::structure::{FitTerm, MOST_RECORDS};
 use bowden::effect::Effect;
 use bowden::model::Source;
-use rustfft::{num_complex::Complex, FftPlanner};
+use rustfft::num_complex::Complex;
 use std::f64::consts::TAU;
 
 /// Level, divided among the bins.
@@ -73,24 +74,10 @@ fn step(data: &Prepared) -> f64 {
     data.dt * data.stride as f64
 }
 
-/// Power under a Hann window over the fit segment, gaps taken as zero.
-fn power(data: &Prepared, signal: &[f64]) -> Option<Vec<f64>> {
-    let fit = &data.split.fit;
-    let (&first, &last) = (fit.first()?, fit.last()?);
-    let n = last - first + 1;
-    let mean = fit.iter().map(|&i| signal[i]).sum::<f64>() / fit.len() as f64;
-    let mut buffer = vec![Complex::new(0.0, 0.0); n];
-    for &i in fit {
-        let window = 0.5 - 0.5 * (TAU * ((i - first) as f64 + 0.5) / n as f64).cos();
-        buffer[i - first].re = (signal[i] - mean) * window;
-    }
-    FftPlanner::new().plan_fft_forward(n).process(&mut buffer);
-    Some(buffer[..=n / 2].iter().map(|c| c.norm_sqr()).collect())
-}
-
 /// The bin that stands out most, with its p-value, where one does.
 fn strongest(data: &Prepared, residual: &[f64]) -> Option<(f64, f64)> {
-    let power_of = |signal: &[f64]| power(data, signal);
+    let hann = |at: f64, n: f64| 0.5 - 0.5 * (TAU * at / n).cos();
+    let power_of = |signal: &[f64]| power_of_fit(data, signal, hann);
     let powers = power_of(residual)?;
     let position: Vec<f64> = data
         .input

@@ -4,7 +4,7 @@ use crate::channels::Prepared;
 use crate::filter::{gain, ZeroPhase};
 use crate::fit::Solution;
 use crate::scan::correlation_samples;
-use rustfft::{num_complex::Complex, FftPlanner};
+use crate::spectrum::power_of_fit;
 
 /// A residual whose correlation time is at most this many times the filter's own may be
 /// white noise behind the filter.
@@ -40,23 +40,19 @@ fn white_correlation(data: &Prepared) -> f64 {
 /// shape taken out; gaps count as zero.
 fn densities(data: &Prepared, residual: &[f64]) -> Vec<f64> {
     let fit = &data.split.fit;
-    let (Some(&first), Some(&last)) = (fit.first(), fit.last()) else {
+    let (Some(first), Some(last)) = (fit.first(), fit.last()) else {
         return Vec::new();
     };
-    let n = last - first + 1;
-    let mut buffer = vec![Complex::new(0.0, 0.0); n];
-    for &i in fit {
-        buffer[i - first].re = residual[i];
-    }
-    FftPlanner::new().plan_fft_forward(n).process(&mut buffer);
-    let seconds = n as f64 * data.stride as f64 * data.dt;
-    let highest = ((HIGHEST * data.cutoff * seconds) as usize).min(n / 2);
-    (1..=highest)
-        .map(|k| {
-            let passed = gain(data.cutoff, 1.0 / data.dt, k as f64 / seconds);
-            buffer[k].norm_sqr() / (passed * passed)
-        })
-        .collect()
+    // No window: the test needs independent bins.
+    let power = power_of_fit(data, residual, |_, _| 1.0).unwrap_or_default();
+    let seconds = (last - first + 1) as f64 * data.stride as f64 * data.dt;
+    let highest = (HIGHEST * data.cutoff * seconds) as usize;
+    let bins = power.iter().enumerate().skip(1).take(highest);
+    bins.map(|(k, power)| {
+        let passed = gain(data.cutoff, 1.0 / data.dt, k as f64 / seconds);
+        power / (passed * passed)
+    })
+    .collect()
 }
 
 /// Bartlett's test of the cumulative periodogram (1955), at 1 %. It sees a single line as
