@@ -4,11 +4,12 @@ use crate::attempt::{attempt, Accepted, Attempt};
 use crate::catalogue::{declared, Candidate};
 use crate::channels::Prepared;
 use crate::duel::is_noise;
+use crate::explains::integrates;
 use crate::fit::{fit, Segments, Solution};
 use crate::joint::{joint, superseded};
 use crate::revisit::revisited;
 use crate::scan::Regime;
-use crate::structure::Structure;
+use crate::structure::{FitTerm, Structure};
 use crate::tones::tone;
 use crate::unknown::{instead, unnamed, Behind, Unknown};
 
@@ -93,6 +94,15 @@ pub struct Round {
     pub solution: Solution,
 }
 
+impl Round {
+    /// The effect as it was fitted in this round.
+    #[must_use]
+    pub fn term(&self) -> &FitTerm {
+        let terms = &self.solution.structure.terms;
+        terms.last().unwrap_or(&self.candidate.term)
+    }
+}
+
 /// A candidate that was turned down.
 #[derive(Debug, Clone)]
 pub struct Rejection {
@@ -120,6 +130,8 @@ pub struct Ledger {
     pub regime: Regime,
     /// Correlation time of the last residual \[s\].
     pub correlation_time: f64,
+    /// Whether the output follows the integral of the input: then no effect is looked for.
+    pub integrates: bool,
 }
 
 impl Ledger {
@@ -179,6 +191,7 @@ pub fn close(
     progress("fitting the declared model");
     let declared = fit(data, structure, None, 0.0)
         .ok_or("the declared model cannot be fitted to this record")?;
+    let integrates = integrates(data, &declared);
     let mut ledger = Ledger {
         declared,
         rounds: Vec::new(),
@@ -186,7 +199,11 @@ pub fn close(
         unknown: None,
         regime: Regime::Blocks,
         correlation_time: 0.0,
+        integrates,
     };
+    if integrates {
+        return Ok(ledger);
+    }
     let mut gone = Vec::new();
     for _ in 0..PASSES {
         grow(data, &mut ledger, &mut progress);

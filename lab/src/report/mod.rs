@@ -7,6 +7,7 @@ mod json;
 mod power;
 mod several;
 mod terminal;
+pub mod terms;
 
 pub use json::{json, Report};
 pub use power::{power_json, power_text};
