@@ -6,7 +6,7 @@
 use crate::by_file::worse;
 use crate::channels::Prepared;
 use crate::closing::{Ledger, Round};
-use crate::explains::{explained, Explained};
+use crate::explains::{deviations, explained, segments_differ, Explained};
 use crate::final_fit::FinalFit;
 use crate::fit::Solution;
 use crate::intervals::term_title;
@@ -103,6 +103,11 @@ pub fn held_out_ratio(ledger: &Ledger, done: &FinalFit) -> f64 {
     done.rmse.held_out / ledger.declared.rmse.held_out.max(f64::MIN_POSITIVE)
 }
 
+/// Whether the mean of the held-out output would predict it better than the model does.
+fn worse_than_a_constant(data: &Prepared, done: &FinalFit) -> bool {
+    done.rmse.normalised(data, &data.target).held_out > 1.0
+}
+
 /// Whether a round raises the held-out error. The held-out part decides nothing: this is
 /// told, not acted upon.
 #[must_use]
@@ -135,7 +140,7 @@ pub fn verdict(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Verdict {
         Verdict::DataDefect
     } else if ledger.integrates || share < LEAST_EXPLAINED {
         Verdict::NoModel
-    } else if held_out_ratio(ledger, done) > RISES {
+    } else if held_out_ratio(ledger, done) > RISES || worse_than_a_constant(data, done) {
         Verdict::DoesNotCarryOver
     } else if ledger.unknown.is_some() && !untested {
         Verdict::Unknown
@@ -161,12 +166,20 @@ pub fn unknown_words(data: &Prepared, ledger: &Ledger) -> Option<String> {
     ))
 }
 
-fn percent(share: f64) -> String {
-    let digits = match share {
-        s if s >= 0.1 => 0,
-        s if s >= 0.01 => 1,
-        _ => 2,
-    };
+/// An error as a share of the output's standard deviation, "2.23 %".
+#[must_use]
+pub fn percent(share: f64) -> String {
+    if !share.is_finite() {
+        // A segment on which the output rests has no standard deviation.
+        return "–".to_owned();
+    }
+    let digits = if share >= 1.0 { 0 } else { 2 };
+    format!("{:.digits$} %", 100.0 * share)
+}
+
+/// A share of the output's variance, "63 %", "0.4 %", "0 %".
+fn share_of(share: f64) -> String {
+    let digits = if (0.001..0.1).contains(&share) { 1 } else { 0 };
     format!("{:.digits$} %", 100.0 * share)
 }
 
@@ -174,16 +187,15 @@ fn percent(share: f64) -> String {
 fn from_to(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     let held_out = |rmse: &crate::fit::Segments| rmse.normalised(data, &data.target).held_out;
     format!(
-        "from {:.2} % to {:.2} % of the output's standard deviation",
-        100.0 * held_out(&ledger.declared.rmse),
-        100.0 * held_out(&done.rmse)
+        "from {} to {} of the output's standard deviation",
+        percent(held_out(&ledger.declared.rmse)),
+        percent(held_out(&done.rmse))
     )
 }
 
 /// The names in the order in which they came.
-fn names(data: &Prepared, ledger: &Ledger) -> Vec<String> {
-    let rounds = ledger.rounds.iter();
-    rounds.map(|r| term_title(data, r.term())).collect()
+fn names(ledger: &Ledger, done: &FinalFit) -> Vec<String> {
+    ledger.rounds.iter().map(|r| done.title_of(r)).collect()
 }
 
 /// What the input, the other channels and functions of time explain, in one clause.
@@ -191,15 +203,15 @@ fn explains(data: &Prepared, shares: Explained) -> String {
     let mut text = format!(
         "the input `{}` explains {} of the held-out output",
         data.input.name,
-        percent(shares.input)
+        share_of(shares.input)
     );
     if shares.channels >= 0.005 {
-        text += &format!(", the other channels {}", percent(shares.channels));
+        text += &format!(", the other channels {}", share_of(shares.channels));
     }
     if shares.time >= 0.005 {
         text += &format!(
             ", and tones and drifts, which are functions of nothing measured, {}",
-            percent(shares.time)
+            share_of(shares.time)
         );
     }
     text
@@ -221,7 +233,7 @@ fn no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
 
 /// What the added effects do to the held-out error.
 fn lacks(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
-    let added = names(data, ledger);
+    let added = names(ledger, done);
     let them = match added.len() {
         0 if ledger.unknown.is_some() => {
             return format!(
@@ -251,12 +263,18 @@ fn nothing_found(_ledger: &Ledger) -> String {
 }
 
 fn rises(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
+    let ratio = held_out_ratio(ledger, done);
+    if ratio <= RISES {
+        return format!(
+            "On the held-out part the model is worse than a constant: its error goes {}. Do not use this model on other data.",
+            from_to(data, ledger, done)
+        );
+    }
     let mut text = format!(
-        "The held-out error rises {:.1}-fold, {}: do not use this model on other data.",
-        held_out_ratio(ledger, done),
+        "The held-out error rises {ratio:.1}-fold, {}: do not use this model on other data.",
         from_to(data, ledger, done)
     );
-    let added = names(data, ledger);
+    let added = names(ledger, done);
     if !added.is_empty() {
         let fell = falls_up_to(ledger);
         text += &format!(" Added were {}", added.join(", then "));
@@ -278,6 +296,11 @@ fn multiples(data: &Prepared, done: &FinalFit) -> Option<String> {
 }
 
 fn coloured(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
+    if let Some((_, held_out)) = floors(data, done).filter(|(fit, _)| *fit <= AT_FLOOR) {
+        return format!(
+            "The residual is the sensor's noise on the fit segment, but {held_out:.1} times that held out: something differs there that the fit has not seen."
+        );
+    }
     let size = match multiples(data, done) {
         Some(size) => format!("The residual is {size}"),
         None => "The record does not show its noise floor (the cut-off is too near to half the sampling rate)".to_owned(),
@@ -290,14 +313,14 @@ fn coloured(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     }
 }
 
-fn confounded(data: &Prepared, ledger: &Ledger) -> String {
+fn confounded(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     let rivals: Vec<String> = ledger
         .rounds
         .iter()
         .filter(|r| !r.rivals.is_empty())
         .map(|r| {
             let names: Vec<String> = r.rivals.iter().map(|c| term_title(data, &c.term)).collect();
-            format!("{} from {}", term_title(data, r.term()), names.join(", "))
+            format!("{} from {}", done.title_of(r), names.join(", "))
         })
         .collect();
     format!("This record cannot tell {}.", rivals.join("; nor "))
@@ -309,7 +332,7 @@ fn rest(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -> St
         Verdict::Explained => "The residual is the sensor's noise.".to_owned(),
         Verdict::ExplainedColoured => coloured(data, ledger, done),
         Verdict::Unknown => unknown_words(data, ledger).unwrap_or_default(),
-        Verdict::Confounded => confounded(data, ledger),
+        Verdict::Confounded => confounded(data, ledger, done),
         Verdict::UnderExcited => {
             "The record has too few independent stretches for a test: take the names as proposals."
                 .to_owned()
@@ -340,16 +363,20 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
             }
         }
     }
+    if segments_differ(data) {
+        let (fit, held_out) = deviations(data);
+        all.push(match fit > held_out {
+            true => format!("The output moves {:.0} times less on the held-out part than on the fit segment: percentages of the one say little of the other.", fit / held_out),
+            false => format!("The output moves {:.0} times more on the held-out part than on the fit segment: percentages of the one say little of the other.", held_out / fit),
+        });
+    }
     let fell = falls_up_to(ledger);
     if found != Verdict::DoesNotCarryOver && fell < ledger.rounds.len() {
-        let first = &names(data, ledger)[fell];
-        all.push(format!(
-            "On held-out data the error fell up to {}; {first} raises it.",
-            match fell {
-                0 => "the declared model".to_owned(),
-                n => format!("round {n}"),
-            }
-        ));
+        let first = &names(ledger, done)[fell];
+        all.push(match fell {
+            0 => format!("On held-out data {first} raises the error already."),
+            n => format!("On held-out data the error fell up to round {n}; {first} raises it."),
+        });
     }
     for file in worse(data, &ledger.declared, &done.solution) {
         all.push(format!(

@@ -138,7 +138,11 @@ fn the_json_is_laid_out_as_documented() {
             "unneeded",
             "unknown",
             "noise_floor",
-            "verdict"
+            "deviation",
+            "explains",
+            "integrates",
+            "verdict",
+            "sentence"
         ])
     );
     assert_eq!(
@@ -175,7 +179,8 @@ fn the_json_is_laid_out_as_documented() {
             "confounded_with",
             "experiment",
             "rmse_before",
-            "rmse_after"
+            "rmse_after",
+            "raises_held_out"
         ])
     );
     assert_eq!(

@@ -13,9 +13,8 @@ use crate::intervals::{parameters, term_name, term_title, Parameter};
 use crate::plan::separate;
 use crate::record::{Defect, Mode};
 use crate::scan::{Regime, BLOCKS};
-use crate::structure::FitTerm;
 use crate::unneeded::unneeded;
-use crate::verdict::{falls_up_to, raises, sentence, verdict, Verdict};
+use crate::verdict::{falls_up_to, percent, raises, sentence, verdict, Verdict};
 use anstyle::{AnsiColor, Style};
 use comfy_table::{presets, CellAlignment, ContentArrangement, Table, TableComponent};
 use std::fmt::Write as _;
@@ -246,7 +245,7 @@ fn errors(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     for (index, round) in ledger.rounds.iter().enumerate() {
         let first = [
             format!("+{}", index + 1),
-            term_title(data, round.term()),
+            done.title_of(round),
             grade(round.grade).to_owned(),
             format!("{:.1} %", 100.0 * round.explained),
         ];
@@ -260,7 +259,11 @@ fn errors(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     if fell < ledger.rounds.len() {
         line!(
             out,
-            "↑ this round raises the held-out error, which decides nothing; it fell up to round {fell}"
+            "↑ this round raises the held-out error, which decides nothing; {}",
+            match fell {
+                0 => "the first round raises it already".to_owned(),
+                n => format!("it fell up to round {n}"),
+            }
         );
     }
     out.push('\n');
@@ -298,7 +301,7 @@ fn names(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
             .map(|r| term_title(data, &r.term))
             .collect();
         added.add_row([
-            term_title(data, round.term()),
+            done.title_of(round),
             coefficient(data, done, &all, round),
             round
                 .p
@@ -317,7 +320,7 @@ fn names(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
 /// The size of a round's effect in the final model, the one number that is reported of it.
 fn coefficient(data: &Prepared, done: &FinalFit, all: &[Parameter], round: &Round) -> String {
     let name = term_name(data, round.term());
-    let term = final_term(done, round);
+    let term = done.term_of(round);
     let own = |wanted: &str| {
         let mut own = all.iter().filter(|p| p.term.is_some() && p.term == term);
         own.find(|p| p.name == wanted)
@@ -338,24 +341,6 @@ fn holds_zero(parameter: &Parameter) -> bool {
     parameter
         .ci95
         .is_some_and(|[low, high]| low <= 0.0 && high >= 0.0)
-}
-
-/// Which term of the final model a round has added. Later rounds refine its shapes; of two
-/// of one effect on one channel it is the nearest in its shapes.
-fn final_term(done: &FinalFit, round: &Round) -> Option<usize> {
-    let own = round.term();
-    let apart = |term: &FitTerm| -> f64 {
-        let shapes = (0..term.effect.shape_names().len()).filter_map(|i| {
-            let (a, b) = (term.effect.shape(i)?, own.effect.shape(i)?);
-            Some((a - b).powi(2) / (a * a + b * b).max(f64::MIN_POSITIVE))
-        });
-        shapes.sum()
-    };
-    let terms = done.solution.structure.terms.iter().enumerate();
-    terms
-        .filter(|(_, t)| t.effect.name() == own.effect.name() && t.source == own.source)
-        .min_by(|(_, a), (_, b)| apart(a).total_cmp(&apart(b)))
-        .map(|(index, _)| index)
 }
 
 /// The words of the tables, a line each.
@@ -447,8 +432,11 @@ fn conclusion(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     );
     line!(
         out,
-        "error     held out: {:.2} % → {:.2} % of the output's standard deviation (fit: {:.2} % → {:.2} %)",
-        100.0 * before.held_out, 100.0 * after.held_out, 100.0 * before.fit, 100.0 * after.fit
+        "error     held out: {} → {} of the output's standard deviation (fit: {} → {})",
+        percent(before.held_out),
+        percent(after.held_out),
+        percent(before.fit),
+        percent(after.fit)
     );
     if !ledger.rejected.is_empty() {
         let list: Vec<String> = ledger
@@ -456,10 +444,10 @@ fn conclusion(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
             .iter()
             .map(|r| {
                 let name = term_title(data, &r.candidate.term);
-                format!("{name} ({})", r.gate.words())
+                format!("{name}: {}", r.gate.words())
             })
             .collect();
-        line!(out, "{DIM}rejected  {}{DIM:#}", list.join(", "));
+        line!(out, "{DIM}rejected  {}{DIM:#}", list.join("; "));
     }
     for part in unneeded(ledger, done) {
         let (without, with) = (part.held_out_without, done.rmse.held_out);
@@ -480,8 +468,11 @@ fn conclusion(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     }
     let found = verdict(data, ledger, done);
     let colour = match found {
-        Verdict::Explained | Verdict::ExplainedColoured => AnsiColor::Green,
-        Verdict::Unknown | Verdict::Confounded | Verdict::UnderExcited => AnsiColor::Yellow,
+        Verdict::Explained => AnsiColor::Green,
+        Verdict::ExplainedColoured
+        | Verdict::Unknown
+        | Verdict::Confounded
+        | Verdict::UnderExcited => AnsiColor::Yellow,
         Verdict::NoModel | Verdict::DoesNotCarryOver | Verdict::DataDefect => AnsiColor::Red,
     };
     let style = Style::new().bold().fg_color(Some(colour.into()));

@@ -1,6 +1,13 @@
 //! Records whose parts differ: what is told of held-out data, of rounds and of files.
 
 use crate::files::{noise, Closed, Rows, PHI_P, T, TAU_I, TAU_O};
+use std::sync::OnceLock;
+
+/// The turned record, closed once for all tests of it.
+fn turned_closed() -> &'static Closed {
+    static CLOSED: OnceLock<Closed> = OnceLock::new();
+    CLOSED.get_or_init(|| turned().close(&[]))
+}
 
 /// The effect of the first three quarters is another one in the last quarter.
 fn turned() -> Rows {
@@ -17,7 +24,7 @@ fn turned() -> Rows {
 
 #[test]
 fn a_model_whose_held_out_error_rises_is_not_to_be_used_on_other_data() {
-    let closed = turned().close(&[]);
+    let closed = turned_closed();
     assert_eq!(closed.verdict(), "does-not-carry-over");
     let told = closed.sentence();
     assert!(told.starts_with("The held-out error rises"), "{told}");
@@ -32,7 +39,7 @@ fn a_model_whose_held_out_error_rises_is_not_to_be_used_on_other_data() {
 
 #[test]
 fn a_round_that_raises_the_held_out_error_is_marked() {
-    let closed = turned().close(&[]);
+    let closed = turned_closed();
     let rounds = closed.json["rounds"].as_array().unwrap();
     let held_out =
         |round: &serde_json::Value, when: &str| round[when]["held_out"].as_f64().unwrap();
@@ -42,11 +49,11 @@ fn a_round_that_raises_the_held_out_error_is_marked() {
         assert_eq!(round["raises_held_out"], rises);
     }
     assert!(rounds.iter().any(|r| r["raises_held_out"] == true));
-    assert!(closed.text.contains(" ↑"), "{}", closed.text);
+    let text = closed.text();
+    assert!(text.contains(" ↑"), "{text}");
     assert!(
-        closed.text.contains("it fell up to round"),
-        "{}",
-        closed.text
+        text.contains("raises the held-out error, which decides nothing"),
+        "{text}"
     );
 }
 
@@ -68,13 +75,17 @@ fn a_held_out_part_that_is_much_quieter_is_told_with_both_standard_deviations() 
     let deviation = |on: &str| closed.json["deviation"][on].as_f64().unwrap();
     let factor = deviation("fit") / deviation("held_out");
     assert!(factor > 3.0, "{factor}");
+    let text = closed.text();
     assert!(
-        closed.text.contains("the output's standard deviation is"),
-        "{}",
-        closed.text
+        text.contains("the output's standard deviation is"),
+        "{text}"
     );
-    // The fit segment counts as well where the held-out part hardly moves.
-    assert_ne!(closed.verdict(), "no-model");
+    // What the hysteresis remembers of the large strokes is larger than the small ones.
+    assert_eq!(closed.verdict(), "does-not-carry-over");
+    closed.says(&[
+        "worse than a constant",
+        "Do not use this model on other data",
+    ]);
 }
 
 /// Noise that ends below the cut-off is level in the band, and the top of the band, from which
@@ -126,15 +137,15 @@ fn with_gains_of_its_own_a_file_that_gets_worse_is_named() {
         "--seed",
         "36",
         "--rate",
-        "500",
+        "250",
         "--effect",
         "viscous:6",
     ]);
-    let mut bent = Rows::generated(&["--mode", "torque", "--seed", "37", "--rate", "500"]);
+    let mut bent = Rows::generated(&["--mode", "torque", "--seed", "37", "--rate", "250"]);
     let end = bent.seconds();
     let angle: Vec<f64> = bent.rows.iter().map(|row| row[PHI_P]).collect();
     bent.set(TAU_O, |i, row| {
-        let speed = (angle[(i + 5).min(angle.len() - 1)] - angle[i.saturating_sub(5)]) / 0.02;
+        let speed = (angle[(i + 5).min(angle.len() - 1)] - angle[i.saturating_sub(5)]) / 0.04;
         // On the fit it moves as the other one does, held out the other way.
         let gain = if row[T] < 0.75 * end { -0.2 } else { 0.3 };
         row[TAU_O] + gain * speed
@@ -147,11 +158,8 @@ fn with_gains_of_its_own_a_file_that_gets_worse_is_named() {
     let worse = closed.json["worse_files"].as_array().unwrap();
     assert_eq!(worse.len(), 1, "{worse:?}");
     assert!(worse[0]["path"].as_str().unwrap().ends_with("90.csv"));
-    assert!(
-        closed.text.contains(&format!("worse for {b}")),
-        "{}",
-        closed.text
-    );
+    let text = closed.text();
+    assert!(text.contains(&format!("worse for {b}")), "{text}");
     closed.says(&["90.csv"]);
 }
 

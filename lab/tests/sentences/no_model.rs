@@ -14,7 +14,7 @@ fn an_output_of_white_noise_is_no_model_and_the_input_explains_nothing() {
     let closed = rows.close(&[]);
     assert_eq!(closed.verdict(), "no-model");
     closed.says(&[
-        "the input `tau_i` explains 0.00 % of the held-out output",
+        "the input `tau_i` explains 0 % of the held-out output",
         "right input",
     ]);
 }

@@ -10,14 +10,12 @@ fn a_time_column_without_a_unit_and_with_long_steps_is_asked_about() {
     rows.header = format!("t,{others}");
     rows.set(T, |_, row| 1000.0 * row[T]);
     let closed = rows.close(&[]);
-    assert!(
-        closed.text.contains("median step is 2 s: is that ms?"),
-        "{}",
-        closed.text
-    );
+    let text = closed.text();
+    assert!(text.contains("median step is 2 s: is that ms?"), "{text}");
     rows.header = format!("t [ms],{others}");
     let closed = rows.close(&[]);
-    assert!(!closed.text.contains("is that ms?"), "{}", closed.text);
+    let text = closed.text();
+    assert!(!text.contains("is that ms?"), "{text}");
 }
 
 #[test]

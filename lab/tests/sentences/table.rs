@@ -5,6 +5,7 @@ use crate::files::{bowden, Closed, Rows};
 #[test]
 fn each_word_of_the_tables_is_explained_under_them_and_in_the_help() {
     let closed = Closed::of(&[]);
+    let text = closed.text();
     let help = bowden(&["help", "terms"]);
     assert!(help.status.success());
     let help = String::from_utf8(help.stdout).unwrap();
@@ -20,12 +21,8 @@ fn each_word_of_the_tables_is_explained_under_them_and_in_the_help() {
     ] {
         assert!(help.contains(word), "{word}");
         let in_legend = |line: &&str| line.starts_with(word) || line.contains(&format!("; {word}"));
-        let after = closed.text.split_once("confounded with").unwrap().1;
-        assert!(
-            after.lines().any(|l| in_legend(&l)),
-            "{word}: {}",
-            closed.text
-        );
+        let after = text.split_once("confounded with").unwrap().1;
+        assert!(after.lines().any(|l| in_legend(&l)), "{word}: {text}");
     }
 }
 
@@ -44,11 +41,8 @@ fn help_knows_the_subcommands_and_refuses_other_topics() {
 #[test]
 fn the_floor_stands_beside_the_error_that_it_is_of() {
     let closed = Closed::of(&[]);
-    let header = closed
-        .text
-        .lines()
-        .find(|l| l.contains("explains"))
-        .unwrap();
+    let text = closed.text();
+    let header = text.lines().find(|l| l.contains("explains")).unwrap();
     let columns: Vec<&str> = header
         .split("  ")
         .map(str::trim)
@@ -58,11 +52,7 @@ fn the_floor_stands_beside_the_error_that_it_is_of() {
         columns,
         ["effect", "grade", "explains", "fit", "× floor", "stop", "held out", "× floor"]
     );
-    let declared = closed
-        .text
-        .lines()
-        .find(|l| l.contains("as declared"))
-        .unwrap();
+    let declared = text.lines().find(|l| l.contains("as declared")).unwrap();
     let floor = closed.json["noise_floor"].as_f64().unwrap();
     for segment in ["fit", "held_out"] {
         let multiple = closed.json["declared"]["rmse"][segment].as_f64().unwrap() / floor;
@@ -74,8 +64,8 @@ fn the_floor_stands_beside_the_error_that_it_is_of() {
 #[test]
 fn a_coefficient_has_one_number() {
     let closed = Closed::of(&[]);
-    let lines: Vec<&str> = closed
-        .text
+    let text = closed.text();
+    let lines: Vec<&str> = text
         .lines()
         .filter(|l| l.contains("viscous@phi_p") && l.contains('±'))
         .collect();
