@@ -12,6 +12,7 @@
 mod attempt;
 pub mod catalogue;
 pub mod channels;
+pub mod check;
 pub mod cli;
 pub mod closing;
 pub mod columns;
@@ -37,6 +38,7 @@ pub mod spectrum;
 pub mod structure;
 pub mod synth;
 mod tones;
+pub mod trace;
 pub mod units;
 pub mod unknown;
 pub mod unneeded;

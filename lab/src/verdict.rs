@@ -24,6 +24,8 @@ pub enum Verdict {
     UnderExcited,
     /// What was concluded rests on a measurement that is spoilt.
     DataDefect,
+    /// The search was ended by request, and more than noise is left.
+    Stopped,
 }
 
 impl Verdict {
@@ -37,6 +39,7 @@ impl Verdict {
             Self::Confounded => "confounded",
             Self::UnderExcited => "under-excited",
             Self::DataDefect => "data-defect",
+            Self::Stopped => "stopped",
         }
     }
 }
@@ -67,15 +70,21 @@ fn spoils<'a>(data: &'a Prepared, last: &'a Solution) -> impl Iterator<Item = &'
 pub fn verdict(data: &Prepared, ledger: &Ledger) -> Verdict {
     let last = ledger.last();
     let untested = ledger.rounds.iter().any(|r| r.p.is_none());
+    // Where nothing was looked for there are no names that a test could be too weak for.
+    let only_fitted = ledger.stopped_by_request.is_some() && ledger.rounds.is_empty();
     if spoils(data, last).next().is_some() {
         Verdict::DataDefect
     } else if ledger.unknown.is_some() && !untested {
         Verdict::Unknown
-    } else if ledger.regime == Regime::Effect || untested {
+    } else if untested || (ledger.regime == Regime::Effect && !only_fitted) {
         Verdict::UnderExcited
     } else if ledger.rounds.iter().any(|r| !r.rivals.is_empty()) {
         Verdict::Confounded
-    } else if last.rmse.fit <= AT_FLOOR * data.noise_floor || is_white(data, last) {
+    } else if last.rmse.fit <= AT_FLOOR * data.noise_floor {
+        Verdict::Explained
+    } else if ledger.stopped_by_request.is_some() {
+        Verdict::Stopped
+    } else if is_white(data, last) {
         Verdict::Explained
     } else {
         Verdict::ExplainedColoured
@@ -106,6 +115,7 @@ pub fn sentence(data: &Prepared, ledger: &Ledger) -> String {
         0 if ledger.unknown.is_some() => {
             "The declared model lacks something that is in no catalogue.".to_owned()
         }
+        0 if ledger.stopped_by_request.is_some() => "The declared model was fitted.".to_owned(),
         0 => "The declared model lacks no effect that this record could show.".to_owned(),
         _ => {
             // Both have been fitted to the same data.
@@ -117,7 +127,8 @@ pub fn sentence(data: &Prepared, ledger: &Ledger) -> String {
             )
         }
     };
-    let rest = match verdict(data, ledger) {
+    let found = verdict(data, ledger);
+    let rest = match found {
         Verdict::Explained => "What is left is the sensor's noise.".to_owned(),
         Verdict::ExplainedColoured => {
             "What is left is coloured, but nothing in the catalogue takes it.".to_owned()
@@ -150,9 +161,14 @@ pub fn sentence(data: &Prepared, ledger: &Ledger) -> String {
                 .collect();
             format!("But the measurement itself is spoilt: {}.", list.join(", "))
         }
+        Verdict::Stopped => ledger.stopped_words().unwrap_or_default(),
     };
     text.push(' ');
     text.push_str(&rest);
+    if let Some(words) = ledger.stopped_words().filter(|_| found != Verdict::Stopped) {
+        text.push(' ');
+        text.push_str(&words);
+    }
     if ledger.rounds.len() > 3 {
         text.push_str(
             " Names after the third round carry little meaning: by then many effects would do.",

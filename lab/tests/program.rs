@@ -138,6 +138,7 @@ fn the_json_is_laid_out_as_documented() {
             "unneeded",
             "unknown",
             "noise_floor",
+            "stopped_by_request",
             "verdict"
         ])
     );
@@ -175,7 +176,10 @@ fn the_json_is_laid_out_as_documented() {
             "confounded_with",
             "experiment",
             "rmse_before",
-            "rmse_after"
+            "rmse_after",
+            "model",
+            "refitted",
+            "nrmse"
         ])
     );
     assert_eq!(

@@ -1,6 +1,7 @@
 //! The JSON of `bowden close --json`, schema `bowden.close/1`.
 
 use super::curve::UnknownPart;
+use super::rounds::{models, RoundModel};
 use super::several::{nrmse_by_file, rmse_by_file, FileErrors};
 use crate::catalogue::Candidate;
 use crate::channels::{Piece, Prepared};
@@ -31,6 +32,8 @@ pub struct Report {
     unneeded: Vec<Unneeded>,
     unknown: Option<UnknownPart>,
     noise_floor: f64,
+    /// The largest number of effects that was asked for, where that ended the search.
+    stopped_by_request: Option<usize>,
     verdict: &'static str,
 }
 
@@ -100,6 +103,8 @@ struct RoundPart {
     experiment: Option<Experiment>,
     rmse_before: Segments,
     rmse_after: Segments,
+    #[serde(flatten)]
+    model: RoundModel,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -181,7 +186,8 @@ impl Report {
         let rounds = ledger
             .rounds
             .iter()
-            .map(|round| {
+            .zip(models(data, ledger, done))
+            .map(|(round, model)| {
                 let term = round.solution.structure.terms.len() - 1;
                 let own = parameters(data, &round.solution)
                     .into_iter()
@@ -212,6 +218,7 @@ impl Report {
                     experiment: separate(data, round),
                     rmse_before: round.before,
                     rmse_after: round.after,
+                    model,
                 }
             })
             .collect();
@@ -264,6 +271,7 @@ impl Report {
                 .as_ref()
                 .map(|u| UnknownPart::new(data, u, done)),
             noise_floor: data.noise_floor,
+            stopped_by_request: ledger.stopped_by_request,
             verdict: verdict(data, ledger).name(),
         }
     }

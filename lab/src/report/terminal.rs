@@ -365,7 +365,9 @@ pub fn text(
     let found = verdict(data, ledger);
     let colour = match found {
         Verdict::Explained | Verdict::ExplainedColoured => AnsiColor::Green,
-        Verdict::Unknown | Verdict::Confounded | Verdict::UnderExcited => AnsiColor::Yellow,
+        Verdict::Unknown | Verdict::Confounded | Verdict::UnderExcited | Verdict::Stopped => {
+            AnsiColor::Yellow
+        }
         Verdict::DataDefect => AnsiColor::Red,
     };
     let style = Style::new().bold().fg_color(Some(colour.into()));
