@@ -35,6 +35,8 @@ pub enum Verdict {
     UnderExcited,
     /// What was concluded rests on a measurement that is spoilt.
     DataDefect,
+    /// The search was ended by request, and more than noise is left.
+    Stopped,
 }
 
 impl Verdict {
@@ -50,6 +52,7 @@ impl Verdict {
             Self::Confounded => "confounded",
             Self::UnderExcited => "under-excited",
             Self::DataDefect => "data-defect",
+            Self::Stopped => "stopped",
         }
     }
 }
@@ -136,6 +139,8 @@ pub fn verdict(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Verdict {
     let last = ledger.last();
     let untested = ledger.rounds.iter().any(|r| r.p.is_none());
     let share = judged(explained(data, &done.solution), &ledger.declared);
+    // Where nothing was looked for there are no names that a test could be too weak for.
+    let only_fitted = ledger.stopped_by_request.is_some() && ledger.rounds.is_empty();
     if spoils(data, last).next().is_some() {
         Verdict::DataDefect
     } else if ledger.integrates || share < LEAST_EXPLAINED {
@@ -144,12 +149,14 @@ pub fn verdict(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Verdict {
         Verdict::DoesNotCarryOver
     } else if ledger.unknown.is_some() && !untested {
         Verdict::Unknown
-    } else if ledger.regime == Regime::Effect || untested {
+    } else if untested || (ledger.regime == Regime::Effect && !only_fitted) {
         Verdict::UnderExcited
     } else if ledger.rounds.iter().any(|r| !r.rivals.is_empty()) {
         Verdict::Confounded
     } else if floors(data, done).is_some_and(|(fit, held)| fit.max(held) <= AT_FLOOR) {
         Verdict::Explained
+    } else if ledger.stopped_by_request.is_some() {
+        Verdict::Stopped
     } else {
         Verdict::ExplainedColoured
     }
@@ -241,7 +248,7 @@ fn lacks(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
                 from_to(data, ledger, done)
             )
         }
-        0 => return nothing_found(ledger),
+        0 => return nothing_found(data, ledger, done),
         1 => "it",
         _ => "them",
     };
@@ -258,7 +265,14 @@ fn lacks(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     )
 }
 
-fn nothing_found(_ledger: &Ledger) -> String {
+fn nothing_found(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
+    if ledger.stopped_by_request.is_some() {
+        let share = done.rmse.normalised(data, &data.target).held_out;
+        return format!(
+            "The declared model leaves a held-out error of {} of the output's standard deviation.",
+            percent(share)
+        );
+    }
     "The declared model lacks no effect that this record could show.".to_owned()
 }
 
@@ -346,6 +360,8 @@ fn rest(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -> St
                 list.join(", ")
             )
         }
+        Verdict::Stopped => multiples(data, done)
+            .map_or_else(String::new, |size| format!("The residual is {size}.")),
         Verdict::NoModel | Verdict::DoesNotCarryOver => String::new(),
     }
 }
@@ -363,6 +379,7 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
             }
         }
     }
+    all.extend(ledger.stopped_words());
     if segments_differ(data) {
         let (fit, held_out) = deviations(data);
         all.push(match fit > held_out {

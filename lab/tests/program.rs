@@ -138,6 +138,7 @@ fn the_json_is_laid_out_as_documented() {
             "unneeded",
             "unknown",
             "noise_floor",
+            "stopped_by_request",
             "deviation",
             "explains",
             "integrates",
@@ -180,7 +181,10 @@ fn the_json_is_laid_out_as_documented() {
             "experiment",
             "rmse_before",
             "rmse_after",
-            "raises_held_out"
+            "raises_held_out",
+            "model",
+            "refitted",
+            "nrmse"
         ])
     );
     assert_eq!(

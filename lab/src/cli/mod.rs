@@ -1,6 +1,7 @@
 //! The program's subcommands, one file each; no logic of their own.
 
 mod certify;
+mod check;
 mod close;
 mod compare;
 mod help;
@@ -31,6 +32,8 @@ struct Arguments {
 enum Command {
     /// Fit the declared model, find the effect that it lacks, add it, compare.
     Close(close::Close),
+    /// Try a model on the next record of the same rig: does it still hold?
+    Check(check::Check),
     /// Try controllers on the simulated rig: errors, effort, and what can be promised.
     Compare(compare::Compare),
     /// Print what can be promised of the tracking error, and what that rests on.
@@ -53,6 +56,7 @@ pub fn run() -> Result<(), Failure> {
     match Arguments::parse().command {
         None => close::Close::default().run(),
         Some(Command::Close(close)) => close.run(),
+        Some(Command::Check(check)) => check.run(),
         Some(Command::Compare(compare)) => compare.run(),
         Some(Command::Certify(certify)) => certify.run(),
         Some(Command::Power(power)) => power.run(),
@@ -72,12 +76,45 @@ fn say(text: &str) -> Result<(), Failure> {
     }
 }
 
+/// Whether a file could be written there, found out before anything is computed for it: its
+/// folder exists and takes a file, and it is none of the files that are read.
+fn writable(
+    option: &str,
+    path: &std::path::Path,
+    read: &[&std::path::Path],
+) -> Result<(), Failure> {
+    let refuse = |message: String| Err(format!("{option} {}: {message}", path.display()));
+    if path.is_dir() {
+        return refuse("is a folder; the name of a file was expected".to_owned());
+    }
+    let same = |other: &&std::path::Path| match (path.canonicalize(), other.canonicalize()) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => false,
+    };
+    if let Some(other) = read.iter().copied().find(|other| same(other)) {
+        return refuse(format!(
+            "would overwrite {}, which is read",
+            other.display()
+        ));
+    }
+    let part = neighbour(path);
+    match std::fs::File::create(&part) {
+        Ok(_) => std::fs::remove_file(&part).map_err(|e| format!("{}: {e}", part.display())),
+        Err(e) => refuse(e.to_string()),
+    }
+}
+
+/// The file beside another one into which that is written first.
+fn neighbour(path: &std::path::Path) -> std::path::PathBuf {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}.part", std::process::id()));
+    path.with_file_name(name)
+}
+
 /// Writes a whole file or none: into a neighbour first, which then takes its name.
 fn write_whole(path: &std::path::Path, bytes: &[u8]) -> Result<(), Failure> {
     let failed = |e: std::io::Error| format!("{}: {e}", path.display());
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(format!(".{}.part", std::process::id()));
-    let part = path.with_file_name(name);
+    let part = neighbour(path);
     std::fs::write(&part, bytes)
         .and_then(|()| std::fs::rename(&part, path))
         .map_err(|e| {

@@ -1,6 +1,7 @@
 //! The JSON of `bowden close --json`, schema `bowden.close/1`.
 
 use super::curve::UnknownPart;
+use super::rounds::{models, RoundModel};
 use crate::by_file::{nrmse_by_file, rmse_by_file, worse, FileErrors, Worse};
 use crate::catalogue::Candidate;
 use crate::channels::{Piece, Prepared};
@@ -39,6 +40,8 @@ pub struct Report {
     integrates: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     worse_files: Option<Vec<Worse>>,
+    /// The largest number of effects that was asked for, where that ended the search.
+    stopped_by_request: Option<usize>,
     verdict: &'static str,
     sentence: String,
 }
@@ -110,6 +113,8 @@ struct RoundPart {
     rmse_before: Segments,
     rmse_after: Segments,
     raises_held_out: bool,
+    #[serde(flatten)]
+    model: RoundModel,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -191,7 +196,8 @@ impl Report {
         let rounds = ledger
             .rounds
             .iter()
-            .map(|round| {
+            .zip(models(data, ledger, done))
+            .map(|(round, model)| {
                 let term = round.solution.structure.terms.len() - 1;
                 let own = parameters(data, &round.solution)
                     .into_iter()
@@ -223,6 +229,7 @@ impl Report {
                     rmse_before: round.before,
                     rmse_after: round.after,
                     raises_held_out: raises(round),
+                    model,
                 }
             })
             .collect();
@@ -279,6 +286,7 @@ impl Report {
             explains: explained(data, last),
             integrates: ledger.integrates,
             worse_files: several.then(|| worse(data, &ledger.declared, last)),
+            stopped_by_request: ledger.stopped_by_request,
             verdict: verdict(data, ledger, done).name(),
             sentence: sentence(data, ledger, done),
         }

@@ -472,6 +472,7 @@ fn conclusion(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
         Verdict::ExplainedColoured
         | Verdict::Unknown
         | Verdict::Confounded
+        | Verdict::Stopped
         | Verdict::UnderExcited => AnsiColor::Yellow,
         Verdict::NoModel | Verdict::DoesNotCarryOver | Verdict::DataDefect => AnsiColor::Red,
     };

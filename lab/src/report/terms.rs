@@ -51,5 +51,6 @@ verdict       explained            fit and held-out error are within 1.2 times t
               under-excited        too few independent stretches for a test: names are proposals
               does-not-carry-over  the held-out error rises: the model fits this stretch only
               no-model             the input explains less than half of the output
+              stopped              the search ended at --rounds N, and more than noise is left
               data-defect          the measurement is spoilt where a conclusion rests on it
 ";
