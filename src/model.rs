@@ -169,6 +169,25 @@ impl<T: Real, const N: usize> Model<T, N> {
         self.terms.get(..self.len).unwrap_or(&self.terms)
     }
 
+    /// The terms alone.
+    pub(crate) fn without_transmission(&self) -> Self {
+        Self {
+            transmission: None,
+            ..*self
+        }
+    }
+
+    /// The terms alone, without those that are chosen; the others keep their places.
+    pub(crate) fn without_terms(&self, is_left_out: impl Fn(&Term<T>) -> bool) -> Self {
+        let mut kept = self.without_transmission();
+        for term in &mut kept.terms {
+            if is_left_out(term) {
+                *term = padding();
+            }
+        }
+        kept
+    }
+
     /// Whether the model can use this sample; if not, a step holds everything.
     #[must_use]
     pub fn accepts(&self, at: &Sample<T>) -> bool {
