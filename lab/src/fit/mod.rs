@@ -9,6 +9,7 @@ mod linear;
 mod search;
 mod settle;
 mod starts;
+mod tie;
 
 use crate::channels::Prepared;
 pub use crate::solution::{Segments, Solution};
@@ -17,6 +18,7 @@ use search::{descend, descend_fully};
 use settle::{choose, settle};
 use starts::starts;
 pub use starts::Known;
+pub use tie::MARGIN;
 
 /// Fits a structure: all starts for a while on a coarse grid, the best three to the end.
 ///

@@ -3,6 +3,7 @@
 pub mod certificates;
 pub mod control;
 mod curve;
+mod hand_over;
 mod json;
 mod power;
 mod several;

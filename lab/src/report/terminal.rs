@@ -1,12 +1,14 @@
 //! The ledger for people: what was read, what was found, errors before and after.
 
 use super::curve;
+use super::hand_over;
 use super::json::{block_count, effects};
 use super::several;
 use crate::channels::Prepared;
 use crate::closing::{Grade, Ledger};
 use crate::final_fit::FinalFit;
 use crate::fit::Segments;
+use crate::hand_over::HandOver;
 use crate::intervals::{parameters, term_name, Parameter};
 use crate::plan::separate;
 use crate::record::{Defect, Mode};
@@ -129,6 +131,7 @@ pub fn text(
     data: &Prepared,
     ledger: &Ledger,
     done: &FinalFit,
+    hand: Option<&HandOver>,
     chosen_cutoff: bool,
 ) -> String {
     let mut out = String::new();
@@ -331,6 +334,7 @@ pub fn text(
         "error     held out: {:.2} % → {:.2} % of the output's standard deviation (fit: {:.2} % → {:.2} %)",
         100.0 * before.held_out, 100.0 * after.held_out, 100.0 * before.fit, 100.0 * after.fit
     );
+    out.push_str(&hand.map_or_else(String::new, hand_over::text));
     if !ledger.rejected.is_empty() {
         let list: Vec<String> = ledger
             .rejected

@@ -1,6 +1,16 @@
-//! The fitted model as a file: TOML for tools, Rust for firmware.
+//! The model that is handed over, as a file: TOML for tools, Rust or postcard for firmware.
 //!
-//! Both hold the same numbers, printed so that they read back to the same bits.
+//! All hold the same numbers: TOML in `f64`, Rust and postcard rounded to `f32`. What the
+//! core does not need, units, ranges and errors among it, is in the table `about`.
+//! A test vector goes with each file ([`vector`]).
+
+mod about;
+mod firmware;
+mod rust;
+pub mod vector;
+
+pub use about::{About, Errors, LeftOut, NotIdentified, Span};
+pub use firmware::{postcard, CHECKSUM};
 
 use crate::channels::Prepared;
 use crate::fit::Solution;
@@ -10,8 +20,11 @@ use bowden::effect::Effect;
 use bowden::hysteresis::Shape;
 use bowden::model::{Model, Source, Term};
 use bowden::transmission::Transmission;
+use bowden::Real;
 use serde::{Deserialize, Serialize};
-use std::fmt::Write as _;
+
+/// Most terms of a model that is handed over.
+pub const MOST_TERMS: usize = 32;
 
 /// A model as it stands in a file, schema `bowden.model/1`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -28,10 +41,13 @@ pub struct ModelFile {
     /// The effects, in order.
     #[serde(default)]
     pub terms: Vec<TermFile>,
+    /// What the numbers mean and what they are worth; the core does not read it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub about: Option<About>,
 }
 
 /// The Bouc-Wen transmission of a model file.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TransmissionFile {
     /// B in torque mode (6), kappa_x in displacement mode (1).
@@ -136,6 +152,7 @@ impl ModelFile {
             channels: data.channels.iter().map(|c| c.name.clone()).collect(),
             transmission,
             terms: terms.collect(),
+            about: None,
         }
     }
 
@@ -143,85 +160,38 @@ impl ModelFile {
     ///
     /// # Errors
     /// Where a number cannot be written, which no fitted model has.
-    pub fn toml(&self, remark: &str) -> Result<String, toml::ser::Error> {
+    pub fn toml(&self) -> Result<String, toml::ser::Error> {
+        let remark = self.about.as_ref().map_or_else(String::new, About::remark);
         Ok(format!("# {remark}\n{}", toml::to_string(self)?))
     }
 
-    /// As a Rust function that builds the model in firmware, in single precision.
-    #[must_use]
-    pub fn rust(&self, remark: &str) -> String {
-        let number = |v: f64| format!("{:?}", v as f32);
-        let mut text = format!(
-            "//! {remark}\n//! Channels, in the order of `Sample::channels`: {}.\n\n",
-            if self.channels.is_empty() {
-                "none".to_owned()
-            } else {
-                self.channels.join(", ")
-            }
-        );
-        text.push_str("use bowden::effect::Effect;\nuse bowden::hysteresis::Shape;\nuse bowden::model::{Model, Source, Term};\nuse bowden::transmission::Transmission;\n\n");
-        let _ = writeln!(
-            text,
-            "/// The identified model.\npub fn model() -> Result<Model<f32, {}>, bowden::Error> {{",
-            self.terms.len()
-        );
-        match &self.transmission {
-            Some(t) => {
-                let _ = writeln!(
-                    text,
-                    "    let shape = Shape::try_new({}, {}, {})?;",
-                    number(t.rho),
-                    number(t.sigma),
-                    number(t.n)
-                );
-                let _ = writeln!(
-                    text,
-                    "    let transmission = Some(Transmission::{}({}, {}, {}, shape)?);",
-                    self.mode,
-                    number(t.gain),
-                    number(t.kappa_eta),
-                    number(t.offset)
-                );
-            }
-            None => text.push_str("    let transmission = None;\n"),
-        }
-        text.push_str("    let terms = [\n");
-        for term in &self.terms {
-            let source = match self.channels.iter().position(|c| *c == term.source) {
-                Some(index) if term.source != "input" => format!("Source::Channel({index})"),
-                _ => "Source::Input".to_owned(),
-            };
-            let shapes: Vec<String> = term.shapes.iter().map(|s| number(s.value)).collect();
-            let _ = writeln!(
-                text,
-                "        Term {{ effect: Effect::try_from_name({:?}, &[{}])?, source: {source}, origin: {}, gain: {} }},",
-                term.effect,
-                shapes.join(", "),
-                number(term.origin),
-                number(term.gain)
-            );
-        }
-        text.push_str("    ];\n    Model::try_new(transmission, &terms)\n}\n");
-        text
-    }
-
-    /// The core's model, as firmware would run it.
+    /// The core's model.
     ///
     /// # Errors
     /// One sentence that says which part the core refuses.
     pub fn model<const N: usize>(&self) -> Result<Model<f64, N>, String> {
+        self.model_in()
+    }
+
+    /// The core's model in either precision, as firmware would run it.
+    ///
+    /// # Errors
+    /// One sentence that says which part the core refuses.
+    pub fn model_in<T: Real, const N: usize>(&self) -> Result<Model<T, N>, String> {
         let transmission = match &self.transmission {
             None => None,
             Some(t) => {
                 let refused = |e: bowden::Error| format!("transmission: {e}");
-                let shape = Shape::try_new(t.rho, t.sigma, t.n).map_err(refused)?;
+                let shape =
+                    Shape::try_new(T::of(t.rho), T::of(t.sigma), T::of(t.n)).map_err(refused)?;
+                let (gain, kappa_eta, offset) =
+                    (T::of(t.gain), T::of(t.kappa_eta), T::of(t.offset));
                 Some(match self.mode.as_str() {
-                    "torque" => Transmission::torque(t.gain, t.kappa_eta, t.offset, shape)
-                        .map_err(refused)?,
-                    "displacement" => {
-                        Transmission::displacement(t.gain, t.kappa_eta, t.offset, shape)
-                            .map_err(refused)?
+                    "torque" => {
+                        Transmission::torque(gain, kappa_eta, offset, shape).map_err(refused)?
                     }
+                    "displacement" => Transmission::displacement(gain, kappa_eta, offset, shape)
+                        .map_err(refused)?,
                     other => {
                         return Err(format!(
                             "mode {other:?}: torque or displacement was expected"
@@ -233,7 +203,7 @@ impl ModelFile {
         let mut terms = Vec::with_capacity(self.terms.len());
         for term in &self.terms {
             let refused = |e: bowden::Error| format!("term {}: {e}", term.effect);
-            let shapes: Vec<f64> = term.shapes.iter().map(|s| s.value).collect();
+            let shapes: Vec<T> = term.shapes.iter().map(|s| T::of(s.value)).collect();
             let effect = Effect::try_from_name(&term.effect, &shapes).map_err(refused)?;
             let named = effect.shape_names();
             if let Some((given, expected)) = term
@@ -262,8 +232,8 @@ impl ModelFile {
             terms.push(Term {
                 effect,
                 source,
-                origin: term.origin,
-                gain: term.gain,
+                origin: T::of(term.origin),
+                gain: T::of(term.gain),
             });
         }
         Model::try_new(transmission, &terms).map_err(|e| e.to_string())
