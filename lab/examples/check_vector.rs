@@ -70,7 +70,12 @@ fn step_through<T: Real>(
 
 fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).map_or_else(
-        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/data/demo.toml")),
+        || {
+            PathBuf::from(concat!(
+                env!("CARGO_MANIFEST_DIR"),
+                "/../examples/data/demo.toml"
+            ))
+        },
         PathBuf::from,
     );
     let vector = path.with_extension("vector.csv");

@@ -17,6 +17,7 @@ use bowden::control::{Compensator, Lowered};
 use bowden::effect::{Effect, Motion};
 use bowden::model::{Model, ModelState, Sample, Term};
 use bowden::Real;
+use serde::de::DeserializeOwned;
 use serde::Serialize;
 
 /// Whether the model that is handed over can be a feed-forward.
@@ -94,7 +95,7 @@ pub fn obstacle(file: &ModelFile) -> Result<Option<String>, String> {
     )))
 }
 
-fn accepted<T: Real>(file: &ModelFile) -> Result<bool, String> {
+fn accepted<T: Real + DeserializeOwned>(file: &ModelFile) -> Result<bool, String> {
     let model = file.model_in::<T, MOST_TERMS>()?;
     Ok(Compensator::try_new(&model).is_ok())
 }
