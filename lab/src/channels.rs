@@ -108,6 +108,8 @@ pub enum HeldOut {
     Trailing,
     /// The last record as a whole; of the others the last fifth is the stop-check.
     LastRecord,
+    /// Nothing: all of each record is one segment, for a model that is only tried on it.
+    Nothing,
 }
 
 /// One record among those that are fitted together: where it lies on the grids.
@@ -213,6 +215,13 @@ impl Prepared {
         // Of several records each has its own stop-check, between the others' segments.
         wide.split.fit.sort_unstable();
         wide
+    }
+
+    /// The same records with only those rows of the fit segment for which `kept` holds.
+    #[must_use]
+    pub fn with_rows(mut self, kept: impl Fn(usize) -> bool) -> Self {
+        self.split.fit.retain(|&row| kept(row));
+        self
     }
 
     /// Samples on the work grid.

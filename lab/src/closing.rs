@@ -4,11 +4,12 @@ use crate::attempt::{attempt, Accepted, Attempt};
 use crate::catalogue::{declared, Candidate};
 use crate::channels::Prepared;
 use crate::duel::is_noise;
+use crate::explains::integrates;
 use crate::fit::{fit, Segments, Solution};
 use crate::joint::{joint, superseded};
 use crate::revisit::revisited;
-use crate::scan::Regime;
-use crate::structure::Structure;
+use crate::scan::{blocks, correlation_samples, Regime};
+use crate::structure::{FitTerm, Structure};
 use crate::tones::tone;
 use crate::unknown::{instead, unnamed, Behind, Unknown};
 
@@ -93,6 +94,15 @@ pub struct Round {
     pub solution: Solution,
 }
 
+impl Round {
+    /// The effect as it was fitted in this round.
+    #[must_use]
+    pub fn term(&self) -> &FitTerm {
+        let terms = &self.solution.structure.terms;
+        terms.last().unwrap_or(&self.candidate.term)
+    }
+}
+
 /// A candidate that was turned down.
 #[derive(Debug, Clone)]
 pub struct Rejection {
@@ -120,9 +130,41 @@ pub struct Ledger {
     pub regime: Regime,
     /// Correlation time of the last residual \[s\].
     pub correlation_time: f64,
+    /// Whether the output follows the integral of the input: then no effect is looked for.
+    pub integrates: bool,
+    /// The largest number of effects that was asked for, where that ended the search: more
+    /// may be missing, and nothing has looked for it. `None` where the search ended by itself.
+    pub stopped_by_request: Option<usize>,
 }
 
 impl Ledger {
+    /// The ledger of a declared model before any effect is looked for.
+    #[must_use]
+    pub fn of(declared: Solution) -> Self {
+        Self {
+            declared,
+            rounds: Vec::new(),
+            rejected: Vec::new(),
+            unknown: None,
+            regime: Regime::Blocks,
+            correlation_time: 0.0,
+            integrates: false,
+            stopped_by_request: None,
+        }
+    }
+
+    /// That the search was ended by request, in a sentence; `None` where it ended by itself.
+    #[must_use]
+    pub fn stopped_words(&self) -> Option<String> {
+        Some(match self.stopped_by_request? {
+            0 => "No effect was looked for, as asked.".to_owned(),
+            1 => "The search stopped after one effect, as asked: what else is missing was not looked for.".to_owned(),
+            most => format!(
+                "The search stopped after {most} effects, as asked: what else is missing was not looked for."
+            ),
+        })
+    }
+
     /// The last accepted model, a table for what has no name included.
     #[must_use]
     pub fn last(&self) -> &Solution {
@@ -174,26 +216,52 @@ pub fn structure(list: &[String], data: &Prepared) -> Result<Structure, String> 
 pub fn close(
     data: &Prepared,
     structure: &Structure,
+    progress: impl FnMut(&str),
+) -> Result<Ledger, String> {
+    close_within(data, structure, MOST_ROUNDS, progress)
+}
+
+/// As [`close`], with at most `most` effects added ([`MOST_ROUNDS`] at most). With 0 the
+/// declared model is fitted and nothing is looked for, no curve without a name either.
+///
+/// # Errors
+/// One sentence where the declared model cannot be fitted at all.
+pub fn close_within(
+    data: &Prepared,
+    structure: &Structure,
+    most: usize,
     mut progress: impl FnMut(&str),
 ) -> Result<Ledger, String> {
+    let most = most.min(MOST_ROUNDS);
     progress("fitting the declared model");
     let declared = fit(data, structure, None, 0.0)
         .ok_or("the declared model cannot be fitted to this record")?;
+    let integrates = integrates(data, &declared);
     let mut ledger = Ledger {
-        declared,
-        rounds: Vec::new(),
-        rejected: Vec::new(),
-        unknown: None,
-        regime: Regime::Blocks,
-        correlation_time: 0.0,
+        integrates,
+        ..Ledger::of(declared)
     };
+    if integrates {
+        return Ok(ledger);
+    }
+    if most == 0 {
+        (ledger.regime, ledger.correlation_time) = independence(data, &ledger.declared);
+        ledger.stopped_by_request = Some(0);
+        return Ok(ledger);
+    }
     let mut gone = Vec::new();
     for _ in 0..PASSES {
-        grow(data, &mut ledger, &mut progress);
+        grow(data, &mut ledger, most, &mut progress);
         progress("looking for what later effects have made superfluous");
-        gone.extend(take_back(data, &mut ledger));
+        let taken_back = take_back(data, &mut ledger);
+        let room = ledger.stopped_by_request.is_some() && !taken_back.is_empty();
+        gone.extend(taken_back);
         progress("looking at each name beside the others");
         let Some(anew) = revisited(data, &ledger) else {
+            // One effect fewer than was asked for: the search may go on.
+            if room {
+                continue;
+            }
             break;
         };
         replace(data, &mut ledger, anew.rounds);
@@ -212,9 +280,11 @@ pub fn close(
     Ok(ledger)
 }
 
-/// Adds rounds until nothing passes.
-fn grow(data: &Prepared, ledger: &mut Ledger, mut progress: impl FnMut(&str)) {
-    while ledger.rounds.len() < MOST_ROUNDS {
+/// Adds rounds until nothing passes or there are `most`.
+fn grow(data: &Prepared, ledger: &mut Ledger, most: usize, mut progress: impl FnMut(&str)) {
+    let limited = (most < MOST_ROUNDS).then_some(most);
+    ledger.stopped_by_request = None;
+    while ledger.rounds.len() < most {
         let round = ledger.rounds.len() + 1;
         let now = ledger.last().clone();
         let tried = attempt(data, &now, |what| {
@@ -237,21 +307,24 @@ fn grow(data: &Prepared, ledger: &mut Ledger, mut progress: impl FnMut(&str)) {
             }));
             break;
         }
-        let mut accepted = proposed(data, ledger, &now, &tried, |what| {
+        let left = most - ledger.rounds.len();
+        let mut accepted = proposed(data, ledger, &now, (&tried, left), |what| {
             progress(&format!("round {round}: {what}"))
         });
         if accepted.is_empty() {
+            // Several at once were tried only as far as there was room for them.
+            let mut cut = tried.regime == Regime::Blocks && tried.forward.len() > left;
             progress("looking for what has no name");
             match unnamed(data, &now, &tried) {
                 Some(Behind::Unknown(unknown)) => ledger.unknown = Some(*unknown),
-                Some(Behind::Names(names)) if ledger.rounds.len() + names.len() <= MOST_ROUNDS => {
-                    accepted = names
-                }
-                _ => {}
+                Some(Behind::Names(names)) if names.len() <= left => accepted = names,
+                Some(Behind::Names(_)) => cut = true,
+                None => {}
             }
-        }
-        if accepted.is_empty() {
-            break;
+            if accepted.is_empty() {
+                ledger.stopped_by_request = limited.filter(|_| cut);
+                return;
+            }
         }
         for one in accepted {
             ledger.unknown = instead(data, ledger.last(), &one, &tried);
@@ -262,6 +335,22 @@ fn grow(data: &Prepared, ledger: &mut Ledger, mut progress: impl FnMut(&str)) {
             ledger.rounds.push(round);
         }
     }
+    if ledger.rounds.len() >= most && !only_noise(data, ledger.last()) {
+        ledger.stopped_by_request = limited;
+    }
+}
+
+/// Whether the residual has blocks enough for a test, and its correlation time \[s\].
+fn independence(data: &Prepared, solution: &Solution) -> (Regime, f64) {
+    let rows = data.split.fit.iter();
+    let rest: Vec<f64> = rows.map(|&i| solution.residual[i]).collect();
+    let samples = correlation_samples(&rest);
+    let shortest = blocks(data).iter().map(ExactSizeIterator::len).min();
+    let regime = match shortest.unwrap_or(0) as f64 >= 3.0 * samples {
+        true => Regime::Blocks,
+        false => Regime::Effect,
+    };
+    (regime, samples * data.dt * data.stride as f64)
 }
 
 /// Whether nothing is left to be named: what a right model leaves is below the floor by what
@@ -270,12 +359,12 @@ fn only_noise(data: &Prepared, now: &Solution) -> bool {
     now.rmse.fit <= data.noise_floor && is_noise(data.noise_floor, now.rmse.stop)
 }
 
-/// What the library, alone or several at once, or else a tone would add.
+/// What the library, alone or at most `most` at once, or else a tone would add.
 fn proposed(
     data: &Prepared,
     ledger: &mut Ledger,
     now: &Solution,
-    tried: &Attempt,
+    (tried, most): (&Attempt, usize),
     mut progress: impl FnMut(&str),
 ) -> Vec<Accepted> {
     ledger.rejected.clone_from(&tried.rejected);
@@ -283,7 +372,7 @@ fn proposed(
         return vec![accepted.clone()];
     }
     progress("trying several at once");
-    let accepted = joint(data, now, tried, MOST_ROUNDS - ledger.rounds.len());
+    let accepted = joint(data, now, tried, most);
     if !accepted.is_empty() {
         return accepted;
     }

@@ -17,8 +17,10 @@ use std::ops::Range;
 
 mod loops;
 mod series;
+mod shares;
 
 pub use series::series_column;
+pub use shares::Shares;
 
 /// Columns on the work grid, before the filter.
 pub struct RawColumns {

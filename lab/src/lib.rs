@@ -10,9 +10,11 @@
 //! cannot. [`synth`] makes test records and shares no code with any of these.
 
 mod attempt;
+pub mod by_file;
 pub mod catalogue;
 pub mod causal;
 pub mod channels;
+pub mod check;
 pub mod cli;
 pub mod clockwork;
 pub mod closing;
@@ -20,6 +22,7 @@ pub mod columns;
 pub mod compare;
 mod duel;
 mod excitation;
+pub mod explains;
 pub mod export;
 pub mod filter;
 pub mod final_fit;
@@ -41,6 +44,7 @@ pub mod spectrum;
 pub mod structure;
 pub mod synth;
 mod tones;
+pub mod trace;
 pub mod units;
 pub mod unknown;
 pub mod unneeded;

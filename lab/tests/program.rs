@@ -138,7 +138,12 @@ fn the_json_is_laid_out_as_documented() {
             "unneeded",
             "unknown",
             "noise_floor",
-            "verdict"
+            "stopped_by_request",
+            "deviation",
+            "explains",
+            "integrates",
+            "verdict",
+            "sentence"
         ])
     );
     assert_eq!(
@@ -198,7 +203,11 @@ fn the_json_is_laid_out_as_documented() {
             "confounded_with",
             "experiment",
             "rmse_before",
-            "rmse_after"
+            "rmse_after",
+            "raises_held_out",
+            "model",
+            "refitted",
+            "nrmse"
         ])
     );
     assert_eq!(

@@ -8,8 +8,9 @@ use bowden::effect::Family;
 use bowden_lab::channels::{Preparation, Prepared};
 use bowden_lab::closing::{close, structure, Ledger};
 use bowden_lab::final_fit::FinalFit;
+use bowden_lab::hand_over::HandOver;
 use bowden_lab::intervals::term_name;
-use bowden_lab::record::{parse, Options};
+use bowden_lab::record::{parse, Options, Record};
 use bowden_lab::report::{json, text, Report};
 use bowden_lab::synth::{generate, Mode, Planted, Recipe, Synthetic};
 use bowden_lab::unknown::curve;
@@ -22,6 +23,7 @@ const MODES: [Mode; 2] = [Mode::Torque, Mode::Displacement];
 
 struct Closed {
     made: Synthetic,
+    record: Record,
     data: Prepared,
     ledger: Ledger,
 }
@@ -44,7 +46,12 @@ impl Closed {
         let data = Prepared::new(&record, Preparation::default()).unwrap();
         let declared = structure(&["bouc-wen".to_owned()], &data).unwrap();
         let ledger = close(&data, &declared, |_| ()).unwrap();
-        Self { made, data, ledger }
+        Self {
+            made,
+            record,
+            data,
+            ledger,
+        }
     }
 
     fn done(&self) -> FinalFit {
@@ -65,12 +72,23 @@ impl Closed {
             .collect()
     }
 
+    fn printed(&self) -> String {
+        let (data, ledger, done) = (&self.data, &self.ledger, self.done());
+        let records = std::slice::from_ref(&self.record);
+        let hand = HandOver::new(records, data, ledger, &done, false, |_| ()).unwrap();
+        json(&Report::new("made.csv", data, ledger, &done, &hand)).unwrap()
+    }
+
+    fn verdict(&self) -> Verdict {
+        verdict(&self.data, &self.ledger, &self.done())
+    }
+
     fn line(&self) -> String {
         format!(
             "names {:?}, unknown {:?}: {:?}",
             self.names(),
             self.unknown(),
-            verdict(&self.data, &self.ledger)
+            self.verdict()
         )
     }
 }
@@ -93,7 +111,7 @@ fn mostly(all: &[Closed], holds: impl Fn(&Closed) -> bool) {
 }
 
 fn is_unknown(closed: &Closed, variables: &[&str], channels: &[&str]) -> bool {
-    verdict(&closed.data, &closed.ledger) == Verdict::Unknown
+    closed.verdict() == Verdict::Unknown
         && closed
             .unknown()
             .is_some_and(|(v, c)| variables.contains(&v) && channels.contains(&c))
@@ -182,22 +200,13 @@ fn a_line_that_is_left_and_has_no_name_is_not_taken_for_noise() {
     let closed = Closed::new(Mode::Torque, &planted, 0.0, 350_013);
     assert!(closed.names().iter().all(|name| name != "tone"));
     assert!(closed.ledger.last().rmse.fit > 10.0 * closed.data.noise_floor);
-    assert_eq!(
-        verdict(&closed.data, &closed.ledger),
-        Verdict::ExplainedColoured
-    );
+    assert_eq!(closed.verdict(), Verdict::ExplainedColoured);
 }
 
 #[test]
 fn the_report_of_something_unknown_says_so_in_both_forms_and_is_the_same_on_one_thread() {
     let closed = Closed::new(Mode::Displacement, &[("bump-position", 3.0)], 0.0, 61_100);
-    let printed = json(&Report::new(
-        "made.csv",
-        &closed.data,
-        &closed.ledger,
-        &closed.done(),
-    ))
-    .unwrap();
+    let printed = closed.printed();
     let report: serde_json::Value = serde_json::from_str(&printed).unwrap();
     assert_eq!(report["verdict"], "unknown");
     let unknown = &report["unknown"];
@@ -214,13 +223,14 @@ fn the_report_of_something_unknown_says_so_in_both_forms_and_is_the_same_on_one_
     let delivered = report["final"]["rmse"]["held_out"].as_f64().unwrap();
     assert!((delivered / last - 1.0).abs() < 0.1, "{delivered} {last}");
 
-    let told = sentence(&closed.data, &closed.ledger);
+    let told = sentence(&closed.data, &closed.ledger, &closed.done());
     assert!(told.contains("depends on x"), "{told}");
     let ledger = text(
         "made.csv",
         &closed.data,
         &closed.ledger,
         &closed.done(),
+        None,
         false,
     );
     assert!(ledger.contains("unknown: The residual depends on x; the catalogue explains"));
@@ -231,12 +241,6 @@ fn the_report_of_something_unknown_says_so_in_both_forms_and_is_the_same_on_one_
         .unwrap();
     let again =
         pool.install(|| Closed::new(Mode::Displacement, &[("bump-position", 3.0)], 0.0, 61_100));
-    let again = json(&Report::new(
-        "made.csv",
-        &again.data,
-        &again.ledger,
-        &again.done(),
-    ))
-    .unwrap();
+    let again = again.printed();
     assert_eq!(printed, again);
 }

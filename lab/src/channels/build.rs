@@ -119,6 +119,7 @@ impl Prepared {
                 HeldOut::Trailing => Some((60, 75)),
                 HeldOut::LastRecord if last => None,
                 HeldOut::LastRecord => Some((80, 100)),
+                HeldOut::Nothing => Some((100, 100)),
             };
             let placed = place(record, uniform, &inputs[index], &grid, last, shares)
                 .map_err(|m| named(record, m))?;
@@ -126,7 +127,16 @@ impl Prepared {
             whole.blame(record, several);
             whole.add(record, 1.0 / steps[index], placed, &grid);
         }
-        whole.finish(first, &grid)
+        whole.finish(first, &grid, held_out)
+    }
+
+    /// The row from which on what came before the first record no longer counts: by then
+    /// the input has covered its half-range four times, or a quarter of the record is over.
+    #[must_use]
+    pub fn settled(&self) -> usize {
+        let distance = FORGOTTEN * self.input.reach;
+        let own = |piece: &Piece| settled(piece, &self.path, distance);
+        self.pieces.first().map_or(0, own)
     }
 }
 
@@ -325,7 +335,12 @@ impl Collected {
             .push(work + placed.seen.start..work + placed.seen.end);
     }
 
-    fn finish(mut self, first: &Record, grid: &Grid) -> Result<Prepared, String> {
+    fn finish(
+        mut self,
+        first: &Record,
+        grid: &Grid,
+        held_out: HeldOut,
+    ) -> Result<Prepared, String> {
         let columns = std::iter::once(&first.input).chain(&first.channels);
         let named = |(motion, column): (Vec<Motion<f64>>, &Column)| {
             Channel::new(column.name.clone(), column.unit.clone(), motion, &self.seen)
@@ -341,7 +356,9 @@ impl Collected {
             self.split.held_out.retain(|row| !too_early(row));
         }
         let split = &self.split;
-        if split.fit.len() < 96 || split.stop.len() < 20 || split.held_out.len() < 20 {
+        let kept_back = split.stop.len().min(split.held_out.len());
+        let unseen = held_out == HeldOut::Nothing || kept_back >= 20;
+        if split.fit.len() < 96 || !unseen {
             return Err("gaps in time and defects leave too few samples to fit".to_owned());
         }
         let smoother = ZeroPhase::new(grid.cutoff, 1.0 / grid.dt);

@@ -3,7 +3,6 @@
 use super::reading::{progress, Reading};
 use super::Failure;
 use crate::channels::{HeldOut, Prepared};
-use crate::closing::close;
 use crate::export::{postcard, vector};
 use crate::final_fit::FinalFit;
 use crate::fit::{fit, Solution};
@@ -12,6 +11,7 @@ use crate::record::{agree, parse, read, Options, Record};
 use crate::report::{json, text, Report};
 use crate::structure::Structure;
 use crate::synth::{generate, Planted, Recipe};
+use crate::trace::trace;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -44,6 +44,10 @@ pub struct Close {
     /// for each file: NAME-1.toml, NAME-2.toml, …
     #[arg(long, value_name = "FILE.toml")]
     model_out: Option<PathBuf>,
+    /// Write the signals over time as CSV, as the fit sees them: measured, declared, final,
+    /// residual, and what each part of the final model adds.
+    #[arg(long, value_name = "FILE.csv")]
+    trace: Option<PathBuf>,
     /// Fit the model that is written within what a feed-forward can invert: sigma up to
     /// B/(2·kappa_eta·rho), no delay, no lag, no play in series. What was found and the
     /// verdict stay as they are.
@@ -59,6 +63,10 @@ impl Close {
         }
         if self.per_file.is_some() && self.records.len() < 2 {
             return Err("--per-file gains: more than one file was expected".to_owned());
+        }
+        if let Some(path) = &self.trace {
+            let read: Vec<&Path> = self.records.iter().map(PathBuf::as_path).collect();
+            super::writable("--trace", path, &read)?;
         }
         let bar = progress();
         bar.set_message("reading");
@@ -78,7 +86,9 @@ impl Close {
             }
             structure.own_gains = records.len();
         }
-        let ledger = close(&data, &structure, |what| bar.set_message(what.to_owned()))
+        let ledger = self
+            .reading
+            .close(&data, &structure, &bar)
             .map_err(|message| format!("{label}: {message}"))?;
         if self.per_file.is_none() && records.len() > 1 {
             bar.set_message("trying each file with gains of its own");
@@ -93,11 +103,14 @@ impl Close {
         if let Some(path) = &self.model_out {
             write_models(path, &data, &hand)?;
         }
+        if let Some(path) = &self.trace {
+            super::write_whole(path, trace(&data, &ledger, &done)?.as_bytes())?;
+        }
         bar.set_message("looking for declared parts that are not needed");
         let report = if self.json {
             json(&Report::new(&label, &data, &ledger, &done, &hand)).map_err(|e| e.to_string())?
         } else {
-            let chosen = self.reading.cutoff.is_some();
+            let chosen = self.reading.columns.cutoff.is_some();
             text(&label, &data, &ledger, &done, Some(&hand), chosen)
         };
         bar.finish_and_clear();

@@ -1,8 +1,10 @@
 //! The program's subcommands, one file each; no logic of their own.
 
 mod certify;
+mod check;
 mod close;
 mod compare;
+mod help;
 mod plan;
 mod power;
 mod reading;
@@ -18,7 +20,8 @@ pub type Failure = String;
     name = "bowden",
     version,
     about = "Hysteretic cable transmissions: closes the loop between a model and measured data",
-    after_help = "Without a subcommand: `bowden close` on the embedded record.\nExit status: 0 with any verdict, 2 for bad use or a bad record."
+    disable_help_subcommand = true,
+    after_help = "Without a subcommand: `bowden close` on the embedded record.\nThe words of its ledger: `bowden help terms`.\nExit status: 0 with any verdict, 2 for bad use or a bad record."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -29,6 +32,8 @@ struct Arguments {
 enum Command {
     /// Fit the declared model, find the effect that it lacks, add it, compare.
     Close(close::Close),
+    /// Try a model on the next record of the same rig: does it still hold?
+    Check(check::Check),
     /// Try controllers on the simulated rig: errors, effort, and what can be promised.
     Compare(compare::Compare),
     /// Print what can be promised of the tracking error, and what that rests on.
@@ -39,6 +44,8 @@ enum Command {
     Plan(plan::Plan),
     /// Write a generated record with an effect that is not declared, as CSV.
     Record(record::Record),
+    /// Explain a subcommand, or the words of the ledger: `bowden help terms`.
+    Help(help::Help),
 }
 
 /// Runs the program.
@@ -49,11 +56,13 @@ pub fn run() -> Result<(), Failure> {
     match Arguments::parse().command {
         None => close::Close::default().run(),
         Some(Command::Close(close)) => close.run(),
+        Some(Command::Check(check)) => check.run(),
         Some(Command::Compare(compare)) => compare.run(),
         Some(Command::Certify(certify)) => certify.run(),
         Some(Command::Power(power)) => power.run(),
         Some(Command::Plan(plan)) => plan.run(),
         Some(Command::Record(record)) => record.run(),
+        Some(Command::Help(help)) => help.run(),
     }
 }
 
@@ -67,6 +76,41 @@ fn say(text: &str) -> Result<(), Failure> {
     }
 }
 
+/// Whether a file could be written there, found out before anything is computed for it: its
+/// folder exists and takes a file, and it is none of the files that are read.
+fn writable(
+    option: &str,
+    path: &std::path::Path,
+    read: &[&std::path::Path],
+) -> Result<(), Failure> {
+    let refuse = |message: String| Err(format!("{option} {}: {message}", path.display()));
+    if path.is_dir() {
+        return refuse("is a folder; the name of a file was expected".to_owned());
+    }
+    let same = |other: &&std::path::Path| match (path.canonicalize(), other.canonicalize()) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => false,
+    };
+    if let Some(other) = read.iter().copied().find(|other| same(other)) {
+        return refuse(format!(
+            "would overwrite {}, which is read",
+            other.display()
+        ));
+    }
+    let part = neighbour(path);
+    match std::fs::File::create(&part) {
+        Ok(_) => std::fs::remove_file(&part).map_err(|e| format!("{}: {e}", part.display())),
+        Err(e) => refuse(e.to_string()),
+    }
+}
+
+/// The file beside another one into which that is written first.
+fn neighbour(path: &std::path::Path) -> std::path::PathBuf {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}.part", std::process::id()));
+    path.with_file_name(name)
+}
+
 /// Writes a whole file or none: into a neighbour first, which then takes its name.
 fn write_whole(path: &std::path::Path, bytes: &[u8]) -> Result<(), Failure> {
     write_together(&[(path.to_owned(), bytes.to_vec())])
@@ -75,18 +119,13 @@ fn write_whole(path: &std::path::Path, bytes: &[u8]) -> Result<(), Failure> {
 /// Writes all files or none: each into a neighbour first; once all are on the disk each
 /// takes its name, the last ones first. A file that was there keeps its bytes until then.
 fn write_together(files: &[(std::path::PathBuf, Vec<u8>)]) -> Result<(), Failure> {
-    let part = |path: &std::path::Path| {
-        let mut name = path.file_name().unwrap_or_default().to_owned();
-        name.push(format!(".{}.part", std::process::id()));
-        path.with_file_name(name)
-    };
     let written = || -> Result<(), Failure> {
         for (path, bytes) in files {
             let failed = |e: std::io::Error| format!("{}: {e}", path.display());
-            std::fs::write(part(path), bytes).map_err(failed)?;
+            std::fs::write(neighbour(path), bytes).map_err(failed)?;
         }
         for (done, (path, _)) in files.iter().rev().enumerate() {
-            std::fs::rename(part(path), path).map_err(|e| {
+            std::fs::rename(neighbour(path), path).map_err(|e| {
                 // What goes with a file that is not there is worth nothing.
                 for (path, _) in files.iter().rev().take(done) {
                     let _ = std::fs::remove_file(path);
@@ -99,7 +138,7 @@ fn write_together(files: &[(std::path::PathBuf, Vec<u8>)]) -> Result<(), Failure
     written().inspect_err(|_| {
         // Nothing half-written stays behind; that it may be absent already is fine.
         for (path, _) in files {
-            let _ = std::fs::remove_file(part(path));
+            let _ = std::fs::remove_file(neighbour(path));
         }
     })
 }

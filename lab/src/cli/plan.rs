@@ -2,7 +2,6 @@
 
 use super::reading::{progress, Reading};
 use super::Failure;
-use crate::closing::close;
 use crate::final_fit::FinalFit;
 use crate::plan::{separate_first, strengthen, trajectory};
 use crate::record::read;
@@ -28,7 +27,9 @@ impl Plan {
         bar.set_message("reading");
         let record = read(&self.record, &options).map_err(|e| e.to_string())?;
         let (data, structure) = self.reading.prepare(&record)?;
-        let ledger = close(&data, &structure, |what| bar.set_message(what.to_owned()))
+        let ledger = self
+            .reading
+            .close(&data, &structure, &bar)
             .map_err(|message| format!("{}: {message}", record.path))?;
         bar.set_message("planning");
         let separated = separate_first(&data, &ledger);

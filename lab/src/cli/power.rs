@@ -2,7 +2,6 @@
 
 use super::reading::{progress, Reading};
 use super::Failure;
-use crate::closing::close;
 use crate::power::{power, Question, TRIALS, TRIALS_RANGE};
 use crate::record::read;
 use crate::report::{power_json, power_text};
@@ -42,7 +41,9 @@ impl Power {
         let label = self.record.display().to_string();
         let record = read(&self.record, &options).map_err(|e| e.to_string())?;
         let (data, structure) = self.reading.prepare(&record)?;
-        let ledger = close(&data, &structure, |what| bar.set_message(what.to_owned()))
+        let ledger = self
+            .reading
+            .close(&data, &structure, &bar)
             .map_err(|message| format!("{label}: {message}"))?;
         let question = Question {
             effects: self.effects,

@@ -2,7 +2,7 @@
 
 use super::Failure;
 use crate::channels::{HeldOut, Preparation, Prepared};
-use crate::closing::structure;
+use crate::closing::{close_within, structure, Ledger, MOST_ROUNDS};
 use crate::record::{Mode, Options, Record};
 use crate::structure::Structure;
 use clap::{Args, ValueEnum};
@@ -16,8 +16,9 @@ pub enum ModeName {
     Displacement,
 }
 
+/// How the columns of a record are read and filtered.
 #[derive(Args, Default)]
-pub struct Reading {
+pub struct Columns {
     /// Torque (tau_i to tau_o) or displacement (x to f); from the columns where silent.
     #[arg(long, value_enum)]
     pub mode: Option<ModeName>,
@@ -33,9 +34,6 @@ pub struct Reading {
     /// A further channel: phi_p, phi_d (angles), temperature, load, or any other name.
     #[arg(long, value_name = "NAME=COL")]
     pub channel: Vec<String>,
-    /// The model that is declared: bouc-wen and any effects; NAME@CHANNEL reads a channel.
-    #[arg(long, value_delimiter = ',', value_name = "A,B,…")]
-    pub declare: Vec<String>,
     /// Leave out the first seconds.
     #[arg(long, value_name = "SECONDS")]
     pub skip: Option<f64>,
@@ -50,7 +48,19 @@ pub struct Reading {
     pub rate: Option<f64>,
 }
 
-impl Reading {
+#[derive(Args, Default)]
+pub struct Reading {
+    #[command(flatten)]
+    pub columns: Columns,
+    /// The model that is declared: bouc-wen and any effects; NAME@CHANNEL reads a channel.
+    #[arg(long, value_delimiter = ',', value_name = "A,B,…")]
+    pub declare: Vec<String>,
+    /// Add at most N effects, 0 to 8; 0 only fits what is declared and looks for nothing.
+    #[arg(long, value_name = "N")]
+    pub rounds: Option<usize>,
+}
+
+impl Columns {
     pub fn options(&self) -> Result<Options, Failure> {
         if let Some(cutoff) = self.cutoff {
             if !(cutoff.is_finite() && cutoff > 0.0) {
@@ -78,11 +88,35 @@ impl Reading {
             rate: self.rate,
         })
     }
+}
+
+impl Reading {
+    /// The columns, and what all options of the loop have to be.
+    pub fn options(&self) -> Result<Options, Failure> {
+        match self.rounds {
+            Some(rounds) if rounds > MOST_ROUNDS => Err(format!(
+                "--rounds {rounds}: 0 to {MOST_ROUNDS} were expected"
+            )),
+            _ => self.columns.options(),
+        }
+    }
+
+    /// Runs the loop with as many rounds as were asked for.
+    pub fn close(
+        &self,
+        data: &Prepared,
+        structure: &Structure,
+        bar: &ProgressBar,
+    ) -> Result<Ledger, String> {
+        let most = self.rounds.unwrap_or(MOST_ROUNDS);
+        let tell = |what: &str| bar.set_message(what.to_owned());
+        close_within(data, structure, most, tell)
+    }
 
     /// A record on its grids, and the declared model.
     pub fn prepare(&self, record: &Record) -> Result<(Prepared, Structure), Failure> {
         let named = |message: String| format!("{}: {message}", record.path);
-        let cutoff = self.cutoff;
+        let cutoff = self.columns.cutoff;
         let data = Prepared::new(record, Preparation { cutoff }).map_err(named)?;
         let structure = self.declared(&data).map_err(named)?;
         Ok((data, structure))
@@ -94,7 +128,7 @@ impl Reading {
         records: &[Record],
         held_out: HeldOut,
     ) -> Result<(Prepared, Structure), Failure> {
-        let cutoff = self.cutoff;
+        let cutoff = self.columns.cutoff;
         let data = Prepared::joined(records, Preparation { cutoff }, held_out)?;
         let structure = self.declared(&data)?;
         Ok((data, structure))

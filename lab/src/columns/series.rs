@@ -25,7 +25,7 @@ pub fn series_column(
 }
 
 /// The columns before the output stages.
-fn early(raw: &RawColumns) -> &[Vec<f64>] {
+pub(super) fn early(raw: &RawColumns) -> &[Vec<f64>] {
     match raw.stages.before.is_empty() {
         true => &raw.columns,
         false => &raw.stages.before,

@@ -106,6 +106,24 @@ fn follow(first: &Record, other: &mut Record) -> Result<(), RecordError> {
     Ok(())
 }
 
+/// Brings a column to a unit that `whence` has; what was done, where that changes its values.
+///
+/// # Errors
+/// One line with file and column where the column has no unit, or one of another kind.
+pub(crate) fn to_unit(
+    column: &mut Column,
+    unit: &str,
+    whence: &str,
+    file: &str,
+) -> Result<Option<String>, RecordError> {
+    let wanted = Column {
+        name: column.name.clone(),
+        unit: Some(unit.to_owned()),
+        values: Vec::new(),
+    };
+    convert(&wanted, column, whence).map_err(|error| error.in_file(file))
+}
+
 /// Brings a column to the unit of its namesake; says so where that changes its values.
 fn convert(first: &Column, other: &mut Column, path: &str) -> Result<Option<String>, RecordError> {
     if first.unit == other.unit {

@@ -37,6 +37,7 @@ mod time;
 mod units;
 
 pub use agree::agree;
+pub(crate) use agree::to_unit;
 pub use defects::{Defect, DefectKind};
 pub use error::RecordError;
 

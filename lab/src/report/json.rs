@@ -2,10 +2,12 @@
 
 use super::curve::UnknownPart;
 use super::hand_over::HandOverPart;
-use super::several::{nrmse_by_file, rmse_by_file, FileErrors};
+use super::rounds::{models, RoundModel};
+use crate::by_file::{nrmse_by_file, rmse_by_file, worse, FileErrors, Worse};
 use crate::catalogue::Candidate;
 use crate::channels::{Piece, Prepared};
 use crate::closing::{Gate, Grade, Ledger};
+use crate::explains::{explained, Explained};
 use crate::final_fit::FinalFit;
 use crate::fit::{Segments, Solution};
 use crate::hand_over::HandOver;
@@ -14,7 +16,7 @@ use crate::plan::{separate, Experiment};
 use crate::record::{Defect, Mode};
 use crate::scan::{Regime, BLOCKS};
 use crate::unneeded::{unneeded, Unneeded};
-use crate::verdict::verdict;
+use crate::verdict::{raises, sentence, verdict};
 use serde::Serialize;
 
 /// The whole object.
@@ -33,7 +35,17 @@ pub struct Report {
     unneeded: Vec<Unneeded>,
     unknown: Option<UnknownPart>,
     noise_floor: f64,
+    /// Standard deviation of the filtered output on each segment.
+    deviation: Segments,
+    /// Shares of the held-out output's variance.
+    explains: Explained,
+    integrates: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    worse_files: Option<Vec<Worse>>,
+    /// The largest number of effects that was asked for, where that ended the search.
+    stopped_by_request: Option<usize>,
     verdict: &'static str,
+    sentence: String,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -104,6 +116,9 @@ struct RoundPart {
     experiment: Option<Experiment>,
     rmse_before: Segments,
     rmse_after: Segments,
+    raises_held_out: bool,
+    #[serde(flatten)]
+    model: RoundModel,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -191,7 +206,8 @@ impl Report {
         let rounds = ledger
             .rounds
             .iter()
-            .map(|round| {
+            .zip(models(data, ledger, done))
+            .map(|(round, model)| {
                 let term = round.solution.structure.terms.len() - 1;
                 let own = parameters(data, &round.solution)
                     .into_iter()
@@ -222,6 +238,8 @@ impl Report {
                     experiment: separate(data, round),
                     rmse_before: round.before,
                     rmse_after: round.after,
+                    raises_held_out: raises(round),
+                    model,
                 }
             })
             .collect();
@@ -275,7 +293,13 @@ impl Report {
                 .as_ref()
                 .map(|u| UnknownPart::new(data, u, done)),
             noise_floor: data.noise_floor,
-            verdict: verdict(data, ledger).name(),
+            deviation: Segments::deviation(data, &data.target),
+            explains: explained(data, last),
+            integrates: ledger.integrates,
+            worse_files: several.then(|| worse(data, &ledger.declared, last)),
+            stopped_by_request: ledger.stopped_by_request,
+            verdict: verdict(data, ledger, done).name(),
+            sentence: sentence(data, ledger, done),
         }
     }
 }

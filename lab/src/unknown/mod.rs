@@ -22,7 +22,7 @@ use crate::channels::Prepared;
 use crate::fit::{fit, fit_from, glance_from, Known, Segments, Solution};
 use crate::gates::{judge, on_blocks};
 use crate::joint::these;
-use crate::projection::Span;
+use crate::projection::{rows, Span};
 use crate::scan::{blocks, correlation_samples, pairs, scan, Pair, Regime};
 use crate::structure::Structure;
 pub use curve::{curve, Knot};
@@ -105,6 +105,42 @@ pub(crate) fn unnamed(data: &Prepared, now: &Solution, tried: &Attempt) -> Optio
         }
     }
     Some(Behind::Unknown(Box::new(unknown)))
+}
+
+/// A variable on which a residual depends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Dependence {
+    /// Which.
+    pub variable: Variable,
+    /// Share of the squared error that a free curve of ten hats over it takes.
+    pub share: f64,
+    /// Exact sign-flip p-value of that curve; `None` where what it leaves is correlated for
+    /// too long to be tested on sixteen blocks.
+    pub p: Option<f64>,
+}
+
+/// On what a residual depends beside what is held fixed, the strongest first: variables
+/// whose curve passes the test, and takes nearly as much as the best.
+pub(crate) fn dependences(data: &Prepared, now: &Solution, held: &[Vec<f64>]) -> Vec<Dependence> {
+    let all = Variable::all(data, now.structure.hysteresis);
+    let held = Span::of(data, held.iter());
+    let found = curves(data, now, &held, &all);
+    found
+        .into_iter()
+        .filter_map(|scored| {
+            let mut span = held.clone();
+            for column in scored.table.columns(data, &now.eta)? {
+                span.add(rows(data, &data.filtered(&column)));
+            }
+            let rest = span.off(rows(data, &now.residual));
+            let tested = has_blocks(data, rest.as_slice());
+            Some(Dependence {
+                variable: scored.table.variable,
+                share: scored.share,
+                p: tested.then_some(scored.p),
+            })
+        })
+        .collect()
 }
 
 /// In the place of a name that is about to be added: the curve over the same variable,
@@ -290,12 +326,16 @@ fn regime(data: &Prepared, solution: &Solution) -> Regime {
         .iter()
         .map(|&i| solution.residual[i])
         .collect();
-    let shortest = blocks(data).iter().map(ExactSizeIterator::len).min();
-    if shortest.unwrap_or(0) as f64 >= 3.0 * correlation_samples(&rest) {
-        Regime::Blocks
-    } else {
-        Regime::Effect
+    match has_blocks(data, &rest) {
+        true => Regime::Blocks,
+        false => Regime::Effect,
     }
+}
+
+/// Whether sixteen blocks are long enough for what is correlated like that.
+fn has_blocks(data: &Prepared, rest: &[f64]) -> bool {
+    let shortest = blocks(data).iter().map(ExactSizeIterator::len).min();
+    shortest.unwrap_or(0) as f64 >= 3.0 * correlation_samples(rest)
 }
 
 /// The pair over the variable of a curve that leaves least, and what it leaves.

@@ -6,7 +6,6 @@ use bowden_lab::final_fit::FinalFit;
 use bowden_lab::fit::fit;
 use bowden_lab::hand_over::HandOver;
 use bowden_lab::record::{parse, Options, Record};
-use bowden_lab::scan::Regime;
 use bowden_lab::synth::{generate, Planted, Recipe};
 use std::path::Path;
 use std::process::{Command, Output};
@@ -37,14 +36,7 @@ impl Told {
         let data = Prepared::new(&record, Preparation { cutoff }).unwrap();
         let list: Vec<String> = list.iter().map(|s| (*s).to_owned()).collect();
         let declared = fit(&data, &structure(&list, &data).unwrap(), None, 0.0).unwrap();
-        let ledger = Ledger {
-            declared,
-            rounds: Vec::new(),
-            rejected: Vec::new(),
-            unknown: None,
-            regime: Regime::Blocks,
-            correlation_time: 0.0,
-        };
+        let ledger = Ledger::of(declared);
         Self {
             records: vec![record],
             done: FinalFit::new(&data, &ledger),

@@ -1,0 +1,170 @@
+//! The model that is checked, and what its file says of where it came from.
+
+use crate::export::ModelFile;
+use crate::record::Mode;
+use bowden::effect::{Family, Info, Quantity, CATALOGUE};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// Schema of a model file.
+const SCHEMA: &str = "bowden.model/1";
+
+/// A model from a file.
+#[derive(Debug, Clone)]
+pub struct Given {
+    /// The model, without the terms that belong to the record it came from.
+    pub file: ModelFile,
+    /// Names of the terms that were left out for that reason.
+    pub left_out: Vec<String>,
+    /// Where the model came from.
+    pub about: About,
+}
+
+/// What a model file says of the record that the model came from; all of it may be missing.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+pub struct About {
+    /// Cut-off of the filter behind which the model was fitted \[Hz\].
+    pub cutoff_hz: Option<f64>,
+    /// Sampling rate of the record \[Hz\].
+    pub rate_hz: Option<f64>,
+    /// Units by name: `input`, `output`, and the channels.
+    #[serde(default)]
+    pub units: BTreeMap<String, String>,
+    /// What the record has covered, by name: `input`, and the channels.
+    #[serde(default)]
+    pub ranges: BTreeMap<String, Seen>,
+    /// Errors of the model as shares of the output's standard deviation.
+    pub nrmse: Option<Errors>,
+}
+
+/// What a record has covered of one motion.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+pub struct Seen {
+    /// Least and greatest position, in the source's unit.
+    pub position: Option<[f64; 2]>,
+    /// Least and greatest velocity, in the source's unit per second.
+    pub velocity: Option<[f64; 2]>,
+    /// Least and greatest acceleration, in the source's unit per second squared.
+    pub acceleration: Option<[f64; 2]>,
+}
+
+/// Errors on the segments of the record that the model came from.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize, serde::Serialize)]
+pub struct Errors {
+    /// On what was fitted.
+    pub fit: Option<f64>,
+    /// On the stop-check.
+    pub stop: Option<f64>,
+    /// On what nothing had seen.
+    pub held_out: Option<f64>,
+}
+
+impl Given {
+    /// Reads a model file.
+    ///
+    /// # Errors
+    /// One line where the text is no TOML, no model of this schema, or a model that the core
+    /// refuses.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let one_line = |e: toml::de::Error| one_line(&e.to_string());
+        let mut table: toml::Table = toml::from_str(text).map_err(one_line)?;
+        match table.get("schema").and_then(toml::Value::as_str) {
+            Some(SCHEMA) => {}
+            Some(other) => return Err(format!("schema {other:?}: {SCHEMA} was expected")),
+            None => {
+                return Err(format!(
+                    "no schema: a model of `bowden close --model-out` ({SCHEMA}) was expected"
+                ))
+            }
+        }
+        let about = match table.remove("about") {
+            Some(about) => about
+                .try_into()
+                .map_err(|e: toml::de::Error| format!("about: {}", one_line(e)))?,
+            None => About::default(),
+        };
+        let mut about: About = about;
+        about.cutoff_hz = about.cutoff_hz.filter(|hz| hz.is_finite() && *hz > 0.0);
+        let mut file: ModelFile = toml::Value::Table(table).try_into().map_err(one_line)?;
+        // Refused here and not later: what the core does not accept cannot be checked.
+        file.model::<MOST_TERMS>()?;
+        if file.transmission.is_none() && file.terms.is_empty() {
+            return Err("a model without any part: nothing can be checked".to_owned());
+        }
+        let mut left_out = Vec::new();
+        file.terms.retain(|term| {
+            let clockwork = of_the_record(&term.effect);
+            if clockwork {
+                left_out.push(term.effect.clone());
+            }
+            !clockwork
+        });
+        let given = Self {
+            file,
+            left_out,
+            about,
+        };
+        given.mode()?;
+        Ok(given)
+    }
+
+    /// The mode of the model.
+    ///
+    /// # Errors
+    /// One sentence where it is none.
+    pub fn mode(&self) -> Result<Mode, String> {
+        match self.file.mode.as_str() {
+            "torque" => Ok(Mode::Torque),
+            "displacement" => Ok(Mode::Displacement),
+            other => Err(format!(
+                "mode {other:?}: torque or displacement was expected"
+            )),
+        }
+    }
+
+    /// The channels that the model reads: a record has to have them.
+    #[must_use]
+    pub fn reads(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = Vec::new();
+        let loaded = self.file.channels.iter().any(|c| c == "load");
+        for term in &self.file.terms {
+            let load = loaded && reads_load(&term.effect);
+            let source = (term.source != "input").then_some(term.source.as_str());
+            names.extend(source.into_iter().chain(load.then_some("load")));
+        }
+        names.sort_unstable();
+        names.dedup();
+        names
+    }
+}
+
+/// Most terms of a model that is checked.
+pub(super) const MOST_TERMS: usize = 64;
+
+fn info(name: &str) -> Option<&'static Info> {
+    CATALOGUE.iter().copied().find(|info| info.name == name)
+}
+
+fn reads_load(name: &str) -> bool {
+    info(name).is_some_and(|info| info.reads.contains(&Quantity::Load))
+}
+
+/// Whether an effect is of the record that the model came from, and not of the rig: its clock
+/// has begun with that record.
+fn of_the_record(name: &str) -> bool {
+    info(name).is_some_and(|info| {
+        matches!(
+            info.family,
+            Family::Tone | Family::Pretension | Family::Drift | Family::Degradation
+        )
+    })
+}
+
+/// The message of the TOML reader without its drawing of the line.
+fn one_line(text: &str) -> String {
+    let lines = text.lines().map(str::trim);
+    let told: Vec<&str> = lines
+        .filter(|line| !line.is_empty() && !line.contains('|'))
+        .collect();
+    told.join(": ")
+}

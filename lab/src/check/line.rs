@@ -1,0 +1,74 @@
+//! Gain and offset of a prediction, the only two numbers that a check fits.
+
+use crate::channels::Prepared;
+use crate::intervals::quantile;
+use crate::scan::{blocks, BLOCKS};
+use std::ops::Range;
+
+/// A number that was fitted, with its interval.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Fitted {
+    /// Estimate.
+    pub value: f64,
+    /// 95 % interval, by blocks left out in turn; `None` where they do not tell.
+    pub ci95: Option<[f64; 2]>,
+}
+
+/// y ≈ gain · prediction + offset.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Line {
+    /// By what the prediction is multiplied.
+    pub gain: Fitted,
+    /// What is added, in the output's unit.
+    pub offset: Fitted,
+}
+
+impl Line {
+    /// Least squares over the rows that count; intervals by the delete-one-block jackknife
+    /// (Efron, 1982) on the sixteen blocks, with Student's t of fifteen degrees.
+    pub(super) fn fit(data: &Prepared, prediction: &[f64]) -> Self {
+        let rows = &data.split.fit;
+        let whole = solve(data, prediction, rows, 0..0);
+        let without = blocks(data).into_iter();
+        let without: Vec<_> = without
+            .map(|block| solve(data, prediction, rows, block))
+            .collect();
+        let fitted = |of: fn(&(f64, f64)) -> f64| {
+            let value = of(&whole);
+            let mean = without.iter().map(of).sum::<f64>() / BLOCKS as f64;
+            let squares: f64 = without.iter().map(|one| (of(one) - mean).powi(2)).sum();
+            let deviation = (squares * (BLOCKS as f64 - 1.0) / BLOCKS as f64).sqrt();
+            let half = quantile().map(|t| t * deviation).filter(|h| h.is_finite());
+            Fitted {
+                value,
+                ci95: half.map(|h| [value - h, value + h]),
+            }
+        };
+        Self {
+            gain: fitted(|one| one.0),
+            offset: fitted(|one| one.1),
+        }
+    }
+
+    /// What it makes of a prediction.
+    pub(super) fn of(&self, prediction: &[f64]) -> Vec<f64> {
+        let line = |p: &f64| self.gain.value * p + self.offset.value;
+        prediction.iter().map(line).collect()
+    }
+}
+
+/// Gain and offset without the rows at those positions. A prediction that does not move has
+/// no gain: it keeps its own.
+fn solve(data: &Prepared, prediction: &[f64], rows: &[usize], out: Range<usize>) -> (f64, f64) {
+    let kept = || rows[..out.start].iter().chain(&rows[out.end..]);
+    let count = kept().count().max(1) as f64;
+    let mean = |of: &[f64]| kept().map(|&i| of[i]).sum::<f64>() / count;
+    let (p, y) = (mean(prediction), mean(&data.target));
+    let (mut own, mut cross) = (0.0, 0.0);
+    for &i in kept() {
+        own += (prediction[i] - p).powi(2);
+        cross += (prediction[i] - p) * (data.target[i] - y);
+    }
+    let gain = if own > 0.0 { cross / own } else { 1.0 };
+    (gain, y - gain * p)
+}

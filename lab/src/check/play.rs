@@ -1,0 +1,109 @@
+//! A given model on a record, with nothing fitted.
+
+use super::given::{Given, MOST_TERMS};
+use crate::channels::Prepared;
+use crate::columns::raw_columns;
+use crate::fit::{Segments, Solution};
+use crate::record::Mode;
+use crate::structure::{FitTerm, Free, Range, Role, Structure, MOST_RECORDS};
+use bowden::model::{Model, Source};
+
+/// The model on the record, from that hysteresis state at the first sample. Effects with
+/// memory begin at rest where the record begins.
+///
+/// # Errors
+/// One line where the record lacks a channel that the model reads.
+pub(super) fn play(data: &Prepared, given: &Given, eta0: f64) -> Result<Solution, String> {
+    let model: Model<f64, MOST_TERMS> = given.file.model()?;
+    let terms = model
+        .terms()
+        .iter()
+        .map(|term| {
+            Ok(FitTerm {
+                effect: term.effect,
+                source: source(data, &given.file.channels, term.source)?,
+                origin: term.origin,
+                start: [0.0; MOST_RECORDS],
+            })
+        })
+        .collect::<Result<Vec<_>, String>>()?;
+    let structure = Structure {
+        hysteresis: model.transmission().is_some(),
+        terms,
+        ..Structure::default()
+    };
+    let (mut gains, mut known) = (Vec::new(), Vec::new());
+    if let Some(t) = model.transmission() {
+        let sign = match data.mode {
+            Mode::Torque => -1.0,
+            Mode::Displacement => 1.0,
+        };
+        gains.extend([t.gain(), sign * t.kappa_eta(), sign * t.offset()]);
+        let shape = t.shape();
+        known.extend([
+            (Role::Rho, shape.rho()),
+            (Role::Sigma, shape.sigma()),
+            (Role::N, shape.n()),
+            (Role::Eta0 { record: 0 }, eta0),
+        ]);
+    }
+    for (index, (term, own)) in structure.terms.iter().zip(model.terms()).enumerate() {
+        if term.effect.is_output_stage() {
+            known.push((Role::Stage { term: index }, own.gain));
+        } else if term.is_linear() {
+            gains.push(own.gain);
+        }
+    }
+    let nothing = || "the model has no value on this record".to_owned();
+    // Given, not searched: none of them has a bound.
+    let free: Vec<Free> = known
+        .iter()
+        .map(|&(role, _)| Free {
+            role,
+            range: Range::Free,
+        })
+        .collect();
+    let values: Vec<f64> = known.iter().map(|&(_, value)| value).collect();
+    let raw = raw_columns(data, &structure, &free, &values).ok_or_else(nothing)?;
+    let columns: Vec<Vec<f64>> = raw.columns.iter().map(|c| data.filtered(c)).collect();
+    let sum = |columns: &[Vec<f64>], n: usize| -> Vec<f64> {
+        let at = |i| columns.iter().zip(&gains).map(|(c, g)| g * c[i]).sum();
+        (0..n).map(at).collect()
+    };
+    let prediction = sum(&columns, data.target.len());
+    if !prediction.iter().all(|p| p.is_finite()) {
+        return Err("the model runs away on this record".to_owned());
+    }
+    let pairs = data.target.iter().zip(&prediction);
+    let residual: Vec<f64> = pairs.map(|(y, p)| y - p).collect();
+    Ok(Solution {
+        rmse: Segments::of(data, &residual),
+        on_bound: vec![false; free.len()],
+        tangents: Vec::new(),
+        unfiltered: sum(&raw.columns, data.work_len()),
+        eta: raw.eta,
+        structure,
+        free,
+        values,
+        gains,
+        columns,
+        prediction,
+        residual,
+    })
+}
+
+/// What a term reads, by its name in the record.
+fn source(data: &Prepared, channels: &[String], own: Source) -> Result<Source, String> {
+    let Source::Channel(index) = own else {
+        return Ok(own);
+    };
+    let name = channels.get(usize::from(index)).map_or("", String::as_str);
+    let place = data.channels.iter().position(|c| c.name == name);
+    let place = place.and_then(|place| u8::try_from(place).ok());
+    place.map(Source::Channel).ok_or_else(|| missing(name))
+}
+
+/// What is said where a channel is not there.
+pub(super) fn missing(name: &str) -> String {
+    format!("no channel `{name}`, which the model reads; --channel {name}=COL names its column")
+}

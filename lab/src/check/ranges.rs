@@ -1,0 +1,77 @@
+//! Where a record goes beyond what a model has seen.
+
+use super::given::{About, Seen};
+use crate::channels::{Channel, Prepared};
+use bowden::effect::Motion;
+
+/// Ranges further than this share of what the model has seen beyond its ends are listed: two
+/// records of one motion differ by less.
+const BEYOND: f64 = 0.05;
+
+/// A range that goes beyond what the model has seen.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct Outside {
+    /// The input's name, or the channel's.
+    pub channel: String,
+    /// `position`, `velocity` or `acceleration`.
+    pub quantity: &'static str,
+    /// The unit, where the record states one.
+    pub unit: Option<String>,
+    /// What the model has seen.
+    pub seen: [f64; 2],
+    /// What this record covers.
+    pub here: [f64; 2],
+    /// Share of this record's samples that lie outside.
+    pub share: f64,
+}
+
+/// All of them, the input first.
+pub(super) fn outside(data: &Prepared, about: &About) -> Vec<Outside> {
+    let channels = data.channels.iter().map(|c| (c.name.as_str(), c));
+    let all = std::iter::once(("input", &data.input)).chain(channels);
+    let mut found = Vec::new();
+    for (name, channel) in all {
+        if let Some(seen) = about.ranges.get(name) {
+            found.extend(beyond(data, channel, seen));
+        }
+    }
+    found
+}
+
+type Of = fn(&Motion<f64>) -> f64;
+
+fn beyond(data: &Prepared, channel: &Channel, seen: &Seen) -> Vec<Outside> {
+    let quantities: [(&'static str, Option<[f64; 2]>, Of, i32); 3] = [
+        ("position", seen.position, |m| m.position, 0),
+        ("velocity", seen.velocity, |m| m.velocity, 1),
+        ("acceleration", seen.acceleration, |m| m.acceleration, 2),
+    ];
+    let rows = &data.split.fit;
+    let mut found = Vec::new();
+    for (quantity, seen, of, per_second) in quantities {
+        let Some([low, high]) = seen else {
+            continue;
+        };
+        let values = || rows.iter().map(|&i| of(&channel.motion[i * data.stride]));
+        let here = [
+            values().fold(f64::INFINITY, f64::min),
+            values().fold(f64::NEG_INFINITY, f64::max),
+        ];
+        let margin = BEYOND * (high - low);
+        if here[0] < low - margin || here[1] > high + margin {
+            let out = values().filter(|v| *v < low || *v > high).count();
+            found.push(Outside {
+                channel: channel.name.clone(),
+                quantity,
+                unit: crate::units::Unit::one()
+                    .times(channel.unit.as_deref(), 1)
+                    .times(Some("s"), -per_second)
+                    .text(),
+                seen: [low, high],
+                here,
+                share: out as f64 / rows.len().max(1) as f64,
+            });
+        }
+    }
+    found
+}

@@ -1,0 +1,49 @@
+//! The model after each round, for a program that stops where it likes.
+
+use crate::channels::Prepared;
+use crate::closing::{Ledger, Round};
+use crate::export::ModelFile;
+use crate::final_fit::FinalFit;
+use crate::fit::Segments;
+use serde::Serialize;
+
+/// The model that would be delivered if the rounds ended here: as the final one it is fitted
+/// once more on the fit and stop-check segments together.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct RoundModel {
+    /// The content of a model file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    model: Option<ModelFile>,
+    /// The same for each file, where each has gains of its own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    models: Option<Vec<ModelFile>>,
+    /// Whether the parameters have seen the stop-check segment.
+    refitted: bool,
+    /// Its errors, as shares of the output's standard deviation.
+    nrmse: Segments,
+}
+
+impl RoundModel {
+    fn new(data: &Prepared, done: &FinalFit) -> Self {
+        let own = done.solution.structure.own_gains;
+        let of = |record| ModelFile::of_record(&done.data, &done.solution, record);
+        Self {
+            model: (own == 0).then(|| of(0)),
+            models: (own > 0).then(|| (0..own).map(of).collect()),
+            refitted: done.refitted,
+            nrmse: done.rmse.normalised(data, &data.target),
+        }
+    }
+}
+
+/// One for each round.
+pub(super) fn models(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Vec<RoundModel> {
+    use rayon::prelude::*;
+    let last = ledger.rounds.len();
+    let of = |(index, round): (usize, &Round)| match &ledger.unknown {
+        // The final model is that of the last round.
+        None if index + 1 == last => RoundModel::new(data, done),
+        _ => RoundModel::new(data, &FinalFit::of(data, &round.solution)),
+    };
+    ledger.rounds.par_iter().enumerate().map(of).collect()
+}
