@@ -68,32 +68,32 @@ fn step_through<T: Real>(
     Ok((worst, largest))
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
-    let path = std::env::args().nth(1).map_or_else(
-        || {
-            PathBuf::from(concat!(
-                env!("CARGO_MANIFEST_DIR"),
-                "/../examples/data/demo.toml"
-            ))
-        },
-        PathBuf::from,
-    );
+/// Steps the model through the vector beside it; what it found.
+pub fn check(path: &Path) -> Result<String, Box<dyn Error>> {
     let vector = path.with_extension("vector.csv");
-    let (worst, largest) = step_through(&single(&path)?, &vector, 2)?;
-    println!("f32: at most {worst:e} of {largest}");
+    let (worst, largest) = step_through(&single(path)?, &vector, 2)?;
+    let mut found = format!("f32: at most {worst:e} of {largest}");
     let allowed = ROUNDING * f64::from(f32::EPSILON) * largest;
     if worst.is_nan() || worst > allowed {
         return Err(format!("the model does not give its vector: {worst:e} > {allowed:e}").into());
     }
     if path.extension().is_some_and(|e| e == "toml") {
-        let model: Model<f64, TERMS> = toml::from_str(&std::fs::read_to_string(&path)?)?;
+        let model: Model<f64, TERMS> = toml::from_str(&std::fs::read_to_string(path)?)?;
         let (worst, _) = step_through(&model, &vector, 1)?;
-        println!("f64: at most {worst:e}");
+        found += &format!("; f64: at most {worst:e}");
         let allowed = ROUNDING * f64::EPSILON * largest;
         if worst.is_nan() || worst > allowed {
             return Err(format!("in f64: {worst:e} > {allowed:e}").into());
         }
     }
-    println!("{} gives its vector", path.display());
+    Ok(found)
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let path = std::env::args().nth(1).map_or_else(
+        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/data/demo.toml")),
+        PathBuf::from,
+    );
+    println!("{}: {}", path.display(), check(&path)?);
     Ok(())
 }
