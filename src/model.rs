@@ -18,6 +18,8 @@
 //! last good output is returned. Numbers that no term reads may be anything.
 
 #[cfg(feature = "serde")]
+mod file;
+#[cfg(feature = "serde")]
 mod serial;
 
 use crate::effect::{saturate, Effect, EffectState, Motion, Situation};

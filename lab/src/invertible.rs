@@ -7,15 +7,17 @@
 
 use crate::channels::Prepared;
 use crate::closing::{close, Ledger};
-use crate::columns::raw_columns;
+use crate::export::vector::load;
 use crate::export::{ModelFile, MOST_TERMS};
 use crate::final_fit::FinalFit;
-use crate::fit::{Segments, Solution, MARGIN};
+use crate::fit::{Segments, Solution};
 use crate::intervals::term_name;
 use crate::structure::{Role, Structure};
-use bowden::control::Compensator;
-use bowden::effect::Effect;
+use bowden::control::{Compensator, Lowered};
+use bowden::effect::{Effect, Motion};
+use bowden::model::{Model, ModelState, Sample, Term};
 use bowden::Real;
+use serde::de::DeserializeOwned;
 use serde::Serialize;
 
 /// Whether the model that is handed over can be a feed-forward.
@@ -25,7 +27,7 @@ pub struct FeedForward {
     pub invertible: bool,
     /// Why not.
     pub because: Option<String>,
-    /// The nearest model that it takes, where one parameter is all that stands against it.
+    /// The nearest model that it takes, if not this one.
     pub nearest: Option<Nearest>,
 }
 
@@ -93,7 +95,7 @@ pub fn obstacle(file: &ModelFile) -> Result<Option<String>, String> {
     )))
 }
 
-fn accepted<T: Real>(file: &ModelFile) -> Result<bool, String> {
+fn accepted<T: Real + DeserializeOwned>(file: &ModelFile) -> Result<bool, String> {
     let model = file.model_in::<T, MOST_TERMS>()?;
     Ok(Compensator::try_new(&model).is_ok())
 }
@@ -144,8 +146,8 @@ pub fn stages(data: &Prepared, solution: &Solution) -> Vec<String> {
     stages.map(|t| term_name(data, t)).collect()
 }
 
-/// The nearest model with an inverse, where sigma is all that stands against it; its errors
-/// are those without a new fit.
+/// The nearest model with an inverse, as `Compensator::try_nearest` makes it, and its
+/// errors: nothing is fitted again. `None` where there is none, or a model for each record.
 ///
 /// # Errors
 /// One sentence where a file is no model.
@@ -157,38 +159,66 @@ pub fn nearest(
     let [file] = files else {
         return Ok(None);
     };
-    let Some(t) = file.transmission else {
+    let model = file.model::<MOST_TERMS>()?;
+    let Ok((compensator, changed)) = Compensator::try_nearest(&model) else {
         return Ok(None);
     };
-    let sigma = bound(t.gain, t.kappa_eta, t.rho) * (1.0 - MARGIN);
-    if sigma < 0.5 || sigma >= t.sigma {
-        return Ok(None);
-    }
-    let shapes = [(Role::Sigma, sigma)];
-    let rmse = changed(data, solution, &shapes);
-    Ok(rmse.map(|rmse| Nearest {
-        changed: format!("sigma = {}", three_digits(sigma)),
+    let kept = |index: &usize| changed.left_out().all(|gone| gone != *index);
+    let terms: Vec<Term<f64>> = (0..model.terms().len())
+        .filter(kept)
+        .map(|index| model.terms()[index])
+        .collect();
+    let lowered = [("sigma", changed.sigma), ("rho", changed.rho)];
+    let words = lowered.into_iter().filter_map(|(name, lowered)| {
+        let Lowered { from, to } = lowered?;
+        Some(format!(
+            "{name} {} → {}",
+            three_digits(from),
+            three_digits(to)
+        ))
+    });
+    let gone = changed.left_out().filter_map(|index| {
+        let term = model.terms().get(index)?;
+        Some(format!("without {}", term.effect.name()))
+    });
+    let changed: Vec<String> = words.chain(gone).collect();
+    let model: Model<f64, MOST_TERMS> =
+        Model::try_new(Some(*compensator.transmission()), &terms).map_err(|e| e.to_string())?;
+    let rmse = Segments::of(data, &left_by(data, solution, &model)?);
+    Ok(Some(Nearest {
+        changed: changed.join(", "),
         nrmse: rmse.normalised(data, &data.target),
     }))
 }
 
-/// The errors of a solution with some of its shapes changed and its gains as they are.
-fn changed(data: &Prepared, solution: &Solution, shapes: &[(Role, f64)]) -> Option<Segments> {
-    let mut values = solution.values.clone();
-    for (free, value) in solution.free.iter().zip(&mut values) {
-        if let Some((_, other)) = shapes.iter().find(|(role, _)| *role == free.role) {
-            *value = *other;
+/// What a model leaves of the filtered output; each record from the hysteresis state at its
+/// start that the fit has found.
+fn left_by(
+    data: &Prepared,
+    solution: &Solution,
+    model: &Model<f64, MOST_TERMS>,
+) -> Result<Vec<f64>, String> {
+    let mut output = Vec::with_capacity(data.work_len());
+    for (record, piece) in data.pieces.iter().enumerate() {
+        let eta = solution.value(Role::Eta0 { record }).unwrap_or(0.0);
+        let mut state = ModelState::with_eta(eta).map_err(|e| e.to_string())?;
+        for i in piece.work.clone() {
+            let input = data.input.motion[i];
+            let channels: Vec<Motion<f64>> = data.channels.iter().map(|c| c.motion[i]).collect();
+            let sample = Sample {
+                dt: data.dt,
+                input,
+                load: load(data, input.position, &channels),
+                channels: &channels,
+            };
+            output.push(model.step(&mut state, &sample));
         }
     }
-    let raw = raw_columns(data, &solution.structure, &solution.free, &values)?;
-    let mut prediction = vec![0.0; data.work_len()];
-    for (column, gain) in raw.columns.iter().zip(&solution.gains) {
-        for (p, c) in prediction.iter_mut().zip(column) {
-            *p += gain * c;
-        }
-    }
-    let filtered = data.filtered(&prediction);
-    let pairs = data.target.iter().zip(&filtered);
-    let residual: Vec<f64> = pairs.map(|(y, p)| y - p).collect();
-    Some(Segments::of(data, &residual))
+    let answered = data.filtered(&output);
+    Ok(data
+        .target
+        .iter()
+        .zip(&answered)
+        .map(|(y, p)| y - p)
+        .collect())
 }

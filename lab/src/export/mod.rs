@@ -16,11 +16,9 @@ use crate::channels::Prepared;
 use crate::fit::Solution;
 use crate::record::Mode;
 use crate::structure::Role;
-use bowden::effect::Effect;
-use bowden::hysteresis::Shape;
-use bowden::model::{Model, Source, Term};
-use bowden::transmission::Transmission;
+use bowden::model::{Model, Source};
 use bowden::Real;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 /// Most terms of a model that is handed over.
@@ -175,67 +173,16 @@ impl ModelFile {
 
     /// The core's model in either precision, as firmware would run it.
     ///
+    /// The core reads the file itself: what it takes is what a user's `toml::from_str` takes.
+    ///
     /// # Errors
     /// One sentence that says which part the core refuses.
-    pub fn model_in<T: Real, const N: usize>(&self) -> Result<Model<T, N>, String> {
-        let transmission = match &self.transmission {
-            None => None,
-            Some(t) => {
-                let refused = |e: bowden::Error| format!("transmission: {e}");
-                let shape =
-                    Shape::try_new(T::of(t.rho), T::of(t.sigma), T::of(t.n)).map_err(refused)?;
-                let (gain, kappa_eta, offset) =
-                    (T::of(t.gain), T::of(t.kappa_eta), T::of(t.offset));
-                Some(match self.mode.as_str() {
-                    "torque" => {
-                        Transmission::torque(gain, kappa_eta, offset, shape).map_err(refused)?
-                    }
-                    "displacement" => Transmission::displacement(gain, kappa_eta, offset, shape)
-                        .map_err(refused)?,
-                    other => {
-                        return Err(format!(
-                            "mode {other:?}: torque or displacement was expected"
-                        ))
-                    }
-                })
-            }
-        };
-        let mut terms = Vec::with_capacity(self.terms.len());
-        for term in &self.terms {
-            let refused = |e: bowden::Error| format!("term {}: {e}", term.effect);
-            let shapes: Vec<T> = term.shapes.iter().map(|s| T::of(s.value)).collect();
-            let effect = Effect::try_from_name(&term.effect, &shapes).map_err(refused)?;
-            let named = effect.shape_names();
-            if let Some((given, expected)) = term
-                .shapes
-                .iter()
-                .zip(named)
-                .find(|(given, expected)| given.name != **expected)
-            {
-                return Err(format!(
-                    "term {}: shape {} where {expected} was expected",
-                    term.effect, given.name
-                ));
-            }
-            let source = match self.channels.iter().position(|c| *c == term.source) {
-                _ if term.source == "input" => Source::Input,
-                Some(index) => Source::Channel(
-                    u8::try_from(index).map_err(|_| "too many channels".to_owned())?,
-                ),
-                None => {
-                    return Err(format!(
-                        "term {}: no channel {:?}",
-                        term.effect, term.source
-                    ))
-                }
-            };
-            terms.push(Term {
-                effect,
-                source,
-                origin: T::of(term.origin),
-                gain: T::of(term.gain),
-            });
-        }
-        Model::try_new(transmission, &terms).map_err(|e| e.to_string())
+    pub fn model_in<T, const N: usize>(&self) -> Result<Model<T, N>, String>
+    where
+        T: Real + DeserializeOwned,
+    {
+        let told = |e: toml::de::Error| e.message().replace('\n', " ");
+        let file = toml::Table::try_from(self).map_err(|e| e.to_string())?;
+        file.try_into().map_err(told)
     }
 }

@@ -176,6 +176,12 @@ impl ModelFile {
             all.insert("bowden::hysteresis::Shape".to_owned());
             all.insert("bowden::transmission::Transmission".to_owned());
         }
+        let mut all: Vec<String> = all.into_iter().collect();
+        // As rustfmt has them: modules before types before lists.
+        all.sort_by_cached_key(|name| {
+            let late = |c: char| [c.is_ascii_uppercase().then_some('z'), Some(c)];
+            name.chars().flat_map(late).flatten().collect::<String>()
+        });
         for name in all {
             line!(out, "use {name};");
         }
@@ -194,37 +200,34 @@ impl ModelFile {
             "pub fn model() -> Result<Model<f32, {}>, bowden::Error> {{",
             self.terms.len()
         );
-        match &self.transmission {
-            Some(t) => {
-                line!(out, "    // rho [{}], sigma [1], n [1]", about.unit("rho"));
-                line!(
-                    out,
-                    "    let shape = Shape::try_new({}, {}, {})?;",
-                    number(t.rho),
-                    number(t.sigma),
-                    number(t.n)
-                );
-                let (gain, offset) = match self.mode.as_str() {
-                    "torque" => ("B", "T0"),
-                    _ => ("kappa_x", "offset"),
-                };
-                line!(
-                    out,
-                    "    // {gain} [{}], kappa_eta [{}], {offset} [{}]",
-                    about.unit("gain"),
-                    about.unit("kappa_eta"),
-                    about.unit("offset")
-                );
-                line!(
-                    out,
-                    "    let transmission = Transmission::{}({}, {}, {}, shape)?;",
-                    self.mode,
-                    number(t.gain),
-                    number(t.kappa_eta),
-                    number(t.offset)
-                );
-            }
-            None => {}
+        if let Some(t) = &self.transmission {
+            line!(out, "    // rho [{}], sigma [1], n [1]", about.unit("rho"));
+            line!(
+                out,
+                "    let shape = Shape::try_new({}, {}, {})?;",
+                number(t.rho),
+                number(t.sigma),
+                number(t.n)
+            );
+            let (gain, offset) = match self.mode.as_str() {
+                "torque" => ("B", "T0"),
+                _ => ("kappa_x", "offset"),
+            };
+            line!(
+                out,
+                "    // {gain} [{}], kappa_eta [{}], {offset} [{}]",
+                about.unit("gain"),
+                about.unit("kappa_eta"),
+                about.unit("offset")
+            );
+            line!(
+                out,
+                "    let transmission = Transmission::{}({}, {}, {}, shape)?;",
+                self.mode,
+                number(t.gain),
+                number(t.kappa_eta),
+                number(t.offset)
+            );
         }
         let transmission = match self.transmission {
             Some(_) => "Some(transmission)",
@@ -271,24 +274,13 @@ impl ModelFile {
                 values.join(", ")
             ),
         }
-        line!(
-            out,
-            "            source: {}, // {}",
-            self.source(&term.source),
-            term.source
-        );
-        line!(
-            out,
-            "            origin: {}, // [{}]",
-            number(term.origin),
-            about.unit(&term.source)
-        );
-        line!(
-            out,
-            "            gain: {}, // [{}]",
-            number(term.gain),
-            about.unit(&name)
-        );
+        let source = self.source(&term.source);
+        line!(out, "            // {}", term.source);
+        line!(out, "            source: {source},");
+        line!(out, "            // [{}]", about.unit(&term.source));
+        line!(out, "            origin: {},", number(term.origin));
+        line!(out, "            // [{}]", about.unit(&name));
+        line!(out, "            gain: {},", number(term.gain));
         line!(out, "        }},");
         Ok(())
     }

@@ -18,7 +18,6 @@ use search::{descend, descend_fully};
 use settle::{choose, settle};
 use starts::starts;
 pub use starts::Known;
-pub use tie::MARGIN;
 
 /// Fits a structure: all starts for a while on a coarse grid, the best three to the end.
 ///

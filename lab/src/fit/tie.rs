@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 /// Relative distance from the bound. Four numbers are rounded to `f32` and three products
 /// formed: 7 roundings of 2^-24 each, 4.2e-7 together, and the model still has its inverse.
-pub const MARGIN: f64 = 1e-6;
+const MARGIN: f64 = 1e-6;
 
 /// Where gain and hysteresis are of opposite signs: `|gain| >= ratio·|hysteresis|`.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,10 +6,12 @@
 //! * [`rust_file`]: `model.rs` compiles for every effect and says what its numbers mean.
 //! * [`postcard_file`]: the bytes that firmware reads, and their checksum.
 //! * [`vector`]: the test vector beside each model.
+//! * [`examples`]: the models in the repository, and the examples that run them.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod causal;
 mod clockwork;
+mod examples;
 mod invertible;
 mod postcard_file;
 mod rig;

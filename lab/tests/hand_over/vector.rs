@@ -53,6 +53,10 @@ fn a_model_steps_through_its_vector_to_the_bit_in_both_precisions() {
     );
     let rows = csv.lines().count() - 1;
     assert!((200..=400).contains(&rows), "{rows}");
+    // Thinned evenly over the whole record, which takes 20 s; one row more or less.
+    let steps = csv.lines().skip(1).map(|l| l.split(',').next().unwrap());
+    let seconds: f64 = steps.map(|dt| dt.parse::<f64>().unwrap()).sum();
+    assert!((seconds - 20.0).abs() < 0.06, "{seconds}");
     let file = model(&path);
     let (single, largest) = replayed::<f32>(&file.model_in().unwrap(), &csv, 2);
     assert_eq!(single, 0.0);
