@@ -193,7 +193,7 @@ fn run(row: &Row, path: &Path) -> Result<String, String> {
         row.reach.0,
         row.reach.1,
         names.join(", "),
-        verdict(&data, &ledger).name()
+        verdict(&data, &ledger, &done).name()
     ))
 }
 

@@ -4,11 +4,12 @@ use crate::attempt::{attempt, Accepted, Attempt};
 use crate::catalogue::{declared, Candidate};
 use crate::channels::Prepared;
 use crate::duel::is_noise;
+use crate::explains::integrates;
 use crate::fit::{fit, Segments, Solution};
 use crate::joint::{is_cut, joint, superseded};
 use crate::revisit::revisited;
 use crate::scan::{blocks, correlation_samples, Regime};
-use crate::structure::Structure;
+use crate::structure::{FitTerm, Structure};
 use crate::tones::tone;
 use crate::unknown::{instead, unnamed, Behind, Unknown};
 
@@ -93,6 +94,15 @@ pub struct Round {
     pub solution: Solution,
 }
 
+impl Round {
+    /// The effect as it was fitted in this round.
+    #[must_use]
+    pub fn term(&self) -> &FitTerm {
+        let terms = &self.solution.structure.terms;
+        terms.last().unwrap_or(&self.candidate.term)
+    }
+}
+
 /// A candidate that was turned down.
 #[derive(Debug, Clone)]
 pub struct Rejection {
@@ -120,6 +130,8 @@ pub struct Ledger {
     pub regime: Regime,
     /// Correlation time of the last residual \[s\].
     pub correlation_time: f64,
+    /// Whether the output follows the integral of the input: then no effect is looked for.
+    pub integrates: bool,
     /// The largest number of effects that was asked for, where that ended the search: more
     /// may be missing, and nothing has looked for it. `None` where the search ended by itself.
     pub stopped_by_request: Option<usize>,
@@ -209,6 +221,7 @@ pub fn close_within(
     progress("fitting the declared model");
     let declared = fit(data, structure, None, 0.0)
         .ok_or("the declared model cannot be fitted to this record")?;
+    let integrates = integrates(data, &declared);
     let mut ledger = Ledger {
         declared,
         rounds: Vec::new(),
@@ -216,8 +229,12 @@ pub fn close_within(
         unknown: None,
         regime: Regime::Blocks,
         correlation_time: 0.0,
+        integrates,
         stopped_by_request: None,
     };
+    if integrates {
+        return Ok(ledger);
+    }
     if most == 0 {
         (ledger.regime, ledger.correlation_time) = independence(data, &ledger.declared);
         ledger.stopped_by_request = Some(0);

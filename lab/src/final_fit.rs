@@ -6,8 +6,10 @@
 //! where it is, on both segments. The held-out segment stays unseen.
 
 use crate::channels::Prepared;
-use crate::closing::Ledger;
+use crate::closing::{Ledger, Round};
 use crate::fit::{refit, Segments, Solution};
+use crate::intervals::term_title;
+use crate::structure::FitTerm;
 
 /// The model that is delivered.
 #[derive(Debug, Clone)]
@@ -52,5 +54,33 @@ impl FinalFit {
                 data: data.clone(),
             },
         }
+    }
+
+    /// Which term of the final model a round has added: later rounds refine its shapes, so
+    /// of two of one effect on one channel it is the nearest in its shapes. `None` where a
+    /// later step took it back.
+    #[must_use]
+    pub fn term_of(&self, round: &Round) -> Option<usize> {
+        let own = round.term();
+        let apart = |term: &FitTerm| -> f64 {
+            let shapes = (0..term.effect.shape_names().len()).filter_map(|i| {
+                let (a, b) = (term.effect.shape(i)?, own.effect.shape(i)?);
+                Some((a - b).powi(2) / (a * a + b * b).max(f64::MIN_POSITIVE))
+            });
+            shapes.sum()
+        };
+        let terms = self.solution.structure.terms.iter().enumerate();
+        terms
+            .filter(|(_, t)| t.effect.name() == own.effect.name() && t.source == own.source)
+            .min_by(|(_, a), (_, b)| apart(a).total_cmp(&apart(b)))
+            .map(|(index, _)| index)
+    }
+
+    /// The name of what a round has added, as it is in the final model.
+    #[must_use]
+    pub fn title_of(&self, round: &Round) -> String {
+        let own = self.term_of(round);
+        let term = own.and_then(|index| self.solution.structure.terms.get(index));
+        term_title(&self.data, term.unwrap_or(round.term()))
     }
 }

@@ -13,6 +13,7 @@ use crate::record::Mode;
 use crate::scan::{blocks, BLOCKS};
 use crate::structure::{FitTerm, Role};
 use crate::units::Unit;
+use bowden::effect::Family;
 use bowden::model::Source;
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -82,6 +83,34 @@ pub fn term_name(data: &Prepared, term: &FitTerm) -> String {
             data.channel(term.source).map_or("?", |c| c.name.as_str())
         ),
     }
+}
+
+/// The name of a term for people: with the order of a ripple and the frequency of a tone,
+/// by which two of them differ.
+#[must_use]
+pub fn term_title(data: &Prepared, term: &FitTerm) -> String {
+    let name = term_name(data, term);
+    let shape = |name: &str| {
+        let names = term.effect.shape_names();
+        let index = names.iter().position(|own| *own == name)?;
+        term.effect.shape(index)
+    };
+    match term.effect.family() {
+        Family::Tone => shape("f").map(|f| format!("{name} ({f:.3} Hz)")),
+        Family::Ripple => shape("k").map(|k| {
+            let unit = data.channel(term.source).and_then(|c| c.unit.as_deref());
+            let of_an_angle = |k: f64| format!("{name} (order {k:.2})");
+            match unit {
+                None | Some("rad") => of_an_angle(k),
+                Some("deg" | "°") => of_an_angle(k.to_degrees()),
+                Some(unit) => {
+                    format!("{name} (period {:.3} {unit})", std::f64::consts::TAU / k)
+                }
+            }
+        }),
+        _ => None,
+    }
+    .unwrap_or(name)
 }
 
 /// Unit of a term's gain.

@@ -10,6 +10,7 @@
 //! cannot. [`synth`] makes test records and shares no code with any of these.
 
 mod attempt;
+pub mod by_file;
 pub mod catalogue;
 pub mod channels;
 pub mod check;
@@ -19,6 +20,7 @@ pub mod columns;
 pub mod compare;
 mod duel;
 mod excitation;
+pub mod explains;
 pub mod export;
 pub mod filter;
 pub mod final_fit;

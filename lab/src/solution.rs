@@ -31,9 +31,9 @@ impl Segments {
         }
     }
 
-    /// The errors as shares of the standard deviation of `signal` on each segment.
+    /// Standard deviation of a signal on each segment.
     #[must_use]
-    pub fn normalised(&self, data: &Prepared, signal: &[f64]) -> Self {
+    pub fn deviation(data: &Prepared, signal: &[f64]) -> Self {
         let deviation = |rows: &[usize]| {
             let n = rows.len().max(1) as f64;
             let mean = rows.iter().map(|&i| signal[i]).sum::<f64>() / n;
@@ -45,9 +45,20 @@ impl Segments {
                 .sqrt()
         };
         Self {
-            fit: self.fit / deviation(&data.split.fit),
-            stop: self.stop / deviation(&data.split.stop),
-            held_out: self.held_out / deviation(&data.split.held_out),
+            fit: deviation(&data.split.fit),
+            stop: deviation(&data.split.stop),
+            held_out: deviation(&data.split.held_out),
+        }
+    }
+
+    /// The errors as shares of the standard deviation of `signal` on each segment.
+    #[must_use]
+    pub fn normalised(&self, data: &Prepared, signal: &[f64]) -> Self {
+        let by = Self::deviation(data, signal);
+        Self {
+            fit: self.fit / by.fit,
+            stop: self.stop / by.stop,
+            held_out: self.held_out / by.held_out,
         }
     }
 }

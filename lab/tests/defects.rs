@@ -5,6 +5,7 @@
 
 use bowden_lab::channels::{Preparation, Prepared};
 use bowden_lab::closing::{close, structure, Ledger};
+use bowden_lab::final_fit::FinalFit;
 use bowden_lab::record::{parse, Defect, DefectKind, Options, Record};
 use bowden_lab::synth::{generate, Mode, Planted, Recipe};
 use bowden_lab::verdict::{sentence, verdict, Verdict};
@@ -91,6 +92,10 @@ fn assert_named(defect: &Defect, kind: DefectKind, channel: &str) {
 /// Pseudo-random in −1…1, by row: the fraction of a large sine (an old trick of shaders).
 fn noise(row: usize) -> f64 {
     2.0 * ((row as f64 * 12.9898).sin() * 43758.5453).rem_euclid(1.0) - 1.0
+}
+
+fn verdict_of(data: &Prepared, ledger: &Ledger) -> Verdict {
+    verdict(data, ledger, &FinalFit::new(data, ledger))
 }
 
 fn closed(record: &Record) -> (Prepared, Ledger) {
@@ -251,7 +256,7 @@ fn missing_rows_are_named_by_the_lines_around_them() {
         [[line(1999), line(2000)], [line(6989), line(6990)]]
     );
     let (data, ledger) = closed(&record);
-    assert_ne!(verdict(&data, &ledger), Verdict::DataDefect);
+    assert_ne!(verdict_of(&data, &ledger), Verdict::DataDefect);
 }
 
 #[test]
@@ -313,8 +318,9 @@ fn what_is_concluded_from_a_stuck_input_is_a_data_defect() {
     let mut cells = Cells::of(&recipe());
     cells.freeze(TAU_I, 2500, 3300);
     let (data, ledger) = closed(&cells.read());
-    assert_eq!(verdict(&data, &ledger), Verdict::DataDefect);
-    assert!(sentence(&data, &ledger).contains("tau_i (stuck)"));
+    assert_eq!(verdict_of(&data, &ledger), Verdict::DataDefect);
+    let told = sentence(&data, &ledger, &FinalFit::new(&data, &ledger));
+    assert!(told.contains("tau_i (stuck)"), "{told}");
 }
 
 #[test]
@@ -332,7 +338,7 @@ fn a_short_dropout_of_the_output_is_left_out_and_changes_no_name() {
             .collect()
     };
     assert_eq!(names(&ledger), names(&sound.1));
-    assert_eq!(verdict(&data, &ledger), verdict(&sound.0, &sound.1));
+    assert_eq!(verdict_of(&data, &ledger), verdict_of(&sound.0, &sound.1));
     // On the rows that are left both models are as good: the dropped stretches, bridged,
     // are off by whole N·m, the noise behind the filter by 0.01.
     let rms = |residual: &[f64], rows: &[usize]| {
@@ -353,5 +359,5 @@ fn a_stuck_channel_that_nothing_reads_leaves_the_verdict() {
     let record = cells.read();
     assert_named(only(&record), DefectKind::Stuck, "phi_d");
     let (data, ledger) = closed(&record);
-    assert_ne!(verdict(&data, &ledger), Verdict::DataDefect);
+    assert_ne!(verdict_of(&data, &ledger), Verdict::DataDefect);
 }

@@ -139,7 +139,11 @@ fn the_json_is_laid_out_as_documented() {
             "unknown",
             "noise_floor",
             "stopped_by_request",
-            "verdict"
+            "deviation",
+            "explains",
+            "integrates",
+            "verdict",
+            "sentence"
         ])
     );
     assert_eq!(
@@ -177,6 +181,7 @@ fn the_json_is_laid_out_as_documented() {
             "experiment",
             "rmse_before",
             "rmse_after",
+            "raises_held_out",
             "model",
             "refitted",
             "nrmse"

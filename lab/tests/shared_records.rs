@@ -307,7 +307,10 @@ fn davinci_tool_4_03_starts_in_effect_mode_and_is_under_excited() {
     };
     let Some(closed) = row.close() else { return };
     assert_eq!(closed.round(0).p, None);
-    assert_eq!(verdict(&closed.data, &closed.ledger), Verdict::UnderExcited);
+    assert_eq!(
+        verdict(&closed.data, &closed.ledger, &closed.done),
+        Verdict::UnderExcited
+    );
 }
 
 #[test]

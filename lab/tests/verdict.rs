@@ -65,12 +65,16 @@ impl Closed {
             .collect()
     }
 
+    fn verdict(&self) -> Verdict {
+        verdict(&self.data, &self.ledger, &self.done())
+    }
+
     fn line(&self) -> String {
         format!(
             "names {:?}, unknown {:?}: {:?}",
             self.names(),
             self.unknown(),
-            verdict(&self.data, &self.ledger)
+            self.verdict()
         )
     }
 }
@@ -93,7 +97,7 @@ fn mostly(all: &[Closed], holds: impl Fn(&Closed) -> bool) {
 }
 
 fn is_unknown(closed: &Closed, variables: &[&str], channels: &[&str]) -> bool {
-    verdict(&closed.data, &closed.ledger) == Verdict::Unknown
+    closed.verdict() == Verdict::Unknown
         && closed
             .unknown()
             .is_some_and(|(v, c)| variables.contains(&v) && channels.contains(&c))
@@ -182,10 +186,7 @@ fn a_line_that_is_left_and_has_no_name_is_not_taken_for_noise() {
     let closed = Closed::new(Mode::Torque, &planted, 0.0, 350_013);
     assert!(closed.names().iter().all(|name| name != "tone"));
     assert!(closed.ledger.last().rmse.fit > 10.0 * closed.data.noise_floor);
-    assert_eq!(
-        verdict(&closed.data, &closed.ledger),
-        Verdict::ExplainedColoured
-    );
+    assert_eq!(closed.verdict(), Verdict::ExplainedColoured);
 }
 
 #[test]
@@ -214,7 +215,7 @@ fn the_report_of_something_unknown_says_so_in_both_forms_and_is_the_same_on_one_
     let delivered = report["final"]["rmse"]["held_out"].as_f64().unwrap();
     assert!((delivered / last - 1.0).abs() < 0.1, "{delivered} {last}");
 
-    let told = sentence(&closed.data, &closed.ledger);
+    let told = sentence(&closed.data, &closed.ledger, &closed.done());
     assert!(told.contains("depends on x"), "{told}");
     let ledger = text(
         "made.csv",

@@ -4,6 +4,7 @@ mod certify;
 mod check;
 mod close;
 mod compare;
+mod help;
 mod plan;
 mod power;
 mod reading;
@@ -19,7 +20,8 @@ pub type Failure = String;
     name = "bowden",
     version,
     about = "Hysteretic cable transmissions: closes the loop between a model and measured data",
-    after_help = "Without a subcommand: `bowden close` on the embedded record.\nExit status: 0 with any verdict, 2 for bad use or a bad record."
+    disable_help_subcommand = true,
+    after_help = "Without a subcommand: `bowden close` on the embedded record.\nThe words of its ledger: `bowden help terms`.\nExit status: 0 with any verdict, 2 for bad use or a bad record."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -42,6 +44,8 @@ enum Command {
     Plan(plan::Plan),
     /// Write a generated record with an effect that is not declared, as CSV.
     Record(record::Record),
+    /// Explain a subcommand, or the words of the ledger: `bowden help terms`.
+    Help(help::Help),
 }
 
 /// Runs the program.
@@ -58,6 +62,7 @@ pub fn run() -> Result<(), Failure> {
         Some(Command::Power(power)) => power.run(),
         Some(Command::Plan(plan)) => plan.run(),
         Some(Command::Record(record)) => record.run(),
+        Some(Command::Help(help)) => help.run(),
     }
 }
 

@@ -249,6 +249,12 @@ impl Setup {
                     model.schema
                 ));
             }
+            if model.mode != "torque" {
+                return Err(format!(
+                    "{label}: model.mode {:?}: \"torque\" was expected, since the simulated rig transmits torque to torque",
+                    model.mode
+                ));
+            }
         }
         let refused = |what: &str, e: bowden::Error| format!("{label}: [{what}]: {e}");
         let none: &[bowden::model::Term<f64>] = &[];

@@ -50,6 +50,8 @@ pub struct Line {
     pub command: f64,
     /// Trials that ran away.
     pub diverged: usize,
+    /// When the first of them did \[s\]; `None` where none did.
+    pub ran_away: Option<f64>,
     /// The trial of the first seed, with its trace where that was asked for.
     pub first: Trial,
     /// Rms of the true error of each seed \[N·m\].
@@ -97,7 +99,11 @@ fn line(name: &str, trials: &[Trial], conditions: &Conditions) -> Line {
         transient: spread(|t| t.transient.rmse_true),
         transient_peak: most(|t| t.transient.peak),
         command: most(|t| t.command),
-        diverged: trials.iter().filter(|t| t.diverged).count(),
+        diverged: trials.iter().filter(|t| t.ran_away.is_some()).count(),
+        ran_away: trials
+            .iter()
+            .filter_map(|t| t.ran_away)
+            .min_by(f64::total_cmp),
         first: trials.first().cloned().unwrap_or_default(),
         each: trials.iter().map(|t| t.steady.rmse_true).collect(),
     }

@@ -82,8 +82,8 @@ pub struct Trial {
     pub effort: f64,
     /// Changes of direction of the command \[1/s\] over the steady part.
     pub reversals: f64,
-    /// Whether the loop ran away.
-    pub diverged: bool,
+    /// When the loop ran away \[s\]; `None` where it did not.
+    pub ran_away: Option<f64>,
     /// One row a sample, where it was asked for.
     pub trace: Vec<Row>,
 }
@@ -227,7 +227,7 @@ pub fn run(
         (before, last) = (last, command);
         let next = rig.step(&mut state, command, dt);
         if next.diverged || (next.tau_o - reference).abs() > RUNAWAY {
-            trial.diverged = true;
+            trial.ran_away = Some(t + dt);
             break;
         }
     }

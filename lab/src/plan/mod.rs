@@ -61,6 +61,11 @@ pub struct Aim {
     pub left_then: f64,
 }
 
+/// An experiment separates two effects if after it the wrong name leaves at least this many
+/// times the present error, and this many times what it leaves now: the error then rises by
+/// the half (the root of 1 + 1.2²), which no choice of blocks hides.
+const SEPARATES: f64 = 1.2;
+
 /// What stays of a contribution once its rival has imitated what it can.
 struct Apart {
     correlation: f64,
@@ -106,7 +111,8 @@ fn refined(data: &Prepared, round: &Round, rival: &Candidate) -> Option<FitTerm>
     fitted.terms.last().copied()
 }
 
-/// The experiment that separates what one round confounds; `None` where it has no rivals.
+/// The experiment that separates what one round confounds; `None` where it has no rivals or
+/// where no motion that is known here would separate any of them.
 #[must_use]
 pub fn separate(data: &Prepared, round: &Round) -> Option<Experiment> {
     use rayon::prelude::*;
@@ -132,7 +138,7 @@ pub fn separate(data: &Prepared, round: &Round) -> Option<Experiment> {
         })
         .collect();
     let noise = round.after.fit.max(f64::MIN_POSITIVE);
-    let tried: Vec<Option<(f64, Experiment)>> = Kind::ALL
+    let tried: Vec<Option<((usize, f64), Experiment)>> = Kind::ALL
         .par_iter()
         .map(|&kind| {
             let planned = trajectory(data, kind);
@@ -142,6 +148,9 @@ pub fn separate(data: &Prepared, round: &Round) -> Option<Experiment> {
             let mut aims = Vec::new();
             for (term, size, now) in &rivals {
                 let then = pair(&placed, (named, gain), (term, *size))?;
+                if then.left.is_nan() || then.left < SEPARATES * noise.max(now.left) {
+                    continue;
+                }
                 worst = worst.min(then.left);
                 aims.push(Aim {
                     what: term_name(data, named),
@@ -152,7 +161,8 @@ pub fn separate(data: &Prepared, round: &Round) -> Option<Experiment> {
                     left_then: then.left / noise,
                 });
             }
-            Some((worst, describe(data, &planned, &motion, aims)))
+            let score = (aims.len(), worst);
+            Some((score, describe(data, &planned, &motion, aims)))
         })
         .collect();
     best(tried)
@@ -164,16 +174,19 @@ pub fn separate_first(data: &Prepared, ledger: &Ledger) -> Option<Experiment> {
     ledger.rounds.iter().find_map(|round| separate(data, round))
 }
 
-/// The first of the largest.
-fn best(tried: Vec<Option<(f64, Experiment)>>) -> Option<Experiment> {
-    let mut best: Option<(f64, Experiment)> = None;
-    for (score, experiment) in tried.into_iter().flatten() {
-        if score.is_finite() && best.as_ref().is_none_or(|(b, _)| score > *b) {
+/// The first of the largest, of those that have an aim.
+fn best<S: PartialOrd>(tried: Vec<Option<(S, Experiment)>>) -> Option<Experiment> {
+    let mut best: Option<(S, Experiment)> = None;
+    let aimed = tried
+        .into_iter()
+        .flatten()
+        .filter(|(_, e)| !e.aims.is_empty());
+    for (score, experiment) in aimed {
+        if best.as_ref().is_none_or(|(b, _)| score > *b) {
             best = Some((score, experiment));
         }
     }
     best.map(|(_, experiment)| experiment)
-        .filter(|e| !e.aims.is_empty())
 }
 
 fn describe(

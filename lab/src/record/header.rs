@@ -7,6 +7,10 @@ use super::{number, units};
 /// At most this many names are listed in a message.
 const LISTED: usize = 24;
 
+/// Jaro-Winkler similarity from which on one name may be meant for another: `x` and `x_mm`
+/// have 0.78, `X` and `x` 1, `tau_i` and `force` 0.46.
+const ALIKE: f64 = 0.7;
+
 /// A column as the header names it; the name is empty where it has none.
 pub(super) struct Named {
     pub(super) name: String,
@@ -27,6 +31,24 @@ impl Header {
         self.columns.iter().position(|column| {
             !column.name.is_empty() && (column.name == name || column.cell == name)
         })
+    }
+
+    /// At most three names that are much like one that does not exist, for a message.
+    pub(super) fn nearest(&self, name: &str) -> Vec<String> {
+        let wanted = name.trim().to_lowercase();
+        let alike = |column: &Named| strsim::jaro_winkler(&wanted, &column.name.to_lowercase());
+        let mut near: Vec<(f64, &Named)> = self
+            .columns
+            .iter()
+            .filter(|column| !column.name.is_empty())
+            .map(|column| (alike(column), column))
+            .filter(|(alike, _)| *alike >= ALIKE)
+            .collect();
+        near.sort_by(|a, b| b.0.total_cmp(&a.0));
+        near.truncate(3);
+        let quoted =
+            |(_, column): &(f64, &Named)| format!("`{}`", shown(&column.name, NAME_LENGTH));
+        near.iter().map(quoted).collect()
     }
 
     /// The names that exist, for a message.

@@ -39,6 +39,12 @@ fn default_channels(mode: Mode) -> &'static [&'static str] {
 }
 
 pub(super) fn assign(header: &Header, options: &Options) -> Result<Roles, RecordError> {
+    // A name that is not there says more than a mode that does not follow from it.
+    for (name, option) in [(&options.input, "--input"), (&options.output, "--output")] {
+        if let Some(name) = name {
+            find(header, name, &format!("{option} COL names another one"))?;
+        }
+    }
     let mode = mode(header, options)?;
     let (input, output) = ends(mode);
     let time = match options.rate {
@@ -143,7 +149,12 @@ fn mode(header: &Header, options: &Options) -> Result<Mode, RecordError> {
 
 fn find(header: &Header, name: &str, hint: &str) -> Result<usize, RecordError> {
     header.find(name).ok_or_else(|| {
-        let message = format!("no such column among {}; {hint}", header.list());
+        let near = header.nearest(name);
+        let meant = match near.is_empty() {
+            true => String::new(),
+            false => format!(" (nearest: {})", near.join(", ")),
+        };
+        let message = format!("no such column among {}{meant}; {hint}", header.list());
         RecordError::at(header.line, message).on(name)
     })
 }

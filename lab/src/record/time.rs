@@ -17,11 +17,16 @@ pub(super) struct Clock {
     first_repeat: Option<(usize, String)>,
 }
 
+/// A median step without a unit from which on milliseconds are suspected \[s\]: two
+/// samples a second or fewer say nothing of hysteresis in motion.
+const LONG_STEP: f64 = 0.5;
+
 enum Source {
     Column {
         index: usize,
         name: String,
         scale: f64,
+        unitless: bool,
     },
     Rate(f64),
 }
@@ -48,6 +53,7 @@ impl Clock {
                     index,
                     name: column.name.clone(),
                     scale,
+                    unitless: unit.is_none(),
                 }
             }
         };
@@ -68,7 +74,9 @@ impl Clock {
     pub(super) fn stamp(&mut self, row: &Row<'_>) -> Result<Option<f64>, RecordError> {
         let t = match &self.source {
             Source::Rate(rate) => self.rows as f64 / rate,
-            Source::Column { index, name, scale } => {
+            Source::Column {
+                index, name, scale, ..
+            } => {
                 let (cell, line) = (row.cell(*index), row.line);
                 let stamp = number::read(cell, line, name)? * scale;
                 if self.rows == 0 {
@@ -125,6 +133,20 @@ impl Clock {
         let mut notes = Vec::new();
         if let Source::Rate(rate) = self.source {
             notes.push(format!("time taken from the row number at {rate} Hz"));
+        }
+        let step = median_step(kept);
+        if let Source::Column {
+            name,
+            unitless: true,
+            ..
+        } = &self.source
+        {
+            if step >= LONG_STEP {
+                let name = shown(name, NAME_LENGTH);
+                notes.push(format!(
+                    "column `{name}` states no unit and was read as seconds; its median step is {step} s: is that ms? Then call it `{name} [ms]`"
+                ));
+            }
         }
         if kept.len() < self.rows {
             notes.push(format!(

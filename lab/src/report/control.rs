@@ -64,6 +64,17 @@ fn pair(spread: Spread) -> String {
     format!("{:.4} ± {:.4}", spread.mean, spread.sd)
 }
 
+/// "–, ran away at 0.31 s", in place of errors that were summed over a part of the trial;
+/// `None` where no trial ran away.
+fn ran_away(line: &Line, seeds: usize) -> Option<String> {
+    let at = line.ran_away?;
+    let share = match seeds {
+        1 => String::new(),
+        _ => format!(" in {} of {seeds} trials, first", line.diverged),
+    };
+    Some(format!("–, ran away{share} at {at:.2} s"))
+}
+
 /// The comparison for people.
 #[must_use]
 pub fn text(
@@ -106,13 +117,13 @@ pub fn text(
             .get(&line.controller)
             .and_then(|c| c.value.map(|v| format!("{} {v:.3}", c.kind)))
             .unwrap_or_else(|| "-".to_owned());
-        let ran_away = match line.diverged {
-            0 => String::new(),
-            n => format!("  {n} ran away"),
-        };
+        if let Some(when) = ran_away(line, heading.seeds) {
+            let _ = writeln!(out, "{:<22} {when}", line.controller);
+            continue;
+        }
         let _ = writeln!(
             out,
-            "{:<22} {:>17} {:>17} {:>6.2} {:>7.3} {:>9.0} {:>8.0}  {paper:<17} {certificate}{ran_away}",
+            "{:<22} {:>17} {:>17} {:>6.2} {:>7.3} {:>9.0} {:>8.0}  {paper:<17} {certificate}",
             line.controller,
             pair(line.rmse_true),
             pair(line.rmse_measured),
@@ -129,6 +140,10 @@ pub fn text(
         "controller", "rmse, true", "peak", "most command"
     );
     for line in lines {
+        if let Some(when) = ran_away(line, heading.seeds) {
+            let _ = writeln!(out, "{:<22} {when}", line.controller);
+            continue;
+        }
         let _ = writeln!(
             out,
             "{:<22} {:>17} {:>9.2} {:>14.1}",
@@ -178,27 +193,37 @@ pub fn json(
 }
 
 fn row(line: &Line) -> Value {
+    // Of a law that ran away the sums are over a part of a trial: no number says anything.
+    let told = line.diverged == 0;
+    let number = |value: f64| told.then_some(value);
+    let spread = |spread: Spread| json!({ "mean": number(spread.mean), "sd": number(spread.sd) });
     json!({
         "controller": line.controller,
-        "rmse_true": line.rmse_true,
-        "rmse_measured": line.rmse_measured,
-        "percent_of_maximum": 100.0 * line.share,
-        "peak": line.peak,
-        "effort": line.effort,
-        "reversals": line.reversals,
-        "transient": { "rmse_true": line.transient, "peak": line.transient_peak },
+        "rmse_true": spread(line.rmse_true),
+        "rmse_measured": spread(line.rmse_measured),
+        "percent_of_maximum": number(100.0 * line.share),
+        "peak": number(line.peak),
+        "effort": number(line.effort),
+        "reversals": number(line.reversals),
+        "transient": { "rmse_true": spread(line.transient), "peak": number(line.transient_peak) },
         "largest_command": line.command,
         "diverged": line.diverged,
+        "ran_away_at": line.ran_away,
         "certificate": Value::Null,
     })
 }
 
-/// "0.123", or that the loop ran away.
+/// "0.123", or when the loop ran away.
 fn error(line: &Line) -> String {
-    match line.diverged {
-        0 => format!("{:.4}", line.rmse_true.mean),
-        _ => "ran away".to_owned(),
+    match line.ran_away {
+        None => format!("{:.4}", line.rmse_true.mean),
+        Some(at) => format!("–, {at:.2} s"),
     }
+}
+
+/// The mean error; `None` of a law that ran away.
+fn mean(line: &Line) -> Option<f64> {
+    (line.diverged == 0).then_some(line.rmse_true.mean)
 }
 
 /// How much less there is after than before.
@@ -295,7 +320,8 @@ const FOUND_NOTES: &str = "
 declared model: Bouc-Wen alone, fitted to the bench record, as feed-forward; with found:
 the same with what `close` added, refitted together. As third regressor the found effects
 enter with their bench value as prior; there the column before is the law without it. Loops
-called quiet have a fifth of the paper's gains: what a full gain hides, they show.
+called quiet have a fifth of the paper's gains: what a full gain hides, they show. A dash
+with a time is a loop that ran away then.
 ";
 
 /// The same as JSON, schema `bowden.compare/1`.
@@ -322,9 +348,9 @@ pub fn found_json(heading: &Heading, effect: &Undeclared, outcomes: &[Outcome]) 
                     }
                     json!({
                         "controller": pair.controller,
-                        "no_model": pair.plain.rmse_true.mean,
-                        "declared": pair.declared.rmse_true.mean,
-                        "found": pair.found.rmse_true.mean,
+                        "no_model": mean(&pair.plain),
+                        "declared": mean(&pair.declared),
+                        "found": mean(&pair.found),
                         "lower": pair.found.rmse_true.mean < pair.declared.rmse_true.mean
                             && pair.found.diverged == 0,
                     })

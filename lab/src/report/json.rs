@@ -2,10 +2,11 @@
 
 use super::curve::UnknownPart;
 use super::rounds::{models, RoundModel};
-use super::several::{nrmse_by_file, rmse_by_file, FileErrors};
+use crate::by_file::{nrmse_by_file, rmse_by_file, worse, FileErrors, Worse};
 use crate::catalogue::Candidate;
 use crate::channels::{Piece, Prepared};
 use crate::closing::{Gate, Grade, Ledger};
+use crate::explains::{explained, Explained};
 use crate::final_fit::FinalFit;
 use crate::fit::{Segments, Solution};
 use crate::intervals::{parameters, term_name, Parameter};
@@ -13,7 +14,7 @@ use crate::plan::{separate, Experiment};
 use crate::record::{Defect, Mode};
 use crate::scan::{Regime, BLOCKS};
 use crate::unneeded::{unneeded, Unneeded};
-use crate::verdict::verdict;
+use crate::verdict::{raises, sentence, verdict};
 use serde::Serialize;
 
 /// The whole object.
@@ -32,9 +33,17 @@ pub struct Report {
     unneeded: Vec<Unneeded>,
     unknown: Option<UnknownPart>,
     noise_floor: f64,
+    /// Standard deviation of the filtered output on each segment.
+    deviation: Segments,
+    /// Shares of the held-out output's variance.
+    explains: Explained,
+    integrates: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    worse_files: Option<Vec<Worse>>,
     /// The largest number of effects that was asked for, where that ended the search.
     stopped_by_request: Option<usize>,
     verdict: &'static str,
+    sentence: String,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -103,6 +112,7 @@ struct RoundPart {
     experiment: Option<Experiment>,
     rmse_before: Segments,
     rmse_after: Segments,
+    raises_held_out: bool,
     #[serde(flatten)]
     model: RoundModel,
 }
@@ -218,6 +228,7 @@ impl Report {
                     experiment: separate(data, round),
                     rmse_before: round.before,
                     rmse_after: round.after,
+                    raises_held_out: raises(round),
                     model,
                 }
             })
@@ -271,8 +282,13 @@ impl Report {
                 .as_ref()
                 .map(|u| UnknownPart::new(data, u, done)),
             noise_floor: data.noise_floor,
+            deviation: Segments::deviation(data, &data.target),
+            explains: explained(data, last),
+            integrates: ledger.integrates,
+            worse_files: several.then(|| worse(data, &ledger.declared, last)),
             stopped_by_request: ledger.stopped_by_request,
-            verdict: verdict(data, ledger).name(),
+            verdict: verdict(data, ledger, done).name(),
+            sentence: sentence(data, ledger, done),
         }
     }
 }

@@ -9,6 +9,7 @@ mod power;
 mod rounds;
 mod several;
 mod terminal;
+pub mod terms;
 
 pub use check::{check_json, check_text, sentence as check_sentence};
 pub use json::{json, Report};

@@ -1,64 +1,12 @@
 //! Several records: errors by file, and the gains that each has of its own.
 
 use super::terminal::{estimate, number, table};
+use crate::by_file::{nrmse_by_file, worse};
 use crate::channels::{Piece, Prepared};
 use crate::closing::Ledger;
 use crate::final_fit::FinalFit;
 use crate::fit::Solution;
 use crate::intervals::{gain_names, numbered, parameters};
-use serde::Serialize;
-
-/// Errors on one file; a segment that the file has no part in is left open.
-#[derive(Debug, Clone, Serialize)]
-pub(super) struct FileErrors {
-    path: String,
-    fit: Option<f64>,
-    stop: Option<f64>,
-    held_out: Option<f64>,
-}
-
-impl FileErrors {
-    fn segments(&self) -> [Option<f64>; 3] {
-        [self.fit, self.stop, self.held_out]
-    }
-}
-
-/// Rms of a signal about a value of each segment's own, by file.
-fn by_file(data: &Prepared, of: impl Fn(&[usize]) -> f64) -> Option<Vec<FileErrors>> {
-    if data.pieces.len() < 2 {
-        return None;
-    }
-    let own = |piece: &Piece, rows: &[usize]| {
-        let begin = rows.partition_point(|&row| row < piece.rows.start);
-        let end = rows.partition_point(|&row| row < piece.rows.end);
-        (begin < end).then(|| of(&rows[begin..end]))
-    };
-    let all = data.pieces.iter().map(|piece| FileErrors {
-        path: piece.path.clone(),
-        fit: own(piece, &data.split.fit),
-        stop: own(piece, &data.split.stop),
-        held_out: own(piece, &data.split.held_out),
-    });
-    Some(all.collect())
-}
-
-fn rms(signal: &[f64], rows: &[usize], about: f64) -> f64 {
-    let squares = rows.iter().map(|&i| (signal[i] - about).powi(2));
-    (squares.sum::<f64>() / rows.len().max(1) as f64).sqrt()
-}
-
-/// Rms errors by file, in the output's unit; `None` for a single record.
-pub(super) fn rmse_by_file(data: &Prepared, solution: &Solution) -> Option<Vec<FileErrors>> {
-    by_file(data, |rows| rms(&solution.residual, rows, 0.0))
-}
-
-/// The same as shares of the filtered output's standard deviation there.
-pub(super) fn nrmse_by_file(data: &Prepared, solution: &Solution) -> Option<Vec<FileErrors>> {
-    by_file(data, |rows| {
-        let mean = rows.iter().map(|&i| data.target[i]).sum::<f64>() / rows.len() as f64;
-        rms(&solution.residual, rows, 0.0) / rms(&data.target, rows, mean)
-    })
-}
 
 /// The file that is held out as a whole, where there is one.
 fn held_out(data: &Prepared) -> Option<&Piece> {
@@ -132,7 +80,16 @@ pub(super) fn errors(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Strin
         row.push(number(piece.rate, Some(1e-3 * piece.rate)));
         files.add_row(row);
     }
-    format!("{files}\n\n")
+    let mut out = format!("{files}\n");
+    for file in worse(data, &ledger.declared, &done.solution) {
+        out += &format!(
+            "worse for {}: held out {} % → {} %\n",
+            file.path,
+            number(100.0 * file.before, Some(5.0 * file.before)),
+            number(100.0 * file.after, Some(5.0 * file.after))
+        );
+    }
+    out + "\n"
 }
 
 /// The gains that each file has of its own, as a table; empty where they are common.

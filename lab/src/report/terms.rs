@@ -1,0 +1,56 @@
+//! The words of the ledger, for whoever meets them for the first time.
+
+/// The legend under the ledger.
+pub const LEGEND: [&str; 6] = [
+    "grade      how far the name can be trusted: strong, likely or weak; not how large the effect is",
+    "explains   share of the squared error on the fit segment that this round removes",
+    "× floor    the error to its left in multiples of the sensor's noise behind the filter; 1.0 is noise alone",
+    "p          how often chance alone would do as well; blocks better: on how many of sixteen stretches the effect helps",
+    "stop       segment that vetoes a round; held out: data that neither fit nor search has seen",
+    "rejected   tried and turned down, with the reason; unneeded: declared, but the data do as well without it",
+];
+
+/// What `bowden help terms` prints.
+pub const TERMS: &str = "\
+The words of `bowden close`
+
+noise floor   The sensor's noise that passes the filter, as an RMSE in the output's unit. It is
+              estimated from the top of the output's band, and taken as white.
+× floor       The error to its left in multiples of the noise floor. At 1.0 to 1.2 nothing but
+              noise is left; at 10 most of the residual is something that the model lacks.
+fit           The first 60 % of the record: parameters are fitted and effects selected here.
+stop          The next 15 %: an effect that makes the error worse here is turned down.
+held out      The last 25 %: nothing is fitted to it and nothing is selected by it. This is the
+              error to expect on the next record of the same motion. `↑` marks a round that
+              raises it: the search does not look, so the mark is a warning, not a rule.
+explains      The share of the squared error on the fit segment that a round removes, of what
+              the row above leaves.
+grade         strong: removes a quarter of the squared error or more, has no rival, helps on 13
+              of 16 blocks, and came in the first three rounds. likely: a tenth, at most two
+              rivals, 11 blocks, the first four rounds. weak: anything less. The grade is of
+              the name. The size of the effect is its coefficient.
+coefficient   The effect's gain in the final model with its 95 % interval, from leaving out each
+              of sixteen blocks. \"acts, size unknown\": the interval holds zero, since other
+              terms can stand in for this one.
+p             The probability that chance alone explains as much: exact, by turning the signs
+              of sixteen blocks over. Taken as significant below 0.01 over all questions asked.
+blocks better On how many of sixteen stretches of equal path the effect lowers the error when its
+              coefficients were fitted on the other fifteen.
+confounded    Another effect explains the same on this record: it removes at least 90 % of what
+              the named one removes, and leaves at most twice the error. The simplest is named.
+unneeded      A declared part without which the held-out error grows by less than a tenth.
+rejected      What was tried and turned down. not significant: p too large. too small a share:
+              less than 5 % of the squared error. not on enough blocks: it helps on fewer than
+              10 of 16. worse on the stop-check. no fit: the search found no optimum.
+              superseded by later ones. only noise is left.
+
+verdict       explained            fit and held-out error are within 1.2 times the noise floor
+              explained-coloured   the residual is larger, but a function of nothing measured
+              confounded           the record cannot tell an added effect from its rivals
+              unknown              the residual depends on something measured, with no name
+              under-excited        too few independent stretches for a test: names are proposals
+              does-not-carry-over  the held-out error rises: the model fits this stretch only
+              no-model             the input explains less than half of the output
+              stopped              the search ended at --rounds N, and more than noise is left
+              data-defect          the measurement is spoilt where a conclusion rests on it
+";

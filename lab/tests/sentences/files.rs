@@ -1,0 +1,149 @@
+//! Records to be closed, and the program that closes them.
+
+use serde_json::Value;
+use std::process::{Command, Output};
+
+/// Rows of a record: time first.
+pub struct Rows {
+    pub header: String,
+    pub rows: Vec<Vec<f64>>,
+}
+
+/// Columns of a generated torque record.
+pub const T: usize = 0;
+pub const TAU_I: usize = 1;
+pub const TAU_O: usize = 2;
+pub const PHI_P: usize = 3;
+
+impl Rows {
+    /// A record of the program's generator.
+    pub fn generated(arguments: &[&str]) -> Self {
+        let output = bowden(&[&["record"], arguments].concat());
+        assert!(output.status.success(), "{output:?}");
+        let text = String::from_utf8(output.stdout).unwrap();
+        let mut lines = text.lines();
+        let header = lines.next().unwrap().to_owned();
+        let rows = lines.map(|line| line.split(',').map(|c| c.parse().unwrap()).collect());
+        Self {
+            rows: rows.collect(),
+            header,
+        }
+    }
+
+    /// Replaces a column by a function of the row's index and its old values.
+    pub fn set(&mut self, column: usize, mut of: impl FnMut(usize, &[f64]) -> f64) {
+        for (i, row) in self.rows.iter_mut().enumerate() {
+            row[column] = of(i, row);
+        }
+    }
+
+    pub fn seconds(&self) -> f64 {
+        self.rows.last().unwrap()[T]
+    }
+
+    pub fn write(&self, folder: &tempfile::TempDir, name: &str) -> String {
+        let mut text = self.header.clone();
+        for row in &self.rows {
+            let cells: Vec<String> = row.iter().map(f64::to_string).collect();
+            text += "\n";
+            text += &cells.join(",");
+        }
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path.display().to_string()
+    }
+
+    /// What `close` says of it, for people and for programs.
+    pub fn close(&self, options: &[&str]) -> Closed {
+        let folder = tempfile::tempdir().unwrap();
+        let path = self.write(&folder, "record.csv");
+        Closed {
+            _folder: Some(folder),
+            ..Closed::of(&[&[path.as_str()], options].concat())
+        }
+    }
+}
+
+pub struct Closed {
+    arguments: Vec<String>,
+    pub json: Value,
+    /// The record, as long as the program may have to read it again.
+    _folder: Option<tempfile::TempDir>,
+}
+
+fn close(arguments: &[&str], more: &[&str]) -> String {
+    let output = bowden(&[&["close"], arguments, more].concat());
+    assert!(output.status.success(), "{output:?}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+impl Closed {
+    pub fn of(arguments: &[&str]) -> Self {
+        let json: Value = serde_json::from_str(&close(arguments, &["--json"])).unwrap();
+        println!("{}: {}", json["verdict"], json["sentence"]);
+        Self {
+            arguments: arguments.iter().map(|a| (*a).to_owned()).collect(),
+            json,
+            _folder: None,
+        }
+    }
+
+    /// What is printed for people; a second run.
+    pub fn text(&self) -> String {
+        let arguments: Vec<&str> = self.arguments.iter().map(String::as_str).collect();
+        let text = close(&arguments, &[]);
+        assert!(
+            text.contains(self.sentence()),
+            "{} is not in {text}",
+            self.sentence()
+        );
+        text
+    }
+
+    pub fn verdict(&self) -> &str {
+        self.json["verdict"].as_str().unwrap()
+    }
+
+    pub fn sentence(&self) -> &str {
+        self.json["sentence"].as_str().unwrap()
+    }
+
+    /// A share of the held-out output's variance.
+    pub fn explains(&self, what: &str) -> f64 {
+        self.json["explains"][what].as_f64().unwrap()
+    }
+
+    pub fn names(&self) -> Vec<&str> {
+        let rounds = self.json["rounds"].as_array().unwrap();
+        rounds
+            .iter()
+            .map(|r| r["effect"].as_str().unwrap())
+            .collect()
+    }
+
+    /// Asserts that the sentence holds each of the texts.
+    pub fn says(&self, texts: &[&str]) {
+        let told = self.sentence();
+        for text in texts {
+            assert!(told.contains(text), "{text:?} is not in: {told}");
+        }
+    }
+}
+
+pub fn bowden(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_bowden"))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+/// Pseudo-random, uniform in −1…1: the fraction of a large sine (an old trick of shaders).
+pub fn uniform(row: usize) -> f64 {
+    2.0 * ((row as f64 * 12.9898).sin() * 43758.5453).rem_euclid(1.0) - 1.0
+}
+
+/// Nearly normal with unit variance: the sum of twelve of the above.
+pub fn noise(row: usize) -> f64 {
+    let sum: f64 = (0..12).map(|k| uniform(12 * row + k)).sum();
+    sum / 2.0
+}

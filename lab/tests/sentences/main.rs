@@ -1,0 +1,13 @@
+//! The closing sentence on files that a newcomer has: the wrong cable, the wrong column, a
+//! plant that integrates, a stretch that is like no other.
+//!
+//! The records are made here or by the program's own generator, and altered here; neither
+//! shares code with the fit.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod carries_over;
+mod compare;
+mod files;
+mod no_model;
+mod reading;
+mod table;

@@ -1,0 +1,114 @@
+//! Files in which there is no model to be found: the verdict must say so.
+
+use crate::files::{noise, Rows, PHI_P, T, TAU_I, TAU_O};
+use std::f64::consts::TAU;
+
+fn sound() -> Rows {
+    Rows::generated(&["--mode", "torque", "--seed", "31", "--rate", "500"])
+}
+
+#[test]
+fn an_output_of_white_noise_is_no_model_and_the_input_explains_nothing() {
+    let mut rows = sound();
+    rows.set(TAU_O, |i, _| noise(i));
+    let closed = rows.close(&[]);
+    assert_eq!(closed.verdict(), "no-model");
+    closed.says(&[
+        "the input `tau_i` explains 0 % of the held-out output",
+        "right input",
+    ]);
+}
+
+/// The wrong cable is plugged in: a tone is a function of nothing measured.
+#[test]
+fn an_output_that_is_a_sine_at_another_frequency_is_no_model_whatever_a_tone_takes() {
+    let mut rows = sound();
+    rows.set(TAU_O, |i, row| {
+        10.0 * (TAU * 2.37 * row[T]).sin() + 0.05 * noise(i)
+    });
+    let closed = rows.close(&[]);
+    assert_eq!(closed.verdict(), "no-model");
+    assert!(
+        closed.explains("input") < 0.1,
+        "{}",
+        closed.json["explains"]
+    );
+    closed.says(&["the input `tau_i` explains", "of the held-out output"]);
+    // What the tone takes is told apart, and not as explained.
+    if closed.names().contains(&"tone") {
+        assert!(closed.explains("time") > 0.5, "{}", closed.json["explains"]);
+        closed.says(&["functions of nothing measured"]);
+    }
+}
+
+/// A motor from voltage to angle.
+#[test]
+fn an_output_that_integrates_the_input_is_told_with_what_to_do() {
+    let mut rows = sound();
+    let mut angle = 0.0;
+    rows.set(TAU_O, |i, row| {
+        angle += 0.4 * row[TAU_I] * 0.002;
+        angle + 0.002 * noise(i)
+    });
+    let closed = rows.close(&[]);
+    assert_eq!(closed.verdict(), "no-model");
+    assert_eq!(closed.json["integrates"], true);
+    assert!(closed.names().is_empty());
+    closed.says(&[
+        "The output integrates the input",
+        "Differentiate",
+        "swap the columns",
+    ]);
+}
+
+/// The same where the input's offset makes the angle run away.
+#[test]
+fn an_output_that_integrates_an_input_with_an_offset_is_told_too() {
+    let mut rows = sound();
+    let mut angle = 0.0;
+    rows.set(TAU_O, |i, row| {
+        angle += 0.4 * (row[TAU_I] + 1.0) * 0.002;
+        angle + 0.002 * noise(i)
+    });
+    let closed = rows.close(&[]);
+    assert_eq!(closed.json["integrates"], true);
+}
+
+/// A loop that opens with the speed leads; an integral lags.
+#[test]
+fn a_damper_does_not_integrate() {
+    let mut rows = Rows::generated(&["--mode", "displacement", "--seed", "32", "--rate", "500"]);
+    let before: Vec<f64> = rows.rows.iter().map(|row| row[1]).collect();
+    rows.set(2, |i, _| {
+        let next = before[(i + 1).min(before.len() - 1)];
+        let last = before[i.saturating_sub(1)];
+        (next - last) / 0.004 + 0.05 * noise(i)
+    });
+    let closed = rows.close(&["--declare", "bouc-wen"]);
+    assert_eq!(closed.json["integrates"], false);
+}
+
+/// The torque channel has nothing to do with the output; an angle makes all of it.
+#[test]
+fn where_only_the_channels_explain_the_output_the_input_is_asked_about() {
+    let mut rows = sound();
+    rows.set(TAU_O, |i, row| {
+        6.0 * row[PHI_P] - 0.07 * row[TAU_I] + 0.05 * noise(i)
+    });
+    // Another torque than the one that moves the joint.
+    rows.set(TAU_I, |i, row| {
+        0.3 * row[TAU_I] + 8.0 * (TAU * 0.83 * row[T]).sin() + 0.05 * noise(7 * i)
+    });
+    let closed = rows.close(&[]);
+    assert_eq!(closed.verdict(), "no-model");
+    assert!(
+        closed.explains("channels") > 0.5,
+        "{}",
+        closed.json["explains"]
+    );
+    closed.says(&[
+        "the input `tau_i` explains",
+        "the other channels",
+        "right input",
+    ]);
+}

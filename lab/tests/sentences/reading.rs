@@ -1,0 +1,37 @@
+//! What is said before anything is fitted.
+
+use crate::files::{bowden, Rows, T};
+
+#[test]
+fn a_time_column_without_a_unit_and_with_long_steps_is_asked_about() {
+    let mut rows = Rows::generated(&["--mode", "torque", "--seed", "38", "--rate", "500"]);
+    let header = rows.header.clone();
+    let (_, others) = header.split_once(',').unwrap();
+    rows.header = format!("t,{others}");
+    rows.set(T, |_, row| 1000.0 * row[T]);
+    let closed = rows.close(&[]);
+    let text = closed.text();
+    assert!(text.contains("median step is 2 s: is that ms?"), "{text}");
+    rows.header = format!("t [ms],{others}");
+    let closed = rows.close(&[]);
+    let text = closed.text();
+    assert!(!text.contains("is that ms?"), "{text}");
+}
+
+#[test]
+fn a_column_that_is_not_there_is_named_with_the_nearest_ones() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut rows = Rows::generated(&["--mode", "displacement", "--seed", "39"]);
+    rows.header = "t [s],x_mm,force_N".to_owned();
+    for row in &mut rows.rows {
+        row.truncate(3);
+    }
+    let path = rows.write(&folder, "excel.csv");
+    for (given, meant) in [("X", "`x_mm`"), ("force_n", "`force_N`")] {
+        let output = bowden(&["close", &path, "--input", given]);
+        assert_eq!(output.status.code(), Some(2));
+        let line = String::from_utf8(output.stderr).unwrap();
+        assert!(line.contains(&format!("column `{given}`")), "{line}");
+        assert!(line.contains(&format!("nearest: {meant}")), "{line}");
+    }
+}
