@@ -6,7 +6,7 @@ use crate::channels::Prepared;
 use crate::duel::is_noise;
 use crate::explains::integrates;
 use crate::fit::{fit, Segments, Solution};
-use crate::joint::{joint, superseded};
+use crate::joint::{is_cut, joint, superseded};
 use crate::revisit::revisited;
 use crate::scan::{blocks, correlation_samples, Regime};
 use crate::structure::{FitTerm, Structure};
@@ -313,7 +313,7 @@ fn grow(data: &Prepared, ledger: &mut Ledger, most: usize, mut progress: impl Fn
         });
         if accepted.is_empty() {
             // Several at once were tried only as far as there was room for them.
-            let mut cut = tried.regime == Regime::Blocks && tried.forward.len() > left;
+            let mut cut = is_cut(&tried, left);
             progress("looking for what has no name");
             match unnamed(data, &now, &tried) {
                 Some(Behind::Unknown(unknown)) => ledger.unknown = Some(*unknown),

@@ -38,6 +38,13 @@ pub(crate) fn joint(
     these(data, now, set)
 }
 
+/// Whether more would be tried at once if there were room for more than `most`.
+pub(crate) fn is_cut(tried: &Attempt, most: usize) -> bool {
+    tried.regime == Regime::Blocks
+        && tried.forward_share >= WORTH
+        && tried.forward.len().min(MEMBERS) > most
+}
+
 /// The same, of a set that is given.
 pub(crate) fn these(data: &Prepared, now: &Solution, set: &[(Candidate, f64)]) -> Vec<Accepted> {
     search(data, now, set).unwrap_or_default()

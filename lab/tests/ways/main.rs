@@ -1,0 +1,10 @@
+//! New ways in and out: limited rounds, traces, models on the next record, models by round.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod check;
+mod measured;
+mod program;
+mod refused;
+mod rig;
+mod rounds;
+mod trace;

@@ -1,0 +1,130 @@
+//! Models on the next record of a rig that others measured.
+//!
+//! `BOWDEN_SHARED_RECORDS` names the folder of the records, else it is `../../shared/data`
+//! beside this crate; where it or a file is absent a test says so and passes.
+
+use bowden_lab::channels::{Preparation, Prepared};
+use bowden_lab::check::{About, Check, Errors, Given, Verdict};
+use bowden_lab::closing::{close_within, structure};
+use bowden_lab::export::ModelFile;
+use bowden_lab::final_fit::FinalFit;
+use bowden_lab::record::{read, Mode, Options, Record};
+use bowden_lab::report::check_sentence;
+use std::path::PathBuf;
+
+struct Rig {
+    folder: &'static str,
+    input: &'static str,
+    output: &'static str,
+    cutoff: f64,
+    skip: f64,
+}
+
+const DAMPER: Rig = Rig {
+    folder: "mr_damper_utfsm",
+    input: "displacement_mm",
+    output: "force_N",
+    cutoff: 20.0,
+    skip: 0.0,
+};
+
+const PIEZO: Rig = Rig {
+    folder: "piezo_stage",
+    input: "control_V",
+    output: "displacement_um",
+    cutoff: 40.0,
+    skip: 2.0,
+};
+
+impl Rig {
+    fn record(&self, file: &str) -> Option<Record> {
+        let folder = std::env::var_os("BOWDEN_SHARED_RECORDS").map_or_else(
+            || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/data")),
+            PathBuf::from,
+        );
+        let path = folder.join(self.folder).join(file);
+        if !path.exists() {
+            println!("skipped: {} is not there", path.display());
+            return None;
+        }
+        let options = Options {
+            mode: Some(Mode::Displacement),
+            time: Some("time_s".to_owned()),
+            input: Some(self.input.to_owned()),
+            output: Some(self.output.to_owned()),
+            skip: self.skip,
+            ..Options::default()
+        };
+        Some(read(&path, &options).unwrap_or_else(|line| panic!("{line}")))
+    }
+
+    /// The model of one file with at most so many rounds, on another one.
+    fn check(&self, own: &str, next: &str, most: usize) -> Option<Check> {
+        let (own, next) = (self.record(own)?, self.record(next)?);
+        let cutoff = Some(self.cutoff);
+        let data = Prepared::new(&own, Preparation { cutoff }).unwrap();
+        let declared = structure(&["bouc-wen".to_owned()], &data).unwrap();
+        let ledger = close_within(&data, &declared, most, |_| ()).unwrap();
+        let done = FinalFit::new(&data, &ledger);
+        let errors = done.rmse.normalised(&data, &data.target);
+        let given = Given {
+            file: ModelFile::new(&done.data, &done.solution),
+            left_out: Vec::new(),
+            about: About {
+                cutoff_hz: cutoff,
+                nrmse: Some(Errors {
+                    fit: Some(errors.fit),
+                    stop: Some(errors.stop),
+                    held_out: Some(errors.held_out),
+                }),
+                ..About::default()
+            },
+        };
+        let check = Check::new(next, &given, None).unwrap();
+        let percent = |rmse: f64| 100.0 * rmse / check.deviation;
+        println!(
+            "{most} rounds: own held out {:.2} %, here {:.2} %, with gain {:.3} and offset {:.2} {:.2} %: {}",
+            100.0 * errors.held_out,
+            percent(check.rmse),
+            check.line.gain.value,
+            check.line.offset.value,
+            percent(check.rmse_gain_offset),
+            check_sentence(&check)
+        );
+        Some(check)
+    }
+}
+
+/// At twice the frequency: the fluid is as it was, so a model with the damper's viscosity
+/// misses little more than at home, and Bouc-Wen alone misses what depends on velocity.
+#[test]
+fn the_dampers_model_on_twice_the_frequency() {
+    let files = ("sine_25mm0x25Hz0x5A.csv", "sine_25mm0x5Hz0x5A.csv");
+    for most in [0, 1, 2] {
+        let Some(check) = DAMPER.check(files.0, files.1, most) else {
+            return;
+        };
+        println!("{:?}", check.verdict);
+    }
+}
+
+/// Without current there is another fluid: no gain and offset make one from the other.
+#[test]
+fn the_dampers_model_does_not_hold_without_its_current() {
+    let files = ("sine_25mm0x25Hz0x5A.csv", "sine_25mm0x25Hz0A.csv");
+    let Some(check) = DAMPER.check(files.0, files.1, 1) else {
+        return;
+    };
+    assert_eq!(check.verdict, Verdict::DoesNotHold);
+}
+
+#[test]
+fn the_piezos_model_on_varying_amplitudes() {
+    let files = ("sine_1Hz_full_range.csv", "sine_1Hz_varying_amplitude.csv");
+    for most in [0, 1, 3] {
+        let Some(check) = PIEZO.check(files.0, files.1, most) else {
+            return;
+        };
+        println!("{:?}", check.verdict);
+    }
+}

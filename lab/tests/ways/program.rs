@@ -1,0 +1,239 @@
+//! The program from outside.
+
+use crate::rig::{on, refused, said, with_gain, Folder};
+use bowden_lab::check::Given;
+use bowden_lab::export::ModelFile;
+use bowden_lab::synth::{Mode, Recipe};
+use serde_json::Value;
+
+fn viscous(seed: u64) -> Recipe {
+    Recipe {
+        effects: vec![with_gain("viscous", 0.02)],
+        ..on(Mode::Displacement, seed)
+    }
+}
+
+fn json(arguments: &[&str]) -> Value {
+    serde_json::from_str(&said(arguments)).unwrap()
+}
+
+/// What a model's file has to say of its record, from the report of the run that wrote it.
+fn about(report: &Value) -> String {
+    let nrmse = &report["final"]["nrmse"];
+    format!(
+        "\n[about]\ncutoff_hz = {}\nrate_hz = {}\n[about.nrmse]\nfit = {}\nstop = {}\nheld_out = {}\n[about.units]\ninput = \"mm\"\noutput = \"N\"\n[about.ranges.input]\nposition = [-10.0, 10.0]\nvelocity = [-20.0, 20.0]\n",
+        report["record"]["cutoff_hz"], report["record"]["rate_hz"], nrmse["fit"], nrmse["stop"], nrmse["held_out"]
+    )
+}
+
+#[test]
+fn the_json_of_a_check_is_laid_out_as_documented_and_the_same_each_time() {
+    let folder = Folder::new();
+    let own = folder.record("own.csv", &viscous(76_000));
+    let next = folder.record("next.csv", &viscous(76_001));
+    let model = folder.path("model.toml");
+    let report = json(&[
+        "close",
+        &own,
+        "--rounds",
+        "1",
+        "--json",
+        "--model-out",
+        &model,
+    ]);
+    let plain: ModelFile = toml::from_str(&folder.read("model.toml")).unwrap();
+    let with = toml::to_string(&plain).unwrap() + &about(&report);
+    folder.file("model.toml", with);
+
+    let first = said(&["check", &model, &next, "--json"]);
+    assert_eq!(first, said(&["check", &model, &next, "--json"]));
+    let check: Value = serde_json::from_str(&first).unwrap();
+    let keys: Vec<&str> = check
+        .as_object()
+        .unwrap()
+        .keys()
+        .map(String::as_str)
+        .collect();
+    assert_eq!(
+        keys,
+        [
+            "schema",
+            "model",
+            "record",
+            "rmse",
+            "nrmse",
+            "rmse_gain_offset",
+            "nrmse_gain_offset",
+            "gain",
+            "offset",
+            "from",
+            "allowed",
+            "noise_floor",
+            "outside",
+            "depends_on",
+            "defects",
+            "notes",
+            "verdict",
+            "sentence"
+        ]
+        .into_iter()
+        .collect::<std::collections::BTreeSet<_>>()
+        .into_iter()
+        .collect::<Vec<_>>()
+    );
+    assert_eq!(check["schema"], "bowden.check/1");
+    assert_eq!(check["verdict"], "holds");
+    assert_eq!(check["from"]["nrmse"], report["final"]["nrmse"]);
+    assert_eq!(check["from"]["cutoff_hz"], check["record"]["cutoff_hz"]);
+    let [nrmse, moved] = ["nrmse", "nrmse_gain_offset"].map(|key| check[key].as_f64().unwrap());
+    assert!(moved <= nrmse && nrmse <= check["allowed"].as_f64().unwrap());
+    assert!(check["gain"]["ci95"].is_array() && check["offset"]["value"].is_number());
+}
+
+#[test]
+fn the_text_of_a_check_ends_with_a_sentence_and_its_trace_has_the_models_parts() {
+    let folder = Folder::new();
+    let own = folder.record("own.csv", &viscous(76_002));
+    let next = folder.record("next.csv", &viscous(76_003));
+    let (model, trace) = (folder.path("model.toml"), folder.path("trace.csv"));
+    let report = json(&[
+        "close",
+        &own,
+        "--rounds",
+        "1",
+        "--json",
+        "--model-out",
+        &model,
+    ]);
+    let plain: ModelFile = toml::from_str(&folder.read("model.toml")).unwrap();
+    folder.file(
+        "model.toml",
+        toml::to_string(&plain).unwrap() + &about(&report),
+    );
+    let text = said(&["check", &model, &next, "--trace", &trace]);
+    let last = text.trim_end().lines().last().unwrap();
+    assert!(
+        last.starts_with("verdict   holds. The model holds: it misses "),
+        "{last}"
+    );
+    assert!(!text.contains('\u{1b}'), "escape codes without a terminal");
+    let trace = folder.read("trace.csv");
+    let header = trace.lines().next().unwrap();
+    assert_eq!(
+        header,
+        "t [s],segment,input [mm],measured [N],model [N],residual [N],model-gain-offset [N],residual-gain-offset [N],transmission.gain [N],transmission.hysteresis [N],transmission.offset [N],viscous [N]"
+    );
+    assert!(trace.contains(",checked,") && trace.contains(",dropped,"));
+}
+
+#[test]
+fn the_json_of_close_has_the_model_after_each_round_and_rounds_writes_the_same() {
+    let folder = Folder::new();
+    let recipe = Recipe {
+        effects: vec![
+            with_gain("viscous", 0.02),
+            with_gain("stiffness-cubic", 0.01),
+        ],
+        ..on(Mode::Displacement, 76_004)
+    };
+    let record = folder.record("r.csv", &recipe);
+    let all = json(&["close", &record, "--json"]);
+    let rounds = all["rounds"].as_array().unwrap();
+    assert!(rounds.len() >= 2 && all["stopped_by_request"].is_null());
+    for (index, round) in rounds.iter().enumerate() {
+        let model: ModelFile = serde_json::from_value(round["model"].clone()).unwrap();
+        assert_eq!(model.terms.len(), index + 1);
+        // As a file it is a model like any other.
+        let given = Given::parse(&toml::to_string(&model).unwrap()).unwrap();
+        assert_eq!(given.file, model);
+    }
+    let last = &rounds[rounds.len() - 1];
+    assert_eq!(last["nrmse"], all["final"]["nrmse"]);
+    assert_eq!(last["refitted"], all["final"]["refitted"]);
+
+    let path = folder.path("one.toml");
+    let one = json(&[
+        "close",
+        &record,
+        "--rounds",
+        "1",
+        "--json",
+        "--model-out",
+        &path,
+    ]);
+    assert_eq!(one["stopped_by_request"], 1);
+    assert_eq!(one["rounds"].as_array().unwrap().len(), 1);
+    let written: ModelFile = toml::from_str(&folder.read("one.toml")).unwrap();
+    let reported: ModelFile = serde_json::from_value(one["rounds"][0]["model"].clone()).unwrap();
+    assert_eq!(
+        (written.mode, written.channels),
+        (reported.mode, reported.channels)
+    );
+    for (a, b) in written.terms.iter().zip(&reported.terms) {
+        assert_eq!((&a.effect, &a.source), (&b.effect, &b.source));
+        // JSON and TOML print the same bits; one reader may miss the last of them.
+        assert!((a.gain / b.gain - 1.0).abs() < 1e-14);
+    }
+    assert_eq!(written.terms[0].effect, rounds[0]["effect"]);
+}
+
+#[test]
+fn a_trace_of_several_records_says_of_which_each_line_is_and_is_the_same_each_time() {
+    let folder = Folder::new();
+    let a = folder.record("a.csv", &viscous(76_005));
+    let b = folder.record("b.csv", &viscous(76_006));
+    let (one, two) = (folder.path("one.csv"), folder.path("two.csv"));
+    for trace in [&one, &two] {
+        said(&[
+            "close",
+            &a,
+            &b,
+            "--rounds",
+            "0",
+            "--per-file",
+            "gains",
+            "--trace",
+            trace,
+        ]);
+    }
+    let trace = folder.read("one.csv");
+    assert_eq!(trace, folder.read("two.csv"));
+    assert!(trace.starts_with("record,t [s],segment,input [mm],"));
+    let of = |path: &str| trace.lines().filter(|l| l.starts_with(path)).count();
+    assert_eq!(of(&a) + of(&b) + 1, trace.lines().count());
+    // Each begins at zero.
+    assert!(trace
+        .lines()
+        .any(|l| l.starts_with(&format!("{b},0,dropped,"))));
+}
+
+#[test]
+fn rounds_beyond_the_loops_own_are_refused() {
+    let line = refused(&["close", "--rounds", "9"]);
+    assert!(line.contains("--rounds 9: 0 to 8"), "{line}");
+}
+
+#[test]
+fn plan_and_power_take_the_rounds_too() {
+    let folder = Folder::new();
+    let record = folder.record(
+        "r.csv",
+        &Recipe {
+            seconds: 10.0,
+            ..viscous(76_007)
+        },
+    );
+    said(&["plan", &record, "--rounds", "0"]);
+    let power = json(&[
+        "power",
+        &record,
+        "--rounds",
+        "0",
+        "--effects",
+        "drag-cubic",
+        "--trials",
+        "5",
+        "--json",
+    ]);
+    assert_eq!(power["schema"], "bowden.power/1");
+}

@@ -1,0 +1,180 @@
+//! What `bowden check` does not take: one line, status 2.
+
+use crate::rig::{on, refused, said, Folder};
+use bowden_lab::synth::{Mode, Planted, Recipe};
+
+fn model(folder: &Folder, mode: Mode, declare: &str) -> (String, String) {
+    let recipe = Recipe {
+        effects: vec![Planted::new("viscous")],
+        seconds: 10.0,
+        ..on(mode, 75_000)
+    };
+    let record = folder.record("own.csv", &recipe);
+    let model = folder.path("model.toml");
+    said(&[
+        "close",
+        &record,
+        "--rounds",
+        "0",
+        "--declare",
+        declare,
+        "--model-out",
+        &model,
+    ]);
+    (model, record)
+}
+
+#[test]
+fn what_is_no_model_is_refused_with_the_reason() {
+    let folder = Folder::new();
+    let (model, record) = model(&folder, Mode::Displacement, "bouc-wen,viscous");
+    let text = folder.read("model.toml");
+    let refuse = |name: &str, bytes: &[u8], word: &str| {
+        let path = folder.file(name, bytes);
+        let line = refused(&["check", &path, &record]);
+        assert!(line.contains(name) && line.contains(word), "{word}: {line}");
+    };
+    refuse("words.toml", b"this is no TOML", "TOML");
+    refuse("empty.toml", b"", "no schema");
+    refuse("binary.toml", &[0, 159, 146, 150], "no text");
+    refuse(
+        "other.toml",
+        text.replace("bowden.model/1", "bowden.model/9").as_bytes(),
+        "bowden.model/9",
+    );
+    refuse(
+        "key.toml",
+        text.replace("mode =", "mood =").as_bytes(),
+        "mood",
+    );
+    refuse(
+        "effect.toml",
+        text.replace("\"viscous\"", "\"sticky\"").as_bytes(),
+        "sticky",
+    );
+    refuse(
+        "mode.toml",
+        text.replace("\"displacement\"", "\"volts\"").as_bytes(),
+        "volts",
+    );
+    refuse(
+        "shape.toml",
+        text.replace("rho = ", "rho = -").as_bytes(),
+        "transmission",
+    );
+    refuse(
+        "about.toml",
+        format!("{text}\n[about]\ncutoff_hz = \"fast\"\n").as_bytes(),
+        "about",
+    );
+    let none = format!("schema = \"bowden.model/1\"\nmode = \"displacement\"\nchannels = []\n");
+    refuse("nothing.toml", none.as_bytes(), "without any part");
+    refused(&["check", &folder.path("missing.toml"), &record]);
+    refused(&["check", &folder.path("."), &record]);
+    // And the model itself is taken.
+    said(&["check", &model, &record]);
+}
+
+#[test]
+fn a_record_that_does_not_fit_the_model_is_refused_with_the_reason() {
+    let folder = Folder::new();
+    let (model, record) = model(&folder, Mode::Torque, "bouc-wen,viscous@phi_p");
+    let csv = folder.read("own.csv");
+    let without = folder.file("without.csv", csv.replace("phi_p", "angle"));
+    let line = refused(&["check", &model, &without]);
+    assert!(line.contains("`phi_p`, which the model reads"), "{line}");
+    said(&["check", &model, &without, "--channel", "phi_p=angle"]);
+
+    let other = folder.record(
+        "other.csv",
+        &Recipe {
+            seconds: 10.0,
+            ..on(Mode::Displacement, 1)
+        },
+    );
+    let line = refused(&["check", &model, &other]);
+    assert!(line.contains("the model is of torque mode"), "{line}");
+    let line = refused(&["check", &model, &record, "--mode", "displacement"]);
+    assert!(line.contains("the model is of torque mode"), "{line}");
+
+    refused(&["check", &model, &folder.file("empty.csv", "")]);
+    refused(&["check", &model, &folder.path("missing.csv")]);
+    let short: String = csv.lines().take(400).flat_map(|l| [l, "\n"]).collect();
+    let line = refused(&["check", &model, &folder.file("short.csv", short)]);
+    assert!(
+        line.contains("too short") && !line.contains("--cutoff,"),
+        "{line}"
+    );
+}
+
+#[test]
+fn units_are_converted_or_refused() {
+    let folder = Folder::new();
+    let (model, record) = model(&folder, Mode::Displacement, "bouc-wen,viscous");
+    let units = "\n[about]\n[about.units]\ninput = \"mm\"\noutput = \"N\"\n";
+    folder.file("model.toml", folder.read("model.toml") + units);
+    let json = |path: &str| -> serde_json::Value {
+        serde_json::from_str(&said(&["check", &model, path, "--json", "--cutoff", "8"])).unwrap()
+    };
+    let own = json(&record);
+
+    // The same motion in metres.
+    let csv = folder.read("own.csv");
+    let mut metres = String::from("t [s],x [m],f [N]\n");
+    for line in csv.lines().skip(1) {
+        let cells: Vec<&str> = line.split(',').collect();
+        let x: f64 = cells[1].parse().unwrap();
+        metres += &format!("{},{},{}\n", cells[0], x / 1000.0, cells[2]);
+    }
+    let converted = json(&folder.file("metres.csv", metres));
+    let (a, b) = (
+        own["nrmse"].as_f64().unwrap(),
+        converted["nrmse"].as_f64().unwrap(),
+    );
+    // A division and a multiplication by a thousand.
+    assert!((a / b - 1.0).abs() < 1e-6, "{a} {b}");
+    assert!(converted["notes"]
+        .to_string()
+        .contains("converted from unit m to unit mm"));
+
+    for (header, word) in [
+        ("t [s],x [V],f [N]", "unit V"),
+        ("t [s],x,f [N]", "no unit"),
+        ("t [s],x [mm],f [Pa]", "unit Pa"),
+    ] {
+        let path = folder.file("wrong.csv", csv.replacen("t [s],x [mm],f [N]", header, 1));
+        let line = refused(&["check", &model, &path]);
+        assert!(
+            line.contains("wrong.csv")
+                && line.contains(word)
+                && line.contains("was expected, as in the model"),
+            "{line}"
+        );
+    }
+}
+
+#[test]
+fn a_trace_that_cannot_be_written_is_refused_before_the_record_is_read() {
+    let folder = Folder::new();
+    let (model, record) = model(&folder, Mode::Displacement, "bouc-wen,viscous");
+    let before = folder.names();
+    for path in [
+        folder.path("no-such-folder/t.csv"),
+        folder.path("."),
+        record.clone(),
+    ] {
+        // A record that does not exist would be complained of first if it were read first.
+        let line = refused(&[
+            "close",
+            &record,
+            &folder.path("later.csv"),
+            "--trace",
+            &path,
+        ]);
+        assert!(line.contains("--trace"), "{line}");
+        let line = refused(&["check", &model, &record, "--trace", &path]);
+        assert!(line.contains("--trace"), "{line}");
+    }
+    assert!(refused(&["check", &model, &record, "--trace", &model]).contains("would overwrite"));
+    assert_eq!(folder.names(), before);
+}

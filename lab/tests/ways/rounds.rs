@@ -1,0 +1,93 @@
+//! At most so many effects.
+
+use crate::rig::{on, with_gain, Closed};
+use bowden_lab::synth::{Mode, Planted, Recipe};
+use bowden_lab::verdict::{sentence, verdict, Verdict};
+
+/// A rig that lacks three effects.
+fn three() -> Recipe {
+    Recipe {
+        effects: vec![
+            Planted::new("viscous"),
+            Planted {
+                strength: 2.0,
+                ..Planted::new("stiffness-cubic")
+            },
+            Planted {
+                strength: 2.0,
+                ..Planted::new("inertia")
+            },
+        ],
+        ..on(Mode::Displacement, 73_000)
+    }
+}
+
+#[test]
+fn no_rounds_fit_what_is_declared_and_claim_nothing_of_what_is_missing() {
+    let closed = Closed::new(&three(), &["bouc-wen"], 0);
+    assert!(closed.ledger.rounds.is_empty() && closed.ledger.rejected.is_empty());
+    assert!(closed.ledger.unknown.is_none());
+    assert_eq!(closed.ledger.stopped_by_request, Some(0));
+    assert_eq!(verdict(&closed.data, &closed.ledger), Verdict::Stopped);
+    let told = sentence(&closed.data, &closed.ledger);
+    assert!(told.contains("No effect was looked for"), "{told}");
+    assert!(!told.contains("lacks"), "{told}");
+}
+
+#[test]
+fn rounds_end_where_they_were_asked_to_and_the_sentence_says_so() {
+    for most in [1, 2] {
+        let closed = Closed::new(&three(), &["bouc-wen"], most);
+        assert_eq!(closed.ledger.rounds.len(), most);
+        assert_eq!(closed.ledger.stopped_by_request, Some(most));
+        let found = verdict(&closed.data, &closed.ledger);
+        // Rivals of what was found go before what was not looked for.
+        let rivals = closed.ledger.rounds.iter().any(|r| !r.rivals.is_empty());
+        let expected = match rivals {
+            true => Verdict::Confounded,
+            false => Verdict::Stopped,
+        };
+        assert_eq!(found, expected, "{most}");
+        let told = sentence(&closed.data, &closed.ledger);
+        assert!(told.contains("was not looked for"), "{told}");
+    }
+}
+
+#[test]
+fn a_search_that_ends_before_its_limit_has_not_been_stopped() {
+    let recipe = Recipe {
+        effects: vec![with_gain("viscous", 0.02)],
+        ..on(Mode::Displacement, 73_001)
+    };
+    let closed = Closed::new(&recipe, &["bouc-wen"], 5);
+    assert_eq!(closed.ledger.rounds.len(), 1);
+    assert_eq!(closed.ledger.stopped_by_request, None);
+    let told = sentence(&closed.data, &closed.ledger);
+    assert!(!told.contains("as asked"), "{told}");
+}
+
+#[test]
+fn a_declared_model_at_the_noise_is_explained_without_a_search_but_nothing_is_claimed() {
+    let closed = Closed::new(&on(Mode::Displacement, 73_002), &["bouc-wen"], 0);
+    assert_eq!(verdict(&closed.data, &closed.ledger), Verdict::Explained);
+    let told = sentence(&closed.data, &closed.ledger);
+    assert!(told.contains("No effect was looked for"), "{told}");
+    assert!(!told.contains("lacks no effect"), "{told}");
+}
+
+/// A bump over the position is in no catalogue: with a search it becomes a table.
+#[test]
+fn no_rounds_draw_no_curve_of_what_has_no_name() {
+    let recipe = Recipe {
+        effects: vec![Planted::new("bump-position")],
+        ..on(Mode::Displacement, 73_003)
+    };
+    assert!(Closed::new(&recipe, &["bouc-wen"], 8)
+        .ledger
+        .unknown
+        .is_some());
+    assert!(Closed::new(&recipe, &["bouc-wen"], 0)
+        .ledger
+        .unknown
+        .is_none());
+}
