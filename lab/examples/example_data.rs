@@ -55,7 +55,9 @@ fn write(folder: &Path, name: &str, header: &str, recipe: &Recipe) -> Result<(),
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let folder = std::env::args().nth(1).ok_or("give the folder to write to")?;
+    let folder = std::env::args()
+        .nth(1)
+        .ok_or("give the folder to write to")?;
     let folder = Path::new(&folder);
     let own = "t [s],tau_i [N·m],tau_o [N·m],phi_p [rad],phi_d [rad]";
     write(folder, "straight.csv", own, &cable(STRAIGHT, 7))?;
