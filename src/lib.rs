@@ -23,7 +23,8 @@
 //! on torque control of cable-conduit mechanisms that the project started from.
 //!
 //! # Features
-//! All off: `serde` (configs deserialise through their checks), `defmt`, `std`.
+//! All off: `serde` (configs deserialise through their checks; a [model](model::Model) is
+//! the file that `bowden close --model-out` writes), `defmt`, `std`.
 //!
 //! ```
 //! use bowden::hysteresis::{BoucWen, Shape};

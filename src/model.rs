@@ -97,6 +97,34 @@ pub struct Sample<'a, T> {
 
 /// A transmission plus at most `N` effects.
 ///
+/// # Formats (feature `serde`)
+/// In a human-readable format (TOML, JSON) it is a file of schema `bowden.model/1`, as
+/// `bowden close --model-out model.toml` writes it, read and written without a heap (2 KB
+/// of stack hold the channels' names, 64 bits of each): a term names its effect, its
+/// shapes, and `input` or one of `channels`, the order of [`Sample::channels`]. The table
+/// `about` may hold anything, every other key is checked. A model knows the numbers of its
+/// channels only, and writes them as `channel_0`, ….
+///
+/// Every other format (postcard) gets the parts in order, without names: 143 bytes in `f32`
+/// for eight terms with eight shapes. The bytes hold neither precision nor version, and the
+/// effect by its place in [`CATALOGUE`](crate::effect::CATALOGUE): keep them with a checksum
+/// (postcard's `to_slice_crc32`), and write them anew for a new version of this crate.
+///
+/// ```
+/// # #[cfg(feature = "serde")] {
+/// use bowden::model::Model;
+/// let file = r#"
+///     schema = "bowden.model/1"
+///     mode = "displacement"
+///     channels = ["temperature", "phi"]
+///     terms = [{ effect = "coulomb", source = "phi", gain = -0.4, shapes = [{ name = "v_e", value = 0.1 }] }]
+/// "#;
+/// let model: Model<f32, 4> = toml::from_str(file)?;
+/// assert_eq!(model.terms()[0].gain, -0.4);
+/// # }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// ```
 /// use bowden::effect::{Effect, Motion};
 /// use bowden::model::{Model, ModelState, Sample, Source, Term};

@@ -66,10 +66,12 @@ macro_rules! effects {
         plain { $($module:ident: $($plain:ident)+;)* }
         shaped { $($shaped_module:ident: $($shaped:ident)+;)* }
     ) => {
+        $($(pub use $shaped_module::$shaped;)+)*
+
         /// One effect, with its shapes.
         ///
         /// ```
-        /// use bowden::effect::{coulomb::Coulomb, Effect};
+        /// use bowden::effect::{Coulomb, Effect};
         /// let friction = Effect::Coulomb(Coulomb::try_new(0.01)?);
         /// assert_eq!(friction, Effect::try_from_name("coulomb", &[0.01])?);
         /// assert_eq!(friction.formula(), "tanh(v/v_e)");

@@ -1,6 +1,7 @@
 //! The effects: closed forms, parity, units, memory, and inputs of any kind.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod constructed;
 mod declared;
 mod memory;
 mod names;
