@@ -28,8 +28,11 @@ fn no_rounds_fit_what_is_declared_and_claim_nothing_of_what_is_missing() {
     assert!(closed.ledger.rounds.is_empty() && closed.ledger.rejected.is_empty());
     assert!(closed.ledger.unknown.is_none());
     assert_eq!(closed.ledger.stopped_by_request, Some(0));
-    assert_eq!(verdict(&closed.data, &closed.ledger), Verdict::Stopped);
-    let told = sentence(&closed.data, &closed.ledger);
+    assert_eq!(
+        verdict(&closed.data, &closed.ledger, &closed.done),
+        Verdict::Stopped
+    );
+    let told = sentence(&closed.data, &closed.ledger, &closed.done);
     assert!(told.contains("No effect was looked for"), "{told}");
     assert!(!told.contains("lacks"), "{told}");
 }
@@ -40,7 +43,7 @@ fn rounds_end_where_they_were_asked_to_and_the_sentence_says_so() {
         let closed = Closed::new(&three(), &["bouc-wen"], most);
         assert_eq!(closed.ledger.rounds.len(), most);
         assert_eq!(closed.ledger.stopped_by_request, Some(most));
-        let found = verdict(&closed.data, &closed.ledger);
+        let found = verdict(&closed.data, &closed.ledger, &closed.done);
         // Rivals of what was found go before what was not looked for.
         let rivals = closed.ledger.rounds.iter().any(|r| !r.rivals.is_empty());
         let expected = match rivals {
@@ -48,7 +51,7 @@ fn rounds_end_where_they_were_asked_to_and_the_sentence_says_so() {
             false => Verdict::Stopped,
         };
         assert_eq!(found, expected, "{most}");
-        let told = sentence(&closed.data, &closed.ledger);
+        let told = sentence(&closed.data, &closed.ledger, &closed.done);
         assert!(told.contains("was not looked for"), "{told}");
     }
 }
@@ -62,15 +65,18 @@ fn a_search_that_ends_before_its_limit_has_not_been_stopped() {
     let closed = Closed::new(&recipe, &["bouc-wen"], 5);
     assert_eq!(closed.ledger.rounds.len(), 1);
     assert_eq!(closed.ledger.stopped_by_request, None);
-    let told = sentence(&closed.data, &closed.ledger);
+    let told = sentence(&closed.data, &closed.ledger, &closed.done);
     assert!(!told.contains("as asked"), "{told}");
 }
 
 #[test]
 fn a_declared_model_at_the_noise_is_explained_without_a_search_but_nothing_is_claimed() {
     let closed = Closed::new(&on(Mode::Displacement, 73_002), &["bouc-wen"], 0);
-    assert_eq!(verdict(&closed.data, &closed.ledger), Verdict::Explained);
-    let told = sentence(&closed.data, &closed.ledger);
+    assert_eq!(
+        verdict(&closed.data, &closed.ledger, &closed.done),
+        Verdict::Explained
+    );
+    let told = sentence(&closed.data, &closed.ledger, &closed.done);
     assert!(told.contains("No effect was looked for"), "{told}");
     assert!(!told.contains("lacks no effect"), "{told}");
 }
