@@ -8,6 +8,10 @@ use anstyle::{AnsiColor, Style};
 use serde::Serialize;
 use std::fmt::Write as _;
 
+/// Gain and offset are mentioned beside a model that holds where they leave less than this
+/// share of its error.
+const BETTER: f64 = 0.8;
+
 #[derive(Serialize)]
 struct Report<'a> {
     schema: &'static str,
@@ -180,6 +184,16 @@ pub fn sentence(check: &Check) -> String {
     if check.verdict == Verdict::DoesNotHold {
         text.push_str(&reasons(check));
     }
+    if check.verdict == Verdict::Holds && check.rmse_gain_offset < BETTER * check.rmse {
+        let _ = write!(
+            text,
+            " A gain of {} and an offset of {}{} would leave {}.",
+            fitted(&check.line.gain),
+            fitted(&check.line.offset),
+            unit(check),
+            share(check.rmse_gain_offset)
+        );
+    }
     text
 }
 
@@ -196,12 +210,12 @@ fn moved(check: &Check) -> String {
     let amount = |value: f64| number(value, Some(0.05 * value.abs()));
     match check.offset_alone() {
         true => format!(
-            "The offset has moved by {}{}, and nothing else",
+            "The offset has moved by {}{}, and no more than that shows",
             amount(check.mean),
             unit(check)
         ),
         false => format!(
-            "The gain has moved to {} times what it was (and the offset by {}{}), and nothing else",
+            "The gain has moved to {} times what it was (and the offset by {}{}), and no more than that shows",
             fitted(gain),
             amount(offset.value),
             unit(check)

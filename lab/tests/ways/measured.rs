@@ -95,36 +95,42 @@ impl Rig {
     }
 }
 
-/// At twice the frequency: the fluid is as it was, so a model with the damper's viscosity
-/// misses little more than at home, and Bouc-Wen alone misses what depends on velocity.
+/// At twice the frequency the fluid is as it was: a model misses about what it missed at home.
 #[test]
-fn the_dampers_model_on_twice_the_frequency() {
+fn the_dampers_model_holds_at_twice_the_frequency() {
     let files = ("sine_25mm0x25Hz0x5A.csv", "sine_25mm0x5Hz0x5A.csv");
-    for most in [0, 1, 2] {
+    for most in [0, 1] {
         let Some(check) = DAMPER.check(files.0, files.1, most) else {
             return;
         };
-        println!("{:?}", check.verdict);
+        assert_eq!(check.verdict, Verdict::Holds, "{most} rounds");
     }
 }
 
-/// Without current there is another fluid: no gain and offset make one from the other.
+/// Without current the magnetic part of the force is gone: what is left of the loop is a
+/// quarter of it, of the same shape within what the model misses at home.
 #[test]
-fn the_dampers_model_does_not_hold_without_its_current() {
+fn without_its_current_the_dampers_gain_has_moved_to_a_quarter() {
     let files = ("sine_25mm0x25Hz0x5A.csv", "sine_25mm0x25Hz0A.csv");
     let Some(check) = DAMPER.check(files.0, files.1, 1) else {
         return;
     };
-    assert_eq!(check.verdict, Verdict::DoesNotHold);
+    assert_eq!(check.verdict, Verdict::GainOrOffsetMoved);
+    let gain = check.line.gain.value;
+    assert!(gain > 0.2 && gain < 0.3, "{gain}");
 }
 
+/// The stage's zero is arbitrary, and its loop is another one at small amplitudes: another
+/// offset mends most of the error, and does not make it hold.
 #[test]
-fn the_piezos_model_on_varying_amplitudes() {
+fn the_piezos_model_of_the_full_range_does_not_hold_at_varying_amplitudes() {
     let files = ("sine_1Hz_full_range.csv", "sine_1Hz_varying_amplitude.csv");
-    for most in [0, 1, 3] {
+    for most in [0, 1] {
         let Some(check) = PIEZO.check(files.0, files.1, most) else {
             return;
         };
-        println!("{:?}", check.verdict);
+        assert_eq!(check.verdict, Verdict::DoesNotHold, "{most} rounds");
+        assert!(check.rmse_gain_offset < 0.1 * check.rmse);
+        assert!(!check.depends_on.is_empty());
     }
 }
