@@ -1,0 +1,86 @@
+//! Identified by bowden 0.1.0 from (embedded: bowden record --mode torque --effect viscous --seed 7).
+//!
+//! Input [N·m], output [N·m], torque mode.
+//! Channels, in the order of `Sample::channels`: 0 phi_p [rad], 1 phi_d [rad].
+//! Fitted below 7.6 Hz to a record of 1000 samples a second.
+//!
+//! Error, of the output's standard deviation: fit 7.01 %, held out 10.83 %.
+//! Held out sample by sample, with the rates as below: 10.74 %.
+//! Not identified: gain (held at 2·sigma·kappa_eta·rho by --invertible).
+//! Not identified: sigma (at its lower bound).
+//! Not identified: n (at its lower bound).
+//! Feed-forward: yes.
+//!
+//! The rates of each source, once a sample, with a `RatesState` of its own:
+//! `let motion = Rates::try_new(RATES_TIME_CONSTANT)?.step(&mut state, position, dt).motion;`
+//! Made for a feed-forward: `Compensator::try_new(&model()?)?.with_ranges(&ranges())?`.
+
+use bowden::control::BenchRange;
+use bowden::effect::{Effect, Motion};
+use bowden::hysteresis::Shape;
+use bowden::model::{Model, Source, Term};
+use bowden::transmission::Transmission;
+
+/// Time constant of `bowden::signal::Rates` for the rates of every source [s].
+#[allow(dead_code)]
+pub const RATES_TIME_CONSTANT: f32 = 0.008376576;
+
+/// The identified model.
+///
+/// # Errors
+/// None with the numbers below.
+#[allow(dead_code, clippy::approx_constant)]
+pub fn model() -> Result<Model<f32, 1>, bowden::Error> {
+    // rho [1/(N·m)], sigma [1], n [1]
+    let shape = Shape::try_new(0.5462775, 0.5010001, 1.001)?;
+    // B [1], kappa_eta [N·m], T0 [N·m]
+    let transmission = Transmission::torque(0.9513806, 1.738092, -0.004557163, shape)?;
+    let terms = [
+        // viscous@phi_p: v
+        Term {
+            effect: Effect::Viscous,
+            // phi_p
+            source: Source::Channel(0),
+            // [rad]
+            origin: 0.0,
+            // [N·m·s/rad]
+            gain: -0.7287999,
+        },
+    ];
+    Model::try_new(Some(transmission), &terms)
+}
+
+/// What the fit has seen of each source that the model reads, for `Compensator::with_ranges`.
+#[allow(dead_code, clippy::approx_constant)]
+pub fn ranges() -> [BenchRange<f32>; 2] {
+    [
+        // input: position [N·m], velocity [N·m/s], acceleration [N·m/s²]
+        BenchRange {
+            source: Source::Input,
+            low: Motion {
+                position: -12.495871,
+                velocity: -38.818592,
+                acceleration: -170.3947,
+            },
+            high: Motion {
+                position: 16.00307,
+                velocity: 35.03235,
+                acceleration: 142.7363,
+            },
+        },
+        // phi_p: position [rad], velocity [rad/s], acceleration [rad/s²]
+        BenchRange {
+            source: Source::Channel(0),
+            low: Motion {
+                position: -0.45185134,
+                velocity: -1.5794401,
+                acceleration: -5.8742285,
+            },
+            high: Motion {
+                position: 0.5994563,
+                velocity: 1.608444,
+                acceleration: 4.6569395,
+            },
+        },
+    ]
+}
