@@ -83,7 +83,12 @@ fn the_planned_motion_tells_the_viscous_term_from_the_delay() {
     let experiment = separate(&data, round).unwrap();
     // A rival that this motion does not separate is no aim of it.
     assert!(experiment.aims.len() <= rivals.len());
-    let aimed = |name: &str| experiment.aims.iter().any(|a| a.rival.as_deref() == Some(name));
+    let aimed = |name: &str| {
+        experiment
+            .aims
+            .iter()
+            .any(|a| a.rival.as_deref() == Some(name))
+    };
     assert!(aimed("delay"), "{:?}", experiment.aims);
     for aim in &experiment.aims {
         println!("{}", aim.words());
