@@ -91,7 +91,12 @@ pub fn check(path: &Path) -> Result<String, Box<dyn Error>> {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).map_or_else(
-        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/data/demo.toml")),
+        || {
+            PathBuf::from(concat!(
+                env!("CARGO_MANIFEST_DIR"),
+                "/../examples/data/demo.toml"
+            ))
+        },
         PathBuf::from,
     );
     println!("{}: {}", path.display(), check(&path)?);
