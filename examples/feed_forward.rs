@@ -6,7 +6,7 @@
 //! torque that was wanted. `cargo run --release --example feed_forward` prints how nearly.
 
 #[path = "data/demo.rs"]
-mod demo;
+pub mod demo;
 
 use bowden::control::{Compensator, CompensatorInput, CompensatorState};
 use bowden::effect::Motion;

@@ -7,9 +7,6 @@ use std::path::Path;
 #[path = "../../examples/check_vector.rs"]
 mod check_vector;
 #[allow(dead_code)]
-#[path = "../../../examples/data/demo.rs"]
-mod demo;
-#[allow(dead_code)]
 #[path = "../../../examples/feed_forward.rs"]
 mod feed_forward;
 
@@ -33,7 +30,7 @@ fn the_model_in_the_repository_is_one_model_in_three_forms_and_gives_its_vector(
         check_vector::check(&toml.with_extension("postcard")).unwrap()
     );
     let read: Model<f32, 1> = toml::from_str(&std::fs::read_to_string(&toml).unwrap()).unwrap();
-    assert_eq!(read, demo::model().unwrap());
+    assert_eq!(read, feed_forward::demo::model().unwrap());
 }
 
 #[test]

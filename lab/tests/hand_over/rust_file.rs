@@ -1,4 +1,6 @@
 //! `model.rs`: what a firmware engineer opens.
+// Numbers near constants are what the lints of a firmware's build must not stumble over.
+#![allow(clippy::approx_constant)]
 
 use crate::rig::{files, said};
 use bowden::effect::{Effect, Range, CATALOGUE};
