@@ -15,7 +15,7 @@
 //! | [`control`] | torque controllers that a bad sample cannot poison | (14)-(26) |
 //! | [`bound`] | what can be promised of the adaptive law | (27)-(38) |
 //! | [`rig`] | a simulated rig to try a controller on | (12) |
-//! | [`signal`] | clamp, guard, play operator, filtered derivative | |
+//! | [`signal`] | clamp, guard, play operator, rates of a position | |
 //!
 //! Conventions: config and state are two types; everything is checked once, in
 //! `try_new`, and nothing panics after that; a bad sample (NaN, an infinity, a `dt` that

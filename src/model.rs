@@ -18,6 +18,8 @@
 //! last good output is returned. Numbers that no term reads may be anything.
 
 #[cfg(feature = "serde")]
+mod file;
+#[cfg(feature = "serde")]
 mod serial;
 
 use crate::effect::{saturate, Effect, EffectState, Motion, Situation};
@@ -167,6 +169,25 @@ impl<T: Real, const N: usize> Model<T, N> {
     #[must_use]
     pub fn terms(&self) -> &[Term<T>] {
         self.terms.get(..self.len).unwrap_or(&self.terms)
+    }
+
+    /// The terms alone.
+    pub(crate) fn without_transmission(&self) -> Self {
+        Self {
+            transmission: None,
+            ..*self
+        }
+    }
+
+    /// The terms alone, without those that are chosen; the others keep their places.
+    pub(crate) fn without_terms(&self, is_left_out: impl Fn(&Term<T>) -> bool) -> Self {
+        let mut kept = self.without_transmission();
+        for term in &mut kept.terms {
+            if is_left_out(term) {
+                *term = padding();
+            }
+        }
+        kept
     }
 
     /// Whether the model can use this sample; if not, a step holds everything.

@@ -11,6 +11,8 @@
 //! `sigma <= B/(2·kappa_eta·rho)`: 0.743 for the first set of the paper, which has
 //! sigma = 98.36. Such a set serves playback and identification; as a plant in a
 //! closed loop its output would fall while its input rises.
+//! [`Transmission::greatest_invertible_sigma`] is that bound, and
+//! [`Transmission::nearest_invertible`] a transmission within it.
 //!
 //! # Noise in front of the hysteresis
 //! A model that is fed a noisy measurement takes every wobble for a reversal: noise of
@@ -23,7 +25,11 @@
 
 use crate::error::finite;
 use crate::hysteresis::{BoucWen, Shape};
+use crate::signal::clamp;
 use crate::{Error, Real};
+
+/// The greatest sigma that a [`Shape`] takes.
+const MOST: f64 = 1e9;
 
 /// What goes in and comes out of a [`Transmission`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -174,19 +180,125 @@ impl<T: Real> Transmission<T> {
         }
     }
 
+    /// The greatest sigma with which this transmission has an inverse.
+    ///
+    /// `|gain|/(2·|kappa_eta|·rho)`, rounded down as far as [`inverse`](Self::inverse)
+    /// needs; the greatest that a [`Shape`] takes where the hysteresis adds to the gain (a
+    /// spring), as the output then never turns back. `None` where no sigma helps: the gain
+    /// is zero, or the bound lies below 1/2, which is `rho > |gain|/|kappa_eta|`.
+    ///
+    /// ```
+    /// use bowden::hysteresis::Shape;
+    /// use bowden::transmission::Transmission;
+    /// let cable = |sigma| Transmission::torque(0.952, 2.29, 0.05, Shape::try_new(0.382, sigma, 1.02)?);
+    /// let most = cable(2.97)?.greatest_invertible_sigma().unwrap_or(0.5);
+    /// assert!((most - 0.5441_f32).abs() < 1e-4);
+    /// assert!(cable(2.97)?.inverse().is_err());
+    /// assert!(cable(most)?.inverse().is_ok());
+    /// # Ok::<(), bowden::Error>(())
+    /// ```
+    #[must_use]
+    pub fn greatest_invertible_sigma(&self) -> Option<T> {
+        if self.gain == T::zero() {
+            return None;
+        }
+        let (gain, rho) = (self.gain.abs(), self.shape.rho());
+        let bound = gain / (T::of(2.0) * self.kappa_eta.abs() * rho);
+        // 0/0 is a bound that nothing sets.
+        let bound = if bound < T::of(MOST) {
+            bound
+        } else {
+            T::of(MOST)
+        };
+        let bound = if self.is_aided() { T::of(MOST) } else { bound };
+        self.rounded_down(bound, |sigma| self.turns_back(sigma, rho))
+            .filter(|sigma| *sigma >= T::of(0.5))
+    }
+
+    /// The nearest transmission that has an inverse; itself if it has one.
+    ///
+    /// A sigma above [`greatest_invertible_sigma`](Self::greatest_invertible_sigma) is
+    /// lowered to that. Where no sigma helps, sigma becomes 1/2 and rho is lowered to
+    /// `|gain|/|kappa_eta|`: the knee of the loop becomes rounder, but its height, which a
+    /// feed-forward must overcome in all motions that are long, stays what it was. (With
+    /// kappa_eta lowered instead, every saturated sample would be wrong: on loops of ten
+    /// times 1/rho and more that costs more than twice the rms error, test
+    /// `a_rounder_knee_costs_less_than_a_lower_loop` in `tests/transmission.rs`.)
+    ///
+    /// At the bound the slope of the output is zero where a saturated loop turns, so the
+    /// inverse's input moves at no limited rate there, though by a limited step; a slew
+    /// limit behind it does no harm.
+    ///
+    /// # Errors
+    /// [`Error::Inadmissible`] where the gain is zero; [`Error::OutOfRange`] with `"rho"`
+    /// where no float is small enough for it.
+    pub fn nearest_invertible(&self) -> Result<Self, Error> {
+        if self.gain == T::zero() || self.inverse().is_ok() {
+            return self.inverse().map(|_| *self);
+        }
+        let (half, n) = (T::of(0.5), self.shape.n());
+        let shape = match self.greatest_invertible_sigma() {
+            Some(sigma) => Shape::try_new(self.shape.rho(), sigma, n)?,
+            None => {
+                let bound = clamp(
+                    self.gain.abs() / self.kappa_eta.abs(),
+                    T::zero(),
+                    self.shape.rho(),
+                );
+                let rho = self.rounded_down(bound, |rho| self.turns_back(half, rho));
+                Shape::try_new(rho.ok_or(Error::OutOfRange("rho"))?, half, n)?
+            }
+        };
+        Ok(Self { shape, ..*self })
+    }
+
+    /// The nearest value to a bound, not above it, that does not turn the output back.
+    fn rounded_down(&self, bound: T, turns_back: impl Fn(T) -> bool) -> Option<T> {
+        let mut value = bound;
+        // Three roundings on either side of the comparison; subnormals lose more.
+        for _ in 0..8 {
+            if !turns_back(value) {
+                return Some(value);
+            }
+            value *= T::one() - T::epsilon();
+        }
+        None
+    }
+
+    /// Whether the hysteresis moves the output the way the gain does.
+    fn is_aided(&self) -> bool {
+        let against = match self.mode {
+            Mode::Torque => self.kappa_eta,
+            Mode::Displacement => -self.kappa_eta,
+        };
+        self.kappa_eta == T::zero() || (against < T::zero()) == (self.gain > T::zero())
+    }
+
+    /// Whether somewhere on a loop of this sigma and rho the output turns back.
+    fn turns_back(&self, sigma: T, rho: T) -> bool {
+        let against = self.kappa_eta.abs() * (T::of(2.0) * sigma * rho);
+        !self.is_aided() && (against.is_nan() || against > self.gain.abs())
+    }
+
     /// The inverse: which input gives this output.
     ///
     /// # Errors
     /// [`Error::Inadmissible`] where the output does not rise (or, for a negative gain,
     /// fall) with the input on every branch, see the module documentation.
     pub fn inverse(&self) -> Result<Inverse<T>, Error> {
-        let hysteresis = match self.mode {
-            Mode::Torque => -self.kappa_eta,
-            Mode::Displacement => self.kappa_eta,
-        };
-        let offset = match self.mode {
-            Mode::Torque => -self.offset,
-            Mode::Displacement => self.offset,
+        if self.gain == T::zero() {
+            return Err(Error::Inadmissible(
+                "the inverse needs a gain that is not zero",
+            ));
+        }
+        if self.turns_back(self.shape.sigma(), self.shape.rho()) {
+            return Err(Error::Inadmissible(
+                "the inverse needs sigma <= |gain|/(2*|kappa_eta|*rho), or the output turns back",
+            ));
+        }
+        let (hysteresis, offset) = match self.mode {
+            Mode::Torque => (-self.kappa_eta, -self.offset),
+            Mode::Displacement => (self.kappa_eta, self.offset),
         };
         // A falling output is a rising one of the opposite sign.
         let sign = if self.gain < T::zero() {
@@ -194,22 +306,6 @@ impl<T: Real> Transmission<T> {
         } else {
             T::one()
         };
-        let steepest = T::of(2.0) * self.shape.sigma() * self.shape.rho();
-        let against = if sign * hysteresis < T::zero() {
-            hysteresis.abs() * steepest
-        } else {
-            T::zero()
-        };
-        if self.gain == T::zero() {
-            return Err(Error::Inadmissible(
-                "the inverse needs a gain that is not zero",
-            ));
-        }
-        if against.is_nan() || against > self.gain.abs() {
-            return Err(Error::Inadmissible(
-                "the inverse needs sigma <= |gain|/(2*|kappa_eta|*rho), or the output turns back",
-            ));
-        }
         Ok(Inverse {
             shape: self.shape,
             sign,

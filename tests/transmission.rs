@@ -10,6 +10,7 @@ use bowden::transmission::{Mode, Transmission};
 use bowden::{Error, Real};
 use proptest::prelude::*;
 use std::f64::consts::PI;
+use std::f64::consts::TAU;
 
 fn paper(sigma: f64) -> Transmission<f64> {
     let shape = Shape::try_new(0.095_82, sigma, 3.871).unwrap();
@@ -91,6 +92,150 @@ fn the_inverse_exists_up_to_the_sigma_where_the_output_turns_back() {
         .unwrap()
         .inverse()
         .is_err());
+}
+
+/// Any torque transmission or spring; most have no inverse.
+fn any_transmission<T: Real>() -> impl Strategy<Value = Transmission<T>> {
+    let shape = (0.001..100.0_f64, 0.5..200.0_f64, 1.0..6.0_f64);
+    let signed = || (1e-4..100.0_f64, any::<bool>()).prop_map(|(x, up)| if up { x } else { -x });
+    (any::<bool>(), signed(), signed(), shape).prop_map(|(torque, b, kappa, (rho, sigma, n))| {
+        let shape = Shape::try_new(T::of(rho), T::of(sigma), T::of(n)).unwrap();
+        let build = if torque {
+            Transmission::torque
+        } else {
+            Transmission::displacement
+        };
+        build(T::of(b), T::of(kappa), T::of(0.05), shape).unwrap()
+    })
+}
+
+fn with_shape<T: Real>(cable: &Transmission<T>, rho: T, sigma: T) -> Transmission<T> {
+    let shape = Shape::try_new(rho, sigma, cable.shape().n()).unwrap();
+    let build = match cable.mode() {
+        Mode::Torque => Transmission::torque,
+        Mode::Displacement => Transmission::displacement,
+    };
+    build(cable.gain(), cable.kappa_eta(), cable.offset(), shape).unwrap()
+}
+
+/// The greatest sigma has an inverse, one a few roundings above it has none.
+fn the_bound_is_tight<T: Real>(cable: &Transmission<T>) {
+    let rho = cable.shape().rho();
+    let beyond = |x: T| x * (T::one() + T::of(16.0) * T::epsilon());
+    match cable.greatest_invertible_sigma() {
+        Some(most) => {
+            assert!(with_shape(cable, rho, most).inverse().is_ok());
+            if most < T::of(1e8) {
+                assert!(with_shape(cable, rho, beyond(most)).inverse().is_err());
+            }
+        }
+        None => assert!(with_shape(cable, rho, T::of(0.5)).inverse().is_err()),
+    }
+}
+
+/// What has an inverse stays; what has none is changed no further than it must be.
+fn the_nearest_is_no_further_than_it_must<T: Real>(cable: &Transmission<T>) {
+    let nearest = cable.nearest_invertible().unwrap();
+    assert!(nearest.inverse().is_ok());
+    assert_eq!(
+        with_shape(&nearest, cable.shape().rho(), cable.shape().sigma()),
+        *cable
+    );
+    let (was, is) = (cable.shape(), nearest.shape());
+    if cable.inverse().is_ok() {
+        assert_eq!(nearest, *cable);
+    } else if is.rho() == was.rho() {
+        assert_eq!(cable.greatest_invertible_sigma(), Some(is.sigma()));
+    } else {
+        assert!(is.sigma() == T::of(0.5) && is.rho() < was.rho());
+        let beyond = is.rho() * (T::one() + T::of(16.0) * T::epsilon());
+        assert!(with_shape(cable, beyond, is.sigma()).inverse().is_err());
+    }
+}
+
+proptest! {
+    #[test]
+    fn the_greatest_sigma_of_an_inverse_is_the_bound_to_rounding(
+        double in any_transmission::<f64>(),
+        single in any_transmission::<f32>(),
+    ) {
+        the_bound_is_tight(&double);
+        the_bound_is_tight(&single);
+    }
+
+    #[test]
+    fn the_nearest_transmission_with_an_inverse_is_no_further_than_it_must_be(
+        double in any_transmission::<f64>(),
+        single in any_transmission::<f32>(),
+    ) {
+        the_nearest_is_no_further_than_it_must(&double);
+        the_nearest_is_no_further_than_it_must(&single);
+    }
+
+    #[test]
+    fn at_the_bound_the_inverse_still_gives_what_was_asked_for(
+        cable in any_transmission::<f32>(),
+        outputs in prop::collection::vec(-50.0..50.0_f32, 2..30),
+    ) {
+        // A spring that is steep far out is finer than the spacing of its inputs.
+        prop_assume!(cable.inverse().is_err());
+        let cable = cable.nearest_invertible().unwrap();
+        let inverse = cable.inverse().unwrap();
+        let (mut back, mut forth) = (BoucWen::new(), BoucWen::new());
+        for wanted in outputs {
+            let input = inverse.step(&mut back, wanted);
+            let got = cable.step(&mut forth, input);
+            let magnitudes = wanted.abs() + (cable.gain() * input).abs() + cable.kappa_eta().abs();
+            // 16 epsilons of the magnitudes are promised; the last input counts among them,
+            // and the hysteresis moves it by up to 2·kappa_eta between two samples.
+            prop_assert!((got - wanted).abs() <= 16.0 * f32::EPSILON * (magnitudes + 150.0));
+        }
+    }
+}
+
+#[test]
+fn without_a_gain_there_is_no_nearest_inverse() {
+    let flat = Transmission::torque(0.0, 7.0, 0.0, *paper(0.6).shape()).unwrap();
+    assert_eq!(flat.greatest_invertible_sigma(), None);
+    assert!(matches!(
+        flat.nearest_invertible(),
+        Err(Error::Inadmissible(_))
+    ));
+    let endless = Shape::try_new(f64::MIN_POSITIVE, 1e9, 1.0).unwrap();
+    let tiny = Transmission::torque(1e-300, 1e300, 0.0, endless).unwrap();
+    assert_eq!(tiny.nearest_invertible(), Err(Error::OutOfRange("rho")));
+}
+
+/// Root mean square error of the plant's output, fed forward through another model.
+fn error_through(plant: &Transmission<f64>, model: &Transmission<f64>, reach: f64) -> f64 {
+    let inverse = model.inverse().unwrap();
+    let (mut feed, mut state) = (BoucWen::new(), BoucWen::new());
+    let error = |k: u32| {
+        let wanted = reach * (TAU * f64::from(k) / 1000.0).sin();
+        let got = plant.step(&mut state, inverse.step(&mut feed, wanted));
+        (got - wanted).powi(2)
+    };
+    let squares: Vec<f64> = (0..4000).map(error).collect();
+    (squares[2000..].iter().sum::<f64>() / 2000.0).sqrt()
+}
+
+#[test]
+fn a_rounder_knee_costs_less_than_a_lower_loop() {
+    // B = 1, kappa_eta = 1, rho = 2: even sigma = 1/2 turns back.
+    let plant = |sigma| {
+        Transmission::torque(1.0, 1.0, 0.0, Shape::try_new(2.0, sigma, 1.0).unwrap()).unwrap()
+    };
+    for sigma in [0.5, 3.0] {
+        let plant = plant(sigma);
+        let rounder = plant.nearest_invertible().unwrap();
+        assert_eq!((rounder.shape().rho(), rounder.shape().sigma()), (1.0, 0.5));
+        let lower =
+            Transmission::torque(1.0, 0.5, 0.0, Shape::try_new(2.0, 0.5, 1.0).unwrap()).unwrap();
+        for reach in [5.0, 20.0] {
+            let [a, b] = [rounder, lower].map(|model| error_through(&plant, &model, reach));
+            assert!(b > 2.0 * a, "sigma {sigma}, reach {reach}: {a} {b}");
+        }
+    }
 }
 
 #[test]

@@ -24,7 +24,12 @@ fn run<T: Real>(from: &mut Numbers) -> Option<()> {
         terms.push(from.term()?);
     }
     let model = Model::<T, TERMS>::try_new(Some(transmission), &terms).ok()?;
-    let mut compensator = Compensator::try_new(&model).ok()?;
+    let (nearest, changed) = Compensator::try_nearest(&model).ok()?;
+    if let Ok(exact) = Compensator::try_new(&model) {
+        assert!(changed.is_nothing() && exact == nearest);
+    }
+    assert!(nearest.transmission().inverse().is_ok());
+    let mut compensator = nearest;
     if from.flag()? {
         let range = BenchRange {
             source: Source::Input,

@@ -159,7 +159,7 @@ fn run(row: &Row, path: &Path) -> Result<String, String> {
     let ledger = close(&data, &structure(&list, &data)?, |_| ())?;
     let done = FinalFit::new(&data, &ledger);
     let seconds = started.elapsed().as_secs_f64();
-    println!("{}\n", text(row.name, &data, &ledger, &done, true));
+    println!("{}\n", text(row.name, &data, &ledger, &done, None, true));
     let percent = |s: &Segments| {
         let n = s.normalised(&data, &data.target);
         (100.0 * n.fit, 100.0 * n.held_out)

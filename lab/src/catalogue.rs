@@ -118,6 +118,9 @@ impl Collector<'_> {
         if loops && !self.structure.hysteresis {
             return;
         }
+        if self.structure.no_stages && (effect.is_output_stage() || effect.is_input_stage()) {
+            return;
+        }
         let several = matches!(
             effect.family(),
             Family::Ripple | Family::Presliding | Family::Pretension

@@ -138,6 +138,21 @@ pub struct Ledger {
 }
 
 impl Ledger {
+    /// The ledger of a declared model before any effect is looked for.
+    #[must_use]
+    pub fn of(declared: Solution) -> Self {
+        Self {
+            declared,
+            rounds: Vec::new(),
+            rejected: Vec::new(),
+            unknown: None,
+            regime: Regime::Blocks,
+            correlation_time: 0.0,
+            integrates: false,
+            stopped_by_request: None,
+        }
+    }
+
     /// That the search was ended by request, in a sentence; `None` where it ended by itself.
     #[must_use]
     pub fn stopped_words(&self) -> Option<String> {
@@ -223,14 +238,8 @@ pub fn close_within(
         .ok_or("the declared model cannot be fitted to this record")?;
     let integrates = integrates(data, &declared);
     let mut ledger = Ledger {
-        declared,
-        rounds: Vec::new(),
-        rejected: Vec::new(),
-        unknown: None,
-        regime: Regime::Blocks,
-        correlation_time: 0.0,
         integrates,
-        stopped_by_request: None,
+        ..Ledger::of(declared)
     };
     if integrates {
         return Ok(ledger);

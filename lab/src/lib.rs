@@ -3,7 +3,7 @@
 //! A record walks through the rooms in this order: [`record`] (read and check),
 //! [`channels`] (uniform time, one zero-phase smoother for all columns and the output),
 //! [`fit`] (variable projection), [`scan`] (which effect is missing?), [`closing`] (the
-//! loop and its ledger), [`final_fit`], [`verdict`], [`report`] and [`export`]. Every column of the
+//! loop and its ledger), [`final_fit`], [`verdict`], [`report`], [`hand_over`] and [`export`]. Every column of the
 //! regression is computed by the core crate, so that what is fitted here is what runs
 //! in firmware. [`compare`] puts controllers on the core's simulated rig, [`power`] says
 //! what a run could have missed, [`plan`] which experiment would tell what this record
@@ -12,9 +12,11 @@
 mod attempt;
 pub mod by_file;
 pub mod catalogue;
+pub mod causal;
 pub mod channels;
 pub mod check;
 pub mod cli;
+pub mod clockwork;
 pub mod closing;
 pub mod columns;
 pub mod compare;
@@ -26,7 +28,9 @@ pub mod filter;
 pub mod final_fit;
 pub mod fit;
 mod gates;
+pub mod hand_over;
 pub mod intervals;
+pub mod invertible;
 mod joint;
 pub mod plan;
 pub mod power;

@@ -53,6 +53,12 @@ pub struct Structure {
     pub terms: Vec<FitTerm>,
     /// A curve over one variable, for what has no name.
     pub table: Option<Table>,
+    /// Whether output stages and input stages are kept out of the search: a model with one
+    /// of them has no inverse.
+    pub no_stages: bool,
+    /// Whether the gains are confined to those for which the transmission has an inverse,
+    /// `sigma <= B/(2·kappa_eta·rho)`.
+    pub invertible: bool,
 }
 
 /// A free parameter's range, mapped to the whole line so that bounds hold by construction.

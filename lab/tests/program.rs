@@ -156,7 +156,30 @@ fn the_json_is_laid_out_as_documented() {
     );
     assert_eq!(
         keys(&report["final"]),
-        sorted(&["effects", "refitted", "parameters", "rmse", "nrmse"])
+        sorted(&[
+            "effects",
+            "refitted",
+            "parameters",
+            "rmse",
+            "nrmse",
+            "causal_nrmse",
+            "feed_forward",
+            "handed_over"
+        ])
+    );
+    assert_eq!(
+        keys(&report["final"]["feed_forward"]),
+        sorted(&["invertible", "because", "nearest"])
+    );
+    assert_eq!(
+        keys(&report["final"]["handed_over"]),
+        sorted(&[
+            "effects",
+            "left_out",
+            "within_inverse",
+            "nrmse",
+            "rates_time_constant_s"
+        ])
     );
     assert_eq!(
         keys(&report["declared"]["rmse"]),

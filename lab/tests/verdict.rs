@@ -8,8 +8,9 @@ use bowden::effect::Family;
 use bowden_lab::channels::{Preparation, Prepared};
 use bowden_lab::closing::{close, structure, Ledger};
 use bowden_lab::final_fit::FinalFit;
+use bowden_lab::hand_over::HandOver;
 use bowden_lab::intervals::term_name;
-use bowden_lab::record::{parse, Options};
+use bowden_lab::record::{parse, Options, Record};
 use bowden_lab::report::{json, text, Report};
 use bowden_lab::synth::{generate, Mode, Planted, Recipe, Synthetic};
 use bowden_lab::unknown::curve;
@@ -22,6 +23,7 @@ const MODES: [Mode; 2] = [Mode::Torque, Mode::Displacement];
 
 struct Closed {
     made: Synthetic,
+    record: Record,
     data: Prepared,
     ledger: Ledger,
 }
@@ -44,7 +46,12 @@ impl Closed {
         let data = Prepared::new(&record, Preparation::default()).unwrap();
         let declared = structure(&["bouc-wen".to_owned()], &data).unwrap();
         let ledger = close(&data, &declared, |_| ()).unwrap();
-        Self { made, data, ledger }
+        Self {
+            made,
+            record,
+            data,
+            ledger,
+        }
     }
 
     fn done(&self) -> FinalFit {
@@ -63,6 +70,13 @@ impl Closed {
         rounds
             .map(|r| term_name(&self.data, &r.candidate.term))
             .collect()
+    }
+
+    fn printed(&self) -> String {
+        let (data, ledger, done) = (&self.data, &self.ledger, self.done());
+        let records = std::slice::from_ref(&self.record);
+        let hand = HandOver::new(records, data, ledger, &done, false, |_| ()).unwrap();
+        json(&Report::new("made.csv", data, ledger, &done, &hand)).unwrap()
     }
 
     fn verdict(&self) -> Verdict {
@@ -192,13 +206,7 @@ fn a_line_that_is_left_and_has_no_name_is_not_taken_for_noise() {
 #[test]
 fn the_report_of_something_unknown_says_so_in_both_forms_and_is_the_same_on_one_thread() {
     let closed = Closed::new(Mode::Displacement, &[("bump-position", 3.0)], 0.0, 61_100);
-    let printed = json(&Report::new(
-        "made.csv",
-        &closed.data,
-        &closed.ledger,
-        &closed.done(),
-    ))
-    .unwrap();
+    let printed = closed.printed();
     let report: serde_json::Value = serde_json::from_str(&printed).unwrap();
     assert_eq!(report["verdict"], "unknown");
     let unknown = &report["unknown"];
@@ -222,6 +230,7 @@ fn the_report_of_something_unknown_says_so_in_both_forms_and_is_the_same_on_one_
         &closed.data,
         &closed.ledger,
         &closed.done(),
+        None,
         false,
     );
     assert!(ledger.contains("unknown: The residual depends on x; the catalogue explains"));
@@ -232,12 +241,6 @@ fn the_report_of_something_unknown_says_so_in_both_forms_and_is_the_same_on_one_
         .unwrap();
     let again =
         pool.install(|| Closed::new(Mode::Displacement, &[("bump-position", 3.0)], 0.0, 61_100));
-    let again = json(&Report::new(
-        "made.csv",
-        &again.data,
-        &again.ledger,
-        &again.done(),
-    ))
-    .unwrap();
+    let again = again.printed();
     assert_eq!(printed, again);
 }

@@ -23,6 +23,10 @@ use crate::signal::clamp;
 use crate::transmission::{Inverse, Mode, Transmission};
 use crate::{Error, Real};
 
+mod nearest;
+
+pub use nearest::{Changed, Lowered};
+
 #[cfg(kani)]
 #[path = "../../proofs/compensator.rs"]
 mod proofs;
@@ -176,7 +180,8 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     /// [`Error::Inadmissible`] where the model has no transmission, where that has no
     /// inverse ([`Transmission::inverse`]), where a term is an output stage (delay,
     /// lag): what reads the sum cannot be subtracted from it, or where one is an input
-    /// stage (a play in series): its inverse jumps.
+    /// stage (a play in series): its inverse jumps. [`try_nearest`](Self::try_nearest)
+    /// takes such a model, and tells what it changed.
     pub fn try_new(model: &Model<T, N>) -> Result<Self, Error> {
         let transmission = *model
             .transmission()
@@ -194,7 +199,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         Ok(Self {
             transmission,
             inverse: transmission.inverse()?,
-            effects: Model::try_new(None, model.terms())?,
+            effects: model.without_transmission(),
             input_range: None,
             term_ranges: [None; N],
         })

@@ -27,7 +27,8 @@ pub use adaptive::{
     Disturbance, ErrorState, Estimator, Form, LagRecursion, Leakage, SmoothSign,
 };
 pub use compensator::{
-    BenchRange, Compensator, CompensatorInput, CompensatorOutput, CompensatorState,
+    BenchRange, Changed, Compensator, CompensatorInput, CompensatorOutput, CompensatorState,
+    Lowered,
 };
 pub use limits::Limits;
 pub use pid::{AntiWindup, Damping, Pid, PidInput, PidOutput, PidSettings, PidState, PidTerms};

@@ -50,9 +50,10 @@ pub mod temperature;
 pub mod tone;
 pub mod viscous;
 
+pub use crate::signal::Motion;
 pub use family::Family;
 pub use info::{Dimension, Info, Parity, Quantity, Range, ShapeInfo, Symmetry};
-pub use situation::{EffectState, Motion, Situation};
+pub use situation::{EffectState, Situation};
 
 use crate::{Error, Real};
 pub(crate) use bounds::saturate;

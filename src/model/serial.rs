@@ -1,10 +1,12 @@
 //! Models and their states as serde sees them: the terms as one list.
 //!
-//! serde knows no arrays of any length `N`; here they are lists of at most `N`.
+//! A model in a human-readable format is a file of its own, `file.rs`; in every other one it
+//! is the derived form of its parts, without names. serde knows no arrays of any length `N`;
+//! here they are lists of at most `N`.
 //! Reading goes through the constructors: what they refuse is refused. The memories
 //! that a shorter list of a state leaves out are fresh.
 
-use super::{padding, Model, ModelState, Term};
+use super::{file, padding, Model, ModelState, Term};
 use crate::effect::EffectState;
 use crate::error::finite;
 use crate::hysteresis::BoucWen;
@@ -16,13 +18,28 @@ use serde::de::{Error as _, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// At most `N` items.
-struct List<X, const N: usize> {
+pub(super) struct List<X, const N: usize> {
     items: [X; N],
     len: usize,
 }
 
+impl<X, const N: usize> List<X, N> {
+    /// An empty list; what `free` gives stands in its places.
+    pub(super) fn of(mut free: impl FnMut() -> X) -> Self {
+        Self {
+            items: core::array::from_fn(|_| free()),
+            len: 0,
+        }
+    }
+
+    /// The items that were read.
+    pub(super) fn items(&self) -> &[X] {
+        self.items.get(..self.len).unwrap_or(&self.items)
+    }
+}
+
 /// Reads a list into places that hold something already.
-struct Fill<X, F, const N: usize>(F, PhantomData<[X; N]>);
+pub(super) struct Fill<X, F, const N: usize>(pub(super) F, pub(super) PhantomData<[X; N]>);
 
 impl<'de, X, F, const N: usize> Visitor<'de> for Fill<X, F, N>
 where
@@ -35,11 +52,8 @@ where
         write!(f, "a list of at most {N} items")
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(mut self, mut from: A) -> Result<Self::Value, A::Error> {
-        let mut list = List {
-            items: core::array::from_fn(|_| (self.0)()),
-            len: 0,
-        };
+    fn visit_seq<A: SeqAccess<'de>>(self, mut from: A) -> Result<Self::Value, A::Error> {
+        let mut list = List::of(self.0);
         while let Some(item) = from.next_element()? {
             let place = list.items.get_mut(list.len);
             *place.ok_or_else(|| A::Error::custom(Error::Capacity("items")))? = item;
@@ -84,6 +98,9 @@ struct ModelFields<T, const N: usize> {
 
 impl<T: Real + Serialize, const N: usize> Serialize for Model<T, N> {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        if to.is_human_readable() {
+            return file::write(self, to);
+        }
         let view = ModelView {
             transmission: self.transmission(),
             terms: self.terms(),
@@ -94,9 +111,11 @@ impl<T: Real + Serialize, const N: usize> Serialize for Model<T, N> {
 
 impl<'de, T: Real + Deserialize<'de>, const N: usize> Deserialize<'de> for Model<T, N> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        if from.is_human_readable() {
+            return file::read(from);
+        }
         let fields = ModelFields::<T, N>::deserialize(from)?;
-        let terms = fields.terms.items.get(..fields.terms.len).unwrap_or(&[]);
-        Self::try_new(fields.transmission, terms).map_err(D::Error::custom)
+        Self::try_new(fields.transmission, fields.terms.items()).map_err(D::Error::custom)
     }
 }
 

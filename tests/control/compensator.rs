@@ -99,6 +99,75 @@ fn models_that_cannot_be_turned_round_are_refused() {
 }
 
 #[test]
+fn the_nearest_model_is_the_model_itself_where_that_can_be_turned_round() {
+    let (compensator, changed) = Compensator::try_nearest(&model()).unwrap();
+    assert_eq!(compensator, Compensator::try_new(&model()).unwrap());
+    assert!(changed.is_nothing());
+}
+
+#[test]
+fn the_nearest_model_tells_what_it_lowered_and_what_it_left_out() {
+    let terms = [
+        term("lag", &[0.01], 0, 1.0),
+        term("viscous", &[], 1, -0.3),
+        term("play-in-series", &[0.2], 0, 1.0),
+        term("coulomb", &[0.05], 0, 0.8),
+    ];
+    let model = Model::<f64, 5>::try_new(Some(cable(98.36)), &terms).unwrap();
+    let (compensator, changed) = Compensator::try_nearest(&model).unwrap();
+    let most = 0.9978 / (2.0 * 7.004 * 0.095_82);
+    let sigma = changed.sigma.unwrap();
+    assert_eq!((sigma.from, changed.rho), (98.36, None));
+    assert!((sigma.to - most).abs() < 1e-14, "{sigma:?}"); // rounding
+    assert_eq!(changed.left_out().collect::<Vec<_>>(), [0, 2]);
+    assert!(!changed.is_nothing());
+
+    // What is left is the model with that sigma and the other two terms.
+    let kept = Model::<f64, 2>::try_new(Some(cable(sigma.to)), &[terms[1], terms[3]]).unwrap();
+    let by_hand = Compensator::try_new(&kept).unwrap();
+    let (mut a, mut b) = (CompensatorState::new(), CompensatorState::new());
+    for k in 0..1000 {
+        let t = 1e-3 * f64::from(k);
+        let channels = [motion(t, 3.0), motion(t, 5.0)];
+        let wish = CompensatorInput {
+            channels: &channels,
+            ..CompensatorInput::new(1e-3, 20.0 * (3.0 * t).sin())
+        };
+        let (a, b) = (compensator.step(&mut a, &wish), by_hand.step(&mut b, &wish));
+        assert_eq!((a.command, a.effects), (b.command, b.effects));
+    }
+    // Terms keep their places: the fault's, too.
+    let channels = [motion(0.0, 3.0)];
+    let blind = CompensatorInput {
+        channels: &channels,
+        ..CompensatorInput::new(1e-3, 1.0)
+    };
+    let status = compensator.step(&mut a, &blind).status;
+    assert_eq!(status, Status::Held(Fault::Regressor(1)));
+}
+
+#[test]
+fn a_knee_that_no_sigma_mends_is_made_rounder() {
+    let shape = Shape::try_new(2.0_f32, 3.0, 1.5).unwrap();
+    let cable = Transmission::displacement(-1.0, 4.0, 0.0, shape).unwrap();
+    let model = Model::<f32, 0>::try_new(Some(cable), &[]).unwrap();
+    let (compensator, changed) = Compensator::try_nearest(&model).unwrap();
+    let (sigma, rho) = (changed.sigma.unwrap(), changed.rho.unwrap());
+    assert_eq!(
+        [sigma.from, sigma.to, rho.from, rho.to],
+        [3.0, 0.5, 2.0, 0.25]
+    );
+    assert_eq!(compensator.transmission().kappa_eta(), 4.0);
+    let none = Model::<f32, 0>::try_new(None, &[]).unwrap();
+    let flat = Transmission::torque(0.0, 4.0, 0.0, shape).unwrap();
+    let flat = Model::<f32, 0>::try_new(Some(flat), &[]).unwrap();
+    for model in [none, flat] {
+        let refused = Compensator::try_nearest(&model);
+        assert!(matches!(refused, Err(Error::Inadmissible(_))));
+    }
+}
+
+#[test]
 fn a_bad_sample_holds_the_command_and_the_state() {
     let compensator = Compensator::try_new(&model()).unwrap();
     let channels = [motion(0.3, 3.0), motion(0.3, 5.0)];

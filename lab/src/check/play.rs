@@ -29,9 +29,8 @@ pub(super) fn play(data: &Prepared, given: &Given, eta0: f64) -> Result<Solution
         .collect::<Result<Vec<_>, String>>()?;
     let structure = Structure {
         hysteresis: model.transmission().is_some(),
-        own_gains: 0,
         terms,
-        table: None,
+        ..Structure::default()
     };
     let (mut gains, mut known) = (Vec::new(), Vec::new());
     if let Some(t) = model.transmission() {

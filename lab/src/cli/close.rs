@@ -3,10 +3,10 @@
 use super::reading::{progress, Reading};
 use super::Failure;
 use crate::channels::{HeldOut, Prepared};
-use crate::closing::Ledger;
-use crate::export::ModelFile;
+use crate::export::{postcard, vector};
 use crate::final_fit::FinalFit;
 use crate::fit::{fit, Solution};
+use crate::hand_over::HandOver;
 use crate::record::{agree, parse, read, Options, Record};
 use crate::report::{json, text, Report};
 use crate::structure::Structure;
@@ -39,7 +39,8 @@ pub struct Close {
     /// Print one JSON object on stdout instead of tables.
     #[arg(long)]
     json: bool,
-    /// Write the final model: .toml for tools, .rs for firmware. With --per-file gains one
+    /// Write the model: .toml for tools, .rs or .postcard for firmware; beside it, as
+    /// NAME.vector.csv, samples and what the model must answer. With --per-file gains one
     /// for each file: NAME-1.toml, NAME-2.toml, …
     #[arg(long, value_name = "FILE.toml")]
     model_out: Option<PathBuf>,
@@ -47,6 +48,11 @@ pub struct Close {
     /// residual, and what each part of the final model adds.
     #[arg(long, value_name = "FILE.csv")]
     trace: Option<PathBuf>,
+    /// Fit the model that is written within what a feed-forward can invert: sigma up to
+    /// B/(2·kappa_eta·rho), no delay, no lag, no play in series. What was found and the
+    /// verdict stay as they are.
+    #[arg(long)]
+    invertible: bool,
 }
 
 impl Close {
@@ -90,23 +96,22 @@ impl Close {
         }
         bar.set_message("fitting the final model");
         let done = FinalFit::new(&data, &ledger);
+        let hand = HandOver::new(&records, &data, &ledger, &done, self.invertible, |what| {
+            bar.set_message(what.to_owned());
+        })
+        .map_err(|message| format!("{label}: {message}"))?;
         if let Some(path) = &self.model_out {
-            write_models(path, &label, &ledger, &done)?;
+            write_models(path, &data, &hand)?;
         }
         if let Some(path) = &self.trace {
             super::write_whole(path, trace(&data, &ledger, &done)?.as_bytes())?;
         }
         bar.set_message("looking for declared parts that are not needed");
         let report = if self.json {
-            json(&Report::new(&label, &data, &ledger, &done)).map_err(|e| e.to_string())?
+            json(&Report::new(&label, &data, &ledger, &done, &hand)).map_err(|e| e.to_string())?
         } else {
-            text(
-                &label,
-                &data,
-                &ledger,
-                &done,
-                self.reading.columns.cutoff.is_some(),
-            )
+            let chosen = self.reading.columns.cutoff.is_some();
+            text(&label, &data, &ledger, &done, Some(&hand), chosen)
         };
         bar.finish_and_clear();
         super::say(report.trim_end())
@@ -173,29 +178,27 @@ fn embedded(options: &Options) -> Result<Record, Failure> {
     parse(csv.as_bytes(), EMBEDDED, options).map_err(|e| e.to_string())
 }
 
-/// Writes the final model; where each file has gains of its own, one model for each.
-fn write_models(path: &Path, label: &str, ledger: &Ledger, done: &FinalFit) -> Result<(), Failure> {
-    let (data, last) = (&done.data, &done.solution);
-    let version = env!("CARGO_PKG_VERSION");
-    let missing = ledger.unknown.as_ref().map_or_else(String::new, |unknown| {
-        format!(
-            ". NOT IN THIS MODEL: the table of what depends on {} and has no name",
-            unknown.variable.words(data)
-        )
-    });
-    if last.structure.own_gains == 0 {
-        let remark = format!("Identified by bowden {version} from {label}{missing}");
-        return write_model(path, &ModelFile::new(data, last), &remark);
+/// Writes the model and its test vector; where each file has gains of its own, one of both
+/// for each. All are written or none.
+fn write_models(path: &Path, data: &Prepared, hand: &HandOver) -> Result<(), Failure> {
+    let mut all = Vec::new();
+    for (record, file) in hand.files.iter().enumerate() {
+        let own = match hand.files.len() {
+            1 => path.to_owned(),
+            _ => numbered(path, record),
+        };
+        let named = |e: String| format!("{}: {e}", own.display());
+        let model = match model_form(path)? {
+            Form::Toml => file.toml().map_err(|e| named(e.to_string()))?.into_bytes(),
+            Form::Rust => file.rust().map_err(named)?.into_bytes(),
+            Form::Postcard => postcard(file).map_err(named)?,
+        };
+        let samples = vector::csv(data, record, file).map_err(named)?;
+        let beside = own.with_extension("vector.csv");
+        all.push((own, model));
+        all.push((beside, samples.into_bytes()));
     }
-    for (record, piece) in data.pieces.iter().enumerate() {
-        let remark = format!(
-            "Identified by bowden {version} from {label}; gains of {}{missing}",
-            piece.path
-        );
-        let file = ModelFile::of_record(data, last, record);
-        write_model(&numbered(path, record), &file, &remark)?;
-    }
-    Ok(())
+    super::write_together(&all)
 }
 
 /// `name.toml` as `name-1.toml` for the first record.
@@ -209,27 +212,19 @@ fn numbered(path: &Path, record: usize) -> PathBuf {
     path.with_file_name(name)
 }
 
-fn write_model(path: &Path, file: &ModelFile, remark: &str) -> Result<(), Failure> {
-    let text = match model_form(path)? {
-        Form::Toml => file
-            .toml(remark)
-            .map_err(|e| format!("{}: {e}", path.display()))?,
-        Form::Rust => file.rust(remark),
-    };
-    super::write_whole(path, text.as_bytes())
-}
-
 enum Form {
     Toml,
     Rust,
+    Postcard,
 }
 
 fn model_form(path: &Path) -> Result<Form, Failure> {
     match path.extension().and_then(|e| e.to_str()) {
         Some("toml") => Ok(Form::Toml),
         Some("rs") => Ok(Form::Rust),
+        Some("postcard") => Ok(Form::Postcard),
         _ => Err(format!(
-            "--model-out {}: a name that ends in .toml or .rs was expected",
+            "--model-out {}: a name that ends in .toml, .rs or .postcard was expected",
             path.display()
         )),
     }

@@ -113,13 +113,32 @@ fn neighbour(path: &std::path::Path) -> std::path::PathBuf {
 
 /// Writes a whole file or none: into a neighbour first, which then takes its name.
 fn write_whole(path: &std::path::Path, bytes: &[u8]) -> Result<(), Failure> {
-    let failed = |e: std::io::Error| format!("{}: {e}", path.display());
-    let part = neighbour(path);
-    std::fs::write(&part, bytes)
-        .and_then(|()| std::fs::rename(&part, path))
-        .map_err(|e| {
-            // Nothing half-written stays behind; that it may be absent already is fine.
-            let _ = std::fs::remove_file(&part);
-            failed(e)
-        })
+    write_together(&[(path.to_owned(), bytes.to_vec())])
+}
+
+/// Writes all files or none: each into a neighbour first; once all are on the disk each
+/// takes its name, the last ones first. A file that was there keeps its bytes until then.
+fn write_together(files: &[(std::path::PathBuf, Vec<u8>)]) -> Result<(), Failure> {
+    let written = || -> Result<(), Failure> {
+        for (path, bytes) in files {
+            let failed = |e: std::io::Error| format!("{}: {e}", path.display());
+            std::fs::write(neighbour(path), bytes).map_err(failed)?;
+        }
+        for (done, (path, _)) in files.iter().rev().enumerate() {
+            std::fs::rename(neighbour(path), path).map_err(|e| {
+                // What goes with a file that is not there is worth nothing.
+                for (path, _) in files.iter().rev().take(done) {
+                    let _ = std::fs::remove_file(path);
+                }
+                format!("{}: {e}", path.display())
+            })?;
+        }
+        Ok(())
+    };
+    written().inspect_err(|_| {
+        // Nothing half-written stays behind; that it may be absent already is fine.
+        for (path, _) in files {
+            let _ = std::fs::remove_file(neighbour(path));
+        }
+    })
 }

@@ -5,13 +5,11 @@
 //! cable under the torque that the declared transmission needs. So nothing is fed back:
 //! neither noise nor an unstable zero of an effect can make the loop diverge.
 
-use bowden::control::{BenchRange, Compensator, CompensatorInput, CompensatorState};
+use bowden::control::{BenchRange, Changed, Compensator, CompensatorInput, CompensatorState};
 use bowden::effect::Motion;
-use bowden::hysteresis::Shape;
 use bowden::model::{Model, Source, Term};
 use bowden::rig::Reference;
 use bowden::signal::{Derivative, DerivativeState};
-use bowden::transmission::Transmission;
 
 /// Most terms of a model that is fed forward.
 pub const MOST_TERMS: usize = 16;
@@ -89,6 +87,7 @@ pub struct FeedForward {
     /// Without effects, then with those that the motion of the pass before gives.
     passes: Vec<Pass>,
     channels: Vec<Channel>,
+    changed: Changed<f64, MOST_TERMS>,
 }
 
 /// Which pulley a channel of the model is.
@@ -101,8 +100,8 @@ enum Channel {
 impl FeedForward {
     /// From a model, the names of its channels, and the ranges that the bench has covered.
     ///
-    /// Output stages are left out: a delay or a lag of the whole output cannot be
-    /// subtracted from it. A sigma that has no inverse is lowered to the largest that has.
+    /// Where the model cannot be turned round, the nearest that can be is fed forward
+    /// ([`Compensator::try_nearest`]); [`changed`](Self::changed) says in what it differs.
     ///
     /// # Errors
     /// One sentence where the model cannot be turned round.
@@ -113,15 +112,11 @@ impl FeedForward {
         surroundings: Surroundings,
     ) -> Result<Self, String> {
         let refused = |e: bowden::Error| format!("the model as a feed-forward: {e}");
-        let transmission = model
-            .transmission()
-            .ok_or("the model as a feed-forward: it has no transmission")?;
-        let transmission = invertible(transmission).map_err(refused)?;
-        let terms: Vec<Term<f64>> = model
-            .terms()
-            .iter()
-            .filter(|term| !term.effect.is_output_stage() && !term.effect.is_input_stage())
-            .copied()
+        let (nearest, changed) = Compensator::try_nearest(model).map_err(refused)?;
+        let is_fed = |place: usize| changed.left_out().all(|left_out| left_out != place);
+        let places = model.terms().iter().enumerate();
+        let terms: Vec<&Term<f64>> = places
+            .filter_map(|(place, term)| is_fed(place).then_some(term))
             .collect();
         let channels = channels
             .iter()
@@ -140,19 +135,12 @@ impl FeedForward {
             })
             .copied()
             .collect();
-        let compensator = |terms: &[Term<f64>]| {
-            let model = Model::try_new(Some(transmission), terms)?;
-            let compensator = Compensator::try_new(&model)?;
-            if terms.is_empty() {
-                Ok(compensator)
-            } else {
-                compensator.with_ranges(&read)
-            }
-        };
-        let mut passes = vec![Pass::new(compensator(&[]).map_err(refused)?).map_err(refused)?];
+        let bare = Model::try_new(Some(*nearest.transmission()), &[]).map_err(refused)?;
+        let bare = Compensator::try_new(&bare).map_err(refused)?;
+        let mut passes = vec![Pass::new(bare).map_err(refused)?];
         if !terms.is_empty() {
+            let with_effects = nearest.with_ranges(&read).map_err(refused)?;
             for _ in 0..2 {
-                let with_effects = compensator(&terms).map_err(refused)?;
                 passes.push(Pass::new(with_effects).map_err(refused)?);
             }
         }
@@ -168,7 +156,14 @@ impl FeedForward {
             surroundings,
             passes,
             channels,
+            changed,
         })
+    }
+
+    /// In what the feed-forward differs from the model that was given.
+    #[must_use]
+    pub fn changed(&self) -> &Changed<f64, MOST_TERMS> {
+        &self.changed
     }
 
     /// One sample: what will be wanted once the command has become torque.
@@ -216,22 +211,4 @@ impl FeedForward {
             effects,
         }
     }
-}
-
-/// The same transmission with the largest sigma that has an inverse, if it has none.
-fn invertible(transmission: &Transmission<f64>) -> Result<Transmission<f64>, bowden::Error> {
-    if transmission.inverse().is_ok() {
-        return Ok(*transmission);
-    }
-    let (b, kappa) = (transmission.gain(), transmission.kappa_eta().abs());
-    let shape = transmission.shape();
-    // With sigma = 1/2 the condition is rho <= B/kappa_eta; a knee that is sharper yet
-    // is made as round as it must be.
-    let rho = shape.rho().min(0.99 * b.abs() / kappa);
-    let sigma = (0.99 * b.abs() / (2.0 * kappa * rho))
-        .min(shape.sigma())
-        .max(0.5);
-    let shape = Shape::try_new(rho, sigma, shape.n())?;
-    let gentle = Transmission::torque(b, kappa, transmission.offset(), shape)?;
-    gentle.inverse().map(|_| gentle)
 }

@@ -1,5 +1,6 @@
 //! Gains by least squares once the shapes are known.
 
+use super::tie::Tie;
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
@@ -7,16 +8,50 @@ use std::sync::Arc;
 pub(super) struct Linear {
     pub(super) gains: Vec<f64>,
     pub(super) basis: DMatrix<f64>,
+    /// The bounds that the gains lie on.
+    pub(super) tied: Vec<Tie>,
 }
 
-/// Least squares on the fit segment with some gains kept from going negative.
+/// Least squares on the fit segment with some gains kept from going negative, and others
+/// within their ties.
+///
+/// A bound that the gains violate becomes an equation, and the two columns of its gains
+/// one column. A bound that has become an equation stays one: with one record there is
+/// only one, so that this is the exact optimum.
 pub(super) fn solve_linear(
     rows: &[usize],
     columns: &[Arc<Vec<f64>>],
     target: &[f64],
     kept: &[bool],
+    ties: &[Tie],
 ) -> Linear {
-    let mut active: Vec<usize> = (0..columns.len()).collect();
+    let mut tied: Vec<Tie> = Vec::new();
+    loop {
+        let mut columns = columns.to_vec();
+        for tie in &tied {
+            columns[tie.hysteresis] = Arc::new(tie.merged(&columns));
+        }
+        let free = |k: &usize| tied.iter().all(|tie| tie.gain != *k);
+        let active = (0..columns.len()).filter(free).collect();
+        let mut linear = non_negative(rows, &columns, target, kept, active);
+        for tie in &tied {
+            linear.gains[tie.gain] = -tie.ratio * linear.gains[tie.hysteresis];
+        }
+        match ties.iter().find(|tie| tie.is_violated(&linear.gains)) {
+            Some(next) if !tied.contains(next) => tied.push(*next),
+            _ => return Linear { tied, ..linear },
+        }
+    }
+}
+
+/// Least squares with some gains kept from going negative.
+fn non_negative(
+    rows: &[usize],
+    columns: &[Arc<Vec<f64>>],
+    target: &[f64],
+    kept: &[bool],
+    mut active: Vec<usize>,
+) -> Linear {
     let y = DVector::from_iterator(rows.len(), rows.iter().map(|&i| target[i]));
     loop {
         let (basis, gains, used) = orthonormal(rows, columns, &active, &y);
@@ -33,7 +68,11 @@ pub(super) fn solve_linear(
                 for (&k, &g) in used.iter().zip(&gains) {
                     all[k] = g;
                 }
-                return Linear { gains: all, basis };
+                return Linear {
+                    gains: all,
+                    basis,
+                    tied: Vec::new(),
+                };
             }
         }
     }

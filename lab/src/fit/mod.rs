@@ -9,6 +9,7 @@ mod linear;
 mod search;
 mod settle;
 mod starts;
+mod tie;
 
 use crate::channels::Prepared;
 pub use crate::solution::{Segments, Solution};

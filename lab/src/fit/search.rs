@@ -1,9 +1,10 @@
 //! The search of the shapes from one start: Levenberg-Marquardt on the reduced problem.
 
 use super::linear::{solve_linear, Linear};
+use super::tie::{slope, ties};
 use crate::channels::Prepared;
 use crate::columns::{raw_columns, RawColumns};
-use crate::structure::{Free, Range, Structure};
+use crate::structure::{Free, Range, Role, Structure};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};
@@ -39,6 +40,7 @@ pub(super) fn evaluate(
         &columns,
         &data.target,
         &structure.sign_kept(data.mode),
+        &ties(structure, free, values),
     );
     let rows = &data.split.fit;
     let residual = DVector::from_iterator(
@@ -61,6 +63,18 @@ pub(super) fn evaluate(
         linear,
         residual,
     })
+}
+
+impl Evaluation {
+    /// Adds to a tangent how a gain that is tied to kappa_eta moves with the shape.
+    pub(super) fn add_tied(&self, tangent: &mut [f64], free: &[Free], values: &[f64], role: Role) {
+        for tie in &self.linear.tied {
+            let slope = -self.linear.gains[tie.hysteresis] * slope(free, values, role);
+            for (t, x) in tangent.iter_mut().zip(self.columns[tie.gain].iter()) {
+                *t += slope * x;
+            }
+        }
+    }
 }
 
 /// The reduced problem that Levenberg-Marquardt sees.
@@ -135,14 +149,16 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Reduced<'_> {
     fn jacobian(&self) -> Option<DMatrix<f64>> {
         let now = self.now.as_ref()?;
         let rows = &self.data.split.fit;
+        let values = self.values();
         let moves = now
             .raw
-            .moves(self.data, self.structure, self.free, &self.values())?;
+            .moves(self.data, self.structure, self.free, &values)?;
         let mut jacobian = DMatrix::zeros(rows.len(), self.free.len());
         for (j, free) in self.free.iter().enumerate() {
-            let tangent = self
+            let mut tangent = self
                 .data
                 .filtered(&now.raw.tangent(&moves, j, &now.linear.gains));
+            now.add_tied(&mut tangent, self.free, &values, free.role);
             let mut column = DVector::from_iterator(rows.len(), rows.iter().map(|&i| tangent[i]));
             let projected = now.linear.basis.tr_mul(&column);
             column.gemv(-1.0, &now.linear.basis, &projected, 1.0);

@@ -12,17 +12,25 @@ pub(super) fn settle(
     free: &[Free],
     values: Vec<f64>,
 ) -> Option<Solution> {
+    let evaluation = evaluate(data, structure, free, &values, None)?;
+    let (raw, gains) = (&evaluation.raw, &evaluation.linear.gains);
+    let moves = raw.moves(data, structure, free, &values)?;
+    let tangents: Vec<Vec<f64>> = free
+        .iter()
+        .enumerate()
+        .map(|(j, one)| {
+            let mut tangent = data.filtered(&raw.tangent(&moves, j, gains));
+            evaluation.add_tied(&mut tangent, free, &values, one.role);
+            tangent
+        })
+        .collect();
     let Evaluation {
         raw,
         columns,
         linear,
         ..
-    } = evaluate(data, structure, free, &values, None)?;
+    } = evaluation;
     let gains = linear.gains;
-    let moves = raw.moves(data, structure, free, &values)?;
-    let tangents: Vec<Vec<f64>> = (0..free.len())
-        .map(|j| data.filtered(&raw.tangent(&moves, j, &gains)))
-        .collect();
     let columns: Vec<Vec<f64>> = columns.iter().map(|c| c.to_vec()).collect();
     let sum = |columns: &[Vec<f64>]| -> Vec<f64> {
         let n = columns.first().map_or(0, Vec::len);

@@ -1,6 +1,7 @@
 //! The JSON of `bowden close --json`, schema `bowden.close/1`.
 
 use super::curve::UnknownPart;
+use super::hand_over::HandOverPart;
 use super::rounds::{models, RoundModel};
 use crate::by_file::{nrmse_by_file, rmse_by_file, worse, FileErrors, Worse};
 use crate::catalogue::Candidate;
@@ -9,6 +10,7 @@ use crate::closing::{Gate, Grade, Ledger};
 use crate::explains::{explained, Explained};
 use crate::final_fit::FinalFit;
 use crate::fit::{Segments, Solution};
+use crate::hand_over::HandOver;
 use crate::intervals::{parameters, term_name, Parameter};
 use crate::plan::{separate, Experiment};
 use crate::record::{Defect, Mode};
@@ -96,6 +98,8 @@ struct FinalPart {
     rmse: Segments,
     nrmse: Segments,
     #[serde(flatten)]
+    hand_over: HandOverPart,
+    #[serde(flatten)]
     by_file: ByFile,
 }
 
@@ -178,7 +182,13 @@ pub(super) fn block_count(data: &Prepared, ledger: &Ledger) -> usize {
 impl Report {
     /// Collects everything about one run.
     #[must_use]
-    pub fn new(path: &str, data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Self {
+    pub fn new(
+        path: &str,
+        data: &Prepared,
+        ledger: &Ledger,
+        done: &FinalFit,
+        hand: &HandOver,
+    ) -> Self {
         let last = &done.solution;
         let several = data.pieces.len() > 1;
         let part = |path: &str, samples, rate_hz, held_out| RecordPart {
@@ -263,6 +273,7 @@ impl Report {
                 parameters: parameters(&done.data, last),
                 rmse: done.rmse,
                 nrmse: done.rmse.normalised(data, &data.target),
+                hand_over: HandOverPart::new(data, hand),
                 by_file: ByFile::new(data, last),
             },
             rejected: ledger

@@ -4,6 +4,7 @@ pub mod certificates;
 mod check;
 pub mod control;
 mod curve;
+mod hand_over;
 mod json;
 mod power;
 mod rounds;

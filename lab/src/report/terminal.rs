@@ -1,6 +1,7 @@
 //! The ledger for people: what was read, what was found, errors before and after.
 
 use super::curve;
+use super::hand_over;
 use super::json::{block_count, effects};
 use super::several;
 use super::terms::LEGEND;
@@ -9,6 +10,7 @@ use crate::closing::{Grade, Ledger, Round};
 use crate::explains::{deviations, segments_differ};
 use crate::final_fit::FinalFit;
 use crate::fit::Segments;
+use crate::hand_over::HandOver;
 use crate::intervals::{parameters, term_name, term_title, Parameter};
 use crate::plan::separate;
 use crate::record::{Defect, Mode};
@@ -136,6 +138,7 @@ pub fn text(
     data: &Prepared,
     ledger: &Ledger,
     done: &FinalFit,
+    hand: Option<&HandOver>,
     chosen_cutoff: bool,
 ) -> String {
     let mut out = head(path, data, ledger, chosen_cutoff);
@@ -148,7 +151,7 @@ pub fn text(
         line!(out, "{section}");
     }
     out += &model(done);
-    out += &conclusion(data, ledger, done);
+    out += &conclusion(data, ledger, done, hand);
     out
 }
 
@@ -424,7 +427,12 @@ fn model(done: &FinalFit) -> String {
 }
 
 /// The error before and after, what was turned down or is not needed, and the verdict.
-fn conclusion(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
+fn conclusion(
+    data: &Prepared,
+    ledger: &Ledger,
+    done: &FinalFit,
+    hand: Option<&HandOver>,
+) -> String {
     let mut out = String::new();
     let (before, after) = (
         ledger.declared.rmse.normalised(data, &data.target),
@@ -438,6 +446,7 @@ fn conclusion(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
         percent(before.fit),
         percent(after.fit)
     );
+    out.push_str(&hand.map_or_else(String::new, hand_over::text));
     if !ledger.rejected.is_empty() {
         let list: Vec<String> = ledger
             .rejected

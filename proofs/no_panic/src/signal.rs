@@ -32,5 +32,20 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(signal_derivative_time_constant, rate.time_constant());
     never_panics!(signal_derivative_step, rate.step(&mut state, any(), any()));
     never_panics!(signal_derivative_rate, state.rate());
+
+    never_panics!(signal_rates_try_new, Rates::<T>::try_new(any()));
+    never_panics!(signal_rates_for_cutoff, Rates::<T>::for_cutoff(any()));
+    let rates = black_box(Rates::<T>::try_new(any())).ok()?;
+    never_panics!(signal_rates_with_period, rates.with_period(any()));
+    never_panics!(signal_rates_with_longest_gap, rates.with_longest_gap(any()));
+    let rates = black_box(rates.with_period(any())).ok()?;
+    never_panics!(signal_rates_time_constant, rates.time_constant());
+    never_panics!(signal_rates_longest_gap, rates.longest_gap());
+    never_panics!(signal_rates_period, rates.period());
+    never_panics!(signal_rates_new, RatesState::<T>::new());
+    let mut state = black_box(RatesState::<T>::new());
+    never_panics!(signal_rates_step, rates.step(&mut state, any(), any()));
+    never_panics!(signal_rates_motion, state.motion());
+    never_panics!(signal_rates_gap, state.gap());
     Some(())
 }

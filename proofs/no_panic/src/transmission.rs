@@ -31,6 +31,11 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(transmission_shape, *cable.shape());
     never_panics!(transmission_output, cable.output(any(), any()));
     never_panics!(transmission_step, cable.step(&mut state, any()));
+    never_panics!(
+        transmission_greatest_invertible_sigma,
+        cable.greatest_invertible_sigma()
+    );
+    never_panics!(transmission_nearest_invertible, cable.nearest_invertible());
     never_panics!(transmission_inverse, cable.inverse());
     let inverse = black_box(cable.inverse()).ok()?;
     never_panics!(transmission_step, inverse.step(&mut state, any()));

@@ -12,6 +12,16 @@ use std::hint::black_box;
 pub fn all<T: Real>() -> Option<()> {
     let model = model::<T>()?;
     never_panics!(control_compensator_try_new, Compensator::try_new(&model));
+    never_panics!(
+        control_compensator_nearest_try_nearest,
+        Compensator::try_nearest(&model)
+    );
+    let (_, changed) = black_box(Compensator::try_nearest(&model)).ok()?;
+    never_panics!(control_compensator_nearest_is_nothing, changed.is_nothing());
+    never_panics!(
+        control_compensator_nearest_left_out,
+        changed.left_out().last()
+    );
     let compensator = black_box(Compensator::try_new(&model)).ok()?;
     let range = BenchRange {
         source: black_box(Source::Input),

@@ -1,0 +1,188 @@
+//! The model that is handed over, as a file: TOML for tools, Rust or postcard for firmware.
+//!
+//! All hold the same numbers: TOML in `f64`, Rust and postcard rounded to `f32`. What the
+//! core does not need, units, ranges and errors among it, is in the table `about`.
+//! A test vector goes with each file ([`vector`]).
+
+mod about;
+mod firmware;
+mod rust;
+pub mod vector;
+
+pub use about::{About, Errors, LeftOut, NotIdentified, Span};
+pub use firmware::{postcard, CHECKSUM};
+
+use crate::channels::Prepared;
+use crate::fit::Solution;
+use crate::record::Mode;
+use crate::structure::Role;
+use bowden::model::{Model, Source};
+use bowden::Real;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+/// Most terms of a model that is handed over.
+pub const MOST_TERMS: usize = 32;
+
+/// A model as it stands in a file, schema `bowden.model/1`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ModelFile {
+    /// `bowden.model/1`.
+    pub schema: String,
+    /// `torque` or `displacement`.
+    pub mode: String,
+    /// Names of the channels that terms may read, in the order of the sample's channels.
+    pub channels: Vec<String>,
+    /// The transmission, where there is one.
+    pub transmission: Option<TransmissionFile>,
+    /// The effects, in order.
+    #[serde(default)]
+    pub terms: Vec<TermFile>,
+    /// What the numbers mean and what they are worth; the core does not read it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub about: Option<About>,
+}
+
+/// The Bouc-Wen transmission of a model file.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TransmissionFile {
+    /// B in torque mode (6), kappa_x in displacement mode (1).
+    pub gain: f64,
+    /// Amplitude of the hysteresis.
+    pub kappa_eta: f64,
+    /// T0 in torque mode (subtracted), the constant force in displacement mode (added).
+    pub offset: f64,
+    /// Bouc-Wen rho.
+    pub rho: f64,
+    /// Bouc-Wen sigma.
+    pub sigma: f64,
+    /// Bouc-Wen n.
+    pub n: f64,
+}
+
+/// One effect of a model file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TermFile {
+    /// The effect's own name.
+    pub effect: String,
+    /// `input`, or the name of a channel.
+    pub source: String,
+    /// Position from which the effect measures.
+    #[serde(default)]
+    pub origin: f64,
+    /// Its gain.
+    pub gain: f64,
+    /// Its shapes, in the core's order.
+    #[serde(default)]
+    pub shapes: Vec<ShapeFile>,
+}
+
+/// One shape parameter of an effect.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ShapeFile {
+    /// Its name in the effect's formula.
+    pub name: String,
+    /// Its value.
+    pub value: f64,
+}
+
+impl ModelFile {
+    /// The fitted model; where each record has gains of its own, with the first one's.
+    #[must_use]
+    pub fn new(data: &Prepared, solution: &Solution) -> Self {
+        Self::of_record(data, solution, 0)
+    }
+
+    /// The fitted model with the gains of one record, where each has its own.
+    #[must_use]
+    pub fn of_record(data: &Prepared, solution: &Solution, record: usize) -> Self {
+        let own = 3 * record.min(solution.structure.own_gains.saturating_sub(1));
+        let value = |role| solution.value(role).unwrap_or(0.0);
+        let sign = match data.mode {
+            Mode::Torque => -1.0,
+            Mode::Displacement => 1.0,
+        };
+        let transmission = solution.structure.hysteresis.then(|| TransmissionFile {
+            gain: solution.gains[own],
+            kappa_eta: sign * solution.gains[own + 1],
+            offset: sign * solution.gains[own + 2],
+            rho: value(Role::Rho),
+            sigma: value(Role::Sigma),
+            n: value(Role::N),
+        });
+        let terms = solution
+            .structure
+            .terms
+            .iter()
+            .enumerate()
+            .map(|(index, term)| TermFile {
+                effect: term.effect.name().to_owned(),
+                source: match term.source {
+                    Source::Input => "input".to_owned(),
+                    Source::Channel(_) => data
+                        .channel(term.source)
+                        .map_or_else(String::new, |c| c.name.clone()),
+                },
+                origin: term.origin,
+                gain: solution.gain(index),
+                shapes: term
+                    .effect
+                    .shape_names()
+                    .iter()
+                    .enumerate()
+                    .map(|(i, name)| ShapeFile {
+                        name: (*name).to_owned(),
+                        value: term.effect.shape(i).unwrap_or(0.0),
+                    })
+                    .collect(),
+            });
+        Self {
+            schema: "bowden.model/1".to_owned(),
+            mode: match data.mode {
+                Mode::Torque => "torque",
+                Mode::Displacement => "displacement",
+            }
+            .to_owned(),
+            channels: data.channels.iter().map(|c| c.name.clone()).collect(),
+            transmission,
+            terms: terms.collect(),
+            about: None,
+        }
+    }
+
+    /// As TOML.
+    ///
+    /// # Errors
+    /// Where a number cannot be written, which no fitted model has.
+    pub fn toml(&self) -> Result<String, toml::ser::Error> {
+        let remark = self.about.as_ref().map_or_else(String::new, About::remark);
+        Ok(format!("# {remark}\n{}", toml::to_string(self)?))
+    }
+
+    /// The core's model.
+    ///
+    /// # Errors
+    /// One sentence that says which part the core refuses.
+    pub fn model<const N: usize>(&self) -> Result<Model<f64, N>, String> {
+        self.model_in()
+    }
+
+    /// The core's model in either precision, as firmware would run it.
+    ///
+    /// The core reads the file itself: what it takes is what a user's `toml::from_str` takes.
+    ///
+    /// # Errors
+    /// One sentence that says which part the core refuses.
+    pub fn model_in<T, const N: usize>(&self) -> Result<Model<T, N>, String>
+    where
+        T: Real + DeserializeOwned,
+    {
+        let told = |e: toml::de::Error| e.message().replace('\n', " ");
+        let file = toml::Table::try_from(self).map_err(|e| e.to_string())?;
+        file.try_into().map_err(told)
+    }
+}

@@ -1,0 +1,369 @@
+//! The model as a Rust file for firmware, in single precision.
+
+use super::{About, ModelFile, Span, TermFile};
+use bowden::effect::{Effect, Family};
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+
+/// One more line of the text; writing to a `String` cannot fail.
+macro_rules! line {
+    ($out:ident) => {
+        $out.push('\n')
+    };
+    ($out:ident, $($text:tt)+) => {{
+        let _ = writeln!($out, $($text)+);
+    }};
+}
+
+/// A number as firmware has it: the shortest text that reads back to the same `f32`.
+fn number(value: f64) -> String {
+    format!("{:?}", value as f32)
+}
+
+fn per_cent(share: f64) -> String {
+    format!("{:.2} %", 100.0 * share)
+}
+
+impl ModelFile {
+    /// As a Rust file that builds the model in firmware: `model()`, `ranges()` for
+    /// `Compensator::with_ranges`, and the time constant for `Rates`.
+    ///
+    /// # Errors
+    /// One sentence where the catalogue has no such effect.
+    pub fn rust(&self) -> Result<String, String> {
+        let none = About::default();
+        let about = self.about.as_ref().unwrap_or(&none);
+        let mut out = self.head(about);
+        self.imports(&mut out)?;
+        line!(out);
+        if about.rates_time_constant_s > 0.0 {
+            line!(
+                out,
+                "/// Time constant of `bowden::signal::Rates` for the rates of every source [s]."
+            );
+            line!(out, "#[allow(dead_code)]");
+            line!(
+                out,
+                "pub const RATES_TIME_CONSTANT: f32 = {};",
+                number(about.rates_time_constant_s)
+            );
+            line!(out);
+        }
+        self.function(about, &mut out)?;
+        self.ranges(about, &mut out);
+        Ok(out)
+    }
+
+    /// What a reader has to know before the numbers.
+    fn head(&self, about: &About) -> String {
+        let mut out = String::new();
+        line!(out, "//! {}.", about.remark());
+        line!(out, "//!");
+        line!(
+            out,
+            "//! Input [{}], output [{}], {} mode.",
+            about.unit("input"),
+            about.unit("output"),
+            self.mode
+        );
+        let channels: Vec<String> = self
+            .channels
+            .iter()
+            .enumerate()
+            .map(|(index, name)| format!("{index} {name} [{}]", about.unit(name)))
+            .collect();
+        match channels.is_empty() {
+            true => line!(out, "//! Channels: none."),
+            false => line!(
+                out,
+                "//! Channels, in the order of `Sample::channels`: {}.",
+                channels.join(", ")
+            ),
+        }
+        if self.about.is_none() {
+            line!(out);
+            return out;
+        }
+        let (cutoff, rate) = (about.cutoff_hz, about.rate_hz);
+        line!(
+            out,
+            "//! Fitted below {cutoff} Hz to a record of {rate} samples a second."
+        );
+        line!(out, "//!");
+        let errors = &about.nrmse;
+        line!(
+            out,
+            "//! Error, of the output's standard deviation: fit {}, held out {}.",
+            per_cent(errors.fit),
+            per_cent(errors.held_out)
+        );
+        if let Some(causal) = errors.held_out_causal {
+            line!(
+                out,
+                "//! Held out sample by sample, with the rates as below: {}.",
+                per_cent(causal)
+            );
+        }
+        for part in &about.left_out {
+            line!(out, "//! Left out: {} ({}).", part.effect, part.because);
+        }
+        if !about.left_out.is_empty() {
+            line!(
+                out,
+                "//! Held out with all that was left out: {}.",
+                per_cent(errors.held_out_as_fitted)
+            );
+        }
+        for one in &about.not_identified {
+            line!(
+                out,
+                "//! Not identified: {} ({}).",
+                one.parameter,
+                one.because
+            );
+        }
+        line!(out, "//! Feed-forward: {}.", about.feed_forward);
+        line!(out, "//!");
+        line!(
+            out,
+            "//! The rates of each source, once a sample, with a `RatesState` of its own:"
+        );
+        line!(
+            out,
+            "//! `let motion = Rates::try_new(RATES_TIME_CONSTANT)?.step(&mut state, position, dt).motion;`"
+        );
+        line!(
+            out,
+            "//! Made for a feed-forward: `Compensator::try_new(&model()?)?.with_ranges(&ranges())?`."
+        );
+        line!(out);
+        out
+    }
+
+    fn imports(&self, out: &mut String) -> Result<(), String> {
+        let has_ranges = self.about.as_ref().is_some_and(|a| !a.ranges.is_empty());
+        let mut all = BTreeSet::new();
+        if has_ranges {
+            all.insert("bowden::control::BenchRange".to_owned());
+        }
+        for term in &self.terms {
+            let effect = term.effect()?;
+            if !term.shapes.is_empty() {
+                all.insert(format!(
+                    "bowden::effect::{}::{}",
+                    module(effect.family()),
+                    variant(effect.name())
+                ));
+            }
+        }
+        let list = |names: &[(&str, bool)]| -> Option<String> {
+            let used: Vec<&str> = names.iter().filter(|(_, u)| *u).map(|(n, _)| *n).collect();
+            match &used[..] {
+                [] => None,
+                [one] => Some((*one).to_owned()),
+                several => Some(format!("{{{}}}", several.join(", "))),
+            }
+        };
+        let has_terms = !self.terms.is_empty();
+        if let Some(names) = list(&[("Effect", has_terms), ("Motion", has_ranges)]) {
+            all.insert(format!("bowden::effect::{names}"));
+        }
+        let source = has_terms || has_ranges;
+        if let Some(names) = list(&[("Model", true), ("Source", source), ("Term", has_terms)]) {
+            all.insert(format!("bowden::model::{names}"));
+        }
+        if self.transmission.is_some() {
+            all.insert("bowden::hysteresis::Shape".to_owned());
+            all.insert("bowden::transmission::Transmission".to_owned());
+        }
+        let mut all: Vec<String> = all.into_iter().collect();
+        // As rustfmt has them: modules before types before lists.
+        all.sort_by_cached_key(|name| {
+            let late = |c: char| [c.is_ascii_uppercase().then_some('z'), Some(c)];
+            name.chars().flat_map(late).flatten().collect::<String>()
+        });
+        for name in all {
+            line!(out, "use {name};");
+        }
+        Ok(())
+    }
+
+    fn function(&self, about: &About, out: &mut String) -> Result<(), String> {
+        line!(out, "/// The identified model.");
+        line!(out, "///");
+        line!(out, "/// # Errors");
+        line!(out, "/// None with the numbers below.");
+        // A fitted number that is near pi is not pi.
+        line!(out, "#[allow(dead_code, clippy::approx_constant)]");
+        line!(
+            out,
+            "pub fn model() -> Result<Model<f32, {}>, bowden::Error> {{",
+            self.terms.len()
+        );
+        if let Some(t) = &self.transmission {
+            line!(out, "    // rho [{}], sigma [1], n [1]", about.unit("rho"));
+            line!(
+                out,
+                "    let shape = Shape::try_new({}, {}, {})?;",
+                number(t.rho),
+                number(t.sigma),
+                number(t.n)
+            );
+            let (gain, offset) = match self.mode.as_str() {
+                "torque" => ("B", "T0"),
+                _ => ("kappa_x", "offset"),
+            };
+            line!(
+                out,
+                "    // {gain} [{}], kappa_eta [{}], {offset} [{}]",
+                about.unit("gain"),
+                about.unit("kappa_eta"),
+                about.unit("offset")
+            );
+            line!(
+                out,
+                "    let transmission = Transmission::{}({}, {}, {}, shape)?;",
+                self.mode,
+                number(t.gain),
+                number(t.kappa_eta),
+                number(t.offset)
+            );
+        }
+        let transmission = match self.transmission {
+            Some(_) => "Some(transmission)",
+            None => "None",
+        };
+        if self.terms.is_empty() {
+            line!(out, "    Model::try_new({transmission}, &[])");
+        } else {
+            line!(out, "    let terms = [");
+            for term in &self.terms {
+                self.term(term, about, out)?;
+            }
+            line!(out, "    ];");
+            line!(out, "    Model::try_new({transmission}, &terms)");
+        }
+        line!(out, "}}");
+        Ok(())
+    }
+
+    fn term(&self, term: &TermFile, about: &About, out: &mut String) -> Result<(), String> {
+        let effect = term.effect()?;
+        let own = variant(effect.name());
+        let name = match term.source.as_str() {
+            "input" => term.effect.clone(),
+            channel => format!("{}@{channel}", term.effect),
+        };
+        let shapes: Vec<String> = term
+            .shapes
+            .iter()
+            .map(|s| format!("{} [{}]", s.name, about.unit(&format!("{name}.{}", s.name))))
+            .collect();
+        let with = match shapes.is_empty() {
+            true => String::new(),
+            false => format!("; {}", shapes.join(", ")),
+        };
+        line!(out, "        // {name}: {}{with}", effect.formula());
+        line!(out, "        Term {{");
+        let values: Vec<String> = term.shapes.iter().map(|s| number(s.value)).collect();
+        match values.is_empty() {
+            true => line!(out, "            effect: Effect::{own},"),
+            false => line!(
+                out,
+                "            effect: Effect::{own}({own}::try_new({})?),",
+                values.join(", ")
+            ),
+        }
+        let source = self.source(&term.source);
+        line!(out, "            // {}", term.source);
+        line!(out, "            source: {source},");
+        line!(out, "            // [{}]", about.unit(&term.source));
+        line!(out, "            origin: {},", number(term.origin));
+        line!(out, "            // [{}]", about.unit(&name));
+        line!(out, "            gain: {},", number(term.gain));
+        line!(out, "        }},");
+        Ok(())
+    }
+
+    /// A source as Rust has it.
+    fn source(&self, name: &str) -> String {
+        match self.channels.iter().position(|c| c == name) {
+            Some(index) if name != "input" => format!("Source::Channel({index})"),
+            _ => "Source::Input".to_owned(),
+        }
+    }
+
+    fn ranges(&self, about: &About, out: &mut String) {
+        if about.ranges.is_empty() {
+            return;
+        }
+        line!(out);
+        line!(
+            out,
+            "/// What the fit has seen of each source that the model reads, for `Compensator::with_ranges`."
+        );
+        line!(out, "#[allow(dead_code, clippy::approx_constant)]");
+        line!(
+            out,
+            "pub fn ranges() -> [BenchRange<f32>; {}] {{",
+            about.ranges.len()
+        );
+        line!(out, "    [");
+        for (name, span) in &about.ranges {
+            let unit = about.unit(name);
+            line!(
+                out,
+                "        // {name}: position [{unit}], velocity [{unit}/s], acceleration [{unit}/s²]"
+            );
+            line!(out, "        BenchRange {{");
+            line!(out, "            source: {},", self.source(name));
+            for (bound, end) in [("low", 0), ("high", 1)] {
+                motion(span, bound, end, out);
+            }
+            line!(out, "        }},");
+        }
+        line!(out, "    ]");
+        line!(out, "}}");
+    }
+}
+
+/// One end of a range.
+fn motion(span: &Span, bound: &str, end: usize, out: &mut String) {
+    line!(out, "            {bound}: Motion {{");
+    for (name, range) in [
+        ("position", span.position),
+        ("velocity", span.velocity),
+        ("acceleration", span.acceleration),
+    ] {
+        line!(out, "                {name}: {},", number(range[end]));
+    }
+    line!(out, "            }},");
+}
+
+impl TermFile {
+    /// The effect that the term names.
+    ///
+    /// # Errors
+    /// One sentence where the catalogue has no such effect, or not with these shapes.
+    pub fn effect(&self) -> Result<Effect<f64>, String> {
+        let shapes: Vec<f64> = self.shapes.iter().map(|s| s.value).collect();
+        Effect::try_from_name(&self.effect, &shapes)
+            .map_err(|e| format!("term {}: {e}", self.effect))
+    }
+}
+
+/// The module of the core that has a family's effects.
+fn module(family: Family) -> String {
+    family.name().replace('-', "_")
+}
+
+/// The name of an effect in the core: `drag-quadratic` is `DragQuadratic`.
+fn variant(name: &str) -> String {
+    name.split('-')
+        .map(|word| {
+            let mut letters = word.chars();
+            let first = letters.next().map(|c| c.to_ascii_uppercase());
+            first.into_iter().chain(letters).collect::<String>()
+        })
+        .collect()
+}

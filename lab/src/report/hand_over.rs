@@ -1,0 +1,90 @@
+//! What is handed over to firmware: its errors there, and whether it is a feed-forward.
+
+use super::json::effects;
+use crate::channels::Prepared;
+use crate::export::LeftOut;
+use crate::fit::Segments;
+use crate::hand_over::HandOver;
+use crate::invertible::FeedForward;
+use serde::Serialize;
+use std::fmt::Write as _;
+
+/// The part of the JSON's `final` that is about the model of `--model-out`.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct HandOverPart {
+    /// Errors sample by sample with causal rates.
+    causal_nrmse: Segments,
+    feed_forward: FeedForward,
+    handed_over: HandedOver,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct HandedOver {
+    effects: Vec<String>,
+    left_out: Vec<LeftOut>,
+    within_inverse: bool,
+    nrmse: Segments,
+    rates_time_constant_s: f64,
+}
+
+impl HandOverPart {
+    pub(super) fn new(data: &Prepared, hand: &HandOver) -> Self {
+        Self {
+            causal_nrmse: hand.causal,
+            feed_forward: hand.feed_forward.clone(),
+            handed_over: HandedOver {
+                effects: effects(data, &hand.solution),
+                left_out: hand.left_out.clone(),
+                within_inverse: hand.within_inverse,
+                nrmse: hand.nrmse,
+                rates_time_constant_s: hand.time_constant,
+            },
+        }
+    }
+}
+
+/// A share in per cent, with three digits at the most.
+fn per_cent(share: f64) -> String {
+    format!("{:.2} %", 100.0 * share)
+}
+
+/// The lines of the ledger.
+pub(super) fn text(hand: &HandOver) -> String {
+    let mut out = String::new();
+    let mut line = |text: String| {
+        let _ = writeln!(out, "firmware  {text}");
+    };
+    if !hand.left_out.is_empty() || hand.solution.structure.invertible {
+        let names: Vec<String> = hand
+            .left_out
+            .iter()
+            .map(|part| format!("{} ({})", part.effect, part.because))
+            .collect();
+        let without = match names.is_empty() {
+            true => "the model fitted within what can be inverted".to_owned(),
+            false => format!("the model without {}, fitted again", names.join(", ")),
+        };
+        line(format!(
+            "held out {} with {without}; {} with the final model",
+            per_cent(hand.nrmse.held_out),
+            per_cent(hand.as_fitted.held_out)
+        ));
+    }
+    line(format!(
+        "held out {} sample by sample with causal velocities (Rates, {} ms), {} with the fit's zero-phase ones",
+        per_cent(hand.causal.held_out),
+        crate::invertible::three_digits(1e3 * hand.time_constant),
+        per_cent(hand.nrmse.held_out)
+    ));
+    let mend = match (&hand.feed_forward.because, &hand.feed_forward.nearest) {
+        (None, _) => String::new(),
+        (Some(_), None) => "; --invertible fits one that can be inverted".to_owned(),
+        (Some(_), Some(near)) => format!(
+            "; --invertible fits one that can be inverted, the nearest one ({}) has {} held out",
+            near.changed,
+            per_cent(near.nrmse.held_out)
+        ),
+    };
+    line(format!("feed-forward: {}{mend}", hand.feed_forward.words()));
+    out
+}

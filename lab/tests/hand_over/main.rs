@@ -1,0 +1,19 @@
+//! From the fitted model to the motor: what is written is what runs, and says what it is.
+//!
+//! * [`clockwork`]: what belongs to the record is not handed over, and the rest is refitted.
+//! * [`invertible`]: the fit within what a compensator can invert.
+//! * [`causal`]: the error with the rates of firmware.
+//! * [`rust_file`]: `model.rs` compiles for every effect and says what its numbers mean.
+//! * [`postcard_file`]: the bytes that firmware reads, and their checksum.
+//! * [`vector`]: the test vector beside each model.
+//! * [`examples`]: the models in the repository, and the examples that run them.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod causal;
+mod clockwork;
+mod examples;
+mod invertible;
+mod postcard_file;
+mod rig;
+mod rust_file;
+mod vector;

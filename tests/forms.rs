@@ -1,0 +1,395 @@
+//! The model as a file, `bowden.model/1`, and as bytes.
+#![allow(clippy::unwrap_used, clippy::cast_possible_truncation)]
+
+use bowden::effect::{Effect, CATALOGUE};
+use bowden::hysteresis::Shape;
+use bowden::model::{Model, ModelState, Source, Term};
+use bowden::transmission::Transmission;
+use bowden::Real;
+use proptest::prelude::*;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+/// As `bowden close --model-out model.toml` writes it.
+const FILE: &str = r#"# Identified by bowden.
+schema = "bowden.model/1"
+mode = "torque"
+channels = ["phi_p", "angle of the joint [rad]"]
+
+[transmission]
+gain = 0.952
+kappa_eta = 2.29
+offset = 0.05
+rho = 0.382
+sigma = 2.97
+n = 1.02
+
+[[terms]]
+effect = "stribeck"
+source = "angle of the joint [rad]"
+origin = -0.25
+gain = -0.5
+
+[[terms.shapes]]
+name = "v_s"
+value = 0.3
+
+[[terms.shapes]]
+name = "a"
+value = 1.5
+
+[[terms]]
+effect = "viscous"
+source = "phi_p"
+gain = -0.264
+shapes = []
+
+[[terms]]
+effect = "offset"
+source = "input"
+gain = 1
+
+[about]
+by = "bowden 0.1.0"
+records = ["joint.csv"]
+cutoff_hz = 5.0
+
+[about.units]
+phi_p = "rad"
+
+[[about.not_identified]]
+parameter = "n"
+because = "its interval is wider than it"
+"#;
+
+fn term<T: Real>(name: &str, shapes: &[f64], source: Source, origin: f64, gain: f64) -> Term<T> {
+    let shapes: Vec<T> = shapes.iter().map(|&shape| T::of(shape)).collect();
+    Term {
+        effect: Effect::try_from_name(name, &shapes).unwrap(),
+        source,
+        origin: T::of(origin),
+        gain: T::of(gain),
+    }
+}
+
+fn cable<T: Real>() -> Transmission<T> {
+    let [b, kappa_eta, t0, rho, sigma, n] = [0.952, 2.29, 0.05, 0.382, 2.97, 1.02].map(T::of);
+    Transmission::torque(b, kappa_eta, t0, Shape::try_new(rho, sigma, n).unwrap()).unwrap()
+}
+
+/// What `FILE` says.
+fn in_the_file<T: Real>() -> Model<T, 3> {
+    let terms = [
+        term("stribeck", STRIBECK, Source::Channel(1), -0.25, -0.5),
+        term("viscous", &[], Source::Channel(0), 0.0, -0.264),
+        term("offset", &[], Source::Input, 0.0, 1.0),
+    ];
+    Model::try_new(Some(cable()), &terms).unwrap()
+}
+
+const STRIBECK: &[f64] = &[0.3, 1.5];
+
+fn refusal(text: &str) -> String {
+    toml::from_str::<Model<f64, 3>>(text)
+        .unwrap_err()
+        .to_string()
+}
+
+#[test]
+fn the_file_of_the_lab_is_read_in_both_precisions() {
+    assert_eq!(
+        toml::from_str::<Model<f64, 3>>(FILE).unwrap(),
+        in_the_file()
+    );
+    assert_eq!(
+        toml::from_str::<Model<f32, 3>>(FILE).unwrap(),
+        in_the_file()
+    );
+    // More room changes nothing, less is refused.
+    let roomy = toml::from_str::<Model<f64, 8>>(FILE).unwrap();
+    assert_eq!(roomy.terms(), in_the_file().terms());
+    let error = toml::from_str::<Model<f64, 2>>(FILE)
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("too many items"), "{error}");
+}
+
+#[test]
+fn the_fields_may_come_in_any_order_and_the_term_before_its_channels() {
+    let text = r#"{
+        "terms": [{
+            "gain": -0.5, "source": "b", "origin": 2.0, "effect": "coulomb",
+            "shapes": [{"value": 0.01, "name": "v_e"}]
+        }],
+        "about": {"anything": [1, {"deep": null}]},
+        "channels": ["a", "b"],
+        "transmission": null,
+        "mode": "displacement",
+        "schema": "bowden.model/1"
+    }"#;
+    let coulomb = term("coulomb", &[0.01], Source::Channel(1), 2.0, -0.5);
+    let expected = Model::<f64, 1>::try_new(None, &[coulomb]).unwrap();
+    assert_eq!(
+        serde_json::from_str::<Model<f64, 1>>(text).unwrap(),
+        expected
+    );
+    // Without a heap in between: borrowed, and from a reader, which owns its texts.
+    let read: Model<f64, 1> = serde_json::from_reader(text.as_bytes()).unwrap();
+    assert_eq!(read, expected);
+}
+
+#[test]
+fn a_file_that_is_not_quite_one_is_refused_with_what_is_wrong() {
+    let torque = "mode = \"torque\"";
+    for (good, bad, said) in [
+        (
+            "bowden.model/1",
+            "bowden.model/2",
+            "\"bowden.model/2\" where the schema \"bowden.model/1\" was expected",
+        ),
+        (
+            "schema = \"bowden.model/1\"\n",
+            "",
+            "missing field `schema`",
+        ),
+        (
+            torque,
+            "mode = \"twist\"",
+            "unknown variant `twist`, expected `torque` or `displacement`",
+        ),
+        (torque, "", "missing field `mode`"),
+        (
+            "channels = [\"phi_p\", \"angle of the joint [rad]\"]\n",
+            "",
+            "missing field `channels`",
+        ),
+        (
+            "\"angle of the joint [rad]\"]",
+            "\"angle\"]",
+            "term stribeck: no channel of its source's name",
+        ),
+        (
+            "[\"phi_p\", ",
+            "[\"phi_p\", \"phi_p\", ",
+            "two channels have one name",
+        ),
+        (
+            torque,
+            "mode = \"torque\"\nauthor = \"me\"",
+            "unknown field `author`",
+        ),
+        (
+            "rho = 0.382",
+            "rho = -0.382",
+            "transmission: rho is out of range",
+        ),
+        (
+            "rho = 0.382",
+            "rho = nan",
+            "transmission: rho is not finite",
+        ),
+        ("n = 1.02", "", "missing field `n`"),
+        ("n = 1.02", "n = 1.02\nm = 2", "unknown field `m`"),
+        (
+            "\"viscous\"",
+            "\"viscious\"",
+            "\"viscious\" where an effect of the catalogue was expected",
+        ),
+        (
+            "\"viscous\"",
+            "\"coulomb\"",
+            "term coulomb: condition not met: one value for each shape",
+        ),
+        (
+            "name = \"a\"",
+            "name = \"b\"",
+            "term stribeck: another shape where a was expected",
+        ),
+        (
+            "name = \"a\"",
+            "name = \"a_and_quite_a_lot_more\"",
+            "term stribeck: another shape where a was expected",
+        ),
+        (
+            "value = 1.5",
+            "value = 0.0",
+            "term stribeck: a is out of range",
+        ),
+        (
+            "value = 1.5",
+            "value = 1.5\nunit = \"rad/s\"",
+            "unknown field `unit`",
+        ),
+        ("origin = -0.25", "origin = inf", "origin is not finite"),
+        ("gain = -0.264", "gain = nan", "gain is not finite"),
+        (
+            "gain = -0.264",
+            "gain = -0.264\nsize = 1",
+            "unknown field `size`",
+        ),
+    ] {
+        let broken = FILE.replacen(good, bad, 1);
+        assert_ne!(broken, FILE);
+        let error = refusal(&broken);
+        assert!(error.contains(said), "{bad}: {error}");
+    }
+    let eight_shapes = "\n[[terms.shapes]]\nname = \"v_e\"\nvalue = 0.01".repeat(8);
+    let error = refusal(&FILE.replacen("shapes = []", &eight_shapes, 1));
+    assert!(error.contains("too many items"), "{error}");
+}
+
+#[test]
+fn as_many_channels_as_a_source_can_count_are_read_and_no_more() {
+    let file = |channels: usize, source: usize| {
+        let names: Vec<String> = (0..channels).map(|k| format!("\"column {k}\"")).collect();
+        format!(
+            "schema = \"bowden.model/1\"\nmode = \"torque\"\nchannels = [{}]\n\n\
+             [[terms]]\neffect = \"viscous\"\nsource = \"column {source}\"\ngain = 1.0\n",
+            names.join(", ")
+        )
+    };
+    let read = toml::from_str::<Model<f64, 1>>(&file(256, 255)).unwrap();
+    assert_eq!(read.terms()[0].source, Source::Channel(255));
+    let error = refusal(&file(257, 0));
+    assert!(error.contains("too many channels"), "{error}");
+}
+
+/// Every effect of the catalogue, on the input and on channels.
+fn whole_catalogue<T: Real>() -> Model<T, 64> {
+    let shapes = [0.7, 0.3];
+    let terms: Vec<Term<T>> = CATALOGUE
+        .iter()
+        .enumerate()
+        .map(|(k, info)| {
+            let known = |count: &usize| {
+                let shapes: Vec<T> = shapes[..*count].iter().map(|&x| T::of(x)).collect();
+                Effect::try_from_name(info.name, &shapes).is_ok()
+            };
+            let count = (0..=2).find(known).unwrap();
+            let source = match k % 3 {
+                0 => Source::Input,
+                k => Source::Channel(k as u8),
+            };
+            term(
+                info.name,
+                &shapes[..count],
+                source,
+                0.1 * k as f64,
+                1.0 / 3.0,
+            )
+        })
+        .collect();
+    Model::try_new(Some(cable()), &terms).unwrap()
+}
+
+fn through_files<T: Real + Serialize + DeserializeOwned>() {
+    let model = whole_catalogue::<T>();
+    let written = toml::to_string(&model).unwrap();
+    assert!(written.starts_with("schema = \"bowden.model/1\"\nmode = \"torque\"\n"));
+    assert!(written.contains("channels = [\"channel_0\", \"channel_1\", \"channel_2\"]"));
+    assert_eq!(toml::from_str::<Model<T, 64>>(&written).unwrap(), model);
+    let written = serde_json::to_string(&model).unwrap();
+    assert_eq!(
+        serde_json::from_str::<Model<T, 64>>(&written).unwrap(),
+        model
+    );
+    let bare = Model::<T, 2>::try_new(None, &[]).unwrap();
+    let written = toml::to_string(&bare).unwrap();
+    assert!(!written.contains("transmission"), "{written}");
+    assert_eq!(toml::from_str::<Model<T, 2>>(&written).unwrap(), bare);
+}
+
+#[test]
+fn every_effect_is_written_to_a_file_and_read_back_to_the_same_bits() {
+    through_files::<f64>();
+    through_files::<f32>();
+}
+
+const CRC: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
+
+/// Eight terms as large as the loop makes them: seven with shapes, two of them with two.
+fn eight_terms<T: Real>() -> Model<T, 8> {
+    let (p, d) = (Source::Channel(0), Source::Channel(1));
+    let terms = [
+        term("viscous", &[], p, 0.1, -0.4),
+        term("coulomb", &[0.01], p, 0.1, -0.4),
+        term("stribeck", STRIBECK, p, 0.1, -0.4),
+        term("inertia", &[], d, 0.1, -0.4),
+        term("ripple", &[12.0, 0.5], d, 0.1, -0.4),
+        term("hinge", &[0.2], d, 0.1, -0.4),
+        term("creep", &[1.5], Source::Input, 0.1, -0.4),
+        term("load-friction", &[0.02], p, 0.1, -0.4),
+    ];
+    Model::try_new(Some(cable()), &terms).unwrap()
+}
+
+fn bytes<T: Real + Serialize>(model: &Model<T, 8>) -> Vec<u8> {
+    let mut room = [0; 512];
+    postcard::to_slice_crc32(model, &mut room, CRC.digest())
+        .unwrap()
+        .to_vec()
+}
+
+fn from_bytes<'a, T: Real + Deserialize<'a>>(bytes: &'a [u8]) -> Option<Model<T, 8>> {
+    postcard::from_bytes_crc32(bytes, CRC.digest()).ok()
+}
+
+/// Every prefix and every flipped bit is refused.
+fn nothing_but_the_whole_is_read<T: Real + Serialize + DeserializeOwned>(size: usize) {
+    let model = eight_terms::<T>();
+    let whole = bytes(&model);
+    assert_eq!(whole.len(), size);
+    assert_eq!(from_bytes::<T>(&whole), Some(model));
+    for end in 0..size {
+        assert_eq!(
+            from_bytes::<T>(&whole[..end]),
+            None,
+            "the first {end} bytes"
+        );
+    }
+    for bit in 0..8 * size {
+        let mut bad = whole.clone();
+        bad[bit / 8] ^= 1 << (bit % 8);
+        assert_eq!(from_bytes::<T>(&bad), None, "bit {bit}");
+    }
+}
+
+#[test]
+fn eight_terms_fit_into_so_many_bytes_with_a_checksum_and_a_broken_one_is_no_model() {
+    nothing_but_the_whole_is_read::<f32>(147);
+    nothing_but_the_whole_is_read::<f64>(259);
+}
+
+#[test]
+fn the_compact_form_is_the_one_that_was_stored() {
+    // A model in a flash outlives a firmware: a change of these bytes is a change of form.
+    let terms = [term("coulomb", &[0.01], Source::Channel(2), 0.5, -0.25)];
+    let model = Model::<f32, 1>::try_new(Some(cable()), &terms).unwrap();
+    let mut room = [0; 64];
+    let stored = postcard::to_slice(&model, &mut room).unwrap();
+    println!("{stored:?}");
+    let read: Model<f32, 1> = postcard::from_bytes(stored).unwrap();
+    assert_eq!(read, model);
+}
+
+proptest! {
+    #[test]
+    fn no_bytes_make_a_model_that_its_constructor_would_refuse(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
+        if let Ok(model) = postcard::from_bytes::<Model<f32, 4>>(&bytes) {
+            let again = Model::<f32, 4>::try_new(model.transmission().copied(), model.terms());
+            prop_assert_eq!(again, Ok(model));
+        }
+    }
+}
+
+#[test]
+fn a_state_is_read_with_the_memories_that_it_lists() {
+    let state = ModelState::<f64, 2>::with_eta(0.25).unwrap();
+    let written = serde_json::to_string(&state).unwrap();
+    assert_eq!(
+        serde_json::from_str::<ModelState<f64, 2>>(&written).unwrap(),
+        state
+    );
+    let beyond = written.replacen("0.25", "1.25", 1);
+    assert!(serde_json::from_str::<ModelState<f64, 2>>(&beyond).is_err());
+}
