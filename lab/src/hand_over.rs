@@ -157,7 +157,7 @@ fn records_own(data: &Prepared, solution: &Solution) -> Vec<LeftOut> {
 }
 
 /// The fit without what is left out, within what can be inverted if that is asked for.
-fn handed_over(base: &FinalFit, invertible: bool) -> Result<Solution, String> {
+pub(crate) fn handed_over(base: &FinalFit, invertible: bool) -> Result<Solution, String> {
     let (data, last) = (&base.data, &base.solution);
     let (mut structure, known, _) = without(last, |effect| {
         is_clockwork(effect) || (invertible && is_stage(effect))

@@ -5,9 +5,10 @@ use crate::closing::{Ledger, Round};
 use crate::export::ModelFile;
 use crate::final_fit::FinalFit;
 use crate::fit::Segments;
+use crate::hand_over::handed_over;
 use serde::Serialize;
 
-/// The model that would be delivered if the rounds ended here: as the final one it is fitted
+/// The model that would be handed over if the rounds ended here: as the final one it is fitted
 /// once more on the fit and stop-check segments together.
 #[derive(Debug, Clone, Serialize)]
 pub(super) struct RoundModel {
@@ -25,13 +26,15 @@ pub(super) struct RoundModel {
 
 impl RoundModel {
     fn new(data: &Prepared, done: &FinalFit) -> Self {
-        let own = done.solution.structure.own_gains;
-        let of = |record| ModelFile::of_record(&done.data, &done.solution, record);
+        // Where it cannot be fitted without what belongs to the record it is given as it is.
+        let handed = handed_over(done, false).unwrap_or_else(|_| done.solution.clone());
+        let own = handed.structure.own_gains;
+        let of = |record| ModelFile::of_record(&done.data, &handed, record);
         Self {
             model: (own == 0).then(|| of(0)),
             models: (own > 0).then(|| (0..own).map(of).collect()),
             refitted: done.refitted,
-            nrmse: done.rmse.normalised(data, &data.target),
+            nrmse: Segments::of(data, &handed.residual).normalised(data, &data.target),
         }
     }
 }
