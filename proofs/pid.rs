@@ -1,7 +1,7 @@
 //! K1 and K10 of PI, PID and PIV.
 
 use super::any::{fallback, limits};
-use super::properties::control::pid_commands_within_its_limits;
+use super::properties::control::{a_pid_start_keeps_the_command, pid_commands_within_its_limits};
 use super::stubs;
 use bowden::control::pid::state::{Last, Unchecked};
 use bowden::control::status::Held;
@@ -123,4 +123,16 @@ fn pid_take_over() {
     kani::cover!(state.integral() != before.integral());
     let kept = state.command().to_bits() == before.command().to_bits();
     assert!(kept && state.rate() == before.rate() && state.is_valid());
+}
+
+/// K10. A PID that starts from an output: whatever output and sample, the command is that
+/// output within the range and the state is valid, or integral, rate and command stay.
+#[kani::proof]
+fn pid_resume_from() {
+    let (pid, mut state, at) = (pid(AntiWindup::Clamp, rate()), state(), input());
+    let output = kani::any();
+    let kept = a_pid_start_keeps_the_command(&pid, &mut state, output, &at);
+    kani::cover!(state.command() == output && output > 1.0 && state.integral() < -1.0);
+    kani::cover!(state.consecutive_bad() > 1);
+    assert!(kept && state.is_valid());
 }
