@@ -87,9 +87,10 @@ proptest! {
         // z = 0, and the command that gives this error.
         let at = AdaptiveInput::new(0.001, reference, reference + s, []);
         let mut state = AdaptiveState::resume_from(&law, reference + s + disturbance, &at);
+        let most = ErrorState { s: 0.43, z: 0.43 / 8.0 };
         for _ in 0..500 {
             prop_assert!(tracking::the_law_keeps_the_box(
-                &law, &mut state, &plant, 0.001, reference, ErrorState { s: 0.43, z: 0.43 / 8.0 }
+                &law, &mut state, &plant, 0.001, reference, most
             ));
         }
     }
@@ -372,8 +373,11 @@ fn a_start_outside_of_the_box_is_outside_for_a_while() {
         w: 8.0,
         xi: 0.0,
     };
-    // |s| is in its range, |z| = 0.5 is not: 0.43/lambda is 0.054.
-    let mut at = ErrorState { s: 0.43, z: -0.5 };
+    // |s| is in its range, |z| = 10 N·m·s is not: 0.43/lambda is 0.054.
+    let mut at = ErrorState {
+        s: 0.43_f32,
+        z: -10.0,
+    };
     let mut most = 0.0_f32;
     for _ in 0..5_000 {
         at = law.step(at, 0.001, &by);

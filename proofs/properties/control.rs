@@ -69,13 +69,13 @@ pub fn pid_commands_within_its_limits(
     let (before, settings) = (*state, pid.settings());
     let out = pid.step(state, at);
     let untouched = state.integral() == before.integral() && state.rate() == before.rate();
-    let read = [at.reference, at.measured, at.feed_forward];
     let velocity = settings.damping != Damping::Velocity || at.velocity.is_finite();
+    let numbers = at.reference.is_finite() && at.measured.is_finite();
     let answer = Answer {
         limits: &settings.limits,
         fallback: &settings.fallback,
         dt: at.dt,
-        usable: velocity && read.iter().all(|number| number.is_finite()),
+        usable: velocity && numbers && at.feed_forward.is_finite(),
         status: out.status,
         before: (before.command(), before.consecutive_bad()),
         after: (out.command, state.consecutive_bad()),
@@ -99,7 +99,6 @@ pub fn adaptive_commands_within_its_limits<const N: usize>(
         && state.beta_hat() == before.beta_hat()
         && state.delta_hat() == before.delta_hat()
         && state.theta_hat() == before.theta_hat();
-    let read = [input.reference, input.next_reference, input.measured];
     let in_time = law.largest_step().is_none_or(|longest| input.dt <= longest);
     let answer = Answer {
         limits: &settings.limits,
@@ -107,10 +106,10 @@ pub fn adaptive_commands_within_its_limits<const N: usize>(
         dt: input.dt,
         usable: in_time
             && input.feed_forward.is_finite()
-            && read
-                .iter()
-                .chain(&input.regressors)
-                .all(|number| number.is_finite()),
+            && input.reference.is_finite()
+            && input.next_reference.is_finite()
+            && input.measured.is_finite()
+            && input.regressors.iter().all(|x| x.is_finite()),
         status: out.status,
         before: (before.command(), before.consecutive_bad()),
         after: (out.command, state.consecutive_bad()),
