@@ -23,3 +23,23 @@ pub fn expm1f(x: f32, y: f32) -> bool {
         y >= 0.0
     }
 }
+
+/// ln(1 + x): for x ≥ 0 from 0 to x, so finite where x is.
+pub fn log1pf(x: f32, y: f32) -> bool {
+    x.is_nan() || x < 0.0 || (0.0 <= y && y <= x)
+}
+
+/// Square root: for x ≥ 0 between x and 1, so finite where x is.
+pub fn sqrtf(x: f32, y: f32) -> bool {
+    x.is_nan() || x < 0.0 || (x <= y && y <= 1.0) || (1.0 <= y && y <= x)
+}
+
+/// Arc tangent: within ±1.571 with the sign of x.
+pub fn atanf(x: f32, y: f32) -> bool {
+    x.is_nan() || (y.abs() <= 1.571 && y.is_sign_negative() == x.is_sign_negative())
+}
+
+/// Tangent: finite for every finite x.
+pub fn tanf(x: f32, y: f32) -> bool {
+    !x.is_finite() || y.is_finite()
+}

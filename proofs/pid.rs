@@ -1,11 +1,13 @@
 //! K1 and K10 of PI, PID and PIV.
 
 use super::any::{fallback, limits};
-use super::properties::control::pid_commands_within_its_limits;
-use super::stubs;
+use super::properties::control::{
+    a_pid_start_keeps_the_command, follows, pid_commands_within_its_limits,
+};
+use super::{limited, stubs};
 use bowden::control::pid::state::{Last, Unchecked};
 use bowden::control::status::Held;
-use bowden::control::{AntiWindup, Damping, Pid, PidInput, PidSettings, PidState};
+use bowden::control::{AntiWindup, Damping, Limits, Pid, PidInput, PidSettings, PidState};
 
 /// Any settings that the constructor accepts, with this anti-windup.
 fn pid(anti_windup: AntiWindup<f32>, damping: Damping<f32>) -> Pid<f32> {
@@ -77,38 +79,59 @@ fn rate() -> Damping<f32> {
     }
 }
 
-/// K1. PID without anti-windup: for any sample the command is finite and within its limits, the
-/// state stays valid, and a bad sample leaves it.
+/// K1. PID without anti-windup: for any sample the command is finite, within its limits and its
+/// slew rate, the state stays valid; a bad sample leaves the state, and the command or the safe
+/// one is out; none is good with dt ≤ 0 or a number that is not finite.
+///
+/// Assumes: nothing of gains, sample or valid state; the limits as by slew_limit_any_rate.
 #[kani::proof]
 #[kani::stub(libm::expm1f, stubs::expm1f)]
+#[kani::stub(Limits::apply, limited::apply)]
+#[kani::stub(follows, limited::follows)]
 fn pid_any_sample_none() {
     any_sample(AntiWindup::None, rate());
 }
 
 /// K1. The same with the integral within the range.
+///
+/// Assumes: as pid_any_sample_none.
 #[kani::proof]
 #[kani::stub(libm::expm1f, stubs::expm1f)]
+#[kani::stub(Limits::apply, limited::apply)]
+#[kani::stub(follows, limited::follows)]
 fn pid_any_sample_clamp() {
     any_sample(AntiWindup::Clamp, rate());
 }
 
 /// K1. The same with conditional integration.
+///
+/// Assumes: as pid_any_sample_none.
 #[kani::proof]
 #[kani::stub(libm::expm1f, stubs::expm1f)]
+#[kani::stub(Limits::apply, limited::apply)]
+#[kani::stub(follows, limited::follows)]
 fn pid_any_sample_conditional() {
     any_sample(AntiWindup::Conditional, rate());
 }
 
 /// K1. The same with back-calculation.
+///
+/// Assumes: as pid_any_sample_none.
 #[kani::proof]
 #[kani::stub(libm::expm1f, stubs::expm1f)]
+#[kani::stub(Limits::apply, limited::apply)]
+#[kani::stub(follows, limited::follows)]
 fn pid_any_sample_back_calculation() {
     let tracking_time = kani::any();
     any_sample(AntiWindup::BackCalculation { tracking_time }, rate());
 }
 
 /// K1. The same of PIV, conditional integration.
+///
+/// Assumes: as pid_any_sample_none.
 #[kani::proof]
+#[kani::stub(Limits::apply, limited::apply)]
+#[kani::stub(follows, limited::follows)]
 fn piv_any_sample() {
     any_sample(AntiWindup::Conditional, Damping::Velocity);
 }
@@ -123,4 +146,16 @@ fn pid_take_over() {
     kani::cover!(state.integral() != before.integral());
     let kept = state.command().to_bits() == before.command().to_bits();
     assert!(kept && state.rate() == before.rate() && state.is_valid());
+}
+
+/// K10. A PID that starts from an output: whatever output and sample, the command is that
+/// output within the range and the state is valid, or integral, rate and command stay.
+#[kani::proof]
+fn pid_resume_from() {
+    let (pid, mut state, at) = (pid(AntiWindup::Clamp, rate()), state(), input());
+    let output = kani::any();
+    let kept = a_pid_start_keeps_the_command(&pid, &mut state, output, &at);
+    kani::cover!(state.command() == output && output > 1.0 && state.integral() < -1.0);
+    kani::cover!(state.consecutive_bad() > 1);
+    assert!(kept && state.is_valid());
 }

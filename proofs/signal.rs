@@ -102,7 +102,7 @@ fn any_ends<T: Real>(last: T, _: T) -> (T, T) {
 
 /// K10. A slew limit's ends lie on either side of the command before, whatever rate and dt.
 ///
-/// Assumes: a slew rate and a dt above zero, a finite command before.
+/// Assumes: a finite slew rate and a finite dt above zero, a finite command before.
 #[kani::proof]
 fn slew_reaches_around() {
     let (slew, dt, last) = (finite(), finite(), finite());
@@ -112,11 +112,11 @@ fn slew_reaches_around() {
     assert!(low <= last && last <= high);
 }
 
-/// K10. The same as slew_limit for any slew rate, dt and command: within the range, and
-/// within the limit's ends wherever the command before lay in the range.
+/// K10. The same as slew_limit for any slew rate, any finite dt above zero and any command:
+/// within the range, and within the limit's ends wherever the command before lay in the range.
 ///
-/// Assumes: any limits, a finite command before and wanted; the ends as proved by
-/// slew_reaches_around.
+/// Assumes: any limits, a finite dt above zero (controllers refuse any other), a finite command
+/// before and wanted; the ends as proved by slew_reaches_around.
 #[kani::proof]
 #[kani::stub(around, any_ends)]
 fn slew_limit_any_rate() {
@@ -124,8 +124,9 @@ fn slew_limit_any_rate() {
         Limits::try_new(kani::any(), kani::any()).and_then(|range| range.with_slew(kani::any()));
     kani::assume(limits.is_ok());
     if let Ok(limits) = limits {
-        let (last, wanted) = (finite(), finite());
-        let command = limits.apply(last, wanted, kani::any());
+        let (last, wanted, dt) = (finite(), finite(), finite());
+        kani::assume(dt > 0.0);
+        let command = limits.apply(last, wanted, dt);
         let (low, high) = (LOW.load(Ordering::Relaxed), HIGH.load(Ordering::Relaxed));
         let (low, high) = (f32::from_bits(low), f32::from_bits(high));
         kani::cover!(limits.contains(last) && command < wanted - 1.0 && high > last);

@@ -17,6 +17,26 @@ pub(crate) fn expm1f(x: f32) -> f32 {
     any_of(contracts::expm1f, x)
 }
 
+/// Any value within the contract of ln(1 + x).
+pub(crate) fn log1pf(x: f32) -> f32 {
+    any_of(contracts::log1pf, x)
+}
+
+/// Any value within the contract of the square root.
+pub(crate) fn sqrtf(x: f32) -> f32 {
+    any_of(contracts::sqrtf, x)
+}
+
+/// Any value within the contract of the arc tangent.
+pub(crate) fn atanf(x: f32) -> f32 {
+    any_of(contracts::atanf, x)
+}
+
+/// Any value within the contract of the tangent.
+pub(crate) fn tanf(x: f32) -> f32 {
+    any_of(contracts::tanf, x)
+}
+
 /// Any float at all, NaN included: nothing is assumed.
 pub(crate) fn garbage(_: f32) -> f32 {
     kani::any()

@@ -50,6 +50,15 @@ fn the_exponential_less_one_keeps_the_contract_that_its_stub_has() {
 
 #[test]
 #[ignore = "all 2^32 arguments: two minutes"]
+fn the_functions_of_the_closed_forms_keep_the_contracts_that_their_stubs_have() {
+    assert_eq!(count(|x| !contracts::log1pf(x, Real::ln_1p(x))), 0);
+    assert_eq!(count(|x| !contracts::sqrtf(x, Real::sqrt(x))), 0);
+    assert_eq!(count(|x| !contracts::atanf(x, Real::atan(x))), 0);
+    assert_eq!(count(|x| !contracts::tanf(x, Real::tan(x))), 0);
+}
+
+#[test]
+#[ignore = "all 2^32 arguments: two minutes"]
 fn tanh_is_a_smooth_sign_that_leaves_at_most_its_residue() {
     let sign = SmoothSign::Tanh;
     let good = |x| {

@@ -87,9 +87,10 @@ proptest! {
         // z = 0, and the command that gives this error.
         let at = AdaptiveInput::new(0.001, reference, reference + s, []);
         let mut state = AdaptiveState::resume_from(&law, reference + s + disturbance, &at);
+        let most = ErrorState { s: 0.43, z: 0.43 / 8.0 };
         for _ in 0..500 {
             prop_assert!(tracking::the_law_keeps_the_box(
-                &law, &mut state, &plant, 0.001, reference, 0.43
+                &law, &mut state, &plant, 0.001, reference, most
             ));
         }
     }
@@ -165,8 +166,9 @@ proptest! {
         literal in any::<bool>(),
     ) {
         let limits = Limits::try_new(-20.0, 60.0).unwrap().with_slew(1e4).unwrap();
+        let fallback = Fallback::try_new(3, -2.0).unwrap();
         let pid = Pid::try_new(PidSettings {
-            k_d: 2.0, derivative_time: 0.1, limits, ..PidSettings::new(30.0, 18.0)
+            k_d: 2.0, derivative_time: 0.1, limits, fallback, ..PidSettings::new(30.0, 18.0)
         }).unwrap();
         let form = if literal {
             Form::Literal { time_constant: 0.005 }
@@ -178,6 +180,7 @@ proptest! {
             delta: Estimator::fixed(1.0).within(0.0, 4.0).adapting(6e-3, 0.01),
             theta: [Estimator::fixed(0.0).within(-5.0, 5.0).adapting(5e-4, 0.01)],
             limits,
+            fallback,
             ..AdaptiveSettings::new(form, 24.0, 8.0, 0.05)
         }).unwrap();
         let (mut state, mut adapted) = (PidState::new(), AdaptiveState::new(&law));
@@ -243,6 +246,35 @@ proptest! {
     }
 
     #[test]
+    fn a_start_keeps_the_command_that_is_out(
+        at in prop::array::uniform6(any_float()), high in 5.0..60.0_f32, literal in any::<bool>(),
+    ) {
+        let form = if literal {
+            Form::Literal { time_constant: 0.005 }
+        } else {
+            Form::Lag { step: 0.001, plant_gain: 1.0 }
+        };
+        let limits = Limits::try_new(-5.0, high).unwrap();
+        let law = Adaptive::<f32, 1>::try_new(AdaptiveSettings {
+            beta: Estimator::fixed(1.0).within(0.8, 1.2),
+            delta: Estimator::fixed(1.0).within(0.0, 4.0),
+            z_limit: 0.5,
+            limits,
+            ..AdaptiveSettings::new(form, 12.0, 8.0, 0.05)
+        }).unwrap();
+        let [output, dt, reference, measured, x, feed_forward] = at;
+        let input = AdaptiveInput {
+            feed_forward, ..AdaptiveInput::new(dt, reference, measured, [x])
+        };
+        prop_assert!(control::a_start_keeps_the_command(&law, output, &input));
+        let settings = PidSettings { limits, ..PidSettings::new(30.0, 18.0) };
+        let pid = Pid::try_new(settings).unwrap();
+        let at = PidInput { feed_forward, ..PidInput::new(dt, reference, measured) };
+        let mut state = PidState::new();
+        prop_assert!(control::a_pid_start_keeps_the_command(&pid, &mut state, output, &at));
+    }
+
+    #[test]
     fn a_compensator_commands_what_is_finite(
         samples in prop::collection::vec(prop::array::uniform4(any_float()), 1..50),
         sigma in 0.5..2.0_f32,
@@ -282,4 +314,76 @@ proptest! {
             }
         }
     }
+}
+
+/// What is bounded is `w = (g - 1)·(r + r'/lambda) + (g·theta_hat - theta)'x - D`, not D.
+#[test]
+fn a_disturbance_in_its_bound_leaves_the_box_where_w_with_the_reference_is_beyond() {
+    let g = 0.8_f32;
+    let law = Adaptive::<f32, 0>::try_new(AdaptiveSettings {
+        beta: Estimator::fixed(g).within(0.8, 1.2),
+        delta: Estimator::fixed(0.0).within(0.0, 4.0),
+        frozen: true,
+        smooth_sign: SmoothSign::Clamp,
+        ..AdaptiveSettings::new(
+            Form::Lag {
+                step: 0.001,
+                plant_gain: 1.0,
+            },
+            24.0,
+            8.0,
+            0.05,
+        )
+    })
+    .unwrap();
+    // The largest |s| and lambda·|z| in 20 s, from rest at e = 0.
+    let reached = |reference: f32, disturbance: f32| {
+        let at = AdaptiveInput::new(0.001, reference, reference, []);
+        let mut state = AdaptiveState::resume_from(&law, reference + disturbance, &at);
+        let mut most = 0.0_f32;
+        for _ in 0..20_000 {
+            let measured = state.command() - disturbance;
+            let out = law.step(
+                &mut state,
+                &AdaptiveInput::new(0.001, reference, measured, []),
+            );
+            most = most.max(out.terms.s.abs());
+        }
+        most
+    };
+    // D is 8 N·m in both. With a reference of 25 N·m w is -0.2·25 - 8 = -13 N·m: the box is left.
+    assert!(reached(25.0, 8.0) > 0.6);
+    // With one of -25 N·m w is 5 - 8 = -3 N·m, and with D = 3 N·m it is -8 N·m: within the bound.
+    assert!(reached(-25.0, 8.0) <= 0.43);
+    assert!(reached(25.0, 3.0) <= 0.43);
+}
+
+/// The other half of the claim: it is about starts inside of the box.
+#[test]
+fn a_start_outside_of_the_box_is_outside_for_a_while() {
+    let law = LagRecursion {
+        gain: 24.0,
+        lambda: 8.0,
+        epsilon: 0.05,
+        smooth_sign: SmoothSign::Clamp,
+    };
+    let by = Disturbance {
+        g: 0.8,
+        delta_hat: 0.0,
+        w: 8.0,
+        xi: 0.0,
+    };
+    // |s| is in its range, |z| = 10 N·m·s is not: 0.43/lambda is 0.054.
+    let mut at = ErrorState {
+        s: 0.43_f32,
+        z: -10.0,
+    };
+    let mut most = 0.0_f32;
+    for _ in 0..5_000 {
+        at = law.step(at, 0.001, &by);
+        most = most.max(at.s.abs());
+    }
+    assert!(most > 0.43);
+    // That it comes in is a theorem, not a harness; this run does.
+    assert!(tracking::in_box(&law, at, 0.43));
 }

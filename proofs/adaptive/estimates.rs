@@ -3,7 +3,7 @@
 use super::super::compensated::Compensated;
 use super::super::{Estimator, Leakage};
 use super::state::{estimator, leakage};
-use crate::proofs::any::within;
+use crate::proofs::any::{finite, within};
 use crate::Real;
 
 /// Any sum that the box holds.
@@ -29,69 +29,123 @@ fn estimate_in_its_box() {
     assert!(after.is_none_or(|after| estimator.holds(&after)));
 }
 
-/// K9. Without excitation a leak to zero never grows an estimate or turns its sign.
-///
-/// Assumes: dt = 1/1024 s, leakage rate ∈ [0, 1e4]/s, |estimate| ≤ 1000, nothing owed by
-/// rounding.
-#[kani::proof]
-fn leak_to_zero() {
-    let estimator = Estimator {
-        leakage: Leakage::Constant {
-            rate: within(0.0, 1e4),
-        },
-        ..Estimator::<f32>::fixed(0.0)
+/// Any estimate, and what rounding has dropped of it: less than rounding can see.
+fn any_estimate() -> Compensated<f32> {
+    let sum = Compensated {
+        value: within(-1000.0, 1000.0),
+        carry: finite(),
     };
-    let before = within(-1000.0, 1000.0);
-    let after = estimator.update(Compensated::new(before), 1.0 / 1024.0, 0.0);
-    let value = after.map_or(f32::NAN, |after| after.value);
-    kani::cover!(value < before && value > 0.5);
-    assert!(value.abs() <= before.abs() && value * before >= 0.0);
+    kani::assume(is_rounded(&sum));
+    sum
 }
 
-/// An increment as `leak_moves_towards_the_prior` proves it, and no more.
-fn any_leak<T: Real>(_: &Estimator<T>, distance: T, _: T, _: T) -> T {
-    let by = T::of(kani::any());
-    let zero = T::zero();
-    kani::assume((-distance <= by && by <= zero) || (zero <= by && by <= -distance));
-    by
+/// Whether the carry is what rounding has dropped of the sum: added, it is dropped again.
+fn is_rounded(sum: &Compensated<f32>) -> bool {
+    sum.value + sum.carry == sum.value
+}
+
+/// Whether one sum, carry included, is at most another. Exact: a carry is at most half an ulp
+/// of its value, so that it decides only between equal values.
+fn is_at_most(sum: &Compensated<f32>, other: &Compensated<f32>) -> bool {
+    sum.value < other.value || (sum.value == other.value && sum.carry <= other.carry)
+}
+
+/// Any leakage rate up to 1e4/s, as `a_leakage_rate_is_at_most_its_rate` bounds it.
+fn any_rate_at<T: Real>(_: &Leakage<T>, _: T) -> T {
+    T::of(within(0.0, 1e4).into())
+}
+
+/// K9. The rate of a leakage, constant or switching, lies between zero and its greatest; a
+/// switching one is the same on both sides of the prior.
+///
+/// Assumes: a rate not negative, a bound above zero, both finite; any finite distance.
+#[kani::proof]
+fn a_leakage_rate_is_at_most_its_rate() {
+    let leakage = leakage();
+    let (most, distance) = (leakage.rate(), finite());
+    kani::assume(most.is_finite() && most >= 0.0);
+    if let Leakage::Switching { bound, .. } = leakage {
+        kani::assume(bound.is_finite() && bound > 0.0);
+    }
+    let rate = leakage.rate_at(distance);
+    kani::cover!(rate > 0.0 && rate < most);
+    assert!(0.0 <= rate && rate <= most);
 }
 
 /// K9. Without excitation the increment of a leak lies between nothing and the way to the
 /// prior.
 ///
-/// Assumes: dt = 1/1024 s, leakage rate ∈ [0, 1e4]/s, constant; at most 2000 from the prior.
+/// Assumes: dt = 1/1024 s; at most 2000 from the prior; the rate within \[0, 1e4\]/s, as
+/// proved by a_leakage_rate_is_at_most_its_rate for constant and switching leakage.
 #[kani::proof]
+#[kani::stub(Leakage::rate_at, any_rate_at)]
 fn leak_moves_towards_the_prior() {
-    let rate = within(0.0, 1e4);
-    let estimator = Estimator::<f32>::fixed(0.0).adapting(1.0, rate);
+    let estimator = Estimator::<f32>::fixed(0.0).adapting(1.0, 1.0);
     let distance = within(-2000.0, 2000.0);
     let by = estimator.increment(distance, 1.0 / 1024.0, 0.0);
     kani::cover!(by < -1.0 && by > -distance);
     assert!((-distance <= by && by <= 0.0) || (0.0 <= by && by <= -distance));
 }
 
-/// K9. Without excitation a leak moves an estimate towards its prior and stops there, but for
-/// an ulp of the larger one.
+/// An increment as `leak_moves_towards_the_prior` proves it, and no more.
+fn any_leak<T: Real>(_: &Estimator<T>, distance: T, _: T, _: T) -> T {
+    let by = T::of(f64::from(kani::any::<f32>()));
+    let zero = T::zero();
+    kani::assume((-distance <= by && by <= zero) || (zero <= by && by <= -distance));
+    by
+}
+
+/// The estimate after a step of any leak, which must leave a sum that is rounded again.
+fn leaked(prior: f32, before: &Compensated<f32>) -> Compensated<f32> {
+    let estimator = Estimator {
+        prior,
+        ..Estimator::<f32>::fixed(0.0)
+    };
+    let after = estimator.update(*before, 1.0 / 1024.0, 0.0);
+    assert!(after.is_some_and(|after| is_rounded(&after)));
+    after.unwrap_or(*before)
+}
+
+/// K9. Without excitation a leak to zero moves an estimate, what rounding owes it included,
+/// towards zero and past it by no more than rounding owed before; rounding then owes at most
+/// half an ulp again.
 ///
-/// Assumes: a prior of 1, |estimate| ≤ 1000, nothing owed by rounding; the increment as proved by
+/// Assumes: dt = 1/1024 s, leakage rate ∈ [0, 1e4]/s, constant or switching, |estimate| ≤ 1000,
+/// owed any carry that the sum rounds away; the increment as proved by
+/// leak_moves_towards_the_prior.
+#[kani::proof]
+#[kani::stub(Estimator::increment, any_leak)]
+fn leak_to_zero() {
+    let before = any_estimate();
+    let after = leaked(0.0, &before);
+    let owed = before.carry.abs();
+    kani::cover!(after.value < before.value && after.value > 0.5 && before.carry > 0.0);
+    if before.value >= 0.0 {
+        assert!(-owed <= after.value && is_at_most(&after, &before));
+    } else {
+        assert!(is_at_most(&before, &after) && after.value <= owed);
+    }
+}
+
+/// K9. Without excitation a leak to a prior moves an estimate, what rounding owes it included,
+/// towards the prior and past it by no more than two ulps of the larger one; rounding then
+/// owes at most half an ulp again.
+///
+/// Assumes: a prior of 1, dt = 1/1024 s, leakage rate ∈ [0, 1e4]/s, constant or switching,
+/// |estimate| ≤ 1000, owed any carry that the sum rounds away; the increment as proved by
 /// leak_moves_towards_the_prior.
 #[kani::proof]
 #[kani::stub(Estimator::increment, any_leak)]
 fn leak_to_the_prior() {
     let prior = 1.0_f32;
-    let estimator = Estimator {
-        prior,
-        ..Estimator::<f32>::fixed(0.0)
-    };
-    let before = within(-1000.0, 1000.0);
-    let after = estimator.update(Compensated::new(before), kani::any(), 0.0);
-    let value = after.map_or(f32::NAN, |after| after.value);
-    // What rounding their distance may add.
-    let tolerance = f32::EPSILON * before.abs().max(prior.abs());
-    kani::cover!(value < before && value > prior);
-    if before >= prior {
-        assert!(value <= before && value >= prior - tolerance);
+    let before = any_estimate();
+    let after = leaked(prior, &before);
+    // What rounding their distance, and its sum with what was owed, may add.
+    let tolerance = 2.0 * f32::EPSILON * before.value.abs().max(prior);
+    kani::cover!(after.value < before.value && after.value > 1.0);
+    if before.value >= prior {
+        assert!(prior - tolerance <= after.value && is_at_most(&after, &before));
     } else {
-        assert!(value >= before && value <= prior + tolerance);
+        assert!(is_at_most(&before, &after) && after.value <= prior + tolerance);
     }
 }

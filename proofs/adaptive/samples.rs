@@ -7,8 +7,9 @@
 use super::super::compensated::Compensated;
 use super::super::{Adaptive, AdaptiveInput, AdaptiveTerms, Estimator, Form, SmoothSign};
 use super::state::{input, law, state};
-use crate::proofs::properties::control::adaptive_commands_within_its_limits;
-use crate::proofs::stubs;
+use crate::control::Limits;
+use crate::proofs::properties::control::{adaptive_commands_within_its_limits, follows};
+use crate::proofs::{limited, stubs};
 use crate::signal::{Derivative, DerivativeState};
 use crate::Real;
 
@@ -63,16 +64,19 @@ fn any_sample<const N: usize>(form: Form<f32>, smooth_sign: SmoothSign) {
     assert!(kept);
 }
 
-/// K1, K4, K5. Lag form, two regressors: for any sample the command is finite and within
-/// its limits, the state stays valid, and a bad sample leaves it.
+/// K1, K4, K5. Lag form, two regressors: for any sample the command is finite, within its
+/// limits and its slew rate, the state stays valid; a bad sample leaves the state, and the
+/// command or the safe one is out; none is good with dt ≤ 0 or a number that is not finite.
 ///
 /// Assumes: nothing of gains, sample or valid state; the update of an estimate as proved by
-/// estimate_in_its_box, any virtual command.
+/// estimate_in_its_box, the limits as by slew_limit_any_rate, any virtual command.
 #[kani::proof]
 #[kani::unwind(3)]
 #[kani::stub(libm::tanhf, stubs::tanhf)]
 #[kani::stub(Estimator::update, any_update)]
 #[kani::stub(Adaptive::virtual_command, any_virtual_command)]
+#[kani::stub(Limits::apply, limited::apply)]
+#[kani::stub(follows, limited::follows)]
 fn lag_any_sample() {
     let form = Form::Lag {
         step: kani::any(),
@@ -103,13 +107,16 @@ fn a_bad_rate_shows() {
 /// K1, K5. The literal form as the lag form above.
 ///
 /// Assumes: nothing of gains, sample, valid state or filtered rate; the update of an
-/// estimate as proved by estimate_in_its_box, the virtual command as by a_bad_rate_shows.
+/// estimate as proved by estimate_in_its_box, the limits as by slew_limit_any_rate, the
+/// virtual command as by a_bad_rate_shows.
 #[kani::proof]
 #[kani::unwind(3)]
 #[kani::stub(libm::tanhf, stubs::tanhf)]
 #[kani::stub(Derivative::step, any_rate)]
 #[kani::stub(Estimator::update, any_update)]
 #[kani::stub(Adaptive::virtual_command, any_command_of_a_rate)]
+#[kani::stub(Limits::apply, limited::apply)]
+#[kani::stub(follows, limited::follows)]
 fn literal_any_sample() {
     let time_constant = kani::any();
     any_sample::<2>(Form::Literal { time_constant }, SmoothSign::Tanh);

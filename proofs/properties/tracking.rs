@@ -60,17 +60,16 @@ impl StaticPlant {
 }
 
 /// The controller's step on a static plant, whose output still shows the command before:
-/// errors in the box are in it when the new command is seen.
+/// errors in the box `|s| <= most.s`, `|z| <= most.z` are in it when the new command is seen.
 pub fn the_law_keeps_the_box<const N: usize>(
     law: &Adaptive<f32, N>,
     state: &mut AdaptiveState<f32, N>,
     plant: &StaticPlant,
     dt: f32,
     reference: f32,
-    most: f32,
+    most: ErrorState<f32>,
 ) -> bool {
-    let lambda = law.settings().lambda;
-    let held = |at: ErrorState<f32>| at.s.abs() <= most && (lambda * at.z).abs() <= most;
+    let held = |at: ErrorState<f32>| at.s.abs() <= most.s && at.z.abs() <= most.z;
     if !held(plant.errors(law, state, reference)) {
         return true;
     }

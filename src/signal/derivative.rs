@@ -118,6 +118,12 @@ impl<T: Real> DerivativeState<T> {
         }
     }
 
+    /// Whether steps can lead to this state: a last sample that is not finite would hold the
+    /// rate for ever.
+    pub(crate) fn is_finite(&self) -> bool {
+        self.rate.is_finite() && self.last.is_none_or(T::is_finite)
+    }
+
     /// The filtered rate [signal unit/s].
     #[inline]
     #[must_use]

@@ -8,6 +8,7 @@ mod forms;
 mod hand_over;
 mod law;
 mod leakage;
+mod limited;
 
 use bowden::control::{AdaptiveSettings, Estimator, Form};
 

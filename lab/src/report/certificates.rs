@@ -253,8 +253,9 @@ pub fn text(lines: &[Line]) -> String {
     }
     out.push_str(
         "\nBeta within p %: the box of beta_hat about 1/alpha, alpha = N_A·B of the rig.\n\
-         The line at rest is what the proofs check of the shipped f32 step, with a little room for\n\
-         rounding: |s| <= 0.43 N·m, |e| <= 0.86 N·m with Table 2's gains (proofs/README.md).\n",
+         The proofs check the line at rest in f32, with room for rounding: |s| <= 0.43 N·m and\n\
+         |e| <= 0.86 N·m with Table 2's gains, if |w| <= 8 N·m and s, z start in their box\n\
+         (proofs/README.md).\n",
     );
     for list in told {
         let names: Vec<&str> = lines

@@ -134,7 +134,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
             && settings.delta.holds(&state.delta)
             && theta.all(|(theta, estimate)| theta.holds(estimate))
             && state.lag.is_finite()
-            && state.error_rate.rate().is_finite()
+            && state.error_rate.is_finite()
             && settings.limits.contains(state.held.command)
     }
 }

@@ -33,7 +33,9 @@ pub struct Disturbance<T> {
 /// On `y = alpha·u - theta'x - D` with u from the sample before, the errors obey
 /// `s⁺ = s - h·lambda·g·k·s - h·g·z + h·lambda·(w - g·delta_hat·T(s/eps)) - xi` and
 /// `z⁺ = z + h·(s - lambda·z)`, exactly, for any sequence of `h`, as long as no limit and
-/// no box of z is met. The box theorem is proved on it.
+/// no box of z is met. The box theorem ([`PeakSampled`](crate::bound::PeakSampled)) is about
+/// this recursion: it bounds `|w|`, of which the disturbance D is one term, and its box is
+/// kept by errors that start inside.
 ///
 /// ```
 /// use bowden::control::{Disturbance, ErrorState, LagRecursion, SmoothSign};

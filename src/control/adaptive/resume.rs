@@ -84,11 +84,16 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         state.z = super::Compensated::new(clamp(state.z.value, -limit, limit));
         state.error_rate = DerivativeState::new();
         let share = state.held.command - input.feed_forward;
+        // Also on a sample that cannot be used: the lag goes on from what is out.
+        state.lag = if share.is_finite() {
+            share
+        } else {
+            state.held.command
+        };
         let wanted = share / state.beta.value;
         if !wanted.is_finite() {
             return;
         }
-        state.lag = share;
         let z = self.z_that_gives(wanted, state, input);
         if z.is_finite() {
             state.z = super::Compensated::new(clamp(z, -limit, limit));

@@ -175,4 +175,9 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
     pub fn command(&self) -> T {
         self.held.command
     }
+    /// How many samples in a row were bad; stays at `u32::MAX`.
+    #[must_use]
+    pub fn consecutive_bad(&self) -> u32 {
+        self.held.bad
+    }
 }
