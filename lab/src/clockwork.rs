@@ -14,8 +14,14 @@ use bowden::effect::{Effect, Family};
 /// Whether an effect counts from the first sample of its record.
 #[must_use]
 pub fn is_clockwork(effect: &Effect<f64>) -> bool {
+    counts_from_the_start(effect.family())
+}
+
+/// Whether the effects of a family count from the first sample of their record.
+#[must_use]
+pub fn counts_from_the_start(family: Family) -> bool {
     matches!(
-        effect.family(),
+        family,
         Family::Tone | Family::Drift | Family::Pretension | Family::Degradation
     )
 }

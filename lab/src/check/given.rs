@@ -1,8 +1,9 @@
 //! The model that is checked, and what its file says of where it came from.
 
+use crate::clockwork::counts_from_the_start;
 use crate::export::ModelFile;
 use crate::record::Mode;
-use bowden::effect::{Family, Info, Quantity, CATALOGUE};
+use bowden::effect::{Info, Quantity, CATALOGUE};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -152,12 +153,7 @@ fn reads_load(name: &str) -> bool {
 /// Whether an effect is of the record that the model came from, and not of the rig: its clock
 /// has begun with that record.
 fn of_the_record(name: &str) -> bool {
-    info(name).is_some_and(|info| {
-        matches!(
-            info.family,
-            Family::Tone | Family::Pretension | Family::Drift | Family::Degradation
-        )
-    })
+    info(name).is_some_and(|info| counts_from_the_start(info.family))
 }
 
 /// The message of the TOML reader without its drawing of the line.

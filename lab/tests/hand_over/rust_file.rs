@@ -269,6 +269,7 @@ fn model_rs_says_what_its_numbers_mean_and_holds_no_path() {
 #[test]
 fn the_ranges_are_those_that_the_fit_has_seen() {
     use crate::rig::{record, Told};
+    use bowden::effect::Motion;
     use bowden_lab::synth::{Mode, Recipe};
     let recipe = Recipe {
         seed: 4,
@@ -289,10 +290,24 @@ fn the_ranges_are_those_that_the_fit_has_seen() {
         told.data.split.fit[0],
         told.data.split.stop[told.data.split.stop.len() - 1],
     );
-    let seen = &phi_d.motion[first * told.data.stride..(last + 1) * told.data.stride];
-    let greatest = seen
-        .iter()
-        .map(|m| m.velocity)
-        .fold(f64::NEG_INFINITY, f64::max);
-    assert_eq!(about.ranges["phi_d"].velocity[1], greatest);
+    let stride = told.data.stride;
+    let seen = &phi_d.motion[first * stride..(last + 1) * stride];
+    let ends = |motion: &[Motion<f64>], of: fn(&Motion<f64>) -> f64| {
+        let values = || motion.iter().map(of);
+        [
+            values().fold(f64::INFINITY, f64::min),
+            values().fold(f64::NEG_INFINITY, f64::max),
+        ]
+    };
+    let told = &about.ranges["phi_d"];
+    assert_eq!(told.position, ends(seen, |m| m.position));
+    assert_eq!(told.velocity, ends(seen, |m| m.velocity));
+    assert_eq!(told.acceleration, ends(seen, |m| m.acceleration));
+    // The rest of the record goes further: ranges over all of it would be others.
+    let whole = &phi_d.motion;
+    assert!(
+        ends(whole, |m| m.position) != told.position
+            || ends(whole, |m| m.velocity) != told.velocity
+            || ends(whole, |m| m.acceleration) != told.acceleration
+    );
 }
