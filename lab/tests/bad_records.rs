@@ -155,12 +155,12 @@ fn a_header_that_is_none_is_refused() {
 fn a_missing_column_is_named_with_those_that_exist() {
     refused(
         csv("time,x,f", &rows()),
-        "r.csv:1: column `t`: no such column among `time`, `x`, `f`; \
+        "r.csv:1: column `t`: no such column among `time`, `x`, `f` (nearest: `time`); \
          --time COL names another one, --rate HZ takes time from the row number",
     );
     refused(
         csv("t,tau_i,torque", &rows()),
-        "r.csv:1: column `tau_o`: no such column among `t`, `tau_i`, `torque`; \
+        "r.csv:1: column `tau_o`: no such column among `t`, `tau_i`, `torque` (nearest: `tau_i`); \
          --output COL names another one",
     );
     let options = Options {
