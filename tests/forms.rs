@@ -1,6 +1,7 @@
 //! The model as a file, `bowden.model/1`, and as bytes.
 #![allow(clippy::unwrap_used, clippy::cast_possible_truncation)]
 
+use bowden::control::{Adaptive, AdaptiveInput, AdaptiveState};
 use bowden::effect::{Effect, CATALOGUE};
 use bowden::hysteresis::Shape;
 use bowden::model::{Model, ModelState, Source, Term};
@@ -401,4 +402,21 @@ fn a_state_is_read_with_the_memories_that_it_lists() {
     );
     let beyond = written.replacen("0.25", "1.25", 1);
     assert!(serde_json::from_str::<ModelState<f64, 2>>(&beyond).is_err());
+}
+
+/// A derivative whose last sample is not finite would hold the error's rate for ever.
+#[test]
+fn a_stored_adaptive_state_whose_last_error_is_not_finite_is_not_valid() {
+    let law = Adaptive::<f64, 2>::paper();
+    let mut state = AdaptiveState::new(&law);
+    law.step(&mut state, &AdaptiveInput::new(1e-3, 1.0, 0.5, [0.1, 0.2]));
+    let mut stored: toml::Table = toml::from_str(&toml::to_string(&state).unwrap()).unwrap();
+    let read = |stored: &toml::Table| -> AdaptiveState<f64, 2> {
+        toml::from_str(&toml::to_string(stored).unwrap()).unwrap()
+    };
+    assert!(law.is_valid(&read(&stored)));
+    let rate = stored["error_rate"].as_table_mut().unwrap();
+    assert!(rate["last"].as_float().unwrap().is_finite());
+    rate.insert("last".to_owned(), f64::NAN.into());
+    assert!(!law.is_valid(&read(&stored)));
 }

@@ -8,8 +8,8 @@ use super::{number, units};
 const LISTED: usize = 24;
 
 /// Jaro-Winkler similarity from which on one name may be meant for another: `x` and `x_mm`
-/// have 0.78, `X` and `x` 1, `tau_i` and `force` 0.46.
-const ALIKE: f64 = 0.7;
+/// have 0.775, `t` and `tau_o` 0.76, `tau_i` and `force` 0.46.
+const ALIKE: f64 = 0.77;
 
 /// A column as the header names it; the name is empty where it has none.
 pub(super) struct Named {
