@@ -66,6 +66,10 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(control_adaptive_state_delta_hat, state.delta_hat());
     never_panics!(control_adaptive_state_theta_hat, state.theta_hat());
     never_panics!(control_adaptive_state_command, state.command());
+    never_panics!(
+        control_adaptive_state_consecutive_bad,
+        state.consecutive_bad()
+    );
     Some(())
 }
 
