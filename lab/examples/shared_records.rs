@@ -10,6 +10,7 @@ use bowden_lab::channels::{Preparation, Prepared};
 use bowden_lab::closing::{close, structure, MOST_ROUNDS};
 use bowden_lab::final_fit::FinalFit;
 use bowden_lab::fit::Segments;
+use bowden_lab::hand_over::HandOver;
 use bowden_lab::intervals::term_name;
 use bowden_lab::record::{read, Mode, Options};
 use bowden_lab::report::text;
@@ -159,7 +160,9 @@ fn run(row: &Row, path: &Path) -> Result<String, String> {
     let ledger = close(&data, &structure(&list, &data)?, |_| ())?;
     let done = FinalFit::new(&data, &ledger);
     let seconds = started.elapsed().as_secs_f64();
-    println!("{}\n", text(row.name, &data, &ledger, &done, None, true));
+    let hand = HandOver::new(&[record], &data, &ledger, &done, false, |_| ());
+    let hand = hand.as_ref().map_err(String::as_str);
+    println!("{}\n", text(row.name, &data, &ledger, &done, hand, true));
     let percent = |s: &Segments| {
         let n = s.normalised(&data, &data.target);
         (100.0 * n.fit, 100.0 * n.held_out)

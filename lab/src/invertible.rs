@@ -13,7 +13,7 @@ use crate::final_fit::FinalFit;
 use crate::fit::{Segments, Solution};
 use crate::intervals::term_name;
 use crate::structure::{Role, Structure};
-use bowden::control::{Compensator, Lowered};
+use bowden::control::{Changed, Compensator, Lowered};
 use bowden::effect::{Effect, Motion};
 use bowden::model::{Model, ModelState, Sample, Term};
 use bowden::Real;
@@ -146,6 +146,23 @@ pub fn stages(data: &Prepared, solution: &Solution) -> Vec<String> {
     stages.map(|t| term_name(data, t)).collect()
 }
 
+/// In what a compensator differs from the model that has these terms; nothing where it does not.
+#[must_use]
+pub fn words<const N: usize>(changed: &Changed<f64, N>, terms: &[Term<f64>]) -> String {
+    let lowered = [("sigma", changed.sigma), ("rho", changed.rho)];
+    let lowered = lowered.into_iter().filter_map(|(name, lowered)| {
+        let Lowered { from, to } = lowered?;
+        let (from, to) = (three_digits(from), three_digits(to));
+        Some(format!("{name} {from} → {to}"))
+    });
+    let gone = changed.left_out().filter_map(|index| {
+        let term = terms.get(index)?;
+        Some(format!("without {}", term.effect.name()))
+    });
+    let all: Vec<String> = lowered.chain(gone).collect();
+    all.join(", ")
+}
+
 /// The nearest model with an inverse, as `Compensator::try_nearest` makes it, and its
 /// errors: nothing is fitted again. `None` where there is none, or a model for each record.
 ///
@@ -168,25 +185,12 @@ pub fn nearest(
         .filter(kept)
         .map(|index| model.terms()[index])
         .collect();
-    let lowered = [("sigma", changed.sigma), ("rho", changed.rho)];
-    let words = lowered.into_iter().filter_map(|(name, lowered)| {
-        let Lowered { from, to } = lowered?;
-        Some(format!(
-            "{name} {} → {}",
-            three_digits(from),
-            three_digits(to)
-        ))
-    });
-    let gone = changed.left_out().filter_map(|index| {
-        let term = model.terms().get(index)?;
-        Some(format!("without {}", term.effect.name()))
-    });
-    let changed: Vec<String> = words.chain(gone).collect();
+    let changed = words(&changed, model.terms());
     let model: Model<f64, MOST_TERMS> =
         Model::try_new(Some(*compensator.transmission()), &terms).map_err(|e| e.to_string())?;
     let rmse = Segments::of(data, &left_by(data, solution, &model)?);
     Ok(Some(Nearest {
-        changed: changed.join(", "),
+        changed,
         nrmse: rmse.normalised(data, &data.target),
     }))
 }

@@ -76,7 +76,7 @@ impl Closed {
         let (data, ledger, done) = (&self.data, &self.ledger, self.done());
         let records = std::slice::from_ref(&self.record);
         let hand = HandOver::new(records, data, ledger, &done, false, |_| ()).unwrap();
-        json(&Report::new("made.csv", data, ledger, &done, &hand)).unwrap()
+        json(&Report::new("made.csv", data, ledger, &done, Ok(&hand))).unwrap()
     }
 
     fn verdict(&self) -> Verdict {
@@ -230,7 +230,7 @@ fn the_report_of_something_unknown_says_so_in_both_forms_and_is_the_same_on_one_
         &closed.data,
         &closed.ledger,
         &closed.done(),
-        None,
+        Err("not asked for"),
         false,
     );
     assert!(ledger.contains("unknown: The residual depends on x; the catalogue explains"));

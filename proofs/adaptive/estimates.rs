@@ -1,6 +1,6 @@
 //! K4, K5, K9: one estimate, whatever drives it.
 
-use super::super::compensated::Compensated;
+use super::super::compensated::{two_sum, Compensated};
 use super::super::{Estimator, Leakage};
 use super::state::{estimator, leakage};
 use crate::proofs::any::{finite, within};
@@ -95,6 +95,17 @@ fn any_leak<T: Real>(_: &Estimator<T>, distance: T, _: T, _: T) -> T {
     by
 }
 
+/// A sum, and what rounding lost of it: what Knuth's Theorem B leaves of it, and no more.
+fn any_two_sum<T: Real>(a: T, b: T) -> (T, T) {
+    let (sum, lost) = (a + b, T::of(f64::from(kani::any::<f32>())));
+    kani::assume(if sum == a {
+        lost == b
+    } else {
+        sum + lost == sum
+    });
+    (sum, lost)
+}
+
 /// The estimate after a step of any leak, which must leave a sum that is rounded again.
 fn leaked(prior: f32, before: &Compensated<f32>) -> Compensated<f32> {
     let estimator = Estimator {
@@ -112,9 +123,10 @@ fn leaked(prior: f32, before: &Compensated<f32>) -> Compensated<f32> {
 ///
 /// Assumes: dt = 1/1024 s, leakage rate ∈ [0, 1e4]/s, constant or switching, |estimate| ≤ 1000,
 /// owed any carry that the sum rounds away; the increment as proved by
-/// leak_moves_towards_the_prior.
+/// leak_moves_towards_the_prior, what a sum loses to rounding less than rounding sees.
 #[kani::proof]
 #[kani::stub(Estimator::increment, any_leak)]
+#[kani::stub(two_sum, any_two_sum)]
 fn leak_to_zero() {
     let before = any_estimate();
     let after = leaked(0.0, &before);
@@ -133,9 +145,10 @@ fn leak_to_zero() {
 ///
 /// Assumes: a prior of 1, dt = 1/1024 s, leakage rate ∈ [0, 1e4]/s, constant or switching,
 /// |estimate| ≤ 1000, owed any carry that the sum rounds away; the increment as proved by
-/// leak_moves_towards_the_prior.
+/// leak_moves_towards_the_prior, what a sum loses to rounding less than rounding sees.
 #[kani::proof]
 #[kani::stub(Estimator::increment, any_leak)]
+#[kani::stub(two_sum, any_two_sum)]
 fn leak_to_the_prior() {
     let prior = 1.0_f32;
     let before = any_estimate();

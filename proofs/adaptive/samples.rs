@@ -37,9 +37,13 @@ pub(super) fn any_virtual_command<T: Real, const N: usize>(
     T::of(kani::any())
 }
 
-/// Any rate and any memory of it, NaN included.
+/// Any rate, NaN included, and any finite last sample, for the filter keeps no other; or the
+/// memory as it was.
 fn any_rate<T: Real>(_: &Derivative<T>, state: &mut DerivativeState<T>, _: T, _: T) -> T {
-    *state = DerivativeState::at(T::of(kani::any()), T::of(kani::any()));
+    let last = T::of(kani::any());
+    if last.is_finite() && kani::any() {
+        *state = DerivativeState::at(last, T::of(kani::any()));
+    }
     state.rate()
 }
 

@@ -58,14 +58,18 @@ pub struct Close {
 impl Close {
     pub fn run(self) -> Result<(), Failure> {
         let options = self.reading.options()?;
-        if let Some(path) = &self.model_out {
-            model_form(path)?;
-        }
         if self.per_file.is_some() && self.records.len() < 2 {
             return Err("--per-file gains: more than one file was expected".to_owned());
         }
+        let read: Vec<&Path> = self.records.iter().map(PathBuf::as_path).collect();
+        if let Some(path) = &self.model_out {
+            model_form(path)?;
+            let several = self.per_file.is_some();
+            for file in written(path, if several { read.len() } else { 1 }) {
+                super::writable("--model-out", &file, &read)?;
+            }
+        }
         if let Some(path) = &self.trace {
-            let read: Vec<&Path> = self.records.iter().map(PathBuf::as_path).collect();
             super::writable("--trace", path, &read)?;
         }
         let bar = progress();
@@ -98,20 +102,27 @@ impl Close {
         let done = FinalFit::new(&data, &ledger);
         let hand = HandOver::new(&records, &data, &ledger, &done, self.invertible, |what| {
             bar.set_message(what.to_owned());
-        })
-        .map_err(|message| format!("{label}: {message}"))?;
-        if let Some(path) = &self.model_out {
-            write_models(path, &data, &hand)?;
+        });
+        // What was found stands, whether firmware can have it or not.
+        let hand = match hand {
+            Err(message) if self.invertible || self.model_out.is_some() => {
+                return Err(format!("{label}: {message}"));
+            }
+            hand => hand,
+        };
+        if let (Some(path), Ok(hand)) = (&self.model_out, &hand) {
+            write_models(path, &data, hand)?;
         }
         if let Some(path) = &self.trace {
             super::write_whole(path, trace(&data, &ledger, &done)?.as_bytes())?;
         }
         bar.set_message("looking for declared parts that are not needed");
+        let hand = hand.as_ref().map_err(String::as_str);
         let report = if self.json {
-            json(&Report::new(&label, &data, &ledger, &done, &hand)).map_err(|e| e.to_string())?
+            json(&Report::new(&label, &data, &ledger, &done, hand)).map_err(|e| e.to_string())?
         } else {
             let chosen = self.reading.columns.cutoff.is_some();
-            text(&label, &data, &ledger, &done, Some(&hand), chosen)
+            text(&label, &data, &ledger, &done, hand, chosen)
         };
         bar.finish_and_clear();
         super::say(report.trim_end())
@@ -182,11 +193,8 @@ fn embedded(options: &Options) -> Result<Record, Failure> {
 /// for each. All are written or none.
 fn write_models(path: &Path, data: &Prepared, hand: &HandOver) -> Result<(), Failure> {
     let mut all = Vec::new();
-    for (record, file) in hand.files.iter().enumerate() {
-        let own = match hand.files.len() {
-            1 => path.to_owned(),
-            _ => numbered(path, record),
-        };
+    let paths = written(path, hand.files.len());
+    for (record, (file, own)) in hand.files.iter().zip(paths).enumerate() {
         let named = |e: String| format!("{}: {e}", own.display());
         let model = match model_form(path)? {
             Form::Toml => file.toml().map_err(|e| named(e.to_string()))?.into_bytes(),
@@ -199,6 +207,14 @@ fn write_models(path: &Path, data: &Prepared, hand: &HandOver) -> Result<(), Fai
         all.push((beside, samples.into_bytes()));
     }
     super::write_together(&all)
+}
+
+/// The files of so many models.
+fn written(path: &Path, models: usize) -> Vec<PathBuf> {
+    match models {
+        1 => vec![path.to_owned()],
+        _ => (0..models).map(|record| numbered(path, record)).collect(),
+    }
 }
 
 /// `name.toml` as `name-1.toml` for the first record.

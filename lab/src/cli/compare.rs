@@ -2,7 +2,7 @@
 
 use super::Failure;
 use crate::compare::found::outcome;
-use crate::compare::lineup::lineup;
+use crate::compare::lineup::{declared_feed, lineup};
 use crate::compare::setup::Setup;
 use crate::compare::table::run_all;
 use crate::compare::trial::{Conditions, TRANSIENT};
@@ -92,6 +92,10 @@ impl Compare {
             from: conditions.from,
             transient: TRANSIENT.min(self.seconds),
             seeds: seeds.len(),
+            fed_with: match &effect {
+                None => declared_feed(&setup)?.changed_words().map(str::to_owned),
+                Some(_) => None,
+            },
         };
         let traced = self.trace.is_some();
         let (out, rows) = match effect {

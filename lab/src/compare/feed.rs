@@ -88,6 +88,7 @@ pub struct FeedForward {
     passes: Vec<Pass>,
     channels: Vec<Channel>,
     changed: Changed<f64, MOST_TERMS>,
+    changed_words: String,
 }
 
 /// Which pulley a channel of the model is.
@@ -114,6 +115,7 @@ impl FeedForward {
         let refused = |e: bowden::Error| format!("the model as a feed-forward: {e}");
         let (nearest, changed) = Compensator::try_nearest(model).map_err(refused)?;
         let is_fed = |place: usize| changed.left_out().all(|left_out| left_out != place);
+        let changed_words = crate::invertible::words(&changed, model.terms());
         let places = model.terms().iter().enumerate();
         let terms: Vec<&Term<f64>> = places
             .filter_map(|(place, term)| is_fed(place).then_some(term))
@@ -157,6 +159,7 @@ impl FeedForward {
             passes,
             channels,
             changed,
+            changed_words,
         })
     }
 
@@ -164,6 +167,12 @@ impl FeedForward {
     #[must_use]
     pub fn changed(&self) -> &Changed<f64, MOST_TERMS> {
         &self.changed
+    }
+
+    /// The same in words, where there is a difference.
+    #[must_use]
+    pub fn changed_words(&self) -> Option<&str> {
+        (!self.changed_words.is_empty()).then_some(&self.changed_words)
     }
 
     /// One sample: what will be wanted once the command has become torque.

@@ -37,6 +37,8 @@ pub struct Pair {
 pub struct Outcome {
     /// The seed.
     pub seed: u64,
+    /// In what the model that was found had to be changed to be fed forward, if in anything.
+    pub fed_with: Option<String>,
     /// What the lab has found.
     pub identified: Identified,
     /// Every controller.
@@ -139,6 +141,8 @@ pub fn outcome(
     };
     let identified = identify(&record(&setup.rig, &conditions.undeclared, seed)?)?;
     let laws = Laws::new(setup).map_err(|(what, e)| format!("[{what}]: {e}"))?;
+    let found = identified.feed(&identified.found, 0.0)?;
+    let fed_with = found.changed_words().map(str::to_owned);
     let mut controllers = Vec::new();
     for kind in &KINDS {
         let refused = |e: bowden::Error| format!("{}: {e}", kind.name);
@@ -197,6 +201,7 @@ pub fn outcome(
     }
     Ok(Outcome {
         seed,
+        fed_with,
         identified,
         pairs,
     })

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 /// What the trials were run under.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Heading {
     /// White noise of the sensor \[N·m rms\].
     pub noise: f64,
@@ -24,6 +24,8 @@ pub struct Heading {
     pub transient: f64,
     /// Number of trials.
     pub seeds: usize,
+    /// In what `--model` had to be changed to be fed forward, if in anything.
+    pub fed_with: Option<String>,
 }
 
 impl Heading {
@@ -43,6 +45,7 @@ impl Heading {
             "from": self.from,
             "transient": self.transient,
             "seeds": self.seeds,
+            "fed_with": self.fed_with,
         })
     }
 }
@@ -91,6 +94,12 @@ pub fn text(
         heading.noise,
         heading.configuration()
     );
+    if let Some(changed) = &heading.fed_with {
+        let _ = writeln!(
+            out,
+            "The model has no inverse as it is: fed forward with {changed}.\n"
+        );
+    }
     let _ = writeln!(
         out,
         "Steady part, from {} s on; errors in N·m",
@@ -260,6 +269,9 @@ pub fn found_text(heading: &Heading, effect: &Undeclared, outcomes: &[Outcome]) 
             let left_out = found.left_out.join(", ");
             let _ = writeln!(out, "  not fed forward: {left_out}");
         }
+        if let Some(changed) = &outcome.fed_with {
+            let _ = writeln!(out, "  no inverse as fitted; fed forward with {changed}");
+        }
         let _ = writeln!(
             out,
             "  {:<40} {:>9} {:>15} {:>12} {:>9}",
@@ -360,6 +372,7 @@ pub fn found_json(heading: &Heading, effect: &Undeclared, outcomes: &[Outcome]) 
                 "seed": outcome.seed,
                 "found": outcome.identified.names,
                 "left_out": outcome.identified.left_out,
+                "fed_with": outcome.fed_with,
                 "held_out": { "before": outcome.identified.before, "after": outcome.identified.after },
                 "pairs": pairs,
             })

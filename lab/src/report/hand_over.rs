@@ -12,10 +12,10 @@ use std::fmt::Write as _;
 /// The part of the JSON's `final` that is about the model of `--model-out`.
 #[derive(Debug, Clone, Serialize)]
 pub(super) struct HandOverPart {
-    /// Errors sample by sample with causal rates.
-    causal_nrmse: Segments,
+    /// Errors sample by sample with causal rates; `null` where nothing can be handed over.
+    causal_nrmse: Option<Segments>,
     feed_forward: FeedForward,
-    handed_over: HandedOver,
+    handed_over: Option<HandedOver>,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -28,16 +28,27 @@ struct HandedOver {
 }
 
 impl HandOverPart {
-    pub(super) fn new(data: &Prepared, hand: &HandOver) -> Self {
-        Self {
-            causal_nrmse: hand.causal,
-            feed_forward: hand.feed_forward.clone(),
-            handed_over: HandedOver {
-                effects: effects(data, &hand.solution),
-                left_out: hand.left_out.clone(),
-                within_inverse: hand.within_inverse,
-                nrmse: hand.nrmse,
-                rates_time_constant_s: hand.time_constant,
+    pub(super) fn new(data: &Prepared, hand: Result<&HandOver, &str>) -> Self {
+        match hand {
+            Ok(hand) => Self {
+                causal_nrmse: Some(hand.causal),
+                feed_forward: hand.feed_forward.clone(),
+                handed_over: Some(HandedOver {
+                    effects: effects(data, &hand.solution),
+                    left_out: hand.left_out.clone(),
+                    within_inverse: hand.within_inverse,
+                    nrmse: hand.nrmse,
+                    rates_time_constant_s: hand.time_constant,
+                }),
+            },
+            Err(because) => Self {
+                causal_nrmse: None,
+                feed_forward: FeedForward {
+                    invertible: false,
+                    because: Some(because.to_owned()),
+                    nearest: None,
+                },
+                handed_over: None,
             },
         }
     }
@@ -49,7 +60,11 @@ fn per_cent(share: f64) -> String {
 }
 
 /// The lines of the ledger.
-pub(super) fn text(hand: &HandOver) -> String {
+pub(super) fn text(hand: Result<&HandOver, &str>) -> String {
+    let hand = match hand {
+        Ok(hand) => hand,
+        Err(because) => return format!("firmware  nothing is handed over: {because}\n"),
+    };
     let mut out = String::new();
     let mut line = |text: String| {
         let _ = writeln!(out, "firmware  {text}");

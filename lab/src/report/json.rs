@@ -187,7 +187,7 @@ impl Report {
         data: &Prepared,
         ledger: &Ledger,
         done: &FinalFit,
-        hand: &HandOver,
+        hand: Result<&HandOver, &str>,
     ) -> Self {
         let last = &done.solution;
         let several = data.pieces.len() > 1;

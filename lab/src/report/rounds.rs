@@ -20,20 +20,26 @@ pub(super) struct RoundModel {
     models: Option<Vec<ModelFile>>,
     /// Whether the parameters have seen the stop-check segment.
     refitted: bool,
+    /// Why the model still has what belongs to the record, if it has.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    not_refitted_without: Option<String>,
     /// Its errors, as shares of the output's standard deviation.
     nrmse: Segments,
 }
 
 impl RoundModel {
     fn new(data: &Prepared, done: &FinalFit) -> Self {
-        // Where it cannot be fitted without what belongs to the record it is given as it is.
-        let handed = handed_over(done, false).unwrap_or_else(|_| done.solution.clone());
+        let (handed, not_refitted_without) = match handed_over(done, false) {
+            Ok(handed) => (handed, None),
+            Err(because) => (done.solution.clone(), Some(because)),
+        };
         let own = handed.structure.own_gains;
         let of = |record| ModelFile::of_record(&done.data, &handed, record);
         Self {
             model: (own == 0).then(|| of(0)),
             models: (own > 0).then(|| (0..own).map(of).collect()),
             refitted: done.refitted,
+            not_refitted_without,
             nrmse: Segments::of(data, &handed.residual).normalised(data, &data.target),
         }
     }

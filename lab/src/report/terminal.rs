@@ -138,7 +138,7 @@ pub fn text(
     data: &Prepared,
     ledger: &Ledger,
     done: &FinalFit,
-    hand: Option<&HandOver>,
+    hand: Result<&HandOver, &str>,
     chosen_cutoff: bool,
 ) -> String {
     let mut out = head(path, data, ledger, chosen_cutoff);
@@ -431,7 +431,7 @@ fn conclusion(
     data: &Prepared,
     ledger: &Ledger,
     done: &FinalFit,
-    hand: Option<&HandOver>,
+    hand: Result<&HandOver, &str>,
 ) -> String {
     let mut out = String::new();
     let (before, after) = (
@@ -446,7 +446,7 @@ fn conclusion(
         percent(before.fit),
         percent(after.fit)
     );
-    out.push_str(&hand.map_or_else(String::new, hand_over::text));
+    out.push_str(&hand_over::text(hand));
     if !ledger.rejected.is_empty() {
         let list: Vec<String> = ledger
             .rejected

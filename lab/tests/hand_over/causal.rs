@@ -1,7 +1,10 @@
 //! The error with the rates of firmware.
 
-use crate::rig::{said, Told};
+use crate::rig::{record, said, Told};
+use bowden_lab::hand_over::HandOver;
 use bowden_lab::record::{parse, Options};
+use bowden_lab::report::{json, text, Report};
+use bowden_lab::synth::{Mode, Recipe};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
@@ -75,4 +78,22 @@ fn both_errors_stand_in_one_line_of_the_ledger_and_in_the_json() {
         "{line}"
     );
     assert_ne!(causal, zero_phase);
+}
+
+#[test]
+fn what_was_found_is_told_although_nothing_can_be_handed_over() {
+    let told = Told::new(record(&Recipe::new(Mode::Torque)), &["bouc-wen"], None);
+    let (data, ledger, done) = (&told.data, &told.ledger, &told.done);
+    // Without the records as they came nothing can be run sample by sample.
+    let because = HandOver::new(&[], data, ledger, done, false, |_| ()).unwrap_err();
+    let hand = Err(because.as_str());
+    let report = json(&Report::new("made.csv", data, ledger, done, hand)).unwrap();
+    let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+    let part = &report["final"];
+    assert!(part["causal_nrmse"].is_null() && part["handed_over"].is_null());
+    assert_eq!(part["feed_forward"]["because"], because);
+    assert!(part["nrmse"]["held_out"].is_f64());
+    let printed = text("made.csv", data, ledger, done, hand, false);
+    assert!(printed.contains(&format!("firmware  nothing is handed over: {because}\n")));
+    assert!(printed.contains("\nverdict   "), "{printed}");
 }

@@ -177,3 +177,22 @@ fn a_trace_that_cannot_be_written_is_refused_before_the_record_is_read() {
     assert!(refused(&["check", &model, &record, "--trace", &model]).contains("would overwrite"));
     assert_eq!(folder.names(), before);
 }
+
+#[test]
+fn a_model_that_cannot_be_written_is_refused_before_the_record_is_read() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("taken.toml")).unwrap();
+    std::fs::create_dir(folder.path("gains-2.toml")).unwrap();
+    let before = folder.names();
+    // Neither record exists: it would be complained of first if it were read first.
+    let (one, two) = (folder.path("later.csv"), folder.path("last.csv"));
+    let refuses = |path: &str, more: &[&str]| {
+        let path = folder.path(path);
+        let line = refused(&[&["close", &one, "--model-out", &path], more].concat());
+        assert!(line.contains("--model-out"), "{line}");
+    };
+    refuses("no-such-folder/m.toml", &[]);
+    refuses("taken.toml", &[]);
+    refuses("gains.toml", &[&two, "--per-file", "gains"]);
+    assert_eq!(folder.names(), before);
+}
