@@ -86,6 +86,9 @@ pub struct Round {
     pub explained: f64,
     /// Blocks of sixteen on which it helped.
     pub blocks_better: usize,
+    /// In how many of a hundred half-records a search finds it again; `None` where that was
+    /// not asked.
+    pub recurs: Option<usize>,
     /// Errors before.
     pub before: Segments,
     /// Errors after.
@@ -121,6 +124,9 @@ pub struct Ledger {
     pub declared: Solution,
     /// What was added.
     pub rounds: Vec<Round>,
+    /// What was found after these and raises the error on blocks that are left out: it is no
+    /// part of the model.
+    pub beyond: Vec<Round>,
     /// What was turned down in the last scan of each round.
     pub rejected: Vec<Rejection>,
     /// What is there besides and has no name.
@@ -144,6 +150,7 @@ impl Ledger {
         Self {
             declared,
             rounds: Vec::new(),
+            beyond: Vec::new(),
             rejected: Vec::new(),
             unknown: None,
             regime: Regime::Blocks,
@@ -341,7 +348,7 @@ fn grow(data: &Prepared, ledger: &mut Ledger, most: usize, mut progress: impl Fn
 }
 
 /// Whether the residual has blocks enough for a test, and its correlation time \[s\].
-fn independence(data: &Prepared, solution: &Solution) -> (Regime, f64) {
+pub(crate) fn independence(data: &Prepared, solution: &Solution) -> (Regime, f64) {
     let rows = data.split.fit.iter();
     let rest: Vec<f64> = rows.map(|&i| solution.residual[i]).collect();
     let samples = correlation_samples(&rest);
@@ -444,13 +451,14 @@ fn add(data: &Prepared, now: &Solution, accepted: Accepted, round: usize) -> Rou
         rivals,
         explained,
         blocks_better,
+        recurs: None,
         before: now.rmse,
         after: solution.rmse,
         solution,
     }
 }
 
-fn grade(
+pub(crate) fn grade(
     explained: f64,
     p: Option<f64>,
     rivals: &[Candidate],

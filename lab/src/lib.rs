@@ -39,6 +39,7 @@ pub mod record;
 pub mod report;
 mod revisit;
 pub mod scan;
+pub mod search;
 pub mod solution;
 pub mod spectrum;
 pub mod structure;

@@ -33,6 +33,11 @@ impl Span {
         }
     }
 
+    /// The orthonormal vectors.
+    pub(crate) fn basis(&self) -> &[DVector<f64>] {
+        &self.0
+    }
+
     /// The column without its part in the span; twice, against rounding.
     pub(crate) fn off(&self, mut column: DVector<f64>) -> DVector<f64> {
         for _ in 0..2 {

@@ -75,7 +75,7 @@ fn step(data: &Prepared) -> f64 {
 }
 
 /// The bin that stands out most, with its p-value, where one does.
-fn strongest(data: &Prepared, residual: &[f64]) -> Option<(f64, f64)> {
+pub(crate) fn strongest(data: &Prepared, residual: &[f64]) -> Option<(f64, f64)> {
     let hann = |at: f64, n: f64| 0.5 - 0.5 * (TAU * at / n).cos();
     let power_of = |signal: &[f64]| power_of_fit(data, signal, hann);
     let powers = power_of(residual)?;
@@ -127,7 +127,7 @@ fn lines(power: &[f64]) -> Vec<f64> {
 }
 
 /// The tone near that frequency \[Hz\] that takes most.
-fn term(data: &Prepared, residual: &[f64], frequency: f64) -> Option<FitTerm> {
+pub(crate) fn term(data: &Prepared, residual: &[f64], frequency: f64) -> Option<FitTerm> {
     let fit = &data.split.fit;
     let seconds = (fit.last()? - fit.first()? + 1) as f64 * step(data);
     let at = |f: f64| -> Complex<f64> {

@@ -6,14 +6,15 @@
 //! column comes with its exact sensitivities in the same pass.
 
 mod linear;
-mod search;
-mod settle;
+pub(crate) mod search;
+pub(crate) mod settle;
 mod starts;
 mod tie;
 
 use crate::channels::Prepared;
 pub use crate::solution::{Segments, Solution};
 use crate::structure::{Role, Structure};
+pub use search::evaluations;
 use search::{descend, descend_fully};
 use settle::{choose, settle};
 use starts::starts;

@@ -8,7 +8,16 @@ use crate::structure::{Free, Range, Role, Structure};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::Arc;
+
+static EVALUATIONS: AtomicUsize = AtomicUsize::new(0);
+
+/// Evaluations of a model over all samples since the program began, of all threads.
+#[must_use]
+pub fn evaluations() -> usize {
+    EVALUATIONS.load(Ordering::Relaxed)
+}
 
 /// Everything about one set of shapes.
 pub(super) struct Evaluation {
@@ -25,6 +34,7 @@ pub(super) fn evaluate(
     values: &[f64],
     last: Option<&Evaluation>,
 ) -> Option<Evaluation> {
+    EVALUATIONS.fetch_add(1, Ordering::Relaxed);
     let raw = raw_columns(data, structure, free, values)?;
     let columns: Vec<Arc<Vec<f64>>> = raw
         .columns
@@ -179,7 +189,7 @@ const START: f64 = 5.0;
 
 /// Searches from one start with about `most` evaluations; the sum of squares and the
 /// values reached.
-pub(super) fn descend(
+pub(crate) fn descend(
     data: &Prepared,
     structure: &Structure,
     free: &[Free],
@@ -206,7 +216,7 @@ pub(super) fn descend(
 
 /// Searches again from where the last search stopped until that gains nothing more: a
 /// search may stop because its trust region has shrunk, and not at an optimum.
-pub(super) fn descend_fully(
+pub(crate) fn descend_fully(
     data: &Prepared,
     structure: &Structure,
     free: &[Free],

@@ -6,7 +6,7 @@ use crate::channels::Prepared;
 use crate::structure::{Free, Role, Structure};
 
 /// Assembles the solution at given values.
-pub(super) fn settle(
+pub(crate) fn settle(
     data: &Prepared,
     structure: &Structure,
     free: &[Free],

@@ -11,7 +11,7 @@ use crate::scan::{blocks, share_of_patterns};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 /// Hat functions of a curve that is tested.
-pub(super) const HATS: usize = 10;
+pub(crate) const HATS: usize = 10;
 /// A direction of which less than this is left beside the model is no part of the curve.
 const APART: f64 = 0.01;
 /// Knots closer than this share of the range are one. Where strokes rest at their ends the
@@ -57,16 +57,16 @@ impl Table {
 
 /// What the residual of a model has of a variable, to first order.
 #[derive(Debug, Clone)]
-pub(super) struct Scored {
-    pub(super) table: Table,
+pub(crate) struct Scored {
+    pub(crate) table: Table,
     /// Share of the squared error.
-    pub(super) share: f64,
+    pub(crate) share: f64,
     /// Exact sign-flip p-value of the whole curve.
-    pub(super) p: f64,
+    pub(crate) p: f64,
 }
 
 /// Fits a curve over the variable to what a model leaves, off all that it can move.
-pub(super) fn score(
+pub(crate) fn score(
     data: &Prepared,
     now: &Solution,
     moved: &Span,
@@ -108,7 +108,12 @@ pub(super) fn score(
 }
 
 /// Hat functions with knots at the quantiles of the fit segment.
-fn hats(data: &Prepared, now: &Solution, variable: Variable, count: usize) -> Option<Table> {
+pub(crate) fn hats(
+    data: &Prepared,
+    now: &Solution,
+    variable: Variable,
+    count: usize,
+) -> Option<Table> {
     let values = variable.values(data, &now.eta)?;
     let mut seen: Vec<f64> = data
         .split
@@ -157,7 +162,7 @@ fn flips(data: &Prepared, units: &[DVector<f64>], residual: &DVector<f64>) -> f6
 
 /// Whether a variable that starts anew with each stroke says where in the stroke the
 /// motion is: then all strokes are alike, and it would stand for anything periodic.
-pub(super) fn is_phase(data: &Prepared, now: &Solution, variable: Variable) -> bool {
+pub(crate) fn is_phase(data: &Prepared, now: &Solution, variable: Variable) -> bool {
     let share = phase_share(data, now, variable);
     variable.is_local() && share.is_none_or(|share| share > PHASE)
 }

@@ -13,7 +13,7 @@
 //! variable are tried as pairs.
 
 mod curve;
-mod hats;
+pub(crate) mod hats;
 mod variables;
 
 use crate::attempt::{Accepted, Attempt};

@@ -1,0 +1,289 @@
+//! Columns of everything that may be missing, computed once and kept between rounds.
+//!
+//! A candidate of the catalogue is a column at a trial shape and, where that column gains
+//! anything, the slopes of the column in the candidate's own shapes: the linear step in them
+//! replaces a finer lattice. A curve over one variable is twenty hat functions.
+
+use crate::catalogue::{candidates, Candidate};
+use crate::channels::Prepared;
+use crate::fit::Solution;
+use crate::projection::{rows, Span};
+use crate::structure::{FitTerm, Range, Role};
+use crate::tones;
+use crate::unknown::hats::{hats, is_phase};
+use crate::unknown::Variable;
+use bowden::effect::{Effect, Family};
+use bowden::model::Source;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// Hat functions of a curve in the Gram matrix: ten miss a bump of 0.08 of the range.
+pub(super) const HATS_IN_GRAM: usize = 20;
+/// Times of a step that are tried besides the catalogue's, at the peaks of its profile.
+const STEPS: usize = 4;
+/// Step of the difference quotients, on the line that a range is mapped to.
+const DIFFERENCE: f64 = 1e-3;
+/// Beyond this the map of a range to the line is flat.
+const FLAT: f64 = 5.0;
+
+/// What a member of a set is, whatever its shapes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Identity {
+    /// An effect that reads a channel.
+    Name(&'static str, Source),
+    /// A free curve over a variable.
+    Curve(Variable),
+}
+
+impl Identity {
+    pub(super) fn of(term: &FitTerm) -> Self {
+        Self::Name(term.effect.name(), term.source)
+    }
+}
+
+/// What a slope is a slope in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Own {
+    Shape(usize),
+    Origin,
+}
+
+/// The slope of a candidate's column in one of its own parameters, for a step of one on the
+/// line that the parameter's range is mapped to.
+#[derive(Debug, Clone)]
+pub(super) struct Slope {
+    pub(super) own: Own,
+    pub(super) range: Range,
+    pub(super) column: Arc<Vec<f64>>,
+}
+
+/// Columns that depend neither on the hysteresis state nor on the output are kept.
+pub(super) struct Bank<'a> {
+    data: &'a Prepared,
+    variables: Vec<Variable>,
+    values: Vec<(FitTerm, Arc<Vec<f64>>)>,
+    slopes: Vec<(FitTerm, Vec<Slope>)>,
+    curves: Vec<(Variable, Vec<Arc<Vec<f64>>>)>,
+}
+
+/// The point on the line of a value, off the flat ends.
+pub(super) fn on_line(range: Range, value: f64) -> f64 {
+    match range {
+        Range::Free => value,
+        other => other.encode(value).clamp(-FLAT, FLAT),
+    }
+}
+
+/// Whether a column is the same for all models of this record.
+fn is_fixed(term: &FitTerm) -> bool {
+    let effect = &term.effect;
+    !effect.reads_eta() && !effect.is_input_stage() && !effect.is_output_stage()
+}
+
+fn is_finite(column: &[f64]) -> bool {
+    column.iter().all(|v| v.is_finite())
+}
+
+impl<'a> Bank<'a> {
+    pub(super) fn new(data: &'a Prepared, declared: &Solution) -> Self {
+        let all = Variable::all(data, declared.structure.hysteresis);
+        Self {
+            data,
+            variables: all
+                .into_par_iter()
+                .filter(|v| !is_phase(data, declared, *v))
+                .collect(),
+            values: Vec::new(),
+            slopes: Vec::new(),
+            curves: Vec::new(),
+        }
+    }
+
+    /// Every candidate at its trial shapes, with its column.
+    pub(super) fn names(&mut self, now: &Solution) -> Vec<(Candidate, Arc<Vec<f64>>)> {
+        let mut tried = candidates(self.data, &now.structure, &now.residual);
+        tried.extend(steps(self.data, now, &tried));
+        tried.extend(tone(self.data, now));
+        let made: Vec<Option<Arc<Vec<f64>>>> = tried
+            .par_iter()
+            .map(|c| match self.values.iter().find(|(t, _)| *t == c.term) {
+                Some((_, known)) => Some(Arc::clone(known)),
+                None => {
+                    let column = self.data.filtered(&now.adds(self.data, &c.term)?);
+                    is_finite(&column).then(|| Arc::new(column))
+                }
+            })
+            .collect();
+        let pairs = tried.into_iter().zip(made);
+        let all: Vec<_> = pairs.filter_map(|(c, column)| Some((c, column?))).collect();
+        for (c, column) in all.iter().filter(|(c, _)| is_fixed(&c.term)) {
+            if self.values.iter().all(|(t, _)| *t != c.term) {
+                self.values.push((c.term, Arc::clone(column)));
+            }
+        }
+        all
+    }
+
+    /// The slopes of some candidates in their own shapes and origins.
+    pub(super) fn slopes(&mut self, now: &Solution, wanted: &[FitTerm]) -> Vec<Vec<Slope>> {
+        let made: Vec<Vec<Slope>> = wanted
+            .par_iter()
+            .map(|term| {
+                let parameters = parameters(self.data, now, term);
+                let known = self.slopes.iter().find(|(t, known)| {
+                    t == term
+                        && known
+                            .iter()
+                            .map(|s| (s.own, s.range))
+                            .eq(parameters.clone())
+                });
+                match known {
+                    Some((_, known)) => known.clone(),
+                    None => parameters
+                        .into_iter()
+                        .filter_map(|(own, range)| slope(self.data, now, term, own, range))
+                        .collect(),
+                }
+            })
+            .collect();
+        for (term, own) in wanted.iter().zip(&made).filter(|(t, _)| is_fixed(t)) {
+            self.slopes.retain(|(t, _)| t != term);
+            self.slopes.push((*term, own.clone()));
+        }
+        made
+    }
+
+    /// The hat functions over each variable that says more than the phase of the motion.
+    pub(super) fn curves(&mut self, now: &Solution) -> Vec<(Variable, Vec<Arc<Vec<f64>>>)> {
+        let made: Vec<Option<(Variable, Vec<Arc<Vec<f64>>>)>> = self
+            .variables
+            .par_iter()
+            .map(|&v| {
+                if let Some(known) = self.curves.iter().find(|(own, _)| *own == v) {
+                    return Some(known.clone());
+                }
+                let raw = hats(self.data, now, v, HATS_IN_GRAM)?.columns(self.data, &now.eta)?;
+                let columns: Vec<_> = raw
+                    .iter()
+                    .map(|c| Arc::new(self.data.filtered(c)))
+                    .collect();
+                columns.iter().all(|c| is_finite(c)).then_some((v, columns))
+            })
+            .collect();
+        let made: Vec<_> = made.into_iter().flatten().collect();
+        for (v, columns) in made.iter().filter(|(v, _)| *v != Variable::Eta) {
+            if self.curves.iter().all(|(own, _)| own != v) {
+                self.curves.push((*v, columns.clone()));
+            }
+        }
+        made
+    }
+}
+
+/// The free shapes and the origin of a candidate next to a model, with their ranges.
+fn parameters(data: &Prepared, now: &Solution, term: &FitTerm) -> Vec<(Own, Range)> {
+    let mut structure = now.structure.clone();
+    structure.terms.push(*term);
+    let last = structure.terms.len() - 1;
+    let free = structure.free(data).into_iter();
+    free.filter_map(|f| match f.role {
+        // A step in time has no slope: the lattice of steps is refined instead.
+        Role::Shape { term: of, index }
+            if of == last && term.effect.shape_names()[index] != "t_s" =>
+        {
+            Some((Own::Shape(index), f.range))
+        }
+        Role::Origin { term: of } if of == last => Some((Own::Origin, f.range)),
+        _ => None,
+    })
+    .collect()
+}
+
+fn slope(data: &Prepared, now: &Solution, term: &FitTerm, own: Own, range: Range) -> Option<Slope> {
+    let moved = |v: f64| match own {
+        Own::Shape(index) => Some(FitTerm {
+            effect: term.effect.with_shape(index, v).ok()?,
+            ..*term
+        }),
+        Own::Origin => Some(FitTerm { origin: v, ..*term }),
+    };
+    let value = match own {
+        Own::Shape(index) => term.effect.shape(index)?,
+        Own::Origin => term.origin,
+    };
+    let u = on_line(range, value);
+    let at = |u: f64| Some(data.filtered(&now.adds(data, &moved(range.decode(u))?)?));
+    let (up, down) = (at(u + DIFFERENCE)?, at(u - DIFFERENCE)?);
+    let column: Vec<f64> = up
+        .iter()
+        .zip(&down)
+        .map(|(a, b)| (a - b) / (2.0 * DIFFERENCE))
+        .collect();
+    is_finite(&column).then(|| Slope {
+        own,
+        range,
+        column: Arc::new(column),
+    })
+}
+
+/// The strongest line of the residual's spectrum.
+fn tone(data: &Prepared, now: &Solution) -> Option<Candidate> {
+    if data.pieces.len() > 1 {
+        // A tone has no common phase in records that were taken one after the other.
+        return None;
+    }
+    let (frequency, _) = tones::strongest(data, &now.residual)?;
+    let term = tones::term(data, &now.residual, frequency)?;
+    let family = term.effect.family();
+    Some(Candidate { term, family })
+}
+
+/// Steps in time at the peaks of what a step at each row would take of the residual.
+///
+/// The column of a step at row `k` is the sum of the unit vectors from `k` on, so its product
+/// with the residual and with the model's columns are cumulative sums.
+fn steps(data: &Prepared, now: &Solution, tried: &[Candidate]) -> Vec<Candidate> {
+    let Some(like) = tried.iter().find(|c| c.family == Family::Pretension) else {
+        return Vec::new();
+    };
+    let span = Span::of(data, now.columns.iter().chain(&now.tangents));
+    let residual = span.off(rows(data, &now.residual));
+    let n = residual.len();
+    let margin = n / 50;
+    let mut gains = vec![0.0; n];
+    let (mut score, mut sums) = (0.0, vec![0.0; span.basis().len()]);
+    for k in (0..n).rev() {
+        score += residual[k];
+        let mut norm = (n - k) as f64;
+        for (sum, q) in sums.iter_mut().zip(span.basis()) {
+            *sum += q[k];
+            norm -= *sum * *sum;
+        }
+        if k >= margin && k + margin < n && norm > 1e-3 * (n - k) as f64 {
+            gains[k] = score * score / norm;
+        }
+    }
+    let mut peaks: Vec<usize> = (1..n.saturating_sub(1))
+        .filter(|&k| gains[k] > gains[k - 1] && gains[k] >= gains[k + 1])
+        .collect();
+    peaks.sort_by(|&a, &b| gains[b].total_cmp(&gains[a]));
+    let mut apart: Vec<usize> = Vec::new();
+    for k in peaks {
+        if apart.len() < STEPS && apart.iter().all(|&other| k.abs_diff(other) > margin) {
+            apart.push(k);
+        }
+    }
+    apart
+        .into_iter()
+        .filter_map(|k| {
+            let moment = data.moment(data.split.fit[k]);
+            Some(Candidate {
+                term: FitTerm {
+                    effect: Effect::try_from_name("pretension", &[moment]).ok()?,
+                    ..like.term
+                },
+                family: Family::Pretension,
+            })
+        })
+        .collect()
+}

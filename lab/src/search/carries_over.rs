@@ -1,0 +1,221 @@
+//! How many names carry over to data that the fit has not seen, and which come again.
+//!
+//! On measured records the residual is systematic: every part of a record repeats the same
+//! misfit, and no test within the record tells a name that will come again from one that
+//! will not. Two rules help. The round that is delivered is the one whose model errs least
+//! on blocks that were left out of its linear fit ([`delivered`]); and a name is told in how
+//! many of a hundred half-records a search finds it again ([`recurrences`]).
+
+use super::bank::{on_line, Bank, Identity};
+use super::gram::Swept;
+use super::linear::{Kept, Linear};
+use super::policy;
+use crate::channels::Prepared;
+use crate::fit::Solution;
+use crate::scan::blocks;
+use nalgebra::{DMatrix, DVector};
+use rand::seq::SliceRandom;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use std::sync::Arc;
+
+/// A slope that moves the output by less than this share of the residual is left out.
+const MOVES: f64 = 1e-6;
+/// The half-sets are drawn once and for all.
+const SEED: u64 = 1;
+
+/// Complementary halves of the blocks, in pairs: each block is in one of the two.
+fn halves(blocks: usize, count: usize) -> Vec<Vec<usize>> {
+    let mut rng = ChaCha8Rng::seed_from_u64(SEED);
+    let mut all = Vec::with_capacity(count);
+    let mut order: Vec<usize> = (0..blocks).collect();
+    while all.len() < count {
+        order.shuffle(&mut rng);
+        let (one, other) = order.split_at(blocks / 2);
+        all.extend([one.to_vec(), other.to_vec()]);
+    }
+    all.truncate(count);
+    all
+}
+
+/// Products of a model's own columns, slopes and residual, for each block.
+struct Parts {
+    /// The last column is the residual.
+    grams: Vec<DMatrix<f64>>,
+    rows: Vec<f64>,
+    /// Which columns are slopes.
+    slopes: Vec<bool>,
+}
+
+impl Parts {
+    fn new(data: &Prepared, solution: &Solution) -> Self {
+        let rows = &data.split.fit;
+        let mut columns: Vec<Vec<f64>> = Vec::new();
+        let mut slopes = Vec::new();
+        let squares = |c: &[f64]| rows.iter().map(|&i| c[i] * c[i]).sum::<f64>();
+        let residual = squares(&solution.residual);
+        for column in &solution.columns {
+            let size = squares(column).sqrt();
+            if size > 0.0 {
+                columns.push(column.iter().map(|v| v / size).collect());
+                slopes.push(false);
+            }
+        }
+        let free = solution.free.iter().zip(&solution.values);
+        for ((f, &value), tangent) in free.zip(&solution.tangents) {
+            let slope = f.range.slope(on_line(f.range, value));
+            let column: Vec<f64> = tangent.iter().map(|t| t * slope).collect();
+            if squares(&column) > MOVES * residual {
+                columns.push(column);
+                slopes.push(true);
+            }
+        }
+        columns.push(solution.residual.clone());
+        let blocks = blocks(data);
+        let gram = |block: &std::ops::Range<usize>| {
+            let own = &rows[block.clone()];
+            let x = DMatrix::from_fn(own.len(), columns.len(), |k, j| columns[j][own[k]]);
+            x.tr_mul(&x)
+        };
+        Self {
+            grams: blocks.iter().map(gram).collect(),
+            rows: blocks.iter().map(|b| b.len() as f64).collect(),
+            slopes,
+        }
+    }
+
+    /// Mean squared error on the other blocks of the linear fit on some.
+    fn left_out(&self, fitted: &[usize]) -> Option<f64> {
+        let m = self.slopes.len();
+        let mut sum = DMatrix::zeros(m + 1, m + 1);
+        let mut count = 0.0;
+        for &block in fitted {
+            sum += &self.grams[block];
+            count += self.rows[block];
+        }
+        let mut normal = sum.view((0, 0), (m, m)).into_owned();
+        // A slope's step of one on the line is as likely as the residual is large.
+        let variance = sum[(m, m)] / f64::max(count, 1.0);
+        for (j, _) in self.slopes.iter().enumerate().filter(|(_, is)| **is) {
+            normal[(j, j)] += variance;
+        }
+        let right = sum.view((0, m), (m, 1)).into_owned();
+        let change = normal.svd(true, true).solve(&right, 1e-10).ok()?;
+        let weights = DVector::from_fn(m + 1, |j, _| if j < m { -change[(j, 0)] } else { 1.0 });
+        let (mut squares, mut rows) = (0.0, 0.0);
+        for block in (0..self.grams.len()).filter(|b| !fitted.contains(b)) {
+            squares += weights.dot(&(&self.grams[block] * &weights));
+            rows += self.rows[block];
+        }
+        Some(squares / f64::max(rows, 1.0))
+    }
+}
+
+/// Mean ln error on the blocks left out, over [`policy::HALVES`] half-sets.
+#[must_use]
+pub fn left_out_error(data: &Prepared, solution: &Solution) -> f64 {
+    let parts = Parts::new(data, solution);
+    let errors: Vec<f64> = halves(parts.grams.len(), policy::HALVES)
+        .iter()
+        .filter_map(|half| parts.left_out(half))
+        .map(|error| 0.5 * error.max(1e-300).ln())
+        .collect();
+    match errors.is_empty() {
+        true => f64::INFINITY,
+        false => errors.iter().sum::<f64>() / errors.len() as f64,
+    }
+}
+
+/// Of models with more and more names, the index of the one with the least left-out error.
+#[must_use]
+pub fn delivered(data: &Prepared, path: &[&Solution]) -> usize {
+    use rayon::prelude::*;
+    let errors: Vec<f64> = path.par_iter().map(|s| left_out_error(data, s)).collect();
+    let best = errors.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1));
+    best.map_or(0, |(index, _)| index)
+}
+
+/// In how many of [`policy::RECURRENCES`] half-records each name is found again, by a search
+/// to first order from the declared and from the final model, the mean of both.
+pub(super) fn recurrences<'a>(
+    (data, bank): (&'a Prepared, &mut Bank<'a>),
+    declared: &Arc<Solution>,
+    last: &Arc<Solution>,
+) -> Vec<usize> {
+    let own = declared.structure.terms.len();
+    let names: Vec<Identity> = last.structure.terms[own..]
+        .iter()
+        .map(Identity::of)
+        .collect();
+    let mut counts = vec![0; names.len()];
+    for from in [declared, last] {
+        let price = policy::CURVE_AGAINST_NAMES;
+        let linear = Linear::new((data, &mut *bank), from, own, price);
+        let found = linear.found_on_halves();
+        for (count, name) in counts.iter_mut().zip(&names) {
+            *count += found.iter().filter(|set| set.contains(name)).count();
+        }
+    }
+    counts.into_iter().map(|count| count / 2).collect()
+}
+
+impl Linear<'_> {
+    /// What a forward search finds on each half of the blocks.
+    fn found_on_halves(&self) -> Vec<Vec<Identity>> {
+        use rayon::prelude::*;
+        let names = self.declared..self.now.structure.terms.len();
+        let kept = Kept {
+            dropped: names.clone().collect(),
+            table: self.has_table(),
+        };
+        let columns = self.columns_of(&kept);
+        let (target, _) = self.target_of(&self.everything());
+        halves(self.grams.blocks(), policy::RECURRENCES)
+            .into_par_iter()
+            .map(|half| {
+                let swept = self.grams.on_blocks(&half, &columns);
+                self.forward(swept, target, names.clone())
+            })
+            .collect()
+    }
+
+    /// Forward selection among the candidates and the model's own names.
+    fn forward(
+        &self,
+        mut swept: Swept,
+        target: usize,
+        names: std::ops::Range<usize>,
+    ) -> Vec<Identity> {
+        let own = names.map(|index| {
+            let columns = self.term(index).to_vec();
+            let price = self.prices.of_name(columns.len());
+            (
+                Identity::of(&self.now.structure.terms[index]),
+                columns,
+                price,
+            )
+        });
+        let groups = (0..self.groups.len()).filter(|&g| !self.groups[g].is_curve());
+        let groups = groups.map(|g| {
+            let group = &self.groups[g];
+            (group.identity(), group.columns.clone(), self.price(g))
+        });
+        let all: Vec<(Identity, Vec<usize>, f64)> = own.chain(groups).collect();
+        let mut found: Vec<Identity> = Vec::new();
+        while found.len() < policy::MOST_NAMES {
+            let sse = swept.at(target, target).max(1e-14);
+            let left = |columns: &[usize]| (1.0 - swept.gain(columns, target) / sse).max(1e-14);
+            let best = all
+                .iter()
+                .filter(|(identity, ..)| !found.contains(identity))
+                .map(|(identity, columns, price)| (left(columns).ln() + price, identity, columns))
+                .min_by(|a, b| a.0.total_cmp(&b.0));
+            let Some((_, identity, columns)) = best.filter(|(change, ..)| *change < 0.0) else {
+                break;
+            };
+            found.push(*identity);
+            swept.sweep(columns);
+        }
+        found
+    }
+}

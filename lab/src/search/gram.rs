@@ -1,0 +1,356 @@
+//! Least squares on Gram matrices, one for each block of the record.
+//!
+//! All columns that could matter, and the target, are multiplied with each other once. Any
+//! question about a subset of columns on a subset of blocks is then dense algebra on a few
+//! hundred numbers: the squared error of a set is a Schur complement, the reduction of it by
+//! one more column is a ratio of two entries of the swept matrix, and a sign-flip p-value
+//! needs the scores of the blocks only (Lehmann and Romano, 2005, section 15.2).
+
+use super::policy::EXCITED;
+use crate::scan::{share_of_patterns, BLOCKS};
+use nalgebra::{DMatrix, SymmetricEigen};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// A pivot below this share of a column's squared norm: the column depends on the others.
+const DEPENDENT: f64 = 1e-9;
+/// The same for a slope beside a column, which only refines it.
+const SLOPE: f64 = 1e-5;
+/// A direction with less than this of its squared norm left has no score of its own.
+const DIRECTION: f64 = 1e-4;
+
+/// Products of all columns with each other: in total and for each block.
+///
+/// Columns are scaled to unit deviation on the fit rows; a constant column to unit norm.
+#[derive(Debug, Clone)]
+pub struct Grams {
+    size: usize,
+    scale: Vec<f64>,
+    whole: Vec<f64>,
+    parts: Vec<Vec<f64>>,
+}
+
+/// Root of the squared norm about the mean; of the whole where the column is constant.
+fn scale_of(column: &[f64], rows: &[usize]) -> f64 {
+    let n = rows.len().max(1) as f64;
+    let mean = rows.iter().map(|&i| column[i]).sum::<f64>() / n;
+    let varying: f64 = rows.iter().map(|&i| (column[i] - mean).powi(2)).sum();
+    let norm: f64 = rows.iter().map(|&i| column[i] * column[i]).sum();
+    let measure = if varying > 1e-12 * norm {
+        varying
+    } else {
+        norm
+    };
+    measure.sqrt().max(1e-300)
+}
+
+impl Grams {
+    /// Multiplies columns on the given rows; a block is a range of positions in `rows`.
+    #[must_use]
+    pub fn new(columns: &[Arc<Vec<f64>>], rows: &[usize], blocks: &[Range<usize>]) -> Self {
+        use rayon::prelude::*;
+        let size = columns.len();
+        let scale: Vec<f64> = columns.iter().map(|c| scale_of(c, rows)).collect();
+        let parts: Vec<Vec<f64>> = blocks
+            .par_iter()
+            .map(|block| {
+                let rows = &rows[block.clone()];
+                let at = |i: usize, j: usize| columns[i][rows[j]] / scale[i];
+                let x = DMatrix::from_fn(size, rows.len(), at);
+                let transposed = x.transpose();
+                (x * transposed).as_slice().to_vec()
+            })
+            .collect();
+        let mut grams = Self {
+            size,
+            scale,
+            whole: Vec::new(),
+            parts,
+        };
+        grams.whole = grams.of_blocks(0..blocks.len());
+        grams
+    }
+
+    /// Number of columns.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        self.size
+    }
+
+    /// Number of blocks.
+    #[must_use]
+    pub fn blocks(&self) -> usize {
+        self.parts.len()
+    }
+
+    /// The squared scale of a column: squared errors of a target are in units of it.
+    #[must_use]
+    pub fn unit(&self, column: usize) -> f64 {
+        self.scale[column].powi(2)
+    }
+
+    fn of_blocks(&self, blocks: impl IntoIterator<Item = usize>) -> Vec<f64> {
+        let mut sum = vec![0.0; self.size * self.size];
+        for block in blocks {
+            for (s, v) in sum.iter_mut().zip(&self.parts[block]) {
+                *s += v;
+            }
+        }
+        sum
+    }
+
+    /// The Gram matrix without what some columns explain, on the whole fit segment.
+    #[must_use]
+    pub fn without(&self, columns: &[usize]) -> Swept {
+        let mut swept = Swept {
+            size: self.size,
+            entries: self.whole.clone(),
+        };
+        swept.sweep(columns);
+        swept
+    }
+
+    /// The same on some blocks only, with entries scaled up to the whole record.
+    #[must_use]
+    pub fn on_blocks(&self, blocks: &[usize], columns: &[usize]) -> Swept {
+        let factor = self.parts.len() as f64 / blocks.len().max(1) as f64;
+        let mut entries = self.of_blocks(blocks.iter().copied());
+        entries.iter_mut().for_each(|v| *v *= factor);
+        let mut swept = Swept {
+            size: self.size,
+            entries,
+        };
+        swept.sweep(columns);
+        swept
+    }
+
+    fn compact(&self, index: &[usize]) -> Vec<f64> {
+        let mut small = Vec::with_capacity(index.len() * index.len());
+        for &i in index {
+            small.extend(index.iter().map(|&j| self.whole[i * self.size + j]));
+        }
+        small
+    }
+
+    /// Squared error of the least-squares fit of a set, in units of the target's squared scale.
+    #[must_use]
+    pub fn squared_error(&self, columns: &[usize], target: usize) -> f64 {
+        let index: Vec<usize> = columns.iter().copied().chain([target]).collect();
+        let (mut small, m) = (self.compact(&index), index.len());
+        eliminate(&mut small, m, m - 1);
+        small[m * m - 1]
+    }
+
+    /// Least-squares coefficients of a set, in the columns' own units; 0 for a column that
+    /// depends on those before it.
+    #[must_use]
+    pub fn coefficients(&self, columns: &[usize], target: usize) -> Vec<f64> {
+        let index: Vec<usize> = columns.iter().copied().chain([target]).collect();
+        let (mut small, m) = (self.compact(&index), index.len());
+        let used = eliminate(&mut small, m, m - 1);
+        let of = |(i, &column): (usize, &usize)| match used[i] {
+            true => small[i * m + m - 1] * self.scale[target] / self.scale[column],
+            false => 0.0,
+        };
+        columns.iter().enumerate().map(of).collect()
+    }
+
+    /// Exact sign-flip p-value of some columns together, given others.
+    ///
+    /// Under the null hypothesis the score vector of each block is as likely of either sign.
+    /// The statistic is the squared length of the whitened sum of scores, over all `2^15`
+    /// patterns; 1 where the others leave nothing of the columns.
+    #[must_use]
+    pub fn p_value(&self, own: &[usize], others: &[usize], target: usize) -> f64 {
+        let index: Vec<usize> = [others, own, &[target]].concat();
+        let (m, o, d) = (index.len(), others.len(), own.len());
+        let mut small = self.compact(&index);
+        let used = eliminate(&mut small, m, o);
+        // Each of the columns and the target, less what the others explain of it.
+        let mut residual = DMatrix::zeros(m, d + 1);
+        for c in 0..=d {
+            for i in (0..o).filter(|&i| used[i]) {
+                residual[(i, c)] = -small[i * m + o + c];
+            }
+            residual[(o + c, c)] = 1.0;
+        }
+        let mut inner = DMatrix::zeros(d, d);
+        let mut scores: Vec<Vec<f64>> = Vec::with_capacity(self.parts.len());
+        for part in &self.parts {
+            let gram = DMatrix::from_fn(m, m, |i, j| part[index[i] * self.size + index[j]]);
+            let products = residual.transpose() * gram * &residual;
+            scores.push((0..d).map(|i| products[(i, d)]).collect());
+            inner += products.view((0, 0), (d, d));
+        }
+        flips(whitened(&scores, inner))
+    }
+}
+
+/// Scores along the directions that are left, each of unit variance.
+fn whitened(scores: &[Vec<f64>], inner: DMatrix<f64>) -> Vec<Vec<f64>> {
+    let eigen = SymmetricEigen::new(inner);
+    let good: Vec<usize> = (0..eigen.eigenvalues.len())
+        .filter(|&i| eigen.eigenvalues[i] > DIRECTION)
+        .collect();
+    let along = |s: &Vec<f64>, i: usize| -> f64 {
+        let dot: f64 = eigen
+            .eigenvectors
+            .column(i)
+            .iter()
+            .zip(s)
+            .map(|(a, b)| a * b)
+            .sum();
+        dot / eigen.eigenvalues[i].sqrt()
+    };
+    scores
+        .iter()
+        .map(|s| good.iter().map(|&i| along(s, i)).collect())
+        .collect()
+}
+
+/// Share of all sign patterns whose sum is at least as long as the real one.
+fn flips(scores: Vec<Vec<f64>>) -> f64 {
+    let directions = scores.first().map_or(0, Vec::len);
+    if directions == 0 || scores.len() != BLOCKS {
+        return 1.0;
+    }
+    let mut sum = vec![0.0; directions];
+    for own in &scores {
+        for (s, v) in sum.iter_mut().zip(own) {
+            *s += v;
+        }
+    }
+    // Equal up to the rounding of a walk over 2^15 patterns.
+    let threshold = sum.iter().map(|v| v * v).sum::<f64>() * (1.0 - 1e-9);
+    share_of_patterns(|block, sign| {
+        let mut length = 0.0;
+        for (s, v) in sum.iter_mut().zip(&scores[block]) {
+            *s += 2.0 * sign * v;
+            length += *s * *s;
+        }
+        length >= threshold
+    })
+}
+
+/// Gauss-Jordan elimination of the first `pivots` rows and columns of a symmetric matrix of
+/// `m` rows: the coefficients of the rest on each, and the Schur complement. Which pivots
+/// were used.
+fn eliminate(a: &mut [f64], m: usize, pivots: usize) -> Vec<bool> {
+    let mut used = vec![false; pivots];
+    let mut row = vec![0.0; m];
+    for s in 0..pivots {
+        let pivot = a[s * m + s];
+        if pivot < DEPENDENT {
+            continue;
+        }
+        used[s] = true;
+        for (r, v) in row.iter_mut().zip(&a[s * m..(s + 1) * m]) {
+            *r = v / pivot;
+        }
+        for i in (0..m).filter(|&i| i != s) {
+            let factor = a[i * m + s];
+            if factor != 0.0 {
+                for (v, r) in a[i * m..(i + 1) * m].iter_mut().zip(&row) {
+                    *v -= factor * r;
+                }
+            }
+        }
+        a[s * m..(s + 1) * m].copy_from_slice(&row);
+    }
+    used
+}
+
+/// A Gram matrix of what some columns leave of all others: their Schur complement.
+#[derive(Debug, Clone)]
+pub struct Swept {
+    size: usize,
+    /// Rows; only the upper triangle is kept up to date.
+    entries: Vec<f64>,
+}
+
+impl Swept {
+    /// Product of two residual columns.
+    #[must_use]
+    pub fn at(&self, i: usize, j: usize) -> f64 {
+        let (i, j) = (i.min(j), i.max(j));
+        self.entries[i * self.size + j]
+    }
+
+    /// Takes more columns into the set.
+    pub fn sweep(&mut self, columns: &[usize]) {
+        let k = self.size;
+        let mut row = vec![0.0; k];
+        for &s in columns {
+            let pivot = self.at(s, s);
+            if pivot < DEPENDENT {
+                continue;
+            }
+            for (j, r) in row.iter_mut().enumerate() {
+                *r = self.at(s, j);
+            }
+            for i in 0..k {
+                let factor = row[i] / pivot;
+                if factor != 0.0 {
+                    let own = &mut self.entries[i * k + i..(i + 1) * k];
+                    for (v, r) in own.iter_mut().zip(&row[i..]) {
+                        *v -= factor * r;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Whether enough of a column is left to determine its coefficient.
+    #[must_use]
+    pub fn is_excited(&self, column: usize) -> bool {
+        self.at(column, column) > EXCITED
+    }
+
+    /// Reduction of the target's squared error by a group of columns together. The first is
+    /// the effect's own; without it the others, its slopes, count for nothing.
+    #[must_use]
+    pub fn gain(&self, group: &[usize], target: usize) -> f64 {
+        match group.first() {
+            Some(&first) if self.is_excited(first) => self.gain_of_any(group, target),
+            _ => 0.0,
+        }
+    }
+
+    /// The same where no column is above the others, as with a curve's.
+    #[must_use]
+    pub fn gain_of_any(&self, group: &[usize], target: usize) -> f64 {
+        let d = group.len();
+        let mut a: Vec<f64> = Vec::with_capacity(d * d);
+        for &i in group {
+            a.extend(group.iter().map(|&j| self.at(i, j)));
+        }
+        let mut b: Vec<f64> = group.iter().map(|&i| self.at(i, target)).collect();
+        let mut gain = 0.0;
+        for s in 0..d {
+            let pivot = a[s * d + s];
+            if pivot < SLOPE {
+                continue;
+            }
+            gain += b[s] * b[s] / pivot;
+            for i in s + 1..d {
+                let factor = a[i * d + s] / pivot;
+                for j in s + 1..d {
+                    a[i * d + j] -= factor * a[s * d + j];
+                }
+                b[i] -= factor * b[s];
+            }
+        }
+        gain
+    }
+
+    /// Reduction of the target's squared error by two columns together; `None` where they
+    /// are nearly one.
+    #[must_use]
+    pub fn gain_of_pair(&self, i: usize, j: usize, target: usize) -> Option<f64> {
+        let (a, b, ab) = (self.at(i, i), self.at(j, j), self.at(i, j));
+        let determinant = a * b - ab * ab;
+        let (p, q) = (self.at(i, target), self.at(j, target));
+        (determinant > EXCITED * a * b)
+            .then(|| (p * p * b - 2.0 * p * q * ab + q * q * a) / determinant)
+    }
+}

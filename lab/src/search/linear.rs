@@ -1,0 +1,521 @@
+//! A model and all that may be added to it, to first order: one Gram matrix.
+
+use super::bank::{on_line, Bank, Identity, Slope};
+use super::gram::{Grams, Swept};
+use super::policy;
+use crate::catalogue::Candidate;
+use crate::channels::Prepared;
+use crate::fit::Solution;
+use crate::scan::{blocks, correlation_samples, Regime};
+use crate::structure::Role;
+use crate::unknown::Variable;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+use std::sync::Arc;
+
+/// Most degrees of freedom with a quantile of their own.
+const FREEDOMS: usize = 48;
+/// A candidate gets its slopes, and curves are looked at, from this share of the least
+/// reduction on: at a lattice shape a candidate takes 0.4 of what it takes at its own.
+const WORTH: f64 = 0.4;
+/// Candidates that get their slopes because they are among so many best pairs.
+const PAIRED: usize = 24;
+
+/// What may be added in one piece.
+#[derive(Debug, Clone)]
+pub(super) enum Member {
+    Name(Candidate),
+    Curve(Variable),
+}
+
+/// Columns that come and go together.
+#[derive(Debug, Clone)]
+pub(super) struct Group {
+    pub(super) member: Member,
+    pub(super) columns: Vec<usize>,
+    /// What `columns[1..]` of a name are slopes in.
+    pub(super) slopes: Vec<Slope>,
+    pub(super) freedoms: usize,
+}
+
+impl Group {
+    pub(super) fn identity(&self) -> Identity {
+        match &self.member {
+            Member::Name(c) => Identity::of(&c.term),
+            Member::Curve(v) => Identity::Curve(*v),
+        }
+    }
+
+    pub(super) fn is_curve(&self) -> bool {
+        matches!(self.member, Member::Curve(_))
+    }
+
+    pub(super) fn candidate(&self) -> Option<Candidate> {
+        match &self.member {
+            Member::Name(c) => Some(*c),
+            Member::Curve(_) => None,
+        }
+    }
+
+    /// The same of any shape; two curves are alike over whatever variables.
+    pub(super) fn is_like(&self, other: &Self) -> bool {
+        self.identity() == other.identity() || (self.is_curve() && other.is_curve())
+    }
+}
+
+/// What is kept of a model: which terms, by index, and whether its curve.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Kept {
+    pub(super) dropped: Vec<usize>,
+    pub(super) table: bool,
+}
+
+/// What a set has to pay for its members.
+pub(super) struct Prices {
+    /// Least reduction of ln SSE, by degrees of freedom.
+    by_freedoms: Vec<f64>,
+    /// ln of the factor that a curve without a name has to bring.
+    pub(super) curve: f64,
+    /// Level of one sign-flip test.
+    pub(super) level: f64,
+}
+
+impl Prices {
+    /// The chi-square quantile over the independent values of the fit segment; without a
+    /// test, over one value every two correlation times.
+    fn new(level: f64, regime: Regime, (band, values): (f64, f64), curve: f64) -> Self {
+        let (low, high) = policy::LEAST_UNTESTED;
+        let of = |d: usize| {
+            let chance = ChiSquared::new(d.max(1) as f64)
+                .map_or(f64::INFINITY, |c| c.inverse_cdf(1.0 - level));
+            match regime {
+                Regime::Blocks => policy::LEAST.max(chance / band),
+                Regime::Effect => (chance / values).clamp(low, high),
+            }
+        };
+        Self {
+            by_freedoms: (0..=FREEDOMS).map(of).collect(),
+            curve,
+            level,
+        }
+    }
+
+    pub(super) fn of_name(&self, freedoms: usize) -> f64 {
+        self.by_freedoms[freedoms.min(FREEDOMS)]
+    }
+
+    pub(super) fn of_curve(&self, hats: usize) -> f64 {
+        let own = self.of_name(hats);
+        match self.curve >= policy::CURVE_AGAINST_NAMES {
+            true => self.curve + own,
+            false => self.curve.max(own),
+        }
+    }
+}
+
+/// One linearisation.
+pub(super) struct Linear<'a> {
+    pub(super) data: &'a Prepared,
+    pub(super) now: Arc<Solution>,
+    pub(super) declared: usize,
+    pub(super) grams: Grams,
+    pub(super) groups: Vec<Group>,
+    pub(super) prices: Prices,
+    pub(super) regime: Regime,
+    /// Correlation time of what the best set leaves \[s\].
+    pub(super) correlation_time: f64,
+    /// The declared part: gains and slopes.
+    own: Vec<usize>,
+    /// Gain and slopes of each term.
+    terms: Vec<Vec<usize>>,
+    table: Vec<usize>,
+    /// The column of each free parameter's slope.
+    pub(super) free: Vec<usize>,
+    target: usize,
+    /// The output as it would be without some stages, to first order.
+    unstaged: Vec<(Vec<usize>, usize)>,
+    columns: Vec<Arc<Vec<f64>>>,
+}
+
+/// Columns of the present model, sorted by what they belong to.
+struct Present {
+    columns: Vec<Arc<Vec<f64>>>,
+    own: Vec<usize>,
+    terms: Vec<Vec<usize>>,
+    table: Vec<usize>,
+    free: Vec<usize>,
+    target: usize,
+    unstaged: Vec<(Vec<usize>, usize)>,
+}
+
+impl Present {
+    fn new(data: &Prepared, now: &Solution) -> Self {
+        let mut columns: Vec<Arc<Vec<f64>>> = now.columns.iter().cloned().map(Arc::new).collect();
+        let base = now.structure.base();
+        let (mut own, mut next): (Vec<usize>, usize) = ((0..base).collect(), base);
+        let mut terms: Vec<Vec<usize>> = Vec::new();
+        for term in &now.structure.terms {
+            terms.push(if term.is_linear() {
+                vec![next]
+            } else {
+                Vec::new()
+            });
+            next += usize::from(term.is_linear());
+        }
+        let table = (next..columns.len()).collect();
+        let mut free = Vec::new();
+        for ((f, &value), tangent) in now.free.iter().zip(&now.values).zip(&now.tangents) {
+            let slope = f.range.slope(on_line(f.range, value));
+            free.push(columns.len());
+            match f.role {
+                Role::Shape { term, .. }
+                | Role::Origin { term }
+                | Role::Start { term, .. }
+                | Role::Stage { term } => terms[term].push(columns.len()),
+                _ => own.push(columns.len()),
+            }
+            columns.push(Arc::new(tangent.iter().map(|t| t * slope).collect()));
+        }
+        let target = columns.len();
+        columns.push(Arc::new(data.target.clone()));
+        let mut present = Self {
+            columns,
+            own,
+            terms,
+            table,
+            free,
+            target,
+            unstaged: Vec::new(),
+        };
+        present.unstage(data, now);
+        present
+    }
+
+    /// A stage acts on all columns, so that no column is the stage's own: a set without it
+    /// has another target instead, the output plus the stage's value times its slope.
+    fn unstage(&mut self, data: &Prepared, now: &Solution) {
+        let effect = |of: &Vec<f64>, i: usize| -> Vec<f64> {
+            let pairs = of.iter().zip(&now.tangents[i]);
+            pairs.map(|(y, t)| y + now.values[i] * t).collect()
+        };
+        let stages: Vec<(usize, usize)> = (0..now.structure.terms.len())
+            .filter_map(|term| {
+                let input = now.structure.terms[term].effect.is_input_stage();
+                let at = now.free.iter().position(|f| match f.role {
+                    Role::Stage { term: of } => of == term,
+                    Role::Shape { term: of, .. } => of == term && input,
+                    _ => false,
+                })?;
+                Some((term, at))
+            })
+            .collect();
+        for (k, &(term, at)) in stages.iter().enumerate() {
+            let one = effect(&data.target, at);
+            for &(other, also) in &stages[..k] {
+                self.unstaged.push((vec![other, term], self.columns.len()));
+                self.columns.push(Arc::new(effect(&one, also)));
+            }
+            self.unstaged.push((vec![term], self.columns.len()));
+            self.columns.push(Arc::new(one));
+        }
+    }
+}
+
+impl<'a> Linear<'a> {
+    pub(super) fn new(
+        (data, bank): (&'a Prepared, &mut Bank<'a>),
+        now: &Arc<Solution>,
+        declared: usize,
+        curve: f64,
+    ) -> Self {
+        let present = Present::new(data, now);
+        let mut columns = present.columns;
+        let mut groups = Vec::new();
+        for (candidate, column) in bank.names(now) {
+            let past = usize::from(candidate.term.has_past());
+            let in_time = usize::from(candidate.term.effect.shape_names().contains(&"t_s"));
+            groups.push(Group {
+                member: Member::Name(candidate),
+                columns: vec![columns.len()],
+                slopes: Vec::new(),
+                freedoms: 1 + past + in_time,
+            });
+            columns.push(column);
+        }
+        let rows = &data.split.fit;
+        let level = level(&groups);
+        let (regime, correlation) = (Regime::Blocks, 0.0);
+        let step = data.dt * data.stride as f64;
+        let band = rows.len() as f64 * step * 2.0 * data.cutoff;
+        let mut linear = Self {
+            data,
+            now: Arc::clone(now),
+            declared,
+            grams: Grams::new(&columns, rows, &blocks(data)),
+            groups,
+            prices: Prices::new(level, regime, (band, band), curve),
+            regime,
+            correlation_time: correlation,
+            own: present.own,
+            terms: present.terms,
+            table: present.table,
+            free: present.free,
+            target: present.target,
+            unstaged: present.unstaged,
+            columns,
+        };
+        linear.refine(bank);
+        linear.judge_blocks(level, (band, curve));
+        linear
+    }
+
+    /// Adds the slopes of what gains anything, and the curves where anything does.
+    fn refine(&mut self, bank: &mut Bank<'a>) {
+        let all = self.everything();
+        let swept = self.grams.without(&self.columns_of(&all));
+        let sse = swept.at(self.target, self.target).max(1e-14);
+        let least = WORTH * self.prices.of_name(1);
+        let reduces = |gain: f64| -(1.0 - gain / sse).max(1e-14).ln() >= least;
+        let mut wanted: Vec<bool> = self
+            .groups
+            .iter()
+            .map(|g| reduces(swept.gain(&g.columns, self.target)))
+            .collect();
+        let pairs = self.pairs(&swept, self.target);
+        for &(gain, a, b) in pairs
+            .iter()
+            .take(PAIRED)
+            .filter(|(gain, ..)| reduces(*gain))
+        {
+            let _ = gain;
+            (wanted[a], wanted[b]) = (true, true);
+        }
+        let any = wanted.iter().any(|w| *w);
+        if self.now.structure.terms.len() > self.declared {
+            // A swap needs the candidates that gain nothing beside the present names.
+            wanted.fill(true);
+        }
+        let chosen: Vec<usize> = (0..wanted.len()).filter(|&g| wanted[g]).collect();
+        let terms: Vec<_> = chosen
+            .iter()
+            .filter_map(|&g| Some(self.groups[g].candidate()?.term))
+            .collect();
+        for (&g, slopes) in chosen.iter().zip(bank.slopes(&self.now, &terms)) {
+            let group = &mut self.groups[g];
+            for slope in &slopes {
+                group.columns.push(self.columns.len());
+                self.columns.push(Arc::clone(&slope.column));
+            }
+            group.freedoms += slopes.len();
+            group.slopes = slopes;
+        }
+        if (any || self.now.structure.terms.len() > self.declared)
+            && self.now.structure.table.is_none()
+        {
+            for (variable, hats) in bank.curves(&self.now) {
+                let first = self.columns.len();
+                self.groups.push(Group {
+                    member: Member::Curve(variable),
+                    columns: (first..first + hats.len()).collect(),
+                    slopes: Vec::new(),
+                    freedoms: hats.len(),
+                });
+                self.columns.extend(hats);
+            }
+        }
+        self.grams = Grams::new(&self.columns, &self.data.split.fit, &blocks(self.data));
+    }
+
+    /// Whether the blocks are long enough for a test, from what the best set of names leaves:
+    /// a model that lacks much leaves a long correlation, which is no lack of blocks.
+    fn judge_blocks(&mut self, level: f64, (band, curve): (f64, f64)) {
+        let all = self.everything();
+        let mut columns = self.columns_of(&all);
+        for g in self.greedy(&all, &[], policy::MOST_NAMES) {
+            columns.extend(&self.groups[g].columns);
+        }
+        let gains = self.grams.coefficients(&columns, self.target);
+        let rows = &self.data.split.fit;
+        let rest: Vec<f64> = rows
+            .iter()
+            .map(|&i| {
+                let sum: f64 = columns
+                    .iter()
+                    .zip(&gains)
+                    .map(|(&c, g)| g * self.columns[c][i])
+                    .sum();
+                self.data.target[i] - sum
+            })
+            .collect();
+        let samples = correlation_samples(&rest);
+        let shortest = blocks(self.data).iter().map(ExactSizeIterator::len).min();
+        self.correlation_time = samples * self.data.dt * self.data.stride as f64;
+        if (shortest.unwrap_or(0) as f64) < 3.0 * samples {
+            self.regime = Regime::Effect;
+        }
+        let values = rows.len() as f64 / (2.0 * samples).max(1.0);
+        self.prices = Prices::new(level, self.regime, (band, values), curve);
+    }
+
+    /// The whole of the present model.
+    pub(super) fn everything(&self) -> Kept {
+        Kept {
+            dropped: Vec::new(),
+            table: !self.table.is_empty(),
+        }
+    }
+
+    pub(super) fn has_table(&self) -> bool {
+        !self.table.is_empty()
+    }
+
+    /// The columns of what is kept.
+    pub(super) fn columns_of(&self, kept: &Kept) -> Vec<usize> {
+        let mut columns = self.own.clone();
+        for (index, own) in self.terms.iter().enumerate() {
+            if !kept.dropped.contains(&index) {
+                columns.extend(own);
+            }
+        }
+        if kept.table {
+            columns.extend(&self.table);
+        }
+        columns
+    }
+
+    /// Gain and slopes of one term.
+    pub(super) fn term(&self, index: usize) -> &[usize] {
+        &self.terms[index]
+    }
+
+    /// The target of a set, and the square of its scale over that of the output.
+    pub(super) fn target_of(&self, kept: &Kept) -> (usize, f64) {
+        let gone = |terms: &Vec<usize>| terms.iter().all(|t| kept.dropped.contains(t));
+        let without = self.unstaged.iter().filter(|(terms, _)| gone(terms));
+        let target = without
+            .max_by_key(|(terms, _)| terms.len())
+            .map_or(self.target, |(_, target)| *target);
+        let unit = self.grams.unit(target) / self.grams.unit(self.target);
+        (target, unit)
+    }
+
+    /// Square of the output's scale: squared errors of sets are in units of it.
+    pub(super) fn unit(&self) -> f64 {
+        self.grams.unit(self.target)
+    }
+
+    /// What the kept names and the kept curve pay.
+    pub(super) fn price_of(&self, kept: &Kept) -> f64 {
+        let names = self.terms.iter().enumerate().skip(self.declared);
+        let names: f64 = names
+            .filter(|(index, _)| !kept.dropped.contains(index))
+            .map(|(_, own)| self.prices.of_name(own.len()))
+            .sum();
+        match kept.table && self.has_table() {
+            true => names + self.prices.of_curve(self.table.len()),
+            false => names,
+        }
+    }
+
+    /// What a group pays; a curve pays for the hats that it has at least once it is refitted.
+    pub(super) fn price(&self, group: usize) -> f64 {
+        let own = &self.groups[group];
+        match own.is_curve() {
+            true => self.prices.of_curve(crate::unknown::hats::HATS),
+            false => self.prices.of_name(own.freedoms),
+        }
+    }
+
+    /// The members of a set: terms that are kept, the curve, and what is added.
+    pub(super) fn identities(&self, kept: &Kept, added: &[usize]) -> Vec<Identity> {
+        let terms = self.now.structure.terms.iter().enumerate();
+        let mut all: Vec<Identity> = terms
+            .filter(|(index, _)| !kept.dropped.contains(index))
+            .map(|(_, term)| Identity::of(term))
+            .collect();
+        if kept.table {
+            let table = self.now.structure.table.as_ref();
+            all.extend(table.map(|t| Identity::Curve(t.variable)));
+        }
+        all.extend(added.iter().map(|&g| self.groups[g].identity()));
+        all
+    }
+
+    /// All pairs of names by what the two values take together, the best first; each two
+    /// names once.
+    pub(super) fn pairs(&self, swept: &Swept, target: usize) -> Vec<(f64, usize, usize)> {
+        let usable: Vec<usize> = (0..self.groups.len())
+            .filter(|&g| !self.groups[g].is_curve())
+            .filter(|&g| swept.is_excited(self.groups[g].columns[0]))
+            .collect();
+        let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
+        for (n, &a) in usable.iter().enumerate() {
+            let i = self.groups[a].columns[0];
+            for &b in &usable[n + 1..] {
+                let j = self.groups[b].columns[0];
+                let gain = swept.gain_of_pair(i, j, target);
+                pairs.extend(gain.map(|gain| (gain, a, b)));
+            }
+        }
+        pairs.sort_by(|p, q| q.0.total_cmp(&p.0));
+        pairs
+    }
+
+    /// Names that are added one by one while the criterion falls, from a set on.
+    pub(super) fn greedy(&self, kept: &Kept, added: &[usize], most: usize) -> Vec<usize> {
+        let mut columns = self.columns_of(kept);
+        for &g in added {
+            columns.extend(&self.groups[g].columns);
+        }
+        let (target, _) = self.target_of(kept);
+        let swept = self.grams.without(&columns);
+        let mut all = added.to_vec();
+        self.complete(swept, target, &mut all, most);
+        all
+    }
+
+    /// The same from a swept matrix on.
+    pub(super) fn complete(
+        &self,
+        mut swept: Swept,
+        target: usize,
+        all: &mut Vec<usize>,
+        most: usize,
+    ) {
+        while all.len() < most {
+            let sse = swept.at(target, target).max(1e-14);
+            let free = |g: &usize| {
+                let own = &self.groups[*g];
+                !own.is_curve() && all.iter().all(|&a| !self.groups[a].is_like(own))
+            };
+            let best = (0..self.groups.len())
+                .filter(free)
+                .map(|g| {
+                    let gain = swept.gain(&self.groups[g].columns, target);
+                    let left = (1.0 - gain / sse).max(1e-14);
+                    (left.ln() + self.price(g), g)
+                })
+                .min_by(|a, b| a.0.total_cmp(&b.0));
+            let Some((change, g)) = best.filter(|(change, _)| *change < 0.0) else {
+                return;
+            };
+            let _ = change;
+            swept.sweep(&self.groups[g].columns);
+            all.push(g);
+        }
+    }
+}
+
+/// Level of one test: the family-wise level over families and channels.
+fn level(groups: &[Group]) -> f64 {
+    let candidates = || groups.iter().filter_map(Group::candidate);
+    let mut families: Vec<_> = candidates().map(|c| c.family).collect();
+    families.sort_unstable();
+    families.dedup();
+    let mut sources: Vec<_> = Vec::new();
+    for source in candidates().map(|c| c.term.source) {
+        if !sources.contains(&source) {
+            sources.push(source);
+        }
+    }
+    policy::LEVEL / (families.len() * sources.len()).max(1) as f64
+}

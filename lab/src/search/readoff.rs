@@ -1,0 +1,287 @@
+//! From the set that a search ended with to a ledger: rounds, rivals, the curve.
+
+use super::bank::Identity;
+use super::carries_over::{delivered, recurrences};
+use super::linear::{Kept, Linear};
+use super::moves::Move;
+use super::policy;
+use super::refit::{present, FAIR, HYSTERESES, INSIDE, ROUGH};
+use super::run::{Entry, Search};
+use crate::catalogue::Candidate;
+use crate::channels::Prepared;
+use crate::closing::{grade, Ledger, Round};
+use crate::fit::search::descend;
+use crate::fit::settle::settle;
+use crate::fit::Solution;
+use crate::gates::on_blocks;
+use crate::projection::Span;
+use crate::scan::Regime;
+use crate::structure::{Free, Role, Structure};
+use crate::unknown::Unknown;
+use std::sync::Arc;
+
+/// Rivals of one name that are refitted at most.
+const RIVALS: usize = 8;
+/// A candidate is refitted as a rival from this part of the rule on, to first order.
+const NEARLY: f64 = 0.95;
+/// Starts of a rival's refit: its trial shapes and the linear step.
+const STARTS: usize = 2;
+
+impl Search<'_> {
+    /// The ledger of what was found.
+    pub(super) fn ledger(mut self) -> Option<Ledger> {
+        let path = self.path()?;
+        let rivals = self.rivals();
+        let bank = (self.data, &mut self.bank);
+        let recurs = recurrences(bank, &self.declared, &self.now);
+        let mut ledger = Ledger::of((*self.declared).clone());
+        ledger.regime = self.regime;
+        ledger.correlation_time = self.correlation_time;
+        ledger.rejected = std::mem::take(&mut self.rejected);
+        let own = self.declared.structure.terms.len();
+        let mut before = Arc::clone(&self.declared);
+        for (index, (solution, rivals)) in path.iter().zip(rivals).enumerate() {
+            let term = self.now.structure.terms[own + index];
+            let candidate = Candidate {
+                term,
+                family: term.effect.family(),
+            };
+            let p = self.entry(Identity::of(&term)).and_then(|e| e.p);
+            if p.is_none() {
+                ledger.regime = Regime::Effect;
+            }
+            let explained = 1.0 - solution.sse(self.data) / before.sse(self.data);
+            let (blocks_better, _) = on_blocks(self.data, &before, solution, self.regime);
+            ledger.rounds.push(Round {
+                grade: grade(explained, p, &rivals, blocks_better, index + 1),
+                candidate,
+                p,
+                rivals,
+                explained,
+                blocks_better,
+                recurs: recurs.get(index).copied(),
+                before: before.rmse,
+                after: solution.rmse,
+                solution: (**solution).clone(),
+            });
+            before = Arc::clone(solution);
+        }
+        ledger.unknown = self.unknown(&before);
+        deliver(self.data, &mut ledger);
+        let rounds = ledger.rounds.iter().chain(&ledger.beyond);
+        let found: Vec<Candidate> = rounds.map(|r| r.candidate).collect();
+        ledger
+            .rejected
+            .retain(|r| !found.iter().any(|own| own.is_like(&r.candidate)));
+        Some(ledger)
+    }
+
+    fn unknown(&self, named: &Solution) -> Option<Unknown> {
+        let variable = self.now.structure.table.as_ref()?.variable;
+        let entry = self.entry(Identity::Curve(variable));
+        Some(Unknown {
+            variable,
+            share: 1.0 - self.now.sse(self.data) / named.sse(self.data),
+            p: entry.and_then(|e| e.p).unwrap_or(1.0),
+            q: entry.map_or(0.0, |e| e.q),
+            before: named.rmse,
+            after: self.now.rmse,
+            solution: (*self.now).clone(),
+        })
+    }
+
+    /// The models with the first name, the first two, …, in the order in which they came.
+    fn path(&self) -> Option<Vec<Arc<Solution>>> {
+        let terms = &self.now.structure.terms;
+        let own = self.declared.structure.terms.len();
+        let mut path: Vec<Arc<Solution>> = Vec::new();
+        for count in own + 1..=terms.len() {
+            let order: Vec<Identity> = terms[..count].iter().map(Identity::of).collect();
+            let is_it = |s: &&Arc<Solution>| {
+                let theirs = s.structure.terms.iter().map(Identity::of);
+                s.structure.table.is_none() && theirs.eq(order.iter().copied())
+            };
+            // The last search of a set is the best one.
+            let solution = match self.reached.iter().rev().find(is_it) {
+                Some(known) => Arc::clone(known),
+                None => {
+                    let last = path.last().unwrap_or(&self.declared);
+                    Arc::new(self.shortened(count, last)?)
+                }
+            };
+            path.push(solution);
+        }
+        Some(path)
+    }
+
+    /// The final model with its first terms only.
+    fn shortened(&self, terms: usize, last: &Solution) -> Option<Solution> {
+        let mut structure: Structure = self.now.structure.clone();
+        structure.terms.truncate(terms);
+        structure.table = None;
+        let free = structure.free(self.data);
+        let of = |first: &Solution, second: &Solution| -> Vec<f64> {
+            let value = |f: &Free| first.value(f.role).or(second.value(f.role));
+            free.iter().map(|f| value(f).unwrap_or(0.5)).collect()
+        };
+        let mut starts = vec![of(&self.now, last), of(last, &self.now)];
+        if structure.hysteresis {
+            for (rho, sigma, n) in HYSTERESES {
+                let at = |(f, &v): (&Free, &f64)| match f.role {
+                    Role::Rho => rho / self.data.input.reach,
+                    Role::Sigma => sigma,
+                    Role::N => n,
+                    Role::Eta0 { .. } => v.clamp(-INSIDE, INSIDE),
+                    _ => v,
+                };
+                starts.push(free.iter().zip(&starts[0]).map(at).collect());
+            }
+        }
+        let search = |start: &[f64], (most, tolerance)| {
+            descend(&self.coarse, &structure, &free, start, most, tolerance)
+        };
+        let rough = starts.iter().filter_map(|s| search(s, ROUGH));
+        let (_, start) = rough.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let (_, start) = search(&start, FAIR)?;
+        let (_, values) = descend(&self.fine, &structure, &free, &start, 30, 1e-6)?;
+        settle(self.data, &structure, &free, values)
+    }
+
+    /// For each name, what does as well in its place once it is refitted.
+    fn rivals(&mut self) -> Vec<Vec<Candidate>> {
+        let own = self.declared.structure.terms.len();
+        if self.now.structure.terms.len() == own {
+            return Vec::new();
+        }
+        let price = policy::CURVE_AGAINST_NAMES;
+        let linear = Linear::new((self.data, &mut self.bank), &self.now, own, price);
+        let sse = present(self.data, &self.coarse, &self.now);
+        let all = linear.everything();
+        let full = linear
+            .grams
+            .squared_error(&linear.columns_of(&all), linear.target_of(&all).0);
+        let context = Context {
+            linear: &linear,
+            full,
+            // Real errors on the coarse grid over those to first order.
+            scale: sse / full,
+            moved: Span::of(self.data, self.now.columns.iter().chain(&self.now.tangents)),
+        };
+        (own..self.now.structure.terms.len())
+            .map(|index| self.rivals_of(&context, index))
+            .collect()
+    }
+
+    fn rivals_of(&self, context: &Context, index: usize) -> Vec<Candidate> {
+        use rayon::prelude::*;
+        let linear = context.linear;
+        let kept = Kept {
+            dropped: vec![index],
+            table: linear.has_table(),
+        };
+        let term = self.now.structure.terms[index];
+        let known = self.entry(Identity::of(&term));
+        let (close, sse) = context.close(&kept, (term.effect.family(), term.source), known);
+        let good = |left: f64| {
+            sse - left >= policy::RIVAL_SHARE * (sse - context.full)
+                && left <= policy::RIVAL_REST * context.full
+        };
+        let really: Vec<Option<(Candidate, f64)>> = close
+            .into_par_iter()
+            .map(|g| {
+                let swap = Move {
+                    kept: kept.clone(),
+                    added: vec![g],
+                    promise: 0.0,
+                    p: Vec::new(),
+                };
+                let real = linear.refit((&self.coarse, &context.moved), &swap, STARTS)?;
+                let left = real.sse / context.scale;
+                let candidate = linear.groups[g].candidate()?;
+                good(left).then_some((candidate, left))
+            })
+            .collect();
+        let mut found: Vec<(Candidate, f64)> = really.into_iter().flatten().collect();
+        found.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let mut rivals: Vec<Candidate> = Vec::new();
+        for (rival, _) in found {
+            let same =
+                |o: &Candidate| (o.family, o.term.source) == (rival.family, rival.term.source);
+            if !rivals.iter().any(same) {
+                rivals.push(rival);
+            }
+        }
+        rivals
+    }
+}
+
+/// Leaves the rounds in the model that err least on blocks left out, and moves the others
+/// beyond them; a curve counts as one more.
+fn deliver(data: &Prepared, ledger: &mut Ledger) {
+    let rounds = ledger.rounds.iter().map(|r| &r.solution);
+    let curve = ledger.unknown.iter().map(|u| &u.solution);
+    let path: Vec<&Solution> = std::iter::once(&ledger.declared)
+        .chain(rounds)
+        .chain(curve)
+        .collect();
+    let best = delivered(data, &path);
+    if best < path.len() - 1 {
+        ledger.unknown = None;
+    }
+    if best < ledger.rounds.len() {
+        ledger.beyond = ledger.rounds.split_off(best);
+    }
+}
+
+/// The final model, to first order and in fact.
+struct Context<'a, 'b> {
+    linear: &'a Linear<'b>,
+    full: f64,
+    scale: f64,
+    moved: Span,
+}
+
+impl Context<'_, '_> {
+    /// Candidates of another family or channel that to first order nearly meet the rule, or
+    /// met it when the name came in; the best of each identity. And the error without the name.
+    fn close(
+        &self,
+        kept: &Kept,
+        own: (bowden::effect::Family, bowden::model::Source),
+        known: Option<&Entry>,
+    ) -> (Vec<usize>, f64) {
+        let linear = self.linear;
+        let swept = linear.grams.without(&linear.columns_of(kept));
+        let (target, unit) = linear.target_of(kept);
+        let sse = unit * swept.at(target, target);
+        let mut close: Vec<(f64, usize)> = Vec::new();
+        for (g, group) in linear.groups.iter().enumerate() {
+            let Some(candidate) = group.candidate() else {
+                continue;
+            };
+            if (candidate.family, candidate.term.source) == own {
+                continue;
+            }
+            let gain = unit * swept.gain(&group.columns, target);
+            let nearly = gain >= NEARLY * policy::RIVAL_SHARE * (sse - self.full)
+                && (sse - gain) * NEARLY <= policy::RIVAL_REST * self.full;
+            let was = known.is_some_and(|e| e.siblings.iter().any(|s| s.is_like(&candidate)));
+            if !nearly && !was {
+                continue;
+            }
+            match close
+                .iter_mut()
+                .find(|(_, o)| linear.groups[*o].is_like(group))
+            {
+                Some(slot) if slot.0 < gain => *slot = (gain, g),
+                Some(_) => {}
+                None => close.push((gain, g)),
+            }
+        }
+        close.sort_by(|a, b| b.0.total_cmp(&a.0));
+        (
+            close.into_iter().take(RIVALS).map(|(_, g)| g).collect(),
+            sse,
+        )
+    }
+}

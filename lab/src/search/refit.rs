@@ -1,0 +1,245 @@
+//! The real error of a move: shapes searched from where the Gram matrix points.
+
+use super::bank::{on_line, Own};
+use super::linear::{Linear, Member};
+use super::moves::Move;
+use crate::catalogue::simplicity;
+use crate::channels::Prepared;
+use crate::fit::search::descend;
+use crate::fit::Solution;
+use crate::projection::Span;
+use crate::structure::{FitTerm, Free, Range, Role, Structure};
+use crate::unknown::hats::{score, Scored};
+use crate::unknown::Variable;
+
+/// Hats of a refitted curve that are tried, and the evaluations of a rough and a fair search.
+const HATS: [usize; 3] = [10, 20, 40];
+pub(super) const ROUGH: (usize, f64) = (10, 1e-3);
+pub(super) const FAIR: (usize, f64) = (40, 1e-5);
+/// The hysteresis may have bent to stand in for what is missing: two starts away from it,
+/// in units of one over the input's reach for rho.
+pub(super) const HYSTERESES: [(f64, f64, f64); 2] = [(3.0, 0.6, 2.0), (25.0, 0.8, 1.5)];
+/// The hysteresis state at the start is searched from inside of its range.
+pub(super) const INSIDE: f64 = 0.9;
+
+/// A move that was refitted on the coarse grid.
+pub(super) struct Tried {
+    pub(super) made: Move,
+    pub(super) structure: Structure,
+    pub(super) values: Vec<f64>,
+    /// The criterion.
+    pub(super) j: f64,
+    pub(super) sse: f64,
+}
+
+impl Tried {
+    /// Curves after names, then the simplicity of all effects together.
+    pub(super) fn rank(&self) -> (usize, usize) {
+        let terms = self.structure.terms.iter();
+        // Each effect counts as much as the least simple one, so that fewer come first.
+        let sum = terms.map(|t| simplicity(&t.effect).0 + 30).sum();
+        (usize::from(self.structure.table.is_some()), sum)
+    }
+}
+
+/// Where a term of the new structure comes from.
+#[derive(Clone, Copy)]
+enum From {
+    Present(usize),
+    Added(usize),
+}
+
+/// The structure of a move and the starts of its search.
+struct Plan {
+    structure: Structure,
+    from: Vec<From>,
+    /// Price of a curve that comes in.
+    curve: f64,
+}
+
+impl Linear<'_> {
+    /// Searches the shapes of a move on the coarse grid, from at most so many starts.
+    pub(super) fn refit(
+        &self,
+        (coarse, moved): (&Prepared, &Span),
+        one: &Move,
+        most: usize,
+    ) -> Option<Tried> {
+        use rayon::prelude::*;
+        let plan = self.plan(moved, one)?;
+        let free = plan.structure.free(self.data);
+        let search = |start: &[f64], (most, tolerance): (usize, f64)| {
+            descend(coarse, &plan.structure, &free, start, most, tolerance)
+        };
+        let mut starts = self.starts(&plan, one, &free);
+        starts.truncate(most);
+        let rough: Vec<Option<(f64, Vec<f64>)>> =
+            starts.par_iter().map(|s| search(s, ROUGH)).collect();
+        let best = rough
+            .into_iter()
+            .flatten()
+            .min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let (sse, values) = search(&best.1, FAIR)?;
+        let added: f64 = one
+            .added
+            .iter()
+            .map(|&g| match self.groups[g].member {
+                Member::Name(_) => self.price(g),
+                Member::Curve(_) => plan.curve,
+            })
+            .sum();
+        Some(Tried {
+            j: (sse / self.unit()).ln() + self.price_of(&one.kept) + added,
+            made: one.clone(),
+            structure: plan.structure,
+            values,
+            sse,
+        })
+    }
+
+    fn plan(&self, moved: &Span, one: &Move) -> Option<Plan> {
+        let mut structure = self.now.structure.clone();
+        let mut from = Vec::new();
+        structure.terms.clear();
+        for (index, term) in self.now.structure.terms.iter().enumerate() {
+            if !one.kept.dropped.contains(&index) {
+                structure.terms.push(*term);
+                from.push(From::Present(index));
+            }
+        }
+        if !one.kept.table {
+            structure.table = None;
+        }
+        let mut curve = 0.0;
+        for &g in &one.added {
+            match self.groups[g].member {
+                Member::Name(c) => {
+                    structure.terms.push(c.term);
+                    from.push(From::Added(g));
+                }
+                Member::Curve(variable) => {
+                    let (scored, price) = self.curve(moved, variable)?;
+                    structure.table = Some(scored.table);
+                    curve = price;
+                }
+            }
+        }
+        Some(Plan {
+            structure,
+            from,
+            curve,
+        })
+    }
+
+    /// The curve with the number of hats that promises most.
+    fn curve(&self, moved: &Span, variable: Variable) -> Option<(Scored, f64)> {
+        let made = HATS.into_iter().filter_map(|count| {
+            let scored = score(self.data, &self.now, moved, variable, count)?;
+            let price = self.prices.of_curve(count);
+            Some(((1.0 - scored.share).max(1e-14).ln() + price, scored, price))
+        });
+        let best = made.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some((best.1, best.2))
+    }
+
+    /// The trial shapes, the linear step from them, and two other hystereses.
+    fn starts(&self, plan: &Plan, one: &Move, free: &[Free]) -> Vec<Vec<f64>> {
+        let mut columns = self.columns_of(&one.kept);
+        for &g in &one.added {
+            columns.extend(&self.groups[g].columns);
+        }
+        let (target, _) = self.target_of(&one.kept);
+        let gains = self.grams.coefficients(&columns, target);
+        let gain = |column: usize| {
+            let at = columns.iter().position(|&c| c == column);
+            at.map_or(0.0, |i| gains[i])
+        };
+        let known: Vec<(f64, f64)> = free
+            .iter()
+            .map(|f| self.known(plan, f.role, &gain))
+            .collect();
+        let stepped = free.iter().zip(&known).map(|(f, &(value, step))| {
+            let step = match step.is_finite() {
+                true => step.clamp(-1.0, 1.0),
+                false => 0.0,
+            };
+            match f.range {
+                _ if step == 0.0 => value,
+                Range::Free => value + step,
+                range => range.decode(on_line(range, value) + step),
+            }
+        });
+        let plain: Vec<f64> = known.iter().map(|(value, _)| *value).collect();
+        let mut starts = vec![plain.clone(), stepped.collect()];
+        if plan.structure.hysteresis {
+            for (rho, sigma, n) in HYSTERESES {
+                let at = |(f, &v): (&Free, &f64)| match f.role {
+                    Role::Rho => rho / self.data.input.reach,
+                    Role::Sigma => sigma,
+                    Role::N => n,
+                    Role::Eta0 { .. } => v.clamp(-INSIDE, INSIDE),
+                    _ => v,
+                };
+                starts.push(free.iter().zip(&plain).map(at).collect());
+            }
+        }
+        starts
+    }
+
+    /// A parameter's value and its linear step on the line.
+    fn known(&self, plan: &Plan, role: Role, gain: &dyn Fn(usize) -> f64) -> (f64, f64) {
+        let present = |role: Role| {
+            let i = self.now.free.iter().position(|f| f.role == role)?;
+            Some((self.now.values[i], gain(self.free[i])))
+        };
+        let (Role::Shape { term, .. }
+        | Role::Origin { term }
+        | Role::Start { term, .. }
+        | Role::Stage { term }) = role
+        else {
+            return present(role).unwrap_or((0.5, 0.0));
+        };
+        match plan.from[term] {
+            From::Present(index) => present(renamed(role, index)).unwrap_or((0.0, 0.0)),
+            From::Added(g) => {
+                let group = &self.groups[g];
+                let own = gain(group.columns[0]);
+                let slope = group.slopes.iter().position(|s| match (s.own, role) {
+                    (Own::Shape(i), Role::Shape { index, .. }) => i == index,
+                    (Own::Origin, Role::Origin { .. }) => true,
+                    _ => false,
+                });
+                let step = slope.map_or(0.0, |i| gain(group.columns[1 + i]) / own);
+                (start_of(&plan.structure.terms[term], role, own), step)
+            }
+        }
+    }
+}
+
+/// Where a parameter of a new term starts.
+fn start_of(term: &FitTerm, role: Role, gain: f64) -> f64 {
+    match role {
+        Role::Shape { index, .. } => term.effect.shape(index).unwrap_or(0.0),
+        Role::Origin { .. } => term.origin,
+        Role::Stage { .. } => gain,
+        _ => 0.0,
+    }
+}
+
+/// The role of the same parameter where its term has another index.
+pub(super) fn renamed(role: Role, term: usize) -> Role {
+    match role {
+        Role::Shape { index, .. } => Role::Shape { term, index },
+        Role::Origin { .. } => Role::Origin { term },
+        Role::Start { record, .. } => Role::Start { term, record },
+        Role::Stage { .. } => Role::Stage { term },
+        own => own,
+    }
+}
+
+/// The squared error of the present model on the coarse grid.
+pub(super) fn present(data: &Prepared, coarse: &Prepared, now: &Solution) -> f64 {
+    let free = now.structure.free(data);
+    let reached = descend(coarse, &now.structure, &free, &now.values, 10, 1e-4);
+    reached.map_or(f64::INFINITY, |(sse, _)| sse)
+}

@@ -1,0 +1,319 @@
+//! The search: from one model to the next until no move lowers the criterion.
+
+use super::bank::{Bank, Identity};
+use super::linear::{Linear, Member};
+use super::moves::{is_same, Move, Wanted};
+use super::policy;
+use super::refit::{present, Tried};
+use crate::catalogue::Candidate;
+use crate::channels::Prepared;
+use crate::closing::{Gate, Rejection};
+use crate::fit::search::descend;
+use crate::fit::settle::settle;
+use crate::fit::Solution;
+use crate::gates::on_blocks;
+use crate::projection::Span;
+use crate::scan::Regime;
+use std::sync::Arc;
+
+/// A criterion that falls by less has not fallen.
+const FALLEN: f64 = 1e-3;
+/// Models in a row, so that the search ends in any case.
+const TURNS: usize = 40;
+/// Starts of a real refit.
+const STARTS: usize = 4;
+
+/// What a search knows of a member that came in.
+pub(super) struct Entry {
+    pub(super) identity: Identity,
+    /// Exact sign-flip p-value; `None` where the blocks were too short for a test.
+    pub(super) p: Option<f64>,
+    /// Names that did as well in its place when it came in.
+    pub(super) siblings: Vec<Candidate>,
+    /// Of a curve: what the best one or two names take of what it takes.
+    pub(super) q: f64,
+}
+
+/// A search under way.
+pub(super) struct Search<'a> {
+    pub(super) data: &'a Prepared,
+    pub(super) coarse: Prepared,
+    pub(super) fine: Prepared,
+    pub(super) bank: Bank<'a>,
+    pub(super) declared: Arc<Solution>,
+    pub(super) now: Arc<Solution>,
+    /// Every model on the way.
+    pub(super) reached: Vec<Arc<Solution>>,
+    pub(super) entries: Vec<Entry>,
+    pub(super) rejected: Vec<Rejection>,
+    pub(super) regime: Regime,
+    pub(super) correlation_time: f64,
+    /// Whether more names than were asked for would have been looked at.
+    pub(super) is_cut: bool,
+    most: usize,
+    visited: Vec<Vec<Identity>>,
+    failures: usize,
+    only_curves: bool,
+    linear: Option<Standing<'a>>,
+}
+
+/// The present model, to first order and in fact.
+struct Standing<'a> {
+    linear: Linear<'a>,
+    moved: Span,
+    sse: f64,
+}
+
+impl<'a> Search<'a> {
+    pub(super) fn new(data: &'a Prepared, declared: &Solution, most: usize) -> Self {
+        let declared = Arc::new(declared.clone());
+        Self {
+            data,
+            coarse: data.for_search(true),
+            fine: data.for_search(false),
+            bank: Bank::new(data, &declared),
+            now: Arc::clone(&declared),
+            reached: vec![Arc::clone(&declared)],
+            declared,
+            entries: Vec::new(),
+            rejected: Vec::new(),
+            regime: Regime::Blocks,
+            correlation_time: 0.0,
+            is_cut: false,
+            most,
+            visited: Vec::new(),
+            failures: 0,
+            only_curves: false,
+            linear: None,
+        }
+    }
+
+    /// Moves until nothing is gained.
+    pub(super) fn run(&mut self, mut progress: impl FnMut(&str)) {
+        for turn in 1..=TURNS {
+            let names = self.now.structure.terms.len() - self.declared.structure.terms.len();
+            progress(&format!("search {turn}: {names} names"));
+            let standing = match self.linear.take() {
+                Some(standing) => standing,
+                None => self.stand(),
+            };
+            let goes_on = self.turn(&standing);
+            if Arc::ptr_eq(&standing.linear.now, &self.now) {
+                self.linear = Some(standing);
+            }
+            if !goes_on {
+                break;
+            }
+        }
+        self.linear = None;
+    }
+
+    fn curve_price(&self) -> f64 {
+        match self.only_curves {
+            true => policy::CURVE_AFTER_NAMES,
+            false => policy::CURVE_AGAINST_NAMES,
+        }
+    }
+
+    fn stand(&mut self) -> Standing<'a> {
+        let declared = self.declared.structure.terms.len();
+        let price = self.curve_price();
+        let bank = &mut self.bank;
+        let linear = Linear::new((self.data, bank), &self.now, declared, price);
+        Standing {
+            moved: Span::of(self.data, self.now.columns.iter().chain(&self.now.tangents)),
+            sse: present(self.data, &self.coarse, &self.now),
+            linear,
+        }
+    }
+
+    /// One round of moves; whether another one is worth while.
+    fn turn(&mut self, standing: &Standing<'a>) -> bool {
+        let linear = &standing.linear;
+        (self.regime, self.correlation_time) = (linear.regime, linear.correlation_time);
+        let all = linear.everything();
+        let here = linear.identities(&all, &[]);
+        if !self.visited.iter().any(|v| is_same(v, &here)) {
+            self.visited.push(here);
+        }
+        let j = (standing.sse / linear.unit()).ln() + linear.price_of(&all);
+        let proposed = linear.propose(&Wanted {
+            visited: &self.visited,
+            only_curves: self.only_curves,
+            most: self.most,
+            below: j - FALLEN,
+        });
+        self.is_cut = proposed.is_cut;
+        self.rejected = proposed.rejected;
+        if proposed.moves.is_empty() {
+            return self.exhausted();
+        }
+        let tried = self.refitted(standing, &proposed.moves, j);
+        match chosen(&tried).map(|best| self.accepted(standing, best, &tried)) {
+            Some(true) => {
+                self.failures = 0;
+                !self.only_curves
+            }
+            _ => {
+                self.failures += 1;
+                self.failures < policy::FAILURES || self.exhausted()
+            }
+        }
+    }
+
+    /// Once no name is found any more, curves are looked for at a lower price.
+    fn exhausted(&mut self) -> bool {
+        if self.only_curves || self.now.structure.table.is_some() {
+            return false;
+        }
+        self.only_curves = true;
+        self.failures = 0;
+        let has_curve = |v: &Vec<Identity>| v.iter().any(|m| matches!(m, Identity::Curve(_)));
+        self.visited.retain(|v| !has_curve(v));
+        if let Some(standing) = &mut self.linear {
+            standing.linear.prices.curve = policy::CURVE_AFTER_NAMES;
+        }
+        true
+    }
+
+    /// Real refits, the best promise first; what was promised less than another has reached
+    /// is not refitted. Those that lower the criterion, the best first.
+    fn refitted(&mut self, standing: &Standing<'a>, moves: &[Move], j: f64) -> Vec<Tried> {
+        let linear = &standing.linear;
+        let mut tried: Vec<Tried> = Vec::new();
+        let (mut least, mut named) = (j, false);
+        for one in moves {
+            let promising = one.promise <= least + policy::EQUAL
+                || one.promise <= moves[0].promise + policy::EQUAL;
+            if named && !promising {
+                break;
+            }
+            self.visited.push(linear.identities(&one.kept, &one.added));
+            let refit = linear.refit((&self.coarse, &standing.moved), one, STARTS);
+            if let Some(real) = refit {
+                // A curve bounds no name: names are refitted before a curve may win.
+                if real.structure.table.is_none() || linear.has_table() {
+                    least = least.min(real.j);
+                    named = true;
+                }
+                tried.push(real);
+            }
+        }
+        tried.retain(|t| t.j < j - FALLEN);
+        tried.sort_by(|a, b| a.j.total_cmp(&b.j));
+        tried
+    }
+
+    /// Puts a refitted move through the gates; whether it is the present model now.
+    fn accepted(&mut self, standing: &Standing<'a>, best: &Tried, tried: &[Tried]) -> bool {
+        let linear = &standing.linear;
+        let free = best.structure.free(self.data);
+        let values = descend(&self.fine, &best.structure, &free, &best.values, 30, 1e-6)
+            .map_or_else(|| best.values.clone(), |(_, values)| values);
+        let Some(next) = settle(self.data, &best.structure, &free, values) else {
+            return false;
+        };
+        if !best.made.added.is_empty() {
+            if let Err(gate) = gates(self.data, &self.now, &next, linear.regime) {
+                for (&g, &p) in best.made.added.iter().zip(&best.made.p) {
+                    let candidate = linear.groups[g].candidate();
+                    self.rejected.extend(candidate.map(|candidate| Rejection {
+                        candidate,
+                        gate,
+                        p: Some(p),
+                    }));
+                }
+                return false;
+            }
+        }
+        for (&g, &p) in best.made.added.iter().zip(&best.made.p) {
+            let group = &linear.groups[g];
+            self.entries.push(Entry {
+                identity: group.identity(),
+                p: (linear.regime == Regime::Blocks).then_some(p),
+                siblings: siblings(standing, best, tried, g),
+                q: match group.is_curve() {
+                    true => linear.explained_by_names(&best.made, g),
+                    false => 0.0,
+                },
+            });
+        }
+        self.now = Arc::new(next);
+        self.reached.push(Arc::clone(&self.now));
+        true
+    }
+
+    /// What is known of a member, as it came in last.
+    pub(super) fn entry(&self, identity: Identity) -> Option<&Entry> {
+        self.entries.iter().rev().find(|e| e.identity == identity)
+    }
+}
+
+/// Of the sets within a hair of the best, with no more members that come in, the simplest.
+fn chosen(tried: &[Tried]) -> Option<&Tried> {
+    let best = tried.first()?;
+    let equal = |t: &&Tried| {
+        t.j <= best.j + policy::EQUAL && t.made.added.len() <= best.made.added.len().max(1)
+    };
+    tried
+        .iter()
+        .filter(equal)
+        .min_by(|a, b| a.rank().cmp(&b.rank()).then(a.j.total_cmp(&b.j)))
+}
+
+/// Names that were refitted in the place of one that came in, and did as well.
+fn siblings(standing: &Standing, best: &Tried, tried: &[Tried], own: usize) -> Vec<Candidate> {
+    let linear = &standing.linear;
+    let as_good = |t: &&Tried| {
+        t.sse <= policy::RIVAL_REST * best.sse
+            && standing.sse - t.sse >= policy::RIVAL_SHARE * (standing.sse - best.sse)
+            && t.made.kept == best.made.kept
+    };
+    let instead = |t: &Tried| -> Option<Candidate> {
+        let mut theirs = t.made.added.iter().filter(|g| !best.made.added.contains(g));
+        let mut ours = best.made.added.iter().filter(|g| !t.made.added.contains(g));
+        let (Some(&g), None) = (theirs.next(), theirs.next()) else {
+            return None;
+        };
+        let only = ours.next() == Some(&own) && ours.next().is_none();
+        linear.groups[g].candidate().filter(|_| only)
+    };
+    tried.iter().filter(as_good).filter_map(instead).collect()
+}
+
+/// The stop-check, which no search has seen, and the blocks left out one at a time.
+fn gates(data: &Prepared, old: &Solution, new: &Solution, regime: Regime) -> Result<(), Gate> {
+    let taken = 1.0 - (new.rmse.fit / old.rmse.fit).powi(2);
+    let carried = 1.0 - (new.rmse.stop / old.rmse.stop).powi(2);
+    let large = match regime {
+        Regime::Blocks => policy::LARGE,
+        Regime::Effect => policy::LARGE_UNTESTED,
+    };
+    let worse = new.rmse.stop > policy::NOT_WORSE * old.rmse.stop;
+    if taken > 0.0 && carried < policy::CARRIED * taken && (taken < large || worse) {
+        return Err(Gate::StopCheck);
+    }
+    match on_blocks(data, old, new, regime) {
+        (_, true) => Ok(()),
+        (_, false) => Err(Gate::Blocks),
+    }
+}
+
+impl Linear<'_> {
+    /// What the best one or two names take, of what a curve takes, to first order.
+    fn explained_by_names(&self, one: &Move, curve: usize) -> f64 {
+        let mut columns = self.columns_of(&one.kept);
+        for &g in one.added.iter().filter(|&&g| g != curve) {
+            columns.extend(&self.groups[g].columns);
+        }
+        let (target, _) = self.target_of(&one.kept);
+        let swept = self.grams.without(&columns);
+        let whole = swept.gain_of_any(&self.groups[curve].columns, target);
+        let names = self.groups.iter().filter_map(|g| match g.member {
+            Member::Name(_) => Some(swept.gain(&g.columns, target)),
+            Member::Curve(_) => None,
+        });
+        let pair = self.pairs(&swept, target).first().map_or(0.0, |p| p.0);
+        (names.fold(pair, f64::max) / whole.max(f64::MIN_POSITIVE)).min(1.0)
+    }
+}
