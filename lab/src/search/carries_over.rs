@@ -148,6 +148,9 @@ pub(super) fn recurrences<'a>(
         .map(Identity::of)
         .collect();
     let mut counts = vec![0; names.len()];
+    if names.is_empty() {
+        return counts;
+    }
     for from in [declared, last] {
         let price = policy::CURVE_AGAINST_NAMES;
         let linear = Linear::new((data, &mut *bank), from, own, price);

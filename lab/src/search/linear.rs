@@ -1,13 +1,13 @@
 //! A model and all that may be added to it, to first order: one Gram matrix.
 
-use super::bank::{on_line, Bank, Identity, Slope};
+use super::bank::{Bank, Identity, Slope};
 use super::gram::{Grams, Swept};
 use super::policy;
+use super::present::Present;
 use crate::catalogue::Candidate;
 use crate::channels::Prepared;
 use crate::fit::Solution;
 use crate::scan::{blocks, correlation_samples, Regime};
-use crate::structure::Role;
 use crate::unknown::Variable;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::sync::Arc;
@@ -136,90 +136,6 @@ pub(super) struct Linear<'a> {
     columns: Vec<Arc<Vec<f64>>>,
 }
 
-/// Columns of the present model, sorted by what they belong to.
-struct Present {
-    columns: Vec<Arc<Vec<f64>>>,
-    own: Vec<usize>,
-    terms: Vec<Vec<usize>>,
-    table: Vec<usize>,
-    free: Vec<usize>,
-    target: usize,
-    unstaged: Vec<(Vec<usize>, usize)>,
-}
-
-impl Present {
-    fn new(data: &Prepared, now: &Solution) -> Self {
-        let mut columns: Vec<Arc<Vec<f64>>> = now.columns.iter().cloned().map(Arc::new).collect();
-        let base = now.structure.base();
-        let (mut own, mut next): (Vec<usize>, usize) = ((0..base).collect(), base);
-        let mut terms: Vec<Vec<usize>> = Vec::new();
-        for term in &now.structure.terms {
-            terms.push(if term.is_linear() {
-                vec![next]
-            } else {
-                Vec::new()
-            });
-            next += usize::from(term.is_linear());
-        }
-        let table = (next..columns.len()).collect();
-        let mut free = Vec::new();
-        for ((f, &value), tangent) in now.free.iter().zip(&now.values).zip(&now.tangents) {
-            let slope = f.range.slope(on_line(f.range, value));
-            free.push(columns.len());
-            match f.role {
-                Role::Shape { term, .. }
-                | Role::Origin { term }
-                | Role::Start { term, .. }
-                | Role::Stage { term } => terms[term].push(columns.len()),
-                _ => own.push(columns.len()),
-            }
-            columns.push(Arc::new(tangent.iter().map(|t| t * slope).collect()));
-        }
-        let target = columns.len();
-        columns.push(Arc::new(data.target.clone()));
-        let mut present = Self {
-            columns,
-            own,
-            terms,
-            table,
-            free,
-            target,
-            unstaged: Vec::new(),
-        };
-        present.unstage(data, now);
-        present
-    }
-
-    /// A stage acts on all columns, so that no column is the stage's own: a set without it
-    /// has another target instead, the output plus the stage's value times its slope.
-    fn unstage(&mut self, data: &Prepared, now: &Solution) {
-        let effect = |of: &Vec<f64>, i: usize| -> Vec<f64> {
-            let pairs = of.iter().zip(&now.tangents[i]);
-            pairs.map(|(y, t)| y + now.values[i] * t).collect()
-        };
-        let stages: Vec<(usize, usize)> = (0..now.structure.terms.len())
-            .filter_map(|term| {
-                let input = now.structure.terms[term].effect.is_input_stage();
-                let at = now.free.iter().position(|f| match f.role {
-                    Role::Stage { term: of } => of == term,
-                    Role::Shape { term: of, .. } => of == term && input,
-                    _ => false,
-                })?;
-                Some((term, at))
-            })
-            .collect();
-        for (k, &(term, at)) in stages.iter().enumerate() {
-            let one = effect(&data.target, at);
-            for &(other, also) in &stages[..k] {
-                self.unstaged.push((vec![other, term], self.columns.len()));
-                self.columns.push(Arc::new(effect(&one, also)));
-            }
-            self.unstaged.push((vec![term], self.columns.len()));
-            self.columns.push(Arc::new(one));
-        }
-    }
-}
-
 impl<'a> Linear<'a> {
     pub(super) fn new(
         (data, bank): (&'a Prepared, &mut Bank<'a>),
@@ -281,12 +197,8 @@ impl<'a> Linear<'a> {
             .map(|g| reduces(swept.gain(&g.columns, self.target)))
             .collect();
         let pairs = self.pairs(&swept, self.target);
-        for &(gain, a, b) in pairs
-            .iter()
-            .take(PAIRED)
-            .filter(|(gain, ..)| reduces(*gain))
-        {
-            let _ = gain;
+        let paired = pairs.iter().take(PAIRED);
+        for &(_, a, b) in paired.filter(|(gain, ..)| reduces(*gain)) {
             (wanted[a], wanted[b]) = (true, true);
         }
         let any = wanted.iter().any(|w| *w);
@@ -495,10 +407,9 @@ impl<'a> Linear<'a> {
                     (left.ln() + self.price(g), g)
                 })
                 .min_by(|a, b| a.0.total_cmp(&b.0));
-            let Some((change, g)) = best.filter(|(change, _)| *change < 0.0) else {
+            let Some((_, g)) = best.filter(|(change, _)| *change < 0.0) else {
                 return;
             };
-            let _ = change;
             swept.sweep(&self.groups[g].columns);
             all.push(g);
         }

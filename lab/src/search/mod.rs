@@ -15,6 +15,7 @@ pub mod gram;
 mod linear;
 mod moves;
 pub mod policy;
+mod present;
 mod readoff;
 mod refit;
 mod run;

@@ -227,8 +227,12 @@ impl Linear<'_> {
                 break;
             }
             one.p = self.p_values(&one);
-            let failed = one.p.iter().position(|p| *p > self.prices.level);
-            if let (Some(worst), Regime::Blocks) = (failed, self.regime) {
+            // Where the blocks are too short for a test, names go by size; a curve, which
+            // bends to anything, has to pass it all the same.
+            let asked = |g: usize| self.regime == Regime::Blocks || self.groups[g].is_curve();
+            let fails = |(&g, &p): (&usize, &f64)| asked(g) && p > self.prices.level;
+            let failed = one.added.iter().zip(&one.p).position(fails);
+            if let Some(worst) = failed {
                 if tested > OTHER_SHAPES {
                     seen.push(members);
                 }

@@ -93,12 +93,13 @@ impl<'a> Search<'a> {
         for turn in 1..=TURNS {
             let names = self.now.structure.terms.len() - self.declared.structure.terms.len();
             progress(&format!("search {turn}: {names} names"));
-            let standing = match self.linear.take() {
+            let mut standing = match self.linear.take() {
                 Some(standing) => standing,
                 None => self.stand(),
             };
             let goes_on = self.turn(&standing);
             if Arc::ptr_eq(&standing.linear.now, &self.now) {
+                standing.linear.prices.curve = self.curve_price();
                 self.linear = Some(standing);
             }
             if !goes_on {
@@ -170,9 +171,6 @@ impl<'a> Search<'a> {
         self.failures = 0;
         let has_curve = |v: &Vec<Identity>| v.iter().any(|m| matches!(m, Identity::Curve(_)));
         self.visited.retain(|v| !has_curve(v));
-        if let Some(standing) = &mut self.linear {
-            standing.linear.prices.curve = policy::CURVE_AFTER_NAMES;
-        }
         true
     }
 
@@ -230,7 +228,7 @@ impl<'a> Search<'a> {
             let group = &linear.groups[g];
             self.entries.push(Entry {
                 identity: group.identity(),
-                p: (linear.regime == Regime::Blocks).then_some(p),
+                p: (linear.regime == Regime::Blocks || group.is_curve()).then_some(p),
                 siblings: siblings(standing, best, tried, g),
                 q: match group.is_curve() {
                     true => linear.explained_by_names(&best.made, g),
