@@ -23,11 +23,11 @@ mod line;
 mod play;
 mod ranges;
 
-use crate::channels::{HeldOut, Preparation, Prepared};
+use crate::closing::{dependences, Dependence};
+use crate::conclude::trace::{csv, input, parts, Column};
 use crate::fit::Solution;
+use crate::problem::{HeldOut, Preparation, Prepared};
 use crate::record::{to_unit, Defect, Record};
-use crate::trace::{csv, input, parts, Column};
-use crate::unknown::{dependences, Dependence};
 pub use given::{About, Errors, Given, Seen};
 pub use line::{Fitted, Line};
 pub use ranges::Outside;

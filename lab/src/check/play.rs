@@ -1,11 +1,11 @@
 //! A given model on a record, with nothing fitted.
 
 use super::given::{Given, MOST_TERMS};
-use crate::channels::Prepared;
-use crate::columns::raw_columns;
 use crate::fit::{Segments, Solution};
+use crate::model::columns::raw_columns;
+use crate::model::structure::{FitTerm, Free, Range, Role, Structure};
+use crate::problem::{Prepared, MOST_RECORDS};
 use crate::record::Mode;
-use crate::structure::{FitTerm, Free, Range, Role, Structure, MOST_RECORDS};
 use bowden::model::{Model, Source};
 
 /// The model on the record, from that hysteresis state at the first sample. Effects with

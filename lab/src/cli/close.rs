@@ -2,16 +2,16 @@
 
 use super::reading::{progress, Reading};
 use super::Failure;
-use crate::channels::{HeldOut, Prepared};
+use crate::conclude::final_fit::FinalFit;
+use crate::conclude::trace::trace;
+use crate::export::hand_over::HandOver;
 use crate::export::{postcard, vector};
-use crate::final_fit::FinalFit;
 use crate::fit::{fit, Solution};
-use crate::hand_over::HandOver;
+use crate::model::structure::Structure;
+use crate::problem::{HeldOut, Prepared};
 use crate::record::{agree, parse, read, Options, Record};
 use crate::report::{json, text, Report};
-use crate::structure::Structure;
 use crate::synth::{generate, Planted, Recipe};
-use crate::trace::trace;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 

@@ -6,16 +6,18 @@
 //! column comes with its exact sensitivities in the same pass.
 
 mod linear;
+pub(crate) mod projection;
 mod search;
 mod settle;
+mod solution;
 mod starts;
 mod tie;
 
-use crate::channels::Prepared;
-pub use crate::solution::{Segments, Solution};
-use crate::structure::{Role, Structure};
+use crate::model::structure::{Role, Structure};
+use crate::problem::Prepared;
 use search::{descend, descend_fully};
 use settle::{choose, settle};
+pub use solution::{Segments, Solution};
 use starts::starts;
 pub use starts::Known;
 

@@ -2,9 +2,9 @@
 
 use super::linear::{solve_linear, Linear};
 use super::tie::{slope, ties};
-use crate::channels::Prepared;
-use crate::columns::{raw_columns, RawColumns};
-use crate::structure::{Free, Range, Role, Structure};
+use crate::model::columns::{raw_columns, RawColumns};
+use crate::model::structure::{Free, Range, Role, Structure};
+use crate::problem::Prepared;
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};

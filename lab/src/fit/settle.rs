@@ -2,8 +2,8 @@
 
 use super::search::{evaluate, Evaluation};
 use super::{Segments, Solution};
-use crate::channels::Prepared;
-use crate::structure::{Free, Role, Structure};
+use crate::model::structure::{Free, Role, Structure};
+use crate::problem::Prepared;
 
 /// Assembles the solution at given values.
 pub(super) fn settle(

@@ -3,20 +3,20 @@
 use super::curve::UnknownPart;
 use super::hand_over::HandOverPart;
 use super::rounds::{models, RoundModel};
-use crate::by_file::{nrmse_by_file, rmse_by_file, worse, FileErrors, Worse};
-use crate::catalogue::Candidate;
-use crate::channels::{Piece, Prepared};
-use crate::closing::{Gate, Grade, Ledger};
-use crate::explains::{explained, Explained};
-use crate::final_fit::FinalFit;
+use super::words::{block_count, effects};
+use crate::conclude::by_file::{nrmse_by_file, rmse_by_file, worse, FileErrors, Worse};
+use crate::conclude::final_fit::FinalFit;
+use crate::conclude::intervals::{parameters, Parameter};
+use crate::conclude::unneeded::{unneeded, Unneeded};
+use crate::conclude::verdict::{raises, sentence, verdict};
+use crate::export::hand_over::HandOver;
 use crate::fit::{Segments, Solution};
-use crate::hand_over::HandOver;
-use crate::intervals::{parameters, term_name, Parameter};
-use crate::plan::{separate, Experiment};
+use crate::foresight::plan::{separate, Experiment};
+use crate::ledger::{Gate, Grade, Ledger};
+use crate::model::catalogue::Candidate;
+use crate::problem::{Piece, Prepared};
 use crate::record::{Defect, Mode};
-use crate::scan::{Regime, BLOCKS};
-use crate::unneeded::{unneeded, Unneeded};
-use crate::verdict::{raises, sentence, verdict};
+use crate::score::explains::{explained, Explained};
 use serde::Serialize;
 
 /// The whole object.
@@ -149,15 +149,6 @@ fn channel(data: &Prepared, candidate: &Candidate) -> String {
         .map_or_else(String::new, |c| c.name.clone())
 }
 
-/// Names of all parts of a model.
-pub(super) fn effects(data: &Prepared, solution: &Solution) -> Vec<String> {
-    let hysteresis = solution.structure.hysteresis.then(|| "bouc-wen".to_owned());
-    hysteresis
-        .into_iter()
-        .chain(solution.structure.terms.iter().map(|t| term_name(data, t)))
-        .collect()
-}
-
 /// Errors against the output as recorded, as shares of its standard deviation.
 fn raw(data: &Prepared, solution: &Solution) -> Segments {
     let prediction = solution.unfiltered.iter().step_by(data.stride);
@@ -168,15 +159,6 @@ fn raw(data: &Prepared, solution: &Solution) -> Segments {
         .map(|(y, p)| y - p)
         .collect();
     Segments::of(data, &residual).normalised(data, &data.target_raw)
-}
-
-/// Independent stretches of the fit segment, at most sixteen.
-pub(super) fn block_count(data: &Prepared, ledger: &Ledger) -> usize {
-    if ledger.regime == Regime::Blocks {
-        return BLOCKS;
-    }
-    let seconds = data.split.fit.len() as f64 * data.dt * data.stride as f64;
-    ((seconds / (3.0 * ledger.correlation_time)) as usize).min(BLOCKS - 1)
 }
 
 impl Report {

@@ -1,7 +1,8 @@
 //! Regressors at work, and the gain that each one gets.
 
-use super::effect::{build, reads_load, usual_channel, Extent, Regressor};
+use super::effect::{build, reads_load, usual_channel};
 use super::recipe::{refuse, Mode, Planted, Recipe, RecipeError};
+use super::regressor::{Extent, Regressor};
 use super::rig::{Channel, Moment, Rig};
 use super::{effects, outsiders, PlantedTruth};
 use rand_chacha::ChaCha8Rng;

@@ -1,6 +1,6 @@
 //! Effects of speed: they take energy out, more or less in different places.
 
-use super::effect::{Extent, Regressor, Sense};
+use super::regressor::{Extent, Regressor, Sense};
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 

@@ -1,6 +1,6 @@
 //! Effects that remember, stepped on the fine grid, and those of eta.
 
-use super::effect::{Extent, Regressor, Sense};
+use super::regressor::{Extent, Regressor, Sense};
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 

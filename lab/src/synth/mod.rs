@@ -37,6 +37,7 @@ mod memory;
 mod outside;
 mod plant;
 mod recipe;
+mod regressor;
 mod rig;
 mod sensor;
 mod shape;

@@ -3,7 +3,7 @@
 //! A local bump is what a single bad tooth, a kinked cable or one worn spot of a guide
 //! makes; a spike after reversals is a part that knocks against its stop.
 
-use super::effect::{Extent, Regressor, Sense};
+use super::regressor::{Extent, Regressor, Sense};
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 

@@ -1,6 +1,6 @@
 //! Effects of place, time and temperature: no memory, no speed.
 
-use super::effect::{Extent, Regressor, Sense};
+use super::regressor::{Extent, Regressor, Sense};
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::TAU;

@@ -1,7 +1,7 @@
 //! The error with the rates of firmware.
 
 use crate::rig::{record, said, Told};
-use bowden_lab::hand_over::HandOver;
+use bowden_lab::export::hand_over::HandOver;
 use bowden_lab::record::{parse, Options};
 use bowden_lab::report::{json, text, Report};
 use bowden_lab::synth::{Mode, Recipe};

@@ -4,9 +4,9 @@ use crate::rig::{check, nrmse, on, with_gain, Closed};
 use bowden::model::Source;
 use bowden_lab::check::{Given, Seen, Verdict, HOLDS, NOISE};
 use bowden_lab::export::ShapeFile;
+use bowden_lab::model::Variable;
 use bowden_lab::report::check_sentence;
 use bowden_lab::synth::{Base, Mode, Recipe};
-use bowden_lab::unknown::Variable;
 use rayon::prelude::*;
 
 const MODES: [Mode; 2] = [Mode::Torque, Mode::Displacement];
