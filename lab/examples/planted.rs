@@ -13,7 +13,7 @@ use bowden_lab::conclude::intervals::term_name;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options};
-use bowden_lab::synth::{effects, generate, Mode, Planted, Recipe};
+use bowden_synth::{effects, generate, Mode, Planted, Recipe};
 
 /// Family of an effect by its own name.
 fn family_of(name: &str) -> &'static str {

@@ -19,8 +19,8 @@
 //! | [`report`], [`cli`] | tables, JSON, the program |
 //!
 //! Every column of the regression is computed by the core crate, so that what is fitted here
-//! is what runs in firmware. [`synth`] makes test records and shares no code with any of
-//! these.
+//! is what runs in firmware. The package `bowden-synth` makes test records and shares no
+//! code with any of these.
 
 pub mod check;
 pub mod cli;
@@ -36,4 +36,3 @@ pub mod problem;
 pub mod record;
 pub mod report;
 pub mod score;
-pub mod synth;

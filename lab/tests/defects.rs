@@ -10,7 +10,7 @@ use bowden_lab::ledger::Ledger;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Defect, DefectKind, Options, Record};
-use bowden_lab::synth::{generate, Mode, Planted, Recipe};
+use bowden_synth::{generate, Mode, Planted, Recipe};
 
 /// Cells of a record, row by row, without the header.
 struct Cells {

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use bowden_lab::record::{self, Options};
-use bowden_lab::synth::{effects, generate, Base, Mode, Planted, Recipe};
+use bowden_synth::{effects, generate, Base, Mode, Planted, Recipe};
 use std::path::Path;
 
 const MODES: [Mode; 2] = [Mode::Torque, Mode::Displacement];
@@ -343,7 +343,7 @@ fn the_reader_reads_what_the_generator_writes() {
 
 #[test]
 fn the_generator_shares_no_code_with_the_model() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/synth");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("synth/src");
     let mut files = 0;
     for file in std::fs::read_dir(folder).unwrap() {
         let path = file.unwrap().path();

@@ -1,6 +1,6 @@
 //! The verdict: what has no name is said to have none, and a tone is a tone.
 //!
-//! The records come from [`bowden_lab::synth`], which shares no code with the fit; the
+//! The records come from [`bowden_synth`], which shares no code with the fit; the
 //! seeds are none that the method was developed on. The declared model is Bouc-Wen alone.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
@@ -16,7 +16,7 @@ use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options, Record};
 use bowden_lab::report::{json, text, Report};
-use bowden_lab::synth::{generate, Mode, Planted, Recipe, Synthetic};
+use bowden_synth::{generate, Mode, Planted, Recipe, Synthetic};
 use rayon::prelude::*;
 
 /// Records of each kind in each mode.

@@ -10,7 +10,7 @@ use bowden_lab::fit::fit;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options};
-use bowden_lab::synth::{generate, Mode};
+use bowden_synth::{generate, Mode};
 use std::collections::BTreeMap;
 
 const EFFECTS: [&str; 4] = [

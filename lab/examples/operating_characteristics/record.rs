@@ -9,7 +9,7 @@ use bowden_lab::model::catalogue::candidates;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options};
-use bowden_lab::synth::{generate, Mode, Planted, Recipe};
+use bowden_synth::{generate, Mode, Planted, Recipe};
 
 /// What one record gave.
 pub struct Outcome {

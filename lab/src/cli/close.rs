@@ -11,7 +11,7 @@ use crate::model::structure::Structure;
 use crate::problem::{HeldOut, Prepared};
 use crate::record::{agree, parse, read, Options, Record};
 use crate::report::{json, text, Report};
-use crate::synth::{generate, Planted, Recipe};
+use bowden_synth::{generate, Planted, Recipe};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -183,7 +183,7 @@ fn embedded(options: &Options) -> Result<Record, Failure> {
     let recipe = Recipe {
         effects: vec![Planted::new("viscous")],
         seed: 7,
-        ..Recipe::new(crate::synth::Mode::Torque)
+        ..Recipe::new(bowden_synth::Mode::Torque)
     };
     let csv = generate(&recipe).map_err(|e| e.to_string())?.to_csv();
     parse(csv.as_bytes(), EMBEDDED, options).map_err(|e| e.to_string())

@@ -3,7 +3,7 @@
 use super::{closed, noise};
 use bowden_lab::foresight::plan::{separate, strengthen, trajectory, Kind};
 use bowden_lab::record::{parse, Options, Record};
-use bowden_lab::synth::{generate, Base, Mode, Planted, Recipe, Synthetic};
+use bowden_synth::{generate, Base, Mode, Planted, Recipe, Synthetic};
 
 const NOISE: f64 = 0.05;
 

@@ -5,7 +5,7 @@ use bowden::control::{Compensator, CompensatorInput, CompensatorState};
 use bowden::effect::Motion;
 use bowden::model::{ModelState, Sample};
 use bowden_lab::export::ModelFile;
-use bowden_lab::synth::{Base, Mode, Recipe};
+use bowden_synth::{Base, Mode, Recipe};
 
 /// The demo's command, as the README has it.
 fn demo(more: &[&str]) -> (ModelFile, serde_json::Value) {

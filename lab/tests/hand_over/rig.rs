@@ -7,7 +7,7 @@ use bowden_lab::ledger::Ledger;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options, Record};
-use bowden_lab::synth::{generate, Planted, Recipe};
+use bowden_synth::{generate, Planted, Recipe};
 use std::path::Path;
 use std::process::{Command, Output};
 

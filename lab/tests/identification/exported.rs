@@ -16,7 +16,7 @@ use bowden_lab::fit::{fit, Solution};
 use bowden_lab::model::structure::Role;
 use bowden_lab::problem::Prepared;
 use bowden_lab::record;
-use bowden_lab::synth::{Mode, Planted, Recipe};
+use bowden_synth::{Mode, Planted, Recipe};
 
 fn term<T: Real>(solution: &Solution, index: usize) -> Term<T> {
     let fitted = &solution.structure.terms[index];

@@ -4,7 +4,7 @@ use crate::rig::{with_effect, Made, MODES};
 use bowden_lab::conclude::intervals::Parameter;
 use bowden_lab::fit::{fit, Solution};
 use bowden_lab::model::structure::Role;
-use bowden_lab::synth::{Base, Mode, Recipe};
+use bowden_synth::{Base, Mode, Recipe};
 use rayon::prelude::*;
 use std::ops::RangeInclusive;
 

@@ -6,7 +6,7 @@ use bowden_lab::model::declared::structure;
 use bowden_lab::model::structure::Structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options, Record};
-use bowden_lab::synth::{generate, Mode, Planted, Recipe, Synthetic};
+use bowden_synth::{generate, Mode, Planted, Recipe, Synthetic};
 
 pub const MODES: [Mode; 2] = [Mode::Torque, Mode::Displacement];
 

@@ -5,7 +5,7 @@ use bowden::effect::Family;
 use bowden_lab::closing::close;
 use bowden_lab::conclude::intervals::parameters;
 use bowden_lab::problem::{HeldOut, Preparation, Prepared};
-use bowden_lab::synth::{Base, Mode, Planted, Recipe};
+use bowden_synth::{Base, Mode, Planted, Recipe};
 
 /// A stiffness that is bent, seen from two places: over the stroke of either file it is
 /// a straight line, of another slope in the other file.

@@ -6,7 +6,7 @@ use bowden_lab::model::declared::structure;
 use bowden_lab::model::structure::Structure;
 use bowden_lab::problem::{HeldOut, Preparation, Prepared};
 use bowden_lab::record::{parse, Options, Record};
-use bowden_lab::synth::{generate, Base, Mode, Planted, Recipe};
+use bowden_synth::{generate, Base, Mode, Planted, Recipe};
 
 /// A transmission in the paper's range.
 pub const CABLE: Base = Base {

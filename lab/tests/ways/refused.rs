@@ -1,7 +1,7 @@
 //! What `bowden check` does not take: one line, status 2.
 
 use crate::rig::{on, refused, said, Folder};
-use bowden_lab::synth::{Mode, Planted, Recipe};
+use bowden_synth::{Mode, Planted, Recipe};
 
 fn model(folder: &Folder, mode: Mode, declare: &str) -> (String, String) {
     let recipe = Recipe {

@@ -8,7 +8,7 @@ use bowden_lab::ledger::Ledger;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options, Record};
-use bowden_lab::synth::{generate, Base, Mode, Planted, Recipe};
+use bowden_synth::{generate, Base, Mode, Planted, Recipe};
 use std::process::{Command, Output};
 
 /// A transmission in the paper's range.

@@ -2,7 +2,7 @@
 
 use crate::rig::{on, with_gain, Closed};
 use bowden_lab::conclude::verdict::{sentence, verdict, Verdict};
-use bowden_lab::synth::{Mode, Planted, Recipe};
+use bowden_synth::{Mode, Planted, Recipe};
 
 /// A rig that lacks three effects.
 fn three() -> Recipe {

@@ -2,7 +2,7 @@
 
 use crate::rig::{on, with_gain, Closed};
 use bowden_lab::conclude::trace::trace;
-use bowden_lab::synth::{Mode, Planted, Recipe};
+use bowden_synth::{Mode, Planted, Recipe};
 
 /// A trace as its reader sees it.
 struct Read {

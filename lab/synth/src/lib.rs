@@ -19,13 +19,13 @@
 //! is quantised and noisy as by converters and encoders.
 //!
 //! ```
-//! use bowden_lab::synth::{generate, Mode, Planted, Recipe};
+//! use bowden_synth::{generate, Mode, Planted, Recipe};
 //!
 //! let recipe = Recipe { effects: vec![Planted::new("viscous")], seconds: 1.0, ..Recipe::new(Mode::Torque) };
 //! let record = generate(&recipe)?;
 //! assert!(record.to_csv().starts_with("t [s],tau_i [N·m],tau_o [N·m],phi_p [rad],phi_d [rad]\n"));
 //! assert!((record.truth.effects[0].rms - 3.0 * recipe.noise).abs() < 1e-9);
-//! # Ok::<(), bowden_lab::synth::RecipeError>(())
+//! # Ok::<(), bowden_synth::RecipeError>(())
 //! ```
 
 mod contribution;
