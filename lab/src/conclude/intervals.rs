@@ -8,7 +8,7 @@
 
 use super::excitation;
 use crate::fit::Solution;
-use crate::model::structure::{FitTerm, Role};
+use crate::model::structure::{FitTerm, Range, Role};
 use crate::model::units::Unit;
 use crate::problem::Prepared;
 use crate::record::Mode;
@@ -163,8 +163,31 @@ fn of_record(data: &Prepared, name: &str, record: usize) -> String {
 
 fn entries<'a>(data: &Prepared, solution: &'a Solution) -> Vec<Entry<'a>> {
     let mut all = Vec::new();
-    let (input, output) = (data.input.unit.as_deref(), data.output_unit.as_deref());
-    let linear = |name: String, unit, k: usize, sign: f64, term: Option<usize>| Entry {
+    let mut next = 0;
+    if solution.structure.hysteresis {
+        all.extend(transmission(data, solution));
+        next = solution.structure.base();
+    }
+    for (index, term) in solution.structure.terms.iter().enumerate() {
+        if term.is_linear() {
+            let (name, unit) = (term_name(data, term), gain_unit(data, term));
+            all.push(linear(solution, name, unit, (next, 1.0), Some(index)));
+            next += 1;
+        }
+    }
+    all.extend((0..solution.free.len()).map(|j| free(data, solution, j)));
+    all
+}
+
+/// A linear gain: its place among them, and the sign with which it is shown.
+fn linear(
+    solution: &Solution,
+    name: String,
+    unit: Option<String>,
+    (k, sign): (usize, f64),
+    term: Option<usize>,
+) -> Entry<'_> {
+    Entry {
         name,
         unit,
         value: solution.gains[k],
@@ -180,126 +203,87 @@ fn entries<'a>(data: &Prepared, solution: &'a Solution) -> Vec<Entry<'a>> {
         },
         sign,
         term,
+    }
+}
+
+/// The gains of the transmission, of each record where it has its own.
+fn transmission<'a>(data: &Prepared, solution: &'a Solution) -> Vec<Entry<'a>> {
+    let (input, output) = (data.input.unit.as_deref(), data.output_unit.as_deref());
+    let gain = Unit::one().times(output, 1).times(input, -1).text();
+    let plain = Unit::one().times(output, 1).text();
+    // (1): F = kappa_x x + kappa_eta eta; (6): tau_o = B tau_i − kappa_eta eta − T0.
+    let (names, sign) = gain_names(data.mode);
+    let own = |name: &str, record: usize| match solution.structure.own_gains {
+        0 => name.to_owned(),
+        _ => numbered(name, record),
     };
-    let mut next = 0;
-    if solution.structure.hysteresis {
-        let gain = Unit::one().times(output, 1).times(input, -1).text();
-        let plain = Unit::one().times(output, 1).text();
-        // (1): F = kappa_x x + kappa_eta eta; (6): tau_o = B tau_i − kappa_eta eta − T0.
-        let (names, sign) = gain_names(data.mode);
-        let own = |name: &str, record: usize| match solution.structure.own_gains {
-            0 => name.to_owned(),
-            _ => numbered(name, record),
-        };
-        for record in 0..solution.structure.own_gains.max(1) {
-            let k = 3 * record;
-            all.push(linear(own(names[0], record), gain.clone(), k, 1.0, None));
-            all.push(linear(
-                own(names[1], record),
-                plain.clone(),
-                k + 1,
-                sign,
-                None,
-            ));
-            all.push(linear(
-                own(names[2], record),
-                plain.clone(),
-                k + 2,
-                sign,
-                None,
-            ));
+    let mut all = Vec::new();
+    for record in 0..solution.structure.own_gains.max(1) {
+        let units = [&gain, &plain, &plain];
+        for (at, (name, unit)) in names.iter().zip(units).enumerate() {
+            let sign = if at == 0 { 1.0 } else { sign };
+            let (name, unit) = (own(name, record), unit.clone());
+            all.push(linear(solution, name, unit, (3 * record + at, sign), None));
         }
-        next = solution.structure.base();
-    }
-    for (index, term) in solution.structure.terms.iter().enumerate() {
-        if term.is_linear() {
-            all.push(linear(
-                term_name(data, term),
-                gain_unit(data, term),
-                next,
-                1.0,
-                Some(index),
-            ));
-            next += 1;
-        }
-    }
-    for (j, free) in solution.free.iter().enumerate() {
-        let (name, unit, shape, term) = match free.role {
-            Role::Rho => (
-                "rho".to_owned(),
-                Unit::one().times(input, -1).text(),
-                true,
-                None,
-            ),
-            Role::Sigma => ("sigma".to_owned(), Unit::one().text(), true, None),
-            Role::N => ("n".to_owned(), Unit::one().text(), true, None),
-            Role::Eta0 { record } => (
-                of_record(data, "eta0", record),
-                Unit::one().text(),
-                false,
-                None,
-            ),
-            Role::Shape { term, index } => {
-                let fit = &solution.structure.terms[term];
-                let positive = !matches!(
-                    free.range,
-                    crate::model::structure::Range::Free
-                        | crate::model::structure::Range::Linear(..)
-                );
-                (
-                    format!(
-                        "{}.{}",
-                        term_name(data, fit),
-                        fit.effect.shape_names()[index]
-                    ),
-                    shape_unit(data, fit, index),
-                    positive,
-                    Some(term),
-                )
-            }
-            Role::Origin { term } => {
-                let fit = &solution.structure.terms[term];
-                let unit = data.channel(fit.source).and_then(|c| c.unit.clone());
-                (
-                    format!("{}.origin", term_name(data, fit)),
-                    unit,
-                    false,
-                    Some(term),
-                )
-            }
-            Role::Start { term, record } => {
-                let fit = &solution.structure.terms[term];
-                let unit = data.channel(fit.source).and_then(|c| c.unit.clone());
-                (
-                    of_record(data, &format!("{}.start", term_name(data, fit)), record),
-                    unit,
-                    false,
-                    Some(term),
-                )
-            }
-            Role::Stage { term } => {
-                let fit = &solution.structure.terms[term];
-                (
-                    term_name(data, fit),
-                    gain_unit(data, fit),
-                    false,
-                    Some(term),
-                )
-            }
-        };
-        all.push(Entry {
-            name,
-            unit,
-            value: solution.values[j],
-            column: &solution.tangents[j],
-            shape,
-            bound: solution.on_bound[j].then(|| free.range.nearest(solution.values[j])),
-            excitation: excitation::of_role(solution, free.role),
-            sign: 1.0,
-            term,
-        });
     }
     all
+}
+
+/// The entry of a free parameter.
+fn free<'a>(data: &Prepared, solution: &'a Solution, j: usize) -> Entry<'a> {
+    let free = &solution.free[j];
+    let (name, unit, term) = named(data, solution, free.role);
+    let shape = match free.role {
+        Role::Rho | Role::Sigma | Role::N => true,
+        Role::Shape { .. } => !matches!(free.range, Range::Free | Range::Linear(..)),
+        _ => false,
+    };
+    Entry {
+        name,
+        unit,
+        value: solution.values[j],
+        column: &solution.tangents[j],
+        shape,
+        bound: solution.on_bound[j].then(|| free.range.nearest(solution.values[j])),
+        excitation: excitation::of_role(solution, free.role),
+        sign: 1.0,
+        term,
+    }
+}
+
+/// Name and unit of a role, and the term that it belongs to.
+fn named(
+    data: &Prepared,
+    solution: &Solution,
+    role: Role,
+) -> (String, Option<String>, Option<usize>) {
+    let input = data.input.unit.as_deref();
+    let fit = |term: usize| &solution.structure.terms[term];
+    let of_source = |term: usize| data.channel(fit(term).source).and_then(|c| c.unit.clone());
+    let one = Unit::one().text();
+    match role {
+        Role::Rho => ("rho".to_owned(), Unit::one().times(input, -1).text(), None),
+        Role::Sigma => ("sigma".to_owned(), one, None),
+        Role::N => ("n".to_owned(), one, None),
+        Role::Eta0 { record } => (of_record(data, "eta0", record), one, None),
+        Role::Shape { term, index } => {
+            let shape = fit(term).effect.shape_names()[index];
+            let name = format!("{}.{shape}", term_name(data, fit(term)));
+            (name, shape_unit(data, fit(term), index), Some(term))
+        }
+        Role::Origin { term } => {
+            let name = format!("{}.origin", term_name(data, fit(term)));
+            (name, of_source(term), Some(term))
+        }
+        Role::Start { term, record } => {
+            let name = format!("{}.start", term_name(data, fit(term)));
+            (of_record(data, &name, record), of_source(term), Some(term))
+        }
+        Role::Stage { term } => {
+            let (name, unit) = (term_name(data, fit(term)), gain_unit(data, fit(term)));
+            (name, unit, Some(term))
+        }
+    }
 }
 
 /// Columns on the rows of the fit segment, at unit norm.

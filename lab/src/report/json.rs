@@ -12,7 +12,7 @@ use crate::conclude::verdict::{raises, sentence, verdict};
 use crate::export::hand_over::HandOver;
 use crate::fit::{Segments, Solution};
 use crate::foresight::plan::{separate, Experiment};
-use crate::ledger::{Gate, Grade, Ledger};
+use crate::ledger::{Gate, Grade, Ledger, Round};
 use crate::model::catalogue::Candidate;
 use crate::problem::{Piece, Prepared};
 use crate::record::{Defect, Mode};
@@ -161,6 +161,103 @@ fn raw(data: &Prepared, solution: &Solution) -> Segments {
     Segments::of(data, &residual).normalised(data, &data.target_raw)
 }
 
+/// What of a file is held out.
+fn held_out(data: &Prepared, piece: &Piece) -> &'static str {
+    let whole = data.pieces.iter().any(|p| !p.fitted);
+    match (piece.fitted, whole) {
+        (false, _) => "whole",
+        (true, true) => "nothing",
+        (true, false) => "trailing",
+    }
+}
+
+impl RecordPart {
+    fn new(
+        data: &Prepared,
+        ledger: &Ledger,
+        path: &str,
+        (samples, rate_hz): (usize, f64),
+        held_out: Option<&'static str>,
+    ) -> Self {
+        Self {
+            path: path.to_owned(),
+            samples,
+            rate_hz,
+            mode: match data.mode {
+                Mode::Torque => "torque",
+                Mode::Displacement => "displacement",
+            },
+            cutoff_hz: data.cutoff,
+            blocks: block_count(data, ledger),
+            held_out,
+        }
+    }
+}
+
+impl ModelPart {
+    fn new(data: &Prepared, declared: &Solution) -> Self {
+        Self {
+            effects: effects(data, declared),
+            parameters: parameters(data, declared),
+            rmse: declared.rmse,
+            nrmse: declared.rmse.normalised(data, &data.target),
+            nrmse_raw: raw(data, declared),
+            by_file: ByFile::new(data, declared),
+        }
+    }
+}
+
+impl FinalPart {
+    fn new(data: &Prepared, done: &FinalFit, hand: Result<&HandOver, &str>) -> Self {
+        let last = &done.solution;
+        Self {
+            effects: effects(data, last),
+            refitted: done.refitted,
+            parameters: parameters(&done.data, last),
+            rmse: done.rmse,
+            nrmse: done.rmse.normalised(data, &data.target),
+            hand_over: HandOverPart::new(data, hand),
+            by_file: ByFile::new(data, last),
+        }
+    }
+}
+
+impl RoundPart {
+    fn new(data: &Prepared, round: &Round, model: RoundModel) -> Self {
+        let term = round.solution.structure.terms.len() - 1;
+        let own = parameters(data, &round.solution).into_iter();
+        let own = own.filter(|p| p.term == Some(term));
+        let rivals = round.rivals.iter();
+        Self {
+            family: round.candidate.family.name(),
+            effect: round.candidate.term.effect.name(),
+            channel: channel(data, &round.candidate),
+            grade: round.grade,
+            coefficients: own
+                .map(|p| Coefficient {
+                    name: p.name,
+                    value: p.value,
+                    unit: p.unit,
+                    ci95: p.ci95,
+                })
+                .collect(),
+            p: round.p,
+            explained: round.explained,
+            confounded_with: rivals
+                .map(|r| Rival {
+                    family: r.family.name(),
+                    channel: channel(data, r),
+                })
+                .collect(),
+            experiment: separate(data, round),
+            rmse_before: round.before,
+            rmse_after: round.after,
+            raises_held_out: raises(round),
+            model,
+        }
+    }
+}
+
 impl Report {
     /// Collects everything about one run.
     #[must_use]
@@ -173,91 +270,23 @@ impl Report {
     ) -> Self {
         let last = &done.solution;
         let several = data.pieces.len() > 1;
-        let part = |path: &str, samples, rate_hz, held_out| RecordPart {
-            path: path.to_owned(),
-            samples,
-            rate_hz,
-            mode: match data.mode {
-                Mode::Torque => "torque",
-                Mode::Displacement => "displacement",
-            },
-            cutoff_hz: data.cutoff,
-            blocks: block_count(data, ledger),
-            held_out,
+        let part = |path: &str, samples, rate_hz, held_out| {
+            RecordPart::new(data, ledger, path, (samples, rate_hz), held_out)
         };
-        let rounds = ledger
-            .rounds
-            .iter()
-            .zip(models(data, ledger, done))
-            .map(|(round, model)| {
-                let term = round.solution.structure.terms.len() - 1;
-                let own = parameters(data, &round.solution)
-                    .into_iter()
-                    .filter(|p| p.term == Some(term));
-                RoundPart {
-                    family: round.candidate.family.name(),
-                    effect: round.candidate.term.effect.name(),
-                    channel: channel(data, &round.candidate),
-                    grade: round.grade,
-                    coefficients: own
-                        .map(|p| Coefficient {
-                            name: p.name,
-                            value: p.value,
-                            unit: p.unit,
-                            ci95: p.ci95,
-                        })
-                        .collect(),
-                    p: round.p,
-                    explained: round.explained,
-                    confounded_with: round
-                        .rivals
-                        .iter()
-                        .map(|r| Rival {
-                            family: r.family.name(),
-                            channel: channel(data, r),
-                        })
-                        .collect(),
-                    experiment: separate(data, round),
-                    rmse_before: round.before,
-                    rmse_after: round.after,
-                    raises_held_out: raises(round),
-                    model,
-                }
-            })
-            .collect();
+        let rounds = ledger.rounds.iter().zip(models(data, ledger, done));
+        let rounds = rounds.map(|(round, model)| RoundPart::new(data, round, model));
         Self {
             schema: "bowden.close/1",
             record: (!several).then(|| part(path, data.samples, data.rate, None)),
             records: several.then(|| {
-                let whole = data.pieces.iter().any(|p| !p.fitted);
-                let own = |p: &Piece| match (p.fitted, whole) {
-                    (false, _) => "whole",
-                    (true, true) => "nothing",
-                    (true, false) => "trailing",
-                };
                 let pieces = data.pieces.iter();
                 pieces
-                    .map(|p| part(&p.path, p.samples, p.rate, Some(own(p))))
+                    .map(|p| part(&p.path, p.samples, p.rate, Some(held_out(data, p))))
                     .collect()
             }),
-            declared: ModelPart {
-                effects: effects(data, &ledger.declared),
-                parameters: parameters(data, &ledger.declared),
-                rmse: ledger.declared.rmse,
-                nrmse: ledger.declared.rmse.normalised(data, &data.target),
-                nrmse_raw: raw(data, &ledger.declared),
-                by_file: ByFile::new(data, &ledger.declared),
-            },
-            rounds,
-            r#final: FinalPart {
-                effects: effects(data, last),
-                refitted: done.refitted,
-                parameters: parameters(&done.data, last),
-                rmse: done.rmse,
-                nrmse: done.rmse.normalised(data, &data.target),
-                hand_over: HandOverPart::new(data, hand),
-                by_file: ByFile::new(data, last),
-            },
+            declared: ModelPart::new(data, &ledger.declared),
+            rounds: rounds.collect(),
+            r#final: FinalPart::new(data, done, hand),
             rejected: ledger
                 .rejected
                 .iter()
