@@ -11,7 +11,7 @@ use crate::model::structure::Structure;
 use crate::problem::{HeldOut, Prepared};
 use crate::record::{agree, parse, read, Options, Record};
 use crate::report::{json, text, Report};
-use bowden_synth::{generate, Planted, Recipe};
+use bowden_synth::stored_csv;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -180,13 +180,7 @@ fn hint(data: &Prepared, declared: &Solution) -> Option<String> {
 }
 
 fn embedded(options: &Options) -> Result<Record, Failure> {
-    let recipe = Recipe {
-        effects: vec![Planted::new("viscous")],
-        seed: 7,
-        ..Recipe::new(bowden_synth::Mode::Torque)
-    };
-    let csv = generate(&recipe).map_err(|e| e.to_string())?.to_csv();
-    parse(csv.as_bytes(), EMBEDDED, options).map_err(|e| e.to_string())
+    parse(stored_csv().as_bytes(), EMBEDDED, options).map_err(|e| e.to_string())
 }
 
 /// Writes the model and its test vector; where each file has gains of its own, one of both

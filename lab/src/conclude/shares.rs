@@ -35,7 +35,7 @@ impl Shares {
         let sum = |indices: &mut dyn Iterator<Item = usize>| {
             let mut sum = vec![0.0; data.work_len()];
             for k in indices {
-                for (slot, value) in sum.iter_mut().zip(&columns[k]) {
+                for (slot, value) in sum.iter_mut().zip(columns[k].iter()) {
                     *slot += gains[k] * value;
                 }
             }

@@ -37,6 +37,41 @@ impl Section {
     }
 }
 
+/// Both sections at work on `W` signals abreast: what each remembers.
+struct Running<const W: usize> {
+    sections: [Section; 2],
+    memory: [[[f64; W]; 2]; 2],
+}
+
+impl<const W: usize> Running<W> {
+    /// Settled on constant signals.
+    fn settled(sections: [Section; 2], constant: [f64; W]) -> Self {
+        let memory = |section: Section| section.settled().map(|z| constant.map(|x| z * x));
+        Self {
+            sections,
+            memory: sections.map(memory),
+        }
+    }
+
+    #[inline]
+    fn step(&mut self, input: [f64; W]) -> [f64; W] {
+        let [s, t] = self.sections;
+        let [[u0, u1], [w0, w1]] = &mut self.memory;
+        let mut output = input;
+        for lane in 0..W {
+            let x = input[lane];
+            let m = s.b[0] * x + u0[lane];
+            u0[lane] = s.b[1] * x - s.a[0] * m + u1[lane];
+            u1[lane] = s.b[2] * x - s.a[1] * m;
+            let y = t.b[0] * m + w0[lane];
+            w0[lane] = t.b[1] * m - t.a[0] * y + w1[lane];
+            w1[lane] = t.b[2] * m - t.a[1] * y;
+            output[lane] = y;
+        }
+        output
+    }
+}
+
 /// A fourth-order Butterworth low-pass without phase.
 #[derive(Debug, Clone)]
 pub struct ZeroPhase {
@@ -64,45 +99,80 @@ impl ZeroPhase {
         }
     }
 
-    fn pass<'a>(&self, signal: impl Iterator<Item = &'a mut f64>, first: f64) {
-        let [s, t] = self.sections;
-        let (mut u, mut w) = (
-            s.settled().map(|z| z * first),
-            t.settled().map(|z| z * first),
-        );
-        for value in signal {
-            let x = *value;
-            let m = s.b[0] * x + u[0];
-            u[0] = s.b[1] * x - s.a[0] * m + u[1];
-            u[1] = s.b[2] * x - s.a[1] * m;
-            let y = t.b[0] * m + w[0];
-            w[0] = t.b[1] * m - t.a[0] * y + w[1];
-            w[1] = t.b[2] * m - t.a[1] * y;
-            *value = y;
-        }
-    }
-
     /// The smoothed signal, as long as the given one.
     ///
     /// The ends are continued by point reflection, as is usual.
     #[must_use]
     pub fn apply(&self, signal: &[f64]) -> Vec<f64> {
-        let n = signal.len();
-        if n < 2 {
-            return signal.to_vec();
+        self.abreast([signal], 1).into_iter().flatten().collect()
+    }
+
+    /// Every `stride`-th sample of each smoothed signal. The signals have one length.
+    ///
+    /// Eight signals go through the recursion abreast: one waits for its own last value at
+    /// every step, eight do not wait for each other. Each comes out bit for bit as from
+    /// [`apply`](Self::apply).
+    #[must_use]
+    pub fn apply_all(&self, signals: &[&[f64]], stride: usize) -> Vec<Vec<f64>> {
+        let mut all = Vec::with_capacity(signals.len());
+        for group in signals.chunks(8) {
+            match *group {
+                [a] => all.extend(self.abreast([a], stride)),
+                [a, b] => all.extend(self.abreast([a, b], stride)),
+                _ if group.len() <= 4 => all.extend(self.some_of::<4>(group, stride)),
+                _ => all.extend(self.some_of::<8>(group, stride)),
+            }
         }
+        all
+    }
+
+    /// At most `W` signals; the lanes that are left repeat the first.
+    fn some_of<const W: usize>(
+        &self,
+        group: &[&[f64]],
+        stride: usize,
+    ) -> impl Iterator<Item = Vec<f64>> {
+        let lanes = std::array::from_fn(|lane| *group.get(lane).unwrap_or(&group[0]));
+        let smoothed = self.abreast::<W>(lanes, stride);
+        smoothed.into_iter().take(group.len())
+    }
+
+    fn abreast<const W: usize>(&self, signals: [&[f64]; W], stride: usize) -> [Vec<f64>; W] {
+        let n = signals.iter().map(|s| s.len()).min().unwrap_or(0);
+        if n < 2 {
+            return signals.map(<[f64]>::to_vec);
+        }
+        let signals = signals.map(|s| &s[..n]);
+        let at = |i: usize| -> [f64; W] { std::array::from_fn(|lane| signals[lane][i]) };
         let pad = self.padding.min(n - 1);
-        let mut work = Vec::with_capacity(n + 2 * pad);
-        work.extend((1..=pad).rev().map(|i| 2.0 * signal[0] - signal[i]));
-        work.extend_from_slice(signal);
-        work.extend((1..=pad).map(|i| 2.0 * signal[n - 1] - signal[n - 1 - i]));
-        let first = work[0];
-        self.pass(work.iter_mut(), first);
-        let last = work[work.len() - 1];
-        self.pass(work.iter_mut().rev(), last);
-        work.drain(..pad);
-        work.truncate(n);
-        work
+        let (first, last) = (at(0), at(n - 1));
+        let beyond = |end: [f64; W], i: usize| {
+            let inside = at(i);
+            std::array::from_fn(|lane| 2.0 * end[lane] - inside[lane])
+        };
+        let mut work: Vec<[f64; W]> = Vec::with_capacity(n + pad);
+        let mut running = Running::settled(self.sections, beyond(first, pad));
+        for i in (1..=pad).rev() {
+            running.step(beyond(first, i));
+        }
+        work.extend((0..n).map(|i| running.step(at(i))));
+        work.extend((1..=pad).map(|i| running.step(beyond(last, n - 1 - i))));
+
+        let mut running = Running::settled(self.sections, work[n + pad - 1]);
+        for &row in work[n..].iter().rev() {
+            running.step(row);
+        }
+        let mut smoothed = signals.map(|_| vec![0.0; n.div_ceil(stride)]);
+        for (k, rows) in work[..n].chunks(stride).enumerate().rev() {
+            let mut row = [0.0; W];
+            for &later in rows.iter().rev() {
+                row = running.step(later);
+            }
+            for (signal, value) in smoothed.iter_mut().zip(row) {
+                signal[k] = value;
+            }
+        }
+        smoothed
     }
 
     /// The gain on white noise: rms out over rms in.
@@ -182,6 +252,55 @@ mod tests {
         }
         for v in filter.apply(&[7.5; 50]) {
             assert!((v - 7.5).abs() < 1e-12);
+        }
+    }
+
+    /// As the formula is written: padded, forwards, backwards, cut.
+    fn one_by_one(filter: &ZeroPhase, signal: &[f64]) -> Vec<f64> {
+        let n = signal.len();
+        let pad = filter.padding.min(n - 1);
+        let before = (1..=pad).rev().map(|i| 2.0 * signal[0] - signal[i]);
+        let after = (1..=pad).map(|i| 2.0 * signal[n - 1] - signal[n - 1 - i]);
+        let mut work: Vec<f64> = before.chain(signal.iter().copied()).chain(after).collect();
+        for _ in 0..2 {
+            let first = work[0];
+            for section in filter.sections {
+                let [mut z0, mut z1] = section.settled().map(|z| z * first);
+                for value in &mut work {
+                    let x = *value;
+                    let y = section.b[0] * x + z0;
+                    z0 = section.b[1] * x - section.a[0] * y + z1;
+                    z1 = section.b[2] * x - section.a[1] * y;
+                    *value = y;
+                }
+            }
+            work.reverse();
+        }
+        work[pad..pad + n].to_vec()
+    }
+
+    #[test]
+    fn signals_abreast_come_out_bit_for_bit_as_one_by_one_at_every_stride() {
+        let filter = ZeroPhase::new(7.0, 200.0);
+        for n in [2, 3, 40, 400] {
+            let signals: Vec<Vec<f64>> = (0..11)
+                .map(|k| sine(1.0 + 3.1 * f64::from(k), 200.0, n))
+                .collect();
+            for (count, stride) in [(1, 1), (2, 3), (3, 1), (5, 6), (8, 7), (11, 4)] {
+                let some: Vec<&[f64]> = signals[..count].iter().map(Vec::as_slice).collect();
+                let abreast = filter.apply_all(&some, stride);
+                assert_eq!(abreast.len(), count);
+                for (signal, smoothed) in some.iter().zip(&abreast) {
+                    let expected: Vec<f64> = one_by_one(&filter, signal)
+                        .into_iter()
+                        .step_by(stride)
+                        .collect();
+                    assert_eq!(
+                        smoothed, &expected,
+                        "{count} of {n} samples, every {stride}"
+                    );
+                }
+            }
         }
     }
 

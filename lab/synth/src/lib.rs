@@ -42,11 +42,13 @@ mod rig;
 mod sensor;
 mod shape;
 mod stage;
+mod stored;
 
 pub use effect::effects;
 pub use outside::outsiders;
 pub use plant::generate;
 pub use recipe::{Base, Mode, Planted, Recipe, RecipeError};
+pub use stored::{stored_csv, stored_recipe};
 
 use std::fmt::Write as _;
 
@@ -112,21 +114,25 @@ impl Synthetic {
 
     /// The record as a CSV file: `t [s],tau_i [N·m],tau_o [N·m],…`.
     pub fn to_csv(&self) -> String {
-        let names: Vec<_> = self
-            .columns
-            .iter()
-            .map(|c| format!("{} [{}]", c.name, c.unit))
-            .collect();
-        let mut text = names.join(",") + "\n";
-        let samples = self.columns.first().map_or(0, |column| column.values.len());
-        for sample in 0..samples {
-            for (index, column) in self.columns.iter().enumerate() {
-                let comma = if index == 0 { "" } else { "," };
-                // Writing to a String cannot fail.
-                let _ = write!(text, "{comma}{}", column.values[sample]);
-            }
-            text.push('\n');
-        }
-        text
+        csv(&self.columns)
     }
+}
+
+/// Columns as a CSV file.
+fn csv(columns: &[Column]) -> String {
+    let names: Vec<_> = columns
+        .iter()
+        .map(|c| format!("{} [{}]", c.name, c.unit))
+        .collect();
+    let mut text = names.join(",") + "\n";
+    let samples = columns.first().map_or(0, |column| column.values.len());
+    for sample in 0..samples {
+        for (index, column) in columns.iter().enumerate() {
+            let comma = if index == 0 { "" } else { "," };
+            // Writing to a String cannot fail.
+            let _ = write!(text, "{comma}{}", column.values[sample]);
+        }
+        text.push('\n');
+    }
+    text
 }

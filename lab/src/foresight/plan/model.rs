@@ -71,12 +71,7 @@ impl Model {
         for j in 0..self.free.len() {
             columns.push(data.filtered(&raw.tangent(&moves, j, &self.gains)));
         }
-        let output = (0..data.work_len())
-            .map(|i| {
-                let pairs = raw.columns.iter().zip(&self.gains);
-                pairs.map(|(c, g)| g * c[i]).sum()
-            })
-            .collect();
+        let output = raw.output(&self.gains);
         Some(Placed {
             span: Span::of(data, columns.iter()),
             data,

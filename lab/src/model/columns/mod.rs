@@ -12,11 +12,15 @@ use crate::model::Variable;
 use crate::problem::{Channel, Piece, Prepared};
 use bowden::effect::{Effect, EffectState, Family, Motion, Situation};
 use bowden::hysteresis::{Sensitivity, Shape};
+use gathered::Gathered;
 use loops::{seen, trace, trajectory};
-use std::ops::Range;
+use stages::Stages;
+use std::sync::Arc;
 
+mod gathered;
 mod loops;
 mod series;
+mod stages;
 
 pub use series::series_column;
 pub(crate) use series::{by_stage, early};
@@ -24,7 +28,7 @@ pub(crate) use series::{by_stage, early};
 /// Columns on the work grid, before the filter.
 pub struct RawColumns {
     /// One per linear gain: input, eta, constant, then the effects.
-    pub columns: Vec<Vec<f64>>,
+    pub columns: Vec<Arc<Vec<f64>>>,
     /// Whether a column is the same for all values of the free parameters.
     pub fixed: Vec<bool>,
     /// The hysteresis state.
@@ -33,69 +37,25 @@ pub struct RawColumns {
     terms: Vec<FitTerm>,
     /// The hysteresis, and its state at the start of each record.
     shape: Option<(Shape<f64>, Vec<f64>)>,
+    /// The hysteresis with its slopes, where they came with it.
+    trajectory: Option<Vec<Sensitivity<f64>>>,
     /// The input behind the input stages.
     seen: Vec<f64>,
     stages: Stages,
 }
 
+/// What is known beforehand of the columns that are asked for.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Beforehand<'a> {
+    /// The columns for other values of the same free parameters: those that are the same
+    /// for all values are taken from there.
+    pub(crate) last: Option<&'a RawColumns>,
+    /// Whether the slopes will be asked for as well: they come in one pass with the value.
+    pub(crate) slopes: bool,
+}
+
 /// How the columns move with each free parameter: which columns, and their slopes.
 pub struct Moves(Vec<Vec<(usize, Vec<f64>)>>);
-
-/// The output stages, which act on every column alike.
-struct Stages {
-    list: Vec<(usize, FitTerm, f64)>,
-    dt: f64,
-    /// The records on the work grid.
-    records: Vec<Range<usize>>,
-    /// The columns before the stages; empty where there is no stage.
-    before: Vec<Vec<f64>>,
-    /// Which free parameter belongs to which stage: its gain, or one of its shapes.
-    owner: Vec<Option<(usize, Option<usize>)>>,
-}
-
-impl Stages {
-    fn none(data: &Prepared) -> Self {
-        Self {
-            list: Vec::new(),
-            dt: data.dt,
-            records: data.pieces.iter().map(|p| p.work.clone()).collect(),
-            before: Vec::new(),
-            owner: Vec::new(),
-        }
-    }
-
-    fn through(&self, column: &mut [f64], which: std::ops::Range<usize>) {
-        for (_, term, gain) in &self.list[which] {
-            self.apply(&term.effect, *gain, column);
-        }
-    }
-
-    fn apply(&self, effect: &Effect<f64>, gain: f64, column: &mut [f64]) {
-        for record in &self.records {
-            apply_stage(effect, gain, &mut column[record.clone()], self.dt);
-        }
-    }
-
-    /// What a stage adds for a gain of one.
-    fn alone(&self, effect: &Effect<f64>, output: &[f64]) -> Vec<f64> {
-        let mut column = output.to_vec();
-        self.apply(effect, 1.0, &mut column);
-        column.iter().zip(output).map(|(a, b)| a - b).collect()
-    }
-}
-
-/// output += gain · stage(output), along one record.
-fn apply_stage(effect: &Effect<f64>, gain: f64, column: &mut [f64], dt: f64) {
-    let mut state = EffectState::default();
-    let mut at = Situation {
-        dt,
-        ..Situation::default()
-    };
-    for value in column {
-        at.output = *value;
-        *value += gain * effect.regressor(&mut state, &at);
-    }
-}
 
 /// What a stage adds for a gain of one.
 #[must_use]
@@ -176,8 +136,80 @@ pub fn raw_columns(
     free: &[Free],
     values: &[f64],
 ) -> Option<RawColumns> {
-    let n = data.work_len();
-    let value = |role: Role| free.iter().position(|f| f.role == role).map(|i| values[i]);
+    raw_columns_knowing(data, structure, free, values, Beforehand::default())
+}
+
+/// As [`raw_columns`], bit for bit, for less where something is known beforehand.
+pub(crate) fn raw_columns_knowing(
+    data: &Prepared,
+    structure: &Structure,
+    free: &[Free],
+    values: &[f64],
+    known: Beforehand<'_>,
+) -> Option<RawColumns> {
+    let terms = shaped(structure, free, values)?;
+    let mut gathered = Gathered::after(known.last, structure.linear());
+    let seen = seen(data, &terms)?;
+    let mut eta = vec![0.0; data.work_len()];
+    let (mut shape, mut sensitivities) = (None, None);
+    if structure.hysteresis {
+        let (bouc_wen, eta0) = hysteresis(data, free, values)?;
+        // In closed form the value has slopes of another step.
+        if known.slopes && ![1.0, 2.0].contains(&bouc_wen.n()) {
+            let all = trajectory(data, &seen, &bouc_wen, &eta0);
+            for (slot, state) in eta.iter_mut().zip(&all) {
+                *slot = state.eta;
+            }
+            sensitivities = Some(all);
+        } else {
+            trace(data, &seen, &bouc_wen, &eta0, &mut eta);
+        }
+        let staged = terms.iter().any(|t| t.effect.is_input_stage());
+        for record in 0..structure.own_gains.max(1) {
+            let own = |column: &[f64]| Some(of_record(data, structure, column, record));
+            gathered.push(!staged, || own(&seen))?;
+            gathered.push(false, || own(&eta))?;
+            gathered.push(true, || own(&vec![1.0; eta.len()]))?;
+        }
+        shape = Some((bouc_wen, eta0));
+    }
+    for (index, term) in terms.iter().enumerate().filter(|(_, t)| t.is_linear()) {
+        let fixed = !term.effect.reads_eta() && !is_searched(free, index);
+        gathered.push(fixed, || effect_column(data, term, &eta))?;
+    }
+    if let Some(table) = &structure.table {
+        // Its slopes in eta's parameters are left out: a search needs them only roughly.
+        let fixed = table.variable != Variable::Eta;
+        gathered.push_all(fixed, table.shapes.len(), || table.columns(data, &eta))?;
+    }
+    let Gathered {
+        mut columns,
+        mut fixed,
+        ..
+    } = gathered;
+    let mut stages = Stages::of(data, &terms, free, values)?;
+    if !stages.list.is_empty() {
+        stages.before = columns.clone();
+        fixed.fill(false);
+        for column in &mut columns {
+            let column: &mut Vec<f64> = Arc::make_mut(column);
+            stages.through(column, 0..stages.list.len());
+        }
+    }
+    Some(RawColumns {
+        columns,
+        fixed,
+        eta,
+        terms,
+        shape,
+        trajectory: sensitivities,
+        seen,
+        stages,
+    })
+}
+
+/// The terms at the values of their free parameters.
+fn shaped(structure: &Structure, free: &[Free], values: &[f64]) -> Option<Vec<FitTerm>> {
     let mut terms = structure.terms.clone();
     for (f, &v) in free.iter().zip(values) {
         match f.role {
@@ -189,76 +221,25 @@ pub fn raw_columns(
             _ => {}
         }
     }
-    let mut columns = Vec::with_capacity(structure.linear());
-    let mut fixed = Vec::with_capacity(structure.linear());
-    let mut eta = vec![0.0; n];
-    let mut shape = None;
-    let seen = seen(data, &terms)?;
-    if structure.hysteresis {
-        let bouc_wen =
-            Shape::try_new(value(Role::Rho)?, value(Role::Sigma)?, value(Role::N)?).ok()?;
-        // What nobody has fitted (a record that is held out) begins in the middle.
-        let eta0 = |record| value(Role::Eta0 { record }).unwrap_or(0.0);
-        let eta0: Vec<f64> = (0..data.pieces.len()).map(eta0).collect();
-        trace(data, &seen, &bouc_wen, &eta0, &mut eta);
-        let staged = terms.iter().any(|t| t.effect.is_input_stage());
-        for record in 0..structure.own_gains.max(1) {
-            let own = |column: &[f64]| of_record(data, structure, column, record);
-            columns.extend([own(&seen), own(&eta), own(&vec![1.0; n])]);
-            fixed.extend([!staged, false, true]);
+    Some(terms)
+}
+
+/// The hysteresis at the values of its free parameters, and its state at each beginning.
+fn hysteresis(data: &Prepared, free: &[Free], values: &[f64]) -> Option<(Shape<f64>, Vec<f64>)> {
+    let value = |role: Role| free.iter().position(|f| f.role == role).map(|i| values[i]);
+    let shape = Shape::try_new(value(Role::Rho)?, value(Role::Sigma)?, value(Role::N)?).ok()?;
+    // What nobody has fitted (a record that is held out) begins in the middle.
+    let eta0 = |record| value(Role::Eta0 { record }).unwrap_or(0.0);
+    Some((shape, (0..data.pieces.len()).map(eta0).collect()))
+}
+
+/// Whether the column of a linear term moves with a free parameter of its own.
+fn is_searched(free: &[Free], index: usize) -> bool {
+    free.iter().any(|f| match f.role {
+        Role::Shape { term, .. } | Role::Origin { term } | Role::Start { term, .. } => {
+            term == index
         }
-        shape = Some((bouc_wen, eta0));
-    }
-    let mut list = Vec::new();
-    let mut owner = vec![None; free.len()];
-    for (index, term) in terms.iter().enumerate() {
-        if term.effect.is_output_stage() {
-            let gain = value(Role::Stage { term: index })?;
-            for (slot, f) in owner.iter_mut().zip(free) {
-                match f.role {
-                    Role::Stage { term } if term == index => *slot = Some((list.len(), None)),
-                    Role::Shape { term, index: shape } if term == index => {
-                        *slot = Some((list.len(), Some(shape)))
-                    }
-                    _ => {}
-                }
-            }
-            list.push((index, *term, gain));
-        } else if !term.effect.is_input_stage() {
-            columns.push(effect_column(data, term, &eta)?);
-            fixed.push(!term.effect.reads_eta() && free.iter().all(|f| !matches!(f.role, Role::Shape { term, .. } | Role::Origin { term } | Role::Start { term, .. } if term == index)));
-        }
-    }
-    if let Some(table) = &structure.table {
-        // Its slopes in eta's parameters are left out: a search needs them only roughly.
-        columns.extend(table.columns(data, &eta)?);
-        fixed.resize(columns.len(), table.variable != Variable::Eta);
-    }
-    let before = if list.is_empty() {
-        Vec::new()
-    } else {
-        columns.clone()
-    };
-    let stages = Stages {
-        list,
-        before,
-        owner,
-        ..Stages::none(data)
-    };
-    if !stages.list.is_empty() {
-        fixed.fill(false);
-        for column in &mut columns {
-            stages.through(column, 0..stages.list.len());
-        }
-    }
-    Some(RawColumns {
-        columns,
-        fixed,
-        eta,
-        terms,
-        shape,
-        seen,
-        stages,
+        _ => false,
     })
 }
 
@@ -272,6 +253,21 @@ fn of_record(data: &Prepared, structure: &Structure, column: &[f64], record: usi
         own[piece.work.clone()].copy_from_slice(&column[piece.work.clone()]);
     }
     own
+}
+
+/// The sum of columns times gains, `n` samples long.
+pub(crate) fn weighted(columns: &[&[f64]], gains: &[f64], n: usize) -> Vec<f64> {
+    let mut pairs = columns.iter().zip(gains);
+    let mut sum: Vec<f64> = match pairs.next() {
+        Some((column, gain)) => column.iter().map(|c| gain * c).collect(),
+        None => vec![0.0; n],
+    };
+    for (column, gain) in pairs {
+        for (slot, c) in sum.iter_mut().zip(*column) {
+            *slot += gain * c;
+        }
+    }
+    sum
 }
 
 /// d column / d parameter by central differences: the effects' shapes are few and smooth.
@@ -335,7 +331,11 @@ impl RawColumns {
         let mut sensitivities: Vec<(usize, Vec<f64>)> = Vec::new();
         let mut k = 0;
         if let Some((shape, eta0)) = &self.shape {
-            let trajectory = trajectory(data, &self.seen, shape, eta0);
+            let own = match self.trajectory {
+                Some(_) => None,
+                None => Some(trajectory(data, &self.seen, shape, eta0)),
+            };
+            let trajectory = self.trajectory.as_ref().or(own.as_ref())?;
             for (j, f) in free.iter().enumerate() {
                 let pick: fn(&Sensitivity<f64>) -> f64 = match f.role {
                     Role::Rho => |s| s.d_rho,
@@ -424,6 +424,13 @@ impl RawColumns {
         Some(moves)
     }
 
+    /// The output for the given gains, before the filter.
+    #[must_use]
+    pub fn output(&self, gains: &[f64]) -> Vec<f64> {
+        let columns: Vec<&[f64]> = self.columns.iter().map(|c| c.as_slice()).collect();
+        weighted(&columns, gains, self.eta.len())
+    }
+
     /// d output / d free parameter `j` for the given gains, before the filter.
     #[must_use]
     pub fn tangent(&self, moves: &Moves, j: usize, gains: &[f64]) -> Vec<f64> {
@@ -438,46 +445,5 @@ impl RawColumns {
             self.add_stage_tangent(&mut tangent, gains, position, shape);
         }
         tangent
-    }
-
-    /// The part of a tangent that comes from an output stage's own gain or shape.
-    fn add_stage_tangent(
-        &self,
-        tangent: &mut [f64],
-        gains: &[f64],
-        position: usize,
-        shape: Option<usize>,
-    ) {
-        let Stages { list, before, .. } = &self.stages;
-        let mut output: Vec<f64> = (0..tangent.len())
-            .map(|i| before.iter().zip(gains).map(|(c, g)| g * c[i]).sum())
-            .collect();
-        self.stages.through(&mut output, 0..position);
-        let (_, term, gain) = &list[position];
-        let mut part = match shape {
-            None => self.stages.alone(&term.effect, &output),
-            Some(index) => {
-                let value = term.effect.shape(index).unwrap_or(0.0);
-                let h = 1e-5 * value.abs().max(1e-9);
-                let (Ok(up), Ok(down)) = (
-                    term.effect.with_shape(index, value + h),
-                    term.effect.with_shape(index, value - h),
-                ) else {
-                    return;
-                };
-                let (up, down) = (
-                    self.stages.alone(&up, &output),
-                    self.stages.alone(&down, &output),
-                );
-                up.iter()
-                    .zip(&down)
-                    .map(|(a, b)| gain * (a - b) / (2.0 * h))
-                    .collect()
-            }
-        };
-        self.stages.through(&mut part, position + 1..list.len());
-        for (t, p) in tangent.iter_mut().zip(part) {
-            *t += p;
-        }
     }
 }

@@ -3,6 +3,7 @@
 use super::{raw_columns, Moves, RawColumns};
 use crate::model::structure::{FitTerm, Free, Role, Structure};
 use crate::problem::Prepared;
+use std::sync::Arc;
 
 /// What an input stage adds to the output of a fitted model.
 #[must_use]
@@ -16,16 +17,14 @@ pub fn series_column(
     let mut with = structure.clone();
     with.terms.push(*term);
     let output = |structure: &Structure| -> Option<Vec<f64>> {
-        let raw = raw_columns(data, structure, free, values)?;
-        let at = |i: usize| raw.columns.iter().zip(gains).map(|(c, g)| g * c[i]).sum();
-        Some((0..data.work_len()).map(at).collect())
+        Some(raw_columns(data, structure, free, values)?.output(gains))
     };
     let (with, without) = (output(&with)?, output(structure)?);
     Some(with.iter().zip(&without).map(|(a, b)| a - b).collect())
 }
 
 /// The columns before the output stages.
-pub(crate) fn early(raw: &RawColumns) -> &[Vec<f64>] {
+pub(crate) fn early(raw: &RawColumns) -> &[Arc<Vec<f64>>] {
     match raw.stages.before.is_empty() {
         true => &raw.columns,
         false => &raw.stages.before,
@@ -58,7 +57,7 @@ impl Moves {
             let (up, down) = (at(1.0)?, at(-1.0)?);
             for (k, (a, b)) in early(&up).iter().zip(early(&down)).enumerate() {
                 if a != b {
-                    let slope = a.iter().zip(b).map(|(a, b)| (a - b) / (2.0 * step));
+                    let slope = a.iter().zip(b.iter()).map(|(a, b)| (a - b) / (2.0 * step));
                     self.0[j].push((k, slope.collect()));
                 }
             }
