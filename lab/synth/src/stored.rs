@@ -77,8 +77,8 @@ fn number<'a>(bytes: &mut impl Iterator<Item = &'a u8>) -> u64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::generate;
     use super::*;
-    use crate::generate;
 
     fn push(mut number: u64, bytes: &mut Vec<u8>) {
         while number >= 128 {
@@ -121,7 +121,7 @@ mod tests {
         // Not assert_eq: a megabyte each would be printed.
         assert!(
             stored_csv() == made.to_csv(),
-            "write it anew: cargo test -p bowden-lab --lib stored -- --ignored"
+            "write it anew: cargo test -p bowden-synth --lib stored -- --ignored"
         );
     }
 
@@ -130,9 +130,7 @@ mod tests {
     fn the_record_is_stored() {
         let recipe = stored_recipe();
         let bytes = stored(&generate(&recipe).unwrap().columns, &recipe);
-        let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
-            .parent()
-            .unwrap();
-        std::fs::write(root.join(file!()).with_extension("bin"), bytes).unwrap();
+        let package = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+        std::fs::write(package.join("src/stored.bin"), bytes).unwrap();
     }
 }
