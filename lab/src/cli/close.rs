@@ -67,6 +67,7 @@ impl Close {
             let several = self.per_file.is_some();
             for file in written(path, if several { read.len() } else { 1 }) {
                 super::writable("--model-out", &file, &read)?;
+                super::writable("--model-out", &vector_of(&file), &read)?;
             }
         }
         if let Some(path) = &self.trace {
@@ -196,7 +197,7 @@ fn write_models(path: &Path, data: &Prepared, hand: &HandOver) -> Result<(), Fai
             Form::Postcard => postcard(file).map_err(named)?,
         };
         let samples = vector::csv(data, record, file).map_err(named)?;
-        let beside = own.with_extension("vector.csv");
+        let beside = vector_of(&own);
         all.push((own, model));
         all.push((beside, samples.into_bytes()));
     }
@@ -209,6 +210,11 @@ fn written(path: &Path, models: usize) -> Vec<PathBuf> {
         1 => vec![path.to_owned()],
         _ => (0..models).map(|record| numbered(path, record)).collect(),
     }
+}
+
+/// The test vector of a model, beside it.
+fn vector_of(model: &Path) -> PathBuf {
+    model.with_extension("vector.csv")
 }
 
 /// `name.toml` as `name-1.toml` for the first record.

@@ -22,8 +22,9 @@ mod loops;
 mod series;
 mod stages;
 
+pub(crate) use series::early;
 pub use series::series_column;
-pub(crate) use series::{by_stage, early};
+pub(crate) use stages::by_stage;
 
 /// Columns on the work grid, before the filter.
 pub struct RawColumns {

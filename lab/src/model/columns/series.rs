@@ -65,18 +65,3 @@ impl Moves {
         Some(())
     }
 }
-
-/// What each output stage changes, in their order.
-pub(crate) fn by_stage(raw: &RawColumns, mut output: Vec<f64>) -> Vec<Vec<f64>> {
-    let mut changes = Vec::with_capacity(raw.stages.list.len());
-    for stage in 0..raw.stages.list.len() {
-        let before = output.clone();
-        raw.stages.through(&mut output, stage..stage + 1);
-        let change = output
-            .iter()
-            .zip(&before)
-            .map(|(after, before)| after - before);
-        changes.push(change.collect());
-    }
-    changes
-}
