@@ -5,7 +5,7 @@
 //! cable straight, bent, and straight again some weeks later; the same rig with a user's own
 //! column names; a damper.
 
-use bowden_lab::synth::{generate, Base, Mode, Planted, Recipe};
+use bowden_synth::{generate, Base, Mode, Planted, Recipe};
 use std::error::Error;
 use std::path::Path;
 

@@ -8,11 +8,12 @@
 //! what was found (rivals in parentheses) and the time taken.
 #![allow(clippy::unwrap_used)]
 
-use bowden_lab::channels::{Preparation, Prepared};
-use bowden_lab::closing::{close, structure};
-use bowden_lab::intervals::term_name;
+use bowden_lab::closing::close;
+use bowden_lab::conclude::intervals::term_name;
+use bowden_lab::model::declared::structure;
+use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options};
-use bowden_lab::synth::{effects, generate, Mode, Planted, Recipe};
+use bowden_synth::{effects, generate, Mode, Planted, Recipe};
 
 /// Family of an effect by its own name.
 fn family_of(name: &str) -> &'static str {
@@ -150,7 +151,7 @@ fn main() {
                             e.effect, e.channel, e.gain, e.shapes, made.truth.base
                         );
                     }
-                    for p in bowden_lab::intervals::parameters(&data, last) {
+                    for p in bowden_lab::conclude::intervals::parameters(&data, last) {
                         println!("   {} = {:.5} {:?} {:?}", p.name, p.value, p.ci95, p.unit);
                     }
                 }

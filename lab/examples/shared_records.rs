@@ -6,15 +6,16 @@
 //! filtered output [%] on the fit segment / held out.
 #![allow(clippy::unwrap_used)]
 
-use bowden_lab::channels::{Preparation, Prepared};
-use bowden_lab::closing::{close, structure, MOST_ROUNDS};
-use bowden_lab::final_fit::FinalFit;
+use bowden_lab::closing::{close, MOST_ROUNDS};
+use bowden_lab::conclude::final_fit::FinalFit;
+use bowden_lab::conclude::intervals::term_name;
+use bowden_lab::conclude::verdict::verdict;
+use bowden_lab::export::hand_over::HandOver;
 use bowden_lab::fit::Segments;
-use bowden_lab::hand_over::HandOver;
-use bowden_lab::intervals::term_name;
+use bowden_lab::model::declared::structure;
+use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{read, Mode, Options};
 use bowden_lab::report::text;
-use bowden_lab::verdict::verdict;
 use std::path::{Path, PathBuf};
 
 struct Row {

@@ -1,53 +1,39 @@
 //! The lab: closes the loop between a declared model and measured data.
 //!
-//! A record walks through the rooms in this order: [`record`] (read and check),
-//! [`channels`] (uniform time, one zero-phase smoother for all columns and the output),
-//! [`fit`] (variable projection), [`scan`] (which effect is missing?), [`closing`] (the
-//! loop and its ledger), [`final_fit`], [`verdict`], [`report`], [`hand_over`] and [`export`]. Every column of the
-//! regression is computed by the core crate, so that what is fitted here is what runs
-//! in firmware. [`compare`] puts controllers on the core's simulated rig, [`power`] says
-//! what a run could have missed, [`plan`] which experiment would tell what this record
-//! cannot. [`synth`] makes test records and shares no code with any of these.
+//! A record walks through the rooms in this order, and a room uses only those before it:
+//!
+//! | room | what happens there |
+//! |---|---|
+//! | [`record`] | a file is read and checked, its defects are named |
+//! | [`problem`] | uniform time, one zero-phase smoother for all columns and the output, the split |
+//! | [`model`] | effects that may be missing, terms and their parameters, their columns |
+//! | [`fit`] | variable projection: gains by QR, shapes by Levenberg-Marquardt |
+//! | [`score`] | which effect is missing? Scores on blocks, free curves, whiteness |
+//! | [`ledger`] | rounds, rejections, what has no name |
+//! | [`closing`] | the loop that fills the ledger |
+//! | [`conclude`] | final refit, intervals, verdict, shares, traces |
+//! | [`foresight`] | what the record would have missed, and which motion to record next |
+//! | [`export`] | what is handed over to firmware |
+//! | [`check`] | whether a model still holds on another record |
+//! | [`compare`] | controllers on the core's simulated rig |
+//! | [`report`], [`cli`] | tables, JSON, the program |
+//!
+//! Every column of the regression is computed by the core crate, so that what is fitted here
+//! is what runs in firmware. The package `bowden-synth` makes test records and shares no
+//! code with any of these.
 
-mod attempt;
-pub mod by_file;
-pub mod catalogue;
-pub mod causal;
-pub mod channels;
 pub mod check;
 pub mod cli;
-pub mod clockwork;
 pub mod closing;
-pub mod columns;
 pub mod compare;
-mod duel;
-mod excitation;
-pub mod explains;
+pub mod conclude;
 pub mod export;
-pub mod filter;
-pub mod final_fit;
 pub mod fit;
-mod gates;
-pub mod hand_over;
-pub mod intervals;
-pub mod invertible;
-mod joint;
-pub mod plan;
-pub mod power;
-mod projection;
+pub mod foresight;
+pub mod ledger;
+pub mod model;
+pub mod problem;
 pub mod record;
 pub mod report;
-mod revisit;
-pub mod scan;
+pub mod score;
 pub mod search;
-pub mod solution;
-pub mod spectrum;
-pub mod structure;
-pub mod synth;
-mod tones;
-pub mod trace;
-pub mod units;
-pub mod unknown;
-pub mod unneeded;
-pub mod verdict;
-mod whiteness;

@@ -1,20 +1,22 @@
 //! The verdict: what has no name is said to have none, and a tone is a tone.
 //!
-//! The records come from [`bowden_lab::synth`], which shares no code with the fit; the
+//! The records come from [`bowden_synth`], which shares no code with the fit; the
 //! seeds are none that the method was developed on. The declared model is Bouc-Wen alone.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use bowden::effect::Family;
-use bowden_lab::channels::{Preparation, Prepared};
-use bowden_lab::closing::{close, structure, Ledger};
-use bowden_lab::final_fit::FinalFit;
-use bowden_lab::hand_over::HandOver;
-use bowden_lab::intervals::term_name;
+use bowden_lab::closing::close;
+use bowden_lab::conclude::curve::curve;
+use bowden_lab::conclude::final_fit::FinalFit;
+use bowden_lab::conclude::intervals::term_name;
+use bowden_lab::conclude::verdict::{sentence, verdict, Verdict};
+use bowden_lab::export::hand_over::HandOver;
+use bowden_lab::ledger::Ledger;
+use bowden_lab::model::declared::structure;
+use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options, Record};
 use bowden_lab::report::{json, text, Report};
-use bowden_lab::synth::{generate, Mode, Planted, Recipe, Synthetic};
-use bowden_lab::unknown::curve;
-use bowden_lab::verdict::{sentence, verdict, Verdict};
+use bowden_synth::{generate, Mode, Planted, Recipe, Synthetic};
 use rayon::prelude::*;
 
 /// Records of each kind in each mode.

@@ -264,9 +264,9 @@ impl<T: Real> Line<T> {
             .map_err(|error| E::custom(format_args!("term {name}: {error}")))?;
         for (shape, expected) in given.iter().zip(effect.shape_names()) {
             if !shape.name.is(expected) {
-                let message =
-                    format_args!("term {name}: another shape where {expected} was expected");
-                return Err(E::custom(message));
+                return Err(E::custom(format_args!(
+                    "term {name}: another shape where {expected} was expected"
+                )));
             }
         }
         let source = channels.source(self.source);

@@ -18,7 +18,7 @@
 mod planted;
 mod shared;
 
-use bowden_lab::synth::{effects, outsiders, Mode};
+use bowden_synth::{effects, outsiders, Mode};
 use planted::{can_be_missing, families, is_right, recipe, three_of, Judged, Planting, MODES};
 use std::collections::BTreeMap;
 

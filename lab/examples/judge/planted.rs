@@ -1,12 +1,15 @@
 //! One planted record through both methods.
 
 use bowden::effect::{Family, CATALOGUE};
-use bowden_lab::channels::{Preparation, Prepared};
-use bowden_lab::closing::{self, structure, Ledger};
-use bowden_lab::fit::{evaluations, Segments};
+use bowden_lab::problem::{Preparation, Prepared};
+use bowden_lab::closing;
+use bowden_lab::ledger::Ledger;
+use bowden_lab::model::declared::structure;
+use bowden_lab::fit::evaluations;
+use bowden_lab::fit::Segments;
 use bowden_lab::record::{parse, Options};
 use bowden_lab::search;
-use bowden_lab::synth::{effects, generate, Mode, Planted, Recipe};
+use bowden_synth::{effects, generate, Mode, Planted, Recipe};
 use rand::seq::SliceRandom;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;

@@ -1,8 +1,10 @@
 //! Measured records through both methods: fit and held-out error, names, cost.
 
 use crate::planted::cost;
-use bowden_lab::channels::{Preparation, Prepared};
-use bowden_lab::closing::{self, structure, Ledger};
+use bowden_lab::problem::{Preparation, Prepared};
+use bowden_lab::closing;
+use bowden_lab::ledger::Ledger;
+use bowden_lab::model::declared::structure;
 use bowden_lab::final_fit::FinalFit;
 use bowden_lab::intervals::term_name;
 use bowden_lab::record::{read, Mode, Options};

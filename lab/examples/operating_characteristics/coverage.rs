@@ -5,12 +5,12 @@
 //! and catalogue are planted, so that there is a true value.
 
 use crate::record::recipe;
-use bowden_lab::channels::{Preparation, Prepared};
-use bowden_lab::closing::structure;
+use bowden_lab::conclude::intervals::parameters;
 use bowden_lab::fit::fit;
-use bowden_lab::intervals::parameters;
+use bowden_lab::model::declared::structure;
+use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options};
-use bowden_lab::synth::{generate, Mode};
+use bowden_synth::{generate, Mode};
 use std::collections::BTreeMap;
 
 const EFFECTS: [&str; 4] = [

@@ -9,9 +9,9 @@
 //! 0.1 % of the sum of squares that the declared model leaves.
 
 use bowden::effect::Family;
-use bowden_lab::catalogue::Candidate;
-use bowden_lab::channels::Prepared;
 use bowden_lab::fit::Solution;
+use bowden_lab::model::catalogue::Candidate;
+use bowden_lab::problem::Prepared;
 use nalgebra::{DMatrix, DVector};
 
 /// Share of the residual's squares that the ERR rule asks of the next column.

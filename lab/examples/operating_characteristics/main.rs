@@ -22,7 +22,7 @@ mod criteria;
 mod record;
 
 use bowden::effect::Family;
-use bowden_lab::synth::{effects, outsiders, Mode, Recipe};
+use bowden_synth::{effects, outsiders, Mode, Recipe};
 use criteria::Chosen;
 use rand::seq::SliceRandom;
 use rand::{Rng, SeedableRng};

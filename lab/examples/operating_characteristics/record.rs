@@ -2,13 +2,14 @@
 
 use crate::criteria::{self, Chosen};
 use bowden::effect::{Family, CATALOGUE};
-use bowden_lab::catalogue::candidates;
-use bowden_lab::channels::{Preparation, Prepared};
-use bowden_lab::closing::{close, structure};
-use bowden_lab::final_fit::FinalFit;
+use bowden_lab::closing::close;
+use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::fit::{fit, Segments};
+use bowden_lab::model::catalogue::candidates;
+use bowden_lab::model::declared::structure;
+use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options};
-use bowden_lab::synth::{generate, Mode, Planted, Recipe};
+use bowden_synth::{generate, Mode, Planted, Recipe};
 
 /// What one record gave.
 pub struct Outcome {

@@ -1,6 +1,6 @@
 //! The model that is checked, and what its file says of where it came from.
 
-use crate::clockwork::counts_from_the_start;
+use crate::export::clockwork::counts_from_the_start;
 use crate::export::ModelFile;
 use crate::record::Mode;
 use bowden::effect::{Info, Quantity, CATALOGUE};

@@ -1,8 +1,8 @@
 //! Gain and offset of a prediction, the only two numbers that a check fits.
 
-use crate::channels::Prepared;
-use crate::intervals::quantile;
-use crate::scan::{blocks, BLOCKS};
+use crate::conclude::intervals::quantile;
+use crate::problem::Prepared;
+use crate::score::scan::{blocks, BLOCKS};
 use std::ops::Range;
 
 /// A number that was fitted, with its interval.

@@ -23,11 +23,12 @@ mod line;
 mod play;
 mod ranges;
 
-use crate::channels::{HeldOut, Preparation, Prepared};
+use crate::closing::{dependences, Dependence};
+use crate::conclude::trace::{csv, input, parts, Column};
+use crate::export::invertible::three_digits;
 use crate::fit::Solution;
+use crate::problem::{HeldOut, Preparation, Prepared};
 use crate::record::{to_unit, Defect, Record};
-use crate::trace::{csv, input, parts, Column};
-use crate::unknown::{dependences, Dependence};
 pub use given::{About, Errors, Given, Seen};
 pub use line::{Fitted, Line};
 pub use ranges::Outside;
@@ -102,7 +103,8 @@ pub struct Check {
     pub outside: Vec<Outside>,
     /// On what the residual behind gain and offset depends, where the model does not hold.
     pub depends_on: Vec<Dependence>,
-    /// Rms by which the state before the record still moves the prediction, at most.
+    /// Rms by which the state before the record still moves the prediction, at most, if it was
+    /// within what the record itself reaches.
     pub start: f64,
     /// Seconds at the start that do not count.
     pub left_out: f64,
@@ -174,7 +176,12 @@ impl Check {
         let residual: Vec<f64> = data.target.iter().zip(&moved).map(|(y, p)| y - p).collect();
         let mut start: f64 = 0.0;
         if model.structure.hysteresis {
-            for eta0 in [-1.0, 1.0] {
+            // As far as the record itself takes it: with a small rho it never comes near 1.
+            let most = model
+                .eta
+                .iter()
+                .fold(0.0, |most: f64, eta| eta.abs().max(most));
+            for eta0 in [-most, most] {
                 let other = play::play(&data, given, eta0)?;
                 let pairs = other.prediction.iter().zip(&model.prediction);
                 let difference: Vec<f64> = pairs.map(|(a, b)| a - b).collect();
@@ -198,8 +205,8 @@ impl Check {
             model,
         };
         if check.start > MATTERS * check.rmse {
-            let share = 100.0 * check.start / check.deviation;
-            check.data.notes.push(format!("what came before the record is unknown and still moves the prediction by up to {share:.2} %"));
+            let share = three_digits(100.0 * check.start / check.deviation);
+            check.data.notes.push(format!("the hysteresis state before the record is unknown and still moves the prediction by up to {share} % of the output's deviation"));
         }
         check.verdict = check.found(given);
         if check.verdict == Verdict::DoesNotHold {

@@ -1,11 +1,11 @@
 //! A given model on a record, with nothing fitted.
 
 use super::given::{Given, MOST_TERMS};
-use crate::channels::Prepared;
-use crate::columns::raw_columns;
 use crate::fit::{Segments, Solution};
+use crate::model::columns::{raw_columns, weighted};
+use crate::model::structure::{FitTerm, Free, Range, Role, Structure};
+use crate::problem::{Prepared, MOST_RECORDS};
 use crate::record::Mode;
-use crate::structure::{FitTerm, Free, Range, Role, Structure, MOST_RECORDS};
 use bowden::model::{Model, Source};
 
 /// The model on the record, from that hysteresis state at the first sample. Effects with
@@ -66,11 +66,8 @@ pub(super) fn play(data: &Prepared, given: &Given, eta0: f64) -> Result<Solution
     let values: Vec<f64> = known.iter().map(|&(_, value)| value).collect();
     let raw = raw_columns(data, &structure, &free, &values).ok_or_else(nothing)?;
     let columns: Vec<Vec<f64>> = raw.columns.iter().map(|c| data.filtered(c)).collect();
-    let sum = |columns: &[Vec<f64>], n: usize| -> Vec<f64> {
-        let at = |i| columns.iter().zip(&gains).map(|(c, g)| g * c[i]).sum();
-        (0..n).map(at).collect()
-    };
-    let prediction = sum(&columns, data.target.len());
+    let filtered: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+    let prediction = weighted(&filtered, &gains, data.target.len());
     if !prediction.iter().all(|p| p.is_finite()) {
         return Err("the model runs away on this record".to_owned());
     }
@@ -80,7 +77,7 @@ pub(super) fn play(data: &Prepared, given: &Given, eta0: f64) -> Result<Solution
         rmse: Segments::of(data, &residual),
         on_bound: vec![false; free.len()],
         tangents: Vec::new(),
-        unfiltered: sum(&raw.columns, data.work_len()),
+        unfiltered: raw.output(&gains),
         eta: raw.eta,
         structure,
         free,

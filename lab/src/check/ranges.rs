@@ -1,7 +1,7 @@
 //! Where a record goes beyond what a model has seen.
 
 use super::given::{About, Seen};
-use crate::channels::{Channel, Prepared};
+use crate::problem::{Channel, Prepared};
 use bowden::effect::Motion;
 
 /// Ranges further than this share of what the model has seen beyond its ends are listed: two
@@ -63,7 +63,7 @@ fn beyond(data: &Prepared, channel: &Channel, seen: &Seen) -> Vec<Outside> {
             found.push(Outside {
                 channel: channel.name.clone(),
                 quantity,
-                unit: crate::units::Unit::one()
+                unit: crate::model::units::Unit::one()
                     .times(channel.unit.as_deref(), 1)
                     .times(Some("s"), -per_second)
                     .text(),

@@ -2,16 +2,16 @@
 
 use super::reading::{progress, Reading};
 use super::Failure;
-use crate::channels::{HeldOut, Prepared};
+use crate::conclude::final_fit::FinalFit;
+use crate::conclude::trace::trace;
+use crate::export::hand_over::HandOver;
 use crate::export::{postcard, vector};
-use crate::final_fit::FinalFit;
 use crate::fit::{fit, Solution};
-use crate::hand_over::HandOver;
+use crate::model::structure::Structure;
+use crate::problem::{HeldOut, Prepared};
 use crate::record::{agree, parse, read, Options, Record};
 use crate::report::{json, text, Report};
-use crate::structure::Structure;
-use crate::synth::{generate, Planted, Recipe};
-use crate::trace::trace;
+use bowden_synth::stored_csv;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -67,6 +67,7 @@ impl Close {
             let several = self.per_file.is_some();
             for file in written(path, if several { read.len() } else { 1 }) {
                 super::writable("--model-out", &file, &read)?;
+                super::writable("--model-out", &vector_of(&file), &read)?;
             }
         }
         if let Some(path) = &self.trace {
@@ -180,13 +181,7 @@ fn hint(data: &Prepared, declared: &Solution) -> Option<String> {
 }
 
 fn embedded(options: &Options) -> Result<Record, Failure> {
-    let recipe = Recipe {
-        effects: vec![Planted::new("viscous")],
-        seed: 7,
-        ..Recipe::new(crate::synth::Mode::Torque)
-    };
-    let csv = generate(&recipe).map_err(|e| e.to_string())?.to_csv();
-    parse(csv.as_bytes(), EMBEDDED, options).map_err(|e| e.to_string())
+    parse(stored_csv().as_bytes(), EMBEDDED, options).map_err(|e| e.to_string())
 }
 
 /// Writes the model and its test vector; where each file has gains of its own, one of both
@@ -202,7 +197,7 @@ fn write_models(path: &Path, data: &Prepared, hand: &HandOver) -> Result<(), Fai
             Form::Postcard => postcard(file).map_err(named)?,
         };
         let samples = vector::csv(data, record, file).map_err(named)?;
-        let beside = own.with_extension("vector.csv");
+        let beside = vector_of(&own);
         all.push((own, model));
         all.push((beside, samples.into_bytes()));
     }
@@ -215,6 +210,11 @@ fn written(path: &Path, models: usize) -> Vec<PathBuf> {
         1 => vec![path.to_owned()],
         _ => (0..models).map(|record| numbered(path, record)).collect(),
     }
+}
+
+/// The test vector of a model, beside it.
+fn vector_of(model: &Path) -> PathBuf {
+    model.with_extension("vector.csv")
 }
 
 /// `name.toml` as `name-1.toml` for the first record.

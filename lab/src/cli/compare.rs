@@ -4,7 +4,7 @@ use super::Failure;
 use crate::compare::found::outcome;
 use crate::compare::lineup::{declared_feed, lineup};
 use crate::compare::setup::Setup;
-use crate::compare::table::run_all;
+use crate::compare::table::{run_all, Line};
 use crate::compare::trial::{Conditions, TRANSIENT};
 use crate::compare::undeclared::Undeclared;
 use crate::report::control::{found_json, found_text, json, text, trace, Heading};
@@ -62,18 +62,7 @@ impl Compare {
         if self.varying {
             setup.rig.drift = Some(setup.rig.drift.unwrap_or_else(Drift::reference));
         }
-        if !(self.seconds.is_finite() && (8.0..=3600.0).contains(&self.seconds)) {
-            return Err(format!(
-                "--seconds {}: between 8 and 3600 was expected",
-                self.seconds
-            ));
-        }
-        if !(1..=1000).contains(&self.seeds) {
-            return Err(format!(
-                "--seeds {}: between 1 and 1000 was expected",
-                self.seeds
-            ));
-        }
+        self.check()?;
         let effect = self.effect.as_deref().map(Undeclared::parse).transpose()?;
         // The traces of Figure 9 start at the full reference; from 5 s errors count, as in
         // the figures that the rig was calibrated to.
@@ -108,40 +97,58 @@ impl Compare {
                 };
                 (out, lines)
             }
-            Some(effect) => {
-                let mut outcomes = Vec::with_capacity(seeds.len());
-                for seed in seeds {
-                    let first = outcomes.is_empty();
-                    outcomes.push(outcome(
-                        &setup,
-                        &effect,
-                        &conditions,
-                        seed,
-                        traced && first,
-                    )?);
-                }
-                let out = match self.json {
-                    true => found_json(&heading, &effect, &outcomes),
-                    false => found_text(&heading, &effect, &outcomes),
-                };
-                let first = outcomes.into_iter().next();
-                let lines = first.into_iter().flat_map(|o| o.pairs).flat_map(|pair| {
-                    let named = |mut line: crate::compare::table::Line, how: &str| {
-                        line.controller = format!("{} {how}", pair.controller);
-                        line
-                    };
-                    [
-                        named(pair.plain, "plain"),
-                        named(pair.declared, "declared"),
-                        named(pair.found, "found"),
-                    ]
-                });
-                (out, lines.collect())
-            }
+            Some(effect) => self.with_effect(&setup, &effect, &conditions, &heading)?,
         };
         if let Some(path) = &self.trace {
             super::write_whole(path, trace(&rows).as_bytes())?;
         }
         super::say(out.trim_end())
+    }
+    fn check(&self) -> Result<(), Failure> {
+        if !(self.seconds.is_finite() && (8.0..=3600.0).contains(&self.seconds)) {
+            return Err(format!(
+                "--seconds {}: between 8 and 3600 was expected",
+                self.seconds
+            ));
+        }
+        if !(1..=1000).contains(&self.seeds) {
+            return Err(format!(
+                "--seeds {}: between 1 and 1000 was expected",
+                self.seeds
+            ));
+        }
+        Ok(())
+    }
+
+    /// The report of the loop closed through the controllers, and the lines of its first seed.
+    fn with_effect(
+        &self,
+        setup: &Setup,
+        effect: &Undeclared,
+        conditions: &Conditions,
+        heading: &Heading,
+    ) -> Result<(String, Vec<Line>), Failure> {
+        let mut outcomes = Vec::new();
+        for seed in 1..=self.seeds {
+            let traced = self.trace.is_some() && outcomes.is_empty();
+            outcomes.push(outcome(setup, effect, conditions, seed, traced)?);
+        }
+        let out = match self.json {
+            true => found_json(heading, effect, &outcomes),
+            false => found_text(heading, effect, &outcomes),
+        };
+        let first = outcomes.into_iter().next();
+        let lines = first.into_iter().flat_map(|o| o.pairs).flat_map(|pair| {
+            let named = |mut line: Line, how: &str| {
+                line.controller = format!("{} {how}", pair.controller);
+                line
+            };
+            [
+                named(pair.plain, "plain"),
+                named(pair.declared, "declared"),
+                named(pair.found, "found"),
+            ]
+        });
+        Ok((out, lines.collect()))
     }
 }

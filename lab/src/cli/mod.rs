@@ -142,3 +142,24 @@ fn write_together(files: &[(std::path::PathBuf, Vec<u8>)]) -> Result<(), Failure
         }
     })
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::write_together;
+
+    #[test]
+    fn of_files_that_cannot_all_be_written_none_is() {
+        // The place of the first or of the last one is taken by a folder.
+        for taken in ["a", "c"] {
+            let folder = tempfile::tempdir().unwrap();
+            std::fs::create_dir(folder.path().join(taken)).unwrap();
+            let file = |name: &str| (folder.path().join(name), name.as_bytes().to_vec());
+            let line = write_together(&["a", "b", "c"].map(file)).unwrap_err();
+            assert!(line.contains(&folder.path().join(taken).display().to_string()));
+            let left = std::fs::read_dir(folder.path()).unwrap();
+            let left: Vec<_> = left.map(|entry| entry.unwrap().file_name()).collect();
+            assert_eq!(left, [taken]);
+        }
+    }
+}

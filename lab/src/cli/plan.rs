@@ -2,8 +2,8 @@
 
 use super::reading::{progress, Reading};
 use super::Failure;
-use crate::final_fit::FinalFit;
-use crate::plan::{separate_first, strengthen, trajectory};
+use crate::conclude::final_fit::FinalFit;
+use crate::foresight::plan::{separate_first, strengthen, trajectory};
 use crate::record::read;
 use clap::Args;
 use std::io::Write as _;

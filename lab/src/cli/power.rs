@@ -2,7 +2,7 @@
 
 use super::reading::{progress, Reading};
 use super::Failure;
-use crate::power::{power, Question, TRIALS, TRIALS_RANGE};
+use crate::foresight::power::{power, Question, TRIALS, TRIALS_RANGE};
 use crate::record::read;
 use crate::report::{power_json, power_text};
 use clap::Args;

@@ -1,10 +1,12 @@
 //! What all commands have in common that read a record.
 
 use super::Failure;
-use crate::channels::{HeldOut, Preparation, Prepared};
-use crate::closing::{close_within, structure, Ledger, MOST_ROUNDS};
+use crate::closing::{close_within, MOST_ROUNDS};
+use crate::ledger::Ledger;
+use crate::model::declared::structure;
+use crate::model::structure::Structure;
+use crate::problem::{HeldOut, Preparation, Prepared};
 use crate::record::{Mode, Options, Record};
-use crate::structure::Structure;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal as _;

@@ -1,7 +1,7 @@
 //! `bowden record`: a generated record as CSV on stdout or in a file.
 
 use super::Failure;
-use crate::synth::{generate, Mode, Planted, Recipe};
+use bowden_synth::{generate, Mode, Planted, Recipe};
 use clap::{Args, ValueEnum};
 use std::io::Write as _;
 use std::path::PathBuf;

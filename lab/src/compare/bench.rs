@@ -7,12 +7,14 @@
 
 use super::feed::{FeedForward, Surroundings, MOST_TERMS};
 use super::trial::MOST_UNDECLARED;
-use crate::channels::{Channel, Preparation, Prepared};
-use crate::closing::{close, structure, Ledger};
+use crate::closing::close;
 use crate::export::ModelFile;
 use crate::fit::Solution;
+use crate::ledger::Ledger;
+use crate::model::declared::structure;
+use crate::model::structure::FitTerm;
+use crate::problem::{Channel, Preparation, Prepared};
 use crate::record::{parse, Options};
-use crate::structure::FitTerm;
 use bowden::control::BenchRange;
 use bowden::effect::Motion;
 use bowden::model::{Source, Term};

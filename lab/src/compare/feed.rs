@@ -115,7 +115,7 @@ impl FeedForward {
         let refused = |e: bowden::Error| format!("the model as a feed-forward: {e}");
         let (nearest, changed) = Compensator::try_nearest(model).map_err(refused)?;
         let is_fed = |place: usize| changed.left_out().all(|left_out| left_out != place);
-        let changed_words = crate::invertible::words(&changed, model.terms());
+        let changed_words = crate::export::invertible::words(&changed, model.terms());
         let places = model.terms().iter().enumerate();
         let terms: Vec<&Term<f64>> = places
             .filter_map(|(place, term)| is_fed(place).then_some(term))

@@ -1,10 +1,10 @@
 //! What a model's numbers mean and what they are worth.
 
 use super::ModelFile;
-use crate::channels::{Channel, Prepared};
+use crate::conclude::intervals::{gain_unit, parameters, shape_unit, term_name};
 use crate::fit::{Segments, Solution};
-use crate::intervals::{gain_unit, parameters, shape_unit, term_name};
-use crate::units::Unit;
+use crate::model::units::Unit;
+use crate::problem::{Channel, Prepared};
 use bowden::effect::Motion;
 use bowden::model::Source;
 use serde::{Deserialize, Serialize};

@@ -5,17 +5,21 @@
 //! A test vector goes with each file ([`vector`]).
 
 mod about;
+pub mod causal;
+pub mod clockwork;
 mod firmware;
+pub mod hand_over;
+pub mod invertible;
 mod rust;
 pub mod vector;
 
 pub use about::{About, Errors, LeftOut, NotIdentified, Span};
 pub use firmware::{postcard, CHECKSUM};
 
-use crate::channels::Prepared;
 use crate::fit::Solution;
+use crate::model::structure::Role;
+use crate::problem::Prepared;
 use crate::record::Mode;
-use crate::structure::Role;
 use bowden::model::{Model, Source};
 use bowden::Real;
 use serde::de::DeserializeOwned;

@@ -7,7 +7,7 @@
 //! decimals of numbers of `f32`: read as `f32` or as `f64`, they are what each was given.
 
 use super::{ModelFile, MOST_TERMS};
-use crate::channels::Prepared;
+use crate::problem::Prepared;
 use crate::record::Mode;
 use bowden::effect::Motion;
 use bowden::model::{Model, ModelState, Sample};

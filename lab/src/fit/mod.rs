@@ -6,18 +6,20 @@
 //! column comes with its exact sensitivities in the same pass.
 
 mod linear;
+pub(crate) mod projection;
 pub(crate) mod search;
 pub(crate) mod settle;
+mod solution;
 mod starts;
 mod tie;
 
-use crate::channels::Prepared;
-pub use crate::solution::{Segments, Solution};
-use crate::structure::{Role, Structure};
-pub use search::evaluations;
+use crate::model::structure::{Role, Structure};
+use crate::problem::Prepared;
 use search::{descend, descend_fully};
 use settle::{choose, settle};
+pub use solution::{Segments, Solution};
 use starts::starts;
+pub use search::evaluations;
 pub use starts::Known;
 
 /// Fits a structure: all starts for a while on a coarse grid, the best three to the end.

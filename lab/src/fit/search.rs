@@ -2,12 +2,13 @@
 
 use super::linear::{solve_linear, Linear};
 use super::tie::{slope, ties};
-use crate::channels::Prepared;
-use crate::columns::{raw_columns, RawColumns};
-use crate::structure::{Free, Range, Role, Structure};
+use crate::model::columns::{raw_columns_knowing, Beforehand, RawColumns};
+use crate::model::structure::{Free, Range, Role, Structure};
+use crate::problem::Prepared;
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};
+use std::cell::Cell;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::Arc;
 
@@ -35,16 +36,12 @@ pub(super) fn evaluate(
     last: Option<&Evaluation>,
 ) -> Option<Evaluation> {
     EVALUATIONS.fetch_add(1, Ordering::Relaxed);
-    let raw = raw_columns(data, structure, free, values)?;
-    let columns: Vec<Arc<Vec<f64>>> = raw
-        .columns
-        .iter()
-        .enumerate()
-        .map(|(k, c)| match last {
-            Some(last) if raw.fixed[k] => Arc::clone(&last.columns[k]),
-            _ => Arc::new(data.filtered(c)),
-        })
-        .collect();
+    let known = Beforehand {
+        last: last.map(|l| &l.raw),
+        slopes: true,
+    };
+    let raw = raw_columns_knowing(data, structure, free, values, known)?;
+    let columns = filtered(data, &raw, last);
     let linear = solve_linear(
         &data.split.fit,
         &columns,
@@ -53,17 +50,15 @@ pub(super) fn evaluate(
         &ties(structure, free, values),
     );
     let rows = &data.split.fit;
-    let residual = DVector::from_iterator(
-        rows.len(),
-        rows.iter().map(|&i| {
-            data.target[i]
-                - columns
-                    .iter()
-                    .zip(&linear.gains)
-                    .map(|(c, g)| g * c[i])
-                    .sum::<f64>()
-        }),
-    );
+    let mut residual = DVector::<f64>::zeros(rows.len());
+    for (column, gain) in columns.iter().zip(&linear.gains) {
+        for (sum, &i) in residual.iter_mut().zip(rows) {
+            *sum += gain * column[i];
+        }
+    }
+    for (sum, &i) in residual.iter_mut().zip(rows) {
+        *sum = data.target[i] - *sum;
+    }
     if !residual.iter().all(|r| r.is_finite()) {
         return None;
     }
@@ -75,9 +70,41 @@ pub(super) fn evaluate(
     })
 }
 
+/// The columns through the filter; those that cannot have moved are the last ones.
+fn filtered(data: &Prepared, raw: &RawColumns, last: Option<&Evaluation>) -> Vec<Arc<Vec<f64>>> {
+    let kept = |k: usize| last.filter(|_| raw.fixed[k]).map(|l| &l.columns[k]);
+    let moved = (0..raw.columns.len()).filter(|&k| kept(k).is_none());
+    let moved: Vec<&[f64]> = moved.map(|k| raw.columns[k].as_slice()).collect();
+    let mut anew = data.filtered_all(&moved).into_iter();
+    (0..raw.columns.len())
+        .filter_map(|k| kept(k).cloned().or_else(|| anew.next().map(Arc::new)))
+        .collect()
+}
+
 impl Evaluation {
+    /// d prediction / d value for each free parameter, through the filter.
+    pub(super) fn tangents(
+        &self,
+        data: &Prepared,
+        structure: &Structure,
+        free: &[Free],
+        values: &[f64],
+    ) -> Option<Vec<Vec<f64>>> {
+        let (raw, gains) = (&self.raw, &self.linear.gains);
+        let moves = raw.moves(data, structure, free, values)?;
+        let slopes: Vec<Vec<f64>> = (0..free.len())
+            .map(|j| raw.tangent(&moves, j, gains))
+            .collect();
+        let slopes: Vec<&[f64]> = slopes.iter().map(Vec::as_slice).collect();
+        let mut tangents = data.filtered_all(&slopes);
+        for (tangent, one) in tangents.iter_mut().zip(free) {
+            self.add_tied(tangent, free, values, one.role);
+        }
+        Some(tangents)
+    }
+
     /// Adds to a tangent how a gain that is tied to kappa_eta moves with the shape.
-    pub(super) fn add_tied(&self, tangent: &mut [f64], free: &[Free], values: &[f64], role: Role) {
+    fn add_tied(&self, tangent: &mut [f64], free: &[Free], values: &[f64], role: Role) {
         for tie in &self.linear.tied {
             let slope = -self.linear.gains[tie.hysteresis] * slope(free, values, role);
             for (t, x) in tangent.iter_mut().zip(self.columns[tie.gain].iter()) {
@@ -94,6 +121,10 @@ struct Reduced<'a> {
     free: &'a [Free],
     line: DVector<f64>,
     now: Option<Evaluation>,
+    /// Whether the search stands here, and did not only try the place.
+    stands: Cell<bool>,
+    /// Where the search stood before what it tries now: it returns there if that is worse.
+    back: Option<(DVector<f64>, Evaluation)>,
 }
 
 impl<'a> Reduced<'a> {
@@ -111,6 +142,8 @@ impl<'a> Reduced<'a> {
             free,
             line: line.clone(),
             now: None,
+            stands: Cell::new(false),
+            back: None,
         };
         problem.set_params(&line);
         problem
@@ -132,20 +165,24 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Reduced<'_> {
 
     fn set_params(&mut self, line: &DVector<f64>) {
         // Beyond this the logistic map is flat in f64 anyway.
-        self.line = line.map(|u| if u.is_finite() { u } else { 0.0 });
-        for (u, free) in self.line.iter_mut().zip(self.free) {
+        let mut line = line.map(|u| if u.is_finite() { u } else { 0.0 });
+        for (u, free) in line.iter_mut().zip(self.free) {
             if free.range != Range::Free {
                 *u = u.clamp(-12.0, 12.0);
             }
         }
+        let left = std::mem::replace(&mut self.line, line);
+        let tried = self.now.take();
+        if self.stands.replace(false) {
+            self.back = tried.map(|evaluation| (left, evaluation));
+        }
+        if let Some((_, known)) = self.back.take_if(|(place, _)| *place == self.line) {
+            self.now = Some(known);
+            return;
+        }
+        let last = self.back.as_ref().map(|(_, evaluation)| evaluation);
         let values = self.values();
-        self.now = evaluate(
-            self.data,
-            self.structure,
-            self.free,
-            &values,
-            self.now.as_ref(),
-        );
+        self.now = evaluate(self.data, self.structure, self.free, &values, last);
     }
 
     fn params(&self) -> DVector<f64> {
@@ -158,17 +195,11 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Reduced<'_> {
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
         let now = self.now.as_ref()?;
+        self.stands.set(true);
         let rows = &self.data.split.fit;
-        let values = self.values();
-        let moves = now
-            .raw
-            .moves(self.data, self.structure, self.free, &values)?;
+        let tangents = now.tangents(self.data, self.structure, self.free, &self.values())?;
         let mut jacobian = DMatrix::zeros(rows.len(), self.free.len());
-        for (j, free) in self.free.iter().enumerate() {
-            let mut tangent = self
-                .data
-                .filtered(&now.raw.tangent(&moves, j, &now.linear.gains));
-            now.add_tied(&mut tangent, self.free, &values, free.role);
+        for (j, (free, tangent)) in self.free.iter().zip(tangents).enumerate() {
             let mut column = DVector::from_iterator(rows.len(), rows.iter().map(|&i| tangent[i]));
             let projected = now.linear.basis.tr_mul(&column);
             column.gemv(-1.0, &now.linear.basis, &projected, 1.0);

@@ -2,8 +2,10 @@
 
 use super::search::{evaluate, Evaluation};
 use super::{Segments, Solution};
-use crate::channels::Prepared;
-use crate::structure::{Free, Role, Structure};
+use crate::model::columns::weighted;
+use crate::model::structure::{Free, Role, Structure};
+use crate::problem::Prepared;
+use std::sync::Arc;
 
 /// Assembles the solution at given values.
 pub(crate) fn settle(
@@ -13,17 +15,7 @@ pub(crate) fn settle(
     values: Vec<f64>,
 ) -> Option<Solution> {
     let evaluation = evaluate(data, structure, free, &values, None)?;
-    let (raw, gains) = (&evaluation.raw, &evaluation.linear.gains);
-    let moves = raw.moves(data, structure, free, &values)?;
-    let tangents: Vec<Vec<f64>> = free
-        .iter()
-        .enumerate()
-        .map(|(j, one)| {
-            let mut tangent = data.filtered(&raw.tangent(&moves, j, gains));
-            evaluation.add_tied(&mut tangent, free, &values, one.role);
-            tangent
-        })
-        .collect();
+    let tangents = evaluation.tangents(data, structure, free, &values)?;
     let Evaluation {
         raw,
         columns,
@@ -31,18 +23,10 @@ pub(crate) fn settle(
         ..
     } = evaluation;
     let gains = linear.gains;
-    let columns: Vec<Vec<f64>> = columns.iter().map(|c| c.to_vec()).collect();
-    let sum = |columns: &[Vec<f64>]| -> Vec<f64> {
-        let n = columns.first().map_or(0, Vec::len);
-        (0..n)
-            .map(|i| columns.iter().zip(&gains).map(|(c, g)| g * c[i]).sum())
-            .collect()
-    };
-    let (prediction, unfiltered) = if columns.is_empty() {
-        (vec![0.0; data.target.len()], vec![0.0; data.work_len()])
-    } else {
-        (sum(&columns), sum(&raw.columns))
-    };
+    let columns: Vec<Vec<f64>> = columns.into_iter().map(Arc::unwrap_or_clone).collect();
+    let filtered: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+    let prediction = weighted(&filtered, &gains, data.target.len());
+    let unfiltered = raw.output(&gains);
     let residual: Vec<f64> = data
         .target
         .iter()

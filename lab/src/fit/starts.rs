@@ -1,8 +1,8 @@
 //! Where the searches begin.
 
 use super::Solution;
-use crate::channels::Prepared;
-use crate::structure::{Free, Range, Role, Structure};
+use crate::model::structure::{Free, Range, Role, Structure};
+use crate::problem::Prepared;
 
 /// Where an earlier fit ended: the values of its free parameters.
 #[derive(Debug, Clone)]

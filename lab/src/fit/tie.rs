@@ -8,7 +8,7 @@
 //!
 //! [`Transmission::inverse`]: bowden::transmission::Transmission::inverse
 
-use crate::structure::{Free, Role, Structure};
+use crate::model::structure::{Free, Role, Structure};
 use std::sync::Arc;
 
 /// Relative distance from the bound. Four numbers are rounded to `f32` and three products

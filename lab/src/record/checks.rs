@@ -1,6 +1,6 @@
 //! Options that make no sense, and columns that hold no measurement.
 
-use super::clipping;
+use super::clipping::{self, range};
 use super::error::RecordError;
 use super::header::Header;
 use super::roles::Roles;
@@ -58,12 +58,4 @@ pub(super) fn record(table: &Table, header: &Header, roles: &Roles) -> Result<()
         }
     }
     Ok(())
-}
-
-/// Smallest and largest value.
-pub(super) fn range(values: &[f64]) -> (f64, f64) {
-    let wider = |(low, high): (f64, f64), value: &f64| (low.min(*value), high.max(*value));
-    values
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), wider)
 }

@@ -7,7 +7,6 @@
 //! and a dry-friction force without noise is flat while the input moves (but
 //! then the input does not turn on that plateau).
 
-use super::checks::range;
 use std::fmt;
 use std::ops::Range;
 
@@ -168,4 +167,12 @@ impl<'a> Judge<'a> {
         let beyond = (high - first.max(last)).max(first.min(last) - low);
         (moves, beyond > 5.0 * noise)
     }
+}
+
+/// Smallest and largest value.
+pub(super) fn range(values: &[f64]) -> (f64, f64) {
+    let wider = |(low, high): (f64, f64), value: &f64| (low.min(*value), high.max(*value));
+    values
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), wider)
 }

@@ -13,9 +13,12 @@ pub(super) fn read(cell: &str, line: usize, column: &str) -> Result<f64, RecordE
     if cell.is_empty() {
         return refuse("the cell is empty, a number was expected".to_owned());
     }
+    let number = cell.parse::<f64>();
+    if let Some(value) = number.iter().find(|value| value.abs() <= LARGEST) {
+        return Ok(*value);
+    }
     let text = shown(cell, CELL_LENGTH);
-    match cell.parse::<f64>() {
-        Ok(value) if value.abs() <= LARGEST => Ok(value),
+    match number {
         Ok(value) if value.is_finite() => refuse(format!(
             "`{text}` is larger than {LARGEST:e}, a measured value was expected"
         )),

@@ -1,7 +1,7 @@
 //! `bowden check` for programs, schema `bowden.check/1`, and for people.
 
 use super::several::size;
-use super::terminal::{number, table};
+use super::words::{number, table};
 use crate::check::{Check, Errors, Fitted, Line, Outside, Verdict};
 use crate::record::{Defect, Mode};
 use anstyle::{AnsiColor, Style};

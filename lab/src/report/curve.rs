@@ -1,12 +1,13 @@
 //! What has no name: its curve, for programs and for people.
 
-use super::terminal::number;
-use crate::channels::Prepared;
-use crate::closing::Ledger;
-use crate::final_fit::FinalFit;
+use super::words::number;
+use crate::conclude::curve::{curve, Knot};
+use crate::conclude::final_fit::FinalFit;
+use crate::conclude::verdict::unknown_words;
 use crate::fit::Segments;
-use crate::unknown::{curve, Knot, Unknown};
-use crate::verdict::unknown_words;
+use crate::ledger::Ledger;
+use crate::ledger::Unknown;
+use crate::problem::Prepared;
 use serde::Serialize;
 use std::fmt::Write as _;
 

@@ -1,11 +1,11 @@
 //! What is handed over to firmware: its errors there, and whether it is a feed-forward.
 
-use super::json::effects;
-use crate::channels::Prepared;
+use super::words::effects;
+use crate::export::hand_over::HandOver;
+use crate::export::invertible::FeedForward;
 use crate::export::LeftOut;
 use crate::fit::Segments;
-use crate::hand_over::HandOver;
-use crate::invertible::FeedForward;
+use crate::problem::Prepared;
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -88,7 +88,7 @@ pub(super) fn text(hand: Result<&HandOver, &str>) -> String {
     line(format!(
         "held out {} sample by sample with causal velocities (Rates, {} ms), {} with the fit's zero-phase ones",
         per_cent(hand.causal.held_out),
-        crate::invertible::three_digits(1e3 * hand.time_constant),
+        crate::export::invertible::three_digits(1e3 * hand.time_constant),
         per_cent(hand.nrmse.held_out)
     ));
     let mend = match (&hand.feed_forward.because, &hand.feed_forward.nearest) {

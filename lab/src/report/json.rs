@@ -3,20 +3,20 @@
 use super::curve::UnknownPart;
 use super::hand_over::HandOverPart;
 use super::rounds::{models, RoundModel};
-use crate::by_file::{nrmse_by_file, rmse_by_file, worse, FileErrors, Worse};
-use crate::catalogue::Candidate;
-use crate::channels::{Piece, Prepared};
-use crate::closing::{Gate, Grade, Ledger};
-use crate::explains::{explained, Explained};
-use crate::final_fit::FinalFit;
+use super::words::{block_count, effects};
+use crate::conclude::by_file::{nrmse_by_file, rmse_by_file, worse, FileErrors, Worse};
+use crate::conclude::final_fit::FinalFit;
+use crate::conclude::intervals::{parameters, Parameter};
+use crate::conclude::unneeded::{unneeded, Unneeded};
+use crate::conclude::verdict::{raises, sentence, verdict};
+use crate::export::hand_over::HandOver;
 use crate::fit::{Segments, Solution};
-use crate::hand_over::HandOver;
-use crate::intervals::{parameters, term_name, Parameter};
-use crate::plan::{separate, Experiment};
+use crate::foresight::plan::{separate, Experiment};
+use crate::ledger::{Gate, Grade, Ledger, Round};
+use crate::model::catalogue::Candidate;
+use crate::problem::{Piece, Prepared};
 use crate::record::{Defect, Mode};
-use crate::scan::{Regime, BLOCKS};
-use crate::unneeded::{unneeded, Unneeded};
-use crate::verdict::{raises, sentence, verdict};
+use crate::score::explains::{explained, Explained};
 use serde::Serialize;
 
 /// The whole object.
@@ -149,15 +149,6 @@ fn channel(data: &Prepared, candidate: &Candidate) -> String {
         .map_or_else(String::new, |c| c.name.clone())
 }
 
-/// Names of all parts of a model.
-pub(super) fn effects(data: &Prepared, solution: &Solution) -> Vec<String> {
-    let hysteresis = solution.structure.hysteresis.then(|| "bouc-wen".to_owned());
-    hysteresis
-        .into_iter()
-        .chain(solution.structure.terms.iter().map(|t| term_name(data, t)))
-        .collect()
-}
-
 /// Errors against the output as recorded, as shares of its standard deviation.
 fn raw(data: &Prepared, solution: &Solution) -> Segments {
     let prediction = solution.unfiltered.iter().step_by(data.stride);
@@ -170,13 +161,101 @@ fn raw(data: &Prepared, solution: &Solution) -> Segments {
     Segments::of(data, &residual).normalised(data, &data.target_raw)
 }
 
-/// Independent stretches of the fit segment, at most sixteen.
-pub(super) fn block_count(data: &Prepared, ledger: &Ledger) -> usize {
-    if ledger.regime == Regime::Blocks {
-        return BLOCKS;
+/// What of a file is held out.
+fn held_out(data: &Prepared, piece: &Piece) -> &'static str {
+    let whole = data.pieces.iter().any(|p| !p.fitted);
+    match (piece.fitted, whole) {
+        (false, _) => "whole",
+        (true, true) => "nothing",
+        (true, false) => "trailing",
     }
-    let seconds = data.split.fit.len() as f64 * data.dt * data.stride as f64;
-    ((seconds / (3.0 * ledger.correlation_time)) as usize).min(BLOCKS - 1)
+}
+
+impl RecordPart {
+    fn new(
+        data: &Prepared,
+        ledger: &Ledger,
+        path: &str,
+        (samples, rate_hz): (usize, f64),
+        held_out: Option<&'static str>,
+    ) -> Self {
+        Self {
+            path: path.to_owned(),
+            samples,
+            rate_hz,
+            mode: match data.mode {
+                Mode::Torque => "torque",
+                Mode::Displacement => "displacement",
+            },
+            cutoff_hz: data.cutoff,
+            blocks: block_count(data, ledger),
+            held_out,
+        }
+    }
+}
+
+impl ModelPart {
+    fn new(data: &Prepared, declared: &Solution) -> Self {
+        Self {
+            effects: effects(data, declared),
+            parameters: parameters(data, declared),
+            rmse: declared.rmse,
+            nrmse: declared.rmse.normalised(data, &data.target),
+            nrmse_raw: raw(data, declared),
+            by_file: ByFile::new(data, declared),
+        }
+    }
+}
+
+impl FinalPart {
+    fn new(data: &Prepared, done: &FinalFit, hand: Result<&HandOver, &str>) -> Self {
+        let last = &done.solution;
+        Self {
+            effects: effects(data, last),
+            refitted: done.refitted,
+            parameters: parameters(&done.data, last),
+            rmse: done.rmse,
+            nrmse: done.rmse.normalised(data, &data.target),
+            hand_over: HandOverPart::new(data, hand),
+            by_file: ByFile::new(data, last),
+        }
+    }
+}
+
+impl RoundPart {
+    fn new(data: &Prepared, round: &Round, model: RoundModel) -> Self {
+        let term = round.solution.structure.terms.len() - 1;
+        let own = parameters(data, &round.solution).into_iter();
+        let own = own.filter(|p| p.term == Some(term));
+        let rivals = round.rivals.iter();
+        Self {
+            family: round.candidate.family.name(),
+            effect: round.candidate.term.effect.name(),
+            channel: channel(data, &round.candidate),
+            grade: round.grade,
+            coefficients: own
+                .map(|p| Coefficient {
+                    name: p.name,
+                    value: p.value,
+                    unit: p.unit,
+                    ci95: p.ci95,
+                })
+                .collect(),
+            p: round.p,
+            explained: round.explained,
+            confounded_with: rivals
+                .map(|r| Rival {
+                    family: r.family.name(),
+                    channel: channel(data, r),
+                })
+                .collect(),
+            experiment: separate(data, round),
+            rmse_before: round.before,
+            rmse_after: round.after,
+            raises_held_out: raises(round),
+            model,
+        }
+    }
 }
 
 impl Report {
@@ -191,91 +270,23 @@ impl Report {
     ) -> Self {
         let last = &done.solution;
         let several = data.pieces.len() > 1;
-        let part = |path: &str, samples, rate_hz, held_out| RecordPart {
-            path: path.to_owned(),
-            samples,
-            rate_hz,
-            mode: match data.mode {
-                Mode::Torque => "torque",
-                Mode::Displacement => "displacement",
-            },
-            cutoff_hz: data.cutoff,
-            blocks: block_count(data, ledger),
-            held_out,
+        let part = |path: &str, samples, rate_hz, held_out| {
+            RecordPart::new(data, ledger, path, (samples, rate_hz), held_out)
         };
-        let rounds = ledger
-            .rounds
-            .iter()
-            .zip(models(data, ledger, done))
-            .map(|(round, model)| {
-                let term = round.solution.structure.terms.len() - 1;
-                let own = parameters(data, &round.solution)
-                    .into_iter()
-                    .filter(|p| p.term == Some(term));
-                RoundPart {
-                    family: round.candidate.family.name(),
-                    effect: round.candidate.term.effect.name(),
-                    channel: channel(data, &round.candidate),
-                    grade: round.grade,
-                    coefficients: own
-                        .map(|p| Coefficient {
-                            name: p.name,
-                            value: p.value,
-                            unit: p.unit,
-                            ci95: p.ci95,
-                        })
-                        .collect(),
-                    p: round.p,
-                    explained: round.explained,
-                    confounded_with: round
-                        .rivals
-                        .iter()
-                        .map(|r| Rival {
-                            family: r.family.name(),
-                            channel: channel(data, r),
-                        })
-                        .collect(),
-                    experiment: separate(data, round),
-                    rmse_before: round.before,
-                    rmse_after: round.after,
-                    raises_held_out: raises(round),
-                    model,
-                }
-            })
-            .collect();
+        let rounds = ledger.rounds.iter().zip(models(data, ledger, done));
+        let rounds = rounds.map(|(round, model)| RoundPart::new(data, round, model));
         Self {
             schema: "bowden.close/1",
             record: (!several).then(|| part(path, data.samples, data.rate, None)),
             records: several.then(|| {
-                let whole = data.pieces.iter().any(|p| !p.fitted);
-                let own = |p: &Piece| match (p.fitted, whole) {
-                    (false, _) => "whole",
-                    (true, true) => "nothing",
-                    (true, false) => "trailing",
-                };
                 let pieces = data.pieces.iter();
                 pieces
-                    .map(|p| part(&p.path, p.samples, p.rate, Some(own(p))))
+                    .map(|p| part(&p.path, p.samples, p.rate, Some(held_out(data, p))))
                     .collect()
             }),
-            declared: ModelPart {
-                effects: effects(data, &ledger.declared),
-                parameters: parameters(data, &ledger.declared),
-                rmse: ledger.declared.rmse,
-                nrmse: ledger.declared.rmse.normalised(data, &data.target),
-                nrmse_raw: raw(data, &ledger.declared),
-                by_file: ByFile::new(data, &ledger.declared),
-            },
-            rounds,
-            r#final: FinalPart {
-                effects: effects(data, last),
-                refitted: done.refitted,
-                parameters: parameters(&done.data, last),
-                rmse: done.rmse,
-                nrmse: done.rmse.normalised(data, &data.target),
-                hand_over: HandOverPart::new(data, hand),
-                by_file: ByFile::new(data, last),
-            },
+            declared: ModelPart::new(data, &ledger.declared),
+            rounds: rounds.collect(),
+            r#final: FinalPart::new(data, done, hand),
             rejected: ledger
                 .rejected
                 .iter()

@@ -11,6 +11,7 @@ mod rounds;
 mod several;
 mod terminal;
 pub mod terms;
+mod words;
 
 pub use check::{check_json, check_text, sentence as check_sentence};
 pub use json::{json, Report};

@@ -1,11 +1,11 @@
 //! The table of `bowden power`, for people and as JSON, schema `bowden.power/1`.
 
-use super::json::effects;
-use super::terminal::{number, table};
-use crate::channels::Prepared;
-use crate::closing::Ledger;
-use crate::intervals::{gain_unit, shape_unit, term_name};
-use crate::power::{Answer, Power, Row, SHARE};
+use super::words::effects;
+use super::words::{number, table};
+use crate::conclude::intervals::{gain_unit, shape_unit, term_name};
+use crate::foresight::power::{Answer, Power, Row, SHARE};
+use crate::ledger::Ledger;
+use crate::problem::Prepared;
 use serde::Serialize;
 use std::fmt::Write as _;
 

@@ -1,11 +1,11 @@
 //! The model after each round, for a program that stops where it likes.
 
-use crate::channels::Prepared;
-use crate::closing::{Ledger, Round};
+use crate::conclude::final_fit::FinalFit;
+use crate::export::hand_over::handed_over;
 use crate::export::ModelFile;
-use crate::final_fit::FinalFit;
 use crate::fit::Segments;
-use crate::hand_over::handed_over;
+use crate::ledger::{Ledger, Round};
+use crate::problem::Prepared;
 use serde::Serialize;
 
 /// The model that would be handed over if the rounds ended here: as the final one it is fitted

@@ -1,12 +1,12 @@
 //! Several records: errors by file, and the gains that each has of its own.
 
-use super::terminal::{estimate, number, table};
-use crate::by_file::{nrmse_by_file, worse};
-use crate::channels::{Piece, Prepared};
-use crate::closing::Ledger;
-use crate::final_fit::FinalFit;
+use super::words::{estimate, number, table};
+use crate::conclude::by_file::{nrmse_by_file, worse};
+use crate::conclude::final_fit::FinalFit;
+use crate::conclude::intervals::{gain_names, numbered, parameters};
 use crate::fit::Solution;
-use crate::intervals::{gain_names, numbered, parameters};
+use crate::ledger::Ledger;
+use crate::problem::{Piece, Prepared};
 
 /// The file that is held out as a whole, where there is one.
 fn held_out(data: &Prepared) -> Option<&Piece> {

@@ -2,65 +2,26 @@
 
 use super::curve;
 use super::hand_over;
-use super::json::{block_count, effects};
 use super::several;
 use super::terms::LEGEND;
-use crate::channels::Prepared;
-use crate::closing::{Grade, Ledger, Round};
-use crate::explains::{deviations, segments_differ};
-use crate::final_fit::FinalFit;
+use super::words::{block_count, effects, estimate, number, table};
+use crate::conclude::final_fit::FinalFit;
+use crate::conclude::intervals::{parameters, term_name, term_title, Parameter};
+use crate::conclude::unneeded::unneeded;
+use crate::conclude::verdict::{falls_up_to, percent, raises, sentence, verdict, Verdict};
+use crate::export::hand_over::HandOver;
 use crate::fit::Segments;
-use crate::hand_over::HandOver;
-use crate::intervals::{parameters, term_name, term_title, Parameter};
-use crate::plan::separate;
+use crate::foresight::plan::separate;
+use crate::ledger::{Grade, Ledger, Round};
+use crate::problem::Prepared;
 use crate::record::{Defect, Mode};
-use crate::scan::{Regime, BLOCKS};
-use crate::unneeded::unneeded;
-use crate::verdict::{falls_up_to, percent, raises, sentence, verdict, Verdict};
+use crate::score::explains::{deviations, segments_differ};
+use crate::score::scan::{Regime, BLOCKS};
 use anstyle::{AnsiColor, Style};
-use comfy_table::{presets, CellAlignment, ContentArrangement, Table, TableComponent};
 use std::fmt::Write as _;
 
 /// For what is read second.
 const DIM: Style = Style::new().dimmed();
-
-/// A number with as many digits as its interval bears.
-pub(super) fn number(value: f64, half_width: Option<f64>) -> String {
-    let digits = match half_width {
-        Some(w) if w > 0.0 && w.is_finite() => (1.0 - w.log10().floor()).clamp(0.0, 12.0) as usize,
-        _ if value == 0.0 => 0,
-        _ => (3.0 - value.abs().log10().floor()).clamp(0.0, 12.0) as usize,
-    };
-    if value.abs() >= 1e7 || (value != 0.0 && value.abs() < 1e-5) {
-        format!("{value:.3e}")
-    } else {
-        format!("{value:.digits$}")
-    }
-}
-
-/// "12.34 ± 0.05 N·m", or what is to be said instead.
-pub(super) fn estimate(parameter: &Parameter) -> String {
-    let unit = match parameter.unit.as_deref() {
-        Some("1") => String::new(),
-        Some(unit) => format!(" {unit}"),
-        None => " (no unit in the record)".to_owned(),
-    };
-    match parameter.ci95 {
-        Some([low, high]) => {
-            let half = 0.5 * (high - low);
-            format!(
-                "{} ± {}{unit}",
-                number(parameter.value, Some(half)),
-                number(half, Some(half))
-            )
-        }
-        None => {
-            let reason = parameter.refused.as_ref().map_or("", |r| r.reason.as_str());
-            let stands = number(parameter.value, None);
-            format!("not identified: {reason}; stands at {stands}")
-        }
-    }
-}
 
 /// Stretches that are listed; the JSON has all.
 const LISTED: usize = 3;
@@ -100,28 +61,6 @@ fn cells(data: &Prepared, rmse: &Segments) -> [String; 5] {
     let [held_out, held_out_floor] = with_floor(data, rmse.held_out);
     let stop = number(rmse.stop, Some(0.05 * rmse.stop));
     [fit, fit_floor, stop, held_out, held_out_floor]
-}
-
-pub(super) fn table(header: &[&str], right: std::ops::Range<usize>) -> Table {
-    let mut table = Table::new();
-    table
-        .load_preset(presets::UTF8_HORIZONTAL_ONLY)
-        .remove_style(TableComponent::HorizontalLines)
-        .remove_style(TableComponent::LeftBorderIntersections)
-        .remove_style(TableComponent::MiddleIntersections)
-        .remove_style(TableComponent::RightBorderIntersections)
-        .set_content_arrangement(ContentArrangement::Dynamic);
-    if table.width().is_none() {
-        // Not a terminal: the same width on every machine.
-        table.set_width(120);
-    }
-    table.set_header(header);
-    for index in right {
-        if let Some(column) = table.column_mut(index) {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
-    }
-    table
 }
 
 /// One more line of the text; writing to a `String` cannot fail.

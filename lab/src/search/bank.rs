@@ -4,14 +4,14 @@
 //! anything, the slopes of the column in the candidate's own shapes: the linear step in them
 //! replaces a finer lattice. A curve over one variable is twenty hat functions.
 
-use crate::catalogue::{candidates, Candidate};
-use crate::channels::Prepared;
+use crate::model::catalogue::{candidates, Candidate};
+use crate::problem::Prepared;
 use crate::fit::Solution;
-use crate::projection::{rows, Span};
-use crate::structure::{FitTerm, Range, Role};
-use crate::tones;
-use crate::unknown::hats::{hats, is_phase};
-use crate::unknown::Variable;
+use crate::fit::projection::{rows, Span};
+use crate::model::structure::{FitTerm, Range, Role};
+use crate::closing::tones;
+use crate::score::hats::{hats, is_phase};
+use crate::model::Variable;
 use bowden::effect::{Effect, Family};
 use bowden::model::Source;
 use rayon::prelude::*;

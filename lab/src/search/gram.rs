@@ -7,7 +7,7 @@
 //! needs the scores of the blocks only (Lehmann and Romano, 2005, section 15.2).
 
 use super::policy::EXCITED;
-use crate::scan::{share_of_patterns, BLOCKS};
+use crate::score::scan::{share_of_patterns, BLOCKS};
 use nalgebra::{DMatrix, SymmetricEigen};
 use std::ops::Range;
 use std::sync::Arc;

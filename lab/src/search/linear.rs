@@ -4,11 +4,11 @@ use super::bank::{Bank, Identity, Slope};
 use super::gram::{Grams, Swept};
 use super::policy;
 use super::present::Present;
-use crate::catalogue::Candidate;
-use crate::channels::Prepared;
+use crate::model::catalogue::Candidate;
+use crate::problem::Prepared;
 use crate::fit::Solution;
-use crate::scan::{blocks, correlation_samples, Regime};
-use crate::unknown::Variable;
+use crate::score::scan::{blocks, correlation_samples, Regime};
+use crate::model::Variable;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::sync::Arc;
 
@@ -332,7 +332,7 @@ impl<'a> Linear<'a> {
     pub(super) fn price(&self, group: usize) -> f64 {
         let own = &self.groups[group];
         match own.is_curve() {
-            true => self.prices.of_curve(crate::unknown::hats::HATS),
+            true => self.prices.of_curve(crate::score::hats::HATS),
             false => self.prices.of_name(own.freedoms),
         }
     }

@@ -20,11 +20,12 @@ mod readoff;
 mod refit;
 mod run;
 
-use crate::channels::Prepared;
-use crate::closing::{independence, Ledger, MOST_ROUNDS};
-use crate::explains::integrates;
+use crate::problem::Prepared;
+use crate::closing::{independence, MOST_ROUNDS};
+use crate::ledger::Ledger;
+use crate::score::explains::integrates;
 use crate::fit::fit;
-use crate::structure::Structure;
+use crate::model::structure::Structure;
 use run::Search;
 
 /// Finds what a declared model lacks. `progress` is told what is being done.

@@ -1,9 +1,9 @@
 //! The columns of the present model, and its output without its stages.
 
 use super::bank::on_line;
-use crate::channels::Prepared;
+use crate::problem::Prepared;
 use crate::fit::Solution;
-use crate::structure::Role;
+use crate::model::structure::Role;
 use std::sync::Arc;
 
 /// Columns of the present model, sorted by what they belong to.

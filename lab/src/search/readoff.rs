@@ -7,17 +7,18 @@ use super::moves::Move;
 use super::policy;
 use super::refit::{present, FAIR, HYSTERESES, INSIDE, ROUGH};
 use super::run::{Entry, Search};
-use crate::catalogue::Candidate;
-use crate::channels::Prepared;
-use crate::closing::{grade, Ledger, Round};
+use crate::model::catalogue::Candidate;
+use crate::problem::Prepared;
+use crate::closing::grade;
+use crate::ledger::{Ledger, Round};
 use crate::fit::search::descend;
 use crate::fit::settle::settle;
 use crate::fit::Solution;
-use crate::gates::on_blocks;
-use crate::projection::Span;
-use crate::scan::Regime;
-use crate::structure::{Free, Role, Structure};
-use crate::unknown::Unknown;
+use crate::closing::gates::on_blocks;
+use crate::fit::projection::Span;
+use crate::score::scan::Regime;
+use crate::model::structure::{Free, Role, Structure};
+use crate::ledger::Unknown;
 use std::sync::Arc;
 
 /// Rivals of one name that are refitted at most.

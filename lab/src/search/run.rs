@@ -5,15 +5,15 @@ use super::linear::{Linear, Member};
 use super::moves::{is_same, Move, Wanted};
 use super::policy;
 use super::refit::{present, Tried};
-use crate::catalogue::Candidate;
-use crate::channels::Prepared;
-use crate::closing::{Gate, Rejection};
+use crate::model::catalogue::Candidate;
+use crate::problem::Prepared;
+use crate::ledger::{Gate, Rejection};
 use crate::fit::search::descend;
 use crate::fit::settle::settle;
 use crate::fit::Solution;
-use crate::gates::on_blocks;
-use crate::projection::Span;
-use crate::scan::Regime;
+use crate::closing::gates::on_blocks;
+use crate::fit::projection::Span;
+use crate::score::scan::Regime;
 use std::sync::Arc;
 
 /// A criterion that falls by less has not fallen.
@@ -144,8 +144,8 @@ impl<'a> Search<'a> {
             most: self.most,
             below: j - FALLEN,
         });
-        self.is_cut = proposed.is_cut;
-        self.rejected = proposed.rejected;
+        self.is_cut |= proposed.is_cut;
+        self.reject(proposed.rejected);
         if proposed.moves.is_empty() {
             return self.exhausted();
         }
@@ -215,11 +215,9 @@ impl<'a> Search<'a> {
             if let Err(gate) = gates(self.data, &self.now, &next, linear.regime) {
                 for (&g, &p) in best.made.added.iter().zip(&best.made.p) {
                     let candidate = linear.groups[g].candidate();
-                    self.rejected.extend(candidate.map(|candidate| Rejection {
-                        candidate,
-                        gate,
-                        p: Some(p),
-                    }));
+                    let p = Some(p);
+                    let one = candidate.map(|candidate| Rejection { candidate, gate, p });
+                    self.reject(one);
                 }
                 return false;
             }
@@ -236,9 +234,21 @@ impl<'a> Search<'a> {
                 },
             });
         }
+        // What was turned down beside another model may pass beside this one.
+        self.rejected.clear();
+        self.is_cut = false;
         self.now = Arc::new(next);
         self.reached.push(Arc::clone(&self.now));
         true
+    }
+
+    fn reject(&mut self, those: impl IntoIterator<Item = Rejection>) {
+        for one in those {
+            let known = |r: &Rejection| r.candidate.is_like(&one.candidate);
+            if !self.rejected.iter().any(known) {
+                self.rejected.push(one);
+            }
+        }
     }
 
     /// What is known of a member, as it came in last.

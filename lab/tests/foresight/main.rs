@@ -5,8 +5,10 @@ mod plan;
 mod power;
 mod program;
 
-use bowden_lab::channels::{Preparation, Prepared};
-use bowden_lab::closing::{close, structure, Ledger};
+use bowden_lab::closing::close;
+use bowden_lab::ledger::Ledger;
+use bowden_lab::model::declared::structure;
+use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::Record;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;

@@ -1,9 +1,9 @@
 //! A planned motion, run on a rig of its own making, settles what was confounded.
 
 use super::{closed, noise};
-use bowden_lab::plan::{separate, strengthen, trajectory, Kind};
+use bowden_lab::foresight::plan::{separate, strengthen, trajectory, Kind};
 use bowden_lab::record::{parse, Options, Record};
-use bowden_lab::synth::{generate, Base, Mode, Planted, Recipe, Synthetic};
+use bowden_synth::{generate, Base, Mode, Planted, Recipe, Synthetic};
 
 const NOISE: f64 = 0.05;
 

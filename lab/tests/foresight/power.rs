@@ -1,9 +1,9 @@
 //! What the table claims holds for effects that another code plants.
 
 use super::{closed, noise};
-use bowden_lab::power::{power, Answer, Question};
+use bowden_lab::foresight::power::{power, Answer, Question};
 use bowden_lab::record::{parse, Options};
-use bowden_lab::synth::{generate, Mode, Planted, Recipe};
+use bowden_synth::{generate, Mode, Planted, Recipe};
 
 /// Independent noise for each trial of the check.
 const SEEDS: u64 = 10;

@@ -1,10 +1,10 @@
 //! The error with the rates of firmware.
 
 use crate::rig::{record, said, Told};
-use bowden_lab::hand_over::HandOver;
+use bowden_lab::export::hand_over::HandOver;
 use bowden_lab::record::{parse, Options};
 use bowden_lab::report::{json, text, Report};
-use bowden_lab::synth::{Mode, Recipe};
+use bowden_synth::{Mode, Recipe};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
@@ -52,7 +52,7 @@ fn the_error_of_a_dashpot_with_causal_rates_is_that_of_the_lag_of_the_velocity()
 #[test]
 fn without_rates_the_causal_error_of_a_hysteresis_is_that_of_the_fit() {
     use crate::rig::record;
-    use bowden_lab::synth::{Mode, Recipe};
+    use bowden_synth::{Mode, Recipe};
     let recipe = Recipe {
         seed: 21,
         ..Recipe::new(Mode::Torque)

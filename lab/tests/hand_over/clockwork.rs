@@ -1,10 +1,10 @@
 //! What belongs to the record stays with the record.
 
 use crate::rig::{record, with, Told};
-use bowden_lab::clockwork::is_clockwork;
+use bowden_lab::export::clockwork::is_clockwork;
+use bowden_lab::export::invertible::is_stage;
 use bowden_lab::fit::Segments;
-use bowden_lab::invertible::is_stage;
-use bowden_lab::synth::{Mode, Planted, Recipe};
+use bowden_synth::{Mode, Planted, Recipe};
 
 fn names(told: &Told) -> Vec<&'static str> {
     let terms = &told.done.solution.structure.terms;

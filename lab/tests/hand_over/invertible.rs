@@ -5,7 +5,7 @@ use bowden::control::{Compensator, CompensatorInput, CompensatorState};
 use bowden::effect::Motion;
 use bowden::model::{ModelState, Sample};
 use bowden_lab::export::ModelFile;
-use bowden_lab::synth::{Base, Mode, Recipe};
+use bowden_synth::{Base, Mode, Recipe};
 
 /// The demo's command, as the README has it.
 fn demo(more: &[&str]) -> (ModelFile, serde_json::Value) {
@@ -151,13 +151,13 @@ fn the_constrained_fit_is_on_the_bound_and_at_an_optimum_there() {
             let mut values = solution.values.clone();
             for (free, value) in solution.free.iter().zip(&mut values) {
                 match free.role {
-                    bowden_lab::structure::Role::Rho => *value /= s,
-                    bowden_lab::structure::Role::Sigma => *value *= s,
+                    bowden_lab::model::structure::Role::Rho => *value /= s,
+                    bowden_lab::model::structure::Role::Sigma => *value *= s,
                     _ => {}
                 }
             }
             let structure = &solution.structure;
-            let raw = bowden_lab::columns::raw_columns(
+            let raw = bowden_lab::model::columns::raw_columns(
                 &told.done.data,
                 structure,
                 &solution.free,

@@ -1,12 +1,13 @@
 //! Records, fits of a model that is told, and the program from outside.
 
-use bowden_lab::channels::{Preparation, Prepared};
-use bowden_lab::closing::{structure, Ledger};
-use bowden_lab::final_fit::FinalFit;
+use bowden_lab::conclude::final_fit::FinalFit;
+use bowden_lab::export::hand_over::HandOver;
 use bowden_lab::fit::fit;
-use bowden_lab::hand_over::HandOver;
+use bowden_lab::ledger::Ledger;
+use bowden_lab::model::declared::structure;
+use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options, Record};
-use bowden_lab::synth::{generate, Planted, Recipe};
+use bowden_synth::{generate, Planted, Recipe};
 use std::path::Path;
 use std::process::{Command, Output};
 

@@ -270,7 +270,7 @@ fn model_rs_says_what_its_numbers_mean_and_holds_no_path() {
 fn the_ranges_are_those_that_the_fit_has_seen() {
     use crate::rig::{record, Told};
     use bowden::effect::Motion;
-    use bowden_lab::synth::{Mode, Recipe};
+    use bowden_synth::{Mode, Recipe};
     let recipe = Recipe {
         seed: 4,
         ..Recipe::new(Mode::Torque)

@@ -5,7 +5,7 @@ use bowden::effect::Motion;
 use bowden::model::{Model, ModelState, Sample};
 use bowden::Real;
 use bowden_lab::export::ModelFile;
-use bowden_lab::synth::{Base, Mode, Recipe};
+use bowden_synth::{Base, Mode, Recipe};
 use std::path::Path;
 
 /// Steps a model through a vector, row by row; the largest difference to a column, and the
@@ -92,7 +92,7 @@ fn with_gains_for_each_file_each_has_its_model_and_its_vector() {
             ..Recipe::new(Mode::Torque)
         };
         let path = folder.path().join(name);
-        let text = bowden_lab::synth::generate(&recipe).unwrap().to_csv();
+        let text = bowden_synth::generate(&recipe).unwrap().to_csv();
         std::fs::write(&path, text).unwrap();
         path.display().to_string()
     };

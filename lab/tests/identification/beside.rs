@@ -7,7 +7,7 @@
 use crate::rig::Made;
 use bowden::effect::Family;
 use bowden_lab::closing::close;
-use bowden_lab::synth::{Mode, Planted, Recipe};
+use bowden_synth::{Mode, Planted, Recipe};
 
 /// Mode, seed, and what is planted with how many times the noise.
 type Triple = (Mode, u64, [(&'static str, f64); 3]);

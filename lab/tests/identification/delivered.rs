@@ -2,9 +2,9 @@
 
 use crate::rig::{with_effect, Made, MODES};
 use bowden_lab::closing::close;
-use bowden_lab::final_fit::FinalFit;
+use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::fit::{fit, Segments, Solution};
-use bowden_lab::synth::Mode;
+use bowden_synth::Mode;
 use rayon::prelude::*;
 
 /// Mean square on the held-out segment between a model and the output without its noise.

@@ -2,7 +2,7 @@
 
 use crate::rig::{with_effect, Made};
 use bowden_lab::closing::close;
-use bowden_lab::synth::{Mode, Planted};
+use bowden_synth::{Mode, Planted};
 
 /// The whole ledger as text: every number of it, to the last bit.
 fn ledger(made: &Made) -> String {

@@ -1,6 +1,6 @@
 //! Identification as a whole: what is known to be in a record is found again.
 //!
-//! The records come from [`bowden_lab::synth`], which shares no code with the fit: an
+//! The records come from [`bowden_synth`], which shares no code with the fit: an
 //! error in a common regressor or integrator cannot cancel out of sight.
 //!
 //! * [`recovery`]: planted Bouc-Wen parameters come back, and so do their intervals.

@@ -2,8 +2,8 @@
 
 use crate::rig::{Made, MODES};
 use bowden_lab::closing::close;
-use bowden_lab::intervals::term_name;
-use bowden_lab::synth::{Mode, Recipe};
+use bowden_lab::conclude::intervals::term_name;
+use bowden_synth::{Mode, Recipe};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};

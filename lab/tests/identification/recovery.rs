@@ -1,10 +1,10 @@
 //! Planted Bouc-Wen parameters come back from the record, and so do their intervals.
 
 use crate::rig::{with_effect, Made, MODES};
+use bowden_lab::conclude::intervals::Parameter;
 use bowden_lab::fit::{fit, Solution};
-use bowden_lab::intervals::Parameter;
-use bowden_lab::structure::Role;
-use bowden_lab::synth::{Base, Mode, Recipe};
+use bowden_lab::model::structure::Role;
+use bowden_synth::{Base, Mode, Recipe};
 use rayon::prelude::*;
 use std::ops::RangeInclusive;
 

@@ -1,12 +1,12 @@
 //! Records to identify, and what is known of them.
 
-use bowden_lab::channels::{Preparation, Prepared};
-use bowden_lab::closing::structure;
+use bowden_lab::conclude::intervals::{parameters, Parameter};
 use bowden_lab::fit::{Segments, Solution};
-use bowden_lab::intervals::{parameters, Parameter};
+use bowden_lab::model::declared::structure;
+use bowden_lab::model::structure::Structure;
+use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options, Record};
-use bowden_lab::structure::Structure;
-use bowden_lab::synth::{generate, Mode, Planted, Recipe, Synthetic};
+use bowden_synth::{generate, Mode, Planted, Recipe, Synthetic};
 
 pub const MODES: [Mode; 2] = [Mode::Torque, Mode::Displacement];
 

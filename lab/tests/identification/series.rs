@@ -2,7 +2,7 @@
 
 use crate::rig::Made;
 use bowden_lab::closing::close;
-use bowden_lab::synth::{Mode, Recipe};
+use bowden_synth::{Mode, Recipe};
 
 /// The input, then the noise: half-widths from a hundredth of the stroke up.
 const PLAYS: [(u64, f64); 3] = [(41, 0.1), (42, 0.4), (43, 1.2)];

@@ -2,9 +2,9 @@
 
 use crate::rig::{Made, MODES};
 use bowden_lab::closing::close;
-use bowden_lab::final_fit::FinalFit;
-use bowden_lab::synth::{Base, Mode, Planted, Recipe};
-use bowden_lab::unneeded::unneeded;
+use bowden_lab::conclude::final_fit::FinalFit;
+use bowden_lab::conclude::unneeded::unneeded;
+use bowden_synth::{Base, Mode, Planted, Recipe};
 
 /// Names of the parts that are not needed, once the loop is closed.
 fn parts(recipe: &Recipe, declared: &[&str]) -> Vec<String> {

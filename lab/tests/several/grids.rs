@@ -1,9 +1,9 @@
 //! Records behind each other: nothing runs over from one into the next.
 
 use crate::rig::{on, Files, CABLE};
-use bowden_lab::channels::{HeldOut, Preparation, Prepared};
-use bowden_lab::scan::{blocks, BLOCKS};
-use bowden_lab::synth::{Mode, Recipe};
+use bowden_lab::problem::{HeldOut, Preparation, Prepared};
+use bowden_lab::score::scan::{blocks, BLOCKS};
+use bowden_synth::{Mode, Recipe};
 
 fn three() -> Files {
     let short = Recipe {

@@ -1,10 +1,10 @@
 //! Two records of one measured rig. They are not part of the project: where they are
 //! absent the test says so and passes, as in `shared_records.rs`.
 
-use bowden_lab::channels::{HeldOut, Preparation, Prepared};
-use bowden_lab::closing::structure;
+use bowden_lab::conclude::intervals::parameters;
 use bowden_lab::fit::fit;
-use bowden_lab::intervals::parameters;
+use bowden_lab::model::declared::structure;
+use bowden_lab::problem::{HeldOut, Preparation, Prepared};
 use bowden_lab::record::{agree, read, Mode, Options, Record};
 use std::path::PathBuf;
 

@@ -4,9 +4,9 @@ use crate::rig::{check, nrmse, on, with_gain, Closed};
 use bowden::model::Source;
 use bowden_lab::check::{Given, Seen, Verdict, HOLDS, NOISE};
 use bowden_lab::export::ShapeFile;
+use bowden_lab::model::Variable;
 use bowden_lab::report::check_sentence;
-use bowden_lab::synth::{Base, Mode, Recipe};
-use bowden_lab::unknown::Variable;
+use bowden_synth::{Base, Mode, Recipe};
 use rayon::prelude::*;
 
 const MODES: [Mode; 2] = [Mode::Torque, Mode::Displacement];
@@ -342,7 +342,7 @@ fn an_output_stage_and_a_play_in_series_run_as_they_were_fitted() {
     );
 
     let lag = Recipe {
-        effects: vec![bowden_lab::synth::Planted::new("lag")],
+        effects: vec![bowden_synth::Planted::new("lag")],
         ..on(Mode::Displacement, 71_110)
     };
     let closed = Closed::new(&lag, &["bouc-wen", "lag"], 0);

@@ -3,7 +3,7 @@
 use crate::rig::{on, refused, said, with_gain, Folder};
 use bowden_lab::check::Given;
 use bowden_lab::export::ModelFile;
-use bowden_lab::synth::{Mode, Recipe};
+use bowden_synth::{Mode, Recipe};
 use serde_json::Value;
 
 fn viscous(seed: u64) -> Recipe {

@@ -1,7 +1,7 @@
 //! What `bowden check` does not take: one line, status 2.
 
 use crate::rig::{on, refused, said, Folder};
-use bowden_lab::synth::{Mode, Planted, Recipe};
+use bowden_synth::{Mode, Planted, Recipe};
 
 fn model(folder: &Folder, mode: Mode, declare: &str) -> (String, String) {
     let recipe = Recipe {
@@ -183,6 +183,7 @@ fn a_model_that_cannot_be_written_is_refused_before_the_record_is_read() {
     let folder = Folder::new();
     std::fs::create_dir(folder.path("taken.toml")).unwrap();
     std::fs::create_dir(folder.path("gains-2.toml")).unwrap();
+    std::fs::create_dir(folder.path("model.vector.csv")).unwrap();
     let before = folder.names();
     // Neither record exists: it would be complained of first if it were read first.
     let (one, two) = (folder.path("later.csv"), folder.path("last.csv"));
@@ -193,6 +194,7 @@ fn a_model_that_cannot_be_written_is_refused_before_the_record_is_read() {
     };
     refuses("no-such-folder/m.toml", &[]);
     refuses("taken.toml", &[]);
+    refuses("model.toml", &[]);
     refuses("gains.toml", &[&two, "--per-file", "gains"]);
     assert_eq!(folder.names(), before);
 }

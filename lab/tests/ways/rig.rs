@@ -1,12 +1,14 @@
 //! One rig, recorded several times: the seed changes motion and noise, the rig stays.
 
-use bowden_lab::channels::{Preparation, Prepared};
 use bowden_lab::check::{About, Check, Errors, Given};
-use bowden_lab::closing::{close_within, structure, Ledger};
+use bowden_lab::closing::close_within;
+use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::export::ModelFile;
-use bowden_lab::final_fit::FinalFit;
+use bowden_lab::ledger::Ledger;
+use bowden_lab::model::declared::structure;
+use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options, Record};
-use bowden_lab::synth::{generate, Base, Mode, Planted, Recipe};
+use bowden_synth::{generate, Base, Mode, Planted, Recipe};
 use std::process::{Command, Output};
 
 /// A transmission in the paper's range.

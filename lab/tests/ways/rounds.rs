@@ -1,8 +1,8 @@
 //! At most so many effects.
 
 use crate::rig::{on, with_gain, Closed};
-use bowden_lab::synth::{Mode, Planted, Recipe};
-use bowden_lab::verdict::{sentence, verdict, Verdict};
+use bowden_lab::conclude::verdict::{sentence, verdict, Verdict};
+use bowden_synth::{Mode, Planted, Recipe};
 
 /// A rig that lacks three effects.
 fn three() -> Recipe {

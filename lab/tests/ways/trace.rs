@@ -1,8 +1,8 @@
 //! The signals over time, and what each part adds.
 
 use crate::rig::{on, with_gain, Closed};
-use bowden_lab::synth::{Mode, Planted, Recipe};
-use bowden_lab::trace::trace;
+use bowden_lab::conclude::trace::trace;
+use bowden_synth::{Mode, Planted, Recipe};
 
 /// A trace as its reader sees it.
 struct Read {

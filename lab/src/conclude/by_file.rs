@@ -1,0 +1,95 @@
+//! Errors of a joint model by file.
+
+use crate::fit::Solution;
+use crate::problem::{Piece, Prepared};
+use serde::Serialize;
+
+/// Errors on one file; `None` for a segment in which the file has no part.
+#[derive(Debug, Clone, Serialize)]
+pub struct FileErrors {
+    /// The file.
+    pub path: String,
+    /// On its part of the fit segment.
+    pub fit: Option<f64>,
+    /// On its part of the stop-check.
+    pub stop: Option<f64>,
+    /// On its part of what is held out.
+    pub held_out: Option<f64>,
+}
+
+impl FileErrors {
+    pub(crate) fn segments(&self) -> [Option<f64>; 3] {
+        [self.fit, self.stop, self.held_out]
+    }
+}
+
+fn by_file(data: &Prepared, of: impl Fn(&[usize]) -> f64) -> Option<Vec<FileErrors>> {
+    if data.pieces.len() < 2 {
+        return None;
+    }
+    let own = |piece: &Piece, rows: &[usize]| {
+        let begin = rows.partition_point(|&row| row < piece.rows.start);
+        let end = rows.partition_point(|&row| row < piece.rows.end);
+        (begin < end).then(|| of(&rows[begin..end]))
+    };
+    let all = data.pieces.iter().map(|piece| FileErrors {
+        path: piece.path.clone(),
+        fit: own(piece, &data.split.fit),
+        stop: own(piece, &data.split.stop),
+        held_out: own(piece, &data.split.held_out),
+    });
+    Some(all.collect())
+}
+
+fn rms(signal: &[f64], rows: &[usize], about: f64) -> f64 {
+    let squares = rows.iter().map(|&i| (signal[i] - about).powi(2));
+    (squares.sum::<f64>() / rows.len().max(1) as f64).sqrt()
+}
+
+/// Rms errors by file, in the output's unit; `None` for a single record.
+#[must_use]
+pub fn rmse_by_file(data: &Prepared, solution: &Solution) -> Option<Vec<FileErrors>> {
+    by_file(data, |rows| rms(&solution.residual, rows, 0.0))
+}
+
+/// The same as shares of the filtered output's standard deviation there.
+#[must_use]
+pub fn nrmse_by_file(data: &Prepared, solution: &Solution) -> Option<Vec<FileErrors>> {
+    by_file(data, |rows| {
+        let mean = rows.iter().map(|&i| data.target[i]).sum::<f64>() / rows.len() as f64;
+        rms(&solution.residual, rows, 0.0) / rms(&data.target, rows, mean)
+    })
+}
+
+/// A file whose held-out error the final model raises.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Worse {
+    /// The file.
+    pub path: String,
+    /// Held-out error of the declared model, as a share of the output's standard deviation.
+    pub before: f64,
+    /// The same of the final model.
+    pub after: f64,
+}
+
+/// The files on which the final model is worse than the declared one; of a file that has no
+/// held-out part the fit segment is compared.
+#[must_use]
+pub fn worse(data: &Prepared, declared: &Solution, last: &Solution) -> Vec<Worse> {
+    let (Some(before), Some(after)) = (nrmse_by_file(data, declared), nrmse_by_file(data, last))
+    else {
+        return Vec::new();
+    };
+    let judged = |errors: &FileErrors| errors.held_out.or(errors.fit);
+    before
+        .iter()
+        .zip(&after)
+        .filter_map(|(b, a)| Some((b, judged(b)?, judged(a)?)))
+        .filter(|(_, before, after)| *after > crate::conclude::verdict::RISES * before)
+        .map(|(file, before, after)| Worse {
+            path: file.path.clone(),
+            before,
+            after,
+        })
+        .collect()
+}

@@ -1,0 +1,86 @@
+//! The final model: what the loop ended with, its parameters from all that is not held out.
+//!
+//! While the loop chooses, the stop-check segment judges, and no parameter may have seen it.
+//! Once nothing is left to be chosen it is data like the rest: a quarter more of them, and
+//! those that lie next to what is held out. So the chosen model is searched once more from
+//! where it is, on both segments. The held-out segment stays unseen.
+
+use super::intervals::term_title;
+use crate::fit::{refit, Segments, Solution};
+use crate::ledger::{Ledger, Round};
+use crate::model::structure::FitTerm;
+use crate::problem::Prepared;
+
+/// The model that is delivered.
+#[derive(Debug, Clone)]
+pub struct FinalFit {
+    /// The record, with all that the parameters have seen as its fit segment.
+    pub data: Prepared,
+    /// The model there: for its parameters, their intervals, and what it is exported as.
+    pub solution: Solution,
+    /// Its errors on the segments that the loop had: only `held_out` is of unseen data.
+    pub rmse: Segments,
+    /// Whether the parameters have seen the stop-check segment.
+    pub refitted: bool,
+}
+
+impl FinalFit {
+    /// Fits the last model of a ledger to the fit and stop-check segments together; where
+    /// that finds nothing better there, the model stays as it is.
+    #[must_use]
+    pub fn new(data: &Prepared, ledger: &Ledger) -> Self {
+        Self::of(data, ledger.last())
+    }
+
+    /// The same of any solution.
+    #[must_use]
+    pub fn of(data: &Prepared, last: &Solution) -> Self {
+        let wide = data.with_stop_fitted();
+        let better = refit(&wide, last).filter(|one| {
+            let error = |s: &Solution| Segments::of(&wide, &s.residual).fit;
+            error(one) < error(last) && one.shapes_on_bound() <= last.shapes_on_bound()
+        });
+        match better {
+            Some(solution) => Self {
+                rmse: Segments::of(data, &solution.residual),
+                refitted: true,
+                solution,
+                data: wide,
+            },
+            None => Self {
+                rmse: last.rmse,
+                refitted: false,
+                solution: last.clone(),
+                data: data.clone(),
+            },
+        }
+    }
+
+    /// Which term of the final model a round has added: later rounds refine its shapes, so
+    /// of two of one effect on one channel it is the nearest in its shapes. `None` where a
+    /// later step took it back.
+    #[must_use]
+    pub fn term_of(&self, round: &Round) -> Option<usize> {
+        let own = round.term();
+        let apart = |term: &FitTerm| -> f64 {
+            let shapes = (0..term.effect.shape_names().len()).filter_map(|i| {
+                let (a, b) = (term.effect.shape(i)?, own.effect.shape(i)?);
+                Some((a - b).powi(2) / (a * a + b * b).max(f64::MIN_POSITIVE))
+            });
+            shapes.sum()
+        };
+        let terms = self.solution.structure.terms.iter().enumerate();
+        terms
+            .filter(|(_, t)| t.effect.name() == own.effect.name() && t.source == own.source)
+            .min_by(|(_, a), (_, b)| apart(a).total_cmp(&apart(b)))
+            .map(|(index, _)| index)
+    }
+
+    /// The name of what a round has added, as it is in the final model.
+    #[must_use]
+    pub fn title_of(&self, round: &Round) -> String {
+        let own = self.term_of(round);
+        let term = own.and_then(|index| self.solution.structure.terms.get(index));
+        term_title(&self.data, term.unwrap_or(round.term()))
+    }
+}

@@ -1,0 +1,467 @@
+//! Parameters with their confidence intervals.
+//!
+//! Block jackknife on the Jacobian of the final model: residuals may have any colour
+//! inside a block. The sixteen blocks of the scan are left out in turn, and Student's t
+//! with fifteen degrees of freedom gives the width. This is the cluster sandwich of Liang
+//! and Zeger (1986) with the correction for few clusters (CR3; Bell and McCaffrey, 2002):
+//! without it a block's residuals are too small, since the block itself was fitted.
+
+use super::excitation;
+use crate::fit::Solution;
+use crate::model::structure::{FitTerm, Range, Role};
+use crate::model::units::Unit;
+use crate::problem::Prepared;
+use crate::record::Mode;
+use crate::score::scan::{blocks, BLOCKS};
+use bowden::effect::Family;
+use bowden::model::Source;
+use nalgebra::{DMatrix, DVector};
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+/// One parameter of a fitted model.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct Parameter {
+    /// The field's name: `kappa_eta`, `rho`, `viscous`, `coulomb.v_e`.
+    pub name: String,
+    /// Estimate.
+    pub value: f64,
+    /// Unit, where the record states the units of its columns.
+    pub unit: Option<String>,
+    /// 95 % interval; `None` where the parameter is not identified.
+    pub ci95: Option<[f64; 2]>,
+    /// Whether the record determines it.
+    pub identified: bool,
+    /// Why not, and what would show it; `None` where it is identified.
+    pub refused: Option<Refusal>,
+    /// Index of the term it belongs to; `None` for the transmission.
+    #[serde(skip)]
+    pub term: Option<usize>,
+}
+
+/// Why a record does not determine a parameter.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct Refusal {
+    /// "at its upper bound", "moves with kappa_eta", …
+    pub reason: String,
+    /// The motion that would show it.
+    pub excitation: String,
+}
+
+/// Relative half-width above which a shape counts as not identified: its interval
+/// spans a factor of three.
+const SHAPE_WIDTH: f64 = 0.5;
+
+/// A parameter whose variance grows by more than this without one block is known from
+/// that block alone.
+const ALONE: f64 = 30.0;
+
+/// Correlation of two estimates from which one is said to move with the other.
+const WITH: f64 = 0.9;
+
+struct Entry<'a> {
+    name: String,
+    unit: Option<String>,
+    value: f64,
+    column: &'a [f64],
+    shape: bool,
+    /// "lower" or "upper", where it lies on one.
+    bound: Option<&'static str>,
+    excitation: &'static str,
+    /// The reported value is this factor times the fitted one.
+    sign: f64,
+    term: Option<usize>,
+}
+
+/// The name of a term: the effect's own, with its channel where it reads another than the input.
+#[must_use]
+pub fn term_name(data: &Prepared, term: &FitTerm) -> String {
+    match term.source {
+        Source::Input => term.effect.name().to_owned(),
+        Source::Channel(_) => format!(
+            "{}@{}",
+            term.effect.name(),
+            data.channel(term.source).map_or("?", |c| c.name.as_str())
+        ),
+    }
+}
+
+/// The name of a term for people: with the order of a ripple and the frequency of a tone,
+/// by which two of them differ.
+#[must_use]
+pub fn term_title(data: &Prepared, term: &FitTerm) -> String {
+    let name = term_name(data, term);
+    let shape = |name: &str| {
+        let names = term.effect.shape_names();
+        let index = names.iter().position(|own| *own == name)?;
+        term.effect.shape(index)
+    };
+    match term.effect.family() {
+        Family::Tone => shape("f").map(|f| format!("{name} ({f:.3} Hz)")),
+        Family::Ripple => shape("k").map(|k| {
+            let unit = data.channel(term.source).and_then(|c| c.unit.as_deref());
+            let of_an_angle = |k: f64| format!("{name} (order {k:.2})");
+            match unit {
+                None | Some("rad") => of_an_angle(k),
+                Some("deg" | "°") => of_an_angle(k.to_degrees()),
+                Some(unit) => {
+                    format!("{name} (period {:.3} {unit})", std::f64::consts::TAU / k)
+                }
+            }
+        }),
+        _ => None,
+    }
+    .unwrap_or(name)
+}
+
+/// Unit of a term's gain.
+pub(crate) fn gain_unit(data: &Prepared, term: &FitTerm) -> Option<String> {
+    let d = term.effect.dimension();
+    let channel = data.channel(term.source).and_then(|c| c.unit.as_deref());
+    let load = match data.load {
+        Some(i) => data.channels[i].unit.as_deref(),
+        None => data.input.unit.as_deref(),
+    };
+    Unit::one()
+        .times(data.output_unit.as_deref(), 1 - i32::from(d.output))
+        .times(channel, -i32::from(d.channel))
+        .times(load, -i32::from(d.load))
+        .times(data.input.unit.as_deref(), -i32::from(d.input))
+        .times(Some("s"), -i32::from(d.time))
+        .text()
+}
+
+pub(crate) fn shape_unit(data: &Prepared, term: &FitTerm, index: usize) -> Option<String> {
+    let d = term.effect.shape_info().get(index)?.dimension;
+    let channel = data.channel(term.source).and_then(|c| c.unit.as_deref());
+    Unit::one()
+        .times(data.output_unit.as_deref(), i32::from(d.output))
+        .times(channel, i32::from(d.channel))
+        .times(data.input.unit.as_deref(), i32::from(d.load))
+        .times(Some("s"), i32::from(d.time))
+        .text()
+}
+
+/// Names of the transmission's gains, and the sign with which the last two enter.
+pub(crate) fn gain_names(mode: Mode) -> ([&'static str; 3], f64) {
+    match mode {
+        Mode::Torque => (["B", "kappa_eta", "T0"], -1.0),
+        Mode::Displacement => (["kappa_x", "kappa_eta", "offset"], 1.0),
+    }
+}
+
+/// A parameter of one record among several: `B.2` is the second one's.
+pub(crate) fn numbered(name: &str, record: usize) -> String {
+    format!("{name}.{}", record + 1)
+}
+
+fn of_record(data: &Prepared, name: &str, record: usize) -> String {
+    match data.pieces.len() {
+        1 => name.to_owned(),
+        _ => numbered(name, record),
+    }
+}
+
+fn entries<'a>(data: &Prepared, solution: &'a Solution) -> Vec<Entry<'a>> {
+    let mut all = Vec::new();
+    let mut next = 0;
+    if solution.structure.hysteresis {
+        all.extend(transmission(data, solution));
+        next = solution.structure.base();
+    }
+    for (index, term) in solution.structure.terms.iter().enumerate() {
+        if term.is_linear() {
+            let (name, unit) = (term_name(data, term), gain_unit(data, term));
+            all.push(linear(solution, name, unit, (next, 1.0), Some(index)));
+            next += 1;
+        }
+    }
+    all.extend((0..solution.free.len()).map(|j| free(data, solution, j)));
+    all
+}
+
+/// A linear gain: its place among them, and the sign with which it is shown.
+fn linear(
+    solution: &Solution,
+    name: String,
+    unit: Option<String>,
+    (k, sign): (usize, f64),
+    term: Option<usize>,
+) -> Entry<'_> {
+    Entry {
+        name,
+        unit,
+        value: solution.gains[k],
+        column: &solution.columns[k],
+        shape: false,
+        bound: None,
+        excitation: match term {
+            None => excitation::TRANSMISSION,
+            Some(index) => {
+                let term: &FitTerm = &solution.structure.terms[index];
+                excitation::of_family(term.effect.family())
+            }
+        },
+        sign,
+        term,
+    }
+}
+
+/// The gains of the transmission, of each record where it has its own.
+fn transmission<'a>(data: &Prepared, solution: &'a Solution) -> Vec<Entry<'a>> {
+    let (input, output) = (data.input.unit.as_deref(), data.output_unit.as_deref());
+    let gain = Unit::one().times(output, 1).times(input, -1).text();
+    let plain = Unit::one().times(output, 1).text();
+    // (1): F = kappa_x x + kappa_eta eta; (6): tau_o = B tau_i − kappa_eta eta − T0.
+    let (names, sign) = gain_names(data.mode);
+    let own = |name: &str, record: usize| match solution.structure.own_gains {
+        0 => name.to_owned(),
+        _ => numbered(name, record),
+    };
+    let mut all = Vec::new();
+    for record in 0..solution.structure.own_gains.max(1) {
+        let units = [&gain, &plain, &plain];
+        for (at, (name, unit)) in names.iter().zip(units).enumerate() {
+            let sign = if at == 0 { 1.0 } else { sign };
+            let (name, unit) = (own(name, record), unit.clone());
+            all.push(linear(solution, name, unit, (3 * record + at, sign), None));
+        }
+    }
+    all
+}
+
+/// The entry of a free parameter.
+fn free<'a>(data: &Prepared, solution: &'a Solution, j: usize) -> Entry<'a> {
+    let free = &solution.free[j];
+    let (name, unit, term) = named(data, solution, free.role);
+    let shape = match free.role {
+        Role::Rho | Role::Sigma | Role::N => true,
+        Role::Shape { .. } => !matches!(free.range, Range::Free | Range::Linear(..)),
+        _ => false,
+    };
+    Entry {
+        name,
+        unit,
+        value: solution.values[j],
+        column: &solution.tangents[j],
+        shape,
+        bound: solution.on_bound[j].then(|| free.range.nearest(solution.values[j])),
+        excitation: excitation::of_role(solution, free.role),
+        sign: 1.0,
+        term,
+    }
+}
+
+/// Name and unit of a role, and the term that it belongs to.
+fn named(
+    data: &Prepared,
+    solution: &Solution,
+    role: Role,
+) -> (String, Option<String>, Option<usize>) {
+    let input = data.input.unit.as_deref();
+    let fit = |term: usize| &solution.structure.terms[term];
+    let of_source = |term: usize| data.channel(fit(term).source).and_then(|c| c.unit.clone());
+    let one = Unit::one().text();
+    match role {
+        Role::Rho => ("rho".to_owned(), Unit::one().times(input, -1).text(), None),
+        Role::Sigma => ("sigma".to_owned(), one, None),
+        Role::N => ("n".to_owned(), one, None),
+        Role::Eta0 { record } => (of_record(data, "eta0", record), one, None),
+        Role::Shape { term, index } => {
+            let shape = fit(term).effect.shape_names()[index];
+            let name = format!("{}.{shape}", term_name(data, fit(term)));
+            (name, shape_unit(data, fit(term), index), Some(term))
+        }
+        Role::Origin { term } => {
+            let name = format!("{}.origin", term_name(data, fit(term)));
+            (name, of_source(term), Some(term))
+        }
+        Role::Start { term, record } => {
+            let name = format!("{}.start", term_name(data, fit(term)));
+            (of_record(data, &name, record), of_source(term), Some(term))
+        }
+        Role::Stage { term } => {
+            let (name, unit) = (term_name(data, fit(term)), gain_unit(data, fit(term)));
+            (name, unit, Some(term))
+        }
+    }
+}
+
+/// Columns on the rows of the fit segment, at unit norm.
+struct Design {
+    /// Norm of each column.
+    scale: Vec<f64>,
+    /// Which of them are no zeros.
+    used: Vec<usize>,
+    x: DMatrix<f64>,
+    gram: DMatrix<f64>,
+}
+
+impl Design {
+    fn new(data: &Prepared, columns: &[&[f64]]) -> Self {
+        let rows = &data.split.fit;
+        let scale: Vec<f64> = columns
+            .iter()
+            .map(|c| rows.iter().map(|&i| c[i] * c[i]).sum::<f64>().sqrt())
+            .collect();
+        let used: Vec<usize> = (0..columns.len())
+            .filter(|&j| scale[j].is_finite() && scale[j] > 0.0)
+            .collect();
+        let x = DMatrix::from_fn(rows.len(), used.len(), |k, j| {
+            columns[used[j]][rows[k]] / scale[used[j]]
+        });
+        let gram = x.tr_mul(&x);
+        Self {
+            scale,
+            used,
+            x,
+            gram,
+        }
+    }
+
+    fn bread(&self) -> Option<DMatrix<f64>> {
+        self.gram.clone().cholesky().map(|c| c.inverse())
+    }
+
+    /// For each column the other one with whose estimate its own is most correlated.
+    fn partners(&self) -> Vec<Option<(usize, f64)>> {
+        // Without an inverse the columns themselves tell who goes with whom.
+        let covariance = self.bread().unwrap_or_else(|| self.gram.clone());
+        let mut partners = vec![None; self.scale.len()];
+        for (a, &j) in self.used.iter().enumerate() {
+            let correlation = |b: usize| {
+                let scale = (covariance[(a, a)] * covariance[(b, b)]).sqrt();
+                (covariance[(a, b)] / scale).abs()
+            };
+            partners[j] = (0..self.used.len())
+                .filter(|&b| b != a)
+                .map(|b| (self.used[b], correlation(b)))
+                .filter(|(_, correlation)| correlation.is_finite())
+                .max_by(|x, y| x.1.total_cmp(&y.1));
+        }
+        partners
+    }
+}
+
+/// By how much each column's factor would move without each block, times the correction
+/// for their number: variances are sums of the squares. NaN for a column that depends on
+/// the others; `None` where all do.
+pub(crate) fn jackknife(
+    data: &Prepared,
+    solution: &Solution,
+    columns: &[&[f64]],
+) -> Option<Vec<Vec<f64>>> {
+    let rows = &data.split.fit;
+    let design = Design::new(data, columns);
+    let Design {
+        scale,
+        used,
+        x,
+        gram,
+    } = &design;
+    let bread = design.bread()?;
+    let correction = ((BLOCKS as f64 - 1.0) / BLOCKS as f64).sqrt();
+    let mut steps = Vec::with_capacity(BLOCKS);
+    for block in blocks(data) {
+        let part = x.rows(block.start, block.len());
+        let residual =
+            DVector::from_iterator(block.len(), block.map(|k| solution.residual[rows[k]]));
+        let score = part.tr_mul(&residual);
+        // By how much each parameter would move without this block.
+        let rest = (gram - part.tr_mul(&part)).cholesky().map(|c| c.inverse());
+        let plain = &bread * &score;
+        let moved = rest.as_ref().map(|rest| rest * &score);
+        let mut all = vec![f64::NAN; columns.len()];
+        for (j, &column) in used.iter().enumerate() {
+            // What hangs on this block alone (eta0 does) cannot be told without it: then
+            // the step is that of the whole fit.
+            let step = match (&rest, &moved) {
+                (Some(rest), Some(moved)) if rest[(j, j)] <= ALONE * bread[(j, j)] => moved[j],
+                _ => plain[j],
+            };
+            if bread[(j, j)] < 1e10 {
+                all[column] = correction * step / scale[column];
+            }
+        }
+        steps.push(all);
+    }
+    Some(steps)
+}
+
+/// Student's t with one degree of freedom less than there are blocks, for 95 %.
+pub(crate) fn quantile() -> Option<f64> {
+    let student = StudentsT::new(0.0, 1.0, BLOCKS as f64 - 1.0).ok()?;
+    Some(student.inverse_cdf(0.975))
+}
+
+/// Half-widths of the 95 % intervals; `None` where a column depends on the others.
+fn half_widths(data: &Prepared, solution: &Solution, columns: &[&[f64]]) -> Vec<Option<f64>> {
+    let (Some(steps), Some(quantile)) = (jackknife(data, solution, columns), quantile()) else {
+        return vec![None; columns.len()];
+    };
+    (0..columns.len())
+        .map(|j| {
+            let variance: f64 = steps.iter().map(|step| step[j] * step[j]).sum();
+            (variance.is_finite() && variance >= 0.0).then(|| quantile * variance.sqrt())
+        })
+        .collect()
+}
+
+/// Why a parameter is not identified.
+fn refusal(entry: &Entry<'_>, wide: bool, partner: Option<(&str, f64)>) -> Refusal {
+    let with = partner
+        .filter(|(_, correlation)| *correlation >= WITH)
+        .map(|(name, _)| format!("moves with {name}"));
+    let reason = match (entry.bound, with) {
+        (Some(end), _) => format!("at its {end} bound"),
+        (None, Some(with)) if wide => format!("interval wider than half its value, {with}"),
+        (None, Some(with)) => with,
+        (None, None) if wide => "interval wider than half its value".to_owned(),
+        (None, None) => "nothing in the record depends on it alone".to_owned(),
+    };
+    Refusal {
+        reason,
+        excitation: entry.excitation.to_owned(),
+    }
+}
+
+/// All parameters of a fitted model, gains first.
+#[must_use]
+pub fn parameters(data: &Prepared, solution: &Solution) -> Vec<Parameter> {
+    let entries = entries(data, solution);
+    // A parameter on its bound does not move: the others are conditional on it.
+    let moving: Vec<usize> = (0..entries.len())
+        .filter(|&j| entries[j].bound.is_none())
+        .collect();
+    let mut columns: Vec<&[f64]> = moving.iter().map(|&j| entries[j].column).collect();
+    let partners = Design::new(data, &columns).partners();
+    // A table beside them is no parameter, but they are no better known than beside it.
+    let table = solution.columns.len() - solution.structure.table_gains();
+    columns.extend(solution.columns[table..].iter().map(Vec::as_slice));
+    let widths = half_widths(data, solution, &columns);
+    let mut of = vec![(None, None); entries.len()];
+    for (k, &j) in moving.iter().enumerate() {
+        let partner = partners[k].map(|(other, r)| (moving[other], r));
+        of[j] = (widths[k], partner);
+    }
+    let names: Vec<String> = entries.iter().map(|entry| entry.name.clone()).collect();
+    entries
+        .into_iter()
+        .zip(of)
+        .map(|(entry, (width, partner))| {
+            let value = entry.sign * entry.value;
+            let wide = width.is_some();
+            let width = width.filter(|w| !entry.shape || *w <= SHAPE_WIDTH * value.abs());
+            let partner = partner.map(|(other, r)| (names[other].as_str(), r));
+            let refused = width.is_none().then(|| refusal(&entry, wide, partner));
+            Parameter {
+                name: entry.name,
+                value,
+                unit: entry.unit,
+                ci95: width.map(|w| [value - w, value + w]),
+                identified: width.is_some(),
+                refused,
+                term: entry.term,
+            }
+        })
+        .collect()
+}

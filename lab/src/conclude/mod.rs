@@ -1,0 +1,13 @@
+//! What a search is worth: the final refit, intervals, the verdict, shares and traces.
+
+pub mod by_file;
+pub mod curve;
+mod excitation;
+pub mod final_fit;
+pub mod intervals;
+mod shares;
+pub mod trace;
+pub mod unneeded;
+pub mod verdict;
+
+pub use shares::Shares;

@@ -1,0 +1,136 @@
+//! The signals of a run over time, as CSV: what was measured, what a model makes of it, and
+//! what each of its parts adds.
+//!
+//! One line for each sample of the estimation grid, on which least squares runs, and every
+//! column through the one filter: these are the numbers that the fit sees. The first and
+//! the last lines are those that it drops.
+
+use super::final_fit::FinalFit;
+use super::intervals::term_name;
+use super::Shares;
+use crate::fit::Solution;
+use crate::ledger::Ledger;
+use crate::problem::Prepared;
+
+/// A column of numbers on the estimation grid.
+pub(crate) struct Column {
+    name: String,
+    unit: Option<String>,
+    values: Vec<f64>,
+}
+
+impl Column {
+    pub(crate) fn new(name: impl Into<String>, unit: Option<&str>, values: Vec<f64>) -> Self {
+        Self {
+            name: name.into(),
+            unit: unit.map(str::to_owned),
+            values,
+        }
+    }
+
+    fn header(&self) -> String {
+        match &self.unit {
+            Some(unit) => format!("{} [{unit}]", self.name),
+            None => self.name.clone(),
+        }
+    }
+}
+
+/// The trace of a closed record as CSV.
+///
+/// `t` counts from the first sample that was read of each record. The parts of the final
+/// model are named as its effects; they sum to `final`. What stands behind an output stage
+/// (a delay, a lag) is given before it, and the stage as what it changes.
+///
+/// # Errors
+/// One sentence where the trace cannot be put together.
+pub fn trace(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Result<String, String> {
+    let unit = data.output_unit.as_deref();
+    let last = &done.solution;
+    let mut columns = vec![
+        input(data),
+        Column::new("measured", unit, data.target.clone()),
+        Column::new("declared", unit, ledger.declared.prediction.clone()),
+        Column::new("final", unit, last.prediction.clone()),
+        Column::new("residual", unit, last.residual.clone()),
+    ];
+    columns.extend(parts(data, last)?);
+    let mut segments = vec!["dropped"; data.target.len()];
+    for (name, rows) in [
+        ("fit", &data.split.fit),
+        ("stop", &data.split.stop),
+        ("held-out", &data.split.held_out),
+    ] {
+        rows.iter().for_each(|&row| segments[row] = name);
+    }
+    csv(data, &segments, &columns)
+}
+
+/// The input through the filter.
+pub(crate) fn input(data: &Prepared) -> Column {
+    let position: Vec<f64> = data.input.motion.iter().map(|m| m.position).collect();
+    Column::new(
+        "input",
+        data.input.unit.as_deref(),
+        data.filtered(&position),
+    )
+}
+
+/// What each part of a model adds, through the filter.
+pub(crate) fn parts(data: &Prepared, solution: &Solution) -> Result<Vec<Column>, String> {
+    let shares = Shares::of(data, solution).ok_or("the parts of the model have no values")?;
+    let mut named: Vec<(String, Vec<f64>)> = Vec::new();
+    if let Some(transmission) = shares.transmission {
+        let names = ["gain", "hysteresis", "offset"].map(|part| format!("transmission.{part}"));
+        named.extend(names.into_iter().zip(transmission));
+    }
+    for (term, share) in solution.structure.terms.iter().zip(shares.terms) {
+        named.extend(share.map(|share| (term_name(data, term), share)));
+    }
+    if let (Some(table), Some(share)) = (&solution.structure.table, shares.table) {
+        named.push((format!("unknown: {}", table.variable.words(data)), share));
+    }
+    let mut columns: Vec<Column> = Vec::with_capacity(named.len());
+    for (name, share) in named {
+        let like = |c: &&Column| c.name == name || c.name.starts_with(&format!("{name}#"));
+        let name = match columns.iter().filter(like).count() {
+            0 => name,
+            // Two tones, two steps of the pretension.
+            before => format!("{name}#{}", before + 1),
+        };
+        let values = data.filtered(&share);
+        columns.push(Column::new(name, data.output_unit.as_deref(), values));
+    }
+    Ok(columns)
+}
+
+/// The lines: record (where there are several), time, segment, then the columns.
+pub(crate) fn csv(
+    data: &Prepared,
+    segments: &[&str],
+    columns: &[Column],
+) -> Result<String, String> {
+    let failed = |e: csv::Error| format!("the trace: {e}");
+    let several = data.pieces.len() > 1;
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut line: Vec<String> = Vec::new();
+    line.extend(several.then(|| "record".to_owned()));
+    line.extend(["t [s]".to_owned(), "segment".to_owned()]);
+    line.extend(columns.iter().map(Column::header));
+    writer.write_record(&line).map_err(failed)?;
+    let step = data.stride as f64 * data.dt;
+    for piece in &data.pieces {
+        for row in piece.rows.clone() {
+            line.clear();
+            line.extend(several.then(|| piece.path.clone()));
+            // What is beyond nine digits is rounding.
+            let t = format!("{:.9e}", (row - piece.rows.start) as f64 * step);
+            line.push(t.parse::<f64>().unwrap_or_default().to_string());
+            line.push(segments[row].to_owned());
+            line.extend(columns.iter().map(|c| c.values[row].to_string()));
+            writer.write_record(&line).map_err(failed)?;
+        }
+    }
+    let bytes = writer.into_inner().map_err(|e| format!("the trace: {e}"))?;
+    String::from_utf8(bytes).map_err(|e| format!("the trace: {e}"))
+}

@@ -1,0 +1,94 @@
+//! Parts of the declared model that the data do not need.
+//!
+//! By size and not by significance: on a long record every part is significant. Each part is
+//! taken out of the final model, the others are refitted, and where the error on held-out
+//! data grows by less than a tenth the part is not needed. Without its hysteresis a
+//! transmission is a line, gain and offset; effects that read the hysteresis state
+//! and stages before it go with it. Parts are judged one at a time: of two that can each stand in for the
+//! other both are listed, and one of them is needed.
+
+use super::final_fit::FinalFit;
+use super::intervals::term_name;
+use crate::fit::{fit_from, Known, Solution};
+use crate::ledger::Ledger;
+use crate::model::declared::declared;
+use crate::model::structure::{FitTerm, Structure};
+use crate::model::{Table, Variable};
+use crate::problem::Prepared;
+use bowden::model::Source;
+use serde::Serialize;
+
+/// Share by which the held-out error may grow without a part that is not needed.
+const COST: f64 = 0.1;
+
+/// A declared part that the data do not need.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Unneeded {
+    /// Its name; `bouc-wen` for the hysteresis.
+    pub effect: String,
+    /// RMSE on the held-out segment without it, the others refitted.
+    pub held_out_without: f64,
+}
+
+/// The parts of the declared model without which the final model is as good.
+#[must_use]
+pub fn unneeded(ledger: &Ledger, done: &FinalFit) -> Vec<Unneeded> {
+    use rayon::prelude::*;
+    let (data, last) = (&done.data, &done.solution);
+    let own = ledger.declared.structure.terms.len();
+    let hysteresis = last.structure.hysteresis.then_some(None);
+    let parts: Vec<Option<usize>> = hysteresis.into_iter().chain((0..own).map(Some)).collect();
+    let judged: Vec<Option<Unneeded>> = parts
+        .into_par_iter()
+        .map(|part| {
+            let without = match part {
+                Some(term) => without_term(data, last, term),
+                None => without_hysteresis(data, last),
+            }?;
+            let held_out_without = without.rmse.held_out;
+            let name = |term: usize| term_name(data, &last.structure.terms[term]);
+            (held_out_without < (1.0 + COST) * last.rmse.held_out).then(|| Unneeded {
+                effect: part.map_or_else(|| "bouc-wen".to_owned(), name),
+                held_out_without,
+            })
+        })
+        .collect();
+    judged.into_iter().flatten().collect()
+}
+
+fn without_term(data: &Prepared, full: &Solution, term: usize) -> Option<Solution> {
+    let mut structure = full.structure.clone();
+    structure.terms.remove(term);
+    let known = Known::of(full).without(term);
+    fit_from(data, &structure, Some(&known), 0.0)
+}
+
+/// The model as a line, without what reads the hysteresis state.
+fn without_hysteresis(data: &Prepared, full: &Solution) -> Option<Solution> {
+    let (mut structure, mut known) = (full.structure.clone(), Known::of(full));
+    structure.hysteresis = false;
+    let over_eta = |table: &Table| table.variable == Variable::Eta;
+    if structure.table.as_ref().is_some_and(over_eta) {
+        structure.table = None;
+    }
+    let goes = |t: &FitTerm| t.effect.reads_eta() || t.effect.is_input_stage();
+    while let Some(term) = structure.terms.iter().position(goes) {
+        structure.terms.remove(term);
+        known = known.without(term);
+    }
+    for name in ["offset", "stiffness-linear"] {
+        add_to_input(data, &mut structure, name)?;
+    }
+    fit_from(data, &structure, Some(&known), 0.0)
+}
+
+fn add_to_input(data: &Prepared, structure: &mut Structure, name: &str) -> Option<()> {
+    let mut terms = structure.terms.iter();
+    if !terms.any(|t| t.effect.name() == name && t.source == Source::Input) {
+        let mut term = declared(name, data).ok()?;
+        term.source = Source::Input;
+        term.origin = data.input.origin;
+        structure.terms.push(term);
+    }
+    Some(())
+}

@@ -1,0 +1,426 @@
+//! One verdict for a whole run, and the sentence that goes with it.
+//!
+//! The sentence is what somebody pastes into a report: it speaks of the delivered model, in
+//! the figures that stand above it, and says what the model must not be used for.
+
+use super::by_file::worse;
+use super::final_fit::FinalFit;
+use super::intervals::term_title;
+use crate::fit::Solution;
+use crate::ledger::{Ledger, Round};
+use crate::problem::Prepared;
+use crate::record::Defect;
+use crate::score::explains::{deviations, explained, segments_differ, Explained};
+use crate::score::scan::Regime;
+use crate::score::whiteness::is_white;
+use bowden::model::Source;
+
+/// What the run amounts to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// The input explains less than half of the output, or the output integrates it.
+    NoModel,
+    /// The delivered model predicts held-out data worse than the declared one.
+    DoesNotCarryOver,
+    /// The residual is the sensor's noise, on the fit segment and held out.
+    Explained,
+    /// The residual is more than that, but a function of nothing in the catalogue.
+    ExplainedColoured,
+    /// The residual depends on something measured, in a way that has no name.
+    Unknown,
+    /// An added effect has rivals that this record cannot tell from it.
+    Confounded,
+    /// Too few independent stretches for a test: names are proposals.
+    UnderExcited,
+    /// What was concluded rests on a measurement that is spoilt.
+    DataDefect,
+    /// The search was ended by request, and more than noise is left.
+    Stopped,
+}
+
+impl Verdict {
+    /// The name in the JSON.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::NoModel => "no-model",
+            Self::DoesNotCarryOver => "does-not-carry-over",
+            Self::Explained => "explained",
+            Self::ExplainedColoured => "explained-coloured",
+            Self::Unknown => "unknown",
+            Self::Confounded => "confounded",
+            Self::UnderExcited => "under-excited",
+            Self::DataDefect => "data-defect",
+            Self::Stopped => "stopped",
+        }
+    }
+}
+
+/// Error that counts as being at the noise floor, as a multiple of it: the floor is an
+/// estimate from the top of the band and assumes white noise.
+const AT_FLOOR: f64 = 1.2;
+
+/// A held-out error rises where it is more than this many times the one before: a
+/// difference of less than a twentieth does not show in two digits.
+pub const RISES: f64 = 1.05;
+
+/// Least share of the held-out output that the input explains of a model worth the name.
+const LEAST_EXPLAINED: f64 = 0.5;
+
+/// Defects that spoil what was concluded: grave ones of time, input, output, and of the
+/// channels that the model reads.
+fn spoils<'a>(data: &'a Prepared, last: &'a Solution) -> impl Iterator<Item = &'a Defect> {
+    let reads = |name: &str| {
+        let mut sources = last
+            .structure
+            .terms
+            .iter()
+            .filter_map(|t| data.channel(t.source));
+        sources.any(|channel| channel.name == name)
+    };
+    data.defects.iter().filter(move |defect| {
+        let name = defect.channel.as_str();
+        defect.grave && (data.channels.iter().all(|c| c.name != name) || reads(name))
+    })
+}
+
+/// Whether the declared model reads the input at all: one that was declared over other
+/// channels alone is judged by those.
+fn reads_input(declared: &Solution) -> bool {
+    let structure = &declared.structure;
+    structure.hysteresis || structure.terms.iter().any(|t| t.source == Source::Input)
+}
+
+/// The share of the output that must be explained by what the model is a model of.
+fn judged(shares: Explained, declared: &Solution) -> f64 {
+    match reads_input(declared) {
+        true => shares.input,
+        false => shares.input + shares.channels,
+    }
+}
+
+/// By how much the delivered model's held-out error exceeds that of the declared one.
+#[must_use]
+pub fn held_out_ratio(ledger: &Ledger, done: &FinalFit) -> f64 {
+    done.rmse.held_out / ledger.declared.rmse.held_out.max(f64::MIN_POSITIVE)
+}
+
+/// Whether the mean of the held-out output would predict it better than the model does.
+fn worse_than_a_constant(data: &Prepared, done: &FinalFit) -> bool {
+    done.rmse.normalised(data, &data.target).held_out > 1.0
+}
+
+/// Whether a round raises the held-out error. The held-out part decides nothing: this is
+/// told, not acted upon.
+#[must_use]
+pub fn raises(round: &Round) -> bool {
+    // A hundredth is less than the last digit that is printed.
+    round.after.held_out > 1.01 * round.before.held_out
+}
+
+/// How many of the first rounds lower the held-out error before one raises it.
+#[must_use]
+pub fn falls_up_to(ledger: &Ledger) -> usize {
+    let rounds = ledger.rounds.iter();
+    rounds.take_while(|round| !raises(round)).count()
+}
+
+/// Fit and held-out error in multiples of the noise floor; `None` where the record has no
+/// estimate of it.
+fn floors(data: &Prepared, done: &FinalFit) -> Option<(f64, f64)> {
+    let floor = data.noise_floor;
+    (floor > 0.0).then(|| (done.rmse.fit / floor, done.rmse.held_out / floor))
+}
+
+/// The verdict on a ledger and the model that it delivers.
+#[must_use]
+pub fn verdict(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Verdict {
+    let last = ledger.last();
+    let untested = ledger.rounds.iter().any(|r| r.p.is_none());
+    let share = judged(explained(data, &done.solution), &ledger.declared);
+    // Where nothing was looked for there are no names that a test could be too weak for.
+    let only_fitted = ledger.stopped_by_request.is_some() && ledger.rounds.is_empty();
+    if spoils(data, last).next().is_some() {
+        Verdict::DataDefect
+    } else if ledger.integrates || share < LEAST_EXPLAINED {
+        Verdict::NoModel
+    } else if held_out_ratio(ledger, done) > RISES || worse_than_a_constant(data, done) {
+        Verdict::DoesNotCarryOver
+    } else if ledger.unknown.is_some() && !untested {
+        Verdict::Unknown
+    } else if untested || (ledger.regime == Regime::Effect && !only_fitted) {
+        Verdict::UnderExcited
+    } else if ledger.rounds.iter().any(|r| !r.rivals.is_empty()) {
+        Verdict::Confounded
+    } else if floors(data, done).is_some_and(|(fit, held)| fit.max(held) <= AT_FLOOR) {
+        Verdict::Explained
+    } else if ledger.stopped_by_request.is_some() {
+        Verdict::Stopped
+    } else {
+        Verdict::ExplainedColoured
+    }
+}
+
+/// What the residual depends on without a name.
+#[must_use]
+pub fn unknown_words(data: &Prepared, ledger: &Ledger) -> Option<String> {
+    let unknown = ledger.unknown.as_ref()?;
+    Some(format!(
+        "The residual depends on {}; the catalogue explains {:.0} % of it.",
+        unknown.variable.words(data),
+        100.0 * unknown.q
+    ))
+}
+
+/// An error as a share of the output's standard deviation, "2.23 %".
+#[must_use]
+pub fn percent(share: f64) -> String {
+    if !share.is_finite() {
+        // A segment on which the output rests has no standard deviation.
+        return "–".to_owned();
+    }
+    let digits = if share >= 1.0 { 0 } else { 2 };
+    format!("{:.digits$} %", 100.0 * share)
+}
+
+/// A share of the output's variance, "63 %", "0.4 %", "0 %".
+fn share_of(share: f64) -> String {
+    let digits = if (0.001..0.1).contains(&share) { 1 } else { 0 };
+    format!("{:.digits$} %", 100.0 * share)
+}
+
+/// "from 2.23 % to 0.14 % of the output's standard deviation", as on the line of errors.
+fn from_to(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
+    let held_out = |rmse: &crate::fit::Segments| rmse.normalised(data, &data.target).held_out;
+    format!(
+        "from {} to {} of the output's standard deviation",
+        percent(held_out(&ledger.declared.rmse)),
+        percent(held_out(&done.rmse))
+    )
+}
+
+/// The names in the order in which they came.
+fn names(ledger: &Ledger, done: &FinalFit) -> Vec<String> {
+    ledger.rounds.iter().map(|r| done.title_of(r)).collect()
+}
+
+/// What the input, the other channels and functions of time explain, in one clause.
+fn explains(data: &Prepared, shares: Explained) -> String {
+    let mut text = format!(
+        "the input `{}` explains {} of the held-out output",
+        data.input.name,
+        share_of(shares.input)
+    );
+    if shares.channels >= 0.005 {
+        text += &format!(", the other channels {}", share_of(shares.channels));
+    }
+    if shares.time >= 0.005 {
+        text += &format!(
+            ", and tones and drifts, which are functions of nothing measured, {}",
+            share_of(shares.time)
+        );
+    }
+    text
+}
+
+fn no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
+    let (input, output) = (&data.input.name, &data.output_name);
+    if ledger.integrates {
+        return format!(
+            "The output integrates the input: the rate of `{output}` follows `{input}`, not `{output}` itself. No effect was looked for. Differentiate `{output}` first, or swap the columns if they were taken for each other."
+        );
+    }
+    let shares = explained(data, &done.solution);
+    format!(
+        "There is no model here: {}. Is `{input}` the right input, in the right file, and is its sensor connected?",
+        explains(data, shares)
+    )
+}
+
+/// What the added effects do to the held-out error.
+fn lacks(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
+    let added = names(ledger, done);
+    let them = match added.len() {
+        0 if ledger.unknown.is_some() => {
+            return format!(
+                "The declared model lacks something that is in no catalogue; with a curve for it the held-out error goes {}.",
+                from_to(data, ledger, done)
+            )
+        }
+        0 => return nothing_found(data, ledger, done),
+        1 => "it",
+        _ => "them",
+    };
+    let ratio = held_out_ratio(ledger, done);
+    let goes = match ratio {
+        r if r > RISES => "rises",
+        r if r * RISES >= 1.0 => "stays where it was,",
+        _ => "falls",
+    };
+    format!(
+        "The declared model lacks {}: with {them} the held-out error {goes} {}.",
+        added.join(", then "),
+        from_to(data, ledger, done)
+    )
+}
+
+fn nothing_found(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
+    if ledger.stopped_by_request.is_some() {
+        let share = done.rmse.normalised(data, &data.target).held_out;
+        return format!(
+            "The declared model leaves a held-out error of {} of the output's standard deviation.",
+            percent(share)
+        );
+    }
+    "The declared model lacks no effect that this record could show.".to_owned()
+}
+
+fn rises(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
+    let ratio = held_out_ratio(ledger, done);
+    if ratio <= RISES {
+        return format!(
+            "On the held-out part the model is worse than a constant: its error goes {}. Do not use this model on other data.",
+            from_to(data, ledger, done)
+        );
+    }
+    let mut text = format!(
+        "The held-out error rises {ratio:.1}-fold, {}: do not use this model on other data.",
+        from_to(data, ledger, done)
+    );
+    let added = names(ledger, done);
+    if !added.is_empty() {
+        let fell = falls_up_to(ledger);
+        text += &format!(" Added were {}", added.join(", then "));
+        text += &match fell {
+            0 => "; the first of them raises it already.".to_owned(),
+            n if n < added.len() => format!("; up to {} the error fell.", added[n - 1]),
+            _ => "; the last fit, on more data, raises it.".to_owned(),
+        };
+    }
+    text
+}
+
+/// "14 times the noise floor on the fit segment and 34 times held out".
+fn multiples(data: &Prepared, done: &FinalFit) -> Option<String> {
+    let (fit, held_out) = floors(data, done)?;
+    Some(format!(
+        "{fit:.1} times the noise floor on the fit segment and {held_out:.1} times held out"
+    ))
+}
+
+fn coloured(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
+    if let Some((_, held_out)) = floors(data, done).filter(|(fit, _)| *fit <= AT_FLOOR) {
+        return format!(
+            "The residual is the sensor's noise on the fit segment, but {held_out:.1} times that held out: something differs there that the fit has not seen."
+        );
+    }
+    let size = match multiples(data, done) {
+        Some(size) => format!("The residual is {size}"),
+        None => "The record does not show its noise floor (the cut-off is too near to half the sampling rate)".to_owned(),
+    };
+    match is_white(data, ledger.last()) {
+        true => {
+            format!("{size}; it looks like white noise, and depends on nothing that was measured.")
+        }
+        false => format!("{size}; it is coloured, but nothing in the catalogue explains it."),
+    }
+}
+
+fn confounded(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
+    let rivals: Vec<String> = ledger
+        .rounds
+        .iter()
+        .filter(|r| !r.rivals.is_empty())
+        .map(|r| {
+            let names: Vec<String> = r.rivals.iter().map(|c| term_title(data, &c.term)).collect();
+            format!("{} from {}", done.title_of(r), names.join(", "))
+        })
+        .collect();
+    format!("This record cannot tell {}.", rivals.join("; nor "))
+}
+
+/// What goes with a verdict, after the sentence on the held-out error.
+fn rest(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -> String {
+    match found {
+        Verdict::Explained => "The residual is the sensor's noise.".to_owned(),
+        Verdict::ExplainedColoured => coloured(data, ledger, done),
+        Verdict::Unknown => unknown_words(data, ledger).unwrap_or_default(),
+        Verdict::Confounded => confounded(data, ledger, done),
+        Verdict::UnderExcited => {
+            "The record has too few independent stretches for a test: take the names as proposals."
+                .to_owned()
+        }
+        Verdict::DataDefect => {
+            let list: Vec<String> = spoils(data, ledger.last())
+                .map(|defect| format!("{} ({})", defect.channel, defect.kind.name()))
+                .collect();
+            format!(
+                "But the measurement itself is spoilt: {}. Mend it and record again.",
+                list.join(", ")
+            )
+        }
+        Verdict::Stopped => multiples(data, done)
+            .map_or_else(String::new, |size| format!("The residual is {size}.")),
+        Verdict::NoModel | Verdict::DoesNotCarryOver => String::new(),
+    }
+}
+
+/// What else somebody must know who reads nothing but the sentence.
+fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -> Vec<String> {
+    let mut all = Vec::new();
+    if matches!(
+        found,
+        Verdict::Unknown | Verdict::Confounded | Verdict::UnderExcited
+    ) {
+        if let Some((fit, held_out)) = floors(data, done) {
+            if fit.max(held_out) > AT_FLOOR {
+                all.extend(multiples(data, done).map(|size| format!("The residual is {size}.")));
+            }
+        }
+    }
+    all.extend(ledger.stopped_words());
+    if segments_differ(data) {
+        let (fit, held_out) = deviations(data);
+        all.push(match fit > held_out {
+            true => format!("The output moves {:.0} times less on the held-out part than on the fit segment: percentages of the one say little of the other.", fit / held_out),
+            false => format!("The output moves {:.0} times more on the held-out part than on the fit segment: percentages of the one say little of the other.", held_out / fit),
+        });
+    }
+    let fell = falls_up_to(ledger);
+    if found != Verdict::DoesNotCarryOver && fell < ledger.rounds.len() {
+        let first = &names(ledger, done)[fell];
+        all.push(match fell {
+            0 => format!("On held-out data {first} raises the error already."),
+            n => format!("On held-out data the error fell up to round {n}; {first} raises it."),
+        });
+    }
+    for file in worse(data, &ledger.declared, &done.solution) {
+        all.push(format!(
+            "It is worse for {}: {:.1} % → {:.1} %.",
+            file.path,
+            100.0 * file.before,
+            100.0 * file.after
+        ));
+    }
+    if ledger.rounds.len() > 3 {
+        all.push(
+            "Names after the third round carry little meaning: by then many effects would do."
+                .to_owned(),
+        );
+    }
+    all
+}
+
+/// The verdict in a few sentences, the one that matters most first.
+#[must_use]
+pub fn sentence(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
+    let found = verdict(data, ledger, done);
+    let mut all = match found {
+        Verdict::NoModel => return no_model(data, ledger, done),
+        Verdict::DoesNotCarryOver => vec![rises(data, ledger, done)],
+        _ => vec![lacks(data, ledger, done), rest(data, ledger, done, found)],
+    };
+    all.extend(warnings(data, ledger, done, found));
+    all.join(" ")
+}

@@ -1,0 +1,100 @@
+//! What a model's error is on the chip: sample by sample, with causal rates.
+//!
+//! The fit looks ahead: its velocities come from a filter without phase. Firmware cannot.
+//! Here the model that is handed over runs as it will run there: in `f32`, from a fresh
+//! state, at the record's own time stamps, on the columns as they were recorded, with the
+//! velocities and accelerations of [`Rates`]. Its output then takes the way of the measured
+//! one, through the same grids and filters, so that both errors are of the same rows and of
+//! the same band.
+
+use super::vector::load;
+use super::{ModelFile, MOST_TERMS};
+use crate::fit::Segments;
+use crate::problem::{HeldOut, Preparation, Prepared};
+use crate::record::{Column, Record};
+use bowden::effect::Motion;
+use bowden::model::{Model, ModelState, Sample};
+use bowden::signal::{Rates, RatesState};
+
+/// The time constant for the rates of a fit with this cut-off \[s\].
+///
+/// # Errors
+/// Where the cut-off has none.
+pub fn time_constant(cutoff: f64) -> Result<f64, String> {
+    let rates = Rates::for_cutoff(cutoff).map_err(|e| e.to_string())?;
+    Ok(rates.time_constant())
+}
+
+/// The errors with causal rates, as shares of the output's standard deviation.
+///
+/// `files` are the models: one for all records, or one for each.
+///
+/// # Errors
+/// One sentence where the model cannot be built or the grids not be laid again.
+pub fn causal(
+    records: &[Record],
+    data: &Prepared,
+    files: &[ModelFile],
+    time_constant: f64,
+) -> Result<Segments, String> {
+    let mut answered = Vec::with_capacity(records.len());
+    for (index, record) in records.iter().enumerate() {
+        let file = files.get(index).or(files.first());
+        let file = file.ok_or("no model was handed over")?;
+        let output = Column {
+            values: answers(data, record, file, time_constant)?,
+            ..record.output.clone()
+        };
+        answered.push(Record {
+            output,
+            ..record.clone()
+        });
+    }
+    let held_out = match data.pieces.iter().all(|p| p.fitted) {
+        true => HeldOut::Trailing,
+        false => HeldOut::LastRecord,
+    };
+    let preparation = Preparation {
+        cutoff: Some(data.cutoff),
+    };
+    let played = Prepared::joined(&answered, preparation, held_out)?;
+    if played.target.len() != data.target.len() {
+        return Err("the model's answers do not come back to the record's grid".to_owned());
+    }
+    let pairs = data.target.iter().zip(&played.target);
+    let residual: Vec<f64> = pairs.map(|(measured, answer)| measured - answer).collect();
+    Ok(Segments::of(data, &residual).normalised(data, &data.target))
+}
+
+/// The model's answers to a record as it was recorded.
+fn answers(
+    data: &Prepared,
+    record: &Record,
+    file: &ModelFile,
+    time_constant: f64,
+) -> Result<Vec<f64>, String> {
+    let model: Model<f32, MOST_TERMS> = file.model_in()?;
+    let rates = Rates::try_new(time_constant as f32).map_err(|e| e.to_string())?;
+    let mut state = ModelState::new();
+    let columns = || std::iter::once(&record.input).chain(&record.channels);
+    let mut past = vec![RatesState::new(); record.channels.len() + 1];
+    let mut before = record.time.first().map_or(0.0, |t| t - record.step());
+    let mut motions: Vec<Motion<f32>> = Vec::with_capacity(past.len());
+    let mut answers = Vec::with_capacity(record.samples());
+    for (i, &time) in record.time.iter().enumerate() {
+        let dt = (time - before) as f32;
+        before = time;
+        motions.clear();
+        let measured = columns().map(|c| c.values[i] as f32).zip(&mut past);
+        motions.extend(measured.map(|(x, own)| rates.step(own, x, dt).motion));
+        let (input, channels) = (motions[0], &motions[1..]);
+        let sample = Sample {
+            dt,
+            input,
+            load: load(data, input.position, channels),
+            channels,
+        };
+        answers.push(f64::from(model.step(&mut state, &sample)));
+    }
+    Ok(answers)
+}

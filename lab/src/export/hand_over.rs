@@ -1,0 +1,212 @@
+//! From the loop's final model to the one that is handed over to firmware.
+//!
+//! The final model says what is in the record. What runs on a chip is less: without effects
+//! that count from the record's first sample ([`clockwork`](crate::export::clockwork)), without the
+//! table of what has no name, and, if that is wanted, within what can be turned round
+//! ([`invertible`](crate::export::invertible)). Whatever is left out, the rest is fitted again on
+//! the same segments, and the errors that are said are those of the model that is written.
+
+use super::causal::{causal, time_constant};
+use super::clockwork::{because, has_clockwork, is_clockwork, table_name, without};
+use super::invertible::{is_stage, nearest, obstacle, stages, without_stages, FeedForward};
+use super::{About, LeftOut, ModelFile, NotIdentified};
+use crate::conclude::final_fit::FinalFit;
+use crate::conclude::intervals::term_name;
+use crate::fit::{fit_from, Known, Segments, Solution};
+use crate::ledger::Ledger;
+use crate::problem::Prepared;
+use crate::record::Record;
+
+/// Why a stage is not handed over.
+const NO_INVERSE: &str = "--invertible: it has no inverse";
+
+/// The model that is handed over, and what it is worth.
+#[derive(Debug, Clone)]
+pub struct HandOver {
+    /// The fit that is written.
+    pub solution: Solution,
+    /// The files: one, or one for each record with gains of its own.
+    pub files: Vec<ModelFile>,
+    /// Parts of the final model that are not in it.
+    pub left_out: Vec<LeftOut>,
+    /// Its errors, as shares of the output's standard deviation.
+    pub nrmse: Segments,
+    /// The errors of the loop's final model, as such shares.
+    pub as_fitted: Segments,
+    /// Its errors sample by sample with causal rates, as such shares.
+    pub causal: Segments,
+    /// Time constant of the causal rates \[s\].
+    pub time_constant: f64,
+    /// Whether it was to be fitted within what can be inverted.
+    pub within_inverse: bool,
+    /// Whether it can be a feed-forward.
+    pub feed_forward: FeedForward,
+}
+
+impl HandOver {
+    /// What is handed over of a final model. `invertible`: fit within what can be inverted.
+    ///
+    /// # Errors
+    /// One sentence where the model cannot be fitted without what is left out, or not
+    /// within what can be inverted.
+    pub fn new(
+        records: &[Record],
+        data: &Prepared,
+        ledger: &Ledger,
+        done: &FinalFit,
+        invertible: bool,
+        mut progress: impl FnMut(&str),
+    ) -> Result<Self, String> {
+        if invertible && !done.solution.structure.hysteresis {
+            return Err(
+                "--invertible: only bouc-wen can be inverted, and --declare leaves it out"
+                    .to_owned(),
+            );
+        }
+        let mut left_out = Vec::new();
+        let mut base = done.clone();
+        if invertible {
+            progress("looking for effects that can be inverted");
+            if let Some(other) = without_stages(data, ledger, done, &mut progress)? {
+                let names = stages(data, &done.solution).into_iter();
+                left_out.extend(names.map(|effect| LeftOut {
+                    effect,
+                    because: NO_INVERSE.to_owned(),
+                }));
+                base = other;
+            }
+        }
+        left_out.extend(records_own(data, &base.solution));
+        progress("fitting what is handed over");
+        let solution = handed_over(&base, invertible)?;
+        let models = || -> Vec<ModelFile> {
+            let several = match solution.structure.own_gains {
+                0 => 1,
+                own => own,
+            };
+            let own = |record| ModelFile::of_record(&base.data, &solution, record);
+            (0..several).map(own).collect()
+        };
+        let files = models();
+        let time_constant = time_constant(data.cutoff)?;
+        let share = |rmse: &Segments| rmse.normalised(data, &data.target);
+        let mut own = Self {
+            nrmse: share(&Segments::of(data, &solution.residual)),
+            as_fitted: share(&done.rmse),
+            causal: causal(records, data, &files, time_constant)?,
+            feed_forward: feed_forward(data, &solution, &files)?,
+            within_inverse: invertible,
+            solution,
+            files,
+            left_out,
+            time_constant,
+        };
+        if invertible && !own.feed_forward.invertible {
+            return Err(format!(
+                "--invertible: no model that can be inverted was found: {}",
+                own.feed_forward.words()
+            ));
+        }
+        own.describe(data, &base.data);
+        Ok(own)
+    }
+
+    /// Gives each file its table `about`.
+    fn describe(&mut self, data: &Prepared, fitted: &Prepared) {
+        let several = self.files.len() > 1;
+        let mut about = About {
+            rates_time_constant_s: self.time_constant,
+            fitted_invertible: self.within_inverse,
+            feed_forward: self.feed_forward.words(),
+            left_out: self.left_out.clone(),
+            ..About::new(fitted, &self.solution)
+        }
+        .with_errors(&self.nrmse, Some(&self.causal), self.as_fitted.held_out);
+        if self.solution.structure.invertible {
+            let because = "held at 2·sigma·kappa_eta·rho by --invertible".to_owned();
+            let parameter = "gain".to_owned();
+            let tied = NotIdentified { parameter, because };
+            about.not_identified.insert(0, tied);
+        }
+        for (record, file) in self.files.iter_mut().enumerate() {
+            let piece = data.pieces.get(record).filter(|_| several);
+            let gains_of = piece.and_then(|_| about.records.get(record).cloned());
+            file.about = Some(About {
+                gains_of,
+                ..about.clone()
+            });
+        }
+    }
+}
+
+/// What belongs to the record among the parts of a solution.
+fn records_own(data: &Prepared, solution: &Solution) -> Vec<LeftOut> {
+    let terms = solution.structure.terms.iter();
+    let clocks = terms.filter(|t| is_clockwork(&t.effect));
+    let table = table_name(data, solution).map(|effect| LeftOut {
+        effect,
+        because: "it has no name, and no effect of the catalogue is like it".to_owned(),
+    });
+    clocks
+        .map(|term| LeftOut {
+            effect: term_name(data, term),
+            because: because(term.effect.family()).to_owned(),
+        })
+        .chain(table)
+        .collect()
+}
+
+/// The fit without what is left out, within what can be inverted if that is asked for.
+pub(crate) fn handed_over(base: &FinalFit, invertible: bool) -> Result<Solution, String> {
+    let (data, last) = (&base.data, &base.solution);
+    let (mut structure, known, _) = without(last, |effect| {
+        is_clockwork(effect) || (invertible && is_stage(effect))
+    });
+    let free = match has_clockwork(last) || structure.terms.len() < last.structure.terms.len() {
+        false => last.clone(),
+        true => fit_from(data, &structure, Some(&known), 0.0)
+            .ok_or("the model cannot be fitted without what belongs to the record")?,
+    };
+    if !invertible || !stands_against(data, &free)? {
+        return Ok(free);
+    }
+    structure.invertible = true;
+    let within = fit_from(data, &structure, Some(&Known::of(&free)), 0.0);
+    within.ok_or_else(|| "--invertible: the model cannot be fitted within the bound".to_owned())
+}
+
+/// Whether any of a solution's models cannot be inverted.
+fn stands_against(data: &Prepared, solution: &Solution) -> Result<bool, String> {
+    for record in 0..solution.structure.own_gains.max(1) {
+        if obstacle(&ModelFile::of_record(data, solution, record))?.is_some() {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+/// Whether all files can be inverted, and if not, why and what is nearest.
+fn feed_forward(
+    data: &Prepared,
+    solution: &Solution,
+    files: &[ModelFile],
+) -> Result<FeedForward, String> {
+    let mut because = None;
+    for (index, file) in files.iter().enumerate() {
+        if let Some(reason) = obstacle(file)? {
+            because = Some(match files.len() {
+                1 => reason,
+                _ => format!("{reason} in file {}", index + 1),
+            });
+            break;
+        }
+    }
+    Ok(FeedForward {
+        invertible: because.is_none(),
+        nearest: match because {
+            Some(_) => nearest(data, solution, files)?,
+            None => None,
+        },
+        because,
+    })
+}

@@ -1,0 +1,229 @@
+//! Whether a model can be turned round for a feed-forward, and the fit of one that can.
+//!
+//! A [`Compensator`] needs a transmission whose output rises with its input on every branch
+//! and no stage before or behind it. A free fit need not be so: the rig may well have a
+//! steeper loop than any model with an inverse. `--invertible` fits within the bound, by a
+//! constraint on the linear gains (`fit::tie`), and says what that costs.
+
+use super::vector::load;
+use super::{ModelFile, MOST_TERMS};
+use crate::closing::close;
+use crate::conclude::final_fit::FinalFit;
+use crate::conclude::intervals::term_name;
+use crate::fit::{Segments, Solution};
+use crate::ledger::Ledger;
+use crate::model::structure::{Role, Structure};
+use crate::problem::Prepared;
+use bowden::control::{Changed, Compensator, Lowered};
+use bowden::effect::{Effect, Motion};
+use bowden::model::{Model, ModelState, Sample, Term};
+use bowden::Real;
+use serde::de::DeserializeOwned;
+use serde::Serialize;
+
+/// Whether the model that is handed over can be a feed-forward.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FeedForward {
+    /// Whether `Compensator::try_new` takes it, in `f32` and in `f64`.
+    pub invertible: bool,
+    /// Why not.
+    pub because: Option<String>,
+    /// The nearest model that it takes, if not this one.
+    pub nearest: Option<Nearest>,
+}
+
+/// The nearest model that has an inverse, without a new fit.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Nearest {
+    /// What is changed, in words.
+    pub changed: String,
+    /// Its errors, as shares of the output's standard deviation.
+    pub nrmse: Segments,
+}
+
+impl FeedForward {
+    /// `yes`, or `no, because …`.
+    #[must_use]
+    pub fn words(&self) -> String {
+        match &self.because {
+            None => "yes".to_owned(),
+            Some(because) => format!("no, because {because}"),
+        }
+    }
+}
+
+/// Whether no compensator can have an effect among its terms.
+#[must_use]
+pub fn is_stage(effect: &Effect<f64>) -> bool {
+    effect.is_output_stage() || effect.is_input_stage()
+}
+
+/// What stands against turning a model round; `None` where nothing does.
+///
+/// # Errors
+/// One sentence where the file is no model.
+pub fn obstacle(file: &ModelFile) -> Result<Option<String>, String> {
+    if accepted::<f32>(file)? && accepted::<f64>(file)? {
+        return Ok(None);
+    }
+    let Some(t) = &file.transmission else {
+        return Ok(Some("the model has no bouc-wen to invert".to_owned()));
+    };
+    for term in &file.terms {
+        let effect = term.effect()?;
+        if effect.is_output_stage() {
+            return Ok(Some(format!(
+                "{} acts on the whole output and cannot be subtracted from it",
+                term.effect
+            )));
+        }
+        if effect.is_input_stage() {
+            return Ok(Some(format!("the inverse of {} jumps", term.effect)));
+        }
+    }
+    let (gain, kappa) = match file.mode.as_str() {
+        "torque" => ("B", "kappa_eta"),
+        _ => ("kappa_x", "|kappa_eta|"),
+    };
+    if t.gain == 0.0 {
+        return Ok(Some(format!("{gain} is zero")));
+    }
+    let bound = bound(t.gain, t.kappa_eta, t.rho);
+    Ok(Some(format!(
+        "sigma {} > {} = {gain}/(2·{kappa}·rho)",
+        three_digits(t.sigma),
+        three_digits(bound)
+    )))
+}
+
+fn accepted<T: Real + DeserializeOwned>(file: &ModelFile) -> Result<bool, String> {
+    let model = file.model_in::<T, MOST_TERMS>()?;
+    Ok(Compensator::try_new(&model).is_ok())
+}
+
+/// The largest sigma with which a transmission has an inverse.
+fn bound(gain: f64, kappa_eta: f64, rho: f64) -> f64 {
+    gain.abs() / (2.0 * kappa_eta.abs() * rho)
+}
+
+/// A number as people write it.
+pub(crate) fn three_digits(value: f64) -> String {
+    let digits = (2.0 - value.abs().max(1e-12).log10().floor()).clamp(0.0, 12.0) as usize;
+    if value.abs() >= 1e5 || (value != 0.0 && value.abs() < 1e-4) {
+        format!("{value:.2e}")
+    } else {
+        format!("{value:.digits$}")
+    }
+}
+
+/// The loop again without stages among its names, where its final model has one.
+///
+/// # Errors
+/// One sentence where the model without stages cannot be fitted at all.
+pub fn without_stages(
+    data: &Prepared,
+    ledger: &Ledger,
+    done: &FinalFit,
+    progress: impl FnMut(&str),
+) -> Result<Option<FinalFit>, String> {
+    let mut terms = done.solution.structure.terms.iter();
+    if !terms.any(|t| is_stage(&t.effect)) {
+        return Ok(None);
+    }
+    let mut structure = Structure {
+        no_stages: true,
+        ..ledger.declared.structure.clone()
+    };
+    structure.terms.retain(|t| !is_stage(&t.effect));
+    let anew = close(data, &structure, progress)?;
+    Ok(Some(FinalFit::new(data, &anew)))
+}
+
+/// The stages among the names of a solution.
+#[must_use]
+pub fn stages(data: &Prepared, solution: &Solution) -> Vec<String> {
+    let terms = solution.structure.terms.iter();
+    let stages = terms.filter(|t| is_stage(&t.effect));
+    stages.map(|t| term_name(data, t)).collect()
+}
+
+/// In what a compensator differs from the model that has these terms; nothing where it does not.
+#[must_use]
+pub fn words<const N: usize>(changed: &Changed<f64, N>, terms: &[Term<f64>]) -> String {
+    let lowered = [("sigma", changed.sigma), ("rho", changed.rho)];
+    let lowered = lowered.into_iter().filter_map(|(name, lowered)| {
+        let Lowered { from, to } = lowered?;
+        let (from, to) = (three_digits(from), three_digits(to));
+        Some(format!("{name} {from} → {to}"))
+    });
+    let gone = changed.left_out().filter_map(|index| {
+        let term = terms.get(index)?;
+        Some(format!("without {}", term.effect.name()))
+    });
+    let all: Vec<String> = lowered.chain(gone).collect();
+    all.join(", ")
+}
+
+/// The nearest model with an inverse, as `Compensator::try_nearest` makes it, and its
+/// errors: nothing is fitted again. `None` where there is none, or a model for each record.
+///
+/// # Errors
+/// One sentence where a file is no model.
+pub fn nearest(
+    data: &Prepared,
+    solution: &Solution,
+    files: &[ModelFile],
+) -> Result<Option<Nearest>, String> {
+    let [file] = files else {
+        return Ok(None);
+    };
+    let model = file.model::<MOST_TERMS>()?;
+    let Ok((compensator, changed)) = Compensator::try_nearest(&model) else {
+        return Ok(None);
+    };
+    let kept = |index: &usize| changed.left_out().all(|gone| gone != *index);
+    let terms: Vec<Term<f64>> = (0..model.terms().len())
+        .filter(kept)
+        .map(|index| model.terms()[index])
+        .collect();
+    let changed = words(&changed, model.terms());
+    let model: Model<f64, MOST_TERMS> =
+        Model::try_new(Some(*compensator.transmission()), &terms).map_err(|e| e.to_string())?;
+    let rmse = Segments::of(data, &left_by(data, solution, &model)?);
+    Ok(Some(Nearest {
+        changed,
+        nrmse: rmse.normalised(data, &data.target),
+    }))
+}
+
+/// What a model leaves of the filtered output; each record from the hysteresis state at its
+/// start that the fit has found.
+fn left_by(
+    data: &Prepared,
+    solution: &Solution,
+    model: &Model<f64, MOST_TERMS>,
+) -> Result<Vec<f64>, String> {
+    let mut output = Vec::with_capacity(data.work_len());
+    for (record, piece) in data.pieces.iter().enumerate() {
+        let eta = solution.value(Role::Eta0 { record }).unwrap_or(0.0);
+        let mut state = ModelState::with_eta(eta).map_err(|e| e.to_string())?;
+        for i in piece.work.clone() {
+            let input = data.input.motion[i];
+            let channels: Vec<Motion<f64>> = data.channels.iter().map(|c| c.motion[i]).collect();
+            let sample = Sample {
+                dt: data.dt,
+                input,
+                load: load(data, input.position, &channels),
+                channels: &channels,
+            };
+            output.push(model.step(&mut state, &sample));
+        }
+    }
+    let answered = data.filtered(&output);
+    Ok(data
+        .target
+        .iter()
+        .zip(&answered)
+        .map(|(y, p)| y - p)
+        .collect())
+}

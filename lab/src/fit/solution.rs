@@ -1,0 +1,152 @@
+//! A fitted model on a record, and its errors.
+
+use crate::model::columns::{effect_column, series_column, stage_column};
+use crate::model::structure::{FitTerm, Free, Role, Structure};
+use crate::problem::Prepared;
+
+/// Root mean square errors of the three segments, in the output's unit.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Segments {
+    /// First 60 %.
+    pub fit: f64,
+    /// Next 15 %.
+    pub stop: f64,
+    /// Last 25 %.
+    pub held_out: f64,
+}
+
+impl Segments {
+    /// Rms of `residual` on each segment.
+    #[must_use]
+    pub fn of(data: &Prepared, residual: &[f64]) -> Self {
+        let rms = |rows: &[usize]| {
+            (rows.iter().map(|&i| residual[i] * residual[i]).sum::<f64>()
+                / rows.len().max(1) as f64)
+                .sqrt()
+        };
+        Self {
+            fit: rms(&data.split.fit),
+            stop: rms(&data.split.stop),
+            held_out: rms(&data.split.held_out),
+        }
+    }
+
+    /// Standard deviation of a signal on each segment.
+    #[must_use]
+    pub fn deviation(data: &Prepared, signal: &[f64]) -> Self {
+        let deviation = |rows: &[usize]| {
+            let n = rows.len().max(1) as f64;
+            let mean = rows.iter().map(|&i| signal[i]).sum::<f64>() / n;
+            (rows
+                .iter()
+                .map(|&i| (signal[i] - mean).powi(2))
+                .sum::<f64>()
+                / n)
+                .sqrt()
+        };
+        Self {
+            fit: deviation(&data.split.fit),
+            stop: deviation(&data.split.stop),
+            held_out: deviation(&data.split.held_out),
+        }
+    }
+
+    /// The errors as shares of the standard deviation of `signal` on each segment.
+    #[must_use]
+    pub fn normalised(&self, data: &Prepared, signal: &[f64]) -> Self {
+        let by = Self::deviation(data, signal);
+        Self {
+            fit: self.fit / by.fit,
+            stop: self.stop / by.stop,
+            held_out: self.held_out / by.held_out,
+        }
+    }
+}
+
+/// A fitted model on a record.
+#[derive(Debug, Clone)]
+pub struct Solution {
+    /// The structure with its fitted shapes.
+    pub structure: Structure,
+    /// The non-linear parameters.
+    pub free: Vec<Free>,
+    /// Their values, in the order of `free`.
+    pub values: Vec<f64>,
+    /// Linear gains: input, eta, constant (with hysteresis), then the terms that are
+    /// not output stages.
+    pub gains: Vec<f64>,
+    /// Linear columns through the filter, on the estimation grid.
+    pub columns: Vec<Vec<f64>>,
+    /// d prediction / d value for each of `free`, through the filter.
+    pub tangents: Vec<Vec<f64>>,
+    /// The prediction through the filter, on the estimation grid.
+    pub prediction: Vec<f64>,
+    /// The prediction before the filter, on the work grid.
+    pub unfiltered: Vec<f64>,
+    /// Hysteresis state on the work grid (zeros without hysteresis).
+    pub eta: Vec<f64>,
+    /// Target minus prediction.
+    pub residual: Vec<f64>,
+    /// Root mean square errors.
+    pub rmse: Segments,
+    /// Which of `free` lie on a bound.
+    pub on_bound: Vec<bool>,
+}
+
+impl Solution {
+    /// Sum of squares over the fit segment.
+    #[must_use]
+    pub fn sse(&self, data: &Prepared) -> f64 {
+        self.rmse.fit * self.rmse.fit * data.split.fit.len() as f64
+    }
+
+    /// The value of a role, where it is free.
+    #[must_use]
+    pub fn value(&self, role: Role) -> Option<f64> {
+        self.free
+            .iter()
+            .position(|f| f.role == role)
+            .map(|i| self.values[i])
+    }
+
+    /// Gain of term `term`, linear or not.
+    #[must_use]
+    pub fn gain(&self, term: usize) -> f64 {
+        let effect = &self.structure.terms[term].effect;
+        if effect.is_output_stage() {
+            return self.value(Role::Stage { term }).unwrap_or(0.0);
+        }
+        if effect.is_input_stage() {
+            return 1.0;
+        }
+        let base = self.structure.base();
+        let before = self.structure.terms[..term]
+            .iter()
+            .filter(|t| t.is_linear())
+            .count();
+        self.gains[base + before]
+    }
+
+    /// What a term that is not in the model would add to its output for a gain of one, on
+    /// the work grid; `None` where its channel is missing.
+    #[must_use]
+    pub fn adds(&self, data: &Prepared, term: &FitTerm) -> Option<Vec<f64>> {
+        if term.effect.is_output_stage() {
+            return Some(stage_column(data, &term.effect, &self.unfiltered));
+        }
+        if term.effect.is_input_stage() {
+            let at = (self.free.as_slice(), self.values.as_slice());
+            return series_column(data, &self.structure, at, &self.gains, term);
+        }
+        effect_column(data, term, &self.eta)
+    }
+
+    /// How many shapes that belong to the model stopped on a bound.
+    pub(crate) fn shapes_on_bound(&self) -> usize {
+        self.free
+            .iter()
+            .zip(&self.on_bound)
+            .filter(|(f, on)| **on && !matches!(f.role, Role::Eta0 { .. } | Role::Start { .. }))
+            .count()
+    }
+}

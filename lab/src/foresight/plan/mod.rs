@@ -1,0 +1,228 @@
+//! The experiment that would tell what the record cannot.
+//!
+//! Two effects are confounded where what the one adds, with all that the rest of the model
+//! can imitate taken away, looks like what the other adds. That depends on the motion. So
+//! the fitted model is run by the core along canned trajectories made of the record's own
+//! signals ([`trajectory`]), each contribution is projected off all the other columns of
+//! the model and their slopes, and off the rival with its shapes free, and what is left
+//! tells the two apart. The trajectory that leaves most is the experiment.
+//!
+//! All of it is first-order theory at the fitted values: it says what to expect, not what
+//! will be measured.
+
+mod model;
+mod strengthen;
+mod trajectory;
+
+pub use strengthen::strengthen;
+pub use trajectory::{trajectory, Kind, Trajectory};
+
+use crate::conclude::intervals::term_name;
+use crate::fit::{glance_from, Known};
+use crate::ledger::{Ledger, Round};
+use crate::model::catalogue::Candidate;
+use crate::model::structure::FitTerm;
+use crate::problem::Prepared;
+use model::{Model, Placed};
+use serde::Serialize;
+
+/// A planned experiment and what it is expected to show.
+#[derive(Debug, Clone, Serialize)]
+pub struct Experiment {
+    /// How it moves.
+    pub kind: Kind,
+    /// In words, with its parameters.
+    pub trajectory: String,
+    /// Length \[s\].
+    pub seconds: f64,
+    /// Largest speed of the input, as a multiple of the recorded one.
+    pub speed: f64,
+    /// What is to be separated, or made known.
+    pub aims: Vec<Aim>,
+}
+
+/// One thing that an experiment is for.
+#[derive(Debug, Clone, Serialize)]
+pub struct Aim {
+    /// The effect that was named, or the parameter that is not known.
+    pub what: String,
+    /// The rival; `None` where a parameter is to be made known.
+    pub rival: Option<String>,
+    /// Projected correlation of the two contributions on the record; of a parameter, the
+    /// share of its slope that the others imitate.
+    pub correlation_now: f64,
+    /// The same, expected of the experiment.
+    pub correlation_then: f64,
+    /// Rms that a wrong name leaves on the record, in multiples of the present error; of a
+    /// parameter, one.
+    pub left_now: f64,
+    /// The same, expected of the experiment; of a parameter, how many times as strongly it
+    /// shows.
+    pub left_then: f64,
+}
+
+/// An experiment separates two effects if after it the wrong name leaves at least this many
+/// times the present error, and this many times what it leaves now: the error then rises by
+/// the half (the root of 1 + 1.2²), which no choice of blocks hides.
+const SEPARATES: f64 = 1.2;
+
+/// What stays of a contribution once its rival has imitated what it can.
+struct Apart {
+    correlation: f64,
+    /// Rms in the output's unit.
+    left: f64,
+}
+
+fn apart(
+    placed: &Placed<'_>,
+    term: &FitTerm,
+    rival: &FitTerm,
+    gain: impl Fn(f64) -> f64,
+) -> Option<Apart> {
+    let own = placed.span.off(placed.column(term)?);
+    let rest = placed.span_with(rival)?.off(own.clone());
+    let (whole, part) = (own.norm(), rest.norm());
+    if whole.is_nan() || whole <= 0.0 {
+        return None;
+    }
+    Some(Apart {
+        correlation: (1.0 - (part / whole).powi(2)).max(0.0).sqrt(),
+        left: gain(part) / (rest.len() as f64).sqrt(),
+    })
+}
+
+/// The two directions of a pair, the worse of each figure.
+fn pair(placed: &Placed<'_>, a: (&FitTerm, f64), b: (&FitTerm, f64)) -> Option<Apart> {
+    let there = apart(placed, a.0, b.0, |n| n * a.1.abs())?;
+    let back = apart(placed, b.0, a.0, |n| n * b.1.abs())?;
+    Some(Apart {
+        correlation: there.correlation.max(back.correlation),
+        left: there.left.min(back.left),
+    })
+}
+
+/// A rival with its shapes fitted beside the rest of the model.
+fn refined(data: &Prepared, round: &Round, rival: &Candidate) -> Option<FitTerm> {
+    let last = round.solution.structure.terms.len().checked_sub(1)?;
+    let mut structure = round.solution.structure.clone();
+    structure.terms[last] = rival.term;
+    let known = Known::of(&round.solution).without(last);
+    let (_, fitted, _) = glance_from(&data.for_search(true), &structure, &known, 0.0)?;
+    fitted.terms.last().copied()
+}
+
+/// The experiment that separates what one round confounds; `None` where it has no rivals or
+/// where no motion that is known here would separate any of them.
+#[must_use]
+pub fn separate(data: &Prepared, round: &Round) -> Option<Experiment> {
+    use rayon::prelude::*;
+    if round.rivals.is_empty() {
+        return None;
+    }
+    let model = Model::before_last(&round.solution)?;
+    let last = round.solution.structure.terms.len() - 1;
+    let named = &round.solution.structure.terms[last];
+    let gain = round.solution.gain(last);
+    let here = model.on(data)?;
+    let own = here.span.off(here.column(named)?);
+    // A rival is as large as it must be to look like the named one on this record.
+    let rivals: Vec<(FitTerm, f64, Apart)> = round
+        .rivals
+        .iter()
+        .filter_map(|rival| {
+            let term = refined(data, round, rival)?;
+            let column = here.span.off(here.column(&term)?);
+            let size = gain * own.dot(&column) / column.norm_squared();
+            let now = pair(&here, (named, gain), (&term, size))?;
+            size.is_finite().then_some((term, size, now))
+        })
+        .collect();
+    let noise = round.after.fit.max(f64::MIN_POSITIVE);
+    let tried: Vec<Option<((usize, f64), Experiment)>> = Kind::ALL
+        .par_iter()
+        .map(|&kind| {
+            let planned = trajectory(data, kind);
+            let motion = planned.prepared(data)?;
+            let placed = model.on(&motion)?;
+            let mut worst = f64::INFINITY;
+            let mut aims = Vec::new();
+            for (term, size, now) in &rivals {
+                let then = pair(&placed, (named, gain), (term, *size))?;
+                if then.left.is_nan() || then.left < SEPARATES * noise.max(now.left) {
+                    continue;
+                }
+                worst = worst.min(then.left);
+                aims.push(Aim {
+                    what: term_name(data, named),
+                    rival: Some(term_name(data, term)),
+                    correlation_now: now.correlation,
+                    correlation_then: then.correlation,
+                    left_now: now.left / noise,
+                    left_then: then.left / noise,
+                });
+            }
+            let score = (aims.len(), worst);
+            Some((score, describe(data, &planned, &motion, aims)))
+        })
+        .collect();
+    best(tried)
+}
+
+/// The experiment for the first confounded round of a run.
+#[must_use]
+pub fn separate_first(data: &Prepared, ledger: &Ledger) -> Option<Experiment> {
+    ledger.rounds.iter().find_map(|round| separate(data, round))
+}
+
+/// The first of the largest, of those that have an aim.
+fn best<S: PartialOrd>(tried: Vec<Option<(S, Experiment)>>) -> Option<Experiment> {
+    let mut best: Option<(S, Experiment)> = None;
+    let aimed = tried
+        .into_iter()
+        .flatten()
+        .filter(|(_, e)| !e.aims.is_empty());
+    for (score, experiment) in aimed {
+        if best.as_ref().is_none_or(|(b, _)| score > *b) {
+            best = Some((score, experiment));
+        }
+    }
+    best.map(|(_, experiment)| experiment)
+}
+
+fn describe(
+    data: &Prepared,
+    planned: &Trajectory,
+    motion: &Prepared,
+    aims: Vec<Aim>,
+) -> Experiment {
+    let fastest = |data: &Prepared| {
+        let speeds = data.input.motion.iter().map(|m| m.velocity.abs());
+        speeds.fold(0.0, f64::max)
+    };
+    Experiment {
+        kind: planned.kind,
+        trajectory: planned.words.clone(),
+        seconds: planned.signals[0].values.len() as f64 * planned.step,
+        speed: fastest(motion) / fastest(data).max(f64::MIN_POSITIVE),
+        aims,
+    }
+}
+
+impl Aim {
+    /// In words: "viscous from delay: correlation 0.98 → 0.41, …".
+    #[must_use]
+    pub fn words(&self) -> String {
+        let Self { what, .. } = self;
+        let (now, then) = (self.correlation_now, self.correlation_then);
+        match &self.rival {
+            Some(rival) => format!(
+                "{what} from {rival}: a wrong name leaves {:.1} → {:.1} times the present error (projected correlation {now:.3} → {then:.3})",
+                self.left_now, self.left_then
+            ),
+            None => format!(
+                "{what}: shows {:.1} times as strongly (share that others imitate {now:.3} → {then:.3})",
+                self.left_then
+            ),
+        }
+    }
+}

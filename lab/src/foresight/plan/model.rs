@@ -1,0 +1,123 @@
+//! A fitted model on another motion: its columns, and what an effect would add there.
+
+use crate::fit::projection::{rows, Span};
+use crate::fit::Solution;
+use crate::model::columns::{effect_column, raw_columns, series_column, stage_column};
+use crate::model::structure::{FitTerm, Free, Role, Structure};
+use crate::problem::Prepared;
+use bowden::effect::Quantity;
+use nalgebra::DVector;
+
+/// A model with all its values, apart from any record.
+#[derive(Clone)]
+pub(super) struct Model {
+    structure: Structure,
+    free: Vec<Free>,
+    values: Vec<f64>,
+    gains: Vec<f64>,
+}
+
+/// The model on a motion.
+pub(super) struct Placed<'a> {
+    data: &'a Prepared,
+    model: Model,
+    eta: Vec<f64>,
+    /// The prediction on the work grid.
+    output: Vec<f64>,
+    /// Linear columns, then the slopes in the free parameters, through the filter.
+    pub(super) columns: Vec<Vec<f64>>,
+    /// All that the model can move.
+    pub(super) span: Span,
+}
+
+impl Model {
+    /// A fitted model as it is.
+    pub(super) fn whole(solution: &Solution) -> Self {
+        Self {
+            structure: solution.structure.clone(),
+            free: solution.free.clone(),
+            values: solution.values.clone(),
+            gains: solution.gains.clone(),
+        }
+    }
+
+    /// A fitted model before its last term came in, with the values that it has now.
+    pub(super) fn before_last(solution: &Solution) -> Option<Self> {
+        let mut model = Self::whole(solution);
+        let gone = model.structure.terms.pop()?;
+        let last = model.structure.terms.len();
+        if gone.is_linear() {
+            let linear = model.gains.len() - model.structure.table_gains();
+            model.gains.remove(linear.checked_sub(1)?);
+        }
+        let own = |role: Role| match role {
+            Role::Shape { term, .. }
+            | Role::Origin { term }
+            | Role::Start { term, .. }
+            | Role::Stage { term } => term == last,
+            _ => false,
+        };
+        let kept = solution.free.iter().zip(&solution.values);
+        let kept = kept.filter(|(f, _)| !own(f.role));
+        (model.free, model.values) = kept.map(|(f, v)| (*f, *v)).unzip();
+        Some(model)
+    }
+
+    /// The model along a motion.
+    pub(super) fn on<'a>(&self, data: &'a Prepared) -> Option<Placed<'a>> {
+        let raw = raw_columns(data, &self.structure, &self.free, &self.values)?;
+        let moves = raw.moves(data, &self.structure, &self.free, &self.values)?;
+        let mut columns: Vec<Vec<f64>> = raw.columns.iter().map(|c| data.filtered(c)).collect();
+        for j in 0..self.free.len() {
+            columns.push(data.filtered(&raw.tangent(&moves, j, &self.gains)));
+        }
+        let output = raw.output(&self.gains);
+        Some(Placed {
+            span: Span::of(data, columns.iter()),
+            data,
+            model: self.clone(),
+            eta: raw.eta,
+            output,
+            columns,
+        })
+    }
+}
+
+impl Placed<'_> {
+    /// What an effect adds for a gain of one, on the rows of the fit segment.
+    pub(super) fn column(&self, term: &FitTerm) -> Option<DVector<f64>> {
+        let raw = if term.effect.is_output_stage() {
+            stage_column(self.data, &term.effect, &self.output)
+        } else if term.effect.is_input_stage() {
+            let model = &self.model;
+            let at = (model.free.as_slice(), model.values.as_slice());
+            series_column(self.data, &model.structure, at, &model.gains, term)?
+        } else {
+            effect_column(self.data, term, &self.eta)?
+        };
+        Some(rows(self.data, &self.data.filtered(&raw)))
+    }
+
+    /// All that the model with that effect can move, its shapes and origin included.
+    pub(super) fn span_with(&self, term: &FitTerm) -> Option<Span> {
+        let mut span = self.span.clone();
+        span.add(self.column(term)?);
+        for index in 0..term.effect.shape_names().len() {
+            let value = term.effect.shape(index)?;
+            let h = 1e-4 * value.abs().max(1e-6);
+            let at = |v: f64| {
+                let effect = term.effect.with_shape(index, v).ok()?;
+                self.column(&FitTerm { effect, ..*term })
+            };
+            if let (Some(up), Some(down)) = (at(value + h), at(value - h)) {
+                span.add(up - down);
+            }
+        }
+        if term.effect.info().reads.contains(&Quantity::Position) {
+            let h = 1e-4 * self.data.channel(term.source)?.reach;
+            let at = |origin: f64| self.column(&FitTerm { origin, ..*term });
+            span.add(at(term.origin + h)? - at(term.origin - h)?);
+        }
+        Some(span)
+    }
+}

@@ -1,0 +1,313 @@
+//! What would have been found: the smallest effect that this record can show.
+//!
+//! "Nothing found" is worth something only beside the size of what would not have been
+//! missed. So every effect of the catalogue is planted into the user's own record, and the
+//! loop that judged the record judges it again:
+//!
+//! 1. The record is closed. Its last model stands for the rig, what that leaves for the
+//!    noise.
+//! 2. A trial's output is that model's prediction, plus the residual under a circular shift
+//!    (and every other time a change of sign), plus the effect: at the middle one of its
+//!    trial shapes, on the record's own motion, computed by the core. A shift keeps the
+//!    residual's colour and breaks its bond with the motion. The output is that behind the
+//!    smoother at 2.5 f_c, on the work grid; the filter at f_c follows as for the record.
+//! 3. A screen by linear theory finds where nine trials of ten pass the sign-flip test with
+//!    a twentieth of the squared error (`screen`).
+//! 4. From there the amplitude goes up or down by the square root of two, and by the fourth
+//!    root at the end, and **every trial is closed as a whole**: fits, scan, duel, gates
+//!    and all rounds. The effect counts as found where its family is named in any round or
+//!    stands among the rivals of one. The smallest amplitude at which nine of ten do so is
+//!    reported; below it the search saw at least one in ten fail.
+//!
+//! Trials without an effect are closed too: how often something is named there anyway.
+//! Nothing is random; the same record gives the same table.
+
+mod planted;
+mod screen;
+
+use crate::closing::close;
+use crate::fit::Solution;
+use crate::ledger::Ledger;
+use crate::model::catalogue::{candidates, SIMPLICITY};
+use crate::model::structure::FitTerm;
+use crate::problem::Prepared;
+use bowden::effect::Family;
+use planted::Trials;
+use screen::Screen;
+
+/// Share of the trials in which an effect has to be found.
+pub const SHARE: f64 = 0.9;
+
+/// Trials of each amplitude unless the user wants another number.
+pub const TRIALS: usize = 10;
+
+/// Fewest trials that can tell nine of ten from less, and the most that are useful.
+pub const TRIALS_RANGE: std::ops::RangeInclusive<usize> = 5..=200;
+
+/// Steps by the square root of two, up or down.
+const STEPS: usize = 10;
+
+/// What is asked.
+#[derive(Debug, Clone)]
+pub struct Question {
+    /// Effects or families by name; all where empty.
+    pub effects: Vec<String>,
+    /// Trials of each amplitude.
+    pub trials: usize,
+}
+
+impl Default for Question {
+    fn default() -> Self {
+        Self {
+            effects: Vec::new(),
+            trials: TRIALS,
+        }
+    }
+}
+
+/// What came out for one effect.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Answer {
+    /// Found from this amplitude on.
+    Found {
+        /// Rms of the contribution about its mean, in the output's unit.
+        amplitude: f64,
+        /// The gain that makes it.
+        gain: f64,
+        /// In how many of the trials at this amplitude.
+        times: usize,
+        /// What linear theory had said.
+        screened: f64,
+    },
+    /// Not found at the largest amplitude that was tried, the rms of the output or 32 times
+    /// what linear theory says.
+    NotFound {
+        /// That amplitude.
+        tried: f64,
+    },
+    /// The motion does not show it apart from what the model can move.
+    NotExcited,
+    /// The model has it already.
+    InModel,
+}
+
+/// One row of the table.
+#[derive(Debug, Clone)]
+pub struct Row {
+    /// The effect with the shapes that were planted, and what it reads.
+    pub term: FitTerm,
+    /// What came out.
+    pub answer: Answer,
+}
+
+/// The whole table.
+#[derive(Debug, Clone)]
+pub struct Power {
+    /// By family, from the simplest on, then by name and channel.
+    pub rows: Vec<Row>,
+    /// Trials of each amplitude.
+    pub trials: usize,
+    /// Trials without an effect in which something was named.
+    pub named_without: usize,
+}
+
+/// Effects in the order of the table, each with the middle one of its trial shapes.
+fn targets(data: &Prepared, solution: &Solution, names: &[String]) -> Result<Vec<Row>, String> {
+    let tried = candidates(data, &solution.structure, &solution.residual);
+    let mut groups: Vec<Vec<FitTerm>> = Vec::new();
+    for candidate in &tried {
+        let term = candidate.term;
+        let same = |g: &&mut Vec<FitTerm>| {
+            g[0].effect.name() == term.effect.name() && g[0].source == term.source
+        };
+        match groups.iter_mut().find(same) {
+            Some(group) => group.push(term),
+            None => groups.push(vec![term]),
+        }
+    }
+    let there = &solution.structure.terms;
+    let open = |term: &FitTerm| Row {
+        term: *term,
+        answer: if there
+            .iter()
+            .any(|t| t.effect.name() == term.effect.name() && t.source == term.source)
+        {
+            Answer::InModel
+        } else {
+            Answer::NotExcited
+        },
+    };
+    let mut rows: Vec<Row> = there.iter().map(open).collect();
+    for group in &groups {
+        let row = open(&group[group.len() / 2]);
+        if row.answer != Answer::InModel {
+            rows.push(row);
+        }
+    }
+    let asked = |term: &FitTerm, name: &str| {
+        name == term.effect.name()
+            || name == term.effect.family().name()
+            || name == crate::conclude::intervals::term_name(data, term)
+    };
+    if let Some(name) = names
+        .iter()
+        .find(|n| rows.iter().all(|row| !asked(&row.term, n)))
+    {
+        let mut known: Vec<&str> = rows.iter().map(|r| r.term.effect.name()).collect();
+        known.sort_unstable();
+        known.dedup();
+        return Err(format!(
+            "--effects {name}: this record can be asked for {}",
+            known.join(", ")
+        ));
+    }
+    rows.retain(|row| names.is_empty() || names.iter().any(|n| asked(&row.term, n)));
+    let rank = |family: Family| SIMPLICITY.iter().position(|&f| f == family);
+    rows.sort_by_cached_key(|row| {
+        (
+            rank(row.term.effect.family()).unwrap_or(SIMPLICITY.len()),
+            row.term.effect.name(),
+            crate::conclude::intervals::term_name(data, &row.term),
+        )
+    });
+    Ok(rows)
+}
+
+/// Whether a run names that family, or holds it possible.
+fn names(ledger: &Ledger, family: Family) -> bool {
+    ledger.rounds.iter().any(|round| {
+        round.candidate.family == family || round.rivals.iter().any(|r| r.family == family)
+    })
+}
+
+/// The trials of one record, and the question that is put to each.
+struct Search<'a> {
+    data: &'a Prepared,
+    solution: &'a Solution,
+    trials: &'a Trials,
+    needed: usize,
+}
+
+impl Search<'_> {
+    /// In how many trials it is found; `None` as soon as too many have failed.
+    fn found(&self, contribution: &[f64], family: Family, amplitude: f64) -> Option<usize> {
+        let count = self.trials.count();
+        let mut times = 0;
+        for trial in 0..count {
+            let output = self.trials.output(trial, contribution, amplitude);
+            let ledger = close(
+                &self.data.with_output(output),
+                &self.solution.structure,
+                |_| (),
+            );
+            if ledger.is_ok_and(|l| names(&l, family)) {
+                times += 1;
+            }
+            if trial + 1 - times > count - self.needed {
+                return None;
+            }
+        }
+        Some(times)
+    }
+
+    fn answer(&self, screen: &Screen, term: &FitTerm) -> Answer {
+        let Some(planted) = planted::contribution(self.data, self.solution, term) else {
+            return Answer::NotExcited;
+        };
+        let most = screen.largest();
+        let (screened, mut low) = match screen.amplitude(self.data, &planted.unit) {
+            screen::Outcome::NotExcited => return Answer::NotExcited,
+            screen::Outcome::Never => return Answer::NotFound { tried: most },
+            screen::Outcome::From(a) => (a, 0.0),
+        };
+        let family = term.effect.family();
+        let at = |amplitude: f64| self.found(&planted.unit, family, amplitude);
+        let root = std::f64::consts::SQRT_2;
+        let mut now = screened;
+        let mut best: Option<(f64, usize)> = None;
+        for _ in 0..STEPS {
+            match at(now) {
+                Some(times) => {
+                    best = Some((now, times));
+                    if low > 0.0 {
+                        break;
+                    }
+                    now /= root;
+                }
+                None => {
+                    low = now;
+                    if best.is_some() || now >= most {
+                        break;
+                    }
+                    now *= root;
+                }
+            }
+        }
+        let Some((mut amplitude, mut times)) = best else {
+            return Answer::NotFound { tried: low };
+        };
+        if low > 0.0 {
+            let middle = (amplitude * low).sqrt();
+            if let Some(more) = at(middle) {
+                (amplitude, times) = (middle, more);
+            }
+        }
+        Answer::Found {
+            amplitude,
+            gain: amplitude / planted.rms,
+            times,
+            screened,
+        }
+    }
+}
+
+/// The table for a record that was closed. `progress` is told how many rows of how many are
+/// done, from any thread.
+///
+/// # Errors
+/// One sentence where a name is asked for that the record cannot be asked for.
+pub fn power(
+    data: &Prepared,
+    ledger: &Ledger,
+    question: &Question,
+    progress: impl Fn(usize, usize) + Sync,
+) -> Result<Power, String> {
+    use rayon::prelude::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+    let solution = ledger.last();
+    let mut rows = targets(data, solution, &question.effects)?;
+    let trials = Trials::new(data, solution, question.trials);
+    let screen = Screen::new(data, solution, &trials);
+    let search = Search {
+        data,
+        solution,
+        trials: &trials,
+        needed: needed(question.trials),
+    };
+    let (done, all) = (AtomicUsize::new(0), rows.len());
+    progress(0, all);
+    rows.par_iter_mut().for_each(|row| {
+        if row.answer != Answer::InModel {
+            row.answer = search.answer(&screen, &row.term);
+        }
+        progress(done.fetch_add(1, Ordering::Relaxed) + 1, all);
+    });
+    let named_without = (0..question.trials)
+        .into_par_iter()
+        .filter(|&trial| {
+            let output = trials.output(trial, &[], 0.0);
+            close(&data.with_output(output), &solution.structure, |_| ())
+                .is_ok_and(|ledger| !ledger.rounds.is_empty())
+        })
+        .count();
+    Ok(Power {
+        rows,
+        trials: question.trials,
+        named_without,
+    })
+}
+
+/// How many of so many trials are nine of ten.
+fn needed(trials: usize) -> usize {
+    (SHARE * trials as f64).ceil() as usize
+}

@@ -1,0 +1,450 @@
+//! The columns of the regression, computed by the core itself.
+//!
+//! Every column comes from the functions that run in firmware: the hysteresis from
+//! [`bowden::hysteresis::Shape`], the effects from [`bowden::effect::Effect`].
+//!
+//! Where several records lie behind each other, every state begins anew with each. Time
+//! is that since the record's beginning, as a rig warms up anew; only the step of the
+//! pretension counts from the first record on: what has slipped stays so in the next one.
+
+use crate::model::structure::{FitTerm, Free, Role, Structure};
+use crate::model::Variable;
+use crate::problem::{Channel, Piece, Prepared};
+use bowden::effect::{Effect, EffectState, Family, Motion, Situation};
+use bowden::hysteresis::{Sensitivity, Shape};
+use gathered::Gathered;
+use loops::{seen, trace, trajectory};
+use stages::Stages;
+use std::sync::Arc;
+
+mod gathered;
+mod loops;
+mod series;
+mod stages;
+
+pub(crate) use series::early;
+pub use series::series_column;
+pub(crate) use stages::by_stage;
+
+/// Columns on the work grid, before the filter.
+pub struct RawColumns {
+    /// One per linear gain: input, eta, constant, then the effects.
+    pub columns: Vec<Arc<Vec<f64>>>,
+    /// Whether a column is the same for all values of the free parameters.
+    pub fixed: Vec<bool>,
+    /// The hysteresis state.
+    pub eta: Vec<f64>,
+    /// The structure at these values.
+    terms: Vec<FitTerm>,
+    /// The hysteresis, and its state at the start of each record.
+    shape: Option<(Shape<f64>, Vec<f64>)>,
+    /// The hysteresis with its slopes, where they came with it.
+    trajectory: Option<Vec<Sensitivity<f64>>>,
+    /// The input behind the input stages.
+    seen: Vec<f64>,
+    stages: Stages,
+}
+
+/// What is known beforehand of the columns that are asked for.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Beforehand<'a> {
+    /// The columns for other values of the same free parameters: those that are the same
+    /// for all values are taken from there.
+    pub(crate) last: Option<&'a RawColumns>,
+    /// Whether the slopes will be asked for as well: they come in one pass with the value.
+    pub(crate) slopes: bool,
+}
+
+/// How the columns move with each free parameter: which columns, and their slopes.
+pub struct Moves(Vec<Vec<(usize, Vec<f64>)>>);
+
+/// What a stage adds for a gain of one.
+#[must_use]
+pub fn stage_column(data: &Prepared, effect: &Effect<f64>, output: &[f64]) -> Vec<f64> {
+    Stages::none(data).alone(effect, output)
+}
+
+/// The regressor of one effect along the work grid; `None` where its channel is missing.
+#[must_use]
+pub fn effect_column(data: &Prepared, term: &FitTerm, eta: &[f64]) -> Option<Vec<f64>> {
+    let channel = data.channel(term.source)?;
+    let load = match (data.mode, data.load) {
+        (_, Some(i)) => Some(&data.channels[i].motion),
+        (crate::record::Mode::Torque, None) => Some(&data.input.motion),
+        (crate::record::Mode::Displacement, None) => None,
+    };
+    let mut column = Vec::with_capacity(eta.len());
+    for (record, piece) in data.pieces.iter().enumerate() {
+        let mut state = before(data, term, channel, record, piece);
+        let since = match term.effect.family() {
+            Family::Pretension => piece.since,
+            _ => 0.0,
+        };
+        for (k, i) in piece.work.clone().enumerate() {
+            let motion = &channel.motion[i];
+            let at = Situation {
+                dt: data.dt,
+                time: since + k as f64 * data.dt,
+                motion: Motion {
+                    position: motion.position - term.origin,
+                    ..*motion
+                },
+                input: data.input.motion[i],
+                load: load.map_or(0.0, |l| l[i].position),
+                eta: eta[i],
+                output: 0.0,
+            };
+            column.push(term.effect.regressor(&mut state, &at));
+        }
+    }
+    Some(column)
+}
+
+/// What an effect remembers at the beginning of a record.
+fn before(
+    data: &Prepared,
+    term: &FitTerm,
+    channel: &Channel,
+    record: usize,
+    piece: &Piece,
+) -> EffectState<f64> {
+    let mut state = EffectState::default();
+    if !term.has_past() || piece.work.is_empty() {
+        return state;
+    }
+    let first = &channel.motion[piece.work.start];
+    let start = term.start.get(record).copied().unwrap_or(0.0);
+    let at = Situation {
+        dt: data.dt,
+        motion: Motion {
+            position: first.position - term.origin - start,
+            ..*first
+        },
+        input: data.input.motion[piece.work.start],
+        ..Situation::default()
+    };
+    term.effect.regressor(&mut state, &at);
+    state
+}
+
+/// All columns for the given values of the free parameters.
+///
+/// `None` where a shape is outside of what the core admits.
+#[must_use]
+pub fn raw_columns(
+    data: &Prepared,
+    structure: &Structure,
+    free: &[Free],
+    values: &[f64],
+) -> Option<RawColumns> {
+    raw_columns_knowing(data, structure, free, values, Beforehand::default())
+}
+
+/// As [`raw_columns`], bit for bit, for less where something is known beforehand.
+pub(crate) fn raw_columns_knowing(
+    data: &Prepared,
+    structure: &Structure,
+    free: &[Free],
+    values: &[f64],
+    known: Beforehand<'_>,
+) -> Option<RawColumns> {
+    let terms = shaped(structure, free, values)?;
+    let mut gathered = Gathered::after(known.last, structure.linear());
+    let seen = seen(data, &terms)?;
+    let mut eta = vec![0.0; data.work_len()];
+    let (mut shape, mut sensitivities) = (None, None);
+    if structure.hysteresis {
+        let (bouc_wen, eta0) = hysteresis(data, free, values)?;
+        // In closed form the value has slopes of another step.
+        if known.slopes && ![1.0, 2.0].contains(&bouc_wen.n()) {
+            let all = trajectory(data, &seen, &bouc_wen, &eta0);
+            for (slot, state) in eta.iter_mut().zip(&all) {
+                *slot = state.eta;
+            }
+            sensitivities = Some(all);
+        } else {
+            trace(data, &seen, &bouc_wen, &eta0, &mut eta);
+        }
+        let staged = terms.iter().any(|t| t.effect.is_input_stage());
+        for record in 0..structure.own_gains.max(1) {
+            let own = |column: &[f64]| Some(of_record(data, structure, column, record));
+            gathered.push(!staged, || own(&seen))?;
+            gathered.push(false, || own(&eta))?;
+            gathered.push(true, || own(&vec![1.0; eta.len()]))?;
+        }
+        shape = Some((bouc_wen, eta0));
+    }
+    for (index, term) in terms.iter().enumerate().filter(|(_, t)| t.is_linear()) {
+        let fixed = !term.effect.reads_eta() && !is_searched(free, index);
+        gathered.push(fixed, || effect_column(data, term, &eta))?;
+    }
+    if let Some(table) = &structure.table {
+        // Its slopes in eta's parameters are left out: a search needs them only roughly.
+        let fixed = table.variable != Variable::Eta;
+        gathered.push_all(fixed, table.shapes.len(), || table.columns(data, &eta))?;
+    }
+    let Gathered {
+        mut columns,
+        mut fixed,
+        ..
+    } = gathered;
+    let mut stages = Stages::of(data, &terms, free, values)?;
+    if !stages.list.is_empty() {
+        stages.before = columns.clone();
+        fixed.fill(false);
+        for column in &mut columns {
+            let column: &mut Vec<f64> = Arc::make_mut(column);
+            stages.through(column, 0..stages.list.len());
+        }
+    }
+    Some(RawColumns {
+        columns,
+        fixed,
+        eta,
+        terms,
+        shape,
+        trajectory: sensitivities,
+        seen,
+        stages,
+    })
+}
+
+/// The terms at the values of their free parameters.
+fn shaped(structure: &Structure, free: &[Free], values: &[f64]) -> Option<Vec<FitTerm>> {
+    let mut terms = structure.terms.clone();
+    for (f, &v) in free.iter().zip(values) {
+        match f.role {
+            Role::Shape { term, index } => {
+                terms[term].effect = terms[term].effect.with_shape(index, v).ok()?
+            }
+            Role::Origin { term } => terms[term].origin = v,
+            Role::Start { term, record } => terms[term].start[record] = v,
+            _ => {}
+        }
+    }
+    Some(terms)
+}
+
+/// The hysteresis at the values of its free parameters, and its state at each beginning.
+fn hysteresis(data: &Prepared, free: &[Free], values: &[f64]) -> Option<(Shape<f64>, Vec<f64>)> {
+    let value = |role: Role| free.iter().position(|f| f.role == role).map(|i| values[i]);
+    let shape = Shape::try_new(value(Role::Rho)?, value(Role::Sigma)?, value(Role::N)?).ok()?;
+    // What nobody has fitted (a record that is held out) begins in the middle.
+    let eta0 = |record| value(Role::Eta0 { record }).unwrap_or(0.0);
+    Some((shape, (0..data.pieces.len()).map(eta0).collect()))
+}
+
+/// Whether the column of a linear term moves with a free parameter of its own.
+fn is_searched(free: &[Free], index: usize) -> bool {
+    free.iter().any(|f| match f.role {
+        Role::Shape { term, .. } | Role::Origin { term } | Role::Start { term, .. } => {
+            term == index
+        }
+        _ => false,
+    })
+}
+
+/// A column of the transmission: as it is, or on one record alone where each has its own.
+fn of_record(data: &Prepared, structure: &Structure, column: &[f64], record: usize) -> Vec<f64> {
+    if structure.own_gains == 0 {
+        return column.to_vec();
+    }
+    let mut own = vec![0.0; column.len()];
+    if let Some(piece) = data.pieces.get(record) {
+        own[piece.work.clone()].copy_from_slice(&column[piece.work.clone()]);
+    }
+    own
+}
+
+/// The sum of columns times gains, `n` samples long.
+pub(crate) fn weighted(columns: &[&[f64]], gains: &[f64], n: usize) -> Vec<f64> {
+    let mut pairs = columns.iter().zip(gains);
+    let mut sum: Vec<f64> = match pairs.next() {
+        Some((column, gain)) => column.iter().map(|c| gain * c).collect(),
+        None => vec![0.0; n],
+    };
+    for (column, gain) in pairs {
+        for (slot, c) in sum.iter_mut().zip(*column) {
+            *slot += gain * c;
+        }
+    }
+    sum
+}
+
+/// d column / d parameter by central differences: the effects' shapes are few and smooth.
+fn central_difference(
+    data: &Prepared,
+    moved: &dyn Fn(f64) -> Option<FitTerm>,
+    value: f64,
+    step: f64,
+    eta: &[f64],
+) -> Option<Vec<f64>> {
+    let up = effect_column(data, &moved(value + step)?, eta)?;
+    let down = effect_column(data, &moved(value - step)?, eta)?;
+    Some(
+        up.iter()
+            .zip(&down)
+            .map(|(a, b)| (a - b) / (2.0 * step))
+            .collect(),
+    )
+}
+
+/// d column / d parameter through eta, by a central difference along its sensitivity.
+fn eta_derivative(
+    data: &Prepared,
+    term: &FitTerm,
+    eta: &[f64],
+    sensitivity: &[f64],
+) -> Option<Vec<f64>> {
+    let largest = sensitivity.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
+    if largest == 0.0 {
+        return Some(vec![0.0; eta.len()]);
+    }
+    let h = 1e-5 / largest;
+    let at = |sign: f64| {
+        let moved: Vec<f64> = eta
+            .iter()
+            .zip(sensitivity)
+            .map(|(e, s)| e + sign * h * s)
+            .collect();
+        effect_column(data, term, &moved)
+    };
+    let (up, down) = (at(1.0)?, at(-1.0)?);
+    Some(
+        up.iter()
+            .zip(&down)
+            .map(|(a, b)| (a - b) / (2.0 * h))
+            .collect(),
+    )
+}
+
+impl RawColumns {
+    /// The slopes of all columns in all free parameters.
+    #[must_use]
+    pub fn moves(
+        &self,
+        data: &Prepared,
+        structure: &Structure,
+        free: &[Free],
+        values: &[f64],
+    ) -> Option<Moves> {
+        let mut moves: Vec<Vec<(usize, Vec<f64>)>> = vec![Vec::new(); free.len()];
+        let mut sensitivities: Vec<(usize, Vec<f64>)> = Vec::new();
+        let mut k = 0;
+        if let Some((shape, eta0)) = &self.shape {
+            let own = match self.trajectory {
+                Some(_) => None,
+                None => Some(trajectory(data, &self.seen, shape, eta0)),
+            };
+            let trajectory = self.trajectory.as_ref().or(own.as_ref())?;
+            for (j, f) in free.iter().enumerate() {
+                let pick: fn(&Sensitivity<f64>) -> f64 = match f.role {
+                    Role::Rho => |s| s.d_rho,
+                    Role::Sigma => |s| s.d_sigma,
+                    Role::N => |s| s.d_n,
+                    Role::Eta0 { .. } => |s| s.d_eta0,
+                    _ => continue,
+                };
+                let mut slope: Vec<f64> = trajectory.iter().map(pick).collect();
+                if let Role::Eta0 { record } = f.role {
+                    // The state of one record moves no other.
+                    let own = data.pieces.get(record).map_or(0..0, |p| p.work.clone());
+                    slope[..own.start].fill(0.0);
+                    slope[own.end..].fill(0.0);
+                }
+                sensitivities.push((j, slope));
+            }
+            for (j, s) in &sensitivities {
+                for record in 0..structure.own_gains.max(1) {
+                    let own = of_record(data, structure, s, record);
+                    moves[*j].push((3 * record + 1, own));
+                }
+            }
+            k = structure.base();
+        }
+        for (index, term) in self.terms.iter().enumerate() {
+            if term.effect.is_output_stage() || term.effect.is_input_stage() {
+                continue;
+            }
+            for (j, f) in free.iter().enumerate() {
+                match f.role {
+                    Role::Shape {
+                        term: of,
+                        index: shape,
+                    } if of == index => {
+                        // A step in time moves by whole samples.
+                        let in_time = term.effect.shape_names()[shape] == "t_s";
+                        let step = if in_time {
+                            data.dt
+                        } else {
+                            1e-5 * values[j].abs().max(1e-6)
+                        };
+                        let moved = |v: f64| {
+                            term.effect
+                                .with_shape(shape, v)
+                                .ok()
+                                .map(|effect| FitTerm { effect, ..*term })
+                        };
+                        moves[j].push((
+                            k,
+                            central_difference(data, &moved, values[j], step, &self.eta)?,
+                        ));
+                    }
+                    Role::Start { term: of, record } if of == index => {
+                        let step = 1e-5 * data.channel(term.source)?.reach;
+                        let moved = |v: f64| {
+                            let mut term = *term;
+                            term.start[record] = v;
+                            Some(term)
+                        };
+                        moves[j].push((
+                            k,
+                            central_difference(data, &moved, values[j], step, &self.eta)?,
+                        ));
+                    }
+                    Role::Origin { term: of } if of == index => {
+                        let step = 1e-5 * data.channel(term.source)?.reach;
+                        let moved = |v: f64| Some(FitTerm { origin: v, ..*term });
+                        moves[j].push((
+                            k,
+                            central_difference(data, &moved, values[j], step, &self.eta)?,
+                        ));
+                    }
+                    _ => {}
+                }
+            }
+            if term.effect.reads_eta() {
+                for (j, s) in &sensitivities {
+                    moves[*j].push((k, eta_derivative(data, term, &self.eta, s)?));
+                }
+            }
+            k += 1;
+        }
+        let mut moves = Moves(moves);
+        moves.add_series(data, structure, free, values)?;
+        Some(moves)
+    }
+
+    /// The output for the given gains, before the filter.
+    #[must_use]
+    pub fn output(&self, gains: &[f64]) -> Vec<f64> {
+        let columns: Vec<&[f64]> = self.columns.iter().map(|c| c.as_slice()).collect();
+        weighted(&columns, gains, self.eta.len())
+    }
+
+    /// d output / d free parameter `j` for the given gains, before the filter.
+    #[must_use]
+    pub fn tangent(&self, moves: &Moves, j: usize, gains: &[f64]) -> Vec<f64> {
+        let mut tangent = vec![0.0; self.eta.len()];
+        for (k, column) in &moves.0[j] {
+            for (t, c) in tangent.iter_mut().zip(column) {
+                *t += gains[*k] * c;
+            }
+        }
+        self.stages.through(&mut tangent, 0..self.stages.list.len());
+        if let Some((position, shape)) = self.stages.owner[j] {
+            self.add_stage_tangent(&mut tangent, gains, position, shape);
+        }
+        tangent
+    }
+}

@@ -1,0 +1,153 @@
+//! Output stages: they act on the sum of all columns, so each acts on every column alike.
+
+use super::{weighted, RawColumns};
+use crate::model::structure::{FitTerm, Free, Role};
+use crate::problem::Prepared;
+use bowden::effect::{Effect, EffectState, Situation};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// The output stages, which act on every column alike.
+pub(super) struct Stages {
+    pub(super) list: Vec<(usize, FitTerm, f64)>,
+    dt: f64,
+    /// The records on the work grid.
+    records: Vec<Range<usize>>,
+    /// The columns before the stages; empty where there is no stage.
+    pub(super) before: Vec<Arc<Vec<f64>>>,
+    /// Which free parameter belongs to which stage: its gain, or one of its shapes.
+    pub(super) owner: Vec<Option<(usize, Option<usize>)>>,
+}
+
+impl Stages {
+    pub(super) fn none(data: &Prepared) -> Self {
+        Self {
+            list: Vec::new(),
+            dt: data.dt,
+            records: data.pieces.iter().map(|p| p.work.clone()).collect(),
+            before: Vec::new(),
+            owner: Vec::new(),
+        }
+    }
+
+    /// Those among the terms, each with its gain; `None` where a gain is not given.
+    pub(super) fn of(
+        data: &Prepared,
+        terms: &[FitTerm],
+        free: &[Free],
+        values: &[f64],
+    ) -> Option<Self> {
+        let mut stages = Self {
+            owner: vec![None; free.len()],
+            ..Self::none(data)
+        };
+        let output_stages = terms.iter().enumerate();
+        for (index, term) in output_stages.filter(|(_, t)| t.effect.is_output_stage()) {
+            let place = stages.list.len();
+            let mut own_gain = None;
+            for ((slot, f), &value) in stages.owner.iter_mut().zip(free).zip(values) {
+                match f.role {
+                    Role::Stage { term } if term == index => {
+                        own_gain = Some(value);
+                        *slot = Some((place, None));
+                    }
+                    Role::Shape { term, index: shape } if term == index => {
+                        *slot = Some((place, Some(shape)))
+                    }
+                    _ => {}
+                }
+            }
+            stages.list.push((index, *term, own_gain?));
+        }
+        Some(stages)
+    }
+
+    pub(super) fn through(&self, column: &mut [f64], which: Range<usize>) {
+        for (_, term, gain) in &self.list[which] {
+            self.apply(&term.effect, *gain, column);
+        }
+    }
+
+    fn apply(&self, effect: &Effect<f64>, gain: f64, column: &mut [f64]) {
+        for record in &self.records {
+            apply_stage(effect, gain, &mut column[record.clone()], self.dt);
+        }
+    }
+
+    /// What a stage adds for a gain of one.
+    pub(super) fn alone(&self, effect: &Effect<f64>, output: &[f64]) -> Vec<f64> {
+        let mut column = output.to_vec();
+        self.apply(effect, 1.0, &mut column);
+        column.iter().zip(output).map(|(a, b)| a - b).collect()
+    }
+}
+
+/// output += gain · stage(output), along one record.
+fn apply_stage(effect: &Effect<f64>, gain: f64, column: &mut [f64], dt: f64) {
+    let mut state = EffectState::default();
+    let mut at = Situation {
+        dt,
+        ..Situation::default()
+    };
+    for value in column {
+        at.output = *value;
+        *value += gain * effect.regressor(&mut state, &at);
+    }
+}
+
+impl RawColumns {
+    /// The part of a tangent that comes from an output stage's own gain or shape.
+    pub(super) fn add_stage_tangent(
+        &self,
+        tangent: &mut [f64],
+        gains: &[f64],
+        position: usize,
+        shape: Option<usize>,
+    ) {
+        let Stages { list, before, .. } = &self.stages;
+        let before: Vec<&[f64]> = before.iter().map(|c| c.as_slice()).collect();
+        let mut output = weighted(&before, gains, tangent.len());
+        self.stages.through(&mut output, 0..position);
+        let (_, term, gain) = &list[position];
+        let mut part = match shape {
+            None => self.stages.alone(&term.effect, &output),
+            Some(index) => {
+                let value = term.effect.shape(index).unwrap_or(0.0);
+                let h = 1e-5 * value.abs().max(1e-9);
+                let (Ok(up), Ok(down)) = (
+                    term.effect.with_shape(index, value + h),
+                    term.effect.with_shape(index, value - h),
+                ) else {
+                    return;
+                };
+                let (up, down) = (
+                    self.stages.alone(&up, &output),
+                    self.stages.alone(&down, &output),
+                );
+                up.iter()
+                    .zip(&down)
+                    .map(|(a, b)| gain * (a - b) / (2.0 * h))
+                    .collect()
+            }
+        };
+        self.stages.through(&mut part, position + 1..list.len());
+        for (t, p) in tangent.iter_mut().zip(part) {
+            *t += p;
+        }
+    }
+}
+
+/// What each output stage changes, in their order.
+pub(crate) fn by_stage(raw: &RawColumns, mut output: Vec<f64>) -> Vec<Vec<f64>> {
+    let mut changes = Vec::with_capacity(raw.stages.list.len());
+    for stage in 0..raw.stages.list.len() {
+        let before = output.clone();
+        raw.stages.through(&mut output, stage..stage + 1);
+        let change = output
+            .iter()
+            .zip(&before)
+            .map(|(after, before)| after - before);
+        changes.push(change.collect());
+    }
+    changes
+}

@@ -1,0 +1,28 @@
+//! What a channel is to the effects.
+
+use crate::problem::Channel;
+use crate::record::Mode;
+use bowden::model::Source;
+
+/// What a channel is to the effects, told from its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// An angle or a displacement: something moves.
+    Motion,
+    /// The transmitted torque, input of the torque mode.
+    Torque,
+    Temperature,
+    Load,
+    Other,
+}
+
+pub(crate) fn kind(mode: Mode, source: Source, channel: &Channel) -> Kind {
+    match (source, mode) {
+        (Source::Input, Mode::Displacement) => Kind::Motion,
+        (Source::Input, Mode::Torque) => Kind::Torque,
+        _ if channel.name.starts_with("phi") || channel.name.starts_with("angle") => Kind::Motion,
+        _ if channel.name.starts_with("temp") => Kind::Temperature,
+        _ if channel.name == "load" => Kind::Load,
+        _ => Kind::Other,
+    }
+}

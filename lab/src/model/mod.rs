@@ -1,0 +1,13 @@
+//! What is fitted: terms, their parameters and their columns.
+
+pub mod catalogue;
+pub mod columns;
+pub mod declared;
+pub(crate) mod kind;
+pub mod structure;
+mod table;
+pub mod units;
+mod variable;
+
+pub use table::Table;
+pub use variable::Variable;

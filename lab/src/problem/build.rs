@@ -1,0 +1,451 @@
+//! From records to their grids.
+
+use super::blind::{blind, bridged};
+use super::spectrum;
+use super::uniform::{usual_step, Uniform};
+use super::MOST_RECORDS;
+use super::{filtered, motion, Channel, HeldOut, Piece, Preparation, Prepared, Split, ZeroPhase};
+use crate::record::{Column, Defect, Record};
+use bowden::effect::Motion;
+use std::ops::Range;
+
+/// Rates further apart than this are not brought onto one grid: most of it would be
+/// interpolation.
+const RATES_APART: f64 = 16.0;
+
+/// Of a record that is held out as a whole, the start counts only once the input has
+/// covered its half-range this many times: by then the hysteresis has forgotten its
+/// unknown state at the first sample ...
+const FORGOTTEN: f64 = 4.0;
+/// ... but no more than this share of the record is left out for it.
+const LEFT_OUT: f64 = 0.25;
+
+/// What all records have in common.
+struct Grid {
+    /// Step of the uniform signals \[s\].
+    step: f64,
+    cutoff: f64,
+    /// Uniform samples per work sample.
+    thinning: usize,
+    /// Step of the work grid \[s\].
+    dt: f64,
+    stride: usize,
+    /// Estimation samples that are dropped at both ends.
+    edge: usize,
+}
+
+/// One record on the work grid.
+struct Placed {
+    /// The input first, then the channels.
+    motion: Vec<Vec<Motion<f64>>>,
+    output: Vec<f64>,
+    raw: Vec<f64>,
+    /// Estimation samples, by their place in the record.
+    fit: Vec<usize>,
+    stop: Vec<usize>,
+    held_out: Vec<usize>,
+    /// What the fit may see, on the work grid.
+    seen: Range<usize>,
+    noise_floor: f64,
+}
+
+impl Prepared {
+    /// Puts a record on its grids.
+    ///
+    /// # Errors
+    /// One sentence where the record is too short for the cut-off.
+    pub fn new(record: &Record, preparation: Preparation) -> Result<Self, String> {
+        Self::joined(std::slice::from_ref(record), preparation, HeldOut::Trailing)
+    }
+
+    /// Puts several records of one rig behind each other on common grids: one step, one
+    /// cut-off. The records have the same mode and the same channels in the same order.
+    ///
+    /// The step is that of the fastest record; slower ones are interpolated by cubics.
+    /// Of a record that is held out as a whole nothing is fitted, not even its state at
+    /// the start; so what comes before the input has covered its half-range four times is
+    /// not counted.
+    ///
+    /// # Errors
+    /// One sentence where a record is too short for the cut-off or cannot be put on a
+    /// common grid; it names the file where there are several.
+    pub fn joined(
+        records: &[Record],
+        preparation: Preparation,
+        held_out: HeldOut,
+    ) -> Result<Self, String> {
+        let first = records.first().ok_or("no record was given")?;
+        if records.len() > MOST_RECORDS {
+            return Err(format!(
+                "{} records: at most {MOST_RECORDS} can be fitted together",
+                records.len()
+            ));
+        }
+        let several = records.len() > 1;
+        let named = |record: &Record, message: String| match several {
+            true => format!("{}: {message}", record.path),
+            false => message,
+        };
+        let steps: Vec<f64> = records.iter().map(|r| usual_step(&r.time)).collect();
+        let step = steps.iter().copied().fold(f64::INFINITY, f64::min);
+        let slowest = steps.iter().copied().fold(0.0, f64::max);
+        if let Some((record, own)) = records
+            .iter()
+            .zip(&steps)
+            .find(|(_, own)| **own > RATES_APART * step)
+        {
+            return Err(named(record, format!(
+                "has {:.6} samples a second, another file {:.6}: at most {RATES_APART} times as many can be brought onto one grid",
+                1.0 / own,
+                1.0 / step
+            )));
+        }
+        let uniform = records
+            .iter()
+            .zip(&steps)
+            .map(|(r, own)| Uniform::new(&r.time, *own, step).map_err(|m| named(r, m)))
+            .collect::<Result<Vec<_>, _>>()?;
+        let inputs = records.iter().zip(&uniform);
+        let inputs: Vec<_> = inputs
+            .map(|(r, u)| u.signal(&bridged(r, &r.input)))
+            .collect();
+        let cutoff = cutoff(preparation, &inputs, step, slowest)?;
+        let grid = Grid::new(step, cutoff);
+
+        let mut whole = Collected::default();
+        for (index, (record, uniform)) in records.iter().zip(&uniform).enumerate() {
+            let last = index + 1 == records.len();
+            let shares = match held_out {
+                HeldOut::Trailing => Some((60, 75)),
+                HeldOut::LastRecord if last => None,
+                HeldOut::LastRecord => Some((80, 100)),
+                HeldOut::Nothing => Some((100, 100)),
+            };
+            let placed = place(record, uniform, &inputs[index], &grid, last, shares)
+                .map_err(|m| named(record, m))?;
+            whole.note(record, uniform, several);
+            whole.blame(record, several);
+            whole.add(record, 1.0 / steps[index], placed, &grid);
+        }
+        whole.finish(first, &grid, held_out)
+    }
+
+    /// The row from which on what came before the first record no longer counts: by then
+    /// the input has covered its half-range four times, or a quarter of the record is over.
+    #[must_use]
+    pub fn settled(&self) -> usize {
+        let distance = FORGOTTEN * self.input.reach;
+        let own = |piece: &Piece| settled(piece, &self.path, distance);
+        self.pieces.first().map_or(0, own)
+    }
+}
+
+impl Grid {
+    fn new(step: f64, cutoff: f64) -> Self {
+        let rate = 1.0 / step;
+        let thinning = ((rate / (24.0 * cutoff) + 1e-6).floor() as usize).max(1);
+        let dt = step * thinning as f64;
+        let stride = ((1.0 / (4.0 * cutoff * dt) + 1e-6).floor() as usize).max(1);
+        Self {
+            step,
+            cutoff,
+            thinning,
+            dt,
+            stride,
+            edge: ((3.0 / (cutoff * dt * stride as f64)).ceil() as usize).max(1),
+        }
+    }
+}
+
+/// The one cut-off: as asked for, or from the spectra of the inputs.
+fn cutoff(
+    preparation: Preparation,
+    inputs: &[Vec<f64>],
+    step: f64,
+    slowest: f64,
+) -> Result<f64, String> {
+    let rate = 1.0 / slowest;
+    match preparation.cutoff {
+        Some(cutoff) if cutoff < 0.4 * rate => Ok(cutoff),
+        Some(cutoff) => Err(format!("--cutoff {cutoff} Hz is too high: the record has {rate:.6} samples a second and allows at most {:.6} Hz", 0.4 * rate)),
+        None => {
+            let own = inputs.iter().map(|i| spectrum::default_cutoff(i, 1.0 / step));
+            let highest = own.fold(0.0, f64::max);
+            // The slowest record has to bear it; one alone bears its own.
+            Ok(if inputs.len() > 1 { highest.min(0.2 * rate) } else { highest })
+        }
+    }
+}
+
+/// One record on the grids. `shares` are the percentages at which the fit and the
+/// stop-check end; a record without them is held out as a whole.
+fn place(
+    record: &Record,
+    uniform: &Uniform,
+    input: &[f64],
+    grid: &Grid,
+    last: bool,
+    shares: Option<(usize, usize)>,
+) -> Result<Placed, String> {
+    let &Grid {
+        cutoff,
+        thinning,
+        dt,
+        stride,
+        edge,
+        ..
+    } = grid;
+    let output = uniform.signal(&bridged(record, &record.output));
+    let rate = 1.0 / grid.step;
+    let mut n_work = uniform.len.div_ceil(thinning);
+    // The next record begins on the estimation grid.
+    if !last {
+        n_work -= n_work % stride;
+    }
+    let n_estimation = n_work.div_ceil(stride);
+    if n_estimation < 2 * edge + 160 {
+        return Err(format!(
+            "the record is too short: {:.3} s at a cut-off of {cutoff:.4} Hz; at least {:.3} s are needed, or a higher --cutoff",
+            uniform.len as f64 * uniform.dt,
+            (2 * edge + 160) as f64 * dt * stride as f64
+        ));
+    }
+    let usable = n_estimation - 2 * edge;
+    let (fit_end, stop_end) = match shares {
+        Some((fit, stop)) => (edge + usable * fit / 100, edge + usable * stop / 100),
+        None => (edge, edge),
+    };
+
+    let smooth = ZeroPhase::new(2.5 * cutoff, rate);
+    let smoothed_output = smooth.apply(&output);
+    let moving = |values: &[f64]| {
+        let mut all = motion(&smooth.apply(values), thinning, uniform.dt);
+        all.truncate(n_work);
+        all
+    };
+    let mut motion = vec![moving(input)];
+    motion.extend(
+        record
+            .channels
+            .iter()
+            .map(|c| moving(&uniform.signal(&bridged(record, c)))),
+    );
+    let thinned =
+        |values: &[f64], by: usize| -> Vec<f64> { values.iter().step_by(by).copied().collect() };
+    let mut on_work = thinned(&smoothed_output, thinning);
+    on_work.truncate(n_work);
+    let mut raw = thinned(&output, thinning * stride);
+    raw.truncate(n_estimation);
+
+    let mut valid = vec![true; n_estimation];
+    let per_estimation = thinning * stride;
+    let period = (1.0 / (cutoff * dt * stride as f64)).ceil() as usize;
+    let gaps = uniform.gaps(&record.time, cutoff).into_iter();
+    let blind = blind(record, period, edge)
+        .map(|(stretch, guard)| (uniform.stretch(&record.time, &stretch), guard));
+    // What stands in for a missing stretch is as wrong as the ends are.
+    for (gap, guard) in gaps.map(|gap| (gap, edge)).chain(blind) {
+        let from = (gap.start / per_estimation).saturating_sub(guard);
+        let to = (gap.end / per_estimation + guard).min(n_estimation - 1);
+        if from <= to {
+            valid[from..=to].fill(false);
+        }
+    }
+    let keep = |range: Range<usize>| -> Vec<usize> { range.filter(|&i| valid[i]).collect() };
+    Ok(Placed {
+        noise_floor: noise_floor(&output, &smoothed_output, cutoff, rate),
+        motion,
+        output: on_work,
+        raw,
+        fit: keep(edge..fit_end),
+        stop: keep(fit_end..stop_end),
+        held_out: keep(stop_end..n_estimation - edge),
+        // Shapes and origins are chosen on what the fit may see.
+        seen: edge * stride..fit_end * stride,
+    })
+}
+
+/// The records so far, behind each other.
+#[derive(Default)]
+struct Collected {
+    pieces: Vec<Piece>,
+    /// The input first, then the channels.
+    motion: Vec<Vec<Motion<f64>>>,
+    output: Vec<f64>,
+    raw: Vec<f64>,
+    split: Split,
+    seen: Vec<Range<usize>>,
+    /// Noise floor and fit samples of each record.
+    noise: Vec<(f64, usize)>,
+    notes: Vec<String>,
+    defects: Vec<Defect>,
+}
+
+impl Collected {
+    fn note(&mut self, record: &Record, uniform: &Uniform, several: bool) {
+        let stretched = (uniform.stretched > 0).then(|| {
+            format!(
+                "time is not uniform: {} steps are longer than 1.5 samples; resampled at {:.6} Hz",
+                uniform.stretched,
+                1.0 / uniform.dt
+            )
+        });
+        let notes = record.notes.iter().cloned().chain(stretched);
+        self.notes.extend(notes.map(|note| match several {
+            true => format!("{}: {note}", record.path),
+            false => note,
+        }));
+    }
+
+    /// What is wrong with a record; of several, each says its file.
+    fn blame(&mut self, record: &Record, several: bool) {
+        self.defects.extend(record.defects.iter().map(|defect| {
+            let mut own = defect.clone();
+            if several {
+                own.message = format!("{}: {}", record.path, own.message);
+            }
+            own
+        }));
+    }
+
+    fn add(&mut self, record: &Record, rate: f64, placed: Placed, grid: &Grid) {
+        let (work, row) = (self.output.len(), self.raw.len());
+        let end = work + placed.output.len();
+        self.pieces.push(Piece {
+            path: record.path.clone(),
+            samples: record.time.len(),
+            rate: nine_digits(rate),
+            work: work..end,
+            rows: row..row + placed.raw.len(),
+            since: work as f64 * grid.dt,
+            fitted: !placed.fit.is_empty(),
+        });
+        self.motion.resize(placed.motion.len(), Vec::new());
+        for (all, own) in self.motion.iter_mut().zip(placed.motion) {
+            all.extend(own);
+        }
+        self.output.extend(placed.output);
+        self.raw.extend(placed.raw);
+        let moved = |rows: Vec<usize>| rows.into_iter().map(move |i| row + i);
+        self.noise.push((placed.noise_floor, placed.fit.len()));
+        self.split.fit.extend(moved(placed.fit));
+        self.split.stop.extend(moved(placed.stop));
+        self.split.held_out.extend(moved(placed.held_out));
+        self.seen
+            .push(work + placed.seen.start..work + placed.seen.end);
+    }
+
+    fn finish(
+        mut self,
+        first: &Record,
+        grid: &Grid,
+        held_out: HeldOut,
+    ) -> Result<Prepared, String> {
+        let columns = std::iter::once(&first.input).chain(&first.channels);
+        let named = |(motion, column): (Vec<Motion<f64>>, &Column)| {
+            Channel::new(column.name.clone(), column.unit.clone(), motion, &self.seen)
+        };
+        let mut all = self.motion.into_iter().zip(columns).map(named);
+        let input = all.next().ok_or("no record was given")?;
+        let channels: Vec<_> = all.collect();
+        let load = channels.iter().position(|c| c.name == "load");
+        let path = path(&input, &self.pieces, grid.stride);
+        for piece in self.pieces.iter().filter(|p| !p.fitted) {
+            let from = settled(piece, &path, FORGOTTEN * input.reach);
+            let too_early = |row: &usize| piece.rows.contains(row) && *row < from;
+            self.split.held_out.retain(|row| !too_early(row));
+        }
+        let split = &self.split;
+        let kept_back = split.stop.len().min(split.held_out.len());
+        let unseen = held_out == HeldOut::Nothing || kept_back >= 20;
+        if split.fit.len() < 96 || !unseen {
+            return Err("gaps in time and defects leave too few samples to fit".to_owned());
+        }
+        let smoother = ZeroPhase::new(grid.cutoff, 1.0 / grid.dt);
+        Ok(Prepared {
+            mode: first.mode,
+            samples: self.pieces.iter().map(|p| p.samples).sum(),
+            rate: nine_digits(1.0 / grid.step),
+            cutoff: grid.cutoff,
+            dt: grid.dt,
+            stride: grid.stride,
+            input,
+            channels,
+            load,
+            output_name: first.output.name.clone(),
+            output_unit: first.output.unit.clone(),
+            target: filtered(&smoother, &self.pieces, grid.stride, &self.output),
+            output: self.output,
+            target_raw: self.raw,
+            split: self.split,
+            noise_floor: common_floor(&self.noise),
+            path,
+            notes: self.notes,
+            defects: self.defects,
+            pieces: self.pieces,
+            smoother,
+        })
+    }
+}
+
+/// The input's travelled distance up to each estimation sample; from one record to the
+/// next nothing is travelled.
+fn path(input: &Channel, pieces: &[Piece], stride: usize) -> Vec<f64> {
+    let mut travelled = 0.0;
+    let mut path = Vec::new();
+    for piece in pieces {
+        let motion = &input.motion[piece.work.clone()];
+        for (i, at) in motion.iter().enumerate() {
+            if i > 0 {
+                travelled += (at.position - motion[i - 1].position).abs();
+            }
+            if i % stride == 0 {
+                path.push(travelled);
+            }
+        }
+    }
+    path
+}
+
+/// The row of a record from which on its start is forgotten.
+fn settled(piece: &Piece, path: &[f64], distance: f64) -> usize {
+    let begin = path[piece.rows.start];
+    let most = piece.rows.start + (LEFT_OUT * piece.rows.len() as f64) as usize;
+    (piece.rows.start..most)
+        .find(|&row| path[row] - begin >= distance)
+        .unwrap_or(most)
+}
+
+/// Rms of the noise of all records, each as long as the fit sees it.
+fn common_floor(noise: &[(f64, usize)]) -> f64 {
+    if let [(floor, _)] = noise {
+        return *floor;
+    }
+    let samples = noise.iter().map(|(_, n)| n).sum::<usize>().max(1);
+    let squares = noise.iter().map(|(floor, n)| floor * floor * *n as f64);
+    (squares.sum::<f64>() / samples as f64).sqrt()
+}
+
+/// What is beyond nine digits is rounding.
+fn nine_digits(value: f64) -> f64 {
+    format!("{value:.9e}").parse().unwrap_or(value)
+}
+
+/// Rms of white noise behind the filter at `cutoff`, estimated from what the
+/// smoother at 2.5 times that took away.
+fn noise_floor(output: &[f64], smoothed: &[f64], cutoff: f64, rate: f64) -> f64 {
+    // Differences of neighbours see the noise at the top of the band and not the signal.
+    let n = output.len();
+    let removed: Vec<f64> = output.iter().zip(smoothed).map(|(a, b)| a - b).collect();
+    let passed = ZeroPhase::new(2.5 * cutoff, rate).noise_gain();
+    // What is left of white noise after taking away its smoothed part: 1 − 2 h0 + sum h².
+    let mut impulse = vec![0.0; 4001];
+    impulse[2000] = 1.0;
+    let centre = ZeroPhase::new(2.5 * cutoff, rate).apply(&impulse)[2000];
+    let share = 1.0 - 2.0 * centre + passed * passed;
+    if share <= 0.02 {
+        return 0.0;
+    }
+    let variance = removed.iter().map(|v| v * v).sum::<f64>() / n as f64 / share;
+    variance.sqrt() * ZeroPhase::new(cutoff, rate).noise_gain()
+}

@@ -1,0 +1,299 @@
+//! From a record to the grid on which everything is computed.
+//!
+//! Time is made uniform, long gaps are masked. One smoother at 2.5 f_c goes over the
+//! input, every channel **and the output**; velocity and acceleration are derived
+//! from the smoothed signals. Then every column of the regression and the output go
+//! through the same zero-phase filter at f_c. So noise cannot make a fake viscous
+//! term or a fake delay.
+//!
+//! Three grids: the record's own rate; the *work* grid, on which hysteresis and
+//! effects run (about 24 samples per period of f_c); the *estimation* grid, on which
+//! least squares runs (about 4 per period, since nothing above f_c is left). Starts are
+//! searched on a coarser work grid that ends with the fit segment.
+//!
+//! Several records of one rig lie behind each other on one set of grids
+//! ([`Prepared::joined`]). Whatever runs along time, a filter, the hysteresis, an effect
+//! with memory, begins anew with each of them.
+
+use crate::record::{Defect, Mode};
+use bowden::effect::Motion;
+use filter::{derivative, ZeroPhase};
+use std::ops::Range;
+
+mod blind;
+mod build;
+pub mod filter;
+mod search;
+pub mod spectrum;
+mod uniform;
+
+/// At most so many records are fitted together: each brings unknown states of its own.
+pub const MOST_RECORDS: usize = 16;
+
+/// How the record is to be prepared.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Preparation {
+    /// Cut-off \[Hz\]; from the spectrum of the input where `None`.
+    pub cutoff: Option<f64>,
+}
+
+/// A measured channel on the work grid.
+#[derive(Debug, Clone)]
+pub struct Channel {
+    /// Name as in the record, or as mapped by the user.
+    pub name: String,
+    /// Unit of the position, where the record states one.
+    pub unit: Option<String>,
+    /// Position, velocity and acceleration at each work sample.
+    pub motion: Vec<Motion<f64>>,
+    /// The origin from which effects measure the position: 0 or the mid-range.
+    pub origin: f64,
+    /// Middle of the range of the position.
+    pub middle: f64,
+    /// Half of the range of the position.
+    pub reach: f64,
+    /// Root mean square of the velocity.
+    pub speed: f64,
+}
+
+impl Channel {
+    /// A channel on the work grid; `used` is what the fit may see of it.
+    fn new(
+        name: String,
+        unit: Option<String>,
+        motion: Vec<Motion<f64>>,
+        used: &[Range<usize>],
+    ) -> Self {
+        let inside = || used.iter().flat_map(|range| &motion[range.clone()]);
+        let count = used.iter().map(ExactSizeIterator::len).sum::<usize>();
+        let low = inside().map(|m| m.position).fold(f64::INFINITY, f64::min);
+        let high = inside()
+            .map(|m| m.position)
+            .fold(f64::NEG_INFINITY, f64::max);
+        let (middle, reach) = (0.5 * (low + high), 0.5 * (high - low));
+        // An axis that is nearly centred keeps its own zero: that is where its physics is.
+        let origin = if middle.abs() < 0.1 * reach {
+            0.0
+        } else {
+            middle
+        };
+        let speed =
+            (inside().map(|m| m.velocity * m.velocity).sum::<f64>() / count.max(1) as f64).sqrt();
+        Self {
+            name,
+            unit,
+            motion,
+            origin,
+            middle,
+            reach,
+            speed,
+        }
+    }
+}
+
+/// Position, velocity and acceleration of a smoothed signal on the work grid.
+fn motion(smoothed: &[f64], stride: usize, dt: f64) -> Vec<Motion<f64>> {
+    let velocity = derivative(smoothed, dt);
+    let acceleration = derivative(&velocity, dt);
+    (0..smoothed.len())
+        .step_by(stride)
+        .map(|i| Motion {
+            position: smoothed[i],
+            velocity: velocity[i],
+            acceleration: acceleration[i],
+        })
+        .collect()
+}
+
+/// What of several records is held out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum HeldOut {
+    /// The last quarter of each.
+    #[default]
+    Trailing,
+    /// The last record as a whole; of the others the last fifth is the stop-check.
+    LastRecord,
+    /// Nothing: all of each record is one segment, for a model that is only tried on it.
+    Nothing,
+}
+
+/// One record among those that are fitted together: where it lies on the grids.
+#[derive(Debug, Clone)]
+pub struct Piece {
+    /// Where it came from, as it is named in messages.
+    pub path: String,
+    /// Samples after cutting.
+    pub samples: usize,
+    /// Its own rate \[Hz\], after making time uniform.
+    pub rate: f64,
+    /// Its samples on the work grid.
+    pub work: Range<usize>,
+    /// Its samples on the estimation grid.
+    pub rows: Range<usize>,
+    /// What the records before it take together \[s\].
+    pub since: f64,
+    /// Whether the fit sees any of it.
+    pub fitted: bool,
+}
+
+/// The segments: fit and select, stop-check, held out. Trailing, but for a record that is
+/// held out as a whole.
+#[derive(Debug, Clone, Default)]
+pub struct Split {
+    /// The first 60 % (80 % where a whole record is held out): parameters are fitted and effects selected here.
+    pub fit: Vec<usize>,
+    /// The next 15 % (20 %): a round must not make this worse.
+    pub stop: Vec<usize>,
+    /// The last 25 %, or the last record: seen by nothing, only reported.
+    pub held_out: Vec<usize>,
+}
+
+/// A record, or several of one rig, on common grids, ready to be fitted.
+#[derive(Debug, Clone)]
+pub struct Prepared {
+    /// Torque or displacement input.
+    pub mode: Mode,
+    /// The records, in their order: at least one.
+    pub pieces: Vec<Piece>,
+    /// Samples after cutting, of all records.
+    pub samples: usize,
+    /// Rate \[Hz\], after making time uniform: that of the fastest record.
+    pub rate: f64,
+    /// Cut-off f_c \[Hz\].
+    pub cutoff: f64,
+    /// Step of the work grid \[s\].
+    pub dt: f64,
+    /// Work samples per estimation sample.
+    pub stride: usize,
+    /// The transmission's input on the work grid.
+    pub input: Channel,
+    /// The other channels.
+    pub channels: Vec<Channel>,
+    /// Index into `channels` of a measured load, where there is one.
+    pub load: Option<usize>,
+    /// The output's name and unit.
+    pub output_name: String,
+    /// The output's unit.
+    pub output_unit: Option<String>,
+    /// The output behind the smoother, on the work grid.
+    output: Vec<f64>,
+    /// The output through the filter, on the estimation grid.
+    pub target: Vec<f64>,
+    /// The output as recorded (uniform time, not filtered) on the estimation grid.
+    pub target_raw: Vec<f64>,
+    /// Estimation samples of each segment.
+    pub split: Split,
+    /// Rms of the output's noise that passes the filter, taken as white.
+    pub noise_floor: f64,
+    /// The input range's travelled distance up to each estimation sample.
+    pub path: Vec<f64>,
+    /// Remarks for the user.
+    pub notes: Vec<String>,
+    /// What is wrong with the measurement itself.
+    pub defects: Vec<Defect>,
+    smoother: ZeroPhase,
+}
+
+impl Prepared {
+    /// The output behind the smoother, on the work grid.
+    #[must_use]
+    pub fn output(&self) -> &[f64] {
+        &self.output
+    }
+
+    /// The same record with another output, given on the work grid.
+    #[must_use]
+    pub fn with_output(&self, output: Vec<f64>) -> Self {
+        Self {
+            target: self.filtered(&output),
+            target_raw: output.iter().step_by(self.stride).copied().collect(),
+            output,
+            ..self.clone()
+        }
+    }
+
+    /// The same record with the stop-check segment among what is fitted.
+    #[must_use]
+    pub fn with_stop_fitted(&self) -> Self {
+        let mut wide = self.clone();
+        wide.split.fit.extend(&self.split.stop);
+        // Of several records each has its own stop-check, between the others' segments.
+        wide.split.fit.sort_unstable();
+        wide
+    }
+
+    /// The same records with only those rows of the fit segment for which `kept` holds.
+    #[must_use]
+    pub fn with_rows(mut self, kept: impl Fn(usize) -> bool) -> Self {
+        self.split.fit.retain(|&row| kept(row));
+        self
+    }
+
+    /// Samples on the work grid.
+    #[must_use]
+    pub fn work_len(&self) -> usize {
+        self.input.motion.len()
+    }
+
+    /// A column of the work grid through the filter, on the estimation grid.
+    #[must_use]
+    pub fn filtered(&self, column: &[f64]) -> Vec<f64> {
+        filtered(&self.smoother, &self.pieces, self.stride, column)
+    }
+
+    /// Several columns, each as by [`filtered`](Self::filtered), for less than one by one.
+    #[must_use]
+    pub fn filtered_all(&self, columns: &[&[f64]]) -> Vec<Vec<f64>> {
+        filtered_all(&self.smoother, &self.pieces, self.stride, columns)
+    }
+
+    /// Time of a row \[s\], with the records behind each other.
+    #[must_use]
+    pub fn moment(&self, row: usize) -> f64 {
+        let piece = self.pieces.iter().find(|p| p.rows.contains(&row));
+        piece.map_or(0.0, |p| {
+            p.since + (row - p.rows.start) as f64 * self.stride as f64 * self.dt
+        })
+    }
+
+    /// The channel that an effect reads.
+    #[must_use]
+    pub fn channel(&self, source: bowden::model::Source) -> Option<&Channel> {
+        match source {
+            bowden::model::Source::Input => Some(&self.input),
+            bowden::model::Source::Channel(i) => self.channels.get(usize::from(i)),
+        }
+    }
+}
+
+/// A column of the work grid through the filter, each record by itself.
+fn filtered(smoother: &ZeroPhase, pieces: &[Piece], stride: usize, column: &[f64]) -> Vec<f64> {
+    let all = filtered_all(smoother, pieces, stride, &[column]);
+    all.into_iter().flatten().collect()
+}
+
+/// Columns of the work grid through the filter, each record by itself.
+fn filtered_all(
+    smoother: &ZeroPhase,
+    pieces: &[Piece],
+    stride: usize,
+    columns: &[&[f64]],
+) -> Vec<Vec<f64>> {
+    let of = |piece: &Piece| {
+        let own: Vec<&[f64]> = columns.iter().map(|c| &c[piece.work.clone()]).collect();
+        smoother.apply_all(&own, stride)
+    };
+    if let [piece] = pieces {
+        return of(piece);
+    }
+    let mut all = vec![Vec::new(); columns.len()];
+    for piece in pieces {
+        for (column, own) in all.iter_mut().zip(of(piece)) {
+            column.extend(own);
+        }
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests;

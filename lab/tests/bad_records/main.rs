@@ -1,0 +1,432 @@
+//! Every bad record gets one clear line, and no bytes at all make the reader panic.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod signals;
+
+use bowden_lab::record::{parse, read, Mode, Options, Record};
+use proptest::prelude::*;
+use std::fmt::Write as _;
+
+/// A record that is fine: 400 samples at 100 Hz in three columns.
+fn rows() -> Vec<String> {
+    let row = |i: i32| {
+        let t = f64::from(i) * 0.01;
+        format!(
+            "{t:.2},{:.6},{:.6}",
+            10.0 * (3.0 * t).sin(),
+            25.0 * (3.0 * t + 0.2).sin()
+        )
+    };
+    (0..400).map(row).collect()
+}
+
+fn csv(header: &str, rows: &[String]) -> String {
+    format!("{header}\n{}\n", rows.join("\n"))
+}
+
+/// The record with another first column.
+fn with_time(header: &str, time: impl Fn(usize) -> String) -> String {
+    let row =
+        |(i, row): (usize, &String)| format!("{},{}", time(i), row.split_once(',').unwrap().1);
+    csv(
+        header,
+        &rows().iter().enumerate().map(row).collect::<Vec<_>>(),
+    )
+}
+
+/// The record with one line (numbered as an editor does) replaced.
+fn with_line(line: usize, text: &str) -> String {
+    let mut rows = rows();
+    rows[line - 2] = text.to_owned();
+    csv("t,x,f", &rows)
+}
+
+/// The record with two columns computed from the time.
+fn of(input: impl Fn(f64) -> f64, output: impl Fn(f64) -> f64) -> String {
+    let mut text = "t,x,f\n".to_owned();
+    for i in 0..2000 {
+        let t = f64::from(i) * 0.01;
+        writeln!(text, "{t},{},{}", input(t), output(t)).unwrap();
+    }
+    text
+}
+
+fn refusal(bytes: impl AsRef<[u8]>, options: &Options) -> String {
+    parse(bytes.as_ref(), "r.csv", options)
+        .expect_err("a refusal")
+        .to_string()
+}
+
+fn refused(bytes: impl AsRef<[u8]>, line: &str) {
+    assert_eq!(refusal(bytes, &Options::default()), line);
+}
+
+fn accepted(bytes: impl AsRef<[u8]>) -> Record {
+    parse(bytes.as_ref(), "r.csv", &Options::default()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn the_unit_of_time_is_converted() {
+    let record = accepted(with_time("t [ms],x,f", |i| format!("{}", 10 * i)));
+    assert!((record.time[399] - 3.99).abs() < 1e-12);
+    assert_eq!(record.notes, ["time converted from ms to s"]);
+    refused(
+        csv("t [V],x,f", &rows()),
+        "r.csv:1: column `t`: unit `V` is not a time, one of s, ms, us, ns, min was expected",
+    );
+}
+
+#[test]
+fn a_file_that_cannot_be_opened_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let missing = folder.path().join("no such.csv");
+    let error = read(&missing, &Options::default()).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        format!("{}: no such file", missing.display())
+    );
+    let error = read(folder.path(), &Options::default()).unwrap_err();
+    let line = format!(
+        "{}: is a folder, a CSV file was expected",
+        folder.path().display()
+    );
+    assert_eq!(error.to_string(), line);
+}
+
+#[test]
+fn a_file_without_a_record_is_refused() {
+    let header = "a header with column names was expected";
+    refused("", &format!("r.csv:1: the file is empty, {header}"));
+    refused(
+        "\u{feff}\r\n \n",
+        &format!("r.csv:1: the file is blank, {header}"),
+    );
+    let short = "at least 200 are needed";
+    refused(
+        "t,x,f\n",
+        &format!("r.csv:1: too short: 0 samples, {short}"),
+    );
+    refused(
+        "t,x,f\n0,1,2\n",
+        &format!("r.csv:2: too short: 1 sample, {short}"),
+    );
+    refused(
+        "t,x,f\n0,1,2\n1,2,3\n2,5,4\n",
+        &format!("r.csv:4: too short: 3 samples, {short}"),
+    );
+}
+
+#[test]
+fn a_file_that_is_not_text_is_refused() {
+    refused(
+        b"t,x,f\n0,1,2\n\x00\x01",
+        "r.csv:3: byte 12 is NUL: a binary file, CSV text was expected",
+    );
+    refused(
+        b"t,x,f\n0,1\xb5,2\n",
+        "r.csv:2: byte 9 (0xB5) is not UTF-8; save the file as UTF-8",
+    );
+    refused(
+        b"\xff\xfet\x00,\x00",
+        "r.csv:1: the text is UTF-16, UTF-8 was expected",
+    );
+}
+
+#[test]
+fn a_header_that_is_none_is_refused() {
+    let header = "a header with column names was expected";
+    refused(
+        ",,\n1,2,3\n",
+        &format!("r.csv:1: the line has no names, {header}"),
+    );
+    refused(
+        rows().join("\n"),
+        &format!("r.csv:1: the line holds numbers, {header}"),
+    );
+    refused(
+        csv("t,x [mm],x [N]", &rows()),
+        "r.csv:1: column `x`: named twice, as columns 2 and 3",
+    );
+    refused(
+        csv("t,x,f,u,u", &rows()),
+        "r.csv:1: column `u`: named twice, as columns 4 and 5",
+    );
+}
+
+#[test]
+fn a_missing_column_is_named_with_those_that_exist() {
+    refused(
+        csv("time,x,f", &rows()),
+        "r.csv:1: column `t`: no such column among `time`, `x`, `f` (nearest: `time`); \
+         --time COL names another one, --rate HZ takes time from the row number",
+    );
+    refused(
+        csv("t,tau_i,torque", &rows()),
+        "r.csv:1: column `tau_o`: no such column among `t`, `tau_i`, `torque` (nearest: `tau_i`); \
+         --output COL names another one",
+    );
+    let options = Options {
+        channels: vec![("phi_p".into(), "q".into())],
+        ..Options::default()
+    };
+    assert_eq!(
+        refusal(csv("t,x,f", &rows()), &options),
+        "r.csv:1: column `q`: no such column among `t`, `x`, `f`; \
+         --channel NAME=COL names another one"
+    );
+    refused(
+        csv("t,a,b", &rows()),
+        "r.csv:1: neither `tau_i` and `tau_o` nor `x` and `f` among the columns `t`, `a`, `b`; \
+         name them with --mode, --input and --output",
+    );
+}
+
+#[test]
+fn an_open_mode_is_asked_for() {
+    let rows: Vec<_> = rows().iter().map(|row| format!("{row},1,2")).collect();
+    refused(
+        csv("t,x,f,tau_i,tau_o", &rows),
+        "r.csv:1: the columns fit both modes; state --mode torque or --mode displacement",
+    );
+    let options = Options {
+        input: Some("q".into()),
+        output: Some("u".into()),
+        ..Options::default()
+    };
+    assert_eq!(
+        refusal(csv("t,q,u,a,b", &rows), &options),
+        "r.csv:1: the mode does not follow from the columns named; \
+         state --mode torque or --mode displacement"
+    );
+}
+
+#[test]
+fn one_column_has_one_part() {
+    let text = csv("t,x,f", &rows());
+    let refuses = |options: Options, line: &str| assert_eq!(refusal(&text, &options), line);
+    let mode = Some(Mode::Displacement);
+    refuses(
+        Options {
+            output: Some("x".into()),
+            mode,
+            ..Options::default()
+        },
+        "r.csv:1: column `x`: is both input and output",
+    );
+    refuses(
+        Options {
+            input: Some("t".into()),
+            mode,
+            ..Options::default()
+        },
+        "r.csv:1: column `t`: is the time, it cannot be input or output too",
+    );
+    let channels = |pairs: &[(&str, &str)]| Options {
+        channels: pairs
+            .iter()
+            .map(|(name, col)| ((*name).into(), (*col).into()))
+            .collect(),
+        ..Options::default()
+    };
+    refuses(
+        channels(&[("load", "f")]),
+        "r.csv:1: column `f`: is the output, it cannot explain itself as channel `load`",
+    );
+    refuses(
+        channels(&[("a", "t"), ("a", "x")]),
+        "r.csv: --channel NAME=COL: channel `a` is given twice",
+    );
+    refuses(
+        channels(&[("x", "x")]),
+        "r.csv: --channel NAME=COL: `x` cannot be the name of a channel",
+    );
+}
+
+#[test]
+fn a_cell_that_is_no_measured_number_is_shown() {
+    let refuses = |cell: &str, message: &str| {
+        let line = format!("r.csv:57: column `x`: {message}");
+        refused(with_line(57, &format!("0.55,{cell},3")), &line);
+    };
+    refuses("", "the cell is empty, a number was expected");
+    refuses("abc", "`abc` is not a number");
+    refuses("NaN", "`NaN` is not finite, a finite number was expected");
+    refuses("-inf", "`-inf` is not finite, a finite number was expected");
+    refuses(
+        "1e999",
+        "`1e999` is not finite, a finite number was expected",
+    );
+    refuses(
+        "1e308",
+        "`1e308` is larger than 1e150, a measured value was expected",
+    );
+    refuses("\u{1b}[2J\u{7}", "`\\u{1b}[2J\\u{7}` is not a number");
+    refuses(
+        &"7x".repeat(500),
+        "`7x7x7x7x7x7x7x7x7x7x7x7x…` is not a number",
+    );
+    refused(
+        with_line(9, "0.07,1,"),
+        "r.csv:9: column `f`: the cell is empty, a number was expected",
+    );
+    refused(
+        with_line(9, "x,1,2"),
+        "r.csv:9: column `t`: `x` is not a number",
+    );
+    refused(
+        with_line(9, "0.07,1.5,2")
+            .replace(',', ";")
+            .replace("1.5;", "1,5;"),
+        "r.csv:9: column `x`: `1,5` has a decimal comma, a decimal point was expected",
+    );
+}
+
+#[test]
+fn a_row_that_does_not_fit_the_header_is_refused() {
+    refused(
+        with_line(57, "0.55,3"),
+        "r.csv:57: 2 cells, the header has 3",
+    );
+    refused(
+        with_line(57, "0.55,3,4,5"),
+        "r.csv:57: 4 cells, the header has 3",
+    );
+    refused(
+        with_line(57, ""),
+        "r.csv:57: the line is blank, but rows follow it",
+    );
+    refused(
+        with_line(57, &"1".repeat(5_000_000)),
+        "r.csv:57: the line has 5000000 bytes, at most 65536 are read",
+    );
+}
+
+#[test]
+fn a_line_of_any_length_gets_one_short_line() {
+    let length = 16 << 20;
+    let limit = "at most 65536 are read";
+    // As a header, as a row, of one cell, of many, of letters of two bytes, of blanks inside.
+    for pattern in ["1", "1,", "é", "\",", "x "] {
+        let long = pattern.repeat(length / pattern.len());
+        let bytes = long.trim_end().len();
+        refused(
+            &long,
+            &format!("r.csv:1: the line has {bytes} bytes, {limit}"),
+        );
+        refused(
+            format!("t,x,f\n0,1,2\n{long}\n0.02,1,2\n"),
+            &format!("r.csv:3: the line has {} bytes, {limit}", long.len()),
+        );
+    }
+}
+
+#[test]
+fn a_quote_that_stays_open_is_refused() {
+    refused(
+        with_line(400, "3.98,1,\"2"),
+        "r.csv:400: a quote is not closed before the end of the file",
+    );
+    // Not read, but it would hide the rows behind it.
+    let spare: Vec<_> = rows().iter().map(|row| format!("{row},ok")).collect();
+    let text = csv("t,x,f,note", &spare);
+    refused(
+        text.replace("3.98,", "3.98,1,2,\"see\n3.98,"),
+        "r.csv:400: a quote is not closed before the end of the file",
+    );
+    refused(
+        text + "4.00,1,2,\"",
+        "r.csv:402: a quote is not closed before the end of the file",
+    );
+    refused(
+        csv("t,x,\"f", &rows()),
+        "r.csv:1: a quote is not closed before the end of the file",
+    );
+    let mut long = with_line(57, "0.55,\"1,2");
+    long += &"4.00,1,2\n".repeat(100_000);
+    refused(
+        long,
+        "r.csv:57: a quote is not closed, or not within 65536 bytes",
+    );
+    // Closed by the next stray quote.
+    refused(
+        with_line(57, "0.55,\"1,2\n0.56,3,4\""),
+        "r.csv:57: 2 cells, the header has 3; a quote carries the row on to line 58",
+    );
+    refused(
+        with_line(57, "0.55,\"1,2\n0.56,\"3,4"),
+        "r.csv:57: column `x`: `1,2\\n0.56,3` is not a number",
+    );
+}
+
+/// What a reader owes its caller, whatever the bytes were.
+fn holds(bytes: &[u8], options: &Options) {
+    match parse(bytes, "r.csv", options) {
+        Ok(record) => {
+            assert!(record.samples() >= 200 && record.time[0] == 0.0);
+            assert!(record.time.windows(2).all(|pair| pair[1] > pair[0]));
+            for column in [&record.input, &record.output]
+                .into_iter()
+                .chain(&record.channels)
+            {
+                assert_eq!(column.values.len(), record.samples());
+                assert!(column.values.iter().all(|value| value.is_finite()));
+            }
+        }
+        Err(error) => {
+            let line = error.to_string();
+            assert!(
+                line.starts_with("r.csv:") && !line.contains(char::is_control),
+                "{line:?}"
+            );
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(256))]
+
+    #[test]
+    fn no_bytes_make_the_reader_panic(bytes in proptest::collection::vec(any::<u8>(), 0..400)) {
+        holds(&bytes, &Options::default());
+    }
+
+    #[test]
+    fn no_text_makes_the_reader_panic(
+        text in "(t|x|f|tau_i|[-+0-9.eE,;\t\r\n\"\\[\\] ]|\\PC){0,200}",
+    ) {
+        holds(text.as_bytes(), &Options::default());
+        let options = Options { rate: Some(1.0), ..Options::default() };
+        holds(format!("t,x,f\n{text}").as_bytes(), &options);
+    }
+
+    #[test]
+    fn no_damage_makes_the_reader_panic(
+        damage in proptest::collection::vec(
+            (any::<prop::sample::Index>(), any::<u8>(), 0..3_usize), 1..6),
+        skip in -1.0..5.0_f64,
+    ) {
+        let mut bytes = csv("t,x,f", &rows()).into_bytes();
+        for (at, byte, kind) in damage {
+            let at = at.index(bytes.len());
+            match kind {
+                0 => bytes[at] = byte,
+                1 => bytes.insert(at, byte),
+                _ => drop(bytes.remove(at)),
+            }
+        }
+        holds(&bytes, &Options { skip, ..Options::default() });
+    }
+
+    #[test]
+    fn no_numbers_make_the_reader_panic(
+        values in proptest::collection::vec((any::<f64>(), any::<f64>(), any::<f64>()), 200..210),
+        rate in any::<f64>(),
+    ) {
+        let rows: Vec<_> = values.iter().map(|(t, x, f)| format!("{t},{x},{f}")).collect();
+        holds(csv("t,x,f", &rows).as_bytes(), &Options::default());
+        let mild = |(t, x, f): &(f64, f64, f64)| format!("{t},{},{}", x % 1e150, f % 1e150);
+        let rows: Vec<_> = values.iter().map(mild).collect();
+        let options = Options { rate: Some(rate), ..Options::default() };
+        holds(csv("t,x,f", &rows).as_bytes(), &options);
+    }
+}

@@ -1,0 +1,118 @@
+//! Time that does not run, columns that hold no measurement, options that fit no record.
+
+use super::*;
+
+#[test]
+fn time_that_does_not_run_forward_is_refused() {
+    refused(
+        with_line(57, "0.53,1,2"),
+        "r.csv:57: column `t`: time runs backwards, from 0.54 to 0.53 s",
+    );
+    refused(
+        with_line(57, "0.54,1,2"),
+        "r.csv:57: column `t`: time stands still at 0.54; \
+         --rate HZ takes time from the row number",
+    );
+    let rounded = with_time("t,x,f", |i| format!("{:.2}", i as f64 / 128.0));
+    refused(
+        &rounded,
+        "r.csv:5: column `t`: time stands still at 0.02, as at 87 of 400 rows: \
+         the stamps are rounded; --rate HZ takes time from the row number (about 127.9 Hz)",
+    );
+    let options = Options {
+        rate: Some(128.0),
+        ..Options::default()
+    };
+    let record = parse(rounded.as_bytes(), "r.csv", &options).unwrap();
+    assert_eq!(record.time[128], 1.0);
+    // Stamps that differ as written, but no longer once they are relative.
+    let far = with_time("t,x,f", |i| {
+        if i == 0 {
+            "-1e10".into()
+        } else {
+            format!("{i}e-12")
+        }
+    });
+    assert!(refusal(far, &Options::default()).contains("time stands still"));
+}
+
+#[test]
+fn options_that_cannot_be_followed_are_refused() {
+    let text = csv("t,x,f", &rows());
+    let refuses = |options: Options, line: &str| assert_eq!(refusal(&text, &options), line);
+    let rate = |rate: f64| Options {
+        rate: Some(rate),
+        ..Options::default()
+    };
+    refuses(
+        rate(0.0),
+        "r.csv: --rate 0: a positive number of Hz was expected",
+    );
+    refuses(
+        rate(-5.0),
+        "r.csv: --rate -5: a positive number of Hz was expected",
+    );
+    refuses(
+        rate(f64::NAN),
+        "r.csv: --rate NaN: a positive number of Hz was expected",
+    );
+    let cut = |skip: f64, until: Option<f64>| Options {
+        skip,
+        until,
+        ..Options::default()
+    };
+    refuses(
+        cut(-1.0, None),
+        "r.csv: --skip -1: seconds from 0 up were expected",
+    );
+    refuses(
+        cut(f64::NAN, None),
+        "r.csv: --skip NaN: seconds from 0 up were expected",
+    );
+    refuses(
+        cut(2.0, Some(2.0)),
+        "r.csv: --until 2: more than --skip 2 was expected",
+    );
+    refuses(
+        cut(0.0, Some(f64::NAN)),
+        "r.csv: --until NaN: more than --skip 0 was expected",
+    );
+    refuses(
+        cut(3.0, None),
+        "r.csv:401: too short: 100 samples of 400 are left after cutting, \
+         at least 200 are needed",
+    );
+}
+
+#[test]
+fn an_end_that_stands_still_is_refused() {
+    let still = "in every sample, it has to move";
+    refused(
+        of(|_| 2.5, f64::sin),
+        &format!("r.csv:2: column `x`: the input is 2.5 {still}"),
+    );
+    refused(
+        of(f64::sin, |_| 0.0),
+        &format!("r.csv:2: column `f`: the output is 0 {still}"),
+    );
+}
+
+#[test]
+fn a_clipped_sensor_is_recognised() {
+    let sine = |t: f64| 10.0 * (2.0 * t).sin();
+    refused(
+        of(sine, |t| (3.0 * sine(t)).clamp(-24.0, 24.0)),
+        "r.csv:49: column `f`: clipped: flat at 24 7 times, 22.5 % of the samples; \
+         a wider range of the sensor was expected",
+    );
+    refused(
+        of(|t| sine(t).min(9.5), |t| 3.0 * sine(t)),
+        "r.csv:65: column `x`: clipped: flat at 9.5 7 times, 11.2 % of the samples; \
+         a wider range of the sensor was expected",
+    );
+    // With noise, and a force that mostly follows the speed: the input does not turn.
+    let noise = |t: f64| (7919.0 * t * t).sin();
+    let force = |t: f64| (sine(t) + 40.0 * (2.0 * t).cos() + noise(t)).clamp(-30.0, 30.0);
+    let line = refusal(of(sine, force), &Options::default());
+    assert!(line.contains("column `f`: clipped: flat at 30 "), "{line}");
+}
