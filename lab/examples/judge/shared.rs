@@ -1,12 +1,11 @@
 //! Measured records through both methods: fit and held-out error, names, cost.
 
-use crate::planted::cost;
+use crate::planted::{cost, usual};
 use bowden_lab::problem::{Preparation, Prepared};
-use bowden_lab::closing;
 use bowden_lab::ledger::Ledger;
 use bowden_lab::model::declared::structure;
-use bowden_lab::final_fit::FinalFit;
-use bowden_lab::intervals::term_name;
+use bowden_lab::conclude::final_fit::FinalFit;
+use bowden_lab::conclude::intervals::term_name;
 use bowden_lab::record::{read, Mode, Options};
 use bowden_lab::search;
 use std::path::Path;
@@ -191,7 +190,7 @@ pub fn all(folder: &str, only: &[String]) {
             Ok((declared, data)) => {
                 let one = cost(|| search::close(&data, &declared, |_| ()));
                 line(row, "one search", &data, one);
-                let usual = cost(|| closing::close(&data, &declared, |_| ()));
+                let usual = cost(|| usual(&data, &declared));
                 line(row, "loop", &data, usual);
             }
             Err(message) => println!("{}: {message}", row.name),

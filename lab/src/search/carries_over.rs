@@ -6,8 +6,8 @@
 //! on blocks that were left out of its linear fit ([`delivered`]); and a name is told in how
 //! many of a hundred half-records a search finds it again ([`recurrences`]).
 
-use super::bank::{on_line, Bank, Identity};
-use super::gram::Swept;
+use super::bank::{on_line, Identity};
+use super::gram::Partial;
 use super::linear::{Kept, Linear};
 use super::policy;
 use crate::problem::Prepared;
@@ -17,7 +17,6 @@ use nalgebra::{DMatrix, DVector};
 use rand::seq::SliceRandom;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use std::sync::Arc;
 
 /// A slope that moves the output by less than this share of the residual is left out.
 const MOVES: f64 = 1e-6;
@@ -137,34 +136,25 @@ pub fn delivered(data: &Prepared, path: &[&Solution]) -> usize {
 
 /// In how many of [`policy::RECURRENCES`] half-records each name is found again, by a search
 /// to first order from the declared and from the final model, the mean of both.
-pub(super) fn recurrences<'a>(
-    (data, bank): (&'a Prepared, &mut Bank<'a>),
-    declared: &Arc<Solution>,
-    last: &Arc<Solution>,
+pub(super) fn recurrences(
+    names: impl Iterator<Item = Identity>,
+    from_declared: &[Vec<Identity>],
+    last: &Linear,
 ) -> Vec<usize> {
-    let own = declared.structure.terms.len();
-    let names: Vec<Identity> = last.structure.terms[own..]
-        .iter()
-        .map(Identity::of)
-        .collect();
-    let mut counts = vec![0; names.len()];
-    if names.is_empty() {
-        return counts;
+    let mut names = names.peekable();
+    if names.peek().is_none() {
+        return Vec::new();
     }
-    for from in [declared, last] {
-        let price = policy::CURVE_AGAINST_NAMES;
-        let linear = Linear::new((data, &mut *bank), from, own, price);
-        let found = linear.found_on_halves();
-        for (count, name) in counts.iter_mut().zip(&names) {
-            *count += found.iter().filter(|set| set.contains(name)).count();
-        }
-    }
-    counts.into_iter().map(|count| count / 2).collect()
+    let from_last = last.found_on_halves();
+    let found = || from_declared.iter().chain(&from_last);
+    names
+        .map(|name| found().filter(|set| set.contains(&name)).count() / 2)
+        .collect()
 }
 
 impl Linear<'_> {
     /// What a forward search finds on each half of the blocks.
-    fn found_on_halves(&self) -> Vec<Vec<Identity>> {
+    pub(super) fn found_on_halves(&self) -> Vec<Vec<Identity>> {
         use rayon::prelude::*;
         let names = self.declared..self.now.structure.terms.len();
         let kept = Kept {
@@ -185,7 +175,7 @@ impl Linear<'_> {
     /// Forward selection among the candidates and the model's own names.
     fn forward(
         &self,
-        mut swept: Swept,
+        mut swept: Partial,
         target: usize,
         names: std::ops::Range<usize>,
     ) -> Vec<Identity> {

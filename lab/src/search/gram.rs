@@ -48,27 +48,48 @@ impl Grams {
     /// Multiplies columns on the given rows; a block is a range of positions in `rows`.
     #[must_use]
     pub fn new(columns: &[Arc<Vec<f64>>], rows: &[usize], blocks: &[Range<usize>]) -> Self {
-        use rayon::prelude::*;
-        let size = columns.len();
-        let scale: Vec<f64> = columns.iter().map(|c| scale_of(c, rows)).collect();
-        let parts: Vec<Vec<f64>> = blocks
-            .par_iter()
-            .map(|block| {
-                let rows = &rows[block.clone()];
-                let at = |i: usize, j: usize| columns[i][rows[j]] / scale[i];
-                let x = DMatrix::from_fn(size, rows.len(), at);
-                let transposed = x.transpose();
-                (x * transposed).as_slice().to_vec()
-            })
-            .collect();
         let mut grams = Self {
-            size,
-            scale,
+            size: 0,
+            scale: Vec::new(),
             whole: Vec::new(),
-            parts,
+            parts: vec![Vec::new(); blocks.len()],
         };
-        grams.whole = grams.of_blocks(0..blocks.len());
+        grams.extend(columns, rows, blocks);
         grams
+    }
+
+    /// Multiplies what `columns` has beyond those that are known, with each other and with
+    /// the known ones.
+    pub fn extend(&mut self, columns: &[Arc<Vec<f64>>], rows: &[usize], blocks: &[Range<usize>]) {
+        use rayon::prelude::*;
+        let (old, size) = (self.size, columns.len());
+        let new = columns[old..].iter().map(|c| scale_of(c, rows));
+        self.scale.extend(new.collect::<Vec<f64>>());
+        let scale = &self.scale;
+        self.parts
+            .par_iter_mut()
+            .zip(blocks)
+            .for_each(|(part, block)| {
+                let rows = &rows[block.clone()];
+                let at = |j: usize, i: usize| columns[i][rows[j]] / scale[i];
+                let all = DMatrix::from_fn(rows.len(), size, at);
+                // As a product of two matrices, which is faster than `tr_mul`.
+                let products = all.columns_range(old..).transpose() * &all;
+                let mut grown = vec![0.0; size * size];
+                for i in 0..old {
+                    grown[i * size..i * size + old].copy_from_slice(&part[i * old..(i + 1) * old]);
+                }
+                for i in old..size {
+                    for j in 0..size {
+                        let product = products[(i - old, j)];
+                        grown[i * size + j] = product;
+                        grown[j * size + i] = product;
+                    }
+                }
+                *part = grown;
+            });
+        self.size = size;
+        self.whole = self.of_blocks(0..blocks.len());
     }
 
     /// Number of columns.
@@ -110,18 +131,18 @@ impl Grams {
         swept
     }
 
-    /// The same on some blocks only, with entries scaled up to the whole record.
+    /// The same on some blocks only, with entries scaled up to the whole record; computed
+    /// where they are asked for.
     #[must_use]
-    pub fn on_blocks(&self, blocks: &[usize], columns: &[usize]) -> Swept {
-        let factor = self.parts.len() as f64 / blocks.len().max(1) as f64;
-        let mut entries = self.of_blocks(blocks.iter().copied());
-        entries.iter_mut().for_each(|v| *v *= factor);
-        let mut swept = Swept {
-            size: self.size,
-            entries,
+    pub fn on_blocks(&self, blocks: &[usize], columns: &[usize]) -> Partial<'_> {
+        let mut partial = Partial {
+            grams: self,
+            factor: self.parts.len() as f64 / blocks.len().max(1) as f64,
+            blocks: blocks.to_vec(),
+            swept: Vec::new(),
         };
-        swept.sweep(columns);
-        swept
+        partial.sweep(columns);
+        partial
     }
 
     fn compact(&self, index: &[usize]) -> Vec<f64> {
@@ -319,28 +340,7 @@ impl Swept {
     /// The same where no column is above the others, as with a curve's.
     #[must_use]
     pub fn gain_of_any(&self, group: &[usize], target: usize) -> f64 {
-        let d = group.len();
-        let mut a: Vec<f64> = Vec::with_capacity(d * d);
-        for &i in group {
-            a.extend(group.iter().map(|&j| self.at(i, j)));
-        }
-        let mut b: Vec<f64> = group.iter().map(|&i| self.at(i, target)).collect();
-        let mut gain = 0.0;
-        for s in 0..d {
-            let pivot = a[s * d + s];
-            if pivot < SLOPE {
-                continue;
-            }
-            gain += b[s] * b[s] / pivot;
-            for i in s + 1..d {
-                let factor = a[i * d + s] / pivot;
-                for j in s + 1..d {
-                    a[i * d + j] -= factor * a[s * d + j];
-                }
-                b[i] -= factor * b[s];
-            }
-        }
-        gain
+        gain(|i, j| self.at(i, j), group, target)
     }
 
     /// Reduction of the target's squared error by two columns together; `None` where they
@@ -353,4 +353,79 @@ impl Swept {
         (determinant > EXCITED * a * b)
             .then(|| (p * p * b - 2.0 * p * q * ab + q * q * a) / determinant)
     }
+}
+
+/// What some columns leave of all others on some blocks.
+///
+/// A search on a half of the blocks asks for a few hundred entries of a few hundred thousand.
+#[derive(Debug, Clone)]
+pub struct Partial<'a> {
+    grams: &'a Grams,
+    blocks: Vec<usize>,
+    factor: f64,
+    /// For each column of the set its products with what those before it leave of all
+    /// columns, over the root of its own.
+    swept: Vec<Vec<f64>>,
+}
+
+impl Partial<'_> {
+    /// Product of two residual columns.
+    #[must_use]
+    pub fn at(&self, i: usize, j: usize) -> f64 {
+        let place = i * self.grams.size + j;
+        let sum: f64 = self.blocks.iter().map(|&b| self.grams.parts[b][place]).sum();
+        let taken: f64 = self.swept.iter().map(|row| row[i] * row[j]).sum();
+        self.factor * sum - taken
+    }
+
+    /// Takes more columns into the set.
+    pub fn sweep(&mut self, columns: &[usize]) {
+        for &s in columns {
+            let pivot = self.at(s, s);
+            if pivot < DEPENDENT {
+                continue;
+            }
+            let root = pivot.sqrt();
+            let row = (0..self.grams.size).map(|j| self.at(s, j) / root);
+            let row: Vec<f64> = row.collect();
+            self.swept.push(row);
+        }
+    }
+
+    /// As [`Swept::gain`].
+    #[must_use]
+    pub fn gain(&self, group: &[usize], target: usize) -> f64 {
+        match group.first() {
+            Some(&first) if self.at(first, first) > EXCITED => {
+                gain(|i, j| self.at(i, j), group, target)
+            }
+            _ => 0.0,
+        }
+    }
+}
+
+/// Reduction of the target's squared error by some columns, from the products of residuals.
+fn gain(at: impl Fn(usize, usize) -> f64, group: &[usize], target: usize) -> f64 {
+    let d = group.len();
+    let mut a: Vec<f64> = Vec::with_capacity(d * d);
+    for &i in group {
+        a.extend(group.iter().map(|&j| at(i, j)));
+    }
+    let mut b: Vec<f64> = group.iter().map(|&i| at(i, target)).collect();
+    let mut gain = 0.0;
+    for s in 0..d {
+        let pivot = a[s * d + s];
+        if pivot < SLOPE {
+            continue;
+        }
+        gain += b[s] * b[s] / pivot;
+        for i in s + 1..d {
+            let factor = a[i * d + s] / pivot;
+            for j in s + 1..d {
+                a[i * d + j] -= factor * a[s * d + j];
+            }
+            b[i] -= factor * b[s];
+        }
+    }
+    gain
 }

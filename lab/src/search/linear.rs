@@ -234,7 +234,8 @@ impl<'a> Linear<'a> {
                 self.columns.extend(hats);
             }
         }
-        self.grams = Grams::new(&self.columns, &self.data.split.fit, &blocks(self.data));
+        self.grams
+            .extend(&self.columns, &self.data.split.fit, &blocks(self.data));
     }
 
     /// Whether the blocks are long enough for a test, from what the best set of names leaves:

@@ -5,8 +5,8 @@ use super::carries_over::{delivered, recurrences};
 use super::linear::{Kept, Linear};
 use super::moves::Move;
 use super::policy;
-use super::refit::{present, FAIR, HYSTERESES, INSIDE, ROUGH};
-use super::run::{Entry, Search};
+use super::refit::{FAIR, HYSTERESES, INSIDE, ROUGH};
+use super::run::{Entry, Search, Standing};
 use crate::model::catalogue::Candidate;
 use crate::problem::Prepared;
 use crate::closing::grade;
@@ -32,14 +32,15 @@ impl Search<'_> {
     /// The ledger of what was found.
     pub(super) fn ledger(mut self) -> Option<Ledger> {
         let path = self.path()?;
-        let rivals = self.rivals();
-        let bank = (self.data, &mut self.bank);
-        let recurs = recurrences(bank, &self.declared, &self.now);
+        let standing = self.last();
+        let rivals = self.rivals(&standing);
+        let own = self.declared.structure.terms.len();
+        let names = self.now.structure.terms[own..].iter().map(Identity::of);
+        let recurs = recurrences(names, &self.on_halves, &standing.linear);
         let mut ledger = Ledger::of((*self.declared).clone());
         ledger.regime = self.regime;
         ledger.correlation_time = self.correlation_time;
         ledger.rejected = std::mem::take(&mut self.rejected);
-        let own = self.declared.structure.terms.len();
         let mut before = Arc::clone(&self.declared);
         for (index, (solution, rivals)) in path.iter().zip(rivals).enumerate() {
             let term = self.now.structure.terms[own + index];
@@ -149,24 +150,18 @@ impl Search<'_> {
     }
 
     /// For each name, what does as well in its place once it is refitted.
-    fn rivals(&mut self) -> Vec<Vec<Candidate>> {
+    fn rivals(&self, standing: &Standing) -> Vec<Vec<Candidate>> {
         let own = self.declared.structure.terms.len();
-        if self.now.structure.terms.len() == own {
-            return Vec::new();
-        }
-        let price = policy::CURVE_AGAINST_NAMES;
-        let linear = Linear::new((self.data, &mut self.bank), &self.now, own, price);
-        let sse = present(self.data, &self.coarse, &self.now);
+        let linear = &standing.linear;
         let all = linear.everything();
-        let full = linear
-            .grams
-            .squared_error(&linear.columns_of(&all), linear.target_of(&all).0);
+        let columns = linear.columns_of(&all);
+        let full = linear.grams.squared_error(&columns, linear.target_of(&all).0);
         let context = Context {
-            linear: &linear,
+            linear,
             full,
             // Real errors on the coarse grid over those to first order.
-            scale: sse / full,
-            moved: Span::of(self.data, self.now.columns.iter().chain(&self.now.tangents)),
+            scale: standing.sse / full,
+            moved: &standing.moved,
         };
         (own..self.now.structure.terms.len())
             .map(|index| self.rivals_of(&context, index))
@@ -196,7 +191,7 @@ impl Search<'_> {
                     promise: 0.0,
                     p: Vec::new(),
                 };
-                let real = linear.refit((&self.coarse, &context.moved), &swap, STARTS)?;
+                let real = linear.refit((&self.coarse, context.moved), &swap, STARTS)?;
                 let left = real.sse / context.scale;
                 let candidate = linear.groups[g].candidate()?;
                 good(left).then_some((candidate, left))
@@ -239,7 +234,7 @@ struct Context<'a, 'b> {
     linear: &'a Linear<'b>,
     full: f64,
     scale: f64,
-    moved: Span,
+    moved: &'a Span,
 }
 
 impl Context<'_, '_> {

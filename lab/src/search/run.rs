@@ -54,14 +54,17 @@ pub(super) struct Search<'a> {
     visited: Vec<Vec<Identity>>,
     failures: usize,
     only_curves: bool,
+    /// What a search finds on half-records, from the declared model on.
+    pub(super) on_halves: Vec<Vec<Identity>>,
     linear: Option<Standing<'a>>,
 }
 
 /// The present model, to first order and in fact.
-struct Standing<'a> {
-    linear: Linear<'a>,
-    moved: Span,
-    sse: f64,
+pub(super) struct Standing<'a> {
+    pub(super) linear: Linear<'a>,
+    pub(super) moved: Span,
+    /// Squared error on the coarse grid.
+    pub(super) sse: f64,
 }
 
 impl<'a> Search<'a> {
@@ -84,6 +87,7 @@ impl<'a> Search<'a> {
             visited: Vec::new(),
             failures: 0,
             only_curves: false,
+            on_halves: Vec::new(),
             linear: None,
         }
     }
@@ -93,10 +97,7 @@ impl<'a> Search<'a> {
         for turn in 1..=TURNS {
             let names = self.now.structure.terms.len() - self.declared.structure.terms.len();
             progress(&format!("search {turn}: {names} names"));
-            let mut standing = match self.linear.take() {
-                Some(standing) => standing,
-                None => self.stand(),
-            };
+            let mut standing = self.last();
             let goes_on = self.turn(&standing);
             if Arc::ptr_eq(&standing.linear.now, &self.now) {
                 standing.linear.prices.curve = self.curve_price();
@@ -106,7 +107,14 @@ impl<'a> Search<'a> {
                 break;
             }
         }
-        self.linear = None;
+    }
+
+    /// The last model, to first order.
+    pub(super) fn last(&mut self) -> Standing<'a> {
+        match self.linear.take() {
+            Some(standing) => standing,
+            None => self.stand(),
+        }
     }
 
     fn curve_price(&self) -> f64 {
@@ -221,6 +229,9 @@ impl<'a> Search<'a> {
                 }
                 return false;
             }
+        }
+        if Arc::ptr_eq(&self.now, &self.declared) {
+            self.on_halves = linear.found_on_halves();
         }
         for (&g, &p) in best.made.added.iter().zip(&best.made.p) {
             let group = &linear.groups[g];
