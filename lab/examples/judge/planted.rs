@@ -223,11 +223,12 @@ fn judge(
         wrong: (wrong + usize::from(unknown.is_some())) as f64,
         names: rounds.len(),
         line: format!(
-            "{method} {mark} {:?} {planting:?} error {:.2} -> {error:.2} {seconds:.2} s {evaluations} evals ({:?}) {} unknown {unknown:?} | {}",
+            "{method} {mark} {:?} {planting:?} error {:.2} -> {error:.2} {seconds:.2} s {evaluations} evals ({:?}) {} beyond {} unknown {unknown:?} | {}",
             data.mode,
             ledger.declared.rmse.held_out / floor,
             ledger.regime,
             names.join(", "),
+            ledger.beyond.iter().map(|r| r.candidate.term.effect.name()).collect::<Vec<_>>().join(" "),
             gates.join(" ")
         ),
         unknown,
