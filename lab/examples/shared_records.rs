@@ -11,6 +11,7 @@ use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::conclude::intervals::term_name;
 use bowden_lab::conclude::verdict::verdict;
 use bowden_lab::export::hand_over::HandOver;
+use bowden_lab::facts::{Detail, Facts};
 use bowden_lab::fit::Segments;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
@@ -163,7 +164,8 @@ fn run(row: &Row, path: &Path) -> Result<String, String> {
     let seconds = started.elapsed().as_secs_f64();
     let hand = HandOver::new(&[record], &data, &ledger, &done, false, |_| ());
     let hand = hand.as_ref().map_err(String::as_str);
-    println!("{}\n", text(row.name, &data, &ledger, &done, hand, true));
+    let facts = Facts::new(row.name, &data, &ledger, &done, hand, Detail::Ledger);
+    println!("{}\n", text(&facts, true));
     let percent = |s: &Segments| {
         let n = s.normalised(&data, &data.target);
         (100.0 * n.fit, 100.0 * n.held_out)

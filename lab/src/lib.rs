@@ -15,8 +15,9 @@
 //! | [`foresight`] | what the record would have missed, and which motion to record next |
 //! | [`export`] | what is handed over to firmware |
 //! | [`check`] | whether a model still holds on another record |
+//! | [`facts`] | the answer to each question of the program, as plain data |
 //! | [`compare`] | controllers on the core's simulated rig |
-//! | [`report`], [`cli`] | tables, JSON, the program |
+//! | [`report`], [`cli`] | tables, JSON, the program: views of the facts |
 //!
 //! Every column of the regression is computed by the core crate, so that what is fitted here
 //! is what runs in firmware. The package `bowden-synth` makes test records and shares no
@@ -28,6 +29,7 @@ pub mod closing;
 pub mod compare;
 pub mod conclude;
 pub mod export;
+pub mod facts;
 pub mod fit;
 pub mod foresight;
 pub mod ledger;

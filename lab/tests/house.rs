@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// From the ground up, in the order in which data walk through them.
-const FLOORS: [&str; 14] = [
+const FLOORS: [&str; 15] = [
     "record",
     "problem",
     "model",
@@ -18,10 +18,17 @@ const FLOORS: [&str; 14] = [
     "foresight",
     "export",
     "check",
+    "facts",
     "compare",
     "report",
     "cli",
 ];
+
+/// Rooms that show what was found and compute nothing.
+const VIEWS: [&str; 2] = ["report", "cli"];
+
+/// What a view may use beside its own kind: plain data, and the questions that they answer.
+const FACTS: [&[&str]; 2] = [&["facts"], &["compare", "facts"]];
 
 /// Longest file \[lines\].
 const LONGEST: usize = 500;
@@ -171,6 +178,54 @@ fn a_file_uses_only_rooms_below_its_own() {
         }
     }
     assert!(crossed > 200, "{crossed} uses of other rooms were found");
+}
+
+/// Every path from the root of the crate that stands in the code of a file, in `use` lines and
+/// elsewhere; `None` where the code reaches into the crate in another way.
+fn reached(own: &[String], text: &str) -> Vec<Vec<String>> {
+    let code = code(text);
+    let inline = code.split("crate::").skip(1).map(|rest| {
+        let path: String = rest
+            .chars()
+            .take_while(|c| c.is_alphanumeric() || *c == '_' || *c == ':')
+            .collect();
+        path.split("::").map(str::to_owned).collect()
+    });
+    // A `use` tree opens after `crate::a::{`: its leaves are read below.
+    let whole = |path: &Vec<String>| path.last().is_some_and(|last: &String| !last.is_empty());
+    inline.filter(whole).chain(used(own, text)).collect()
+}
+
+#[test]
+fn a_view_uses_facts_and_computes_nothing() {
+    let modules: BTreeSet<String> = sources()
+        .iter()
+        .filter_map(|(m, _)| m.first().cloned())
+        .collect();
+    let mut seen = 0;
+    for (own, text) in sources() {
+        if !own
+            .first()
+            .is_some_and(|room| VIEWS.contains(&room.as_str()))
+        {
+            continue;
+        }
+        for path in reached(&own, &text) {
+            // Other crates have no module of ours.
+            if !modules.contains(&path[0]) || VIEWS.contains(&path[0].as_str()) {
+                continue;
+            }
+            seen += 1;
+            let is_fact = |facts: &&[&str]| {
+                path.iter().zip(*facts).filter(|(a, b)| a == b).count() == facts.len()
+            };
+            assert!(
+                FACTS.iter().any(is_fact),
+                "{own:?} uses {path:?}: a view shows facts, and computes none"
+            );
+        }
+    }
+    assert!(seen > 20, "{seen} uses of facts were found");
 }
 
 #[test]

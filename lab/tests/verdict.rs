@@ -11,11 +11,12 @@ use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::conclude::intervals::term_name;
 use bowden_lab::conclude::verdict::{sentence, verdict, Verdict};
 use bowden_lab::export::hand_over::HandOver;
+use bowden_lab::facts::{Detail, Facts};
 use bowden_lab::ledger::Ledger;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options, Record};
-use bowden_lab::report::{json, text, Report};
+use bowden_lab::report::{json, text};
 use bowden_synth::{generate, Mode, Planted, Recipe, Synthetic};
 use rayon::prelude::*;
 
@@ -74,11 +75,22 @@ impl Closed {
             .collect()
     }
 
-    fn printed(&self) -> String {
+    fn facts(&self) -> Facts {
         let (data, ledger, done) = (&self.data, &self.ledger, self.done());
         let records = std::slice::from_ref(&self.record);
         let hand = HandOver::new(records, data, ledger, &done, false, |_| ()).unwrap();
-        json(&Report::new("made.csv", data, ledger, &done, Ok(&hand))).unwrap()
+        Facts::new(
+            "made.csv",
+            data,
+            ledger,
+            &done,
+            Ok(&hand),
+            Detail::EachRound,
+        )
+    }
+
+    fn printed(&self) -> String {
+        json(&self.facts()).unwrap()
     }
 
     fn verdict(&self) -> Verdict {
@@ -227,14 +239,7 @@ fn the_report_of_something_unknown_says_so_in_both_forms_and_is_the_same_on_one_
 
     let told = sentence(&closed.data, &closed.ledger, &closed.done());
     assert!(told.contains("depends on x"), "{told}");
-    let ledger = text(
-        "made.csv",
-        &closed.data,
-        &closed.ledger,
-        &closed.done(),
-        Err("not asked for"),
-        false,
-    );
+    let ledger = text(&closed.facts(), false);
     assert!(ledger.contains("unknown: The residual depends on x; the catalogue explains"));
 
     let pool = rayon::ThreadPoolBuilder::new()

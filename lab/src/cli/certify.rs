@@ -1,8 +1,8 @@
 //! `bowden certify`: gains in, certificates out.
 
 use super::Failure;
-use crate::compare::setup::Setup;
-use crate::report::certificates::{all, json, text};
+use crate::compare::facts::certify;
+use crate::report::certificates::{json, text};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -18,11 +18,7 @@ pub struct Certify {
 
 impl Certify {
     pub fn run(self) -> Result<(), Failure> {
-        let setup = match &self.gains {
-            Some(path) => Setup::read(path)?,
-            None => Setup::default(),
-        };
-        let certificates = all(&setup)?;
+        let certificates = certify(self.gains.as_deref())?;
         super::say(
             match self.json {
                 true => json(&certificates),

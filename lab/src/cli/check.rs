@@ -2,8 +2,7 @@
 
 use super::reading::{Columns, ModeName};
 use super::Failure;
-use crate::check::{Check as Checked, Given};
-use crate::record::{read, Mode};
+use crate::facts::{check, CheckQuestion, ModelOfFile};
 use crate::report::{check_json, check_text};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -33,46 +32,34 @@ pub struct Check {
 impl Check {
     pub fn run(self) -> Result<(), Failure> {
         let of_model = |message: String| format!("{}: {message}", self.model.display());
-        let mut options = self.columns.options()?;
-        let given = Given::parse(&load(&self.model)?).map_err(of_model)?;
-        let mode = given.mode().map_err(of_model)?;
-        let asked = self.columns.mode.map(|asked| match asked {
-            ModeName::Torque => Mode::Torque,
-            ModeName::Displacement => Mode::Displacement,
-        });
-        if asked.is_some_and(|asked| asked != mode) {
+        let asked = self.columns.asked()?;
+        let given = ModelOfFile::parse(&load(&self.model)?).map_err(of_model)?;
+        let mode = self.columns.mode.map(ModeName::mode);
+        if mode.is_some_and(|mode| mode != given.mode()) {
             return Err(of_model(format!(
                 "--mode: the model is of {} mode",
-                given.file.mode
+                given.mode().name()
             )));
         }
-        options.mode = Some(mode);
         if let Some(path) = &self.trace {
             let read: [&Path; 2] = [&self.model, &self.record];
             super::writable("--trace", path, &read)?;
         }
-        let record = read(&self.record, &options)
-            .map_err(|e| format!("{e} (the model is of {} mode)", given.file.mode))?;
-        let label = record.path.clone();
-        let checked = Checked::new(record, &given, self.columns.cutoff)
-            .map_err(|message| named(&label, &message))?;
-        if let Some(path) = &self.trace {
-            super::write_whole(path, checked.trace()?.as_bytes())?;
+        let question = CheckQuestion {
+            asked,
+            trace: self.trace.is_some(),
+        };
+        let checked = check(&given, &self.record, &question)?;
+        if let (Some(path), Some(trace)) = (&self.trace, &checked.trace) {
+            super::write_whole(path, trace.as_bytes())?;
         }
         let model = self.model.display().to_string();
+        let (label, facts) = (&checked.label, &checked.facts);
         let report = match self.json {
-            true => check_json(&model, &label, &checked).map_err(|e| e.to_string())?,
-            false => check_text(&model, &label, &checked),
+            true => check_json(&model, label, facts).map_err(|e| e.to_string())?,
+            false => check_text(&model, label, facts),
         };
         super::say(report.trim_end())
-    }
-}
-
-/// The message with the record's name, once.
-fn named(label: &str, message: &str) -> String {
-    match message.starts_with(label) {
-        true => message.to_owned(),
-        false => format!("{label}: {message}"),
     }
 }
 

@@ -1,16 +1,9 @@
 //! `bowden close`: the main job.
 
-use super::reading::{progress, Reading};
+use super::reading::{progress, telling, Reading};
 use super::Failure;
-use crate::conclude::final_fit::FinalFit;
-use crate::conclude::trace::trace;
-use crate::export::hand_over::HandOver;
-use crate::export::{postcard, vector};
-use crate::fit::{fit, Solution};
-use crate::model::structure::Structure;
-use crate::problem::{HeldOut, Prepared};
-use crate::record::{agree, parse, read, Options, Record};
-use crate::report::{json, text, Report};
+use crate::facts::{close, Asked, Close as Question, Detail, Form, Handed, Record};
+use crate::report::{json, text};
 use bowden_synth::stored_csv;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -57,10 +50,43 @@ pub struct Close {
 
 impl Close {
     pub fn run(self) -> Result<(), Failure> {
-        let options = self.reading.options()?;
+        let asked = self.reading.asked()?;
         if self.per_file.is_some() && self.records.len() < 2 {
             return Err("--per-file gains: more than one file was expected".to_owned());
         }
+        self.check_files()?;
+        let bar = progress();
+        bar.set_message("reading");
+        let records = self.read(&asked)?;
+        let chosen_cutoff = asked.cutoff.is_some();
+        let question = Question {
+            asked,
+            own_gains: self.per_file.is_some(),
+            invertible: self.invertible,
+            models: self.model_out.is_some(),
+            trace: self.trace.is_some(),
+            detail: match self.json {
+                true => Detail::EachRound,
+                false => Detail::Ledger,
+            },
+        };
+        let closed = close(&records, &question, &telling(&bar))?;
+        if let Some(path) = &self.model_out {
+            write_models(path, &closed.models)?;
+        }
+        if let (Some(path), Some(trace)) = (&self.trace, &closed.trace) {
+            super::write_whole(path, trace.as_bytes())?;
+        }
+        let report = match self.json {
+            true => json(&closed.facts).map_err(|e| e.to_string())?,
+            false => text(&closed.facts, chosen_cutoff),
+        };
+        bar.finish_and_clear();
+        super::say(report.trim_end())
+    }
+
+    /// Whether all that is to be written can be, before anything is computed for it.
+    fn check_files(&self) -> Result<(), Failure> {
         let read: Vec<&Path> = self.records.iter().map(PathBuf::as_path).collect();
         if let Some(path) = &self.model_out {
             model_form(path)?;
@@ -73,133 +99,29 @@ impl Close {
         if let Some(path) = &self.trace {
             super::writable("--trace", path, &read)?;
         }
-        let bar = progress();
-        bar.set_message("reading");
-        let records = self.read(&options)?;
-        let label: Vec<&str> = records.iter().map(|r| r.path.as_str()).collect();
-        let label = label.join(", ");
-        let (mut data, mut structure) = match &records[..] {
-            [one] => self.reading.prepare(one)?,
-            all => self.reading.prepare_joined(all, self.held_out())?,
-        };
-        if self.per_file.is_some() {
-            if !structure.hysteresis {
-                return Err(
-                    "--per-file gains: they are those of bouc-wen, which --declare leaves out"
-                        .to_owned(),
-                );
-            }
-            structure.own_gains = records.len();
-        }
-        let ledger = self
-            .reading
-            .close(&data, &structure, &bar)
-            .map_err(|message| format!("{label}: {message}"))?;
-        if self.per_file.is_none() && records.len() > 1 {
-            bar.set_message("trying each file with gains of its own");
-            data.notes.extend(hint(&data, &ledger.declared));
-        }
-        bar.set_message("fitting the final model");
-        let done = FinalFit::new(&data, &ledger);
-        let hand = HandOver::new(&records, &data, &ledger, &done, self.invertible, |what| {
-            bar.set_message(what.to_owned());
-        });
-        // What was found stands, whether firmware can have it or not.
-        let hand = match hand {
-            Err(message) if self.invertible || self.model_out.is_some() => {
-                return Err(format!("{label}: {message}"));
-            }
-            hand => hand,
-        };
-        if let (Some(path), Ok(hand)) = (&self.model_out, &hand) {
-            write_models(path, &data, hand)?;
-        }
-        if let Some(path) = &self.trace {
-            super::write_whole(path, trace(&data, &ledger, &done)?.as_bytes())?;
-        }
-        bar.set_message("looking for declared parts that are not needed");
-        let hand = hand.as_ref().map_err(String::as_str);
-        let report = if self.json {
-            json(&Report::new(&label, &data, &ledger, &done, hand)).map_err(|e| e.to_string())?
-        } else {
-            let chosen = self.reading.columns.cutoff.is_some();
-            text(&label, &data, &ledger, &done, hand, chosen)
-        };
-        bar.finish_and_clear();
-        super::say(report.trim_end())
+        Ok(())
     }
 
-    /// With gains of its own a file says nothing of another one's: the end of each is held
-    /// out then.
-    fn held_out(&self) -> HeldOut {
-        match self.per_file.is_none() && self.records.len() > 2 {
-            true => HeldOut::LastRecord,
-            false => HeldOut::Trailing,
+    fn read(&self, asked: &Asked) -> Result<Vec<Record>, Failure> {
+        match self.records.is_empty() {
+            true => Ok(vec![asked.read_text(stored_csv().as_bytes(), EMBEDDED)?]),
+            false => asked.read_together(&self.records),
         }
     }
-
-    fn read(&self, options: &Options) -> Result<Vec<Record>, Failure> {
-        if self.records.is_empty() {
-            return Ok(vec![embedded(options)?]);
-        }
-        for (index, path) in self.records.iter().enumerate() {
-            if self.records[..index].contains(path) {
-                return Err(format!("{}: given twice", path.display()));
-            }
-        }
-        let read = |path: &PathBuf| read(path, options).map_err(|e| e.to_string());
-        let mut records = self
-            .records
-            .iter()
-            .map(read)
-            .collect::<Result<Vec<_>, _>>()?;
-        agree(&mut records).map_err(|e| e.to_string())?;
-        Ok(records)
-    }
-}
-
-/// Files of several configurations fitted as one: gains of their own for each leave less
-/// than this share of the declared model's error.
-const OTHER_CONFIGURATION: f64 = 0.5;
-
-/// What to try where the files do not seem to be of one configuration.
-fn hint(data: &Prepared, declared: &Solution) -> Option<String> {
-    if !declared.structure.hysteresis {
-        return None;
-    }
-    let structure = Structure {
-        own_gains: data.pieces.len(),
-        ..declared.structure.clone()
-    };
-    let own = fit(data, &structure, None, 0.0)?.rmse.fit / declared.rmse.fit;
-    (own < OTHER_CONFIGURATION).then(|| {
-        format!(
-            "with gains of its own for each file the declared model leaves {:.0} % of this error on the fit segments: try --per-file gains",
-            100.0 * own
-        )
-    })
-}
-
-fn embedded(options: &Options) -> Result<Record, Failure> {
-    parse(stored_csv().as_bytes(), EMBEDDED, options).map_err(|e| e.to_string())
 }
 
 /// Writes the model and its test vector; where each file has gains of its own, one of both
 /// for each. All are written or none.
-fn write_models(path: &Path, data: &Prepared, hand: &HandOver) -> Result<(), Failure> {
+fn write_models(path: &Path, models: &[Handed]) -> Result<(), Failure> {
+    let form = model_form(path)?;
     let mut all = Vec::new();
-    let paths = written(path, hand.files.len());
-    for (record, (file, own)) in hand.files.iter().zip(paths).enumerate() {
+    for (model, own) in models.iter().zip(written(path, models.len())) {
         let named = |e: String| format!("{}: {e}", own.display());
-        let model = match model_form(path)? {
-            Form::Toml => file.toml().map_err(|e| named(e.to_string()))?.into_bytes(),
-            Form::Rust => file.rust().map_err(named)?.into_bytes(),
-            Form::Postcard => postcard(file).map_err(named)?,
-        };
-        let samples = vector::csv(data, record, file).map_err(named)?;
+        let bytes = model.file(form).map_err(named)?;
+        let vector = model.vector().map_err(named)?.as_bytes().to_vec();
         let beside = vector_of(&own);
-        all.push((own, model));
-        all.push((beside, samples.into_bytes()));
+        all.push((own, bytes));
+        all.push((beside, vector));
     }
     super::write_together(&all)
 }
@@ -226,12 +148,6 @@ fn numbered(path: &Path, record: usize) -> PathBuf {
         name.push(extension);
     }
     path.with_file_name(name)
-}
-
-enum Form {
-    Toml,
-    Rust,
-    Postcard,
 }
 
 fn model_form(path: &Path) -> Result<Form, Failure> {

@@ -76,6 +76,15 @@ fn say(text: &str) -> Result<(), Failure> {
     }
 }
 
+/// Bytes on stdout as they are; a reader that has gone away (`| head`) is no failure.
+fn pour(bytes: &[u8]) -> Result<(), Failure> {
+    use std::io::Write as _;
+    match std::io::stdout().write_all(bytes) {
+        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(format!("stdout: {e}")),
+        _ => Ok(()),
+    }
+}
+
 /// Whether a file could be written there, found out before anything is computed for it: its
 /// folder exists and takes a file, and it is none of the files that are read.
 fn writable(

@@ -1,12 +1,9 @@
 //! `bowden plan`: the experiment that would tell what this record cannot.
 
-use super::reading::{progress, Reading};
+use super::reading::{progress, telling, Reading};
 use super::Failure;
-use crate::conclude::final_fit::FinalFit;
-use crate::foresight::plan::{separate_first, strengthen, trajectory};
-use crate::record::read;
+use crate::facts::plan;
 use clap::Args;
-use std::io::Write as _;
 use std::path::PathBuf;
 
 #[derive(Args)]
@@ -22,41 +19,24 @@ pub struct Plan {
 
 impl Plan {
     pub fn run(self) -> Result<(), Failure> {
-        let options = self.reading.options()?;
+        let asked = self.reading.asked()?;
         let bar = progress();
         bar.set_message("reading");
-        let record = read(&self.record, &options).map_err(|e| e.to_string())?;
-        let (data, structure) = self.reading.prepare(&record)?;
-        let ledger = self
-            .reading
-            .close(&data, &structure, &bar)
-            .map_err(|message| format!("{}: {message}", record.path))?;
-        bar.set_message("planning");
-        let separated = separate_first(&data, &ledger);
-        let confounded = separated.is_some();
-        let planned = separated.or_else(|| {
-            let done = FinalFit::new(&data, &ledger);
-            strengthen(&done.data, &done.solution)
-        });
+        let record = asked.read(&self.record)?;
+        let planned = plan(&record, &asked, &telling(&bar))?;
         bar.finish_and_clear();
-        let Some(experiment) = planned else {
+        let Some(planned) = planned else {
             anstream::eprintln!(
                 "nothing is confounded, and no planned motion would show an unknown parameter better: no experiment is needed"
             );
             return Ok(());
         };
-        let csv = trajectory(&data, experiment.kind).csv();
         match &self.out {
-            Some(path) => super::write_whole(path, csv.as_bytes())?,
-            None => match std::io::stdout().write_all(csv.as_bytes()) {
-                // Whoever reads has had enough (`| head`).
-                Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => {
-                    return Err(format!("stdout: {e}"))
-                }
-                _ => {}
-            },
+            Some(path) => super::write_whole(path, planned.csv.as_bytes())?,
+            None => super::pour(planned.csv.as_bytes())?,
         }
-        if !confounded {
+        let experiment = &planned.experiment;
+        if !planned.confounded {
             anstream::eprintln!("nothing is confounded; for what the record does not identify:");
         }
         anstream::eprintln!(

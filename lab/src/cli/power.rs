@@ -1,9 +1,8 @@
 //! `bowden power`: what would have been found on this record.
 
-use super::reading::{progress, Reading};
+use super::reading::{progress, telling, Reading};
 use super::Failure;
-use crate::foresight::power::{power, Question, TRIALS, TRIALS_RANGE};
-use crate::record::read;
+use crate::facts::{power, PowerQuestion, TRIALS, TRIALS_RANGE};
 use crate::report::{power_json, power_text};
 use clap::Args;
 use std::path::PathBuf;
@@ -35,28 +34,20 @@ impl Power {
                 TRIALS_RANGE.end()
             ));
         }
-        let options = self.reading.options()?;
+        let asked = self.reading.asked()?;
         let bar = progress();
         bar.set_message("reading");
-        let label = self.record.display().to_string();
-        let record = read(&self.record, &options).map_err(|e| e.to_string())?;
-        let (data, structure) = self.reading.prepare(&record)?;
-        let ledger = self
-            .reading
-            .close(&data, &structure, &bar)
-            .map_err(|message| format!("{label}: {message}"))?;
-        let question = Question {
+        let record = asked.read(&self.record)?;
+        let question = PowerQuestion {
             effects: self.effects,
             trials: self.trials,
         };
-        let table = power(&data, &ledger, &question, |done, all| {
-            bar.set_message(format!("planting: {done} of {all} effects"));
-        })?;
+        let table = power(&record, &asked, &question, &telling(&bar))?;
         bar.finish_and_clear();
         if self.json {
-            super::say(&power_json(&label, &data, &ledger, &table).map_err(|e| e.to_string())?)
+            super::say(&power_json(&table).map_err(|e| e.to_string())?)
         } else {
-            super::say(power_text(&label, &data, &ledger, &table).trim_end())
+            super::say(power_text(&table).trim_end())
         }
     }
 }

@@ -1,12 +1,7 @@
 //! What all commands have in common that read a record.
 
 use super::Failure;
-use crate::closing::{close_within, MOST_ROUNDS};
-use crate::ledger::Ledger;
-use crate::model::declared::structure;
-use crate::model::structure::Structure;
-use crate::problem::{HeldOut, Preparation, Prepared};
-use crate::record::{Mode, Options, Record};
+use crate::facts::{Asked, Mode, Options, MOST_ROUNDS};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal as _;
@@ -62,8 +57,18 @@ pub struct Reading {
     pub rounds: Option<usize>,
 }
 
+impl ModeName {
+    pub fn mode(self) -> Mode {
+        match self {
+            Self::Torque => Mode::Torque,
+            Self::Displacement => Mode::Displacement,
+        }
+    }
+}
+
 impl Columns {
-    pub fn options(&self) -> Result<Options, Failure> {
+    /// The columns and the filter; the model is `bouc-wen` and the search as long as it takes.
+    pub fn asked(&self) -> Result<Asked, Failure> {
         if let Some(cutoff) = self.cutoff {
             if !(cutoff.is_finite() && cutoff > 0.0) {
                 return Err(format!(
@@ -76,11 +81,8 @@ impl Columns {
                 .map(|(name, column)| (name.to_owned(), column.to_owned()))
                 .ok_or_else(|| format!("--channel {text}: NAME=COL was expected"))
         };
-        Ok(Options {
-            mode: self.mode.map(|m| match m {
-                ModeName::Torque => Mode::Torque,
-                ModeName::Displacement => Mode::Displacement,
-            }),
+        let options = Options {
+            mode: self.mode.map(ModeName::mode),
             time: self.time.clone(),
             input: self.input.clone(),
             output: self.output.clone(),
@@ -88,62 +90,34 @@ impl Columns {
             skip: self.skip.unwrap_or(0.0),
             until: self.until,
             rate: self.rate,
+        };
+        Ok(Asked {
+            options,
+            cutoff: self.cutoff,
+            ..Asked::default()
         })
     }
 }
 
 impl Reading {
-    /// The columns, and what all options of the loop have to be.
-    pub fn options(&self) -> Result<Options, Failure> {
+    /// The columns, the filter, the declared model and the length of the search.
+    pub fn asked(&self) -> Result<Asked, Failure> {
         match self.rounds {
             Some(rounds) if rounds > MOST_ROUNDS => Err(format!(
                 "--rounds {rounds}: 0 to {MOST_ROUNDS} were expected"
             )),
-            _ => self.columns.options(),
+            _ => Ok(Asked {
+                declare: self.declare.clone(),
+                rounds: self.rounds,
+                ..self.columns.asked()?
+            }),
         }
     }
+}
 
-    /// Runs the loop with as many rounds as were asked for.
-    pub fn close(
-        &self,
-        data: &Prepared,
-        structure: &Structure,
-        bar: &ProgressBar,
-    ) -> Result<Ledger, String> {
-        let most = self.rounds.unwrap_or(MOST_ROUNDS);
-        let tell = |what: &str| bar.set_message(what.to_owned());
-        close_within(data, structure, most, tell)
-    }
-
-    /// A record on its grids, and the declared model.
-    pub fn prepare(&self, record: &Record) -> Result<(Prepared, Structure), Failure> {
-        let named = |message: String| format!("{}: {message}", record.path);
-        let cutoff = self.columns.cutoff;
-        let data = Prepared::new(record, Preparation { cutoff }).map_err(named)?;
-        let structure = self.declared(&data).map_err(named)?;
-        Ok((data, structure))
-    }
-
-    /// Several records on common grids, and the declared model.
-    pub fn prepare_joined(
-        &self,
-        records: &[Record],
-        held_out: HeldOut,
-    ) -> Result<(Prepared, Structure), Failure> {
-        let cutoff = self.columns.cutoff;
-        let data = Prepared::joined(records, Preparation { cutoff }, held_out)?;
-        let structure = self.declared(&data)?;
-        Ok((data, structure))
-    }
-
-    fn declared(&self, data: &Prepared) -> Result<Structure, String> {
-        let list = if self.declare.is_empty() {
-            vec!["bouc-wen".to_owned()]
-        } else {
-            self.declare.clone()
-        };
-        structure(&list, data)
-    }
+/// Tells the spinner what is being done.
+pub fn telling(bar: &ProgressBar) -> impl Fn(&str) + Sync + '_ {
+    |what| bar.set_message(what.to_owned())
 }
 
 /// A spinner on a terminal, nothing elsewhere.

@@ -3,7 +3,6 @@
 use super::Failure;
 use bowden_synth::{generate, Mode, Planted, Recipe};
 use clap::{Args, ValueEnum};
-use std::io::Write as _;
 use std::path::PathBuf;
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -103,11 +102,7 @@ impl Record {
         let csv = generate(&recipe).map_err(|e| e.to_string())?.to_csv();
         match &self.out {
             Some(path) => super::write_whole(path, csv.as_bytes()),
-            None => match std::io::stdout().write_all(csv.as_bytes()) {
-                // Whoever reads has had enough (`| head`).
-                Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(format!("stdout: {e}")),
-                _ => Ok(()),
-            },
+            None => super::pour(csv.as_bytes()),
         }
     }
 }

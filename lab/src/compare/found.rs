@@ -8,6 +8,7 @@ use super::table::{run_all, Line};
 use super::trial::{Conditions, Controller, Law};
 use super::undeclared::Undeclared;
 use bowden::control::{Pid, PidSettings};
+use std::cmp::Ordering;
 
 /// Rate of the slow loops \[Hz\].
 pub const SLOW: f64 = 250.0;
@@ -30,6 +31,22 @@ pub struct Pair {
     pub declared: Line,
     /// With what was found beside it.
     pub found: Line,
+}
+
+impl Pair {
+    /// The error with what was found, against the error before; running away is worst.
+    #[must_use]
+    pub fn against_before(&self) -> Ordering {
+        let error = |line: &Line| line.mean_error().unwrap_or(f64::INFINITY);
+        error(&self.found).total_cmp(&error(&self.declared))
+    }
+
+    /// By which share of the error before the error is higher with what was found; `None`
+    /// where a law ran away.
+    #[must_use]
+    pub fn change(&self) -> Option<f64> {
+        Some(self.found.mean_error()? / self.declared.mean_error()? - 1.0)
+    }
 }
 
 /// One seed: its own bench record, its own identification, its own trials.

@@ -6,6 +6,8 @@
 //! and what was found becomes a feed-forward ([`feed`]) or a regressor.
 
 pub mod bench;
+pub mod certificates;
+pub mod facts;
 pub mod feed;
 pub mod found;
 pub mod lineup;

@@ -58,6 +58,14 @@ pub struct Line {
     pub each: Vec<f64>,
 }
 
+impl Line {
+    /// Mean rms of the true error, steady part \[N·m\]; `None` of a law that ran away.
+    #[must_use]
+    pub fn mean_error(&self) -> Option<f64> {
+        (self.diverged == 0).then_some(self.rmse_true.mean)
+    }
+}
+
 /// Runs every controller on every seed, on all cores; the order is that of the list.
 ///
 /// # Errors

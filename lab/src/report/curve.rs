@@ -1,13 +1,7 @@
 //! What has no name: its curve, for programs and for people.
 
-use super::words::number;
-use crate::conclude::curve::{curve, Knot};
-use crate::conclude::final_fit::FinalFit;
-use crate::conclude::verdict::unknown_words;
-use crate::fit::Segments;
-use crate::ledger::Ledger;
-use crate::ledger::Unknown;
-use crate::problem::Prepared;
+use super::words::in_brackets;
+use crate::facts::{number, with_interval, Facts, Knot, Segments, UnknownFacts};
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -17,28 +11,27 @@ const LINES: usize = 20;
 const BAR: f64 = 24.0;
 
 /// The part of the JSON.
-#[derive(Debug, Clone, Serialize)]
-pub(super) struct UnknownPart {
+#[derive(Serialize)]
+pub(super) struct UnknownPart<'a> {
     variable: &'static str,
-    channel: String,
+    channel: &'a str,
     share: f64,
     p: f64,
     q: f64,
-    curve: Vec<Knot>,
+    curve: &'a [Knot],
     rmse_before: Segments,
     rmse_after: Segments,
 }
 
-impl UnknownPart {
-    pub(super) fn new(data: &Prepared, unknown: &Unknown, done: &FinalFit) -> Self {
-        let channel = data.channel(unknown.variable.source());
+impl<'a> UnknownPart<'a> {
+    pub(super) fn new(unknown: &'a UnknownFacts) -> Self {
         Self {
-            variable: unknown.variable.name(data),
-            channel: channel.map_or_else(String::new, |c| c.name.clone()),
+            variable: unknown.variable,
+            channel: &unknown.channel,
             share: unknown.share,
             p: unknown.p,
             q: unknown.q,
-            curve: curve(&done.data, &done.solution),
+            curve: &unknown.curve,
             rmse_before: unknown.before,
             rmse_after: unknown.after,
         }
@@ -46,17 +39,16 @@ impl UnknownPart {
 }
 
 /// The section of the ledger; nothing where there is no such curve.
-pub(super) fn text(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Option<String> {
-    let unknown = ledger.unknown.as_ref()?;
-    let knots = curve(&done.data, &done.solution);
+pub(super) fn text(facts: &Facts) -> Option<String> {
+    let unknown = facts.unknown.as_ref()?;
+    let knots = &unknown.curve;
     let every = knots.len().div_ceil(LINES).max(1);
     let largest = knots.iter().map(|k| k.value.abs()).fold(0.0, f64::max);
-    let unit = |unit: Option<String>| unit.map_or_else(String::new, |u| format!(" [{u}]"));
     let mut out = String::new();
     let _ = writeln!(
         out,
         "unknown: {} A free curve of it takes {:.1} % of the squared error (p {:.1e}); it stays in the final model as a table.",
-        unknown_words(data, ledger).unwrap_or_default(),
+        unknown.sentence,
         100.0 * unknown.share,
         unknown.p
     );
@@ -64,18 +56,13 @@ pub(super) fn text(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Option<
         out,
         "{:>12}  {:<24} at {}{}",
         "at",
-        format!("adds (95 %){}", unit(data.output_unit.clone())),
-        unknown.variable.words(data),
-        unit(unknown.variable.unit(data)),
+        format!("adds (95 %){}", in_brackets(facts.record.unit.as_deref())),
+        unknown.words,
+        in_brackets(unknown.unit.as_deref()),
     );
     for knot in knots.iter().step_by(every) {
-        let half = knot.ci95.map(|[low, high]| 0.5 * (high - low));
-        let value = match half {
-            Some(half) => format!(
-                "{} ± {}",
-                number(knot.value, Some(half)),
-                number(half, Some(half))
-            ),
+        let value = match knot.ci95 {
+            Some(_) => with_interval(knot.value, knot.ci95),
             None => format!("{} (not identified)", number(knot.value, None)),
         };
         let length = (BAR * knot.value.abs() / largest.max(1e-300)).round() as usize;

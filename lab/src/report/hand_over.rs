@@ -1,41 +1,37 @@
 //! What is handed over to firmware: its errors there, and whether it is a feed-forward.
 
-use super::words::effects;
-use crate::export::hand_over::HandOver;
-use crate::export::invertible::FeedForward;
-use crate::export::LeftOut;
-use crate::fit::Segments;
-use crate::problem::Prepared;
+use crate::facts::{three_digits, FeedForward, HandOverFacts, LeftOut, Segments};
 use serde::Serialize;
+use std::borrow::Cow;
 use std::fmt::Write as _;
 
 /// The part of the JSON's `final` that is about the model of `--model-out`.
-#[derive(Debug, Clone, Serialize)]
-pub(super) struct HandOverPart {
+#[derive(Serialize)]
+pub(super) struct HandOverPart<'a> {
     /// Errors sample by sample with causal rates; `null` where nothing can be handed over.
     causal_nrmse: Option<Segments>,
-    feed_forward: FeedForward,
-    handed_over: Option<HandedOver>,
+    feed_forward: Cow<'a, FeedForward>,
+    handed_over: Option<HandedOver<'a>>,
 }
 
-#[derive(Debug, Clone, Serialize)]
-struct HandedOver {
-    effects: Vec<String>,
-    left_out: Vec<LeftOut>,
+#[derive(Serialize)]
+struct HandedOver<'a> {
+    effects: &'a [String],
+    left_out: &'a [LeftOut],
     within_inverse: bool,
     nrmse: Segments,
     rates_time_constant_s: f64,
 }
 
-impl HandOverPart {
-    pub(super) fn new(data: &Prepared, hand: Result<&HandOver, &str>) -> Self {
+impl<'a> HandOverPart<'a> {
+    pub(super) fn new(hand: &'a Result<HandOverFacts, String>) -> Self {
         match hand {
             Ok(hand) => Self {
                 causal_nrmse: Some(hand.causal),
-                feed_forward: hand.feed_forward.clone(),
+                feed_forward: Cow::Borrowed(&hand.feed_forward),
                 handed_over: Some(HandedOver {
-                    effects: effects(data, &hand.solution),
-                    left_out: hand.left_out.clone(),
+                    effects: &hand.effects,
+                    left_out: &hand.left_out,
                     within_inverse: hand.within_inverse,
                     nrmse: hand.nrmse,
                     rates_time_constant_s: hand.time_constant,
@@ -43,11 +39,11 @@ impl HandOverPart {
             },
             Err(because) => Self {
                 causal_nrmse: None,
-                feed_forward: FeedForward {
+                feed_forward: Cow::Owned(FeedForward {
                     invertible: false,
-                    because: Some(because.to_owned()),
+                    because: Some(because.clone()),
                     nearest: None,
-                },
+                }),
                 handed_over: None,
             },
         }
@@ -60,7 +56,7 @@ fn per_cent(share: f64) -> String {
 }
 
 /// The lines of the ledger.
-pub(super) fn text(hand: Result<&HandOver, &str>) -> String {
+pub(super) fn text(hand: &Result<HandOverFacts, String>) -> String {
     let hand = match hand {
         Ok(hand) => hand,
         Err(because) => return format!("firmware  nothing is handed over: {because}\n"),
@@ -69,7 +65,7 @@ pub(super) fn text(hand: Result<&HandOver, &str>) -> String {
     let mut line = |text: String| {
         let _ = writeln!(out, "firmware  {text}");
     };
-    if !hand.left_out.is_empty() || hand.solution.structure.invertible {
+    if !hand.left_out.is_empty() || hand.on_inverse_bound {
         let names: Vec<String> = hand
             .left_out
             .iter()
@@ -88,7 +84,7 @@ pub(super) fn text(hand: Result<&HandOver, &str>) -> String {
     line(format!(
         "held out {} sample by sample with causal velocities (Rates, {} ms), {} with the fit's zero-phase ones",
         per_cent(hand.causal.held_out),
-        crate::export::invertible::three_digits(1e3 * hand.time_constant),
+        three_digits(1e3 * hand.time_constant),
         per_cent(hand.nrmse.held_out)
     ));
     let mend = match (&hand.feed_forward.because, &hand.feed_forward.nearest) {

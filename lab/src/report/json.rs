@@ -2,38 +2,28 @@
 
 use super::curve::UnknownPart;
 use super::hand_over::HandOverPart;
-use super::rounds::{models, RoundModel};
-use super::words::{block_count, effects};
-use crate::conclude::by_file::{nrmse_by_file, rmse_by_file, worse, FileErrors, Worse};
-use crate::conclude::final_fit::FinalFit;
-use crate::conclude::intervals::{parameters, Parameter};
-use crate::conclude::unneeded::{unneeded, Unneeded};
-use crate::conclude::verdict::{raises, sentence, verdict};
-use crate::export::hand_over::HandOver;
-use crate::fit::{Segments, Solution};
-use crate::foresight::plan::{separate, Experiment};
-use crate::ledger::{Gate, Grade, Ledger, Round};
-use crate::model::catalogue::Candidate;
-use crate::problem::{Piece, Prepared};
-use crate::record::{Defect, Mode};
-use crate::score::explains::{explained, Explained};
+use crate::facts::{
+    Defect, Experiment, Explained, Facts, FileErrors, FinalFacts, Gate, Grade, HeldOutOf,
+    ModelFacts, Parameter, RejectedFacts, RivalFacts, RoundFacts, RoundModel, Segments, Unneeded,
+    Worse,
+};
 use serde::Serialize;
 
 /// The whole object.
-#[derive(Debug, Clone, Serialize)]
-pub struct Report {
+#[derive(Serialize)]
+struct Report<'a> {
     schema: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
-    record: Option<RecordPart>,
+    record: Option<RecordPart<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    records: Option<Vec<RecordPart>>,
-    declared: ModelPart,
-    rounds: Vec<RoundPart>,
-    r#final: FinalPart,
-    rejected: Vec<RejectedPart>,
-    defects: Vec<Defect>,
-    unneeded: Vec<Unneeded>,
-    unknown: Option<UnknownPart>,
+    records: Option<Vec<RecordPart<'a>>>,
+    declared: ModelPart<'a>,
+    rounds: Vec<RoundPart<'a>>,
+    r#final: FinalPart<'a>,
+    rejected: Vec<RejectedPart<'a>>,
+    defects: &'a [Defect],
+    unneeded: &'a [Unneeded],
+    unknown: Option<UnknownPart<'a>>,
     noise_floor: f64,
     /// Standard deviation of the filtered output on each segment.
     deviation: Segments,
@@ -41,284 +31,240 @@ pub struct Report {
     explains: Explained,
     integrates: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
-    worse_files: Option<Vec<Worse>>,
+    worse_files: Option<&'a [Worse]>,
     /// The largest number of effects that was asked for, where that ended the search.
     stopped_by_request: Option<usize>,
     verdict: &'static str,
-    sentence: String,
+    sentence: &'a str,
 }
 
-#[derive(Debug, Clone, Serialize)]
-struct RecordPart {
-    path: String,
+#[derive(Serialize)]
+struct RecordPart<'a> {
+    path: &'a str,
     samples: usize,
     rate_hz: f64,
     mode: &'static str,
     cutoff_hz: f64,
     blocks: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
-    held_out: Option<&'static str>,
+    held_out: Option<HeldOutOf>,
 }
 
-#[derive(Debug, Clone, Serialize)]
-struct ModelPart {
-    effects: Vec<String>,
-    parameters: Vec<Parameter>,
+#[derive(Serialize)]
+struct ModelPart<'a> {
+    effects: &'a [String],
+    parameters: &'a [Parameter],
     rmse: Segments,
     nrmse: Segments,
     nrmse_raw: Segments,
     #[serde(flatten)]
-    by_file: ByFile,
+    by_file: ByFile<'a>,
 }
 
 /// Present where there are several records.
-#[derive(Debug, Clone, Serialize)]
-struct ByFile {
+#[derive(Serialize)]
+struct ByFile<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
-    rmse_by_file: Option<Vec<FileErrors>>,
+    rmse_by_file: Option<&'a [FileErrors]>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    nrmse_by_file: Option<Vec<FileErrors>>,
+    nrmse_by_file: Option<&'a [FileErrors]>,
 }
 
-impl ByFile {
-    fn new(data: &Prepared, solution: &Solution) -> Self {
-        Self {
-            rmse_by_file: rmse_by_file(data, solution),
-            nrmse_by_file: nrmse_by_file(data, solution),
-        }
-    }
-}
-
-#[derive(Debug, Clone, Serialize)]
-struct FinalPart {
-    effects: Vec<String>,
+#[derive(Serialize)]
+struct FinalPart<'a> {
+    effects: &'a [String],
     /// Whether the parameters have seen the stop-check segment as well.
     refitted: bool,
-    parameters: Vec<Parameter>,
+    parameters: &'a [Parameter],
     rmse: Segments,
     nrmse: Segments,
     #[serde(flatten)]
-    hand_over: HandOverPart,
+    hand_over: HandOverPart<'a>,
     #[serde(flatten)]
-    by_file: ByFile,
+    by_file: ByFile<'a>,
 }
 
-#[derive(Debug, Clone, Serialize)]
-struct RoundPart {
+#[derive(Serialize)]
+struct RoundPart<'a> {
     family: &'static str,
     effect: &'static str,
-    channel: String,
+    channel: &'a str,
     grade: Grade,
-    coefficients: Vec<Coefficient>,
+    coefficients: Vec<Coefficient<'a>>,
     p: Option<f64>,
     explained: f64,
-    confounded_with: Vec<Rival>,
-    experiment: Option<Experiment>,
+    confounded_with: Vec<Rival<'a>>,
+    experiment: Option<&'a Experiment>,
     rmse_before: Segments,
     rmse_after: Segments,
     raises_held_out: bool,
     #[serde(flatten)]
-    model: RoundModel,
+    model: Option<&'a RoundModel>,
 }
 
-#[derive(Debug, Clone, Serialize)]
-struct Coefficient {
-    name: String,
+#[derive(Serialize)]
+struct Coefficient<'a> {
+    name: &'a str,
     value: f64,
-    unit: Option<String>,
+    unit: Option<&'a str>,
     ci95: Option<[f64; 2]>,
 }
 
-#[derive(Debug, Clone, Serialize)]
-struct Rival {
+#[derive(Serialize)]
+struct Rival<'a> {
     family: &'static str,
-    channel: String,
+    channel: &'a str,
 }
 
-#[derive(Debug, Clone, Serialize)]
-struct RejectedPart {
+#[derive(Serialize)]
+struct RejectedPart<'a> {
     family: &'static str,
     effect: &'static str,
-    channel: String,
+    channel: &'a str,
     gate: Gate,
 }
 
-/// The channel that a candidate reads, by name.
-fn channel(data: &Prepared, candidate: &Candidate) -> String {
-    data.channel(candidate.term.source)
-        .map_or_else(String::new, |c| c.name.clone())
-}
-
-/// Errors against the output as recorded, as shares of its standard deviation.
-fn raw(data: &Prepared, solution: &Solution) -> Segments {
-    let prediction = solution.unfiltered.iter().step_by(data.stride);
-    let residual: Vec<f64> = data
-        .target_raw
-        .iter()
-        .zip(prediction)
-        .map(|(y, p)| y - p)
-        .collect();
-    Segments::of(data, &residual).normalised(data, &data.target_raw)
-}
-
-/// What of a file is held out.
-fn held_out(data: &Prepared, piece: &Piece) -> &'static str {
-    let whole = data.pieces.iter().any(|p| !p.fitted);
-    match (piece.fitted, whole) {
-        (false, _) => "whole",
-        (true, true) => "nothing",
-        (true, false) => "trailing",
-    }
-}
-
-impl RecordPart {
+impl<'a> RecordPart<'a> {
     fn new(
-        data: &Prepared,
-        ledger: &Ledger,
-        path: &str,
+        facts: &'a Facts,
+        path: &'a str,
         (samples, rate_hz): (usize, f64),
-        held_out: Option<&'static str>,
+        held_out: Option<HeldOutOf>,
     ) -> Self {
         Self {
-            path: path.to_owned(),
+            path,
             samples,
             rate_hz,
-            mode: match data.mode {
-                Mode::Torque => "torque",
-                Mode::Displacement => "displacement",
-            },
-            cutoff_hz: data.cutoff,
-            blocks: block_count(data, ledger),
+            mode: facts.record.mode.name(),
+            cutoff_hz: facts.record.cutoff,
+            blocks: facts.blocks,
             held_out,
         }
     }
+
+    fn of_all(facts: &'a Facts) -> Self {
+        let size = (facts.record.samples, facts.record.rate);
+        Self::new(facts, &facts.label, size, None)
+    }
+
+    fn of_each(facts: &'a Facts) -> Vec<Self> {
+        let files = facts.record.files.iter();
+        files
+            .map(|f| Self::new(facts, &f.path, (f.samples, f.rate), Some(f.held_out)))
+            .collect()
+    }
 }
 
-impl ModelPart {
-    fn new(data: &Prepared, declared: &Solution) -> Self {
+impl<'a> From<&'a ModelFacts> for ModelPart<'a> {
+    fn from(declared: &'a ModelFacts) -> Self {
         Self {
-            effects: effects(data, declared),
-            parameters: parameters(data, declared),
+            effects: &declared.effects,
+            parameters: &declared.parameters,
             rmse: declared.rmse,
-            nrmse: declared.rmse.normalised(data, &data.target),
-            nrmse_raw: raw(data, declared),
-            by_file: ByFile::new(data, declared),
+            nrmse: declared.nrmse,
+            nrmse_raw: declared.nrmse_raw,
+            by_file: ByFile {
+                rmse_by_file: declared.rmse_by_file.as_deref(),
+                nrmse_by_file: declared.nrmse_by_file.as_deref(),
+            },
         }
     }
 }
 
-impl FinalPart {
-    fn new(data: &Prepared, done: &FinalFit, hand: Result<&HandOver, &str>) -> Self {
-        let last = &done.solution;
+impl<'a> FinalPart<'a> {
+    fn new(last: &'a FinalFacts, hand_over: HandOverPart<'a>) -> Self {
         Self {
-            effects: effects(data, last),
-            refitted: done.refitted,
-            parameters: parameters(&done.data, last),
-            rmse: done.rmse,
-            nrmse: done.rmse.normalised(data, &data.target),
-            hand_over: HandOverPart::new(data, hand),
-            by_file: ByFile::new(data, last),
+            effects: &last.effects,
+            refitted: last.refitted,
+            parameters: &last.parameters,
+            rmse: last.rmse,
+            nrmse: last.nrmse,
+            hand_over,
+            by_file: ByFile {
+                rmse_by_file: last.rmse_by_file.as_deref(),
+                nrmse_by_file: last.nrmse_by_file.as_deref(),
+            },
         }
     }
 }
 
-impl RoundPart {
-    fn new(data: &Prepared, round: &Round, model: RoundModel) -> Self {
-        let term = round.solution.structure.terms.len() - 1;
-        let own = parameters(data, &round.solution).into_iter();
-        let own = own.filter(|p| p.term == Some(term));
-        let rivals = round.rivals.iter();
+impl<'a> From<&'a RoundFacts> for RoundPart<'a> {
+    fn from(round: &'a RoundFacts) -> Self {
+        let fit = round.fit.as_ref();
+        let coefficients = fit.map_or(&[][..], |fit| &fit.coefficients);
         Self {
-            family: round.candidate.family.name(),
-            effect: round.candidate.term.effect.name(),
-            channel: channel(data, &round.candidate),
+            family: round.family,
+            effect: round.effect,
+            channel: &round.channel,
             grade: round.grade,
-            coefficients: own
-                .map(|p| Coefficient {
-                    name: p.name,
-                    value: p.value,
-                    unit: p.unit,
-                    ci95: p.ci95,
-                })
-                .collect(),
+            coefficients: coefficients.iter().map(Coefficient::from).collect(),
             p: round.p,
             explained: round.explained,
-            confounded_with: rivals
-                .map(|r| Rival {
-                    family: r.family.name(),
-                    channel: channel(data, r),
-                })
-                .collect(),
-            experiment: separate(data, round),
+            confounded_with: round.rivals.iter().map(Rival::from).collect(),
+            experiment: round.experiment.as_ref(),
             rmse_before: round.before,
             rmse_after: round.after,
-            raises_held_out: raises(round),
-            model,
+            raises_held_out: round.raises_held_out,
+            model: fit.map(|fit| &fit.model),
         }
     }
 }
 
-impl Report {
-    /// Collects everything about one run.
-    #[must_use]
-    pub fn new(
-        path: &str,
-        data: &Prepared,
-        ledger: &Ledger,
-        done: &FinalFit,
-        hand: Result<&HandOver, &str>,
-    ) -> Self {
-        let last = &done.solution;
-        let several = data.pieces.len() > 1;
-        let part = |path: &str, samples, rate_hz, held_out| {
-            RecordPart::new(data, ledger, path, (samples, rate_hz), held_out)
-        };
-        let rounds = ledger.rounds.iter().zip(models(data, ledger, done));
-        let rounds = rounds.map(|(round, model)| RoundPart::new(data, round, model));
+impl<'a> From<&'a Parameter> for Coefficient<'a> {
+    fn from(parameter: &'a Parameter) -> Self {
         Self {
-            schema: "bowden.close/1",
-            record: (!several).then(|| part(path, data.samples, data.rate, None)),
-            records: several.then(|| {
-                let pieces = data.pieces.iter();
-                pieces
-                    .map(|p| part(&p.path, p.samples, p.rate, Some(held_out(data, p))))
-                    .collect()
-            }),
-            declared: ModelPart::new(data, &ledger.declared),
-            rounds: rounds.collect(),
-            r#final: FinalPart::new(data, done, hand),
-            rejected: ledger
-                .rejected
-                .iter()
-                .map(|r| RejectedPart {
-                    family: r.candidate.family.name(),
-                    effect: r.candidate.term.effect.name(),
-                    channel: channel(data, &r.candidate),
-                    gate: r.gate,
-                })
-                .collect(),
-            defects: data.defects.clone(),
-            unneeded: unneeded(ledger, done),
-            unknown: ledger
-                .unknown
-                .as_ref()
-                .map(|u| UnknownPart::new(data, u, done)),
-            noise_floor: data.noise_floor,
-            deviation: Segments::deviation(data, &data.target),
-            explains: explained(data, last),
-            integrates: ledger.integrates,
-            worse_files: several.then(|| worse(data, &ledger.declared, last)),
-            stopped_by_request: ledger.stopped_by_request,
-            verdict: verdict(data, ledger, done).name(),
-            sentence: sentence(data, ledger, done),
+            name: &parameter.name,
+            value: parameter.value,
+            unit: parameter.unit.as_deref(),
+            ci95: parameter.ci95,
         }
     }
 }
 
-/// The report as one line of JSON.
+impl<'a> From<&'a RivalFacts> for Rival<'a> {
+    fn from(rival: &'a RivalFacts) -> Self {
+        Self {
+            family: rival.family,
+            channel: &rival.channel,
+        }
+    }
+}
+
+impl<'a> From<&'a RejectedFacts> for RejectedPart<'a> {
+    fn from(rejected: &'a RejectedFacts) -> Self {
+        Self {
+            family: rejected.family,
+            effect: rejected.effect,
+            channel: &rejected.channel,
+            gate: rejected.gate,
+        }
+    }
+}
+
+/// The facts as one line of JSON.
 ///
 /// # Errors
 /// Where a number is not finite, which no fitted model has.
-pub fn json(report: &Report) -> Result<String, serde_json::Error> {
-    serde_json::to_string(report)
+pub fn json(facts: &Facts) -> Result<String, serde_json::Error> {
+    let several = facts.record.files.len() > 1;
+    serde_json::to_string(&Report {
+        schema: "bowden.close/1",
+        record: (!several).then(|| RecordPart::of_all(facts)),
+        records: several.then(|| RecordPart::of_each(facts)),
+        declared: ModelPart::from(&facts.declared),
+        rounds: facts.rounds.iter().map(RoundPart::from).collect(),
+        r#final: FinalPart::new(&facts.last, HandOverPart::new(&facts.hand_over)),
+        rejected: facts.rejected.iter().map(RejectedPart::from).collect(),
+        defects: &facts.record.defects,
+        unneeded: &facts.unneeded,
+        unknown: facts.unknown.as_ref().map(UnknownPart::new),
+        noise_floor: facts.record.noise_floor,
+        deviation: facts.deviation,
+        explains: facts.explains,
+        integrates: facts.integrates,
+        worse_files: several.then_some(&facts.worse[..]),
+        stopped_by_request: facts.stopped_by_request,
+        verdict: facts.verdict.name(),
+        sentence: &facts.sentence,
+    })
 }

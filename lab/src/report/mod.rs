@@ -1,19 +1,20 @@
-//! What a run is told as: JSON for programs, tables for people.
+//! What a run is told as: JSON for programs, tables for people. Views of [`facts`](crate::facts):
+//! no figure is computed here.
 
 pub mod certificates;
 mod check;
-pub mod control;
+pub mod compare;
+mod compare_found;
 mod curve;
 mod hand_over;
 mod json;
 mod power;
-mod rounds;
 mod several;
 mod terminal;
 pub mod terms;
 mod words;
 
-pub use check::{check_json, check_text, sentence as check_sentence};
-pub use json::{json, Report};
+pub use check::{check_json, check_text};
+pub use json::json;
 pub use power::{power_json, power_text};
 pub use terminal::text;

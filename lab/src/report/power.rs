@@ -1,11 +1,7 @@
 //! The table of `bowden power`, for people and as JSON, schema `bowden.power/1`.
 
-use super::words::effects;
-use super::words::{number, table};
-use crate::conclude::intervals::{gain_unit, shape_unit, term_name};
-use crate::foresight::power::{Answer, Power, Row, SHARE};
-use crate::ledger::Ledger;
-use crate::problem::Prepared;
+use super::words::{in_brackets, table};
+use crate::facts::{number, Answer, PowerFacts, PowerRow, RecordFacts, SHARE};
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -16,61 +12,48 @@ const SIMULATED: &str = "each effect at the middle one of its trial shapes, adde
 struct Whole<'a> {
     schema: &'static str,
     path: &'a str,
-    model: Vec<String>,
+    model: &'a [String],
     simulated: &'static str,
     trials: usize,
     share: f64,
     named_without: usize,
     unit: Option<&'a str>,
     noise_floor: f64,
-    effects: Vec<Part>,
+    effects: Vec<Part<'a>>,
 }
 
 #[derive(Serialize)]
-struct Part {
+struct Part<'a> {
     family: &'static str,
     effect: &'static str,
-    channel: String,
-    shapes: Vec<Value>,
+    channel: &'a str,
+    shapes: Vec<Value<'a>>,
     status: &'static str,
     amplitude: Option<f64>,
     noise_floors: Option<f64>,
-    gain: Option<Value>,
+    gain: Option<Value<'a>>,
     found: Option<usize>,
     screened: Option<f64>,
     tried: Option<f64>,
 }
 
 #[derive(Serialize)]
-struct Value {
-    name: String,
+struct Value<'a> {
+    name: &'a str,
     value: f64,
-    unit: Option<String>,
+    unit: Option<&'a str>,
 }
 
-fn floors(data: &Prepared, amplitude: f64) -> Option<f64> {
-    (data.noise_floor > 0.0).then(|| amplitude / data.noise_floor)
-}
-
-fn part(data: &Prepared, row: &Row) -> Part {
-    let effect = row.term.effect;
-    let shapes = effect
-        .shape_names()
-        .iter()
-        .enumerate()
-        .filter_map(|(index, name)| {
-            Some(Value {
-                name: (*name).to_owned(),
-                value: effect.shape(index)?,
-                unit: shape_unit(data, &row.term, index),
-            })
-        });
+fn part<'a>(record: &RecordFacts, row: &'a PowerRow) -> Part<'a> {
+    let shapes = row.shapes.iter().map(|shape| Value {
+        name: shape.name,
+        value: shape.value,
+        unit: shape.unit.as_deref(),
+    });
     let empty = Part {
-        family: effect.family().name(),
-        effect: effect.name(),
-        channel: data
-            .channel(row.term.source)
-            .map_or_else(String::new, |c| c.name.clone()),
+        family: row.family,
+        effect: row.effect,
+        channel: &row.channel,
         shapes: shapes.collect(),
         status: "",
         amplitude: None,
@@ -89,11 +72,11 @@ fn part(data: &Prepared, row: &Row) -> Part {
         } => Part {
             status: "found",
             amplitude: Some(amplitude),
-            noise_floors: floors(data, amplitude),
+            noise_floors: record.floors(amplitude),
             gain: Some(Value {
-                name: term_name(data, &row.term),
+                name: &row.name,
                 value: gain,
-                unit: gain_unit(data, &row.term),
+                unit: row.gain_unit.as_deref(),
             }),
             found: Some(times),
             screened: Some(screened),
@@ -119,46 +102,38 @@ fn part(data: &Prepared, row: &Row) -> Part {
 ///
 /// # Errors
 /// Where a number is not finite, which no row has.
-pub fn power_json(
-    path: &str,
-    data: &Prepared,
-    ledger: &Ledger,
-    power: &Power,
-) -> Result<String, serde_json::Error> {
+pub fn power_json(power: &PowerFacts) -> Result<String, serde_json::Error> {
+    let record = &power.record;
     serde_json::to_string(&Whole {
         schema: "bowden.power/1",
-        path,
-        model: effects(data, ledger.last()),
+        path: &power.label,
+        model: &power.model,
         simulated: SIMULATED,
         trials: power.trials,
         share: SHARE,
         named_without: power.named_without,
-        unit: data.output_unit.as_deref(),
-        noise_floor: data.noise_floor,
-        effects: power.rows.iter().map(|row| part(data, row)).collect(),
+        unit: record.unit.as_deref(),
+        noise_floor: record.noise_floor,
+        effects: power.rows.iter().map(|row| part(record, row)).collect(),
     })
 }
 
 /// The table as text.
 #[must_use]
-pub fn power_text(path: &str, data: &Prepared, ledger: &Ledger, power: &Power) -> String {
-    let unit = data
-        .output_unit
-        .as_deref()
-        .map_or_else(String::new, |u| format!(" [{u}]"));
-    let rms = format!("rms{unit}");
+pub fn power_text(power: &PowerFacts) -> String {
+    let rms = format!("rms{}", in_brackets(power.record.unit.as_deref()));
     let header = [
         "family", "effect", &rms, "× floor", "gain", "found", "remark",
     ];
     let mut rows = table(&header, 2..4);
     for row in &power.rows {
-        let part = part(data, row);
+        let part = part(&power.record, row);
         let short =
             |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| number(v, Some(0.05 * v)));
         let gain = part.gain.as_ref().map_or_else(
             || "–".to_owned(),
             |g| {
-                let unit = match g.unit.as_deref() {
+                let unit = match g.unit {
                     Some("1") => "",
                     Some(unit) => unit,
                     None => "(no unit in the record)",
@@ -178,7 +153,7 @@ pub fn power_text(path: &str, data: &Prepared, ledger: &Ledger, power: &Power) -
         };
         rows.add_row([
             part.family.to_owned(),
-            term_name(data, &row.term),
+            row.name.clone(),
             short(part.amplitude),
             short(part.noise_floors),
             gain,
@@ -189,8 +164,8 @@ pub fn power_text(path: &str, data: &Prepared, ledger: &Ledger, power: &Power) -
     }
     let mut out = String::new();
     // Writing to a String cannot fail.
-    let _ = writeln!(out, "bowden power  {path}");
-    let _ = writeln!(out, "model     {}", effects(data, ledger.last()).join(", "));
+    let _ = writeln!(out, "bowden power  {}", power.label);
+    let _ = writeln!(out, "model     {}", power.model.join(", "));
     let _ = writeln!(
         out,
         "planted   {SIMULATED}; {} trials of each amplitude",

@@ -1,57 +1,41 @@
 //! Several records: errors by file, and the gains that each has of its own.
 
-use super::words::{estimate, number, table};
-use crate::conclude::by_file::{nrmse_by_file, worse};
-use crate::conclude::final_fit::FinalFit;
-use crate::conclude::intervals::{gain_names, numbered, parameters};
-use crate::fit::Solution;
-use crate::ledger::Ledger;
-use crate::problem::{Piece, Prepared};
-
-/// The file that is held out as a whole, where there is one.
-fn held_out(data: &Prepared) -> Option<&Piece> {
-    data.pieces.iter().find(|piece| !piece.fitted)
-}
+use super::words::{estimate, table};
+use crate::facts::{number, Facts, FinalFacts, HeldOutOf, RecordFacts};
 
 /// How long the records are, in words.
-pub(super) fn size(data: &Prepared) -> String {
-    let hertz = |rate: f64| number(rate, Some(1e-3 * rate));
-    let own = data.pieces.iter().map(|p| p.samples as f64 / p.rate);
-    match &data.pieces[..] {
-        pieces @ [_, _, ..] => format!(
-            "{} samples in {} files, {:.1} s together, brought to {} Hz",
-            data.samples,
-            pieces.len(),
-            own.sum::<f64>(),
-            hertz(data.rate)
+pub(super) fn size(record: &RecordFacts) -> String {
+    let rate = number(record.rate, Some(1e-3 * record.rate));
+    match record.files.len() {
+        0 | 1 => format!(
+            "{} samples, {rate} Hz, {:.1} s",
+            record.samples, record.seconds
         ),
-        _ => format!(
-            "{} samples, {} Hz, {:.1} s",
-            data.samples,
-            hertz(data.rate),
-            data.samples as f64 / data.rate
+        several => format!(
+            "{} samples in {several} files, {:.1} s together, brought to {rate} Hz",
+            record.samples, record.seconds
         ),
     }
 }
 
 /// How the records are split, in words.
-pub(super) fn split(data: &Prepared) -> String {
+pub(super) fn split(record: &RecordFacts) -> String {
     let trailing = "60 % to fit, 15 % to stop, 25 % held out";
-    match (data.pieces.len(), held_out(data)) {
+    let mut files = record.files.iter();
+    let whole = files.find(|file| file.held_out == HeldOutOf::Whole);
+    match (record.files.len(), whole) {
         (1, _) => trailing.to_owned(),
         (_, None) => format!("of each file {trailing}"),
-        (_, Some(piece)) => {
-            format!("80 % to fit, 20 % to stop; held out: {}", piece.path)
+        (_, Some(file)) => {
+            format!("80 % to fit, 20 % to stop; held out: {}", file.path)
         }
     }
 }
 
 /// Errors by file before and after, as a table; empty for a single record.
-pub(super) fn errors(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
-    let (Some(before), Some(after)) = (
-        nrmse_by_file(data, &ledger.declared),
-        nrmse_by_file(data, &done.solution),
-    ) else {
+pub(super) fn errors(facts: &Facts) -> String {
+    let (Some(before), Some(after)) = (&facts.declared.nrmse_by_file, &facts.last.nrmse_by_file)
+    else {
         return String::new();
     };
     let mut files = table(
@@ -72,7 +56,7 @@ pub(super) fn errors(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Strin
         }
         _ => "–".to_owned(),
     };
-    for ((before, after), piece) in before.iter().zip(&after).zip(&data.pieces) {
+    for ((before, after), piece) in before.iter().zip(after).zip(&facts.record.files) {
         let pairs = before.segments().into_iter().zip(after.segments());
         let mut row = vec![piece.path.clone()];
         row.extend(pairs.map(|(b, a)| cell(b, a)));
@@ -81,7 +65,7 @@ pub(super) fn errors(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Strin
         files.add_row(row);
     }
     let mut out = format!("{files}\n");
-    for file in worse(data, &ledger.declared, &done.solution) {
+    for file in &facts.worse {
         out += &format!(
             "worse for {}: held out {} % → {} %\n",
             file.path,
@@ -93,23 +77,19 @@ pub(super) fn errors(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Strin
 }
 
 /// The gains that each file has of its own, as a table; empty where they are common.
-pub(super) fn gains(data: &Prepared, solution: &Solution) -> String {
-    if solution.structure.own_gains == 0 {
+pub(super) fn gains(last: &FinalFacts) -> String {
+    if last.gains_by_file.is_empty() {
         return String::new();
     }
-    let (names, _) = gain_names(data.mode);
-    let all = parameters(data, solution);
+    let names = last.gain_names;
     let mut files = table(
         &["gains by file (95 %)", names[0], names[1], names[2]],
         0..0,
     );
-    for (record, piece) in data.pieces.iter().enumerate() {
-        let own = names.map(|name| {
-            let name = numbered(name, record);
-            let found = all.iter().find(|p| p.name == name);
-            found.map_or_else(String::new, estimate)
-        });
-        files.add_row([vec![piece.path.clone()], own.to_vec()].concat());
+    for file in &last.gains_by_file {
+        let own = file.gains.iter();
+        let own = own.map(|found| found.as_ref().map_or_else(String::new, estimate));
+        files.add_row(std::iter::once(file.path.clone()).chain(own));
     }
     format!("{files}\n\n")
 }

@@ -1,25 +1,7 @@
-//! Numbers, names and tables, as all reports write them.
+//! Estimates and tables, as all reports write them.
 
-use crate::conclude::intervals::{term_name, Parameter};
-use crate::fit::Solution;
-use crate::ledger::Ledger;
-use crate::problem::Prepared;
-use crate::score::scan::{Regime, BLOCKS};
+use crate::facts::{number, with_interval, Parameter};
 use comfy_table::{presets, CellAlignment, ContentArrangement, Table, TableComponent};
-
-/// A number with as many digits as its interval bears.
-pub(super) fn number(value: f64, half_width: Option<f64>) -> String {
-    let digits = match half_width {
-        Some(w) if w > 0.0 && w.is_finite() => (1.0 - w.log10().floor()).clamp(0.0, 12.0) as usize,
-        _ if value == 0.0 => 0,
-        _ => (3.0 - value.abs().log10().floor()).clamp(0.0, 12.0) as usize,
-    };
-    if value.abs() >= 1e7 || (value != 0.0 && value.abs() < 1e-5) {
-        format!("{value:.3e}")
-    } else {
-        format!("{value:.digits$}")
-    }
-}
 
 /// "12.34 ± 0.05 N·m", or what is to be said instead.
 pub(super) fn estimate(parameter: &Parameter) -> String {
@@ -29,14 +11,7 @@ pub(super) fn estimate(parameter: &Parameter) -> String {
         None => " (no unit in the record)".to_owned(),
     };
     match parameter.ci95 {
-        Some([low, high]) => {
-            let half = 0.5 * (high - low);
-            format!(
-                "{} ± {}{unit}",
-                number(parameter.value, Some(half)),
-                number(half, Some(half))
-            )
-        }
+        Some(_) => format!("{}{unit}", with_interval(parameter.value, parameter.ci95)),
         None => {
             let reason = parameter.refused.as_ref().map_or("", |r| r.reason.as_str());
             let stands = number(parameter.value, None);
@@ -67,20 +42,7 @@ pub(super) fn table(header: &[&str], right: std::ops::Range<usize>) -> Table {
     table
 }
 
-/// Names of all parts of a model.
-pub(super) fn effects(data: &Prepared, solution: &Solution) -> Vec<String> {
-    let hysteresis = solution.structure.hysteresis.then(|| "bouc-wen".to_owned());
-    hysteresis
-        .into_iter()
-        .chain(solution.structure.terms.iter().map(|t| term_name(data, t)))
-        .collect()
-}
-
-/// Independent stretches of the fit segment, at most sixteen.
-pub(super) fn block_count(data: &Prepared, ledger: &Ledger) -> usize {
-    if ledger.regime == Regime::Blocks {
-        return BLOCKS;
-    }
-    let seconds = data.split.fit.len() as f64 * data.dt * data.stride as f64;
-    ((seconds / (3.0 * ledger.correlation_time)) as usize).min(BLOCKS - 1)
+/// " [N·m]", or nothing where the record states no unit.
+pub(super) fn in_brackets(unit: Option<&str>) -> String {
+    unit.map_or_else(String::new, |unit| format!(" [{unit}]"))
 }

@@ -2,8 +2,9 @@
 
 use crate::rig::{record, said, Told};
 use bowden_lab::export::hand_over::HandOver;
+use bowden_lab::facts::{Detail, Facts};
 use bowden_lab::record::{parse, Options};
-use bowden_lab::report::{json, text, Report};
+use bowden_lab::report::{json, text};
 use bowden_synth::{Mode, Recipe};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -87,13 +88,14 @@ fn what_was_found_is_told_although_nothing_can_be_handed_over() {
     // Without the records as they came nothing can be run sample by sample.
     let because = HandOver::new(&[], data, ledger, done, false, |_| ()).unwrap_err();
     let hand = Err(because.as_str());
-    let report = json(&Report::new("made.csv", data, ledger, done, hand)).unwrap();
+    let facts = Facts::new("made.csv", data, ledger, done, hand, Detail::EachRound);
+    let report = json(&facts).unwrap();
     let report: serde_json::Value = serde_json::from_str(&report).unwrap();
     let part = &report["final"];
     assert!(part["causal_nrmse"].is_null() && part["handed_over"].is_null());
     assert_eq!(part["feed_forward"]["because"], because);
     assert!(part["nrmse"]["held_out"].is_f64());
-    let printed = text("made.csv", data, ledger, done, hand, false);
+    let printed = text(&facts, false);
     assert!(printed.contains(&format!("firmware  nothing is handed over: {because}\n")));
     assert!(printed.contains("\nverdict   "), "{printed}");
 }
