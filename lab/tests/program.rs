@@ -1,6 +1,7 @@
 //! The program from outside: exit status, what goes to which stream, files written.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+use std::collections::BTreeSet;
 use std::process::{Command, Output};
 
 fn bowden(arguments: &[&str]) -> Output {
@@ -111,23 +112,11 @@ fn the_same_record_gives_the_same_bytes_whatever_the_number_of_threads() {
     assert_eq!(first, run("3"));
 }
 
-#[test]
-fn the_json_is_laid_out_as_documented() {
-    let output = bowden(&["close", "--json"]);
-    assert!(output.stderr.is_empty());
-    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    let keys = |value: &serde_json::Value| -> Vec<String> {
-        value.as_object().unwrap().keys().cloned().collect()
-    };
-    let sorted = |names: &[&str]| {
-        let mut names: Vec<String> = names.iter().map(|n| (*n).to_owned()).collect();
-        names.sort();
-        names
-    };
-    assert_eq!(report["schema"], "bowden.close/1");
-    assert_eq!(
-        keys(&report),
-        sorted(&[
+/// The keys of each object of `close --json` on the embedded record.
+const LAYOUT: &[(&str, &[&str])] = &[
+    (
+        "",
+        &[
             "schema",
             "record",
             "declared",
@@ -143,20 +132,20 @@ fn the_json_is_laid_out_as_documented() {
             "explains",
             "integrates",
             "verdict",
-            "sentence"
-        ])
-    );
-    assert_eq!(
-        keys(&report["record"]),
-        sorted(&["path", "samples", "rate_hz", "mode", "cutoff_hz", "blocks"])
-    );
-    assert_eq!(
-        keys(&report["declared"]),
-        sorted(&["effects", "parameters", "rmse", "nrmse", "nrmse_raw"])
-    );
-    assert_eq!(
-        keys(&report["final"]),
-        sorted(&[
+            "sentence",
+        ],
+    ),
+    (
+        "/record",
+        &["path", "samples", "rate_hz", "mode", "cutoff_hz", "blocks"],
+    ),
+    (
+        "/declared",
+        &["effects", "parameters", "rmse", "nrmse", "nrmse_raw"],
+    ),
+    (
+        "/final",
+        &[
             "effects",
             "refitted",
             "parameters",
@@ -164,35 +153,28 @@ fn the_json_is_laid_out_as_documented() {
             "nrmse",
             "causal_nrmse",
             "feed_forward",
-            "handed_over"
-        ])
-    );
-    assert_eq!(
-        keys(&report["final"]["feed_forward"]),
-        sorted(&["invertible", "because", "nearest"])
-    );
-    assert_eq!(
-        keys(&report["final"]["handed_over"]),
-        sorted(&[
+            "handed_over",
+        ],
+    ),
+    ("/final/feed_forward", &["invertible", "because", "nearest"]),
+    (
+        "/final/handed_over",
+        &[
             "effects",
             "left_out",
             "within_inverse",
             "nrmse",
-            "rates_time_constant_s"
-        ])
-    );
-    assert_eq!(
-        keys(&report["declared"]["rmse"]),
-        sorted(&["fit", "stop", "held_out"])
-    );
-    assert_eq!(
-        keys(&report["declared"]["parameters"][0]),
-        sorted(&["name", "value", "unit", "ci95", "identified", "refused"])
-    );
-    let round = &report["rounds"][0];
-    assert_eq!(
-        keys(round),
-        sorted(&[
+            "rates_time_constant_s",
+        ],
+    ),
+    ("/declared/rmse", &["fit", "stop", "held_out"]),
+    (
+        "/declared/parameters/0",
+        &["name", "value", "unit", "ci95", "identified", "refused"],
+    ),
+    (
+        "/rounds/0",
+        &[
             "family",
             "effect",
             "channel",
@@ -207,20 +189,31 @@ fn the_json_is_laid_out_as_documented() {
             "raises_held_out",
             "model",
             "refitted",
-            "nrmse"
-        ])
-    );
-    assert_eq!(
-        keys(&round["coefficients"][0]),
-        sorted(&["name", "value", "unit", "ci95"])
-    );
+            "nrmse",
+        ],
+    ),
+    (
+        "/rounds/0/coefficients/0",
+        &["name", "value", "unit", "ci95"],
+    ),
+    ("/rejected/0", &["family", "effect", "channel", "gate"]),
+];
+
+#[test]
+fn the_json_is_laid_out_as_documented() {
+    let output = bowden(&["close", "--json"]);
+    assert!(output.stderr.is_empty());
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(report["schema"], "bowden.close/1");
+    for (place, names) in LAYOUT {
+        let found = report.pointer(place).unwrap().as_object().unwrap();
+        let found: BTreeSet<&str> = found.keys().map(String::as_str).collect();
+        assert_eq!(found, names.iter().copied().collect(), "at {place:?}");
+    }
+    let round = &report["rounds"][0];
     assert_eq!(
         (round["family"].as_str(), round["channel"].as_str()),
         (Some("viscous"), Some("phi_p"))
-    );
-    assert_eq!(
-        keys(&report["rejected"][0]),
-        sorted(&["family", "effect", "channel", "gate"])
     );
     assert!(report["unknown"].is_null());
     assert!(round["rmse_after"]["held_out"].as_f64() < round["rmse_before"]["held_out"].as_f64());

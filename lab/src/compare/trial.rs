@@ -107,10 +107,57 @@ pub struct Row {
     pub estimates: Option<[f64; 5]>,
 }
 
-/// The running state of a law.
-enum Running {
-    Pid(PidState<f64>),
-    Adaptive(Box<AdaptiveState<f64, 3>>),
+/// A law with its running state.
+enum Running<'a> {
+    Pid(&'a Pid<f64>, PidState<f64>),
+    Adaptive(&'a ThreeRegressors, Box<AdaptiveState<f64, 3>>),
+}
+
+/// What a controller reads at one sample.
+struct Reading<'a> {
+    now: &'a RigSample<f64>,
+    dt: f64,
+    reference: f64,
+    next_reference: f64,
+    feed_forward: f64,
+    /// What the third regressor reads.
+    found: f64,
+}
+
+impl<'a> Running<'a> {
+    fn new(law: &'a Law) -> Self {
+        match law {
+            Law::Pid(pid) => Self::Pid(pid, PidState::new()),
+            Law::Adaptive(law) => Self::Adaptive(law, Box::new(AdaptiveState::new(law))),
+        }
+    }
+
+    /// The command, and the estimates of an adaptive law.
+    fn step(&mut self, at: &Reading<'_>) -> (f64, Option<[f64; 5]>) {
+        let (now, feed_forward) = (at.now, at.feed_forward);
+        match self {
+            Self::Pid(pid, state) => {
+                let input = PidInput {
+                    velocity: now.distal.velocity,
+                    feed_forward,
+                    ..PidInput::new(at.dt, at.reference, now.measured)
+                };
+                (pid.step(state, &input).command, None)
+            }
+            Self::Adaptive(law, state) => {
+                let x = [now.proximal.velocity, now.proximal.acceleration, at.found];
+                let input = AdaptiveInput {
+                    next_reference: at.next_reference,
+                    feed_forward,
+                    ..AdaptiveInput::new(at.dt, at.reference, now.measured, x)
+                };
+                let command = law.step(state, &input).command;
+                let [a, b, c] = state.theta_hat();
+                let estimates = [state.beta_hat(), state.delta_hat(), a, b, c];
+                (command, Some(estimates))
+            }
+        }
+    }
 }
 
 /// Sums over a part of a trial.
@@ -155,10 +202,7 @@ pub fn run(
 ) -> Result<Trial, Error> {
     let rig = Rig::<f64, MOST_UNDECLARED>::try_new(conditions.rig, &conditions.undeclared)?;
     let mut state = rig.start(seed);
-    let mut running = match &controller.law {
-        Law::Pid(_) => Running::Pid(PidState::new()),
-        Law::Adaptive(law) => Running::Adaptive(Box::new(AdaptiveState::new(law))),
-    };
+    let mut running = Running::new(&controller.law);
     let (mut feed, mut regressor) = (controller.feed.clone(), controller.regressor.clone());
     let dt = 1.0 / controller.rate;
     let steps = (conditions.seconds * controller.rate).round() as usize;
@@ -176,32 +220,14 @@ pub fn run(
         let found = regressor.as_mut().map_or(0.0, |found| {
             found.step(&conditions.reference, t, dt).effects
         });
-        let (command, estimates) = match (&controller.law, &mut running) {
-            (Law::Pid(pid), Running::Pid(state)) => {
-                let input = PidInput {
-                    velocity: now.distal.velocity,
-                    feed_forward,
-                    ..PidInput::new(dt, reference, now.measured)
-                };
-                (pid.step(state, &input).command, None)
-            }
-            (Law::Adaptive(law), Running::Adaptive(state)) => {
-                let x = [now.proximal.velocity, now.proximal.acceleration, found];
-                let input = AdaptiveInput {
-                    next_reference: conditions.reference.at(t + dt),
-                    feed_forward,
-                    ..AdaptiveInput::new(dt, reference, now.measured, x)
-                };
-                let command = law.step(state, &input).command;
-                let [a, b, c] = state.theta_hat();
-                (
-                    command,
-                    Some([state.beta_hat(), state.delta_hat(), a, b, c]),
-                )
-            }
-            // The state was made from the law above.
-            _ => (0.0, None),
-        };
+        let (command, estimates) = running.step(&Reading {
+            now: &now,
+            dt,
+            reference,
+            next_reference: conditions.reference.at(t + dt),
+            feed_forward,
+            found,
+        });
         if traced {
             trial.trace.push(Row {
                 time: t,
