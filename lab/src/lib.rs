@@ -16,17 +16,13 @@
 //! | [`export`] | what is handed over to firmware |
 //! | [`check`] | whether a model still holds on another record |
 //! | [`facts`] | the answer to each question of the program, as plain data |
-//! | [`compare`] | controllers on the core's simulated rig |
-//! | [`report`], [`cli`] | tables, JSON, the program: views of the facts |
 //!
 //! Every column of the regression is computed by the core crate, so that what is fitted here
 //! is what runs in firmware. The package `bowden-synth` makes test records and shares no
 //! code with any of these.
 
 pub mod check;
-pub mod cli;
 pub mod closing;
-pub mod compare;
 pub mod conclude;
 pub mod export;
 pub mod facts;
@@ -36,5 +32,4 @@ pub mod ledger;
 pub mod model;
 pub mod problem;
 pub mod record;
-pub mod report;
 pub mod score;
