@@ -14,7 +14,6 @@
 //! | [`model`] | a transmission plus effects: the predicted output | |
 //! | [`control`] | torque controllers that a bad sample cannot poison | (14)-(26) |
 //! | [`bound`] | what can be promised of the adaptive law | (27)-(38) |
-//! | [`rig`] | a simulated rig to try a controller on | (12) |
 //! | [`signal`] | clamp, guard, play operator, rates of a position | |
 //!
 //! Conventions: config and state are two types; everything is checked once, in
@@ -54,7 +53,6 @@ mod error;
 pub mod hysteresis;
 pub mod model;
 mod real;
-pub mod rig;
 pub mod signal;
 pub mod transmission;
 

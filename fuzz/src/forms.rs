@@ -1,8 +1,8 @@
 //! The TOML forms: the model file, by the core and by the lab, and the setup of `compare`.
 
 use bowden::model::Model;
-use bowden_lab::compare::setup::Setup;
 use bowden_lab::export::ModelFile;
+use bowden_trials::setup::Setup;
 
 const TERMS: usize = 8;
 

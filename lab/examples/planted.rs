@@ -9,11 +9,13 @@
 #![allow(clippy::unwrap_used)]
 
 use bowden_lab::closing::close;
-use bowden_lab::conclude::intervals::term_name;
+use bowden_lab::conclude::intervals::{parameters, term_name};
+use bowden_lab::fit::{Segments, Solution};
+use bowden_lab::ledger::{Ledger, Round};
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options};
-use bowden_synth::{effects, generate, Mode, Planted, Recipe};
+use bowden_synth::{effects, generate, Mode, Planted, Recipe, Synthetic};
 
 /// Family of an effect by its own name.
 fn family_of(name: &str) -> &'static str {
@@ -23,153 +25,213 @@ fn family_of(name: &str) -> &'static str {
         .map_or("", |i| i.family.name())
 }
 
-fn main() {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let word = |i: usize, default: &str| {
-        arguments
-            .get(i)
-            .cloned()
-            .unwrap_or_else(|| default.to_owned())
-    };
-    let modes: &[Mode] = match word(0, "both").as_str() {
-        "torque" => &[Mode::Torque],
-        "displacement" => &[Mode::Displacement],
-        _ => &[Mode::Torque, Mode::Displacement],
-    };
-    let strength: f64 = word(1, "3").parse().unwrap();
-    let seeds: u64 = word(2, "1").parse().unwrap();
-    let colour: f64 = word(3, "0").parse().unwrap();
-    let only: Vec<String> = arguments.iter().skip(4).cloned().collect();
-    let (mut right, mut total, mut extra, mut at_floor) = (0, 0, 0, 0);
-    for &mode in modes {
-        let names: Vec<&str> = if strength == 0.0 {
-            vec![""]
-        } else {
-            effects(mode).to_vec()
+/// What is asked for.
+struct Arguments {
+    modes: &'static [Mode],
+    strength: f64,
+    seeds: u64,
+    colour: f64,
+    /// The effects that are planted; all of the mode where it is empty.
+    only: Vec<String>,
+}
+
+impl Arguments {
+    fn read() -> Self {
+        let words: Vec<String> = std::env::args().skip(1).collect();
+        let word = |i: usize, default: &str| {
+            let word = words.get(i).cloned();
+            word.unwrap_or_else(|| default.to_owned())
         };
-        for name in names
-            .into_iter()
-            .filter(|n| only.is_empty() || only.iter().any(|o| o == n))
-        {
-            for seed in 1..=seeds {
-                let mut recipe = Recipe::new(mode);
-                recipe.seed = 1000 + seed;
-                recipe.colour = colour;
-                recipe.load = mode == Mode::Displacement
-                    && ["load", "capstan", "drive", "gain"]
-                        .iter()
-                        .any(|w| name.contains(w));
-                recipe.temperature = name == "temperature";
-                if strength > 0.0 {
-                    recipe.effects = vec![Planted {
-                        strength,
-                        ..Planted::new(name)
-                    }];
-                }
-                let made = generate(&recipe).unwrap();
-                let mut options = Options::default();
-                if name == "crosstalk" {
-                    options.channels.push(("aux".to_owned(), "aux".to_owned()));
-                }
-                let record = parse(made.to_csv().as_bytes(), name, &options).unwrap();
-                let data = Prepared::new(&record, Preparation::default()).unwrap();
-                let mut clean = record.clone();
-                clean.output.values.clone_from(&made.truth.output);
-                let clean = Prepared::new(
-                    &clean,
-                    Preparation {
-                        cutoff: Some(data.cutoff),
-                    },
-                )
-                .unwrap();
-                let noise: Vec<f64> = data
-                    .target
-                    .iter()
-                    .zip(&clean.target)
-                    .map(|(a, b)| a - b)
-                    .collect();
-                let floor = bowden_lab::fit::Segments::of(&data, &noise).held_out;
-                let started = std::time::Instant::now();
-                let ledger = close(
-                    &data,
-                    &structure(&["bouc-wen".to_owned()], &data).unwrap(),
-                    |_| (),
-                )
-                .unwrap();
-                let seconds = started.elapsed().as_secs_f64();
-                let family = family_of(name);
-                let mut hit = false;
-                let mut found: Vec<String> = ledger
-                    .rounds
-                    .iter()
-                    .map(|r| {
-                        let rivals: Vec<_> =
-                            r.rivals.iter().map(|c| c.term.effect.name()).collect();
-                        let ok = r.candidate.family.name() == family
-                            || r.rivals.iter().any(|c| c.family.name() == family);
-                        if ok {
-                            hit = true;
-                        } else {
-                            extra += 1;
-                        }
-                        format!(
-                            "{}{}",
-                            term_name(&data, &r.candidate.term),
-                            if rivals.is_empty() {
-                                String::new()
-                            } else {
-                                format!("({})", rivals.join(" "))
-                            }
-                        )
-                    })
-                    .collect();
-                if let Some(unknown) = &ledger.unknown {
-                    extra += 1;
-                    found.push(format!("UNKNOWN {}", unknown.variable.words(&data)));
-                }
-                let ratio = ledger.last().rmse.held_out / floor;
-                total += 1;
-                right += i32::from(hit);
-                at_floor += i32::from(ratio < 1.1);
-                let reject: Vec<String> = ledger
-                    .rejected
-                    .iter()
-                    .map(|r| {
-                        format!(
-                            "{}:{:?}{:.5}",
-                            r.candidate.term.effect.name(),
-                            r.gate,
-                            r.p.unwrap_or(-1.0)
-                        )
-                    })
-                    .collect();
-                if std::env::var("TRUTH").is_ok() {
-                    let last = ledger.last();
-                    for e in &made.truth.effects {
-                        println!(
-                            "truth {} on {:?}: gain {} shapes {:?}; base {:?}",
-                            e.effect, e.channel, e.gain, e.shapes, made.truth.base
-                        );
-                    }
-                    for p in bowden_lab::conclude::intervals::parameters(&data, last) {
-                        println!("   {} = {:.5} {:?} {:?}", p.name, p.value, p.ci95, p.unit);
-                    }
-                }
-                println!(
-                    "{mode:?} {name:22} {seed} {} {:7.2} -> {:5.2} ({:?}, f_c {}, rho {:.3} sig {:.2} n {:.2}) {} | {} | {seconds:.2} s",
-                    if hit { "ok  " } else { "MISS" },
-                    ledger.declared.rmse.held_out / floor,
-                    ratio,
-                    ledger.regime,
-                    data.cutoff,
-                    made.truth.base.rho,
-                    made.truth.base.sigma,
-                    made.truth.base.n,
-                    found.join(", "),
-                    reject.join(" "),
-                );
+        Self {
+            modes: match word(0, "both").as_str() {
+                "torque" => &[Mode::Torque],
+                "displacement" => &[Mode::Displacement],
+                _ => &[Mode::Torque, Mode::Displacement],
+            },
+            strength: word(1, "3").parse().unwrap(),
+            seeds: word(2, "1").parse().unwrap(),
+            colour: word(3, "0").parse().unwrap(),
+            only: words.iter().skip(4).cloned().collect(),
+        }
+    }
+
+    fn names(&self, mode: Mode) -> Vec<&'static str> {
+        if self.strength == 0.0 {
+            return vec![""];
+        }
+        let wanted = |name: &&str| self.only.is_empty() || self.only.iter().any(|o| o == name);
+        effects(mode).iter().copied().filter(wanted).collect()
+    }
+
+    fn recipe(&self, mode: Mode, name: &str, seed: u64) -> Recipe {
+        let loaded = ["load", "capstan", "drive", "gain"];
+        let mut recipe = Recipe::new(mode);
+        recipe.seed = 1000 + seed;
+        recipe.colour = self.colour;
+        recipe.load = mode == Mode::Displacement && loaded.iter().any(|w| name.contains(w));
+        recipe.temperature = name == "temperature";
+        if self.strength > 0.0 {
+            recipe.effects = vec![Planted {
+                strength: self.strength,
+                ..Planted::new(name)
+            }];
+        }
+        recipe
+    }
+}
+
+/// A generated record on its grids.
+struct Made {
+    made: Synthetic,
+    data: Prepared,
+    /// Held-out error that the noise alone leaves.
+    floor: f64,
+}
+
+impl Made {
+    fn new(recipe: &Recipe, name: &str) -> Self {
+        let made = generate(recipe).unwrap();
+        let mut options = Options::default();
+        if name == "crosstalk" {
+            options.channels.push(("aux".to_owned(), "aux".to_owned()));
+        }
+        let record = parse(made.to_csv().as_bytes(), name, &options).unwrap();
+        let data = Prepared::new(&record, Preparation::default()).unwrap();
+        let mut clean = record;
+        clean.output.values.clone_from(&made.truth.output);
+        let preparation = Preparation {
+            cutoff: Some(data.cutoff),
+        };
+        let clean = Prepared::new(&clean, preparation).unwrap();
+        let pairs = data.target.iter().zip(&clean.target);
+        let noise: Vec<f64> = pairs.map(|(a, b)| a - b).collect();
+        Self {
+            floor: Segments::of(&data, &noise).held_out,
+            made,
+            data,
+        }
+    }
+
+    /// What was planted and what was fitted, for a reader who sets `TRUTH`.
+    fn print_truth(&self, last: &Solution) {
+        let truth = &self.made.truth;
+        for e in &truth.effects {
+            println!(
+                "truth {} on {:?}: gain {} shapes {:?}; base {:?}",
+                e.effect, e.channel, e.gain, e.shapes, truth.base
+            );
+        }
+        for p in parameters(&self.data, last) {
+            println!("   {} = {:.5} {:?} {:?}", p.name, p.value, p.ci95, p.unit);
+        }
+    }
+}
+
+/// What was found of a family.
+struct Found {
+    /// Whether the family was named, or stands among the rivals of a name.
+    hit: bool,
+    /// How many other names there are.
+    extra: usize,
+    names: Vec<String>,
+}
+
+impl Found {
+    fn new(data: &Prepared, ledger: &Ledger, family: &str) -> Self {
+        let is_right = |round: &&Round| {
+            let rivals = round.rivals.iter().map(|c| c.family.name());
+            rivals
+                .chain([round.candidate.family.name()])
+                .any(|f| f == family)
+        };
+        let right = ledger.rounds.iter().filter(is_right).count();
+        let mut names: Vec<String> = ledger.rounds.iter().map(|r| named(data, r)).collect();
+        if let Some(unknown) = &ledger.unknown {
+            names.push(format!("UNKNOWN {}", unknown.variable.words(data)));
+        }
+        Self {
+            hit: right > 0,
+            extra: names.len() - right,
+            names,
+        }
+    }
+}
+
+/// The name of a round, with its rivals in parentheses.
+fn named(data: &Prepared, round: &Round) -> String {
+    let rivals: Vec<_> = round.rivals.iter().map(|c| c.term.effect.name()).collect();
+    let name = term_name(data, &round.candidate.term);
+    match rivals.is_empty() {
+        true => name,
+        false => format!("{name}({})", rivals.join(" ")),
+    }
+}
+
+fn turned_down(ledger: &Ledger) -> String {
+    let rejected = ledger.rejected.iter().map(|r| {
+        let effect = r.candidate.term.effect.name();
+        format!("{effect}:{:?}{:.5}", r.gate, r.p.unwrap_or(-1.0))
+    });
+    rejected.collect::<Vec<String>>().join(" ")
+}
+
+#[derive(Default)]
+struct Totals {
+    right: usize,
+    total: usize,
+    extra: usize,
+    at_floor: usize,
+}
+
+/// Closes one record and prints its line.
+fn close_one(recipe: &Recipe, name: &str, seed: u64, totals: &mut Totals) {
+    let record = Made::new(recipe, name);
+    let (data, floor) = (&record.data, record.floor);
+    let declared = structure(&["bouc-wen".to_owned()], data).unwrap();
+    let started = std::time::Instant::now();
+    let ledger = close(data, &declared, |_| ()).unwrap();
+    let seconds = started.elapsed().as_secs_f64();
+    let found = Found::new(data, &ledger, family_of(name));
+    let ratio = ledger.last().rmse.held_out / floor;
+    totals.total += 1;
+    totals.right += usize::from(found.hit);
+    totals.extra += found.extra;
+    totals.at_floor += usize::from(ratio < 1.1);
+    if std::env::var("TRUTH").is_ok() {
+        record.print_truth(ledger.last());
+    }
+    let base = &record.made.truth.base;
+    println!(
+        "{:?} {name:22} {seed} {} {:7.2} -> {ratio:5.2} ({:?}, f_c {}, rho {:.3} sig {:.2} n {:.2}) {} | {} | {seconds:.2} s",
+        recipe.mode,
+        if found.hit { "ok  " } else { "MISS" },
+        ledger.declared.rmse.held_out / floor,
+        ledger.regime,
+        data.cutoff,
+        base.rho,
+        base.sigma,
+        base.n,
+        found.names.join(", "),
+        turned_down(&ledger),
+    );
+}
+
+fn main() {
+    let arguments = Arguments::read();
+    let mut totals = Totals::default();
+    for &mode in arguments.modes {
+        for name in arguments.names(mode) {
+            for seed in 1..=arguments.seeds {
+                let recipe = arguments.recipe(mode, name, seed);
+                close_one(&recipe, name, seed, &mut totals);
             }
         }
     }
+    let Totals {
+        right,
+        total,
+        extra,
+        at_floor,
+    } = totals;
     println!("found {right} of {total}, other names {extra}, within 10 % of the floor {at_floor}");
 }

@@ -11,11 +11,11 @@ use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::conclude::intervals::term_name;
 use bowden_lab::conclude::verdict::verdict;
 use bowden_lab::export::hand_over::HandOver;
+use bowden_lab::facts::{percent, Detail, Facts};
 use bowden_lab::fit::Segments;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{read, Mode, Options};
-use bowden_lab::report::text;
 use std::path::{Path, PathBuf};
 
 struct Row {
@@ -136,7 +136,45 @@ const ROWS: &[Row] = &[
     },
 ];
 
-/// Prints the whole ledger; returns the row of the summary table.
+/// The rounds with their errors, the parameters, the sentence; `bowden close` prints it all.
+fn print(facts: &Facts) {
+    println!(
+        "{}: declared {}",
+        facts.label,
+        facts.declared.effects.join(", ")
+    );
+    let step = |name: &str, rmse: &Segments| {
+        let floors = |error: f64| facts.record.floors(error).unwrap_or(f64::NAN);
+        println!(
+            "  {name:<40} fit {:.5} ({:.1} floors), held out {:.5} ({:.1} floors)",
+            rmse.fit,
+            floors(rmse.fit),
+            rmse.held_out,
+            floors(rmse.held_out)
+        );
+    };
+    step("as declared", &facts.declared.rmse);
+    for round in &facts.rounds {
+        step(
+            &format!("+ {} ({:?})", round.title, round.grade),
+            &round.after,
+        );
+    }
+    step("as delivered", &facts.last.rmse);
+    for (title, parameter) in facts.last.titles.iter().zip(&facts.last.parameters) {
+        println!("    {title} = {} {:?}", parameter.value, parameter.ci95);
+    }
+    let (before, after) = (&facts.declared.nrmse, &facts.last.nrmse);
+    println!(
+        "  held out {} -> {}; {}: {}\n",
+        percent(before.held_out),
+        percent(after.held_out),
+        facts.verdict.name(),
+        facts.sentence
+    );
+}
+
+/// Closes one record; returns the row of the summary table.
 fn run(row: &Row, path: &Path) -> Result<String, String> {
     let own = |(a, b): &(&str, &str)| ((*a).to_owned(), (*b).to_owned());
     let options = Options {
@@ -163,7 +201,8 @@ fn run(row: &Row, path: &Path) -> Result<String, String> {
     let seconds = started.elapsed().as_secs_f64();
     let hand = HandOver::new(&[record], &data, &ledger, &done, false, |_| ());
     let hand = hand.as_ref().map_err(String::as_str);
-    println!("{}\n", text(row.name, &data, &ledger, &done, hand, true));
+    let facts = Facts::new(row.name, &data, &ledger, &done, hand, Detail::Ledger);
+    print(&facts);
     let percent = |s: &Segments| {
         let n = s.normalised(&data, &data.target);
         (100.0 * n.fit, 100.0 * n.held_out)

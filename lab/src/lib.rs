@@ -15,25 +15,22 @@
 //! | [`foresight`] | what the record would have missed, and which motion to record next |
 //! | [`export`] | what is handed over to firmware |
 //! | [`check`] | whether a model still holds on another record |
-//! | [`compare`] | controllers on the core's simulated rig |
-//! | [`report`], [`cli`] | tables, JSON, the program |
+//! | [`facts`] | the answer to each question of the program, as plain data |
 //!
 //! Every column of the regression is computed by the core crate, so that what is fitted here
 //! is what runs in firmware. The package `bowden-synth` makes test records and shares no
 //! code with any of these.
 
 pub mod check;
-pub mod cli;
 pub mod closing;
-pub mod compare;
 pub mod conclude;
 pub mod export;
+pub mod facts;
 pub mod fit;
 pub mod foresight;
 pub mod ledger;
 pub mod model;
 pub mod problem;
 pub mod record;
-pub mod report;
 pub mod score;
 pub mod search;

@@ -1,4 +1,5 @@
-//! The rooms of the lab, floor by floor: a file uses only floors below its own.
+//! The packages of the lab and the rooms of this one, floor by floor: a file uses only
+//! floors below its own, and the program shows what others compute.
 // Clippy's allowance covers the test functions, not what they share.
 #![allow(clippy::unwrap_used)]
 
@@ -6,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// From the ground up, in the order in which data walk through them.
-const FLOORS: [&str; 14] = [
+const FLOORS: [&str; 12] = [
     "record",
     "problem",
     "model",
@@ -18,16 +19,35 @@ const FLOORS: [&str; 14] = [
     "foresight",
     "export",
     "check",
-    "compare",
-    "report",
-    "cli",
+    "facts",
 ];
+
+/// The packages beside this one, as folders.
+const OTHERS: [&str; 4] = ["cli", "rig", "synth", "trials"];
+
+/// What a package names of ours in its manifest, tests apart.
+const DEPENDENCIES: [(&str, &[&str]); 5] = [
+    ("", &["bowden"]),
+    ("cli", &["bowden-lab", "bowden-synth", "bowden-trials"]),
+    ("rig", &["bowden"]),
+    ("synth", &[]),
+    ("trials", &["bowden", "bowden-lab", "bowden-rig"]),
+];
+
+/// What draws tables and reads arguments; the program alone needs it.
+const TERMINAL: [&str; 5] = ["anstream", "anstyle", "clap", "comfy-table", "indicatif"];
 
 /// Longest file \[lines\].
 const LONGEST: usize = 500;
 
-fn sources() -> Vec<(Vec<String>, String)> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+/// The folder of a package of the lab; this one has the empty name.
+fn package(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
+}
+
+/// Each file of a package with the path of its module.
+fn sources(name: &str) -> Vec<(Vec<String>, String)> {
+    let root = package(name).join("src");
     let mut folders = vec![root.clone()];
     let mut all = Vec::new();
     while let Some(folder) = folders.pop() {
@@ -41,7 +61,7 @@ fn sources() -> Vec<(Vec<String>, String)> {
             }
         }
     }
-    assert!(all.len() > 100, "{} sources were found", all.len());
+    assert!(all.len() > 5, "{} sources of {name:?}", all.len());
     all
 }
 
@@ -135,9 +155,9 @@ fn used(own: &[String], text: &str) -> Vec<Vec<String>> {
     paths.into_iter().map(absolute).collect()
 }
 
-/// Which file uses which.
-fn graph() -> BTreeMap<Vec<String>, BTreeSet<Vec<String>>> {
-    let sources = sources();
+/// Which file of a package uses which.
+fn graph(name: &str) -> BTreeMap<Vec<String>, BTreeSet<Vec<String>>> {
+    let sources = sources(name);
     let modules: BTreeSet<Vec<String>> = sources.iter().map(|(m, _)| m.clone()).collect();
     let resolve = |mut path: Vec<String>| {
         while !modules.contains(&path) {
@@ -156,7 +176,7 @@ fn graph() -> BTreeMap<Vec<String>, BTreeSet<Vec<String>>> {
 fn a_file_uses_only_rooms_below_its_own() {
     let floor = |room: &str| FLOORS.iter().position(|floor| *floor == room);
     let mut crossed = 0;
-    for (own, targets) in graph() {
+    for (own, targets) in graph("") {
         let Some(room) = own.first() else { continue };
         for to in targets {
             let (from, below) = (floor(room), floor(&to[0]));
@@ -173,10 +193,77 @@ fn a_file_uses_only_rooms_below_its_own() {
     assert!(crossed > 200, "{crossed} uses of other rooms were found");
 }
 
+/// What the code of a file names of a crate, in `use` lines and elsewhere.
+fn named(crate_name: &str, own: &[String], text: &str) -> Vec<Vec<String>> {
+    let code = code(text);
+    let prefix = format!("{crate_name}::");
+    let inline = code.split(&prefix).skip(1).map(|rest| {
+        let path = rest.chars();
+        let path: String = path
+            .take_while(|c| c.is_alphanumeric() || *c == '_' || *c == ':')
+            .collect();
+        path.split("::").map(str::to_owned).collect::<Vec<_>>()
+    });
+    // After `bowden_lab::{` a tree opens, whose leaves are those of the `use` lines.
+    let inline = inline.filter(|path| !path[0].is_empty());
+    let trees = used(own, text).into_iter().filter_map(|path| {
+        let at = path.iter().position(|part| part == crate_name)?;
+        Some(path[at + 1..].to_vec())
+    });
+    inline.chain(trees).collect()
+}
+
 #[test]
-fn files_of_a_room_do_not_use_each_other_in_a_circle() {
+fn the_program_shows_facts_and_computes_nothing() {
+    let mut seen = 0;
+    for (own, text) in sources("cli") {
+        for crate_name in ["bowden_lab", "bowden_trials"] {
+            for path in named(crate_name, &own, &text) {
+                seen += 1;
+                assert_eq!(
+                    path[0],
+                    "facts",
+                    "cli: {own:?} uses {crate_name}::{}: the program shows facts and computes none",
+                    path.join("::")
+                );
+            }
+        }
+        for crate_name in ["bowden", "bowden_rig", "nalgebra", "rayon"] {
+            let paths = named(crate_name, &own, &text);
+            assert!(paths.is_empty(), "cli: {own:?} uses {crate_name}");
+        }
+    }
+    assert!(seen > 20, "{seen} uses of facts were found");
+}
+
+#[test]
+fn packages_depend_on_each_other_downwards_and_the_program_alone_on_a_terminal() {
+    for (name, expected) in DEPENDENCIES {
+        let manifest = std::fs::read_to_string(package(name).join("Cargo.toml")).unwrap();
+        let manifest: toml::Table = manifest.parse().unwrap();
+        let own = manifest["dependencies"].as_table().unwrap();
+        let ours = own.keys().filter(|key| key.starts_with("bowden"));
+        assert_eq!(ours.collect::<Vec<_>>(), expected, "{name:?}");
+        if name != "cli" {
+            for crate_name in TERMINAL {
+                assert!(!own.contains_key(crate_name), "{name:?} needs {crate_name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn files_do_not_use_each_other_in_a_circle() {
+    no_circle("");
+    for name in OTHERS {
+        no_circle(name);
+    }
+}
+
+/// Fails if a file of a package uses itself over others.
+fn no_circle(name: &str) {
     // A folder's `mod.rs` is its door: what goes in and out there is no circle.
-    let graph: BTreeMap<_, BTreeSet<_>> = graph()
+    let graph: BTreeMap<_, BTreeSet<_>> = graph(name)
         .into_iter()
         .map(|(own, targets)| {
             let others = targets.into_iter().filter(|to| !own.starts_with(to));
@@ -187,7 +274,10 @@ fn files_of_a_room_do_not_use_each_other_in_a_circle() {
         let mut reached = BTreeSet::new();
         let mut open: Vec<&Vec<String>> = graph[start].iter().collect();
         while let Some(next) = open.pop() {
-            assert!(next != start, "{start:?} uses itself over {reached:?}");
+            assert!(
+                next != start,
+                "{name} {start:?} uses itself over {reached:?}"
+            );
             if reached.insert(next) {
                 open.extend(&graph[next]);
             }
@@ -197,9 +287,11 @@ fn files_of_a_room_do_not_use_each_other_in_a_circle() {
 
 #[test]
 fn no_file_is_longer_than_a_reader_holds_in_mind() {
-    for (own, text) in sources() {
-        let lines = text.lines().count();
-        assert!(lines <= LONGEST, "{own:?} has {lines} lines");
+    for name in std::iter::once("").chain(OTHERS) {
+        for (own, text) in sources(name) {
+            let lines = text.lines().count();
+            assert!(lines <= LONGEST, "{name} {own:?} has {lines} lines");
+        }
     }
 }
 

@@ -9,13 +9,11 @@ use bowden_lab::closing::close;
 use bowden_lab::conclude::curve::curve;
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::conclude::intervals::term_name;
-use bowden_lab::conclude::verdict::{sentence, verdict, Verdict};
-use bowden_lab::export::hand_over::HandOver;
+use bowden_lab::conclude::verdict::{verdict, Verdict};
 use bowden_lab::ledger::Ledger;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
-use bowden_lab::record::{parse, Options, Record};
-use bowden_lab::report::{json, text, Report};
+use bowden_lab::record::{parse, Options};
 use bowden_synth::{generate, Mode, Planted, Recipe, Synthetic};
 use rayon::prelude::*;
 
@@ -25,7 +23,6 @@ const MODES: [Mode; 2] = [Mode::Torque, Mode::Displacement];
 
 struct Closed {
     made: Synthetic,
-    record: Record,
     data: Prepared,
     ledger: Ledger,
 }
@@ -48,12 +45,7 @@ impl Closed {
         let data = Prepared::new(&record, Preparation::default()).unwrap();
         let declared = structure(&["bouc-wen".to_owned()], &data).unwrap();
         let ledger = close(&data, &declared, |_| ()).unwrap();
-        Self {
-            made,
-            record,
-            data,
-            ledger,
-        }
+        Self { made, data, ledger }
     }
 
     fn done(&self) -> FinalFit {
@@ -72,13 +64,6 @@ impl Closed {
         rounds
             .map(|r| term_name(&self.data, &r.candidate.term))
             .collect()
-    }
-
-    fn printed(&self) -> String {
-        let (data, ledger, done) = (&self.data, &self.ledger, self.done());
-        let records = std::slice::from_ref(&self.record);
-        let hand = HandOver::new(records, data, ledger, &done, false, |_| ()).unwrap();
-        json(&Report::new("made.csv", data, ledger, &done, Ok(&hand))).unwrap()
     }
 
     fn verdict(&self) -> Verdict {
@@ -203,46 +188,4 @@ fn a_line_that_is_left_and_has_no_name_is_not_taken_for_noise() {
     assert!(closed.names().iter().all(|name| name != "tone"));
     assert!(closed.ledger.last().rmse.fit > 10.0 * closed.data.noise_floor);
     assert_eq!(closed.verdict(), Verdict::ExplainedColoured);
-}
-
-#[test]
-fn the_report_of_something_unknown_says_so_in_both_forms_and_is_the_same_on_one_thread() {
-    let closed = Closed::new(Mode::Displacement, &[("bump-position", 3.0)], 0.0, 61_100);
-    let printed = closed.printed();
-    let report: serde_json::Value = serde_json::from_str(&printed).unwrap();
-    assert_eq!(report["verdict"], "unknown");
-    let unknown = &report["unknown"];
-    assert_eq!(unknown["variable"], "position");
-    assert_eq!(unknown["channel"], "x");
-    assert!(unknown["q"].as_f64().unwrap() < 1.0);
-    assert!(unknown["p"].as_f64().unwrap() < 1e-3);
-    assert!(unknown["curve"].as_array().unwrap().len() >= 10);
-    let rmse = |when: &str| unknown[when]["held_out"].as_f64().unwrap();
-    assert!(rmse("rmse_after") < 0.2 * rmse("rmse_before"));
-    let last = closed.ledger.last().rmse.held_out;
-    assert_eq!(rmse("rmse_after"), last);
-    // With the table, and fitted once more: that moves the error by a little.
-    let delivered = report["final"]["rmse"]["held_out"].as_f64().unwrap();
-    assert!((delivered / last - 1.0).abs() < 0.1, "{delivered} {last}");
-
-    let told = sentence(&closed.data, &closed.ledger, &closed.done());
-    assert!(told.contains("depends on x"), "{told}");
-    let ledger = text(
-        "made.csv",
-        &closed.data,
-        &closed.ledger,
-        &closed.done(),
-        Err("not asked for"),
-        false,
-    );
-    assert!(ledger.contains("unknown: The residual depends on x; the catalogue explains"));
-
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(1)
-        .build()
-        .unwrap();
-    let again =
-        pool.install(|| Closed::new(Mode::Displacement, &[("bump-position", 3.0)], 0.0, 61_100));
-    let again = again.printed();
-    assert_eq!(printed, again);
 }

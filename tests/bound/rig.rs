@@ -3,7 +3,7 @@
 use super::Random;
 use bowden::bound::{Interval, Known, Plant, Rms, Theorem1};
 use bowden::control::{Adaptive, AdaptiveInput, AdaptiveState, Pid, PidInput, PidState};
-use bowden::rig::{Reference, Rig, RigConfig};
+use bowden_rig::{Reference, Rig, RigConfig};
 
 /// What theory knows of the reference rig: `alpha = B·N_A`, theta, `|D| <= Delta`.
 ///

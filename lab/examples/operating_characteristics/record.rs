@@ -5,11 +5,12 @@ use bowden::effect::{Family, CATALOGUE};
 use bowden_lab::closing::close;
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::fit::{fit, Segments};
+use bowden_lab::ledger::{Ledger, Round};
 use bowden_lab::model::catalogue::candidates;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options};
-use bowden_synth::{generate, Mode, Planted, Recipe};
+use bowden_synth::{generate, Mode, Planted, Recipe, Synthetic};
 
 /// What one record gave.
 pub struct Outcome {
@@ -62,99 +63,123 @@ pub fn recipe(mode: Mode, planted: &[(&str, f64)], colour: f64, seed: u64) -> Re
     }
 }
 
-/// Generates, writes as CSV, reads and closes, as a user would.
-pub fn run(recipe: &Recipe) -> Outcome {
-    let made = generate(recipe).unwrap();
-    let mut options = Options::default();
-    if made.column("aux").is_some() {
-        options.channels.push(("aux".to_owned(), "aux".to_owned()));
+/// A generated record on its grids, and what its noise leaves of a perfect model.
+struct Made {
+    made: Synthetic,
+    data: Prepared,
+    /// Held-out error that the noise alone leaves.
+    floor: f64,
+}
+
+impl Made {
+    /// Generates, writes as CSV and reads, as a user would.
+    fn new(recipe: &Recipe) -> Self {
+        let made = generate(recipe).unwrap();
+        let mut options = Options::default();
+        if made.column("aux").is_some() {
+            options.channels.push(("aux".to_owned(), "aux".to_owned()));
+        }
+        let record = parse(made.to_csv().as_bytes(), "planted", &options).unwrap();
+        let data = Prepared::new(&record, Preparation::default()).unwrap();
+        let mut clean = record;
+        clean.output.values.clone_from(&made.truth.output);
+        let preparation = Preparation {
+            cutoff: Some(data.cutoff),
+        };
+        let clean = Prepared::new(&clean, preparation).unwrap();
+        let pairs = data.target.iter().zip(&clean.target);
+        let noise: Vec<f64> = pairs.map(|(measured, clean)| measured - clean).collect();
+        Self {
+            floor: Segments::of(&data, &noise).held_out,
+            made,
+            data,
+        }
     }
-    let record = parse(made.to_csv().as_bytes(), "planted", &options).unwrap();
-    let data = Prepared::new(&record, Preparation::default()).unwrap();
-    let mut clean = record.clone();
-    clean.output.values.clone_from(&made.truth.output);
-    let preparation = Preparation {
-        cutoff: Some(data.cutoff),
+
+    /// The errors of a fit that is told of the planted effects, where they can be declared:
+    /// before and after the last fit, over the floor.
+    fn told(&self) -> Option<[f64; 2]> {
+        let mut list = vec!["bouc-wen".to_owned()];
+        list.extend(self.made.truth.effects.iter().map(|e| match e.channel {
+            Some(channel) => format!("{}@{channel}", e.effect),
+            None => e.effect.clone(),
+        }));
+        let told = structure(&list, &self.data).ok()?;
+        let told = fit(&self.data, &told, None, 0.0)?;
+        let done = FinalFit::of(&self.data, &told).rmse.held_out;
+        Some([told.rmse.held_out / self.floor, done / self.floor])
+    }
+}
+
+/// Generates a record and closes it, as a user would.
+pub fn run(recipe: &Recipe) -> Outcome {
+    let made = Made::new(recipe);
+    let (data, floor) = (&made.data, made.floor);
+    let declared = structure(&["bouc-wen".to_owned()], data).unwrap();
+    let ledger = close(data, &declared, |_| ()).unwrap();
+    let tried = candidates(data, &ledger.declared.structure, &ledger.declared.residual);
+    let library = criteria::Library::new(data, &ledger.declared, &tried);
+    let families = |round: &Round| {
+        let rivals = round.rivals.iter().map(|c| c.family);
+        std::iter::once(round.candidate.family)
+            .chain(rivals)
+            .collect()
     };
-    let clean = Prepared::new(&clean, preparation).unwrap();
-    let noise: Vec<f64> = data
-        .target
-        .iter()
-        .zip(&clean.target)
-        .map(|(measured, clean)| measured - clean)
-        .collect();
-    let floor = Segments::of(&data, &noise).held_out;
-    let declared = structure(&["bouc-wen".to_owned()], &data).unwrap();
-    let ledger = close(&data, &declared, |_| ()).unwrap();
-    let tried = candidates(&data, &ledger.declared.structure, &ledger.declared.residual);
-    let library = criteria::Library::new(&data, &ledger.declared, &tried);
-    let rounds: Vec<Vec<Family>> = ledger
-        .rounds
-        .iter()
-        .map(|round| {
-            std::iter::once(round.candidate.family)
-                .chain(round.rivals.iter().map(|c| c.family))
-                .collect()
-        })
-        .collect();
-    let names: Vec<String> = ledger
-        .rounds
-        .iter()
-        .map(|round| {
-            let rivals: Vec<_> = round.rivals.iter().map(|c| c.term.effect.name()).collect();
-            format!("{}{rivals:?}", round.candidate.term.effect.name())
-        })
-        .collect();
-    let turned_down: Vec<String> = ledger
-        .rejected
-        .iter()
-        .map(|r| format!("{}:{:?}", r.candidate.term.effect.name(), r.gate))
-        .collect();
-    let planted: Vec<String> = recipe
-        .effects
-        .iter()
-        .map(|p| format!("{}*{:.2}", p.effect, p.strength))
-        .collect();
     let unknown = ledger.unknown.as_ref().map(|u| {
         let channel = data.channel(u.variable.source()).unwrap();
-        (u.variable.name(&data), channel.name.clone())
+        (u.variable.name(data), channel.name.clone())
     });
     let reached = ledger.last().rmse.held_out / floor;
-    let delivered = FinalFit::new(&data, &ledger).rmse.held_out / floor;
+    let delivered = FinalFit::new(data, &ledger).rmse.held_out / floor;
     let before = ledger.declared.rmse.held_out / floor;
-    let mut list = vec!["bouc-wen".to_owned()];
-    list.extend(made.truth.effects.iter().map(|e| match e.channel {
-        Some(channel) => format!("{}@{channel}", e.effect),
-        None => e.effect.clone(),
-    }));
-    let told = structure(&list, &data)
-        .ok()
-        .and_then(|told| fit(&data, &told, None, 0.0))
-        .map(|told| {
-            let done = FinalFit::of(&data, &told).rmse.held_out;
-            [told.rmse.held_out / floor, done / floor]
-        });
     Outcome {
         reached,
         delivered,
-        told,
+        told: made.told(),
         columns: tried.len(),
         bic: library.bic(floor),
         err: library.err(floor),
-        line: format!(
-            "{:?} {} colour {} planted {planted:?}: {before:.2} -> {reached:.2}, {delivered:.2} ({:?}) {}; unknown {:?} q {:.2} | {}",
-            recipe.mode,
-            recipe.seed,
-            recipe.colour,
-            ledger.regime,
-            names.join(", "),
-            unknown,
-            ledger.unknown.as_ref().map_or(f64::NAN, |u| u.q),
-            turned_down.join(" ")
+        line: line(
+            recipe,
+            &ledger,
+            unknown.as_ref(),
+            [before, reached, delivered],
         ),
-        rounds,
+        rounds: ledger.rounds.iter().map(families).collect(),
         unknown,
     }
+}
+
+/// The single record for a reader; `errors` are before the search, after it, and delivered.
+fn line(
+    recipe: &Recipe,
+    ledger: &Ledger,
+    unknown: Option<&(&'static str, String)>,
+    [before, reached, delivered]: [f64; 3],
+) -> String {
+    let planted = recipe.effects.iter();
+    let planted: Vec<String> = planted
+        .map(|p| format!("{}*{:.2}", p.effect, p.strength))
+        .collect();
+    let name = |round: &Round| {
+        let rivals: Vec<_> = round.rivals.iter().map(|c| c.term.effect.name()).collect();
+        format!("{}{rivals:?}", round.candidate.term.effect.name())
+    };
+    let names: Vec<String> = ledger.rounds.iter().map(name).collect();
+    let turned_down = ledger.rejected.iter();
+    let turned_down: Vec<String> = turned_down
+        .map(|r| format!("{}:{:?}", r.candidate.term.effect.name(), r.gate))
+        .collect();
+    format!(
+        "{:?} {} colour {} planted {planted:?}: {before:.2} -> {reached:.2}, {delivered:.2} ({:?}) {}; unknown {unknown:?} q {:.2} | {}",
+        recipe.mode,
+        recipe.seed,
+        recipe.colour,
+        ledger.regime,
+        names.join(", "),
+        ledger.unknown.as_ref().map_or(f64::NAN, |u| u.q),
+        turned_down.join(" ")
+    )
 }
 
 impl Outcome {

@@ -18,7 +18,9 @@ pub struct FileErrors {
 }
 
 impl FileErrors {
-    pub(crate) fn segments(&self) -> [Option<f64>; 3] {
+    /// The three errors in the order of the segments.
+    #[must_use]
+    pub fn segments(&self) -> [Option<f64>; 3] {
         [self.fit, self.stop, self.held_out]
     }
 }

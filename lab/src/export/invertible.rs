@@ -107,7 +107,8 @@ fn bound(gain: f64, kappa_eta: f64, rho: f64) -> f64 {
 }
 
 /// A number as people write it.
-pub(crate) fn three_digits(value: f64) -> String {
+#[must_use]
+pub fn three_digits(value: f64) -> String {
     let digits = (2.0 - value.abs().max(1e-12).log10().floor()).clamp(0.0, 12.0) as usize;
     if value.abs() >= 1e5 || (value != 0.0 && value.abs() < 1e-4) {
         format!("{value:.2e}")

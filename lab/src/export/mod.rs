@@ -146,11 +146,7 @@ impl ModelFile {
             });
         Self {
             schema: "bowden.model/1".to_owned(),
-            mode: match data.mode {
-                Mode::Torque => "torque",
-                Mode::Displacement => "displacement",
-            }
-            .to_owned(),
+            mode: data.mode.name().to_owned(),
             channels: data.channels.iter().map(|c| c.name.clone()).collect(),
             transmission,
             terms: terms.collect(),

@@ -20,6 +20,50 @@ fn number(value: f64) -> String {
     format!("{:?}", value as f32)
 }
 
+/// Where the model came from, what it is worth, and what it lacks.
+fn origin(about: &About) -> String {
+    let mut out = String::new();
+    let (cutoff, rate) = (about.cutoff_hz, about.rate_hz);
+    line!(
+        out,
+        "//! Fitted below {cutoff} Hz to a record of {rate} samples a second."
+    );
+    line!(out, "//!");
+    let errors = &about.nrmse;
+    line!(
+        out,
+        "//! Error, of the output's standard deviation: fit {}, held out {}.",
+        per_cent(errors.fit),
+        per_cent(errors.held_out)
+    );
+    if let Some(causal) = errors.held_out_causal {
+        line!(
+            out,
+            "//! Held out sample by sample, with the rates as below: {}.",
+            per_cent(causal)
+        );
+    }
+    for part in &about.left_out {
+        line!(out, "//! Left out: {} ({}).", part.effect, part.because);
+    }
+    if !about.left_out.is_empty() {
+        line!(
+            out,
+            "//! Held out with all that was left out: {}.",
+            per_cent(errors.held_out_as_fitted)
+        );
+    }
+    for one in &about.not_identified {
+        line!(
+            out,
+            "//! Not identified: {} ({}).",
+            one.parameter,
+            one.because
+        );
+    }
+    out
+}
+
 fn per_cent(share: f64) -> String {
     format!("{:.2} %", 100.0 * share)
 }
@@ -80,62 +124,23 @@ impl ModelFile {
                 channels.join(", ")
             ),
         }
-        if self.about.is_none() {
-            line!(out);
-            return out;
-        }
-        let (cutoff, rate) = (about.cutoff_hz, about.rate_hz);
-        line!(
-            out,
-            "//! Fitted below {cutoff} Hz to a record of {rate} samples a second."
-        );
-        line!(out, "//!");
-        let errors = &about.nrmse;
-        line!(
-            out,
-            "//! Error, of the output's standard deviation: fit {}, held out {}.",
-            per_cent(errors.fit),
-            per_cent(errors.held_out)
-        );
-        if let Some(causal) = errors.held_out_causal {
+        if self.about.is_some() {
+            out.push_str(&origin(about));
+            line!(out, "//! Feed-forward: {}.", about.feed_forward);
+            line!(out, "//!");
             line!(
                 out,
-                "//! Held out sample by sample, with the rates as below: {}.",
-                per_cent(causal)
+                "//! The rates of each source, once a sample, with a `RatesState` of its own:"
             );
-        }
-        for part in &about.left_out {
-            line!(out, "//! Left out: {} ({}).", part.effect, part.because);
-        }
-        if !about.left_out.is_empty() {
             line!(
                 out,
-                "//! Held out with all that was left out: {}.",
-                per_cent(errors.held_out_as_fitted)
+                "//! `let motion = Rates::try_new(RATES_TIME_CONSTANT)?.step(&mut state, position, dt).motion;`"
             );
-        }
-        for one in &about.not_identified {
             line!(
                 out,
-                "//! Not identified: {} ({}).",
-                one.parameter,
-                one.because
+                "//! Made for a feed-forward: `Compensator::try_new(&model()?)?.with_ranges(&ranges())?`."
             );
         }
-        line!(out, "//! Feed-forward: {}.", about.feed_forward);
-        line!(out, "//!");
-        line!(
-            out,
-            "//! The rates of each source, once a sample, with a `RatesState` of its own:"
-        );
-        line!(
-            out,
-            "//! `let motion = Rates::try_new(RATES_TIME_CONSTANT)?.step(&mut state, position, dt).motion;`"
-        );
-        line!(
-            out,
-            "//! Made for a feed-forward: `Compensator::try_new(&model()?)?.with_ranges(&ranges())?`."
-        );
         line!(out);
         out
     }

@@ -52,6 +52,17 @@ pub enum Mode {
     Displacement,
 }
 
+impl Mode {
+    /// Its name in files and reports.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Torque => "torque",
+            Self::Displacement => "displacement",
+        }
+    }
+}
+
 /// Fewest samples that a record may have after cutting.
 pub const MIN_SAMPLES: usize = 200;
 

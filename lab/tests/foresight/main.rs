@@ -3,7 +3,6 @@
 
 mod plan;
 mod power;
-mod program;
 
 use bowden_lab::closing::close;
 use bowden_lab::ledger::Ledger;

@@ -4,5 +4,4 @@
 mod grids;
 mod joint;
 mod measured;
-mod program;
 mod rig;

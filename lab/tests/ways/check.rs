@@ -4,8 +4,8 @@ use crate::rig::{check, nrmse, on, with_gain, Closed};
 use bowden::model::Source;
 use bowden_lab::check::{Given, Seen, Verdict, HOLDS, NOISE};
 use bowden_lab::export::ShapeFile;
+use bowden_lab::facts::CheckFacts;
 use bowden_lab::model::Variable;
-use bowden_lab::report::check_sentence;
 use bowden_synth::{Base, Mode, Recipe};
 use rayon::prelude::*;
 
@@ -90,7 +90,7 @@ fn a_gain_that_has_moved_by_ten_percent_is_told_from_a_model_that_does_not_hold(
         assert!((gain.value - 1.1).abs() < 1e-3, "{gain:?}");
         assert!(found.rmse_gain_offset < 0.1 * found.rmse);
         assert!(found.depends_on.is_empty());
-        let told = check_sentence(&found);
+        let told = CheckFacts::new(&found).sentence;
         assert!(told.starts_with("The gain has moved to 1.1"), "{told}");
     }
 }
@@ -112,7 +112,7 @@ fn an_offset_that_has_moved_is_called_an_offset() {
     // Two newtons; the two records tell the offset to some hundredths.
     assert!((found.mean - 2.0).abs() < 0.05, "{}", found.mean);
     assert!(found.offset_alone());
-    let told = check_sentence(&found);
+    let told = CheckFacts::new(&found).sentence;
     assert!(told.starts_with("The offset has moved by 2.0"), "{told}");
 }
 
@@ -148,7 +148,7 @@ fn an_effect_that_came_after_the_model_makes_it_not_hold_and_its_variable_is_nam
         let first = found.depends_on.first().expect("a variable");
         assert_eq!(first.variable, variable, "{:?}", found.depends_on);
         let words = variable.words(&found.data);
-        let told = check_sentence(&found);
+        let told = CheckFacts::new(&found).sentence;
         assert!(told.contains(&format!("depends on {words}")), "{told}");
     }
 }
@@ -163,7 +163,7 @@ fn where_the_model_holds_nothing_is_searched_and_the_sentence_says_it_plainly() 
     let found = check(&given, &next);
     assert_eq!(found.verdict, Verdict::Holds);
     assert!(found.depends_on.is_empty());
-    let told = check_sentence(&found);
+    let told = CheckFacts::new(&found).sentence;
     assert!(told.starts_with("The model holds: it misses 0."), "{told}");
     assert!(told.contains("held out of its own record"), "{told}");
 }
@@ -212,14 +212,16 @@ fn without_a_held_out_error_only_noise_is_judged() {
         "{} of the floor",
         found.rmse / found.data.noise_floor
     );
-    assert!(check_sentence(&found).contains("the sensor's noise"));
+    assert!(CheckFacts::new(&found)
+        .sentence
+        .contains("the sensor's noise"));
     let more = Recipe {
         effects: vec![with_gain("viscous", 0.05)],
         ..next
     };
     let found = check(&given, &more);
     assert_eq!(found.verdict, Verdict::CannotTell);
-    assert!(check_sentence(&found).contains("cannot be told"));
+    assert!(CheckFacts::new(&found).sentence.contains("cannot be told"));
 }
 
 #[test]
@@ -362,5 +364,7 @@ fn a_record_that_hardly_moves_cannot_tell() {
     };
     let found = check(&given, &still);
     assert_eq!(found.verdict, Verdict::CannotTell);
-    assert!(check_sentence(&found).contains("little more than the noise"));
+    assert!(CheckFacts::new(&found)
+        .sentence
+        .contains("little more than the noise"));
 }

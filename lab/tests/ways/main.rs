@@ -3,8 +3,6 @@
 
 mod check;
 mod measured;
-mod program;
-mod refused;
 mod rig;
 mod rounds;
 mod trace;

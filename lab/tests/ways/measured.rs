@@ -7,10 +7,10 @@ use bowden_lab::check::{About, Check, Errors, Given, Verdict};
 use bowden_lab::closing::close_within;
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::export::ModelFile;
+use bowden_lab::facts::CheckFacts;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{read, Mode, Options, Record};
-use bowden_lab::report::check_sentence;
 use std::path::PathBuf;
 
 struct Rig {
@@ -90,7 +90,7 @@ impl Rig {
             check.line.gain.value,
             check.line.offset.value,
             percent(check.rmse_gain_offset),
-            check_sentence(&check)
+            CheckFacts::new(&check).sentence
         );
         Some(check)
     }

@@ -9,7 +9,6 @@ use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options, Record};
 use bowden_synth::{generate, Base, Mode, Planted, Recipe};
-use std::process::{Command, Output};
 
 /// A transmission in the paper's range.
 pub const CABLE: Base = Base {
@@ -99,78 +98,4 @@ pub fn check(given: &Given, recipe: &Recipe) -> Check {
 /// The error on the record, over its output's standard deviation.
 pub fn nrmse(check: &Check) -> f64 {
     check.rmse / check.deviation
-}
-
-pub fn bowden(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_bowden"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
-
-pub fn text(bytes: &[u8]) -> &str {
-    std::str::from_utf8(bytes).unwrap()
-}
-
-/// What the program prints where all is well.
-pub fn said(arguments: &[&str]) -> String {
-    let output = bowden(arguments);
-    assert_eq!(
-        output.status.code(),
-        Some(0),
-        "{arguments:?}: {}",
-        text(&output.stderr)
-    );
-    text(&output.stdout).to_owned()
-}
-
-/// Exit 2, nothing on stdout, and exactly one line on stderr.
-pub fn refused(arguments: &[&str]) -> String {
-    let output = bowden(arguments);
-    assert_eq!(
-        output.status.code(),
-        Some(2),
-        "{arguments:?}: {}",
-        text(&output.stdout)
-    );
-    assert!(output.stdout.is_empty(), "{arguments:?}");
-    let line = text(&output.stderr).trim_end().to_owned();
-    assert_eq!(line.lines().count(), 1, "{line}");
-    line
-}
-
-/// A folder with files that the program reads and writes.
-pub struct Folder(tempfile::TempDir);
-
-impl Folder {
-    pub fn new() -> Self {
-        Self(tempfile::tempdir().unwrap())
-    }
-
-    pub fn path(&self, name: &str) -> String {
-        self.0.path().join(name).display().to_string()
-    }
-
-    pub fn file(&self, name: &str, bytes: impl AsRef<[u8]>) -> String {
-        let path = self.path(name);
-        std::fs::write(&path, bytes).unwrap();
-        path
-    }
-
-    pub fn record(&self, name: &str, recipe: &Recipe) -> String {
-        self.file(name, generate(recipe).unwrap().to_csv())
-    }
-
-    pub fn read(&self, name: &str) -> String {
-        std::fs::read_to_string(self.path(name)).unwrap()
-    }
-
-    pub fn names(&self) -> Vec<String> {
-        let names = std::fs::read_dir(self.0.path()).unwrap();
-        let mut names: Vec<String> = names
-            .map(|e| e.unwrap().file_name().to_string_lossy().into_owned())
-            .collect();
-        names.sort();
-        names
-    }
 }

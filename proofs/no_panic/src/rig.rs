@@ -1,9 +1,9 @@
-//! `rig/`
+//! `lab/rig/`
 
 use crate::model::term;
 use crate::{any, never_panics};
-use bowden::rig::*;
 use bowden::Real;
+use bowden_rig::*;
 use std::hint::black_box;
 
 pub fn all<T: Real>() -> Option<()> {

@@ -188,6 +188,71 @@ impl Source<'_> {
             })
             .collect()
     }
+
+    /// The signals of a kind of motion, and the kind in words with its parameters.
+    fn played(&self, kind: Kind) -> (Vec<Vec<f64>>, String) {
+        let seconds = self.seconds;
+        let unit = self.data.input.unit.as_deref().unwrap_or("");
+        let reach = |factor: f64| format!("{:.3} {unit}", factor * self.data.input.reach);
+        match kind {
+            Kind::Slower => (
+                self.warped(2.0 * seconds, |_| 0.5),
+                "slower: the recorded motion at 0.5 of its pace".to_owned(),
+            ),
+            Kind::Faster => (
+                self.warped(seconds, |_| 2.0),
+                "faster: the recorded motion at 2 times its pace, there and back".to_owned(),
+            ),
+            Kind::LargerStroke => (
+                self.scaled(|_| 1.5),
+                format!("larger stroke: ×1.5, ± {}", reach(1.5)),
+            ),
+            Kind::SmallerStroke => (
+                self.scaled(|_| 0.4),
+                format!("smaller stroke: ×0.4, ± {}", reach(0.4)),
+            ),
+            Kind::SweptStroke => (
+                self.scaled(|t| 0.55 - 0.45 * (6.0 * TAU * t / seconds).cos()),
+                format!(
+                    "swept stroke: ± {} to ± {} and back, six times",
+                    reach(0.1),
+                    reach(1.0)
+                ),
+            ),
+            Kind::OffsetCentre => (
+                self.moved(|_, x, _, reach| x + 0.5 * reach),
+                format!("offset centre: the recorded motion moved by {}", reach(0.5)),
+            ),
+            Kind::HoldAndWait => self.with_holds(),
+            Kind::MixedPace => (
+                self.warped(1.25 * seconds, |t| {
+                    2.0_f64.powf((5.0 * TAU * t / (1.25 * seconds)).sin())
+                }),
+                "mixed pace: between 0.5 and 2 times the recorded pace, five times".to_owned(),
+            ),
+            Kind::Multisine => (
+                self.multisine(),
+                "multisine: the recorded spectrum with random phases, inside the recorded range"
+                    .to_owned(),
+            ),
+        }
+    }
+
+    /// The recorded motion, interrupted by rests.
+    fn with_holds(&self) -> (Vec<Vec<f64>>, String) {
+        let hold = (4.0 * self.stroke_time).clamp(HOLD.0, HOLD.1);
+        let go = 2.0 * hold;
+        let brake = 0.25 * hold;
+        let pace = move |t: f64| {
+            let q = t % (go + hold);
+            let edge = (q.min(go - q) / brake).clamp(0.0, 1.0);
+            0.5 - 0.5 * (PI * edge).cos()
+        };
+        (
+            self.warped(1.5 * self.seconds, pace),
+            format!("hold and wait: {go:.2} s of the recorded motion, then {hold:.2} s of rest, and so on"),
+        )
+    }
 }
 
 /// Whether a signal changes with the stroke: the input itself and angles.
@@ -216,64 +281,7 @@ pub fn trajectory(data: &Prepared, kind: Kind) -> Trajectory {
         stroke_time: data.input.reach / data.input.speed.max(1e-300),
         seconds: (samples.len() - 1) as f64 * data.dt,
     };
-    let seconds = source.seconds;
-    let hold = (4.0 * source.stroke_time).clamp(HOLD.0, HOLD.1);
-    let unit = data.input.unit.as_deref().unwrap_or("");
-    let reach = |factor: f64| format!("{:.3} {unit}", factor * data.input.reach);
-    let (signals, words) = match kind {
-        Kind::Slower => (
-            source.warped(2.0 * seconds, |_| 0.5),
-            "slower: the recorded motion at 0.5 of its pace".to_owned(),
-        ),
-        Kind::Faster => (
-            source.warped(seconds, |_| 2.0),
-            "faster: the recorded motion at 2 times its pace, there and back".to_owned(),
-        ),
-        Kind::LargerStroke => (
-            source.scaled(|_| 1.5),
-            format!("larger stroke: ×1.5, ± {}", reach(1.5)),
-        ),
-        Kind::SmallerStroke => (
-            source.scaled(|_| 0.4),
-            format!("smaller stroke: ×0.4, ± {}", reach(0.4)),
-        ),
-        Kind::SweptStroke => (
-            source.scaled(|t| 0.55 - 0.45 * (6.0 * TAU * t / seconds).cos()),
-            format!(
-                "swept stroke: ± {} to ± {} and back, six times",
-                reach(0.1),
-                reach(1.0)
-            ),
-        ),
-        Kind::OffsetCentre => (
-            source.moved(|_, x, _, reach| x + 0.5 * reach),
-            format!("offset centre: the recorded motion moved by {}", reach(0.5)),
-        ),
-        Kind::HoldAndWait => {
-            let go = 2.0 * hold;
-            let brake = 0.25 * hold;
-            let pace = move |t: f64| {
-                let q = t % (go + hold);
-                let edge = (q.min(go - q) / brake).clamp(0.0, 1.0);
-                0.5 - 0.5 * (PI * edge).cos()
-            };
-            (
-                source.warped(1.5 * seconds, pace),
-                format!("hold and wait: {go:.2} s of the recorded motion, then {hold:.2} s of rest, and so on"),
-            )
-        }
-        Kind::MixedPace => (
-            source.warped(1.25 * seconds, |t| {
-                2.0_f64.powf((5.0 * TAU * t / (1.25 * seconds)).sin())
-            }),
-            "mixed pace: between 0.5 and 2 times the recorded pace, five times".to_owned(),
-        ),
-        Kind::Multisine => (
-            source.multisine(),
-            "multisine: the recorded spectrum with random phases, inside the recorded range"
-                .to_owned(),
-        ),
-    };
+    let (signals, words) = source.played(kind);
     let channels = std::iter::once(&data.input).chain(&data.channels);
     Trajectory {
         kind,

@@ -16,11 +16,13 @@ use gathered::Gathered;
 use loops::{seen, trace, trajectory};
 use stages::Stages;
 use std::sync::Arc;
+use variation::Variation;
 
 mod gathered;
 mod loops;
 mod series;
 mod stages;
+mod variation;
 
 pub(crate) use series::early;
 pub use series::series_column;
@@ -271,24 +273,6 @@ pub(crate) fn weighted(columns: &[&[f64]], gains: &[f64], n: usize) -> Vec<f64> 
     sum
 }
 
-/// d column / d parameter by central differences: the effects' shapes are few and smooth.
-fn central_difference(
-    data: &Prepared,
-    moved: &dyn Fn(f64) -> Option<FitTerm>,
-    value: f64,
-    step: f64,
-    eta: &[f64],
-) -> Option<Vec<f64>> {
-    let up = effect_column(data, &moved(value + step)?, eta)?;
-    let down = effect_column(data, &moved(value - step)?, eta)?;
-    Some(
-        up.iter()
-            .zip(&down)
-            .map(|(a, b)| (a - b) / (2.0 * step))
-            .collect(),
-    )
-}
-
 /// d column / d parameter through eta, by a central difference along its sensitivity.
 fn eta_derivative(
     data: &Prepared,
@@ -329,31 +313,9 @@ impl RawColumns {
         values: &[f64],
     ) -> Option<Moves> {
         let mut moves: Vec<Vec<(usize, Vec<f64>)>> = vec![Vec::new(); free.len()];
-        let mut sensitivities: Vec<(usize, Vec<f64>)> = Vec::new();
+        let sensitivities = self.sensitivities(data, free)?;
         let mut k = 0;
-        if let Some((shape, eta0)) = &self.shape {
-            let own = match self.trajectory {
-                Some(_) => None,
-                None => Some(trajectory(data, &self.seen, shape, eta0)),
-            };
-            let trajectory = self.trajectory.as_ref().or(own.as_ref())?;
-            for (j, f) in free.iter().enumerate() {
-                let pick: fn(&Sensitivity<f64>) -> f64 = match f.role {
-                    Role::Rho => |s| s.d_rho,
-                    Role::Sigma => |s| s.d_sigma,
-                    Role::N => |s| s.d_n,
-                    Role::Eta0 { .. } => |s| s.d_eta0,
-                    _ => continue,
-                };
-                let mut slope: Vec<f64> = trajectory.iter().map(pick).collect();
-                if let Role::Eta0 { record } = f.role {
-                    // The state of one record moves no other.
-                    let own = data.pieces.get(record).map_or(0..0, |p| p.work.clone());
-                    slope[..own.start].fill(0.0);
-                    slope[own.end..].fill(0.0);
-                }
-                sensitivities.push((j, slope));
-            }
+        if self.shape.is_some() {
             for (j, s) in &sensitivities {
                 for record in 0..structure.own_gains.max(1) {
                     let own = of_record(data, structure, s, record);
@@ -366,51 +328,10 @@ impl RawColumns {
             if term.effect.is_output_stage() || term.effect.is_input_stage() {
                 continue;
             }
-            for (j, f) in free.iter().enumerate() {
-                match f.role {
-                    Role::Shape {
-                        term: of,
-                        index: shape,
-                    } if of == index => {
-                        // A step in time moves by whole samples.
-                        let in_time = term.effect.shape_names()[shape] == "t_s";
-                        let step = if in_time {
-                            data.dt
-                        } else {
-                            1e-5 * values[j].abs().max(1e-6)
-                        };
-                        let moved = |v: f64| {
-                            term.effect
-                                .with_shape(shape, v)
-                                .ok()
-                                .map(|effect| FitTerm { effect, ..*term })
-                        };
-                        moves[j].push((
-                            k,
-                            central_difference(data, &moved, values[j], step, &self.eta)?,
-                        ));
-                    }
-                    Role::Start { term: of, record } if of == index => {
-                        let step = 1e-5 * data.channel(term.source)?.reach;
-                        let moved = |v: f64| {
-                            let mut term = *term;
-                            term.start[record] = v;
-                            Some(term)
-                        };
-                        moves[j].push((
-                            k,
-                            central_difference(data, &moved, values[j], step, &self.eta)?,
-                        ));
-                    }
-                    Role::Origin { term: of } if of == index => {
-                        let step = 1e-5 * data.channel(term.source)?.reach;
-                        let moved = |v: f64| Some(FitTerm { origin: v, ..*term });
-                        moves[j].push((
-                            k,
-                            central_difference(data, &moved, values[j], step, &self.eta)?,
-                        ));
-                    }
-                    _ => {}
+            for (j, (f, &value)) in free.iter().zip(values).enumerate() {
+                if let Some(variation) = Variation::of(index, f.role) {
+                    let slope = variation.slope(data, term, value, &self.eta)?;
+                    moves[j].push((k, slope));
                 }
             }
             if term.effect.reads_eta() {
@@ -423,6 +344,37 @@ impl RawColumns {
         let mut moves = Moves(moves);
         moves.add_series(data, structure, free, values)?;
         Some(moves)
+    }
+
+    /// The slopes of the hysteresis in its free parameters, by the place of each parameter.
+    fn sensitivities(&self, data: &Prepared, free: &[Free]) -> Option<Vec<(usize, Vec<f64>)>> {
+        let Some((shape, eta0)) = &self.shape else {
+            return Some(Vec::new());
+        };
+        let own = match self.trajectory {
+            Some(_) => None,
+            None => Some(trajectory(data, &self.seen, shape, eta0)),
+        };
+        let trajectory = self.trajectory.as_ref().or(own.as_ref())?;
+        let mut all = Vec::new();
+        for (j, f) in free.iter().enumerate() {
+            let pick: fn(&Sensitivity<f64>) -> f64 = match f.role {
+                Role::Rho => |s| s.d_rho,
+                Role::Sigma => |s| s.d_sigma,
+                Role::N => |s| s.d_n,
+                Role::Eta0 { .. } => |s| s.d_eta0,
+                _ => continue,
+            };
+            let mut slope: Vec<f64> = trajectory.iter().map(pick).collect();
+            if let Role::Eta0 { record } = f.role {
+                // The state of one record moves no other.
+                let own = data.pieces.get(record).map_or(0..0, |p| p.work.clone());
+                slope[..own.start].fill(0.0);
+                slope[own.end..].fill(0.0);
+            }
+            all.push((j, slope));
+        }
+        Some(all)
     }
 
     /// The output for the given gains, before the filter.

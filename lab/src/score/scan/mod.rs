@@ -341,6 +341,7 @@ fn lines(
 
 /// One pass over all candidates.
 #[must_use]
+#[allow(clippy::too_many_lines)] // The search that replaces it takes it apart.
 pub fn scan(data: &Prepared, solution: &Solution, candidates: &[Candidate]) -> Scan {
     let space = Workspace::new(data, solution, candidates);
     let (mut set, rest) = space.forward(candidates);

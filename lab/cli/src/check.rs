@@ -1,0 +1,77 @@
+//! `bowden check`: does a model still hold on the next record?
+
+use super::reading::{Columns, ModeName};
+use super::Failure;
+use crate::view::{check_json, check_text};
+use bowden_lab::facts::{check, CheckQuestion, ModelOfFile};
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// A model file larger than this is none.
+const LARGEST: u64 = 1 << 20;
+
+#[derive(Args)]
+pub struct Check {
+    /// The model, a file of `close --model-out`.
+    #[arg(value_name = "MODEL.toml")]
+    model: PathBuf,
+    /// A record of the same rig that the model has not seen, as CSV with a header.
+    #[arg(value_name = "RECORD.csv")]
+    record: PathBuf,
+    #[command(flatten)]
+    columns: Columns,
+    /// Print one JSON object on stdout instead of text.
+    #[arg(long)]
+    json: bool,
+    /// Write the signals over time as CSV: measured, the model as it is and with gain and
+    /// offset, what each leaves, and what each part of the model adds.
+    #[arg(long, value_name = "FILE.csv")]
+    trace: Option<PathBuf>,
+}
+
+impl Check {
+    pub fn run(self) -> Result<(), Failure> {
+        let of_model = |message: String| format!("{}: {message}", self.model.display());
+        let asked = self.columns.asked()?;
+        let given = ModelOfFile::parse(&load(&self.model)?).map_err(of_model)?;
+        let mode = self.columns.mode.map(ModeName::mode);
+        if mode.is_some_and(|mode| mode != given.mode()) {
+            return Err(of_model(format!(
+                "--mode: the model is of {} mode",
+                given.mode().name()
+            )));
+        }
+        if let Some(path) = &self.trace {
+            let read: [&Path; 2] = [&self.model, &self.record];
+            super::writable("--trace", path, &read)?;
+        }
+        let question = CheckQuestion {
+            asked,
+            trace: self.trace.is_some(),
+        };
+        let checked = check(&given, &self.record, &question)?;
+        if let (Some(path), Some(trace)) = (&self.trace, &checked.trace) {
+            super::write_whole(path, trace.as_bytes())?;
+        }
+        let model = self.model.display().to_string();
+        let (label, facts) = (&checked.label, &checked.facts);
+        let report = match self.json {
+            true => check_json(&model, label, facts).map_err(|e| e.to_string())?,
+            false => check_text(&model, label, facts),
+        };
+        super::say(report.trim_end())
+    }
+}
+
+fn load(path: &Path) -> Result<String, Failure> {
+    let failed = |message: &dyn std::fmt::Display| format!("{}: {message}", path.display());
+    let size = std::fs::metadata(path).map_err(|e| failed(&e))?.len();
+    if size > LARGEST {
+        return Err(failed(
+            &"is larger than any model; a file of `close --model-out` was expected",
+        ));
+    }
+    let bytes = std::fs::read(path).map_err(|e| failed(&e))?;
+    String::from_utf8(bytes)
+        .map_err(|_| failed(&"is no text; a TOML file of `close --model-out` was expected"))
+}

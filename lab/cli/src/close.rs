@@ -1,0 +1,163 @@
+//! `bowden close`: the main job.
+
+use super::reading::{progress, telling, Reading};
+use super::Failure;
+use crate::view::{json, text};
+use bowden_lab::facts::{close, Asked, Close as Question, Detail, Form, Handed, Record};
+use bowden_synth::stored_csv;
+use clap::{Args, ValueEnum};
+use std::path::{Path, PathBuf};
+
+/// Name of the embedded record: the command that writes the same one to a file.
+const EMBEDDED: &str = "(embedded: bowden record --mode torque --effect viscous --seed 7)";
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum PerFile {
+    /// B (or kappa_x), kappa_eta and T0 (or the offset).
+    Gains,
+}
+
+#[derive(Args, Default)]
+pub struct Close {
+    /// CSV files with a header, several of one rig for one joint model; the embedded
+    /// record where none is given. Of three or more the last is held out as a whole.
+    #[arg(value_name = "RECORD")]
+    records: Vec<PathBuf>,
+    #[command(flatten)]
+    reading: Reading,
+    /// What may differ from file to file, as after a change of the rig's configuration.
+    /// Then the end of each file is held out.
+    #[arg(long, value_enum, value_name = "WHAT")]
+    per_file: Option<PerFile>,
+    /// Print one JSON object on stdout instead of tables.
+    #[arg(long)]
+    json: bool,
+    /// Write the model: .toml for tools, .rs or .postcard for firmware; beside it, as
+    /// NAME.vector.csv, samples and what the model must answer. With --per-file gains one
+    /// for each file: NAME-1.toml, NAME-2.toml, …
+    #[arg(long, value_name = "FILE.toml")]
+    model_out: Option<PathBuf>,
+    /// Write the signals over time as CSV, as the fit sees them: measured, declared, final,
+    /// residual, and what each part of the final model adds.
+    #[arg(long, value_name = "FILE.csv")]
+    trace: Option<PathBuf>,
+    /// Fit the model that is written within what a feed-forward can invert: sigma up to
+    /// B/(2·kappa_eta·rho), no delay, no lag, no play in series. What was found and the
+    /// verdict stay as they are.
+    #[arg(long)]
+    invertible: bool,
+}
+
+impl Close {
+    pub fn run(self) -> Result<(), Failure> {
+        let asked = self.reading.asked()?;
+        if self.per_file.is_some() && self.records.len() < 2 {
+            return Err("--per-file gains: more than one file was expected".to_owned());
+        }
+        self.check_files()?;
+        let bar = progress();
+        bar.set_message("reading");
+        let records = self.read(&asked)?;
+        let chosen_cutoff = asked.cutoff.is_some();
+        let question = Question {
+            asked,
+            own_gains: self.per_file.is_some(),
+            invertible: self.invertible,
+            models: self.model_out.is_some(),
+            trace: self.trace.is_some(),
+            detail: match self.json {
+                true => Detail::EachRound,
+                false => Detail::Ledger,
+            },
+        };
+        let closed = close(&records, &question, &telling(&bar))?;
+        if let Some(path) = &self.model_out {
+            write_models(path, &closed.models)?;
+        }
+        if let (Some(path), Some(trace)) = (&self.trace, &closed.trace) {
+            super::write_whole(path, trace.as_bytes())?;
+        }
+        let report = match self.json {
+            true => json(&closed.facts).map_err(|e| e.to_string())?,
+            false => text(&closed.facts, chosen_cutoff),
+        };
+        bar.finish_and_clear();
+        super::say(report.trim_end())
+    }
+
+    /// Whether all that is to be written can be, before anything is computed for it.
+    fn check_files(&self) -> Result<(), Failure> {
+        let read: Vec<&Path> = self.records.iter().map(PathBuf::as_path).collect();
+        if let Some(path) = &self.model_out {
+            model_form(path)?;
+            let several = self.per_file.is_some();
+            for file in written(path, if several { read.len() } else { 1 }) {
+                super::writable("--model-out", &file, &read)?;
+                super::writable("--model-out", &vector_of(&file), &read)?;
+            }
+        }
+        if let Some(path) = &self.trace {
+            super::writable("--trace", path, &read)?;
+        }
+        Ok(())
+    }
+
+    fn read(&self, asked: &Asked) -> Result<Vec<Record>, Failure> {
+        match self.records.is_empty() {
+            true => Ok(vec![asked.read_text(stored_csv().as_bytes(), EMBEDDED)?]),
+            false => asked.read_together(&self.records),
+        }
+    }
+}
+
+/// Writes the model and its test vector; where each file has gains of its own, one of both
+/// for each. All are written or none.
+fn write_models(path: &Path, models: &[Handed]) -> Result<(), Failure> {
+    let form = model_form(path)?;
+    let mut all = Vec::new();
+    for (model, own) in models.iter().zip(written(path, models.len())) {
+        let named = |e: String| format!("{}: {e}", own.display());
+        let bytes = model.file(form).map_err(named)?;
+        let vector = model.vector().map_err(named)?.as_bytes().to_vec();
+        let beside = vector_of(&own);
+        all.push((own, bytes));
+        all.push((beside, vector));
+    }
+    super::write_together(&all)
+}
+
+/// The files of so many models.
+fn written(path: &Path, models: usize) -> Vec<PathBuf> {
+    match models {
+        1 => vec![path.to_owned()],
+        _ => (0..models).map(|record| numbered(path, record)).collect(),
+    }
+}
+
+/// The test vector of a model, beside it.
+fn vector_of(model: &Path) -> PathBuf {
+    model.with_extension("vector.csv")
+}
+
+/// `name.toml` as `name-1.toml` for the first record.
+fn numbered(path: &Path, record: usize) -> PathBuf {
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push(format!("-{}", record + 1));
+    if let Some(extension) = path.extension() {
+        name.push(".");
+        name.push(extension);
+    }
+    path.with_file_name(name)
+}
+
+fn model_form(path: &Path) -> Result<Form, Failure> {
+    match path.extension().and_then(|e| e.to_str()) {
+        Some("toml") => Ok(Form::Toml),
+        Some("rs") => Ok(Form::Rust),
+        Some("postcard") => Ok(Form::Postcard),
+        _ => Err(format!(
+            "--model-out {}: a name that ends in .toml, .rs or .postcard was expected",
+            path.display()
+        )),
+    }
+}

@@ -1,0 +1,53 @@
+//! `bowden plan`: the experiment that would tell what this record cannot.
+
+use super::reading::{progress, telling, Reading};
+use super::Failure;
+use bowden_lab::facts::plan;
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub struct Plan {
+    /// A CSV file with a header.
+    record: PathBuf,
+    #[command(flatten)]
+    reading: Reading,
+    /// Where to write the trajectory; stdout where it is not given.
+    #[arg(long, value_name = "FILE.csv")]
+    out: Option<PathBuf>,
+}
+
+impl Plan {
+    pub fn run(self) -> Result<(), Failure> {
+        let asked = self.reading.asked()?;
+        let bar = progress();
+        bar.set_message("reading");
+        let record = asked.read(&self.record)?;
+        let planned = plan(&record, &asked, &telling(&bar))?;
+        bar.finish_and_clear();
+        let Some(planned) = planned else {
+            anstream::eprintln!(
+                "nothing is confounded, and no planned motion would show an unknown parameter better: no experiment is needed"
+            );
+            return Ok(());
+        };
+        match &self.out {
+            Some(path) => super::write_whole(path, planned.csv.as_bytes())?,
+            None => super::pour(planned.csv.as_bytes())?,
+        }
+        let experiment = &planned.experiment;
+        if !planned.confounded {
+            anstream::eprintln!("nothing is confounded; for what the record does not identify:");
+        }
+        anstream::eprintln!(
+            "{}; {:.1} s, speeds up to {:.2} times the recorded ones",
+            experiment.trajectory,
+            experiment.seconds,
+            experiment.speed
+        );
+        for aim in &experiment.aims {
+            anstream::eprintln!("  {}", aim.words());
+        }
+        Ok(())
+    }
+}

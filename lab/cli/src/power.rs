@@ -1,0 +1,53 @@
+//! `bowden power`: what would have been found on this record.
+
+use super::reading::{progress, telling, Reading};
+use super::Failure;
+use crate::view::{power_json, power_text};
+use bowden_lab::facts::{power, PowerQuestion, TRIALS, TRIALS_RANGE};
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub struct Power {
+    /// A CSV file with a header.
+    record: PathBuf,
+    #[command(flatten)]
+    reading: Reading,
+    /// Only these effects or families; NAME@CHANNEL for one channel.
+    #[arg(long, value_delimiter = ',', value_name = "NAME,…")]
+    effects: Vec<String>,
+    /// Trials of each amplitude, 5 to 200.
+    #[arg(long, value_name = "K", default_value_t = TRIALS)]
+    trials: usize,
+    /// Print one JSON object on stdout instead of a table.
+    #[arg(long)]
+    json: bool,
+}
+
+impl Power {
+    pub fn run(self) -> Result<(), Failure> {
+        if !TRIALS_RANGE.contains(&self.trials) {
+            return Err(format!(
+                "--trials {}: {} to {} were expected",
+                self.trials,
+                TRIALS_RANGE.start(),
+                TRIALS_RANGE.end()
+            ));
+        }
+        let asked = self.reading.asked()?;
+        let bar = progress();
+        bar.set_message("reading");
+        let record = asked.read(&self.record)?;
+        let question = PowerQuestion {
+            effects: self.effects,
+            trials: self.trials,
+        };
+        let table = power(&record, &asked, &question, &telling(&bar))?;
+        bar.finish_and_clear();
+        if self.json {
+            super::say(&power_json(&table).map_err(|e| e.to_string())?)
+        } else {
+            super::say(power_text(&table).trim_end())
+        }
+    }
+}

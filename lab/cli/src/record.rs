@@ -1,0 +1,108 @@
+//! `bowden record`: a generated record as CSV on stdout or in a file.
+
+use super::Failure;
+use bowden_synth::{generate, Mode, Planted, Recipe};
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+#[derive(Clone, Copy, ValueEnum)]
+enum ModeName {
+    Torque,
+    Displacement,
+}
+
+#[derive(Args)]
+pub struct Record {
+    /// What drives the transmission.
+    #[arg(long, value_enum, default_value = "torque")]
+    mode: ModeName,
+    /// An effect that the declared model will lack; may be given several times.
+    /// NAME, NAME:STRENGTH or NAME@CHANNEL:STRENGTH, strength in multiples of the noise.
+    #[arg(long, value_name = "NAME[@CHANNEL][:STRENGTH]")]
+    effect: Vec<String>,
+    /// Every random choice follows from it.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Length [s].
+    #[arg(long, default_value_t = 20.0)]
+    seconds: f64,
+    /// Samples a second [Hz].
+    #[arg(long, default_value_t = 1000.0)]
+    rate: f64,
+    /// Noise of the output, rms, in its unit.
+    #[arg(long, default_value_t = 0.05)]
+    noise: f64,
+    /// Correlation of the noise from sample to sample; 0 is white.
+    #[arg(long, default_value_t = 0.0)]
+    colour: f64,
+    /// Half-width of a play in series, between the input and the transmission
+    /// [N·m or mm].
+    #[arg(long, default_value_t = 0.0)]
+    play: f64,
+    /// Where to write; stdout where it is not given.
+    #[arg(long, value_name = "FILE.csv")]
+    out: Option<PathBuf>,
+}
+
+/// "viscous", "viscous:2.5", "viscous@phi_d:2.5".
+fn planted(text: &str) -> Result<Planted, Failure> {
+    let (what, strength) = match text.split_once(':') {
+        None => (text, 3.0),
+        Some((what, strength)) => {
+            let value: f64 = strength.parse().map_err(|_| {
+                format!("--effect {text}: {strength:?} is no number; NAME:STRENGTH was expected")
+            })?;
+            (what, value)
+        }
+    };
+    let (name, channel) = match what.split_once('@') {
+        None => (what, None),
+        Some((name, channel)) => (name, Some(channel.to_owned())),
+    };
+    Ok(Planted {
+        strength,
+        channel,
+        ..Planted::new(name)
+    })
+}
+
+impl Record {
+    pub fn run(self) -> Result<(), Failure> {
+        let mode = match self.mode {
+            ModeName::Torque => Mode::Torque,
+            ModeName::Displacement => Mode::Displacement,
+        };
+        let effects = self
+            .effect
+            .iter()
+            .map(|e| planted(e))
+            .collect::<Result<Vec<_>, _>>()?;
+        let reads = |name: &str| effects.iter().any(|e| e.effect == name);
+        let recipe = Recipe {
+            temperature: reads("temperature"),
+            load: mode == Mode::Displacement
+                && [
+                    "gain",
+                    "load-friction",
+                    "capstan",
+                    "drive-friction",
+                    "back-drive-friction",
+                ]
+                .iter()
+                .any(|n| reads(n)),
+            seed: self.seed,
+            seconds: self.seconds,
+            rate: self.rate,
+            noise: self.noise,
+            colour: self.colour,
+            play: self.play,
+            effects,
+            ..Recipe::new(mode)
+        };
+        let csv = generate(&recipe).map_err(|e| e.to_string())?.to_csv();
+        match &self.out {
+            Some(path) => super::write_whole(path, csv.as_bytes()),
+            None => super::pour(csv.as_bytes()),
+        }
+    }
+}

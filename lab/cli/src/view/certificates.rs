@@ -1,0 +1,63 @@
+//! The table of `bowden certify`, and its JSON.
+
+use bowden_trials::facts::Promise;
+use std::fmt::Write as _;
+
+/// Schema `bowden.certify/1`.
+#[must_use]
+pub fn json(lines: &[Promise]) -> String {
+    serde_json::json!({ "schema": "bowden.certify/1", "certificates": lines }).to_string()
+}
+
+/// For people.
+#[must_use]
+pub fn text(lines: &[Promise]) -> String {
+    let mut out =
+        String::from("bowden certify: what the tracking error is promised to stay below\n\n");
+    let mut told: Vec<&[&str]> = Vec::new();
+    for line in lines {
+        let what = match (line.value, &line.refused) {
+            (Some(value), _) => {
+                let note = if line.vacuous {
+                    "  (vacuous: more than the reference itself)"
+                } else {
+                    ""
+                };
+                format!(
+                    "{} <= {value:.4} {}{note}",
+                    line.bounds.unwrap_or("|e|"),
+                    line.unit
+                )
+            }
+            (None, Some(reason)) => format!("none: {reason}"),
+            (None, None) => "none".to_owned(),
+        };
+        let _ = writeln!(out, "{:<47} {:<16} {what}", line.law, line.kind);
+        if !line.assumptions.is_empty() && !told.contains(&line.assumptions) {
+            told.push(line.assumptions);
+        }
+    }
+    out.push_str(
+        "\nBeta within p %: the box of beta_hat about 1/alpha, alpha = N_A·B of the rig.\n\
+         The proofs check the line at rest in f32, with room for rounding: |s| <= 0.43 N·m and\n\
+         |e| <= 0.86 N·m with Table 2's gains, if |w| <= 8 N·m and s, z start in their box\n\
+         (proofs/README.md).\n",
+    );
+    for list in told {
+        let names: Vec<&str> = lines
+            .iter()
+            .filter(|l| l.assumptions == list)
+            .map(|l| l.kind)
+            .fold(Vec::new(), |mut all, kind| {
+                if !all.contains(&kind) {
+                    all.push(kind);
+                }
+                all
+            });
+        let _ = writeln!(out, "\nTo check for {}:", names.join(", "));
+        for assumption in list {
+            let _ = writeln!(out, "  - {assumption}");
+        }
+    }
+    out
+}

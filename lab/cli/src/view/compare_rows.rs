@@ -1,0 +1,45 @@
+//! What the two forms of `bowden compare` have in common.
+
+use bowden_trials::facts::{Heading, Line, Spread};
+use serde_json::{json, Value};
+
+pub(super) fn configuration(heading: &Heading) -> &'static str {
+    if heading.varying {
+        "varying"
+    } else {
+        "fixed"
+    }
+}
+
+pub(super) fn conditions(heading: &Heading) -> Value {
+    json!({
+        "noise": heading.noise,
+        "configuration": configuration(heading),
+        "seconds": heading.seconds,
+        "from": heading.from,
+        "transient": heading.transient,
+        "seeds": heading.seeds,
+        "fed_with": heading.fed_with,
+    })
+}
+
+pub(super) fn row(line: &Line) -> Value {
+    // Of a law that ran away the sums are over a part of a trial: no number says anything.
+    let told = line.diverged == 0;
+    let number = |value: f64| told.then_some(value);
+    let spread = |spread: Spread| json!({ "mean": number(spread.mean), "sd": number(spread.sd) });
+    json!({
+        "controller": line.controller,
+        "rmse_true": spread(line.rmse_true),
+        "rmse_measured": spread(line.rmse_measured),
+        "percent_of_maximum": number(100.0 * line.share),
+        "peak": number(line.peak),
+        "effort": number(line.effort),
+        "reversals": number(line.reversals),
+        "transient": { "rmse_true": spread(line.transient), "peak": number(line.transient_peak) },
+        "largest_command": line.command,
+        "diverged": line.diverged,
+        "ran_away_at": line.ran_away,
+        "certificate": Value::Null,
+    })
+}

@@ -1,0 +1,83 @@
+//! What has no name: its curve, for programs and for people.
+
+use super::words::in_brackets;
+use bowden_lab::facts::{number, with_interval, Facts, Knot, Segments, UnknownFacts};
+use serde::Serialize;
+use std::fmt::Write as _;
+
+/// At most this many points are printed.
+const LINES: usize = 20;
+/// Length of the longest bar.
+const BAR: f64 = 24.0;
+
+/// The part of the JSON.
+#[derive(Serialize)]
+pub(super) struct UnknownPart<'a> {
+    variable: &'static str,
+    channel: &'a str,
+    share: f64,
+    p: f64,
+    q: f64,
+    curve: &'a [Knot],
+    rmse_before: Segments,
+    rmse_after: Segments,
+}
+
+impl<'a> UnknownPart<'a> {
+    pub(super) fn new(unknown: &'a UnknownFacts) -> Self {
+        Self {
+            variable: unknown.variable,
+            channel: &unknown.channel,
+            share: unknown.share,
+            p: unknown.p,
+            q: unknown.q,
+            curve: &unknown.curve,
+            rmse_before: unknown.before,
+            rmse_after: unknown.after,
+        }
+    }
+}
+
+/// The section of the ledger; nothing where there is no such curve.
+pub(super) fn text(facts: &Facts) -> Option<String> {
+    let unknown = facts.unknown.as_ref()?;
+    let knots = &unknown.curve;
+    let every = knots.len().div_ceil(LINES).max(1);
+    let largest = knots.iter().map(|k| k.value.abs()).fold(0.0, f64::max);
+    let mut out = String::new();
+    let _ = writeln!(
+        out,
+        "unknown: {} A free curve of it takes {:.1} % of the squared error (p {:.1e}); it stays in the final model as a table.",
+        unknown.sentence,
+        100.0 * unknown.share,
+        unknown.p
+    );
+    let _ = writeln!(
+        out,
+        "{:>12}  {:<24} at {}{}",
+        "at",
+        format!("adds (95 %){}", in_brackets(facts.record.unit.as_deref())),
+        unknown.words,
+        in_brackets(unknown.unit.as_deref()),
+    );
+    for knot in knots.iter().step_by(every) {
+        let value = match knot.ci95 {
+            Some(_) => with_interval(knot.value, knot.ci95),
+            None => format!("{} (not identified)", number(knot.value, None)),
+        };
+        let length = (BAR * knot.value.abs() / largest.max(1e-300)).round() as usize;
+        let bar = "#".repeat(length);
+        let (left, right) = if knot.value < 0.0 {
+            (bar.as_str(), "")
+        } else {
+            ("", bar.as_str())
+        };
+        let _ = writeln!(
+            out,
+            "{:>12}  {value:<24} {left:>width$}|{right}",
+            number(knot.at, Some(0.01 * knot.at.abs())),
+            width = BAR as usize
+        );
+    }
+    Some(out)
+}

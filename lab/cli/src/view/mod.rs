@@ -1,0 +1,20 @@
+//! What a run is told as: JSON for programs, tables for people.
+
+pub mod certificates;
+mod check;
+pub mod compare;
+mod compare_found;
+mod compare_rows;
+mod curve;
+mod hand_over;
+mod json;
+mod power;
+mod several;
+mod terminal;
+pub mod terms;
+mod words;
+
+pub use check::{check_json, check_text};
+pub use json::json;
+pub use power::{power_json, power_text};
+pub use terminal::text;

@@ -1,0 +1,95 @@
+//! Several records: errors by file, and the gains that each has of its own.
+
+use super::words::{estimate, table};
+use bowden_lab::facts::{number, Facts, FinalFacts, HeldOutOf, RecordFacts};
+
+/// How long the records are, in words.
+pub(super) fn size(record: &RecordFacts) -> String {
+    let rate = number(record.rate, Some(1e-3 * record.rate));
+    match record.files.len() {
+        0 | 1 => format!(
+            "{} samples, {rate} Hz, {:.1} s",
+            record.samples, record.seconds
+        ),
+        several => format!(
+            "{} samples in {several} files, {:.1} s together, brought to {rate} Hz",
+            record.samples, record.seconds
+        ),
+    }
+}
+
+/// How the records are split, in words.
+pub(super) fn split(record: &RecordFacts) -> String {
+    let trailing = "60 % to fit, 15 % to stop, 25 % held out";
+    let mut files = record.files.iter();
+    let whole = files.find(|file| file.held_out == HeldOutOf::Whole);
+    match (record.files.len(), whole) {
+        (1, _) => trailing.to_owned(),
+        (_, None) => format!("of each file {trailing}"),
+        (_, Some(file)) => {
+            format!("80 % to fit, 20 % to stop; held out: {}", file.path)
+        }
+    }
+}
+
+/// Errors by file before and after, as a table; empty for a single record.
+pub(super) fn errors(facts: &Facts) -> String {
+    let (Some(before), Some(after)) = (&facts.declared.nrmse_by_file, &facts.last.nrmse_by_file)
+    else {
+        return String::new();
+    };
+    let mut files = table(
+        &[
+            "error by file [%]",
+            "fit",
+            "stop",
+            "held out",
+            "samples",
+            "Hz",
+        ],
+        1..6,
+    );
+    let cell = |before: Option<f64>, after: Option<f64>| match (before, after) {
+        (Some(before), Some(after)) => {
+            let percent = |v: f64| number(100.0 * v, Some(5.0 * v));
+            format!("{} → {}", percent(before), percent(after))
+        }
+        _ => "–".to_owned(),
+    };
+    for ((before, after), piece) in before.iter().zip(after).zip(&facts.record.files) {
+        let pairs = before.segments().into_iter().zip(after.segments());
+        let mut row = vec![piece.path.clone()];
+        row.extend(pairs.map(|(b, a)| cell(b, a)));
+        row.push(piece.samples.to_string());
+        row.push(number(piece.rate, Some(1e-3 * piece.rate)));
+        files.add_row(row);
+    }
+    let mut out = format!("{files}\n");
+    for file in &facts.worse {
+        out += &format!(
+            "worse for {}: held out {} % → {} %\n",
+            file.path,
+            number(100.0 * file.before, Some(5.0 * file.before)),
+            number(100.0 * file.after, Some(5.0 * file.after))
+        );
+    }
+    out + "\n"
+}
+
+/// The gains that each file has of its own, as a table; empty where they are common.
+pub(super) fn gains(last: &FinalFacts) -> String {
+    if last.gains_by_file.is_empty() {
+        return String::new();
+    }
+    let names = last.gain_names;
+    let mut files = table(
+        &["gains by file (95 %)", names[0], names[1], names[2]],
+        0..0,
+    );
+    for file in &last.gains_by_file {
+        let own = file.gains.iter();
+        let own = own.map(|found| found.as_ref().map_or_else(String::new, estimate));
+        files.add_row(std::iter::once(file.path.clone()).chain(own));
+    }
+    format!("{files}\n\n")
+}

@@ -1,0 +1,30 @@
+//! `bowden compare` and `bowden certify`: the figures and the forms.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod certificates;
+mod figures;
+mod forms;
+
+use serde_json::Value;
+use std::process::{Command, Output};
+
+fn bowden(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_bowden"))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn json(arguments: &[&str]) -> Value {
+    let output = bowden(arguments);
+    assert!(output.status.success(), "{output:?}");
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+/// The row of one controller.
+fn row<'a>(report: &'a Value, controller: &str) -> &'a Value {
+    let rows = report["rows"].as_array().unwrap();
+    rows.iter()
+        .find(|row| row["controller"] == controller)
+        .unwrap_or_else(|| panic!("no {controller}"))
+}

@@ -1,0 +1,113 @@
+//! The two commands from outside.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use std::process::{Command, Output};
+
+fn bowden(threads: &str, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_bowden"))
+        .args(arguments)
+        .env("RAYON_NUM_THREADS", threads)
+        .output()
+        .unwrap()
+}
+
+fn made(folder: &tempfile::TempDir, name: &str, arguments: &[&str]) -> String {
+    let path = folder.path().join(name).display().to_string();
+    let mut all = vec!["record", "--mode", "displacement", "--out", &path];
+    all.extend(arguments);
+    assert!(bowden("2", &all).status.success());
+    path
+}
+
+#[test]
+fn the_power_of_a_record_is_the_same_bytes_for_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = made(&folder, "r.csv", &["--seconds", "10", "--seed", "5"]);
+    let ask = |threads: &str| {
+        let all = [
+            "power",
+            &path,
+            "--json",
+            "--effects",
+            "viscous,offset",
+            "--trials",
+            "5",
+        ];
+        let output = bowden(threads, &all);
+        assert!(output.status.success() && output.stderr.is_empty());
+        output.stdout
+    };
+    let one = ask("1");
+    assert_eq!(one, ask("3"));
+    let table: serde_json::Value = serde_json::from_slice(&one).unwrap();
+    assert_eq!(table["schema"], "bowden.power/1");
+    let effects = table["effects"].as_array().unwrap();
+    assert_eq!(effects.len(), 2);
+    assert_eq!(effects[0]["status"], "not-excited");
+    assert_eq!(effects[1]["effect"], "viscous");
+    assert!(effects[1]["amplitude"].as_f64().unwrap() > 0.0);
+    assert_eq!(effects[1]["gain"]["unit"], "N·s/mm");
+}
+
+#[test]
+fn a_plan_is_a_table_of_motion_and_names_what_it_is_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = made(
+        &folder,
+        "c.csv",
+        &["--seed", "2", "--effect", "viscous:0.6"],
+    );
+    let output = bowden("2", &["plan", &path]);
+    assert!(output.status.success());
+    let csv = String::from_utf8(output.stdout).unwrap();
+    assert!(csv.starts_with("t [s],x [mm]\n0,"));
+    assert!(csv
+        .lines()
+        .skip(1)
+        .all(|l| l.split(',').all(|c| c.parse::<f64>().is_ok())));
+    assert!(String::from_utf8(output.stderr)
+        .unwrap()
+        .contains("viscous from delay"));
+    let out = folder.path().join("plan.csv").display().to_string();
+    assert!(bowden("1", &["plan", &path, "--out", &out])
+        .status
+        .success());
+    assert_eq!(std::fs::read_to_string(&out).unwrap(), csv);
+    let closed = bowden("2", &["close", &path]).stdout;
+    assert!(String::from_utf8(closed).unwrap().contains("to separate: "));
+    let closed = bowden("2", &["close", &path, "--json"]).stdout;
+    let report: serde_json::Value = serde_json::from_slice(&closed).unwrap();
+    let experiment = &report["rounds"][0]["experiment"];
+    assert!(experiment["trajectory"].is_string(), "{experiment}");
+}
+
+#[test]
+fn bad_use_gives_one_line_and_status_two_and_leaves_nothing_behind() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = made(
+        &folder,
+        "r.csv",
+        &["--seconds", "10", "--effect", "viscous:0.6"],
+    );
+    let nowhere = folder.path().join("none/plan.csv").display().to_string();
+    let absent = folder.path().join("absent.csv").display().to_string();
+    let cases: [&[&str]; 6] = [
+        &["power", &path, "--effects", "nonsense"],
+        &["power", &path, "--trials", "1"],
+        &["power", &absent],
+        &["power", &path, "--cutoff=-1"],
+        &["plan", &absent, "--out", &nowhere],
+        &["plan", &path, "--declare", "nonsense", "--out", &nowhere],
+    ];
+    for arguments in cases {
+        let output = bowden("2", arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(output.stdout.is_empty(), "{arguments:?}");
+        let line = String::from_utf8(output.stderr).unwrap();
+        assert!(
+            line.starts_with("bowden: ") && line.lines().count() == 1,
+            "{line}"
+        );
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+}

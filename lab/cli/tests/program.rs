@@ -1,0 +1,316 @@
+//! The program from outside: exit status, what goes to which stream, files written.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use std::collections::BTreeSet;
+use std::process::{Command, Output};
+
+fn bowden(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_bowden"))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).unwrap()
+}
+
+/// Exit 2, nothing on stdout, and exactly one line on stderr.
+fn refused(arguments: &[&str]) -> String {
+    let output = bowden(arguments);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+    assert!(output.stdout.is_empty(), "{arguments:?}");
+    let line = text(&output.stderr).trim_end().to_owned();
+    assert_eq!(line.lines().count(), 1, "{line}");
+    line
+}
+
+fn record(folder: &tempfile::TempDir, name: &str, arguments: &[&str]) -> String {
+    let path = folder.path().join(name).display().to_string();
+    let mut all = vec!["record", "--out", &path];
+    all.extend(arguments);
+    assert!(bowden(&all).status.success());
+    path
+}
+
+#[test]
+fn without_arguments_the_embedded_record_gives_a_ledger_without_colours() {
+    let output = bowden(&[]);
+    assert_eq!(output.status.code(), Some(0));
+    let ledger = text(&output.stdout);
+    for word in [
+        "as declared",
+        "viscous@phi_p",
+        "held out",
+        "verdict",
+        "explained",
+    ] {
+        assert!(ledger.contains(word), "{word} is not in\n{ledger}");
+    }
+    assert!(
+        !ledger.contains('\u{1b}'),
+        "escape codes without a terminal"
+    );
+    assert!(output.stderr.is_empty());
+}
+
+#[test]
+fn the_readme_shows_what_the_first_command_prints() {
+    let readme = include_str!("../../../README.md");
+    let output = bowden(&[]);
+    // Of the rejected only the list's order could differ between processors.
+    for line in text(&output.stdout)
+        .lines()
+        .filter(|l| !l.starts_with("rejected"))
+    {
+        assert!(readme.contains(line.trim_end()), "not in README.md: {line}");
+    }
+}
+
+#[test]
+fn the_embedded_record_is_the_one_that_the_named_command_writes() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = record(
+        &folder,
+        "r.csv",
+        &["--mode", "torque", "--effect", "viscous", "--seed", "7"],
+    );
+    let own: serde_json::Value =
+        serde_json::from_slice(&bowden(&["close", "--json"]).stdout).unwrap();
+    let file: serde_json::Value =
+        serde_json::from_slice(&bowden(&["close", &path, "--json"]).stdout).unwrap();
+    assert_eq!(own["final"], file["final"]);
+    assert_eq!(own["rounds"], file["rounds"]);
+}
+
+#[test]
+fn the_same_record_gives_the_same_bytes_whatever_the_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = record(
+        &folder,
+        "r.csv",
+        &[
+            "--mode",
+            "displacement",
+            "--effect",
+            "stribeck",
+            "--seed",
+            "3",
+        ],
+    );
+    let run = |threads: &str| {
+        Command::new(env!("CARGO_BIN_EXE_bowden"))
+            .args(["close", &path, "--json"])
+            .env("RAYON_NUM_THREADS", threads)
+            .output()
+            .unwrap()
+            .stdout
+    };
+    let first = run("1");
+    assert!(!first.is_empty());
+    assert_eq!(first, run("1"));
+    assert_eq!(first, run("3"));
+}
+
+/// The keys of each object of `close --json` on the embedded record.
+const LAYOUT: &[(&str, &[&str])] = &[
+    (
+        "",
+        &[
+            "schema",
+            "record",
+            "declared",
+            "rounds",
+            "final",
+            "rejected",
+            "defects",
+            "unneeded",
+            "unknown",
+            "noise_floor",
+            "stopped_by_request",
+            "deviation",
+            "explains",
+            "integrates",
+            "verdict",
+            "sentence",
+        ],
+    ),
+    (
+        "/record",
+        &["path", "samples", "rate_hz", "mode", "cutoff_hz", "blocks"],
+    ),
+    (
+        "/declared",
+        &["effects", "parameters", "rmse", "nrmse", "nrmse_raw"],
+    ),
+    (
+        "/final",
+        &[
+            "effects",
+            "refitted",
+            "parameters",
+            "rmse",
+            "nrmse",
+            "causal_nrmse",
+            "feed_forward",
+            "handed_over",
+        ],
+    ),
+    ("/final/feed_forward", &["invertible", "because", "nearest"]),
+    (
+        "/final/handed_over",
+        &[
+            "effects",
+            "left_out",
+            "within_inverse",
+            "nrmse",
+            "rates_time_constant_s",
+        ],
+    ),
+    ("/declared/rmse", &["fit", "stop", "held_out"]),
+    (
+        "/declared/parameters/0",
+        &["name", "value", "unit", "ci95", "identified", "refused"],
+    ),
+    (
+        "/rounds/0",
+        &[
+            "family",
+            "effect",
+            "channel",
+            "grade",
+            "coefficients",
+            "p",
+            "explained",
+            "confounded_with",
+            "experiment",
+            "rmse_before",
+            "rmse_after",
+            "raises_held_out",
+            "model",
+            "refitted",
+            "nrmse",
+        ],
+    ),
+    (
+        "/rounds/0/coefficients/0",
+        &["name", "value", "unit", "ci95"],
+    ),
+    ("/rejected/0", &["family", "effect", "channel", "gate"]),
+];
+
+#[test]
+fn the_json_is_laid_out_as_documented() {
+    let output = bowden(&["close", "--json"]);
+    assert!(output.stderr.is_empty());
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(report["schema"], "bowden.close/1");
+    for (place, names) in LAYOUT {
+        let found = report.pointer(place).unwrap().as_object().unwrap();
+        let found: BTreeSet<&str> = found.keys().map(String::as_str).collect();
+        assert_eq!(found, names.iter().copied().collect(), "at {place:?}");
+    }
+    let round = &report["rounds"][0];
+    assert_eq!(
+        (round["family"].as_str(), round["channel"].as_str()),
+        (Some("viscous"), Some("phi_p"))
+    );
+    assert!(report["unknown"].is_null());
+    assert!(round["rmse_after"]["held_out"].as_f64() < round["rmse_before"]["held_out"].as_f64());
+}
+
+#[test]
+fn a_bad_record_or_option_gives_one_line_and_status_two() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        path.display().to_string()
+    };
+    let missing = folder.path().join("missing.csv").display().to_string();
+    assert!(refused(&["close", &missing]).contains("missing.csv"));
+    assert!(refused(&["close", &folder.path().display().to_string()]).contains("bowden: "));
+    refused(&["close", &file("empty.csv", b"")]);
+    refused(&["close", &file("binary.csv", &[0, 159, 146, 150, 0, 0])]);
+    let text = refused(&["close", &file("text.csv", b"t,x,f\n0,0,0\n0.1,zero,1\n")]);
+    assert!(text.contains("text.csv:3") && text.contains('x'), "{text}");
+    let good = record(&folder, "good.csv", &["--seconds", "5"]);
+    for (option, value) in [
+        ("--cutoff", "-1"),
+        ("--cutoff", "NaN"),
+        ("--cutoff", "900"),
+        ("--cutoff", "0.01"),
+        ("--skip", "99"),
+        ("--rate", "0"),
+        ("--declare", "bouc-wen,nonsense"),
+        ("--declare", "viscous,viscous"),
+        ("--channel", "phi_p"),
+        ("--input", "nowhere"),
+        ("--model-out", "model.json"),
+    ] {
+        let line = refused(&["close", &good, &format!("{option}={value}")]);
+        assert!(line.starts_with("bowden: "), "{line}");
+    }
+    assert!(refused(&["record", "--effect", "nonsense"]).contains("nonsense"));
+    assert!(refused(&["record", "--effect", "viscous:much"]).contains("much"));
+    assert!(refused(&["record", "--seconds", "0"]).contains("seconds"));
+    // Usage errors are the argument parser's: several lines, but the same status.
+    assert_eq!(
+        bowden(&["close", "--no-such-option"]).status.code(),
+        Some(2)
+    );
+}
+
+#[test]
+fn a_model_file_is_whole_or_absent_and_reads_back_to_the_same_model() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = record(
+        &folder,
+        "r.csv",
+        &[
+            "--mode",
+            "displacement",
+            "--effect",
+            "drag-quadratic",
+            "--seed",
+            "5",
+        ],
+    );
+    let path = folder.path().join("model.toml");
+    let out = path.display().to_string();
+    assert!(bowden(&["close", &record, "--model-out", &out])
+        .status
+        .success());
+    let file: bowden_lab::export::ModelFile =
+        toml::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
+    let model = file.model::<8>().unwrap();
+    assert_eq!(model.terms().len(), file.terms.len());
+    assert_eq!(
+        model.transmission().unwrap().kappa_eta(),
+        file.transmission.as_ref().unwrap().kappa_eta
+    );
+    assert_eq!(
+        file,
+        toml::from_str(&toml::to_string(&file).unwrap()).unwrap()
+    );
+
+    let unknown = std::fs::read_to_string(&path)
+        .unwrap()
+        .replace("mode =", "mood =");
+    assert!(toml::from_str::<bowden_lab::export::ModelFile>(&unknown).is_err());
+
+    let nowhere = folder
+        .path()
+        .join("no-such-folder/model.toml")
+        .display()
+        .to_string();
+    refused(&["close", &record, "--model-out", &nowhere]);
+    let left: Vec<_> = std::fs::read_dir(folder.path())
+        .unwrap()
+        .map(|e| e.unwrap().file_name())
+        .collect();
+    assert!(
+        left.iter().all(|n| !n.to_string_lossy().contains("part")),
+        "{left:?}"
+    );
+}

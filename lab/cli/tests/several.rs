@@ -1,0 +1,175 @@
+//! The program from outside: one line and status 2, or a report by file.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use std::process::{Command, Output};
+
+fn bowden(arguments: &[&str], threads: &str) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_bowden"))
+        .args(arguments)
+        .env("RAYON_NUM_THREADS", threads)
+        .output()
+        .unwrap()
+}
+
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).unwrap()
+}
+
+fn refused(arguments: &[&str]) -> String {
+    let output = bowden(arguments, "2");
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+    assert!(output.stdout.is_empty(), "{arguments:?}");
+    let line = text(&output.stderr).trim_end().to_owned();
+    assert_eq!(line.lines().count(), 1, "{line}");
+    line
+}
+
+struct Folder(tempfile::TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    fn path(&self, name: &str) -> String {
+        self.0.path().join(name).display().to_string()
+    }
+
+    fn record(&self, name: &str, arguments: &[&str]) -> String {
+        let path = self.path(name);
+        let mut all = vec!["record", "--out", &path, "--seconds", "15", "--rate", "500"];
+        all.extend(arguments);
+        assert!(bowden(&all, "2").status.success());
+        path
+    }
+
+    /// A copy of a record with its header changed.
+    fn renamed(&self, from: &str, name: &str, change: impl Fn(&str) -> String) -> String {
+        let csv = std::fs::read_to_string(from).unwrap();
+        let (header, rows) = csv.split_once('\n').unwrap();
+        let path = self.path(name);
+        std::fs::write(&path, format!("{}\n{rows}", change(header))).unwrap();
+        path
+    }
+}
+
+#[test]
+fn files_that_do_not_go_together_give_one_line_with_file_and_column() {
+    let folder = Folder::new();
+    let a = folder.record("a.csv", &["--seed", "1"]);
+    let x = folder.record("x.csv", &["--mode", "displacement"]);
+    let line = refused(&["close", &a, &x]);
+    assert!(
+        line.contains("x.csv: column `x`: ") && line.contains("torque mode was expected"),
+        "{line}"
+    );
+    let fewer = folder.renamed(&a, "fewer.csv", |h| h.replace("phi_d", "other"));
+    let line = refused(&["close", &a, &fewer]);
+    assert!(
+        line.contains("fewer.csv: column `phi_d`: no such channel"),
+        "{line}"
+    );
+    let line = refused(&["close", &fewer, &a]);
+    assert!(
+        line.contains("a.csv: column `phi_d`: a channel that"),
+        "{line}"
+    );
+    let other = folder.renamed(&a, "unit.csv", |h| h.replacen("N·m", "V", 1));
+    let line = refused(&["close", &a, &other]);
+    assert!(
+        line.contains("unit.csv: column `tau_i`: has unit V; unit N·m was expected"),
+        "{line}"
+    );
+    let line = refused(&["close", &a, &folder.path("none.csv")]);
+    assert!(line.contains("none.csv"), "{line}");
+    assert!(refused(&["close", &a, &a]).contains("given twice"));
+    let line = refused(&["close", &a, "--per-file", "gains"]);
+    assert!(line.contains("more than one file"), "{line}");
+    let b = folder.record("b.csv", &["--seed", "2"]);
+    let line = refused(&[
+        "close",
+        &a,
+        &b,
+        "--per-file",
+        "gains",
+        "--declare",
+        "viscous",
+    ]);
+    assert!(line.contains("bouc-wen"), "{line}");
+}
+
+#[test]
+fn a_file_in_other_units_of_the_same_kind_is_converted() {
+    let folder = Folder::new();
+    let a = folder.record("a.csv", &["--seed", "1"]);
+    let b = folder.record("b.csv", &["--seed", "2"]);
+    let csv = std::fs::read_to_string(&b).unwrap();
+    let (header, rows) = csv.split_once('\n').unwrap();
+    let mut converted = header.replacen("N·m", "mN·m", 1) + "\n";
+    for row in rows.lines() {
+        let mut cells: Vec<String> = row.split(',').map(str::to_owned).collect();
+        cells[1] = format!("{:.9}", 1000.0 * cells[1].parse::<f64>().unwrap());
+        converted += &(cells.join(",") + "\n");
+    }
+    let c = folder.path("c.csv");
+    std::fs::write(&c, converted).unwrap();
+    let error = |other: &str| {
+        let out = bowden(&["close", &a, other, "--json"], "2");
+        let json: serde_json::Value = serde_json::from_slice(&out.stdout).unwrap();
+        json["declared"]["rmse"]["fit"].as_f64().unwrap()
+    };
+    // Nine decimals of a thousandth were written.
+    assert!((error(&b) / error(&c) - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn three_files_are_reported_one_by_one_and_the_same_on_any_number_of_threads() {
+    let folder = Folder::new();
+    let name = |seed: &str| folder.record(&format!("{seed}.csv"), &["--seed", seed]);
+    let (a, b, c) = (name("1"), name("2"), name("3"));
+    let arguments = ["close", &a, &b, &c, "--json"];
+    let first = bowden(&arguments, "1");
+    assert_eq!(first.status.code(), Some(0), "{}", text(&first.stderr));
+    assert_eq!(first.stdout, bowden(&arguments, "3").stdout);
+    let json: serde_json::Value = serde_json::from_slice(&first.stdout).unwrap();
+    assert!(json.get("record").is_none());
+    let records = json["records"].as_array().unwrap();
+    let held_out: Vec<_> = records.iter().map(|r| r["held_out"].as_str()).collect();
+    assert_eq!(held_out, [Some("nothing"), Some("nothing"), Some("whole")]);
+    assert_eq!(records[1]["path"], b.as_str());
+    for model in ["declared", "final"] {
+        let files = json[model]["rmse_by_file"].as_array().unwrap();
+        assert_eq!(files.len(), 3);
+        assert!(files[0]["fit"].is_f64() && files[0]["held_out"].is_null());
+        assert!(files[2]["fit"].is_null());
+        // One file is held out, so its error is that of the whole.
+        assert_eq!(files[2]["held_out"], json[model]["rmse"]["held_out"]);
+    }
+    let ledger = bowden(&["close", &a, &b, &c], "2");
+    let ledger = text(&ledger.stdout);
+    assert!(ledger.contains(&format!("held out: {c}")), "{ledger}");
+    assert!(ledger.contains("error by file"), "{ledger}");
+}
+
+#[test]
+fn with_gains_of_their_own_each_file_gets_a_model_file() {
+    let folder = Folder::new();
+    let a = folder.record("a.csv", &["--seed", "1"]);
+    let b = folder.record("b.csv", &["--seed", "2"]);
+    let out = folder.path("model.toml");
+    let ran = bowden(
+        &["close", &a, &b, "--per-file", "gains", "--model-out", &out],
+        "2",
+    );
+    assert_eq!(ran.status.code(), Some(0), "{}", text(&ran.stderr));
+    assert!(text(&ran.stdout).contains("gains by file"));
+    assert!(!std::path::Path::new(&out).exists());
+    let read = |name: &str| -> toml::Table {
+        let text = std::fs::read_to_string(folder.path(name)).unwrap();
+        text.parse().unwrap()
+    };
+    let (one, two) = (read("model-1.toml"), read("model-2.toml"));
+    let part = |model: &toml::Table, key: &str| model["transmission"][key].as_float().unwrap();
+    assert_eq!(part(&one, "rho"), part(&two, "rho"));
+    assert_ne!(part(&one, "kappa_eta"), part(&two, "kappa_eta"));
+}

@@ -1,0 +1,87 @@
+//! A conduit that is moved while the joint works: B, kappa_eta and T0 wander.
+
+use super::{Noise, RigConfig};
+use bowden::signal::clamp;
+use bowden::Real;
+
+/// How far and how fast the configuration of the conduit wanders.
+///
+/// Three Ornstein-Uhlenbeck processes `o` of unit variance, advanced exactly over each
+/// sample, `o⁺ = a·o + sqrt(1 − a²)·N(0, 1)` with `a = e^(−dt/time)`:
+/// `B − b·|o1|` within [0.85, 1], `kappa_eta·(1 + kappa_eta·o2)` within ±50 %,
+/// `T0 + t0·o3`. All start at zero: at first the configuration is the declared one.
+///
+/// ```
+/// let drift = bowden_rig::Drift::<f64>::reference();
+/// assert_eq!((drift.b, drift.kappa_eta, drift.t0), (0.02, 0.10, 0.2));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Drift<T> {
+    /// Correlation time \[s\].
+    pub time: T,
+    /// Of B, for one standard deviation.
+    pub b: T,
+    /// Of kappa_eta, for one standard deviation, as a share.
+    pub kappa_eta: T,
+    /// Of T0 \[N·m\], for one standard deviation.
+    pub t0: T,
+}
+
+impl<T: Real> Drift<T> {
+    /// 2 s, 0.02, 10 %, 0.2 N·m.
+    #[must_use]
+    pub fn reference() -> Self {
+        Self {
+            time: T::of(2.0),
+            b: T::of(0.02),
+            kappa_eta: T::of(0.10),
+            t0: T::of(0.2),
+        }
+    }
+}
+
+/// The three processes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct DriftState<T> {
+    processes: [T; 3],
+}
+
+impl<T: Real> DriftState<T> {
+    pub(super) fn new() -> Self {
+        Self {
+            processes: [T::zero(); 3],
+        }
+    }
+
+    /// B, kappa_eta and T0 for the next `dt` \[s\].
+    pub(super) fn step(
+        &mut self,
+        drift: Option<&Drift<T>>,
+        config: &RigConfig<T>,
+        noise: &mut Noise,
+        dt: T,
+    ) -> (T, T, T) {
+        let Some(drift) = drift else {
+            return (config.b, config.kappa_eta, config.t0);
+        };
+        let keep = (-dt / drift.time).exp();
+        let push = (-(-T::of(2.0) * dt / drift.time).exp_m1()).sqrt();
+        for process in &mut self.processes {
+            *process = keep * *process + push * noise.normal();
+        }
+        let [first, second, third] = self.processes;
+        let half = T::of(0.5);
+        (
+            clamp(config.b - drift.b * first.abs(), T::of(0.85), T::one()),
+            config.kappa_eta * (T::one() + clamp(drift.kappa_eta * second, -half, half)),
+            config.t0 + drift.t0 * third,
+        )
+    }
+}

@@ -1,0 +1,339 @@
+//! A simulated rig: motor, cable, spring-loaded joint, sensors, one sample of delay.
+//!
+//! The paper's experiment as an ordinary differential equation, so that a controller can
+//! be tried, and a bound seen beside a measured error, before there is hardware:
+//!
+//! ```text
+//! tau_c·tau_m' = N_A·u − tau_m                               current loop
+//! th2·w_p'     = tau_m − th1·w_p − tau_i                     motor and proximal pulley
+//! tau_i        = K_c·(phi_p − phi_d) + c_c·(w_p − w_d)       stretch of the cable
+//! tau_o        = B·tau_i − kappa_eta·eta − T0 + Σ g·effect   (6), (7), what is undeclared
+//! J_d·w_d'     = tau_o − K·phi_d − c_d·w_d + load            joint against its spring (12)
+//! ```
+//!
+//! It is integrated with short sub-steps, velocities before positions, and read as a
+//! firmware reads hardware: torque through a lag, white noise and a converter, angles
+//! through encoders, rates from filtered differences of those. The command reaches the
+//! drive late by whole samples. Its configuration can drift as a conduit that is moved
+//! ([`Drift`]), and any effect of the catalogue can be switched on in it without the
+//! controller's knowledge. Everything random follows from one seed.
+//!
+//! Inertias, stiffnesses, drive gain and noise are not in the paper: they were chosen so
+//! that the errors of PI and of the adaptive law come out as in its Table 3. What
+//! the rig shows beside those two is a result; those two are calibration.
+//!
+//! `no_std` and without a heap, as the core that it is made of: what is tried here can be
+//! tried on the controller's own processor. Features, all off: `serde`, `defmt`, `std`.
+#![no_std]
+#![forbid(unsafe_code)]
+
+mod checked;
+mod config;
+mod drift;
+mod noise;
+mod plant;
+mod reference;
+mod sensor;
+
+pub use config::RigConfig;
+pub use drift::Drift;
+pub use noise::Noise;
+pub use reference::Reference;
+
+use bowden::effect::Motion;
+use bowden::model::Term;
+use bowden::{Error, Real};
+use drift::DriftState;
+use plant::{Plant, PlantState};
+use sensor::{Encoder, EncoderState, TorqueSensor, TorqueSensorState};
+
+/// Most samples between a command and the drive.
+pub const MOST_DELAY: usize = 8;
+
+/// Most sub-steps of one step: a longer `dt` makes them longer.
+const MOST_SUB_STEPS: u32 = 4000;
+
+/// A rig with at most `N` undeclared effects.
+///
+/// ```
+/// use bowden_rig::{Reference, Rig, RigConfig};
+///
+/// let rig = Rig::<f64, 0>::try_new(RigConfig::reference(), &[])?;
+/// let reference = Reference::paper();
+/// let mut state = rig.start(7); // everything random follows from the seed
+/// let (mut integral, mut worst) = (0.0, 0.0_f64);
+/// for _ in 0..4000 {
+///     let now = state.sample();
+///     let error = now.measured - reference.at(now.time);
+///     integral += error * 1e-3;
+///     rig.step(&mut state, -30.0 * error - 18.0 * integral, 1e-3); // (14), Table 1
+///     if now.time > 3.0 {
+///         worst = worst.max((now.tau_o - reference.at(now.time)).abs());
+///     }
+/// }
+/// assert!(worst < 2.0, "{worst} N·m");
+/// # Ok::<(), bowden::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Rig<T, const N: usize> {
+    config: RigConfig<T>,
+    plant: Plant<T, N>,
+    output: TorqueSensor<T>,
+    input: TorqueSensor<T>,
+    encoder: Encoder<T>,
+    delay: usize,
+}
+
+/// What can be read off the rig at one sample, the truth beside the measurement.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct RigSample<T> {
+    /// Since the start \[s\].
+    pub time: T,
+    /// Distal torque \[N·m\], as it is.
+    pub tau_o: T,
+    /// Distal torque \[N·m\], as the sensor tells it.
+    pub measured: T,
+    /// Proximal torque \[N·m\], as it is.
+    pub tau_i: T,
+    /// Proximal torque \[N·m\], as the sensor tells it.
+    pub measured_input: T,
+    /// Motor torque \[N·m\].
+    pub tau_m: T,
+    /// Proximal pulley \[rad\], as a firmware derives it from the encoder.
+    pub proximal: Motion<T>,
+    /// Distal pulley \[rad\], as a firmware derives it from the encoder.
+    pub distal: Motion<T>,
+    /// Hysteresis state, within ±1.
+    pub eta: T,
+    /// Configuration at this sample: B.
+    pub b: T,
+    /// Configuration at this sample: kappa_eta \[N·m\].
+    pub kappa_eta: T,
+    /// Configuration at this sample: T0 \[N·m\].
+    pub t0: T,
+    /// Whether the motion has left the range of floats; the rig then stands still.
+    pub diverged: bool,
+}
+
+/// What a [`Rig`] remembers between samples. Made by [`Rig::start`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct RigState<T, const N: usize> {
+    plant: PlantState<T, N>,
+    drift: DriftState<T>,
+    output: TorqueSensorState<T>,
+    input: TorqueSensorState<T>,
+    proximal: EncoderState<T>,
+    distal: EncoderState<T>,
+    noise: Noise,
+    commands: [T; MOST_DELAY],
+    /// What rounding has kept back of the time.
+    carry: T,
+    sample: RigSample<T>,
+}
+
+impl<T: Real, const N: usize> RigState<T, N> {
+    /// The last sample; before the first step the one at time zero.
+    #[inline]
+    #[must_use]
+    pub fn sample(&self) -> RigSample<T> {
+        self.sample
+    }
+
+    /// The proximal pulley \[rad\] as it is, without encoder or filter.
+    #[inline]
+    #[must_use]
+    pub fn proximal(&self) -> Motion<T> {
+        self.plant.proximal()
+    }
+
+    /// The distal pulley \[rad\] as it is, without encoder or filter.
+    #[inline]
+    #[must_use]
+    pub fn distal(&self) -> Motion<T> {
+        self.plant.distal()
+    }
+}
+
+impl<T: Real, const N: usize> Rig<T, N> {
+    /// Checks the configuration and the undeclared effects.
+    ///
+    /// The effects read `Source::Input` (the proximal torque), `Source::Channel(0)` (the
+    /// proximal pulley) or `Source::Channel(1)` (the distal pulley); their load is the
+    /// proximal torque. One that reads an acceleration gets that of the sub-step
+    /// before: the gain of an inertia must stay below that of what it reads.
+    ///
+    /// # Errors
+    /// Those of the configuration, see [`RigConfig`]; [`Error::Capacity`] for more than
+    /// `N` effects; [`Error::OutOfRange`] with `"channel"`; [`Error::NonFinite`] with
+    /// `"origin"` or `"gain"`.
+    pub fn try_new(config: RigConfig<T>, undeclared: &[Term<T>]) -> Result<Self, Error> {
+        config.check()?;
+        Ok(Self {
+            plant: Plant::try_new(&config, undeclared)?,
+            output: TorqueSensor::new(&config, config.noise, config.output_range),
+            input: TorqueSensor::new(&config, config.input_noise, config.input_range),
+            encoder: Encoder::new(&config),
+            delay: usize::from(config.delay),
+            config,
+        })
+    }
+
+    /// The configuration.
+    #[inline]
+    #[must_use]
+    pub fn config(&self) -> &RigConfig<T> {
+        &self.config
+    }
+
+    /// The undeclared effects.
+    #[inline]
+    #[must_use]
+    pub fn undeclared(&self) -> &[Term<T>] {
+        self.plant.undeclared()
+    }
+
+    /// At rest, all torques zero; the sensors have been read once.
+    #[must_use]
+    pub fn start(&self, seed: u64) -> RigState<T, N> {
+        let mut state = RigState {
+            plant: PlantState::new(),
+            drift: DriftState::new(),
+            output: TorqueSensorState::new(),
+            input: TorqueSensorState::new(),
+            proximal: EncoderState::new(),
+            distal: EncoderState::new(),
+            noise: Noise::new(seed),
+            commands: [T::zero(); MOST_DELAY],
+            carry: T::zero(),
+            sample: RigSample::default(),
+        };
+        let (b, kappa_eta, t0) = (self.config.b, self.config.kappa_eta, self.config.t0);
+        state.sample = RigSample {
+            b,
+            kappa_eta,
+            t0,
+            tau_o: -t0,
+            ..RigSample::default()
+        };
+        state.output.level = -t0;
+        state.sample.measured = self.output.read(&state.output, &mut state.noise);
+        state.sample.measured_input = self.input.read(&state.input, &mut state.noise);
+        state
+    }
+
+    /// Advances by `dt` \[s\] and reads the sensors.
+    ///
+    /// A command that is not finite is not taken over: the drive keeps the last one. A
+    /// `dt` that is not positive and finite changes nothing.
+    pub fn step(&self, state: &mut RigState<T, N>, command: T, dt: T) -> RigSample<T> {
+        self.step_with_load(state, command, T::zero(), dt)
+    }
+
+    /// The same with a torque \[N·m\] that somebody else puts on the joint.
+    ///
+    /// On a bench it makes the joint's motion independent of the torque; without it the
+    /// spring ties the angle to the torque, and no record can tell them apart.
+    pub fn step_with_load(
+        &self,
+        state: &mut RigState<T, N>,
+        command: T,
+        load: T,
+        dt: T,
+    ) -> RigSample<T> {
+        if !(dt > T::zero() && dt.is_finite()) {
+            return state.sample;
+        }
+        let drive = self.enqueue(state, command);
+        let load = if load.is_finite() { load } else { T::zero() };
+        let count = sub_steps(dt / self.config.sub_step);
+        let Some(h) = T::from(count).map(|count| dt / count) else {
+            return state.sample;
+        };
+        let was = *state;
+        let (b, kappa_eta, t0) = state.drift.step(
+            self.config.drift.as_ref(),
+            &self.config,
+            &mut state.noise,
+            dt,
+        );
+        state.plant.configure(b, kappa_eta, t0);
+        let share = -(-h / self.config.sensor_lag).exp_m1();
+        for _ in 0..count {
+            if !self.plant.step(&mut state.plant, drive, load, h) {
+                *state = was;
+                state.sample.diverged = true;
+                return state.sample;
+            }
+            state.output.follow(state.plant.tau_o, share);
+            state.input.follow(state.plant.tau_i, share);
+        }
+        state.tick(dt);
+        state.sample = RigSample {
+            time: state.sample.time,
+            tau_o: state.plant.tau_o,
+            measured: self.output.read(&state.output, &mut state.noise),
+            tau_i: state.plant.tau_i,
+            measured_input: self.input.read(&state.input, &mut state.noise),
+            tau_m: state.plant.tau_m,
+            proximal: self
+                .encoder
+                .read(&mut state.proximal, state.plant.proximal().position, dt),
+            distal: self
+                .encoder
+                .read(&mut state.distal, state.plant.distal().position, dt),
+            eta: state.plant.eta(),
+            b,
+            kappa_eta,
+            t0,
+            diverged: state.sample.diverged,
+        };
+        state.sample
+    }
+
+    /// Puts a command into the queue and returns the one that reaches the drive.
+    fn enqueue(&self, state: &mut RigState<T, N>, command: T) -> T {
+        let command = if command.is_finite() {
+            command
+        } else {
+            state.commands.first().copied().unwrap_or_else(T::zero)
+        };
+        let out = match self.delay {
+            0 => command,
+            late => state
+                .commands
+                .get(late - 1)
+                .copied()
+                .unwrap_or_else(T::zero),
+        };
+        state.commands.rotate_right(1);
+        if let Some(first) = state.commands.first_mut() {
+            *first = command;
+        }
+        out
+    }
+}
+
+impl<T: Real, const N: usize> RigState<T, N> {
+    /// Adds dt, compensated: at 1 kHz a plain `f32` clock would drift within minutes.
+    fn tick(&mut self, dt: T) {
+        let step = dt - self.carry;
+        let time = self.sample.time + step;
+        if time.is_finite() {
+            self.carry = (time - self.sample.time) - step;
+            self.sample.time = time;
+        }
+    }
+}
+
+/// How many sub-steps there are in a step: none longer than wanted, within rounding.
+fn sub_steps<T: Real>(ratio: T) -> u32 {
+    let wanted = (ratio - T::of(1e-3)).ceil();
+    match wanted.to_u32() {
+        Some(count) => count.clamp(1, MOST_SUB_STEPS),
+        None => MOST_SUB_STEPS,
+    }
+}

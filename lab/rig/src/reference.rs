@@ -1,0 +1,96 @@
+//! What the joint is to do: the paper's torque reference, and its rates.
+
+use bowden::effect::Motion;
+use bowden::Real;
+
+/// A torque reference: a mean and two sines, ramped in if wanted.
+///
+/// The paper's is `25 + 10·sin(2·pi·0.25·t) + 3·sin(2·pi·0.2·sqrt(3)·t)` \[N·m\] (section
+/// 4.2, Figure 7); at most 38.
+///
+/// ```
+/// use bowden_rig::Reference;
+/// let reference = Reference::<f64>::paper();
+/// assert_eq!((reference.at(0.0), reference.maximum()), (25.0, 38.0));
+/// assert_eq!(reference.with_ramp(1.0).at(0.0), 0.0);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Reference<T> {
+    mean: T,
+    /// Amplitude \[N·m\] and angular frequency \[rad/s\].
+    tones: [(T, T); 2],
+    ramp: T,
+}
+
+impl<T: Real> Reference<T> {
+    /// The paper's, at its full value from the first sample on.
+    #[must_use]
+    pub fn paper() -> Self {
+        let turn = 2.0 * core::f64::consts::PI;
+        Self {
+            mean: T::of(25.0),
+            tones: [
+                (T::of(10.0), T::of(turn * 0.25)),
+                (T::of(3.0), T::of(turn * 0.2 * Real::sqrt(3.0_f64))),
+            ],
+            ramp: T::zero(),
+        }
+    }
+
+    /// The same, rising smoothly from zero in the first `seconds` \[s\].
+    ///
+    /// The factor is `x²·(3 − 2·x)`; a number that is not positive means no ramp.
+    #[must_use]
+    pub fn with_ramp(self, seconds: T) -> Self {
+        let ramp = if seconds > T::zero() && seconds.is_finite() {
+            seconds
+        } else {
+            T::zero()
+        };
+        Self { ramp, ..self }
+    }
+
+    /// The greatest value \[N·m\].
+    #[must_use]
+    pub fn maximum(&self) -> T {
+        self.tones
+            .iter()
+            .fold(self.mean, |sum, (amplitude, _)| sum + *amplitude)
+    }
+
+    /// The reference \[N·m\] at time `t` \[s\].
+    #[must_use]
+    pub fn at(&self, t: T) -> T {
+        self.motion(t).position
+    }
+
+    /// The reference \[N·m\] with its two time derivatives.
+    #[must_use]
+    pub fn motion(&self, t: T) -> Motion<T> {
+        let mut full = Motion {
+            position: self.mean,
+            velocity: T::zero(),
+            acceleration: T::zero(),
+        };
+        for (amplitude, w) in self.tones {
+            let (s, c) = ((w * t).sin(), (w * t).cos());
+            full.position += amplitude * s;
+            full.velocity += amplitude * w * c;
+            full.acceleration -= amplitude * w * w * s;
+        }
+        if t >= self.ramp {
+            return full;
+        }
+        let x = (t / self.ramp).max(T::zero());
+        let (two, three, six) = (T::of(2.0), T::of(3.0), T::of(6.0));
+        let f = x * x * (three - two * x);
+        let df = six * x * (T::one() - x) / self.ramp;
+        let ddf = six * (T::one() - two * x) / (self.ramp * self.ramp);
+        Motion {
+            position: f * full.position,
+            velocity: f * full.velocity + df * full.position,
+            acceleration: f * full.acceleration + two * df * full.velocity + ddf * full.position,
+        }
+    }
+}

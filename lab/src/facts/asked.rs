@@ -1,0 +1,98 @@
+//! How records are read, and what all questions to the search have in common.
+
+use crate::closing::{close_within, MOST_ROUNDS};
+use crate::ledger::Ledger;
+use crate::model::declared::structure;
+use crate::model::structure::Structure;
+use crate::problem::{HeldOut, Preparation, Prepared};
+use crate::record::{agree, parse, read, Options, Record};
+use std::path::{Path, PathBuf};
+
+/// Columns, filter, declared model and length of the search.
+#[derive(Debug, Clone, Default)]
+pub struct Asked {
+    /// Which columns are read, and which part of the record.
+    pub options: Options,
+    /// Cut-off of the one filter \[Hz\]; from the input's spectrum where it is not given.
+    pub cutoff: Option<f64>,
+    /// The declared model; `bouc-wen` where it is empty.
+    pub declare: Vec<String>,
+    /// The largest number of effects that may be added.
+    pub rounds: Option<usize>,
+}
+
+impl Asked {
+    /// Reads one record.
+    ///
+    /// # Errors
+    /// One line that names the file.
+    pub fn read(&self, path: &Path) -> Result<Record, String> {
+        read(path, &self.options).map_err(|e| e.to_string())
+    }
+
+    /// Reads a record that is in memory; `label` stands for the name of its file.
+    ///
+    /// # Errors
+    /// One line that names the label.
+    pub fn read_text(&self, csv: &[u8], label: &str) -> Result<Record, String> {
+        parse(csv, label, &self.options).map_err(|e| e.to_string())
+    }
+
+    /// Reads several records of one rig, in common units.
+    ///
+    /// # Errors
+    /// One line that names the file; also where a file is given twice or where two files do
+    /// not agree on what their columns are.
+    pub fn read_together(&self, paths: &[PathBuf]) -> Result<Vec<Record>, String> {
+        for (index, path) in paths.iter().enumerate() {
+            if paths[..index].contains(path) {
+                return Err(format!("{}: given twice", path.display()));
+            }
+        }
+        let mut records = paths
+            .iter()
+            .map(|path| self.read(path))
+            .collect::<Result<Vec<_>, _>>()?;
+        agree(&mut records).map_err(|e| e.to_string())?;
+        Ok(records)
+    }
+
+    /// A record on its grids, and the declared model.
+    pub(super) fn prepare(&self, record: &Record) -> Result<(Prepared, Structure), String> {
+        let named = |message: String| format!("{}: {message}", record.path);
+        let cutoff = self.cutoff;
+        let data = Prepared::new(record, Preparation { cutoff }).map_err(named)?;
+        let structure = self.declared(&data).map_err(named)?;
+        Ok((data, structure))
+    }
+
+    /// Several records on common grids, and the declared model.
+    pub(super) fn prepare_joined(
+        &self,
+        records: &[Record],
+        held_out: HeldOut,
+    ) -> Result<(Prepared, Structure), String> {
+        let cutoff = self.cutoff;
+        let data = Prepared::joined(records, Preparation { cutoff }, held_out)?;
+        let structure = self.declared(&data)?;
+        Ok((data, structure))
+    }
+
+    /// Runs the search with at most as many rounds as were asked for.
+    pub(super) fn search(
+        &self,
+        data: &Prepared,
+        structure: &Structure,
+        tell: &dyn Fn(&str),
+    ) -> Result<Ledger, String> {
+        let most = self.rounds.unwrap_or(MOST_ROUNDS);
+        close_within(data, structure, most, tell)
+    }
+
+    fn declared(&self, data: &Prepared) -> Result<Structure, String> {
+        match self.declare.is_empty() {
+            true => structure(&["bouc-wen".to_owned()], data),
+            false => structure(&self.declare, data),
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! Whether a model still holds on another record.
+
+use super::asked::Asked;
+use super::check_sentence::sentence;
+use super::record::RecordFacts;
+use crate::check::{Check, Errors, Given, Line, Outside, Verdict};
+use crate::closing::Dependence;
+use crate::problem::Prepared;
+use crate::record::Mode;
+use std::path::Path;
+
+/// A model on a record that it has not seen.
+#[derive(Debug, Clone)]
+pub struct CheckFacts {
+    /// What was read.
+    pub record: RecordFacts,
+    /// Gain and offset of the prediction.
+    pub line: Line,
+    /// Standard deviation of the filtered output, in its unit.
+    pub deviation: f64,
+    /// Rms error as it is, in the output's unit.
+    pub rmse: f64,
+    /// Rms error with the fitted gain and offset.
+    pub rmse_gain_offset: f64,
+    /// Rms error with what has moved corrected: the offset alone, where that suffices.
+    pub rmse_corrected: f64,
+    /// Mean of the error as it is.
+    pub mean: f64,
+    /// Rms error up to which the model holds; `None` where nothing tells it.
+    pub allowed: Option<f64>,
+    /// The held-out error that the model came with, as a share of the standard deviation.
+    pub reference: Option<f64>,
+    /// What the model's file says of its errors.
+    pub came_with: Option<Errors>,
+    /// The cut-off that the model's file states \[Hz\].
+    pub own_cutoff: Option<f64>,
+    /// The sampling rate that the model's file states \[Hz\].
+    pub own_rate: Option<f64>,
+    /// Where this record goes beyond what the model has seen.
+    pub outside: Vec<Outside>,
+    /// On what the residual depends, where the model does not hold.
+    pub depends_on: Vec<DependsOn>,
+    /// Seconds at the start that do not count.
+    pub left_out: f64,
+    /// Whether an offset alone is what has moved.
+    pub offset_alone: bool,
+    /// Whether the output moves by little more than the noise.
+    pub quiet: bool,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// The verdict in one or two sentences.
+    pub sentence: String,
+}
+
+/// A variable on which the residual depends.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DependsOn {
+    /// Its name.
+    pub variable: &'static str,
+    /// The variable for people.
+    pub words: String,
+    /// The channel that it is made of.
+    pub channel: String,
+    /// Share of the squared error that a free curve over it takes.
+    pub share: f64,
+    /// Exact sign-flip p-value of that curve; `None` where it could not be tested.
+    pub p: Option<f64>,
+}
+
+/// The text of a model file, checked.
+#[derive(Debug, Clone)]
+pub struct ModelOfFile {
+    given: Given,
+    mode: Mode,
+}
+
+/// What is asked of a model and a record.
+#[derive(Debug, Clone)]
+pub struct CheckQuestion {
+    /// The columns; the mode is the model's.
+    pub asked: Asked,
+    /// Whether the signals over time are wanted.
+    pub trace: bool,
+}
+
+/// The answer.
+#[derive(Debug, Clone)]
+pub struct Checked {
+    /// Where the record was read.
+    pub label: String,
+    /// What came out.
+    pub facts: CheckFacts,
+    /// The signals over time as CSV, where that was asked for.
+    pub trace: Option<String>,
+}
+
+impl ModelOfFile {
+    /// Reads the text of a model file.
+    ///
+    /// # Errors
+    /// One sentence that says what is wrong with it.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let given = Given::parse(text)?;
+        let mode = given.mode()?;
+        Ok(Self { given, mode })
+    }
+
+    /// The mode that the model is of.
+    #[must_use]
+    pub fn mode(&self) -> Mode {
+        self.mode
+    }
+}
+
+/// Runs a model on a record that it has not seen.
+///
+/// # Errors
+/// One line that names the record.
+pub fn check(
+    model: &ModelOfFile,
+    record: &Path,
+    question: &CheckQuestion,
+) -> Result<Checked, String> {
+    let mut asked = question.asked.clone();
+    asked.options.mode = Some(model.mode);
+    let record = asked
+        .read(record)
+        .map_err(|e| format!("{e} (the model is of {} mode)", model.mode.name()))?;
+    let label = record.path.clone();
+    let check =
+        Check::new(record, &model.given, asked.cutoff).map_err(|message| named(&label, message))?;
+    Ok(Checked {
+        trace: match question.trace {
+            true => Some(check.trace()?),
+            false => None,
+        },
+        facts: CheckFacts::new(&check),
+        label,
+    })
+}
+
+/// The message with the record's name, once.
+fn named(label: &str, message: String) -> String {
+    match message.starts_with(label) {
+        true => message,
+        false => format!("{label}: {message}"),
+    }
+}
+
+impl CheckFacts {
+    /// The facts of a check.
+    #[must_use]
+    pub fn new(check: &Check) -> Self {
+        let offset_alone = check.offset_alone();
+        let depends_on = check.depends_on.iter();
+        let mut facts = Self {
+            record: RecordFacts::new(&check.data),
+            line: check.line,
+            deviation: check.deviation,
+            rmse: check.rmse,
+            rmse_gain_offset: check.rmse_gain_offset,
+            rmse_corrected: match offset_alone {
+                true => (check.rmse.powi(2) - check.mean.powi(2)).max(0.0).sqrt(),
+                false => check.rmse_gain_offset,
+            },
+            mean: check.mean,
+            allowed: check.allowed,
+            reference: check.reference(),
+            came_with: check.about.nrmse,
+            own_cutoff: check.about.cutoff_hz,
+            own_rate: check.about.rate_hz,
+            outside: check.outside.clone(),
+            depends_on: depends_on.map(|d| DependsOn::new(&check.data, d)).collect(),
+            left_out: check.left_out,
+            offset_alone,
+            quiet: check.is_quiet(),
+            verdict: check.verdict,
+            sentence: String::new(),
+        };
+        facts.sentence = sentence(&facts);
+        facts
+    }
+}
+
+impl DependsOn {
+    fn new(data: &Prepared, one: &Dependence) -> Self {
+        Self {
+            variable: one.variable.name(data),
+            words: one.variable.words(data),
+            channel: data
+                .channel(one.variable.source())
+                .map_or_else(String::new, |c| c.name.clone()),
+            share: one.share,
+            p: one.p,
+        }
+    }
+}

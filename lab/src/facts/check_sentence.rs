@@ -1,0 +1,118 @@
+//! The verdict of a check in one or two sentences.
+
+use super::check::CheckFacts;
+use super::numbers::{number, share as percent, with_interval};
+use crate::check::{Fitted, Line, Verdict};
+use std::fmt::Write as _;
+
+/// Gain and offset are mentioned with a model that holds where they leave less than this
+/// share of its error.
+const BETTER: f64 = 0.8;
+
+fn fitted(one: &Fitted) -> String {
+    with_interval(one.value, one.ci95)
+}
+
+fn unit(check: &CheckFacts) -> String {
+    let unit = check.record.unit.as_deref();
+    unit.map_or_else(String::new, |unit| format!(" {unit}"))
+}
+
+/// The check in one or two sentences.
+pub(super) fn sentence(check: &CheckFacts) -> String {
+    let share = |rmse: f64| percent(rmse / check.deviation);
+    let as_it_is = share(check.rmse);
+    let came = check.reference.map_or_else(
+        || "its file does not say how much it missed where it came from".to_owned(),
+        |own| format!("{} on what was held out of its own record", percent(own)),
+    );
+    let mut text = match check.verdict {
+        Verdict::Holds if check.reference.is_some() => format!(
+            "The model holds: it misses {as_it_is} of this record's output, as against {came}; nothing was refitted."
+        ),
+        Verdict::Holds => format!(
+            "The model holds: the {as_it_is} of this record's output that it misses are the sensor's noise; nothing was refitted."
+        ),
+        Verdict::GainOrOffsetMoved => format!(
+            "{}: the model as it is misses {as_it_is} of this record's output, with that corrected {}, as against {came}.",
+            moved(check),
+            share(check.rmse_corrected)
+        ),
+        Verdict::DoesNotHold => format!(
+            "The model does not hold: it misses {as_it_is} of this record's output, as against {came}, and another gain and offset leave {}.",
+            share(check.rmse_gain_offset)
+        ),
+        Verdict::CannotTell if check.quiet => {
+            "This record cannot tell: its output moves by little more than the noise.".to_owned()
+        }
+        Verdict::CannotTell => format!(
+            "Whether the model holds cannot be told: it misses {as_it_is} of this record's output, which is more than noise, and {came}."
+        ),
+        Verdict::DataDefect => format!(
+            "The measurement itself is spoilt, so nothing can be said of the model: it misses {as_it_is} of what was recorded."
+        ),
+    };
+    if check.verdict == Verdict::DoesNotHold {
+        text.push_str(&reasons(check));
+    }
+    if check.verdict == Verdict::Holds && check.rmse_gain_offset < BETTER * check.rmse {
+        let _ = write!(
+            text,
+            " A gain of {} and an offset of {}{} would leave {}.",
+            fitted(&check.line.gain),
+            fitted(&check.line.offset),
+            unit(check),
+            share(check.rmse_gain_offset)
+        );
+    }
+    text
+}
+
+fn moved(check: &CheckFacts) -> String {
+    let Line { gain, offset } = &check.line;
+    let amount = |value: f64| number(value, Some(0.05 * value.abs()));
+    match check.offset_alone {
+        true => format!(
+            "The offset has moved by {}{}, and no more than that shows",
+            amount(check.mean),
+            unit(check)
+        ),
+        false => format!(
+            "The gain has moved to {} times what it was (and the offset by {}{}), and no more than that shows",
+            fitted(gain),
+            amount(offset.value),
+            unit(check)
+        ),
+    }
+}
+
+/// What the residual depends on, and where the record goes beyond what the model has seen.
+fn reasons(check: &CheckFacts) -> String {
+    let mut text = match check.depends_on.first() {
+        Some(first) => {
+            let proposal = if first.p.is_none() {
+                " (a proposal: too few independent stretches for a test)"
+            } else {
+                ""
+            };
+            format!(" What it misses depends on {}{proposal}.", first.words)
+        }
+        None => {
+            " What it misses depends on nothing that was measured, as far as this record shows."
+                .to_owned()
+        }
+    };
+    let mut beyond: Vec<String> = Vec::new();
+    for one in &check.outside {
+        let name = format!("the {} of {}", one.quantity, one.channel);
+        beyond.push(name);
+    }
+    if !beyond.is_empty() {
+        let _ = write!(
+            text,
+            " The record goes beyond what the model has seen in {}: there the model is a guess.",
+            beyond.join(", ")
+        );
+    }
+    text
+}

@@ -1,0 +1,181 @@
+//! The main question: which effect does the declared model lack?
+
+use super::asked::Asked;
+use super::ledger::{Detail, Facts};
+use crate::conclude::final_fit::FinalFit;
+use crate::conclude::trace::trace;
+use crate::export::hand_over::HandOver;
+use crate::export::{postcard, vector, ModelFile};
+use crate::fit::{fit, Solution};
+use crate::model::structure::Structure;
+use crate::problem::{HeldOut, Prepared};
+use crate::record::Record;
+
+/// What is asked of one record or of several.
+#[derive(Debug, Clone)]
+pub struct Close {
+    /// Columns, filter, declared model and length of the search.
+    pub asked: Asked,
+    /// Whether each file has gains of its own.
+    pub own_gains: bool,
+    /// Whether the model that is handed over is fitted within what can be inverted.
+    pub invertible: bool,
+    /// Whether the models are wanted as files.
+    pub models: bool,
+    /// Whether the signals over time are wanted.
+    pub trace: bool,
+    /// How much is computed of each round.
+    pub detail: Detail,
+}
+
+/// The answer.
+#[derive(Debug, Clone)]
+pub struct Closed {
+    /// What was found.
+    pub facts: Facts,
+    /// What is handed over: one model, or one for each file with gains of its own; empty where
+    /// it was not asked for.
+    pub models: Vec<Handed>,
+    /// The signals over time as CSV, where that was asked for.
+    pub trace: Option<String>,
+}
+
+/// A model that is handed over, with its test vector.
+#[derive(Debug, Clone)]
+pub struct Handed {
+    model: ModelFile,
+    vector: Result<String, String>,
+}
+
+/// The form of a model file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// For tools.
+    Toml,
+    /// For firmware, as source.
+    Rust,
+    /// For firmware, as bytes with a checksum.
+    Postcard,
+}
+
+impl Handed {
+    /// The bytes of the model's file.
+    ///
+    /// # Errors
+    /// One sentence that says which part cannot be written.
+    pub fn file(&self, form: Form) -> Result<Vec<u8>, String> {
+        match form {
+            Form::Toml => {
+                let text = self.model.toml().map_err(|e| e.to_string())?;
+                Ok(text.into_bytes())
+            }
+            Form::Rust => self.model.rust().map(String::into_bytes),
+            Form::Postcard => postcard(&self.model),
+        }
+    }
+
+    /// Samples and what the model must answer to them, as CSV.
+    ///
+    /// # Errors
+    /// One sentence that says which part of the model the core refuses.
+    pub fn vector(&self) -> Result<&str, String> {
+        self.vector.as_deref().map_err(Clone::clone)
+    }
+}
+
+/// Closes the loop. `tell` is told what is being done.
+///
+/// # Errors
+/// One line where the records cannot be prepared or the declared model cannot be fitted;
+/// where a model is asked for, also if nothing can be handed over.
+pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Result<Closed, String> {
+    let asked = &question.asked;
+    let label: Vec<&str> = records.iter().map(|r| r.path.as_str()).collect();
+    let label = label.join(", ");
+    let (mut data, mut structure) = match records {
+        [one] => asked.prepare(one)?,
+        all => asked.prepare_joined(all, held_out(question, all.len()))?,
+    };
+    if question.own_gains {
+        if !structure.hysteresis {
+            return Err(
+                "--per-file gains: they are those of bouc-wen, which --declare leaves out"
+                    .to_owned(),
+            );
+        }
+        structure.own_gains = records.len();
+    }
+    let ledger = asked
+        .search(&data, &structure, tell)
+        .map_err(|message| format!("{label}: {message}"))?;
+    if !question.own_gains && records.len() > 1 {
+        tell("trying each file with gains of its own");
+        data.notes.extend(hint(&data, &ledger.declared));
+    }
+    tell("fitting the final model");
+    let done = FinalFit::new(&data, &ledger);
+    let hand = HandOver::new(records, &data, &ledger, &done, question.invertible, tell);
+    // What was found stands, whether firmware can have it or not.
+    let hand = match hand {
+        Err(message) if question.invertible || question.models => {
+            return Err(format!("{label}: {message}"));
+        }
+        hand => hand,
+    };
+    let models = match &hand {
+        Ok(hand) if question.models => handed(&data, hand),
+        _ => Vec::new(),
+    };
+    let trace = match question.trace {
+        true => Some(trace(&data, &ledger, &done)?),
+        false => None,
+    };
+    tell("looking for declared parts that are not needed");
+    let hand = hand.as_ref().map_err(String::as_str);
+    Ok(Closed {
+        facts: Facts::new(&label, &data, &ledger, &done, hand, question.detail),
+        models,
+        trace,
+    })
+}
+
+/// With gains of its own a file says nothing of another one's: the end of each is held
+/// out then.
+fn held_out(question: &Close, records: usize) -> HeldOut {
+    match !question.own_gains && records > 2 {
+        true => HeldOut::LastRecord,
+        false => HeldOut::Trailing,
+    }
+}
+
+fn handed(data: &Prepared, hand: &HandOver) -> Vec<Handed> {
+    let files = hand.files.iter().enumerate();
+    files
+        .map(|(record, model)| Handed {
+            vector: vector::csv(data, record, model),
+            model: model.clone(),
+        })
+        .collect()
+}
+
+/// Files of several configurations fitted as one: gains of their own for each leave less
+/// than this share of the declared model's error.
+const OTHER_CONFIGURATION: f64 = 0.5;
+
+/// What to try where the files do not seem to be of one configuration.
+fn hint(data: &Prepared, declared: &Solution) -> Option<String> {
+    if !declared.structure.hysteresis {
+        return None;
+    }
+    let structure = Structure {
+        own_gains: data.pieces.len(),
+        ..declared.structure.clone()
+    };
+    let own = fit(data, &structure, None, 0.0)?.rmse.fit / declared.rmse.fit;
+    (own < OTHER_CONFIGURATION).then(|| {
+        format!(
+            "with gains of its own for each file the declared model leaves {:.0} % of this error on the fit segments: try --per-file gains",
+            100.0 * own
+        )
+    })
+}

@@ -1,0 +1,47 @@
+//! What is handed over to firmware: its parts, its errors there, its inverse.
+
+use super::model::effects;
+use crate::export::hand_over::HandOver;
+use crate::export::invertible::FeedForward;
+use crate::export::LeftOut;
+use crate::fit::Segments;
+use crate::problem::Prepared;
+
+/// The model of `--model-out`.
+#[derive(Debug, Clone)]
+pub struct HandOverFacts {
+    /// Names of its parts.
+    pub effects: Vec<String>,
+    /// Parts of the final model that are not in it.
+    pub left_out: Vec<LeftOut>,
+    /// Whether it was to be fitted within what can be inverted.
+    pub within_inverse: bool,
+    /// Whether that held a parameter on the bound of what can be inverted.
+    pub on_inverse_bound: bool,
+    /// Its errors, as shares of the output's standard deviation.
+    pub nrmse: Segments,
+    /// The errors of the final model, as such shares.
+    pub as_fitted: Segments,
+    /// Its errors sample by sample with causal rates, as such shares.
+    pub causal: Segments,
+    /// Time constant of the causal rates \[s\].
+    pub time_constant: f64,
+    /// Whether it can be a feed-forward.
+    pub feed_forward: FeedForward,
+}
+
+impl HandOverFacts {
+    pub(super) fn new(data: &Prepared, hand: &HandOver) -> Self {
+        Self {
+            effects: effects(data, &hand.solution),
+            left_out: hand.left_out.clone(),
+            within_inverse: hand.within_inverse,
+            on_inverse_bound: hand.solution.structure.invertible,
+            nrmse: hand.nrmse,
+            as_fitted: hand.as_fitted,
+            causal: hand.causal,
+            time_constant: hand.time_constant,
+            feed_forward: hand.feed_forward.clone(),
+        }
+    }
+}

@@ -1,0 +1,214 @@
+//! The facts of a closed record.
+
+use super::hand_over::HandOverFacts;
+use super::model::{FinalFacts, ModelFacts};
+use super::record::RecordFacts;
+use super::round::{fits, RoundFacts};
+use crate::conclude::by_file::{worse, Worse};
+use crate::conclude::curve::{curve, Knot};
+use crate::conclude::final_fit::FinalFit;
+use crate::conclude::intervals::term_title;
+use crate::conclude::unneeded::{unneeded, Unneeded};
+use crate::conclude::verdict::{falls_up_to, sentence, unknown_words, verdict, Verdict};
+use crate::export::hand_over::HandOver;
+use crate::fit::Segments;
+use crate::ledger::{Gate, Ledger, Unknown};
+use crate::model::catalogue::Candidate;
+use crate::problem::Prepared;
+use crate::score::explains::{explained, segments_differ, Explained};
+use crate::score::scan::{Regime, BLOCKS};
+
+/// Everything about one run.
+#[derive(Debug, Clone)]
+pub struct Facts {
+    /// The name of the record, or those of several.
+    pub label: String,
+    /// What was read.
+    pub record: RecordFacts,
+    /// Independent stretches of the fit segment, at most [`BLOCKS`].
+    pub blocks: usize,
+    /// The declared model.
+    pub declared: ModelFacts,
+    /// What was added, in order.
+    pub rounds: Vec<RoundFacts>,
+    /// How many of the first rounds lower the held-out error before one raises it.
+    pub falls_up_to: usize,
+    /// The model that is delivered.
+    pub last: FinalFacts,
+    /// What is handed over, or why nothing is.
+    pub hand_over: Result<HandOverFacts, String>,
+    /// What was turned down.
+    pub rejected: Vec<RejectedFacts>,
+    /// Declared parts that the data do not need.
+    pub unneeded: Vec<Unneeded>,
+    /// What has no name.
+    pub unknown: Option<UnknownFacts>,
+    /// Standard deviation of the filtered output on each segment.
+    pub deviation: Segments,
+    /// Whether it differs so much that percentages of one segment say little of another.
+    pub segments_differ: bool,
+    /// Shares of the held-out output's variance.
+    pub explains: Explained,
+    /// Whether the output follows the integral of the input.
+    pub integrates: bool,
+    /// Files on which the final model is worse than the declared one.
+    pub worse: Vec<Worse>,
+    /// The largest number of effects that was asked for, where that ended the search.
+    pub stopped_by_request: Option<usize>,
+    /// For how long the residual stays correlated \[s\], where that is too long for tests.
+    pub correlated_for: Option<f64>,
+    /// What the run amounts to.
+    pub verdict: Verdict,
+    /// The verdict in a few sentences.
+    pub sentence: String,
+}
+
+/// How much is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Detail {
+    /// All but the models of the single rounds.
+    Ledger,
+    /// Also the model after each round, which takes a fit each.
+    EachRound,
+}
+
+/// A candidate that was turned down.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RejectedFacts {
+    /// Its name for people.
+    pub title: String,
+    /// Its family.
+    pub family: &'static str,
+    /// Its own name.
+    pub effect: &'static str,
+    /// The channel that it reads.
+    pub channel: String,
+    /// Why.
+    pub gate: Gate,
+}
+
+/// A dependence that has no name.
+#[derive(Debug, Clone)]
+pub struct UnknownFacts {
+    /// Name of the variable.
+    pub variable: &'static str,
+    /// The variable for people.
+    pub words: String,
+    /// Its unit, where the record states it.
+    pub unit: Option<String>,
+    /// The channel that it is made of.
+    pub channel: String,
+    /// Share of the squared error that the curve takes.
+    pub share: f64,
+    /// Exact sign-flip p-value of the curve.
+    pub p: f64,
+    /// What the best one or two names take, of what the curve takes.
+    pub q: f64,
+    /// The curve.
+    pub curve: Vec<Knot>,
+    /// Rms errors before.
+    pub before: Segments,
+    /// Rms errors after.
+    pub after: Segments,
+    /// What is said of it.
+    pub sentence: String,
+}
+
+/// The channel that a candidate reads, by name.
+pub(super) fn channel(data: &Prepared, candidate: &Candidate) -> String {
+    data.channel(candidate.term.source)
+        .map_or_else(String::new, |c| c.name.clone())
+}
+
+/// Independent stretches of the fit segment, at most sixteen.
+fn block_count(data: &Prepared, ledger: &Ledger) -> usize {
+    if ledger.regime == Regime::Blocks {
+        return BLOCKS;
+    }
+    let seconds = data.split.fit.len() as f64 * data.dt * data.stride as f64;
+    ((seconds / (3.0 * ledger.correlation_time)) as usize).min(BLOCKS - 1)
+}
+
+impl UnknownFacts {
+    fn new(data: &Prepared, ledger: &Ledger, unknown: &Unknown, done: &FinalFit) -> Self {
+        let channel = data.channel(unknown.variable.source());
+        Self {
+            variable: unknown.variable.name(data),
+            words: unknown.variable.words(data),
+            unit: unknown.variable.unit(data),
+            channel: channel.map_or_else(String::new, |c| c.name.clone()),
+            share: unknown.share,
+            p: unknown.p,
+            q: unknown.q,
+            curve: curve(&done.data, &done.solution),
+            before: unknown.before,
+            after: unknown.after,
+            sentence: unknown_words(data, ledger).unwrap_or_default(),
+        }
+    }
+}
+
+impl Facts {
+    /// Collects everything about one run.
+    #[must_use]
+    pub fn new(
+        label: &str,
+        data: &Prepared,
+        ledger: &Ledger,
+        done: &FinalFit,
+        hand: Result<&HandOver, &str>,
+        detail: Detail,
+    ) -> Self {
+        let last = FinalFacts::new(data, done);
+        let rejected = ledger.rejected.iter().map(|r| RejectedFacts {
+            title: term_title(data, &r.candidate.term),
+            family: r.candidate.family.name(),
+            effect: r.candidate.term.effect.name(),
+            channel: channel(data, &r.candidate),
+            gate: r.gate,
+        });
+        let unknown = ledger.unknown.as_ref();
+        Self {
+            label: label.to_owned(),
+            record: RecordFacts::new(data),
+            blocks: block_count(data, ledger),
+            declared: ModelFacts::new(data, &ledger.declared),
+            rounds: rounds(data, ledger, done, &last, detail),
+            falls_up_to: falls_up_to(ledger),
+            hand_over: hand
+                .map(|hand| HandOverFacts::new(data, hand))
+                .map_err(str::to_owned),
+            rejected: rejected.collect(),
+            unneeded: unneeded(ledger, done),
+            unknown: unknown.map(|u| UnknownFacts::new(data, ledger, u, done)),
+            deviation: Segments::deviation(data, &data.target),
+            segments_differ: segments_differ(data),
+            explains: explained(data, &done.solution),
+            integrates: ledger.integrates,
+            worse: worse(data, &ledger.declared, &done.solution),
+            stopped_by_request: ledger.stopped_by_request,
+            correlated_for: (ledger.regime == Regime::Effect).then_some(ledger.correlation_time),
+            verdict: verdict(data, ledger, done),
+            sentence: sentence(data, ledger, done),
+            last,
+        }
+    }
+}
+
+fn rounds(
+    data: &Prepared,
+    ledger: &Ledger,
+    done: &FinalFit,
+    last: &FinalFacts,
+    detail: Detail,
+) -> Vec<RoundFacts> {
+    let mut fits = match detail {
+        Detail::Ledger => Vec::new(),
+        Detail::EachRound => fits(data, ledger, done),
+    }
+    .into_iter();
+    let rounds = ledger.rounds.iter();
+    rounds
+        .map(|round| RoundFacts::new(data, done, &last.parameters, round, fits.next()))
+        .collect()
+}

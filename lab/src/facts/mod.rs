@@ -1,0 +1,48 @@
+//! What a run has found, as plain data: names, numbers, sentences and the bytes of files.
+//!
+//! Every question that the program answers is asked here, and every figure of its answer is
+//! computed when the question is asked. A view (terminal, JSON) reads the fields: this is the
+//! only room that it uses, so what it prints cannot differ from what another view prints.
+
+mod asked;
+mod check;
+mod check_sentence;
+mod close;
+mod hand_over;
+mod ledger;
+mod model;
+mod numbers;
+mod plan;
+mod power;
+mod record;
+mod round;
+
+pub use asked::Asked;
+pub use check::{check, CheckFacts, CheckQuestion, Checked, DependsOn, ModelOfFile};
+pub use close::{close, Close, Closed, Form, Handed};
+pub use hand_over::HandOverFacts;
+pub use ledger::{Detail, Facts, RejectedFacts, UnknownFacts};
+pub use model::{FinalFacts, GainsOfFile, ModelFacts};
+pub use numbers::{number, share, with_interval};
+pub use plan::{plan, Planned};
+pub use power::{power, PowerFacts, PowerRow, ShapeFacts};
+pub use record::{FileFacts, HeldOutOf, RecordFacts};
+pub use round::{RivalFacts, RoundFacts, RoundFit, RoundModel, Size};
+
+// The plain data of lower rooms that facts are made of.
+pub use crate::check::{Errors, Fitted, Line, Outside, Verdict as CheckVerdict, HOLDS, NOISE};
+pub use crate::closing::MOST_ROUNDS;
+pub use crate::conclude::by_file::{FileErrors, Worse};
+pub use crate::conclude::curve::Knot;
+pub use crate::conclude::intervals::{Parameter, Refusal};
+pub use crate::conclude::unneeded::Unneeded;
+pub use crate::conclude::verdict::{percent, Verdict};
+pub use crate::export::invertible::{three_digits, FeedForward, Nearest};
+pub use crate::export::{LeftOut, ModelFile};
+pub use crate::fit::Segments;
+pub use crate::foresight::plan::{Aim, Experiment};
+pub use crate::foresight::power::{Answer, Question as PowerQuestion, SHARE, TRIALS, TRIALS_RANGE};
+pub use crate::ledger::{Gate, Grade};
+pub use crate::record::{Defect, Mode, Options, Record};
+pub use crate::score::explains::Explained;
+pub use crate::score::scan::BLOCKS;

@@ -1,0 +1,110 @@
+//! How small an effect would have been found.
+
+use super::asked::Asked;
+use super::model::effects;
+use super::record::RecordFacts;
+use crate::conclude::intervals::{gain_unit, shape_unit, term_name};
+use crate::foresight::power::{power as try_all, Answer, Question, Row};
+use crate::problem::Prepared;
+use crate::record::Record;
+
+/// The table.
+#[derive(Debug, Clone)]
+pub struct PowerFacts {
+    /// Where the record was read.
+    pub label: String,
+    /// What was read.
+    pub record: RecordFacts,
+    /// Names of all parts of the last model.
+    pub model: Vec<String>,
+    /// Trials of each amplitude.
+    pub trials: usize,
+    /// Trials without an effect in which something was named.
+    pub named_without: usize,
+    /// By family, from the simplest on, then by name and channel.
+    pub rows: Vec<PowerRow>,
+}
+
+/// One effect.
+#[derive(Debug, Clone)]
+pub struct PowerRow {
+    /// Its family.
+    pub family: &'static str,
+    /// Its own name.
+    pub effect: &'static str,
+    /// Its name with its channel, where it reads another than the input.
+    pub name: String,
+    /// The channel that it reads.
+    pub channel: String,
+    /// The shapes that were planted.
+    pub shapes: Vec<ShapeFacts>,
+    /// Unit of its gain, where the record states the units of its columns.
+    pub gain_unit: Option<String>,
+    /// What came out.
+    pub answer: Answer,
+}
+
+/// A shape that was planted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShapeFacts {
+    /// Its name in the effect's formula.
+    pub name: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Its unit, where the record states the units of its columns.
+    pub unit: Option<String>,
+}
+
+/// Plants every effect that is asked for, and looks whether it is found.
+///
+/// `effects`: effects or families by name, all where it is empty.
+///
+/// # Errors
+/// One line where the record cannot be closed or an effect is not known.
+pub fn power(
+    record: &Record,
+    asked: &Asked,
+    question: &Question,
+    tell: &(dyn Fn(&str) + Sync),
+) -> Result<PowerFacts, String> {
+    let (data, structure) = asked.prepare(record)?;
+    let ledger = asked
+        .search(&data, &structure, tell)
+        .map_err(|message| format!("{}: {message}", record.path))?;
+    let table = try_all(&data, &ledger, question, |done, all| {
+        tell(&format!("planting: {done} of {all} effects"));
+    })?;
+    Ok(PowerFacts {
+        label: record.path.clone(),
+        record: RecordFacts::new(&data),
+        model: effects(&data, ledger.last()),
+        trials: table.trials,
+        named_without: table.named_without,
+        rows: table.rows.iter().map(|r| PowerRow::new(&data, r)).collect(),
+    })
+}
+
+impl PowerRow {
+    fn new(data: &Prepared, row: &Row) -> Self {
+        let effect = row.term.effect;
+        let shapes = effect.shape_names().iter().enumerate();
+        let shapes = shapes.filter_map(|(index, &name)| {
+            Some(ShapeFacts {
+                name,
+                value: effect.shape(index)?,
+                unit: shape_unit(data, &row.term, index),
+            })
+        });
+        Self {
+            family: effect.family().name(),
+            effect: effect.name(),
+            name: term_name(data, &row.term),
+            channel: data
+                .channel(row.term.source)
+                .map_or_else(String::new, |c| c.name.clone()),
+            shapes: shapes.collect(),
+            gain_unit: gain_unit(data, &row.term),
+            answer: row.answer.clone(),
+        }
+    }
+}

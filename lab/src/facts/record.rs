@@ -1,0 +1,107 @@
+//! What was read, and how it was filtered and split.
+
+use crate::problem::{Piece, Prepared};
+use crate::record::{Defect, Mode};
+use serde::Serialize;
+
+/// One record, or several of one rig that were joined.
+#[derive(Debug, Clone)]
+pub struct RecordFacts {
+    /// Torque or displacement.
+    pub mode: Mode,
+    /// Name of the input's column.
+    pub input: String,
+    /// Name of the output's column.
+    pub output: String,
+    /// Unit of the output, where the record states it.
+    pub unit: Option<String>,
+    /// Names of the further channels.
+    pub channels: Vec<String>,
+    /// The files, in the order in which they were given.
+    pub files: Vec<FileFacts>,
+    /// Samples of all files together.
+    pub samples: usize,
+    /// Common sampling rate \[Hz\].
+    pub rate: f64,
+    /// Length of all files together \[s\].
+    pub seconds: f64,
+    /// Cut-off of the one filter \[Hz\].
+    pub cutoff: f64,
+    /// The sensor's noise behind the filter, rms in the output's unit; 0 where unknown.
+    pub noise_floor: f64,
+    /// Remarks on how the columns were read.
+    pub notes: Vec<String>,
+    /// What is wrong with the measurement.
+    pub defects: Vec<Defect>,
+}
+
+/// One file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FileFacts {
+    /// Where it was read.
+    pub path: String,
+    /// Its samples.
+    pub samples: usize,
+    /// Its own sampling rate \[Hz\].
+    pub rate: f64,
+    /// What of it is held out.
+    pub held_out: HeldOutOf,
+}
+
+/// What of a file is held out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum HeldOutOf {
+    /// All of it.
+    Whole,
+    /// Nothing, since another file is.
+    Nothing,
+    /// Its end.
+    Trailing,
+}
+
+impl RecordFacts {
+    /// The facts of a record on its grids.
+    #[must_use]
+    pub fn new(data: &Prepared) -> Self {
+        let own = data.pieces.iter().map(|p| p.samples as f64 / p.rate);
+        Self {
+            mode: data.mode,
+            input: data.input.name.clone(),
+            output: data.output_name.clone(),
+            unit: data.output_unit.clone(),
+            channels: data.channels.iter().map(|c| c.name.clone()).collect(),
+            files: data.pieces.iter().map(|p| file(data, p)).collect(),
+            samples: data.samples,
+            rate: data.rate,
+            seconds: match data.pieces.len() {
+                0 | 1 => data.samples as f64 / data.rate,
+                _ => own.sum(),
+            },
+            cutoff: data.cutoff,
+            noise_floor: data.noise_floor,
+            notes: data.notes.clone(),
+            defects: data.defects.clone(),
+        }
+    }
+
+    /// An error as a multiple of the noise floor; `None` where the floor is not known.
+    #[must_use]
+    pub fn floors(&self, rmse: f64) -> Option<f64> {
+        (self.noise_floor > 0.0).then(|| rmse / self.noise_floor)
+    }
+}
+
+fn file(data: &Prepared, piece: &Piece) -> FileFacts {
+    let whole = data.pieces.iter().any(|p| !p.fitted);
+    FileFacts {
+        path: piece.path.clone(),
+        samples: piece.samples,
+        rate: piece.rate,
+        held_out: match (piece.fitted, whole) {
+            (false, _) => HeldOutOf::Whole,
+            (true, true) => HeldOutOf::Nothing,
+            (true, false) => HeldOutOf::Trailing,
+        },
+    }
+}

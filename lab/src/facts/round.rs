@@ -1,0 +1,183 @@
+//! One round of the search: what it added, how that stood its tests, the model after it.
+
+use super::ledger::channel;
+use crate::conclude::final_fit::FinalFit;
+use crate::conclude::intervals::{parameters, term_name, term_title, Parameter};
+use crate::conclude::verdict::raises;
+use crate::export::hand_over::handed_over;
+use crate::export::ModelFile;
+use crate::fit::Segments;
+use crate::foresight::plan::{separate, Experiment};
+use crate::ledger::{Grade, Ledger, Round};
+use crate::problem::Prepared;
+use serde::Serialize;
+
+/// One accepted effect.
+#[derive(Debug, Clone)]
+pub struct RoundFacts {
+    /// Its name for people, as it is in the final model.
+    pub title: String,
+    /// Its family.
+    pub family: &'static str,
+    /// Its own name.
+    pub effect: &'static str,
+    /// The channel that it reads.
+    pub channel: String,
+    /// How far the name can be trusted.
+    pub grade: Grade,
+    /// How large it is in the final model.
+    pub size: Size,
+    /// Exact sign-flip p-value; `None` where there were too few blocks.
+    pub p: Option<f64>,
+    /// Share of the squared error on the fit segment that the round removed.
+    pub explained: f64,
+    /// On how many of the [`BLOCKS`](super::BLOCKS) it helped.
+    pub blocks_better: usize,
+    /// Effects that explain the same as well.
+    pub rivals: Vec<RivalFacts>,
+    /// The motion that would tell them apart, where one is known.
+    pub experiment: Option<Experiment>,
+    /// Rms errors before the round.
+    pub before: Segments,
+    /// Rms errors after the round.
+    pub after: Segments,
+    /// Whether the round raises the held-out error.
+    pub raises_held_out: bool,
+    /// The model after the round, where [`Detail::EachRound`](super::Detail) was asked for.
+    pub fit: Option<RoundFit>,
+}
+
+/// An effect that this record cannot tell from the one that was named.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RivalFacts {
+    /// Its name for people.
+    pub title: String,
+    /// Its family.
+    pub family: &'static str,
+    /// The channel that it reads.
+    pub channel: String,
+}
+
+/// The one number that is reported of an effect.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Size {
+    /// Its gain.
+    Gain(Parameter),
+    /// The width of an input stage, which has no gain.
+    Width(Parameter),
+    /// The final model does not contain the effect.
+    Gone,
+}
+
+/// The model after a round.
+#[derive(Debug, Clone)]
+pub struct RoundFit {
+    /// The parameters of the effect that the round added, as the round fitted them.
+    pub coefficients: Vec<Parameter>,
+    /// The model that would be handed over if the rounds ended here.
+    pub model: RoundModel,
+}
+
+/// The model that would be handed over if the rounds ended here: as the final one it is fitted
+/// once more on the fit and stop-check segments together.
+#[derive(Debug, Clone, Serialize)]
+pub struct RoundModel {
+    /// The content of a model file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    model: Option<ModelFile>,
+    /// The same for each file, where each has gains of its own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    models: Option<Vec<ModelFile>>,
+    /// Whether the parameters have seen the stop-check segment.
+    refitted: bool,
+    /// Why the model still has what belongs to the record, if it has.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    not_refitted_without: Option<String>,
+    /// Its errors, as shares of the output's standard deviation.
+    nrmse: Segments,
+}
+
+impl RoundModel {
+    fn new(data: &Prepared, done: &FinalFit) -> Self {
+        let (handed, not_refitted_without) = match handed_over(done, false) {
+            Ok(handed) => (handed, None),
+            Err(because) => (done.solution.clone(), Some(because)),
+        };
+        let own = handed.structure.own_gains;
+        let of = |record| ModelFile::of_record(&done.data, &handed, record);
+        Self {
+            model: (own == 0).then(|| of(0)),
+            models: (own > 0).then(|| (0..own).map(of).collect()),
+            refitted: done.refitted,
+            not_refitted_without,
+            nrmse: Segments::of(data, &handed.residual).normalised(data, &data.target),
+        }
+    }
+}
+
+/// The models of all rounds.
+pub(super) fn fits(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Vec<RoundFit> {
+    use rayon::prelude::*;
+    let last = ledger.rounds.len();
+    let of = |(index, round): (usize, &Round)| {
+        let term = round.solution.structure.terms.len() - 1;
+        let own = parameters(data, &round.solution).into_iter();
+        RoundFit {
+            coefficients: own.filter(|p| p.term == Some(term)).collect(),
+            model: match &ledger.unknown {
+                // The final model is that of the last round.
+                None if index + 1 == last => RoundModel::new(data, done),
+                _ => RoundModel::new(data, &FinalFit::of(data, &round.solution)),
+            },
+        }
+    };
+    ledger.rounds.par_iter().enumerate().map(of).collect()
+}
+
+impl RoundFacts {
+    /// `all` are the parameters of the final model.
+    pub(super) fn new(
+        data: &Prepared,
+        done: &FinalFit,
+        all: &[Parameter],
+        round: &Round,
+        fit: Option<RoundFit>,
+    ) -> Self {
+        let rivals = round.rivals.iter().map(|r| RivalFacts {
+            title: term_title(data, &r.term),
+            family: r.family.name(),
+            channel: channel(data, r),
+        });
+        Self {
+            title: done.title_of(round),
+            family: round.candidate.family.name(),
+            effect: round.candidate.term.effect.name(),
+            channel: channel(data, &round.candidate),
+            grade: round.grade,
+            size: size(data, done, all, round),
+            p: round.p,
+            explained: round.explained,
+            blocks_better: round.blocks_better,
+            rivals: rivals.collect(),
+            experiment: separate(data, round),
+            before: round.before,
+            after: round.after,
+            raises_held_out: raises(round),
+            fit,
+        }
+    }
+}
+
+fn size(data: &Prepared, done: &FinalFit, all: &[Parameter], round: &Round) -> Size {
+    let name = term_name(data, round.term());
+    let term = done.term_of(round);
+    let own = |wanted: &str| {
+        let mut own = all.iter().filter(|p| p.term.is_some() && p.term == term);
+        own.find(|p| p.name == wanted).cloned()
+    };
+    match (own(&name), own(&format!("{name}.r"))) {
+        (Some(gain), _) => Size::Gain(gain),
+        (None, Some(width)) => Size::Width(width),
+        (None, None) => Size::Gone,
+    }
+}

@@ -1,0 +1,63 @@
+//! The slope of an effect's column in one of its own parameters.
+
+use super::effect_column;
+use crate::model::structure::{FitTerm, Role};
+use crate::problem::Prepared;
+
+/// A parameter of a term that its column depends on.
+pub(super) enum Variation {
+    Shape { index: usize },
+    Start { record: usize },
+    Origin,
+}
+
+impl Variation {
+    /// What a free parameter varies of the term of that index; `None` where it belongs to
+    /// another one, or to the transmission.
+    pub(super) fn of(index: usize, role: Role) -> Option<Self> {
+        match role {
+            Role::Shape { term, index: shape } if term == index => {
+                Some(Self::Shape { index: shape })
+            }
+            Role::Start { term, record } if term == index => Some(Self::Start { record }),
+            Role::Origin { term } if term == index => Some(Self::Origin),
+            _ => None,
+        }
+    }
+
+    /// Step of the central difference at a value.
+    fn step(&self, data: &Prepared, term: &FitTerm, value: f64) -> Option<f64> {
+        Some(match self {
+            // A step in time moves by whole samples.
+            Self::Shape { index } if term.effect.shape_names()[*index] == "t_s" => data.dt,
+            Self::Shape { .. } => 1e-5 * value.abs().max(1e-6),
+            Self::Start { .. } | Self::Origin => 1e-5 * data.channel(term.source)?.reach,
+        })
+    }
+
+    /// The term with another value of the parameter.
+    fn moved(&self, term: &FitTerm, value: f64) -> Option<FitTerm> {
+        let mut moved = *term;
+        match self {
+            Self::Shape { index } => moved.effect = term.effect.with_shape(*index, value).ok()?,
+            Self::Start { record } => moved.start[*record] = value,
+            Self::Origin => moved.origin = value,
+        }
+        Some(moved)
+    }
+
+    /// d column / d parameter by central differences: the effects' shapes are few and smooth.
+    pub(super) fn slope(
+        &self,
+        data: &Prepared,
+        term: &FitTerm,
+        value: f64,
+        eta: &[f64],
+    ) -> Option<Vec<f64>> {
+        let step = self.step(data, term, value)?;
+        let up = effect_column(data, &self.moved(term, value + step)?, eta)?;
+        let down = effect_column(data, &self.moved(term, value - step)?, eta)?;
+        let pairs = up.iter().zip(&down);
+        Some(pairs.map(|(a, b)| (a - b) / (2.0 * step)).collect())
+    }
+}

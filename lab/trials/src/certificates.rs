@@ -1,0 +1,217 @@
+//! Certificates of a setup's laws: what can be promised, and what it rests on.
+
+use super::lineup::RATE;
+use super::setup::Setup;
+use bowden::bound::{
+    Certificate, Interval, Known, PeakContinuous, PeakSampled, PerStep, Plant, Rms, Theorem1,
+};
+use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form};
+use bowden::Error;
+use bowden_rig::RigConfig;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// One certificate of one law, or why there is none.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Promise {
+    /// The law that it is of.
+    pub law: String,
+    /// Which theorem: `theorem1`, `rms`, `peak-continuous`, `peak-sampled`, `per-step`.
+    pub kind: &'static str,
+    /// What the value bounds.
+    pub bounds: Option<&'static str>,
+    /// The bound \[N·m\].
+    pub value: Option<f64>,
+    /// Unit of the value.
+    pub unit: &'static str,
+    /// Greater than the greatest reference: true, and worth nothing.
+    pub vacuous: bool,
+    /// Which condition is not met, where there is no value.
+    pub refused: Option<String>,
+    /// What the user must check.
+    pub assumptions: &'static [&'static str],
+}
+
+/// Greatest reference \[N·m\] and rate \[N·m/s\] of the paper's experiment.
+const REFERENCE: f64 = 38.0;
+const REFERENCE_RATE: f64 = 22.24;
+
+/// What is known of the rig as the plant (11), beta to within `spread`.
+fn plant(rig: &RigConfig<f64>, spread: f64) -> Plant<f64, 2> {
+    let alpha = rig.drive_gain * rig.b;
+    let slope = rig.rho * (2.0 * rig.sigma).max(1.0) * rig.kappa_eta;
+    // Velocity and acceleration of the proximal pulley while the reference is followed.
+    let compliance = 1.0 / rig.load_stiffness + 1.0 / rig.cable_stiffness;
+    let speed = REFERENCE_RATE * compliance;
+    let acceleration = 39.0 * compliance; // |y_r''| <= 10·(pi/2)² + 3·(2·pi·0.346)²
+    let known = |theta: f64, magnitude: f64, rate: f64| Known {
+        theta: Interval::exactly(theta),
+        magnitude,
+        rate,
+    };
+    Plant {
+        alpha: Interval {
+            low: alpha * (1.0 - spread),
+            high: alpha * (1.0 + spread),
+        },
+        delta_rate: slope / (rig.b - slope).max(1e-6) * REFERENCE_RATE,
+        reference: REFERENCE,
+        reference_rate: REFERENCE_RATE,
+        regressors: [
+            known(rig.b * rig.motor_damping, speed, acceleration),
+            known(rig.b * rig.motor_inertia, acceleration, 80.0 * compliance),
+        ],
+        ..Plant::new(alpha, rig.kappa_eta + rig.t0.abs())
+    }
+}
+
+fn line(law: &str, kind: &'static str, certificate: Result<Certificate<f64>, Error>) -> Promise {
+    match certificate {
+        Ok(certificate) => Promise {
+            law: law.to_owned(),
+            kind,
+            bounds: Some(certificate.bounds()),
+            value: Some(certificate.value),
+            unit: certificate.unit(),
+            vacuous: certificate.value > REFERENCE,
+            refused: None,
+            assumptions: certificate.assumptions(),
+        },
+        Err(e) => Promise {
+            law: law.to_owned(),
+            kind,
+            bounds: None,
+            value: None,
+            unit: "N·m",
+            vacuous: false,
+            refused: Some(e.to_string()),
+            assumptions: &[],
+        },
+    }
+}
+
+/// What the machine-checked box assumes: a reference and a disturbance at rest.
+const RESTING: &str = "lag form at 1 kHz, |D| <= 8 N·m at rest, g 20 %";
+const RESTING_DISTURBANCE: f64 = 8.0;
+
+/// The law of the proofs: the setup's gains in lag form, g = alpha·beta_hat in 0.8..=1.2.
+fn resting(settings: &AdaptiveSettings<f64, 2>) -> Result<Adaptive<f64, 0>, Error> {
+    let lag = Form::Lag {
+        step: 1.0 / RATE,
+        plant_gain: 1.0,
+    };
+    let gains = AdaptiveSettings::new(lag, settings.gain, settings.lambda, settings.epsilon);
+    Adaptive::try_new(AdaptiveSettings {
+        beta: Estimator {
+            initial: 1.0,
+            ..settings.beta
+        }
+        .within(0.8, 1.2),
+        delta: Estimator {
+            initial: 0.0,
+            ..settings.delta
+        }
+        .within(0.0, 4.0),
+        ..gains
+    })
+}
+
+/// The laws of the setup: as they are, and as a firmware would box them.
+///
+/// # Errors
+/// One sentence where the core refuses the gains themselves.
+pub fn all(setup: &Setup) -> Result<Vec<Promise>, String> {
+    let refused = |e: Error| format!("[adaptive]: {e}");
+    let settings = setup.adaptive.paper_settings();
+    let law = Adaptive::try_new(settings).map_err(refused)?;
+    let known = plant(&setup.rig, 0.0);
+    let as_given = "adaptive, as given";
+    let mut lines = vec![
+        line(
+            as_given,
+            "theorem1",
+            Theorem1::try_new(&law, &known).map(|c| c.certificate()),
+        ),
+        line(
+            as_given,
+            "rms",
+            Rms::try_new(&law, &known).map(|c| c.certificate()),
+        ),
+        line(
+            as_given,
+            "peak-continuous",
+            PeakContinuous::try_new(&law, &known).map(|c| c.certificate()),
+        ),
+    ];
+    let alpha = known.alpha.low;
+    let boxed = |spread: f64, form: Form<f64>, epsilon: f64| {
+        let wide = |at: f64, by: f64| (at * (1.0 - by), at * (1.0 + by));
+        let (low, high) = wide(1.0 / alpha, spread);
+        let beta = Estimator {
+            initial: 1.0 / alpha,
+            ..settings.beta
+        };
+        let delta = Estimator {
+            initial: settings.delta.initial.clamp(0.0, known.delta),
+            ..settings.delta
+        };
+        let theta = |i: usize| {
+            let truth = known.regressors[i].theta.high;
+            let (low, high) = wide(truth, 0.3);
+            Estimator {
+                initial: truth,
+                ..settings.theta[i]
+            }
+            .within(low, high)
+        };
+        Adaptive::try_new(AdaptiveSettings {
+            form,
+            epsilon,
+            beta: beta.within(low, high),
+            delta: delta.within(0.0, known.delta),
+            theta: [theta(0), theta(1)],
+            ..settings
+        })
+    };
+    let lag = Form::Lag {
+        step: 1.0 / RATE,
+        plant_gain: alpha,
+    };
+    let resting = resting(&settings).and_then(|law| {
+        let peak = PeakSampled::try_new(&law, &Plant::new(1.0, RESTING_DISTURBANCE))?;
+        Ok(peak.certificate())
+    });
+    lines.push(line(RESTING, "peak-sampled", resting));
+    // Wide enough for one sample of delay: h·lambda·g·(k + Delta/epsilon) <= 1.
+    let epsilon = settings.epsilon.max(0.2);
+    for spread in [0.0, 0.05, 0.10, 0.20, 0.30] {
+        let percent = 100.0 * spread;
+        let name = format!("adaptive, boxes, beta within {percent:.0} %");
+        let continuous = boxed(spread, settings.form, settings.epsilon)
+            .and_then(|law| PeakContinuous::try_new(&law, &known))
+            .map(|c| c.certificate());
+        lines.push(line(&name, "peak-continuous", continuous));
+        let name = format!("lag form at 1 kHz, boxes, beta within {percent:.0} %");
+        let sampled = boxed(spread, lag, epsilon);
+        let peak = sampled.and_then(|law| PeakSampled::try_new(&law, &known));
+        lines.push(line(&name, "peak-sampled", peak.map(|c| c.certificate())));
+        if spread == 0.05 {
+            let step = sampled.and_then(|law| PerStep::try_new(&law, &known));
+            lines.push(line(&name, "per-step", step.map(|c| c.certificate())));
+        }
+    }
+    Ok(lines)
+}
+
+/// The certificate of each controller of `bowden compare`, by its name.
+///
+/// # Errors
+/// As [`all`].
+pub fn named(setup: &Setup) -> Result<BTreeMap<String, Promise>, String> {
+    let lines = all(setup)?;
+    let rms = lines.iter().find(|l| l.kind == "rms" && l.value.is_some());
+    Ok(rms
+        .map(|line| ("adaptive".to_owned(), line.clone()))
+        .into_iter()
+        .collect())
+}

@@ -1,0 +1,274 @@
+//! What a comparison has found, as plain data; a view computes no figure of its own.
+
+use super::certificates::named;
+use super::found::outcome;
+use super::lineup::{declared_feed, lineup};
+use super::setup::Setup;
+use super::table::run_all;
+use super::trial::{Conditions, TRANSIENT};
+use bowden_rig::{Drift, Reference};
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+pub use super::certificates::Promise;
+pub use super::found::{Outcome, Pair};
+pub use super::table::{Line, Spread};
+pub use super::trial::Row;
+pub use super::undeclared::Undeclared;
+
+/// Noise with which the gain of a found effect can be seen \[N·m rms\].
+const QUIET: f64 = 0.02;
+
+/// From where errors count \[s\]: the traces of Figure 9 start at the full reference; from
+/// 5 s errors count, as in the figures that the rig was calibrated to.
+const FROM: f64 = 5.0;
+
+/// What is asked.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Question<'a> {
+    /// Gains, rig and model; the paper's and the reference rig's where not given.
+    pub setup: Option<&'a Path>,
+    /// White noise of the torque sensors \[N·m rms\], where another than the setup's.
+    pub noise: Option<f64>,
+    /// Whether the conduit is moved.
+    pub varying: bool,
+    /// Length of a trial \[s\].
+    pub seconds: f64,
+    /// Number of trials, each with its own seed.
+    pub seeds: u64,
+    /// The effect that nobody declares, where there is one.
+    pub effect: Option<&'a str>,
+    /// Whether the signals of the first trial are wanted.
+    pub traced: bool,
+}
+
+/// What the trials were run under.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Heading {
+    /// White noise of the sensor \[N·m rms\].
+    pub noise: f64,
+    /// Whether the conduit was moved.
+    pub varying: bool,
+    /// Length of a trial \[s\].
+    pub seconds: f64,
+    /// From where errors count \[s\].
+    pub from: f64,
+    /// Length of the transient \[s\].
+    pub transient: f64,
+    /// Number of trials.
+    pub seeds: usize,
+    /// In what `--model` had to be changed to be fed forward, if in anything.
+    pub fed_with: Option<String>,
+}
+
+/// The answer.
+#[derive(Debug, Clone)]
+pub struct Compared {
+    /// What the trials were run under.
+    pub heading: Heading,
+    /// What came out.
+    pub results: Results,
+}
+
+/// What came out.
+#[derive(Debug, Clone)]
+pub enum Results {
+    /// The controllers of the paper and those without which they would mislead.
+    Lineup(Lineup),
+    /// The loop closed through the controller.
+    Found(Found),
+}
+
+/// The controllers on the rig as declared.
+#[derive(Debug, Clone)]
+pub struct Lineup {
+    /// One line a controller.
+    pub lines: Vec<Line>,
+    /// The certificate of a controller, by its name.
+    pub certificates: BTreeMap<String, Promise>,
+}
+
+/// The controllers before and after an undeclared effect was found.
+#[derive(Debug, Clone)]
+pub struct Found {
+    /// The effect.
+    pub effect: Undeclared,
+    /// One outcome a seed.
+    pub outcomes: Vec<Outcome>,
+    /// On how many seeds each controller gained.
+    pub over_seeds: Vec<OverSeeds>,
+}
+
+/// On how many seeds a controller follows better with what was found.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OverSeeds {
+    /// Name of the controller.
+    pub controller: String,
+    /// Seeds with a lower error.
+    pub lower: usize,
+    /// Seeds with the same error.
+    pub same: usize,
+    /// Seeds with a higher error.
+    pub higher: usize,
+}
+
+/// Table 3 of the paper: mean and standard deviation, fixed and varying \[N·m\].
+const PAPER: [(&str, [f64; 2], [f64; 2]); 4] = [
+    ("pi", [0.5991, 0.0154], [0.6034, 0.0182]),
+    ("pid", [0.6093, 0.0164], [0.6139, 0.0153]),
+    ("piv", [0.5320, 0.0134], [0.5323, 0.0186]),
+    ("adaptive", [0.3027, 0.0081], [0.3195, 0.0120]),
+];
+
+/// Mean and standard deviation of a controller in Table 3 of the paper \[N·m\], where it has
+/// a row there.
+#[must_use]
+pub fn paper(controller: &str, varying: bool) -> Option<[f64; 2]> {
+    let row = PAPER.iter().find(|row| row.0 == controller)?;
+    Some(if varying { row.2 } else { row.1 })
+}
+
+/// Runs the trials.
+///
+/// # Errors
+/// One line where the setup cannot be read, a law is refused, or the bench finds no model.
+pub fn compare(question: &Question<'_>) -> Result<Compared, String> {
+    let setup = setup(question)?;
+    let effect = question.effect.map(Undeclared::parse).transpose()?;
+    let conditions = Conditions {
+        rig: setup.rig,
+        undeclared: Vec::new(),
+        reference: Reference::paper(),
+        seconds: question.seconds,
+        from: FROM,
+    };
+    let heading = Heading {
+        noise: setup.rig.noise,
+        varying: setup.rig.drift.is_some(),
+        seconds: question.seconds,
+        from: FROM,
+        transient: TRANSIENT.min(question.seconds),
+        seeds: usize::try_from(question.seeds).map_err(|e| e.to_string())?,
+        fed_with: match &effect {
+            None => declared_feed(&setup)?.changed_words().map(str::to_owned),
+            Some(_) => None,
+        },
+    };
+    let results = match effect {
+        None => Results::Lineup(declared(&setup, &conditions, question)?),
+        Some(effect) => Results::Found(found(&setup, effect, &conditions, question)?),
+    };
+    Ok(Compared { heading, results })
+}
+
+/// The certificates of a setup.
+///
+/// # Errors
+/// One line where the setup cannot be read or the core refuses its gains.
+pub fn certify(setup: Option<&Path>) -> Result<Vec<Promise>, String> {
+    super::certificates::all(&read(setup)?)
+}
+
+fn read(path: Option<&Path>) -> Result<Setup, String> {
+    match path {
+        Some(path) => Setup::read(path),
+        None => Ok(Setup::default()),
+    }
+}
+
+fn setup(question: &Question<'_>) -> Result<Setup, String> {
+    let mut setup = read(question.setup)?;
+    // Through the paper's gains the experiment's noise hides what is gained.
+    let quiet = question.effect.is_some() && question.setup.is_none();
+    if let Some(noise) = question.noise.or(quiet.then_some(QUIET)) {
+        if !(noise.is_finite() && noise >= 0.0) {
+            return Err(format!("--noise {noise}: zero or more N·m was expected"));
+        }
+        setup.rig.noise = noise;
+        setup.rig.input_noise = noise;
+    }
+    if question.varying {
+        setup.rig.drift = Some(setup.rig.drift.unwrap_or_else(Drift::reference));
+    }
+    Ok(setup)
+}
+
+fn declared(
+    setup: &Setup,
+    conditions: &Conditions,
+    question: &Question<'_>,
+) -> Result<Lineup, String> {
+    let seeds: Vec<u64> = (1..=question.seeds).collect();
+    let lines = run_all(&lineup(setup)?, conditions, &seeds, question.traced)?;
+    Ok(Lineup {
+        lines,
+        certificates: named(setup)?,
+    })
+}
+
+fn found(
+    setup: &Setup,
+    effect: Undeclared,
+    conditions: &Conditions,
+    question: &Question<'_>,
+) -> Result<Found, String> {
+    let mut outcomes = Vec::new();
+    for seed in 1..=question.seeds {
+        let traced = question.traced && outcomes.is_empty();
+        outcomes.push(outcome(setup, &effect, conditions, seed, traced)?);
+    }
+    Ok(Found {
+        over_seeds: over_seeds(&outcomes),
+        effect,
+        outcomes,
+    })
+}
+
+fn over_seeds(outcomes: &[Outcome]) -> Vec<OverSeeds> {
+    let Some(first) = outcomes.first() else {
+        return Vec::new();
+    };
+    let count = |(index, pair): (usize, &Pair)| {
+        let (mut lower, mut same, mut higher) = (0, 0, 0);
+        for pair in outcomes.iter().filter_map(|o| o.pairs.get(index)) {
+            match pair.against_before() {
+                Ordering::Less => lower += 1,
+                Ordering::Equal => same += 1,
+                Ordering::Greater => higher += 1,
+            }
+        }
+        OverSeeds {
+            controller: pair.controller.clone(),
+            lower,
+            same,
+            higher,
+        }
+    };
+    first.pairs.iter().enumerate().map(count).collect()
+}
+
+impl Compared {
+    /// The lines whose first trial was traced: those of the first seed, named after what was
+    /// fed forward where the loop was closed through the controllers.
+    #[must_use]
+    pub fn traced(&self) -> Vec<Line> {
+        let found = match &self.results {
+            Results::Lineup(lineup) => return lineup.lines.clone(),
+            Results::Found(found) => found,
+        };
+        let pairs = found.outcomes.first().into_iter().flat_map(|o| &o.pairs);
+        let lines = pairs.flat_map(|pair| {
+            let named = |line: &Line, how: &str| Line {
+                controller: format!("{} {how}", pair.controller),
+                ..line.clone()
+            };
+            [
+                named(&pair.plain, "plain"),
+                named(&pair.declared, "declared"),
+                named(&pair.found, "found"),
+            ]
+        });
+        lines.collect()
+    }
+}

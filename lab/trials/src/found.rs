@@ -1,0 +1,225 @@
+//! The loop closed through the controller: an effect that nobody declared is found on
+//! the bench and taken out of the tracking error.
+
+use super::bench::{identify, record, Identified};
+use super::lineup::{adaptive, latency, Laws, RATE};
+use super::setup::{AdaptiveGains, Setup};
+use super::table::{run_all, Line};
+use super::trial::{Conditions, Controller, Law};
+use super::undeclared::Undeclared;
+use bowden::control::{Pid, PidSettings};
+use std::cmp::Ordering;
+
+/// Rate of the slow loops \[Hz\].
+pub const SLOW: f64 = 250.0;
+
+/// The reference rises from zero over this time \[s\]: a start that overshoots would
+/// decide what the adaptive law has learnt, instead of the effect.
+pub const RAMP: f64 = 2.0;
+
+/// Share of the paper's gains that the quiet loops have.
+pub const QUIET: f64 = 0.2;
+
+/// One controller before and after.
+#[derive(Debug, Clone)]
+pub struct Pair {
+    /// Name of the controller, with how the model enters.
+    pub controller: String,
+    /// Without any model.
+    pub plain: Line,
+    /// With the declared model, as the bench has fitted it.
+    pub declared: Line,
+    /// With what was found beside it.
+    pub found: Line,
+}
+
+impl Pair {
+    /// The error with what was found, against the error before; running away is worst.
+    #[must_use]
+    pub fn against_before(&self) -> Ordering {
+        let error = |line: &Line| line.mean_error().unwrap_or(f64::INFINITY);
+        error(&self.found).total_cmp(&error(&self.declared))
+    }
+
+    /// By which share of the error before the error is higher with what was found; `None`
+    /// where a law ran away.
+    #[must_use]
+    pub fn change(&self) -> Option<f64> {
+        Some(self.found.mean_error()? / self.declared.mean_error()? - 1.0)
+    }
+}
+
+/// One seed: its own bench record, its own identification, its own trials.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// The seed.
+    pub seed: u64,
+    /// In what the model that was found had to be changed to be fed forward, if in anything.
+    pub fed_with: Option<String>,
+    /// What the lab has found.
+    pub identified: Identified,
+    /// Every controller.
+    pub pairs: Vec<Pair>,
+}
+
+/// A kind of loop, with the way in which the model enters.
+struct Kind {
+    name: &'static str,
+    rate: f64,
+    law: fn(&Setup, &Laws, f64) -> Result<Law, bowden::Error>,
+    /// As third regressor instead of as feed-forward.
+    regressor: bool,
+}
+
+fn quiet(pid: &Pid<f64>) -> Result<Law, bowden::Error> {
+    let settings = *pid.settings();
+    let quiet = PidSettings {
+        k_p: QUIET * settings.k_p,
+        k_i: QUIET * settings.k_i,
+        ..settings
+    };
+    Pid::try_new(quiet).map(Law::Pid)
+}
+
+/// A tenth of the gain, a smooth sign that starts at nothing, a slow rate of the error.
+fn quiet_adaptive(gains: &AdaptiveGains) -> AdaptiveGains {
+    AdaptiveGains {
+        k: 0.5 * QUIET * gains.k,
+        // From zero, a quiet law would take minutes to find its beta_hat.
+        beta: if gains.beta == 0.0 { 1.6 } else { gains.beta },
+        delta: 0.0,
+        epsilon: 10.0 * gains.epsilon,
+        derivative_time: 10.0 * gains.derivative_time,
+        ..*gains
+    }
+}
+
+const KINDS: [Kind; 7] = [
+    Kind {
+        name: "pi",
+        rate: RATE,
+        law: |_, laws, _| Ok(Law::Pid(laws.pi)),
+        regressor: false,
+    },
+    Kind {
+        name: "pid",
+        rate: RATE,
+        law: |_, laws, _| Ok(Law::Pid(laws.pid)),
+        regressor: false,
+    },
+    Kind {
+        name: "pi-quiet",
+        rate: RATE,
+        law: |_, laws, _| quiet(&laws.pi),
+        regressor: false,
+    },
+    Kind {
+        name: "pi-250hz-quiet",
+        rate: SLOW,
+        law: |_, laws, _| quiet(&laws.pi),
+        regressor: false,
+    },
+    Kind {
+        name: "adaptive",
+        rate: RATE,
+        law: |setup, _, prior| adaptive(&setup.adaptive, prior).map(Law::Adaptive),
+        regressor: true,
+    },
+    Kind {
+        name: "adaptive-quiet",
+        rate: RATE,
+        law: |setup, _, prior| adaptive(&quiet_adaptive(&setup.adaptive), prior).map(Law::Adaptive),
+        regressor: true,
+    },
+    Kind {
+        name: "adaptive-250hz-quiet",
+        rate: SLOW,
+        law: |setup, _, prior| adaptive(&quiet_adaptive(&setup.adaptive), prior).map(Law::Adaptive),
+        regressor: true,
+    },
+];
+
+/// Runs one seed from the bench record to the tracking errors.
+///
+/// # Errors
+/// One sentence from the rig, the lab or the feed-forward.
+pub fn outcome(
+    setup: &Setup,
+    undeclared: &Undeclared,
+    conditions: &Conditions,
+    seed: u64,
+    traced: bool,
+) -> Result<Outcome, String> {
+    let term = undeclared.term(&setup.rig, &conditions.reference)?;
+    let conditions = Conditions {
+        undeclared: vec![term],
+        reference: conditions.reference.with_ramp(RAMP),
+        ..conditions.clone()
+    };
+    let identified = identify(&record(&setup.rig, &conditions.undeclared, seed)?)?;
+    let laws = Laws::new(setup).map_err(|(what, e)| format!("[{what}]: {e}"))?;
+    let found = identified.feed(&identified.found, 0.0)?;
+    let fed_with = found.changed_words().map(str::to_owned);
+    let mut controllers = Vec::new();
+    for kind in &KINDS {
+        let refused = |e: bowden::Error| format!("{}: {e}", kind.name);
+        let delay = latency(&setup.rig, kind.rate);
+        let declared = identified.feed(&identified.declared, delay)?;
+        let found = identified.feed(&identified.found, delay)?;
+        let controller = |prior: f64| -> Result<Controller, String> {
+            Ok(Controller {
+                name: kind.name.to_owned(),
+                law: (kind.law)(setup, &laws, prior).map_err(refused)?,
+                rate: kind.rate,
+                feed: None,
+                own_share: 0.0,
+                regressor: None,
+            })
+        };
+        let plain = controller(0.0)?;
+        controllers.push(plain.clone());
+        if kind.regressor {
+            // The law compensates what it knows by itself; the declared model adds none.
+            controllers.push(plain);
+            controllers.push(Controller {
+                regressor: Some(found),
+                // In (11) the disturbance is subtracted: theta is minus the bench's gain.
+                ..controller(-1.0)?
+            });
+        } else {
+            controllers.push(Controller {
+                feed: Some(declared),
+                ..plain.clone()
+            });
+            controllers.push(Controller {
+                feed: Some(found),
+                ..plain
+            });
+        }
+    }
+    let lines = run_all(&controllers, &conditions, &[seed], traced)?;
+    let mut lines = lines.into_iter();
+    let mut pairs = Vec::new();
+    for kind in &KINDS {
+        if let (Some(plain), Some(declared), Some(found)) =
+            (lines.next(), lines.next(), lines.next())
+        {
+            let how = match kind.regressor {
+                true => "third regressor",
+                false => "feed-forward",
+            };
+            pairs.push(Pair {
+                controller: format!("{} ({how})", kind.name),
+                plain,
+                declared,
+                found,
+            });
+        }
+    }
+    Ok(Outcome {
+        seed,
+        fed_with,
+        identified,
+        pairs,
+    })
+}

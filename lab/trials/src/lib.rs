@@ -1,0 +1,17 @@
+//! Controllers on the simulated rig: who tracks the paper's reference, and how well.
+//!
+//! [`lineup`] says who runs, [`trial`] runs one of them, [`table`] puts seeds together.
+//! [`found`] closes the loop through the controller: an undeclared effect is switched on
+//! in the rig, the lab's own path identifies it from the rig's bench record ([`mod@bench`]),
+//! and what was found becomes a feed-forward ([`feed`]) or a regressor.
+
+pub mod bench;
+pub mod certificates;
+pub mod facts;
+pub mod feed;
+pub mod found;
+pub mod lineup;
+pub mod setup;
+pub mod table;
+pub mod trial;
+pub mod undeclared;

@@ -1,0 +1,159 @@
+//! Who runs: the paper's four, and those without which the comparison would mislead.
+
+use super::feed::{FeedForward, Surroundings, MOST_TERMS};
+use super::setup::{AdaptiveGains, Setup};
+use super::trial::{Controller, Law, ThreeRegressors};
+use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Pid};
+use bowden::hysteresis::Shape;
+use bowden::model::{Model, Source, Term};
+use bowden::transmission::Transmission;
+use bowden_rig::RigConfig;
+
+/// The rate of the paper's experiment, and of the reference rig \[Hz\].
+pub const RATE: f64 = 1000.0;
+
+/// All laws of a setup, checked.
+#[derive(Debug, Clone, Copy)]
+pub struct Laws {
+    /// PI (15).
+    pub pi: Pid<f64>,
+    /// PID (14).
+    pub pid: Pid<f64>,
+    /// PIV (16).
+    pub piv: Pid<f64>,
+    /// PI with the adaptive law's integral gain.
+    pub matched_pi: Pid<f64>,
+    /// The adaptive law.
+    pub adaptive: ThreeRegressors,
+}
+
+impl Laws {
+    /// Checks every law of the setup.
+    ///
+    /// # Errors
+    /// The table that it stands in, and what the core refuses.
+    pub fn new(setup: &Setup) -> Result<Self, (&'static str, bowden::Error)> {
+        let pid = |name, settings| Pid::try_new(settings).map_err(|e| (name, e));
+        let paper = Pid::<f64>::paper_pi();
+        Ok(Self {
+            pi: pid("pi", setup.pi.over(paper.settings()))?,
+            pid: pid("pid", setup.pid.over(Pid::paper_pid().settings()))?,
+            piv: pid("piv", setup.piv.over_piv(Pid::paper_piv().settings()))?,
+            matched_pi: pid(
+                "matched_pi",
+                setup.matched_pi.over(Pid::matched_pi().settings()),
+            )?,
+            adaptive: adaptive(&setup.adaptive, 0.0).map_err(|e| ("adaptive", e))?,
+        })
+    }
+}
+
+/// The adaptive law with a prior for the third regressor; zero leaves it out.
+///
+/// # Errors
+/// What the core refuses of the gains.
+pub fn adaptive(gains: &AdaptiveGains, prior: f64) -> Result<ThreeRegressors, bowden::Error> {
+    Adaptive::try_new(gains.settings(prior))
+}
+
+impl Surroundings {
+    /// As the rig's data sheet has them.
+    #[must_use]
+    pub fn of(rig: &RigConfig<f64>) -> Self {
+        Self {
+            drive_gain: rig.drive_gain,
+            motor_damping: rig.motor_damping,
+            motor_inertia: rig.motor_inertia,
+            load_stiffness: rig.load_stiffness,
+            joint_damping: rig.joint_damping,
+            cable_stiffness: rig.cable_stiffness,
+            latency: latency(rig, RATE),
+        }
+    }
+}
+
+/// How long a command takes to become torque \[s\].
+#[must_use]
+pub fn latency(rig: &RigConfig<f64>, rate: f64) -> f64 {
+    f64::from(rig.delay) / rate + rig.drive_lag
+}
+
+/// The seven of `bowden compare`, in its order.
+///
+/// # Errors
+/// One sentence where a law is refused or the model cannot be turned round.
+pub fn lineup(setup: &Setup) -> Result<Vec<Controller>, String> {
+    let laws = Laws::new(setup).map_err(|(what, e)| format!("[{what}]: {e}"))?;
+    let plain = |name: &str, law: Law| Controller {
+        name: name.to_owned(),
+        law,
+        rate: RATE,
+        feed: None,
+        own_share: 0.0,
+        regressor: None,
+    };
+    Ok(vec![
+        plain("pi", Law::Pid(laws.pi)),
+        plain("pid", Law::Pid(laws.pid)),
+        plain("piv", Law::Pid(laws.piv)),
+        plain("matched-pi", Law::Pid(laws.matched_pi)),
+        plain("adaptive", Law::Adaptive(laws.adaptive)),
+        plain("adaptive-frozen", Law::Adaptive(frozen(setup)?)),
+        Controller {
+            feed: Some(declared_feed(setup)?),
+            own_share: 1.0 / (setup.rig.drive_gain * setup.rig.b),
+            ..plain("adaptive-feed-forward", Law::Adaptive(laws.adaptive))
+        },
+    ])
+}
+
+/// The adaptive law whose estimates stay: beta_hat at the drive's own gain.
+fn frozen(setup: &Setup) -> Result<ThreeRegressors, String> {
+    let settings = setup.adaptive.settings(0.0);
+    let beta = match settings.beta.initial {
+        // From the singular point nothing would ever be commanded.
+        0.0 => 1.0 / (setup.rig.drive_gain * setup.rig.b),
+        given => given,
+    };
+    Adaptive::try_new(AdaptiveSettings {
+        beta: Estimator::fixed(beta),
+        frozen: true,
+        ..settings
+    })
+    .map_err(|e| format!("[adaptive]: {e}"))
+}
+
+/// The model of the setup, or the rig's own transmission, as a feed-forward.
+///
+/// # Errors
+/// One sentence where the model cannot be turned round.
+pub fn declared_feed(setup: &Setup) -> Result<FeedForward, String> {
+    let surroundings = Surroundings::of(&setup.rig);
+    match &setup.model {
+        Some(file) => FeedForward::new(
+            &file.model::<MOST_TERMS>()?,
+            &file.channels,
+            &[],
+            surroundings,
+        ),
+        None => {
+            let rig = &setup.rig;
+            let none: [Term<f64>; 0] = [];
+            let model = Shape::try_new(rig.rho, rig.sigma, rig.n)
+                .and_then(|shape| Transmission::torque(rig.b, rig.kappa_eta, rig.t0, shape))
+                .and_then(|cable| Model::try_new(Some(cable), &none))
+                .map_err(|e| format!("[rig]: {e}"))?;
+            FeedForward::new(&model, &[], &[], surroundings)
+        }
+    }
+}
+
+/// What a model's term reads, in words.
+#[must_use]
+pub fn source_name(source: Source) -> &'static str {
+    match source {
+        Source::Input => "tau_i",
+        Source::Channel(0) => "phi_p",
+        Source::Channel(_) => "phi_d",
+    }
+}

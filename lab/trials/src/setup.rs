@@ -1,0 +1,288 @@
+//! Gains, model and rig in one TOML form.
+//!
+//! Everything may be left out; what is left out is the paper's, or the reference rig's.
+//! An unknown key is an error with line and column.
+//!
+//! ```toml
+//! [rig]                    # any field of `RigConfig`
+//! noise = 0.02             # [N·m rms]
+//! [rig.drift]              # the conduit is moved; leave the table out for a fixed one
+//! time = 2.0
+//! b = 0.02
+//! kappa_eta = 0.1
+//! t0 = 0.2
+//!
+//! [pi]                     # Table 1; also [pid], [piv] and [matched_pi]
+//! k_p = 30.0
+//! k_i = 18.0
+//! [pid]
+//! k_d = 2.0
+//! derivative_time = 0.1    # [s]
+//!
+//! [adaptive]               # Table 2, in its own terms
+//! k = 24.0
+//! lambda = 8.0
+//! lambda_mu = 0.05
+//! lambda_gamma = 0.002
+//! lambda_mu_i = 0.004
+//! sigma = 0.01
+//! sigma_alpha = 0.01
+//! sigma_i = 0.01
+//! epsilon = 0.05
+//! derivative_time = 0.005  # [s]; 5 ms is not in the paper
+//! beta = 0.0               # initial estimates
+//! delta = 7.0
+//!
+//! [model]                  # what `bowden close --model-out` writes
+//! schema = "bowden.model/1"
+//! mode = "torque"
+//! channels = []
+//! [model.transmission]
+//! gain = 0.9978
+//! kappa_eta = 7.004
+//! offset = 0.05174
+//! rho = 0.09582
+//! sigma = 0.5
+//! n = 3.871
+//! ```
+//!
+//! A file that is such a model by itself is read as one.
+
+use bowden::control::{AdaptiveSettings, Damping, Estimator, Form, Leakage, PidSettings};
+use bowden_lab::export::ModelFile;
+use bowden_rig::RigConfig;
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// The whole form.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Setup {
+    /// The rig.
+    pub rig: RigConfig<f64>,
+    /// PI (15).
+    pub pi: PidGains,
+    /// PID (14).
+    pub pid: PidGains,
+    /// PIV (16).
+    pub piv: PidGains,
+    /// The PI with the integral gain of the adaptive law.
+    pub matched_pi: PidGains,
+    /// The adaptive law.
+    pub adaptive: AdaptiveGains,
+    /// The model that is fed forward; the rig's own transmission where there is none.
+    pub model: Option<ModelFile>,
+}
+
+/// Gains of PI, PID or PIV; what is left out is the paper's.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct PidGains {
+    /// Proportional gain \[units/(N·m)\].
+    pub k_p: Option<f64>,
+    /// Integral gain \[units/(N·m·s)\].
+    pub k_i: Option<f64>,
+    /// Gain of the damping \[units·s/(N·m)\], PIV \[units·s/rad\].
+    pub k_d: Option<f64>,
+    /// Time constant of the derivative's filter \[s\].
+    pub derivative_time: Option<f64>,
+}
+
+impl PidGains {
+    /// Over the paper's settings.
+    #[must_use]
+    pub fn over(&self, paper: &PidSettings<f64>) -> PidSettings<f64> {
+        PidSettings {
+            k_p: self.k_p.unwrap_or(paper.k_p),
+            k_i: self.k_i.unwrap_or(paper.k_i),
+            k_d: self.k_d.unwrap_or(paper.k_d),
+            derivative_time: self.derivative_time.unwrap_or(paper.derivative_time),
+            ..*paper
+        }
+    }
+
+    /// Over the paper's PIV, whose damping reads the joint's velocity.
+    #[must_use]
+    pub fn over_piv(&self, paper: &PidSettings<f64>) -> PidSettings<f64> {
+        PidSettings {
+            damping: Damping::Velocity,
+            ..self.over(paper)
+        }
+    }
+}
+
+/// Gains of the adaptive law in the terms of Table 2.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct AdaptiveGains {
+    /// k of (23).
+    pub k: f64,
+    /// lambda of (18) \[1/s\].
+    pub lambda: f64,
+    /// lambda·mu of (25).
+    pub lambda_mu: f64,
+    /// lambda·gamma of (24).
+    pub lambda_gamma: f64,
+    /// lambda·mu_i of (26).
+    pub lambda_mu_i: f64,
+    /// Leakage of delta_hat \[1/s\].
+    pub sigma: f64,
+    /// Leakage of beta_hat \[1/s\].
+    pub sigma_alpha: f64,
+    /// Leakage of theta_hat \[1/s\].
+    pub sigma_i: f64,
+    /// Width of the smooth sign \[N·m\].
+    pub epsilon: f64,
+    /// Filter of the error's rate \[s\].
+    pub derivative_time: f64,
+    /// First beta_hat \[units/(N·m)\].
+    pub beta: f64,
+    /// First delta_hat \[N·m\].
+    pub delta: f64,
+}
+
+impl Default for AdaptiveGains {
+    /// Table 2.
+    fn default() -> Self {
+        Self {
+            k: 24.0,
+            lambda: 8.0,
+            lambda_mu: 0.05,
+            lambda_gamma: 0.002,
+            lambda_mu_i: 0.004,
+            sigma: 0.01,
+            sigma_alpha: 0.01,
+            sigma_i: 0.01,
+            epsilon: 0.05,
+            derivative_time: 0.005,
+            beta: 0.0,
+            delta: 7.0,
+        }
+    }
+}
+
+impl AdaptiveGains {
+    /// As the core's settings over velocity and acceleration alone, (19)-(26).
+    #[must_use]
+    pub fn paper_settings(&self) -> AdaptiveSettings<f64, 2> {
+        let AdaptiveSettings {
+            form,
+            gain,
+            lambda,
+            epsilon,
+            beta,
+            delta,
+            theta: [velocity, acceleration, _],
+            ..
+        } = self.settings(0.0);
+        AdaptiveSettings {
+            beta,
+            delta,
+            theta: [velocity, acceleration],
+            ..AdaptiveSettings::new(form, gain, lambda, epsilon)
+        }
+    }
+
+    /// As the core's settings, with a third regressor that starts at, and leaks to, `prior`.
+    #[must_use]
+    pub fn settings(&self, prior: f64) -> AdaptiveSettings<f64, 3> {
+        let theta = Estimator::fixed(0.0).adapting(self.lambda_mu_i / self.lambda, self.sigma_i);
+        let third = Estimator {
+            prior,
+            gain: if prior == 0.0 { 0.0 } else { theta.gain },
+            leakage: if prior == 0.0 {
+                Leakage::None
+            } else {
+                theta.leakage
+            },
+            ..Estimator::fixed(prior)
+        };
+        let literal = Form::Literal {
+            time_constant: self.derivative_time,
+        };
+        AdaptiveSettings {
+            beta: Estimator::fixed(self.beta)
+                .adapting(self.lambda_gamma / self.lambda, self.sigma_alpha),
+            delta: Estimator::fixed(self.delta).adapting(self.lambda_mu / self.lambda, self.sigma),
+            theta: [theta, theta, third],
+            ..AdaptiveSettings::new(literal, self.k, self.lambda, self.epsilon)
+        }
+    }
+}
+
+impl Setup {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// One line with file, line, column and key.
+    pub fn read(path: &Path) -> Result<Self, String> {
+        let label = path.display().to_string();
+        let text = std::fs::read_to_string(path).map_err(|e| format!("{label}: {e}"))?;
+        Self::parse(&text, &label)
+    }
+
+    /// Reads a text; `label` stands for the file's name.
+    ///
+    /// # Errors
+    /// One line with file, line, column and key.
+    pub fn parse(text: &str, label: &str) -> Result<Self, String> {
+        let failed = |e: toml::de::Error| message(&e, text, label);
+        let table: toml::Table = toml::from_str(text).map_err(failed)?;
+        let setup = if table.contains_key("schema") {
+            Self {
+                model: Some(toml::from_str(text).map_err(failed)?),
+                ..Self::default()
+            }
+        } else {
+            toml::from_str(text).map_err(failed)?
+        };
+        setup.check(label)?;
+        Ok(setup)
+    }
+
+    /// What no type can say.
+    fn check(&self, label: &str) -> Result<(), String> {
+        if let Some(model) = &self.model {
+            if model.schema != "bowden.model/1" {
+                return Err(format!(
+                    "{label}: model.schema {:?}: \"bowden.model/1\" was expected",
+                    model.schema
+                ));
+            }
+            if model.mode != "torque" {
+                return Err(format!(
+                    "{label}: model.mode {:?}: \"torque\" was expected, since the simulated rig transmits torque to torque",
+                    model.mode
+                ));
+            }
+        }
+        let refused = |what: &str, e: bowden::Error| format!("{label}: [{what}]: {e}");
+        let none: &[bowden::model::Term<f64>] = &[];
+        bowden_rig::Rig::<f64, 0>::try_new(self.rig, none).map_err(|e| refused("rig", e))?;
+        super::lineup::Laws::new(self).map_err(|(what, e)| refused(what, e))?;
+        Ok(())
+    }
+}
+
+/// file:line:column: what is wrong, in one line.
+fn message(error: &toml::de::Error, text: &str, label: &str) -> String {
+    let what = error.message().replace('\n', " ");
+    match error.span() {
+        None => format!("{label}: {what}"),
+        Some(span) => {
+            let before = text.get(..span.start).unwrap_or(text);
+            let line = before.matches('\n').count() + 1;
+            let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
+            let key = key_at(text, span.start).map_or_else(String::new, |k| format!("`{k}`: "));
+            format!("{label}:{line}:{column}: {key}{what}")
+        }
+    }
+}
+
+/// The key of the line on which an error stands.
+fn key_at(text: &str, at: usize) -> Option<&str> {
+    let start = text.get(..at)?.rfind('\n').map_or(0, |i| i + 1);
+    let line = text.get(start..)?.lines().next()?.trim();
+    let key = line.split_once('=').map_or(line, |(key, _)| key).trim();
+    (!key.is_empty()).then_some(key)
+}

@@ -1,0 +1,266 @@
+//! One controller on one rig: the errors, and what the figures need.
+
+use super::feed::FeedForward;
+use bowden::control::{Adaptive, AdaptiveInput, AdaptiveState, Pid, PidInput, PidState};
+use bowden::{model::Term, Error};
+use bowden_rig::{Reference, Rig, RigConfig, RigSample};
+
+/// Most undeclared effects in the rig.
+pub const MOST_UNDECLARED: usize = 4;
+
+/// Where the steady part begins \[s\]; the paper's Figure 9 shows what comes before.
+pub const TRANSIENT: f64 = 12.0;
+
+/// The law of a controller.
+// A handful exist at a time: a box would only cost `Copy`.
+#[allow(clippy::large_enum_variant)]
+#[derive(Debug, Clone, Copy)]
+pub enum Law {
+    /// PI, PID or PIV.
+    Pid(Pid<f64>),
+    /// The adaptive law; the third regressor is what the bench has found, or nothing.
+    Adaptive(ThreeRegressors),
+}
+
+/// The adaptive law over velocity, acceleration and what was found.
+pub type ThreeRegressors = Adaptive<f64, 3>;
+
+/// A controller as it runs on the rig.
+#[derive(Debug, Clone)]
+pub struct Controller {
+    /// What it is called in tables and in JSON.
+    pub name: String,
+    /// Its law.
+    pub law: Law,
+    /// Steps a second \[Hz\].
+    pub rate: f64,
+    /// Added to its command.
+    pub feed: Option<FeedForward>,
+    /// Command that the law itself gives for a torque \[units/(N·m)\]: the adaptive law
+    /// feeds the reference forward by beta_hat, and the model's command must not repeat it.
+    pub own_share: f64,
+    /// What the third regressor reads: the found effects along the reference.
+    pub regressor: Option<FeedForward>,
+}
+
+/// What a trial is run under.
+#[derive(Debug, Clone)]
+pub struct Conditions {
+    /// The rig's numbers.
+    pub rig: RigConfig<f64>,
+    /// What is switched on in it without the controllers' knowledge.
+    pub undeclared: Vec<Term<f64>>,
+    /// What is to be followed.
+    pub reference: Reference<f64>,
+    /// Length \[s\].
+    pub seconds: f64,
+    /// From where errors count \[s\].
+    pub from: f64,
+}
+
+/// Errors of one part of a trial.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Errors {
+    /// Rms of the true error \[N·m\].
+    pub rmse_true: f64,
+    /// Rms of the measured error \[N·m\].
+    pub rmse_measured: f64,
+    /// Largest true error \[N·m\].
+    pub peak: f64,
+}
+
+/// What one trial gave.
+#[derive(Debug, Clone, Default)]
+pub struct Trial {
+    /// From `from` to the end.
+    pub steady: Errors,
+    /// The first [`TRANSIENT`] seconds, or as many as there were.
+    pub transient: Errors,
+    /// Largest command \[units\], whole trial.
+    pub command: f64,
+    /// Total variation of the command \[units/s\] over the steady part.
+    pub effort: f64,
+    /// Changes of direction of the command \[1/s\] over the steady part.
+    pub reversals: f64,
+    /// When the loop ran away \[s\]; `None` where it did not.
+    pub ran_away: Option<f64>,
+    /// One row a sample, where it was asked for.
+    pub trace: Vec<Row>,
+}
+
+/// One sample of a trace.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Row {
+    /// Time \[s\].
+    pub time: f64,
+    /// Reference \[N·m\].
+    pub reference: f64,
+    /// Distal torque \[N·m\].
+    pub tau_o: f64,
+    /// Distal torque as measured \[N·m\].
+    pub measured: f64,
+    /// Proximal torque \[N·m\].
+    pub tau_i: f64,
+    /// Command \[units\].
+    pub command: f64,
+    /// beta_hat, delta_hat, theta_hat: adaptive laws only.
+    pub estimates: Option<[f64; 5]>,
+}
+
+/// A law with its running state.
+enum Running<'a> {
+    Pid(&'a Pid<f64>, PidState<f64>),
+    Adaptive(&'a ThreeRegressors, Box<AdaptiveState<f64, 3>>),
+}
+
+/// What a controller reads at one sample.
+struct Reading<'a> {
+    now: &'a RigSample<f64>,
+    dt: f64,
+    reference: f64,
+    next_reference: f64,
+    feed_forward: f64,
+    /// What the third regressor reads.
+    found: f64,
+}
+
+impl<'a> Running<'a> {
+    fn new(law: &'a Law) -> Self {
+        match law {
+            Law::Pid(pid) => Self::Pid(pid, PidState::new()),
+            Law::Adaptive(law) => Self::Adaptive(law, Box::new(AdaptiveState::new(law))),
+        }
+    }
+
+    /// The command, and the estimates of an adaptive law.
+    fn step(&mut self, at: &Reading<'_>) -> (f64, Option<[f64; 5]>) {
+        let (now, feed_forward) = (at.now, at.feed_forward);
+        match self {
+            Self::Pid(pid, state) => {
+                let input = PidInput {
+                    velocity: now.distal.velocity,
+                    feed_forward,
+                    ..PidInput::new(at.dt, at.reference, now.measured)
+                };
+                (pid.step(state, &input).command, None)
+            }
+            Self::Adaptive(law, state) => {
+                let x = [now.proximal.velocity, now.proximal.acceleration, at.found];
+                let input = AdaptiveInput {
+                    next_reference: at.next_reference,
+                    feed_forward,
+                    ..AdaptiveInput::new(at.dt, at.reference, now.measured, x)
+                };
+                let command = law.step(state, &input).command;
+                let [a, b, c] = state.theta_hat();
+                let estimates = [state.beta_hat(), state.delta_hat(), a, b, c];
+                (command, Some(estimates))
+            }
+        }
+    }
+}
+
+/// Sums over a part of a trial.
+#[derive(Default)]
+struct Sums {
+    of_true: f64,
+    of_measured: f64,
+    peak: f64,
+    count: f64,
+}
+
+impl Sums {
+    fn add(&mut self, now: &RigSample<f64>, reference: f64) {
+        self.of_true += (now.tau_o - reference).powi(2);
+        self.of_measured += (now.measured - reference).powi(2);
+        self.peak = self.peak.max((now.tau_o - reference).abs());
+        self.count += 1.0;
+    }
+
+    fn errors(&self) -> Errors {
+        let n = self.count.max(1.0);
+        Errors {
+            rmse_true: (self.of_true / n).sqrt(),
+            rmse_measured: (self.of_measured / n).sqrt(),
+            peak: self.peak,
+        }
+    }
+}
+
+/// A loop whose error is beyond this \[N·m\] has run away: the rig's sensor ends at 100.
+const RUNAWAY: f64 = 1000.0;
+
+/// Runs one controller.
+///
+/// # Errors
+/// What the core refuses of the rig's numbers.
+pub fn run(
+    controller: &Controller,
+    conditions: &Conditions,
+    seed: u64,
+    traced: bool,
+) -> Result<Trial, Error> {
+    let rig = Rig::<f64, MOST_UNDECLARED>::try_new(conditions.rig, &conditions.undeclared)?;
+    let mut state = rig.start(seed);
+    let mut running = Running::new(&controller.law);
+    let (mut feed, mut regressor) = (controller.feed.clone(), controller.regressor.clone());
+    let dt = 1.0 / controller.rate;
+    let steps = (conditions.seconds * controller.rate).round() as usize;
+    let (mut steady, mut transient) = (Sums::default(), Sums::default());
+    let mut trial = Trial::default();
+    let (mut last, mut before) = (0.0_f64, 0.0_f64);
+    let mut turns = 0.0;
+    for step in 0..steps {
+        let now = state.sample();
+        let t = step as f64 * dt;
+        let reference = conditions.reference.at(t);
+        let feed_forward = feed.as_mut().map_or(0.0, |feed| {
+            feed.step(&conditions.reference, t, dt).command - controller.own_share * reference
+        });
+        let found = regressor.as_mut().map_or(0.0, |found| {
+            found.step(&conditions.reference, t, dt).effects
+        });
+        let (command, estimates) = running.step(&Reading {
+            now: &now,
+            dt,
+            reference,
+            next_reference: conditions.reference.at(t + dt),
+            feed_forward,
+            found,
+        });
+        if traced {
+            trial.trace.push(Row {
+                time: t,
+                reference,
+                tau_o: now.tau_o,
+                measured: now.measured,
+                tau_i: now.tau_i,
+                command,
+                estimates,
+            });
+        }
+        trial.command = trial.command.max(command.abs());
+        if t < TRANSIENT {
+            transient.add(&now, reference);
+        }
+        if t > conditions.from {
+            steady.add(&now, reference);
+            trial.effort += (command - last).abs();
+            if (command - last) * (last - before) < 0.0 {
+                turns += 1.0;
+            }
+        }
+        (before, last) = (last, command);
+        let next = rig.step(&mut state, command, dt);
+        if next.diverged || (next.tau_o - reference).abs() > RUNAWAY {
+            trial.ran_away = Some(t + dt);
+            break;
+        }
+    }
+    let span = (conditions.seconds - conditions.from).max(dt);
+    trial.steady = steady.errors();
+    trial.transient = transient.errors();
+    trial.effort /= span;
+    trial.reversals = turns / span;
+    Ok(trial)
+}

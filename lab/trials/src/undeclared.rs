@@ -1,0 +1,248 @@
+//! Effects that are switched on in the rig without the controllers' knowledge.
+//!
+//! Shapes are in units of what the reference makes the joint do; the gain is such that
+//! the effect's contribution along the reference has the wanted rms.
+
+use bowden::effect::{Effect, EffectState, Motion, Quantity, Situation, CATALOGUE};
+use bowden::model::{Source, Term};
+use bowden_rig::{Reference, RigConfig};
+
+/// Contribution of an effect that is named without a strength \[N·m rms\].
+///
+/// A loop with the paper's gains bears no more of some: a viscous joint delays its own
+/// torque, and friction that falls with speed excites itself.
+#[must_use]
+pub fn usual_strength(name: &str) -> f64 {
+    match name {
+        "stribeck" => 0.1,
+        "viscous" | "drag-quadratic" | "drag-cubic" => 0.2,
+        _ => 0.5,
+    }
+}
+
+/// What `--effect` names: NAME, NAME:STRENGTH or NAME@CHANNEL:STRENGTH.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Undeclared {
+    /// The effect's own name.
+    pub name: String,
+    /// `phi_p`, `phi_d` or `tau_i`; where it is usual if `None`.
+    pub channel: Option<String>,
+    /// Contribution along the reference \[N·m rms\].
+    pub strength: f64,
+}
+
+impl Undeclared {
+    /// Reads the text of `--effect`.
+    ///
+    /// # Errors
+    /// One sentence that says what was expected.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let (what, strength) = match text.split_once(':') {
+            None => (text, None),
+            Some((what, strength)) => {
+                let value: f64 = strength.parse().map_err(|_| {
+                    format!("--effect {text}: {strength:?} is no number of N·m; NAME:STRENGTH was expected")
+                })?;
+                if !(value.is_finite() && value > 0.0) {
+                    return Err(format!(
+                        "--effect {text}: the strength must be above zero [N·m]"
+                    ));
+                }
+                (what, Some(value))
+            }
+        };
+        let (name, channel) = match what.split_once('@') {
+            None => (what, None),
+            Some((name, channel)) => (name, Some(channel.to_owned())),
+        };
+        if !CATALOGUE.iter().any(|info| info.name == name) {
+            let names: Vec<&str> = CATALOGUE.iter().map(|info| info.name).collect();
+            return Err(format!(
+                "--effect {text}: one of {} was expected",
+                names.join(", ")
+            ));
+        }
+        Ok(Self {
+            name: name.to_owned(),
+            channel,
+            strength: strength.unwrap_or_else(|| usual_strength(name)),
+        })
+    }
+
+    /// The term on a rig that follows the reference.
+    ///
+    /// # Errors
+    /// One sentence where the rig has no such channel, or nothing that moves the effect.
+    pub fn term(
+        &self,
+        rig: &RigConfig<f64>,
+        reference: &Reference<f64>,
+    ) -> Result<Term<f64>, String> {
+        let name = self.name.as_str();
+        let source = match self.channel.as_deref() {
+            None => usual(name).ok_or_else(|| {
+                format!("--effect {name}: the rig has no channel that it could read")
+            })?,
+            Some("tau_i") => Source::Input,
+            Some("phi_p") => Source::Channel(0),
+            Some("phi_d") => Source::Channel(1),
+            Some(other) => {
+                return Err(format!(
+                    "--effect {name}@{other}: tau_i, phi_p or phi_d was expected"
+                ))
+            }
+        };
+        let path = Path::new(rig, reference);
+        let motions = path.motions(source);
+        let (middle, reach, speed) = extent(motions);
+        let shapes = shapes(name, reach, speed);
+        let effect =
+            Effect::try_from_name(name, &shapes).map_err(|e| format!("--effect {name}: {e}"))?;
+        let origin = match effect.info().reads.contains(&Quantity::Position) {
+            // Friction that rises along the way; nowhere on the rig does it push.
+            true if name == "position-friction" => middle - 4.0 * reach,
+            true => middle,
+            false => 0.0,
+        };
+        let term = |gain| Term {
+            effect,
+            source,
+            origin,
+            gain,
+        };
+        // A delay in seconds, a lag in whole: what reads the sum has no share of its own.
+        match name {
+            "delay" => return Ok(term(0.010 * self.strength)),
+            "lag" => return Ok(term(1.0)),
+            _ => {}
+        }
+        let rms = path.rms(&term(1.0));
+        if !(rms > 0.0 && rms.is_finite()) {
+            return Err(format!("--effect {name}: it does not move on this rig"));
+        }
+        // Friction takes away from the torque that arrives.
+        Ok(term(-self.strength / rms))
+    }
+}
+
+/// The pulley at the joint, where there is something to read.
+fn usual(name: &str) -> Option<Source> {
+    match name {
+        "temperature" | "crosstalk" => None,
+        "gain" | "rate" | "rate-symmetric" | "creep" | "saturation-upper" | "saturation-lower" => {
+            Some(Source::Input)
+        }
+        _ => Some(Source::Channel(1)),
+    }
+}
+
+/// Plausible shapes, in the core's order.
+fn shapes(name: &str, reach: f64, speed: f64) -> Vec<f64> {
+    match name {
+        "coulomb"
+        | "load-friction"
+        | "position-friction"
+        | "drive-friction"
+        | "back-drive-friction" => vec![0.08 * speed],
+        "stribeck" => vec![0.3 * speed, 1.3],
+        "capstan" => vec![0.08 * speed, 0.3 / reach],
+        // Two and a half waves over what the reference covers.
+        "ripple" => vec![2.5 * std::f64::consts::PI / reach, 0.4],
+        "gravity" => vec![0.4],
+        "hinge" => vec![0.1 * reach],
+        "backlash" | "dead-zone" => vec![0.15 * reach],
+        "lag" => vec![0.02],
+        "creep" => vec![1.0],
+        "presliding" | "presliding-dahl" => vec![0.2 * reach],
+        "degradation" => vec![100.0],
+        "pinching" => vec![0.3],
+        "pretension" => vec![15.0],
+        "saturation-upper" => vec![0.7 * reach],
+        "saturation-lower" => vec![-0.7 * reach],
+        "tone" => vec![3.3, 0.4],
+        _ => Vec::new(),
+    }
+}
+
+/// What the reference makes the rig do, as if the controller were perfect.
+struct Path {
+    input: Vec<Motion<f64>>,
+    proximal: Vec<Motion<f64>>,
+    distal: Vec<Motion<f64>>,
+}
+
+/// Step \[s\] and length \[s\] of the path along which strengths are counted.
+const STEP: f64 = 0.005;
+const LENGTH: f64 = 60.0;
+
+impl Path {
+    fn new(rig: &RigConfig<f64>, reference: &Reference<f64>) -> Self {
+        let scaled = |m: Motion<f64>, by: f64| Motion {
+            position: m.position * by,
+            velocity: m.velocity * by,
+            acceleration: m.acceleration * by,
+        };
+        let times = (0..(LENGTH / STEP) as usize).map(|k| 5.0 + STEP * k as f64);
+        let input: Vec<_> = times.map(|t| reference.motion(t)).collect();
+        let distal = 1.0 / rig.load_stiffness;
+        let proximal = distal + 1.0 / rig.cable_stiffness;
+        Self {
+            distal: input.iter().map(|m| scaled(*m, distal)).collect(),
+            proximal: input.iter().map(|m| scaled(*m, proximal)).collect(),
+            input,
+        }
+    }
+
+    fn motions(&self, source: Source) -> &[Motion<f64>] {
+        match source {
+            Source::Input => &self.input,
+            Source::Channel(0) => &self.proximal,
+            Source::Channel(_) => &self.distal,
+        }
+    }
+
+    /// Rms of the contribution; of its changes where the effect is not constant.
+    fn rms(&self, term: &Term<f64>) -> f64 {
+        let mut memory = EffectState::new();
+        let values: Vec<f64> = self
+            .motions(term.source)
+            .iter()
+            .zip(&self.input)
+            .enumerate()
+            .map(|(k, (motion, input))| {
+                let mut motion = *motion;
+                motion.position -= term.origin;
+                let at = Situation {
+                    dt: STEP,
+                    time: STEP * k as f64,
+                    motion,
+                    input: *input,
+                    load: input.position,
+                    eta: input.velocity.signum(),
+                    output: input.position,
+                };
+                term.gain * term.effect.regressor(&mut memory, &at)
+            })
+            .collect();
+        let n = values.len() as f64;
+        let square = values.iter().map(|v| v * v).sum::<f64>() / n;
+        if term.effect.name() == "offset" {
+            return square.sqrt();
+        }
+        let mean = values.iter().sum::<f64>() / n;
+        (square - mean * mean).max(0.0).sqrt()
+    }
+}
+
+/// Middle, half of the range, and rms speed.
+fn extent(motions: &[Motion<f64>]) -> (f64, f64, f64) {
+    let positions = motions.iter().map(|m| m.position);
+    let low = positions.clone().fold(f64::INFINITY, f64::min);
+    let high = positions.fold(f64::NEG_INFINITY, f64::max);
+    let square: f64 = motions.iter().map(|m| m.velocity * m.velocity).sum();
+    (
+        0.5 * (low + high),
+        0.5 * (high - low),
+        (square / motions.len().max(1) as f64).sqrt(),
+    )
+}
