@@ -4,11 +4,11 @@
 //! timed apart; what was found is printed beside it.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-use bowden_lab::closing::close;
 use bowden_lab::conclude::intervals::term_name;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options};
+use bowden_lab::search::close;
 use bowden_synth::{generate, Mode, Planted, Recipe};
 use criterion::{criterion_group, criterion_main, Criterion};
 use std::hint::black_box;

@@ -8,13 +8,13 @@
 //! what was found (rivals in parentheses) and the time taken.
 #![allow(clippy::unwrap_used)]
 
-use bowden_lab::closing::close;
 use bowden_lab::conclude::intervals::{parameters, term_name};
 use bowden_lab::fit::{Segments, Solution};
 use bowden_lab::ledger::{Ledger, Round};
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options};
+use bowden_lab::search::close;
 use bowden_synth::{effects, generate, Mode, Planted, Recipe, Synthetic};
 
 /// Family of an effect by its own name.

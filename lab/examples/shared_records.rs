@@ -6,7 +6,6 @@
 //! filtered output [%] on the fit segment / held out.
 #![allow(clippy::unwrap_used)]
 
-use bowden_lab::closing::{close, MOST_ROUNDS};
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::conclude::intervals::term_name;
 use bowden_lab::conclude::verdict::verdict;
@@ -16,6 +15,7 @@ use bowden_lab::fit::Segments;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{read, Mode, Options};
+use bowden_lab::search::{close, MOST_NAMES};
 use std::path::{Path, PathBuf};
 
 struct Row {
@@ -216,7 +216,7 @@ fn run(row: &Row, path: &Path) -> Result<String, String> {
     let mut gates: Vec<&str> = ledger.rejected.iter().map(|r| r.gate.words()).collect();
     gates.sort_unstable();
     gates.dedup();
-    let stopped = match (ledger.rounds.len() >= MOST_ROUNDS, gates.is_empty()) {
+    let stopped = match (ledger.rounds.len() >= MOST_NAMES, gates.is_empty()) {
         (true, _) => "eight rounds".to_owned(),
         (false, true) => "no candidate left".to_owned(),
         (false, false) => gates.join("; "),

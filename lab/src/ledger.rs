@@ -4,7 +4,7 @@ use crate::fit::{Segments, Solution};
 use crate::model::catalogue::Candidate;
 use crate::model::structure::FitTerm;
 use crate::model::Variable;
-use crate::score::scan::Regime;
+use crate::score::blocks::Regime;
 
 /// Why a candidate was not added.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
@@ -12,18 +12,12 @@ use crate::score::scan::Regime;
 pub enum Gate {
     /// The sign-flip test.
     P,
-    /// It removed too little of the squared error after the joint refit.
-    Share,
     /// It did not help on enough blocks.
     Blocks,
     /// It made the stop-check segment worse.
     StopCheck,
-    /// The joint refit did not converge.
-    Refit,
     /// It had been added, but what was added later does its work as well.
     Superseded,
-    /// It passed all others, but what is left is noise already.
-    AtNoise,
 }
 
 impl Gate {
@@ -32,12 +26,9 @@ impl Gate {
     pub fn words(self) -> &'static str {
         match self {
             Self::P => "not significant",
-            Self::Share => "too small a share",
             Self::Blocks => "not on enough blocks",
             Self::StopCheck => "worse on the stop-check",
-            Self::Refit => "no fit",
             Self::Superseded => "superseded by later ones",
-            Self::AtNoise => "only noise is left",
         }
     }
 }
@@ -46,11 +37,9 @@ impl Gate {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Grade {
-    /// A large share, no rival, on nearly all blocks, in the first three rounds.
-    Strong,
-    /// In between.
-    Likely,
-    /// A small share, rivals, a late round, or no p-value.
+    /// Found again in at least half of the half-records, and nothing does as well in its place.
+    Firm,
+    /// One of several effects that would explain this.
     Weak,
 }
 
@@ -69,9 +58,8 @@ pub struct Round {
     pub explained: f64,
     /// Blocks of sixteen on which it helped.
     pub blocks_better: usize,
-    /// In how many of a hundred half-records a search finds it again; `None` where that was
-    /// not asked.
-    pub recurs: Option<usize>,
+    /// In how many of a hundred half-records a search finds it again.
+    pub recurs: usize,
     /// Errors before.
     pub before: Segments,
     /// Errors after.

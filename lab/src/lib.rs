@@ -10,7 +10,7 @@
 //! | [`fit`] | variable projection: gains by QR, shapes by Levenberg-Marquardt |
 //! | [`score`] | which effect is missing? Scores on blocks, free curves, whiteness |
 //! | [`ledger`] | rounds, rejections, what has no name |
-//! | [`closing`] | the loop that fills the ledger |
+//! | [`search`] | which effects are missing: the search that fills the ledger |
 //! | [`conclude`] | final refit, intervals, verdict, shares, traces |
 //! | [`foresight`] | what the record would have missed, and which motion to record next |
 //! | [`export`] | what is handed over to firmware |
@@ -22,7 +22,6 @@
 //! code with any of these.
 
 pub mod check;
-pub mod closing;
 pub mod conclude;
 pub mod export;
 pub mod facts;

@@ -3,13 +3,13 @@
 //! The damage is done here, to the cells of generated records, by code of its own.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use bowden_lab::closing::close;
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::conclude::verdict::{sentence, verdict, Verdict};
 use bowden_lab::ledger::Ledger;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Defect, DefectKind, Options, Record};
+use bowden_lab::search::close;
 use bowden_synth::{generate, Mode, Planted, Recipe};
 
 /// Cells of a record, row by row, without the header.

@@ -14,7 +14,7 @@ const FLOORS: [&str; 12] = [
     "fit",
     "score",
     "ledger",
-    "closing",
+    "search",
     "conclude",
     "foresight",
     "export",

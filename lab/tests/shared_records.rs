@@ -8,7 +8,6 @@
 
 use bowden::effect::Family;
 use bowden::model::Source;
-use bowden_lab::closing::close;
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::conclude::unneeded::unneeded;
 use bowden_lab::conclude::verdict::{verdict, Verdict};
@@ -17,6 +16,7 @@ use bowden_lab::ledger::{Ledger, Round};
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{read, Mode, Options};
+use bowden_lab::search::close;
 use std::path::PathBuf;
 
 /// A record and how it is read.

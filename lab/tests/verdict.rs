@@ -5,7 +5,6 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use bowden::effect::Family;
-use bowden_lab::closing::close;
 use bowden_lab::conclude::curve::curve;
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::conclude::intervals::term_name;
@@ -14,6 +13,7 @@ use bowden_lab::ledger::Ledger;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options};
+use bowden_lab::search::close;
 use bowden_synth::{generate, Mode, Planted, Recipe, Synthetic};
 use rayon::prelude::*;
 

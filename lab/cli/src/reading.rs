@@ -1,7 +1,7 @@
 //! What all commands have in common that read a record.
 
 use super::Failure;
-use bowden_lab::facts::{Asked, Mode, Options, MOST_ROUNDS};
+use bowden_lab::facts::{Asked, Mode, Options, MOST_NAMES};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal as _;
@@ -103,8 +103,8 @@ impl Reading {
     /// The columns, the filter, the declared model and the length of the search.
     pub fn asked(&self) -> Result<Asked, Failure> {
         match self.rounds {
-            Some(rounds) if rounds > MOST_ROUNDS => Err(format!(
-                "--rounds {rounds}: 0 to {MOST_ROUNDS} were expected"
+            Some(rounds) if rounds > MOST_NAMES => Err(format!(
+                "--rounds {rounds}: 0 to {MOST_NAMES} were expected"
             )),
             _ => Ok(Asked {
                 declare: self.declare.clone(),

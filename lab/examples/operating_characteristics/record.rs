@@ -2,7 +2,6 @@
 
 use crate::criteria::{self, Chosen};
 use bowden::effect::{Family, CATALOGUE};
-use bowden_lab::closing::close;
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::fit::{fit, Segments};
 use bowden_lab::ledger::{Ledger, Round};
@@ -10,6 +9,7 @@ use bowden_lab::model::catalogue::candidates;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options};
+use bowden_lab::search::close;
 use bowden_synth::{generate, Mode, Planted, Recipe, Synthetic};
 
 /// What one record gave.

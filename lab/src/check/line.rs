@@ -2,7 +2,7 @@
 
 use crate::conclude::intervals::quantile;
 use crate::problem::Prepared;
-use crate::score::scan::{blocks, BLOCKS};
+use crate::score::blocks::{blocks, BLOCKS};
 use std::ops::Range;
 
 /// A number that was fitted, with its interval.

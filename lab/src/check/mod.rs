@@ -23,12 +23,12 @@ mod line;
 mod play;
 mod ranges;
 
-use crate::closing::{dependences, Dependence};
 use crate::conclude::trace::{csv, input, parts, Column};
 use crate::export::invertible::three_digits;
 use crate::fit::Solution;
 use crate::problem::{HeldOut, Preparation, Prepared};
 use crate::record::{to_unit, Defect, Record};
+use crate::score::dependences::{dependences, Dependence};
 pub use given::{About, Errors, Given, Seen};
 pub use line::{Fitted, Line};
 pub use ranges::Outside;

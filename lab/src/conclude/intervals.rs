@@ -12,7 +12,7 @@ use crate::model::structure::{FitTerm, Range, Role};
 use crate::model::units::Unit;
 use crate::problem::Prepared;
 use crate::record::Mode;
-use crate::score::scan::{blocks, BLOCKS};
+use crate::score::blocks::{blocks, BLOCKS};
 use bowden::effect::Family;
 use bowden::model::Source;
 use nalgebra::{DMatrix, DVector};

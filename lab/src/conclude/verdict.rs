@@ -10,8 +10,8 @@ use crate::fit::Solution;
 use crate::ledger::{Ledger, Round};
 use crate::problem::Prepared;
 use crate::record::Defect;
+use crate::score::blocks::Regime;
 use crate::score::explains::{deviations, explained, segments_differ, Explained};
-use crate::score::scan::Regime;
 use crate::score::whiteness::is_white;
 use bowden::model::Source;
 

@@ -7,13 +7,13 @@
 
 use super::vector::load;
 use super::{ModelFile, MOST_TERMS};
-use crate::closing::close;
 use crate::conclude::final_fit::FinalFit;
 use crate::conclude::intervals::term_name;
 use crate::fit::{Segments, Solution};
 use crate::ledger::Ledger;
 use crate::model::structure::{Role, Structure};
 use crate::problem::Prepared;
+use crate::search::close;
 use bowden::control::{Changed, Compensator, Lowered};
 use bowden::effect::{Effect, Motion};
 use bowden::model::{Model, ModelState, Sample, Term};

@@ -1,11 +1,11 @@
 //! How records are read, and what all questions to the search have in common.
 
-use crate::closing::{close_within, MOST_ROUNDS};
 use crate::ledger::Ledger;
 use crate::model::declared::structure;
 use crate::model::structure::Structure;
 use crate::problem::{HeldOut, Preparation, Prepared};
 use crate::record::{agree, parse, read, Options, Record};
+use crate::search::{close_within, MOST_NAMES};
 use std::path::{Path, PathBuf};
 
 /// Columns, filter, declared model and length of the search.
@@ -85,7 +85,7 @@ impl Asked {
         structure: &Structure,
         tell: &dyn Fn(&str),
     ) -> Result<Ledger, String> {
-        let most = self.rounds.unwrap_or(MOST_ROUNDS);
+        let most = self.rounds.unwrap_or(MOST_NAMES);
         close_within(data, structure, most, tell)
     }
 

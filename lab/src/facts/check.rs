@@ -4,9 +4,9 @@ use super::asked::Asked;
 use super::check_sentence::sentence;
 use super::record::RecordFacts;
 use crate::check::{Check, Errors, Given, Line, Outside, Verdict};
-use crate::closing::Dependence;
 use crate::problem::Prepared;
 use crate::record::Mode;
+use crate::score::dependences::Dependence;
 use std::path::Path;
 
 /// A model on a record that it has not seen.

@@ -15,8 +15,8 @@ use crate::fit::Segments;
 use crate::ledger::{Gate, Ledger, Unknown};
 use crate::model::catalogue::Candidate;
 use crate::problem::Prepared;
+use crate::score::blocks::{Regime, BLOCKS};
 use crate::score::explains::{explained, segments_differ, Explained};
-use crate::score::scan::{Regime, BLOCKS};
 
 /// Everything about one run.
 #[derive(Debug, Clone)]
@@ -31,6 +31,9 @@ pub struct Facts {
     pub declared: ModelFacts,
     /// What was added, in order.
     pub rounds: Vec<RoundFacts>,
+    /// What was found after these and is not delivered: it raises the error on half-records
+    /// that were left out.
+    pub beyond: Vec<RoundFacts>,
     /// How many of the first rounds lower the held-out error before one raises it.
     pub falls_up_to: usize,
     /// The model that is delivered.
@@ -168,12 +171,15 @@ impl Facts {
             gate: r.gate,
         });
         let unknown = ledger.unknown.as_ref();
+        let mut rounds = rounds(data, ledger, done, &last, detail);
+        let beyond = rounds.split_off(ledger.rounds.len());
         Self {
             label: label.to_owned(),
             record: RecordFacts::new(data),
             blocks: block_count(data, ledger),
             declared: ModelFacts::new(data, &ledger.declared),
-            rounds: rounds(data, ledger, done, &last, detail),
+            rounds,
+            beyond,
             falls_up_to: falls_up_to(ledger),
             hand_over: hand
                 .map(|hand| HandOverFacts::new(data, hand))
@@ -207,7 +213,7 @@ fn rounds(
         Detail::EachRound => fits(data, ledger, done),
     }
     .into_iter();
-    let rounds = ledger.rounds.iter();
+    let rounds = ledger.rounds.iter().chain(&ledger.beyond);
     rounds
         .map(|round| RoundFacts::new(data, done, &last.parameters, round, fits.next()))
         .collect()

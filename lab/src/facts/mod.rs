@@ -31,7 +31,6 @@ pub use round::{RivalFacts, RoundFacts, RoundFit, RoundModel, Size};
 
 // The plain data of lower rooms that facts are made of.
 pub use crate::check::{Errors, Fitted, Line, Outside, Verdict as CheckVerdict, HOLDS, NOISE};
-pub use crate::closing::MOST_ROUNDS;
 pub use crate::conclude::by_file::{FileErrors, Worse};
 pub use crate::conclude::curve::Knot;
 pub use crate::conclude::intervals::{Parameter, Refusal};
@@ -44,5 +43,6 @@ pub use crate::foresight::plan::{Aim, Experiment};
 pub use crate::foresight::power::{Answer, Question as PowerQuestion, SHARE, TRIALS, TRIALS_RANGE};
 pub use crate::ledger::{Gate, Grade};
 pub use crate::record::{Defect, Mode, Options, Record};
+pub use crate::score::blocks::BLOCKS;
 pub use crate::score::explains::Explained;
-pub use crate::score::scan::BLOCKS;
+pub use crate::search::{MOST_NAMES, RECURRENCES as HALVES};

@@ -25,6 +25,8 @@ pub struct RoundFacts {
     pub channel: String,
     /// How far the name can be trusted.
     pub grade: Grade,
+    /// In how many of [`HALVES`](super::HALVES) half-records it is found again.
+    pub recurs: usize,
     /// How large it is in the final model.
     pub size: Size,
     /// Exact sign-flip p-value; `None` where there were too few blocks.
@@ -115,7 +117,7 @@ impl RoundModel {
     }
 }
 
-/// The models of all rounds.
+/// The models of all rounds, those that are not delivered after the others.
 pub(super) fn fits(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Vec<RoundFit> {
     use rayon::prelude::*;
     let last = ledger.rounds.len();
@@ -131,7 +133,8 @@ pub(super) fn fits(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Vec<Rou
             },
         }
     };
-    ledger.rounds.par_iter().enumerate().map(of).collect()
+    let rounds = ledger.rounds.par_iter().chain(&ledger.beyond);
+    rounds.enumerate().map(of).collect()
 }
 
 impl RoundFacts {
@@ -154,6 +157,7 @@ impl RoundFacts {
             effect: round.candidate.term.effect.name(),
             channel: channel(data, &round.candidate),
             grade: round.grade,
+            recurs: round.recurs,
             size: size(data, done, all, round),
             p: round.p,
             explained: round.explained,

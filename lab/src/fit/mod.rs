@@ -15,11 +15,11 @@ mod tie;
 
 use crate::model::structure::{Role, Structure};
 use crate::problem::Prepared;
+pub use search::evaluations;
 use search::{descend, descend_fully};
 use settle::{choose, settle};
 pub use solution::{Segments, Solution};
 use starts::starts;
-pub use search::evaluations;
 pub use starts::Known;
 
 /// Fits a structure: all starts for a while on a coarse grid, the best three to the end.

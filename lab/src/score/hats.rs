@@ -3,7 +3,7 @@
 //! Of the ten directions only those are kept in which the rest of the model cannot move:
 //! a curve is told apart from a constant, or from the declared stiffness, by nothing.
 
-use super::scan::{blocks, share_of_patterns};
+use super::blocks::{blocks, share_of_patterns};
 use crate::fit::projection::{rows, Span};
 use crate::fit::Solution;
 use crate::model::{Table, Variable};

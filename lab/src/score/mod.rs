@@ -1,6 +1,9 @@
-//! What a residual says: candidates scored on blocks, free curves, whiteness, shares.
+//! What a residual says: blocks and their exact test, free curves, lines, whiteness, shares.
 
+pub mod blocks;
+pub mod dependences;
 pub mod explains;
 pub(crate) mod hats;
-pub mod scan;
+pub(crate) mod left_out;
+pub(crate) mod tones;
 pub(crate) mod whiteness;

@@ -1,6 +1,6 @@
 //! Whether what is left is white noise behind the filter.
 
-use super::scan::correlation_samples;
+use super::blocks::correlation_samples;
 use crate::fit::Solution;
 use crate::problem::filter::{gain, ZeroPhase};
 use crate::problem::spectrum::power_of_fit;

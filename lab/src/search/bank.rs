@@ -4,14 +4,14 @@
 //! anything, the slopes of the column in the candidate's own shapes: the linear step in them
 //! replaces a finer lattice. A curve over one variable is twenty hat functions.
 
-use crate::model::catalogue::{candidates, Candidate};
-use crate::problem::Prepared;
-use crate::fit::Solution;
 use crate::fit::projection::{rows, Span};
+use crate::fit::Solution;
+use crate::model::catalogue::{candidates, Candidate};
 use crate::model::structure::{FitTerm, Range, Role};
-use crate::closing::tones;
-use crate::score::hats::{hats, is_phase};
 use crate::model::Variable;
+use crate::problem::Prepared;
+use crate::score::hats::{hats, is_phase};
+use crate::score::tones;
 use bowden::effect::{Effect, Family};
 use bowden::model::Source;
 use rayon::prelude::*;

@@ -7,7 +7,7 @@
 //! needs the scores of the blocks only (Lehmann and Romano, 2005, section 15.2).
 
 use super::policy::EXCITED;
-use crate::score::scan::{share_of_patterns, BLOCKS};
+use crate::score::blocks::{share_of_patterns, BLOCKS};
 use nalgebra::{DMatrix, SymmetricEigen};
 use std::ops::Range;
 use std::sync::Arc;
@@ -373,7 +373,11 @@ impl Partial<'_> {
     #[must_use]
     pub fn at(&self, i: usize, j: usize) -> f64 {
         let place = i * self.grams.size + j;
-        let sum: f64 = self.blocks.iter().map(|&b| self.grams.parts[b][place]).sum();
+        let sum: f64 = self
+            .blocks
+            .iter()
+            .map(|&b| self.grams.parts[b][place])
+            .sum();
         let taken: f64 = self.swept.iter().map(|row| row[i] * row[j]).sum();
         self.factor * sum - taken
     }

@@ -4,11 +4,11 @@ use super::bank::{Bank, Identity, Slope};
 use super::gram::{Grams, Swept};
 use super::policy;
 use super::present::Present;
-use crate::model::catalogue::Candidate;
-use crate::problem::Prepared;
 use crate::fit::Solution;
-use crate::score::scan::{blocks, correlation_samples, Regime};
+use crate::model::catalogue::Candidate;
 use crate::model::Variable;
+use crate::problem::Prepared;
+use crate::score::blocks::{blocks, correlation_samples, Regime};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::sync::Arc;
 

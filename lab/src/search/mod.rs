@@ -20,13 +20,17 @@ mod readoff;
 mod refit;
 mod run;
 
-use crate::problem::Prepared;
-use crate::closing::{independence, MOST_ROUNDS};
+use crate::fit::{fit, Solution};
 use crate::ledger::Ledger;
-use crate::score::explains::integrates;
-use crate::fit::fit;
 use crate::model::structure::Structure;
+use crate::problem::Prepared;
+use crate::score::blocks::{blocks, correlation_samples, Regime};
+use crate::score::explains::integrates;
+use bank::Bank;
+use linear::Linear;
+pub use policy::{MOST_NAMES, RECURRENCES};
 use run::Search;
+use std::sync::Arc;
 
 /// Finds what a declared model lacks. `progress` is told what is being done.
 ///
@@ -37,10 +41,10 @@ pub fn close(
     structure: &Structure,
     progress: impl FnMut(&str),
 ) -> Result<Ledger, String> {
-    close_within(data, structure, MOST_ROUNDS, progress)
+    close_within(data, structure, MOST_NAMES, progress)
 }
 
-/// As [`close`], with at most `most` effects added ([`MOST_ROUNDS`] at most). With 0 the
+/// As [`close`], with at most `most` effects added ([`MOST_NAMES`] at most). With 0 the
 /// declared model is fitted and nothing is looked for, no curve without a name either.
 ///
 /// # Errors
@@ -52,7 +56,7 @@ pub fn close_within(
     mut progress: impl FnMut(&str),
 ) -> Result<Ledger, String> {
     let cannot = "the declared model cannot be fitted to this record";
-    let most = most.min(MOST_ROUNDS);
+    let most = most.min(MOST_NAMES);
     progress("fitting the declared model");
     let declared = fit(data, structure, None, 0.0).ok_or(cannot)?;
     if integrates(data, &declared) {
@@ -70,8 +74,31 @@ pub fn close_within(
     let mut search = Search::new(data, &declared, most);
     search.run(&mut progress);
     progress("looking for what would do as well");
-    let limited = (most < MOST_ROUNDS && search.is_cut).then_some(most);
+    let limited = (most < MOST_NAMES && search.is_cut).then_some(most);
     let mut ledger = search.ledger().ok_or(cannot)?;
     ledger.stopped_by_request = limited;
     Ok(ledger)
+}
+
+/// Whether the residual has blocks enough for a test, and its correlation time \[s\].
+fn independence(data: &Prepared, solution: &Solution) -> (Regime, f64) {
+    let rows = data.split.fit.iter();
+    let rest: Vec<f64> = rows.map(|&i| solution.residual[i]).collect();
+    let samples = correlation_samples(&rest);
+    let shortest = blocks(data).iter().map(ExactSizeIterator::len).min();
+    let regime = match shortest.unwrap_or(0) as f64 >= 3.0 * samples {
+        true => Regime::Blocks,
+        false => Regime::Effect,
+    };
+    (regime, samples * data.dt * data.stride as f64)
+}
+
+/// Whether the record has blocks enough to test what a model lacks, and the level of one test.
+pub(crate) fn tests(data: &Prepared, solution: &Solution) -> (Regime, f64) {
+    let declared = solution.structure.terms.len();
+    let mut bank = Bank::new(data, solution);
+    let price = policy::CURVE_AGAINST_NAMES;
+    let now = Arc::new(solution.clone());
+    let linear = Linear::new((data, &mut bank), &now, declared, price);
+    (linear.regime, linear.prices.level)
 }

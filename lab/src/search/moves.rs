@@ -9,9 +9,9 @@ use super::bank::Identity;
 use super::gram::Swept;
 use super::linear::{Kept, Linear};
 use super::policy;
-use crate::model::catalogue::Candidate;
 use crate::ledger::{Gate, Rejection};
-use crate::score::scan::Regime;
+use crate::model::catalogue::Candidate;
+use crate::score::blocks::Regime;
 
 /// Pairs of names whose slopes are looked at, of each set that is kept.
 const PAIRS: usize = 10;

@@ -1,9 +1,9 @@
 //! The columns of the present model, and its output without its stages.
 
 use super::bank::on_line;
-use crate::problem::Prepared;
 use crate::fit::Solution;
 use crate::model::structure::Role;
+use crate::problem::Prepared;
 use std::sync::Arc;
 
 /// Columns of the present model, sorted by what they belong to.

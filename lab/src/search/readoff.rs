@@ -7,18 +7,17 @@ use super::moves::Move;
 use super::policy;
 use super::refit::{FAIR, HYSTERESES, INSIDE, ROUGH};
 use super::run::{Entry, Search, Standing};
-use crate::model::catalogue::Candidate;
-use crate::problem::Prepared;
-use crate::closing::grade;
-use crate::ledger::{Ledger, Round};
+use crate::fit::projection::Span;
 use crate::fit::search::descend;
 use crate::fit::settle::settle;
 use crate::fit::Solution;
-use crate::closing::gates::on_blocks;
-use crate::fit::projection::Span;
-use crate::score::scan::Regime;
-use crate::model::structure::{Free, Role, Structure};
 use crate::ledger::Unknown;
+use crate::ledger::{Grade, Ledger, Round};
+use crate::model::catalogue::Candidate;
+use crate::model::structure::{Free, Role, Structure};
+use crate::problem::Prepared;
+use crate::score::blocks::Regime;
+use crate::score::left_out::on_blocks;
 use std::sync::Arc;
 
 /// Rivals of one name that are refitted at most.
@@ -40,7 +39,19 @@ impl Search<'_> {
         let mut ledger = Ledger::of((*self.declared).clone());
         ledger.regime = self.regime;
         ledger.correlation_time = self.correlation_time;
+        let superseded = std::mem::take(&mut self.superseded);
+        self.rejected
+            .retain(|r| !superseded.iter().any(|s| s.candidate.is_like(&r.candidate)));
         ledger.rejected = std::mem::take(&mut self.rejected);
+        for one in superseded {
+            if !ledger
+                .rejected
+                .iter()
+                .any(|r| r.candidate.is_like(&one.candidate))
+            {
+                ledger.rejected.push(one);
+            }
+        }
         let mut before = Arc::clone(&self.declared);
         for (index, (solution, rivals)) in path.iter().zip(rivals).enumerate() {
             let term = self.now.structure.terms[own + index];
@@ -55,13 +66,13 @@ impl Search<'_> {
             let explained = 1.0 - solution.sse(self.data) / before.sse(self.data);
             let (blocks_better, _) = on_blocks(self.data, &before, solution, self.regime);
             ledger.rounds.push(Round {
-                grade: grade(explained, p, &rivals, blocks_better, index + 1),
+                grade: grade(recurs[index], &rivals),
                 candidate,
                 p,
                 rivals,
                 explained,
                 blocks_better,
-                recurs: recurs.get(index).copied(),
+                recurs: recurs[index],
                 before: before.rmse,
                 after: solution.rmse,
                 solution: (**solution).clone(),
@@ -155,7 +166,9 @@ impl Search<'_> {
         let linear = &standing.linear;
         let all = linear.everything();
         let columns = linear.columns_of(&all);
-        let full = linear.grams.squared_error(&columns, linear.target_of(&all).0);
+        let full = linear
+            .grams
+            .squared_error(&columns, linear.target_of(&all).0);
         let context = Context {
             linear,
             full,
@@ -208,6 +221,15 @@ impl Search<'_> {
             }
         }
         rivals
+    }
+}
+
+/// How far a name can be trusted: at half of the half-records and more three names in five
+/// came again in another record of the same rig, below it one in eight.
+fn grade(recurs: usize, rivals: &[Candidate]) -> Grade {
+    match 2 * recurs >= policy::RECURRENCES && rivals.is_empty() {
+        true => Grade::Firm,
+        false => Grade::Weak,
     }
 }
 

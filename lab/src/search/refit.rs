@@ -3,14 +3,14 @@
 use super::bank::{on_line, Own};
 use super::linear::{Linear, Member};
 use super::moves::Move;
-use crate::model::catalogue::simplicity;
-use crate::problem::Prepared;
+use crate::fit::projection::Span;
 use crate::fit::search::descend;
 use crate::fit::Solution;
-use crate::fit::projection::Span;
+use crate::model::catalogue::simplicity;
 use crate::model::structure::{FitTerm, Free, Range, Role, Structure};
-use crate::score::hats::{score, Scored};
 use crate::model::Variable;
+use crate::problem::Prepared;
+use crate::score::hats::{score, Scored};
 
 /// Hats of a refitted curve that are tried, and the evaluations of a rough and a fair search.
 const HATS: [usize; 3] = [10, 20, 40];

@@ -5,15 +5,15 @@ use super::linear::{Linear, Member};
 use super::moves::{is_same, Move, Wanted};
 use super::policy;
 use super::refit::{present, Tried};
-use crate::model::catalogue::Candidate;
-use crate::problem::Prepared;
-use crate::ledger::{Gate, Rejection};
+use crate::fit::projection::Span;
 use crate::fit::search::descend;
 use crate::fit::settle::settle;
 use crate::fit::Solution;
-use crate::closing::gates::on_blocks;
-use crate::fit::projection::Span;
-use crate::score::scan::Regime;
+use crate::ledger::{Gate, Rejection};
+use crate::model::catalogue::Candidate;
+use crate::problem::Prepared;
+use crate::score::blocks::Regime;
+use crate::score::left_out::on_blocks;
 use std::sync::Arc;
 
 /// A criterion that falls by less has not fallen.
@@ -46,6 +46,8 @@ pub(super) struct Search<'a> {
     pub(super) reached: Vec<Arc<Solution>>,
     pub(super) entries: Vec<Entry>,
     pub(super) rejected: Vec<Rejection>,
+    /// Names that were in and went out again.
+    pub(super) superseded: Vec<Rejection>,
     pub(super) regime: Regime,
     pub(super) correlation_time: f64,
     /// Whether more names than were asked for would have been looked at.
@@ -80,6 +82,7 @@ impl<'a> Search<'a> {
             declared,
             entries: Vec::new(),
             rejected: Vec::new(),
+            superseded: Vec::new(),
             regime: Regime::Blocks,
             correlation_time: 0.0,
             is_cut: false,
@@ -95,8 +98,10 @@ impl<'a> Search<'a> {
     /// Moves until nothing is gained.
     pub(super) fn run(&mut self, mut progress: impl FnMut(&str)) {
         for turn in 1..=TURNS {
-            let names = self.now.structure.terms.len() - self.declared.structure.terms.len();
-            progress(&format!("search {turn}: {names} names"));
+            let found = self.now.structure.terms.len() - self.declared.structure.terms.len();
+            progress(&format!(
+                "looking for what is missing, turn {turn}, found so far: {found}"
+            ));
             let mut standing = self.last();
             let goes_on = self.turn(&standing);
             if Arc::ptr_eq(&standing.linear.now, &self.now) {
@@ -248,6 +253,9 @@ impl<'a> Search<'a> {
         // What was turned down beside another model may pass beside this one.
         self.rejected.clear();
         self.is_cut = false;
+        let dropped = best.made.kept.dropped.iter();
+        let dropped: Vec<Rejection> = dropped.map(|&index| self.out(index)).collect();
+        self.superseded.extend(dropped);
         self.now = Arc::new(next);
         self.reached.push(Arc::clone(&self.now));
         true
@@ -259,6 +267,17 @@ impl<'a> Search<'a> {
             if !self.rejected.iter().any(known) {
                 self.rejected.push(one);
             }
+        }
+    }
+
+    /// A term that goes out again for what comes in.
+    fn out(&self, index: usize) -> Rejection {
+        let term = self.now.structure.terms[index];
+        let family = term.effect.family();
+        Rejection {
+            candidate: Candidate { term, family },
+            gate: Gate::Superseded,
+            p: self.entry(Identity::of(&term)).and_then(|e| e.p),
         }
     }
 

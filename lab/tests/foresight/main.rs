@@ -4,11 +4,11 @@
 mod plan;
 mod power;
 
-use bowden_lab::closing::close;
 use bowden_lab::ledger::Ledger;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::Record;
+use bowden_lab::search::close;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Normal};

@@ -6,7 +6,7 @@
 
 use crate::rig::Made;
 use bowden::effect::Family;
-use bowden_lab::closing::close;
+use bowden_lab::search::close;
 use bowden_synth::{Mode, Planted, Recipe};
 
 /// Mode, seed, and what is planted with how many times the noise.

@@ -1,9 +1,9 @@
 //! The final model has seen the stop-check segment, and not what is held out.
 
 use crate::rig::{with_effect, Made, MODES};
-use bowden_lab::closing::close;
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::fit::{fit, Segments, Solution};
+use bowden_lab::search::close;
 use bowden_synth::Mode;
 use rayon::prelude::*;
 

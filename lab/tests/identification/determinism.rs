@@ -1,7 +1,7 @@
 //! The same record gives the same result.
 
 use crate::rig::{with_effect, Made};
-use bowden_lab::closing::close;
+use bowden_lab::search::close;
 use bowden_synth::{Mode, Planted};
 
 /// The whole ledger as text: every number of it, to the last bit.

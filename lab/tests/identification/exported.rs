@@ -10,12 +10,12 @@ use bowden::hysteresis::Shape;
 use bowden::model::{Model, ModelState, Sample, Source, Term};
 use bowden::transmission::Transmission;
 use bowden::Real;
-use bowden_lab::closing::close;
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::fit::{fit, Solution};
 use bowden_lab::model::structure::Role;
 use bowden_lab::problem::Prepared;
 use bowden_lab::record;
+use bowden_lab::search::close;
 use bowden_synth::{Mode, Planted, Recipe};
 
 fn term<T: Real>(solution: &Solution, index: usize) -> Term<T> {

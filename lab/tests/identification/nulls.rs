@@ -1,8 +1,8 @@
 //! Where nothing is missing, nothing is added.
 
 use crate::rig::{Made, MODES};
-use bowden_lab::closing::close;
 use bowden_lab::conclude::intervals::term_name;
+use bowden_lab::search::close;
 use bowden_synth::{Mode, Recipe};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;

@@ -15,9 +15,9 @@
 
 use crate::rig::{with_effect, Made, MODES};
 use bowden::effect::{Family, CATALOGUE};
-use bowden_lab::closing::close;
 use bowden_lab::conclude::intervals::term_name;
 use bowden_lab::fit::fit;
+use bowden_lab::search::close;
 use bowden_synth::{effects, Mode, Recipe};
 use rayon::prelude::*;
 use Expected::{Absorbed, AtTold, Found, FoundAs, Misnamed, Missed, Reached};

@@ -1,7 +1,7 @@
 //! A play in series with the transmission: no sum of columns stands for it.
 
 use crate::rig::Made;
-use bowden_lab::closing::close;
+use bowden_lab::search::close;
 use bowden_synth::{Mode, Recipe};
 
 /// The input, then the noise: half-widths from a hundredth of the stroke up.

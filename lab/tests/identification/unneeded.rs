@@ -1,9 +1,9 @@
 //! What was declared and is not in the record is told; what is in it is not.
 
 use crate::rig::{Made, MODES};
-use bowden_lab::closing::close;
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::conclude::unneeded::unneeded;
+use bowden_lab::search::close;
 use bowden_synth::{Base, Mode, Planted, Recipe};
 
 /// Names of the parts that are not needed, once the loop is closed.

@@ -1,7 +1,7 @@
 //! The algebra of the search against direct computation on the samples.
 #![allow(clippy::unwrap_used)]
 
-use bowden_lab::score::scan::{sign_flip_p, BLOCKS};
+use bowden_lab::score::blocks::{sign_flip_p, BLOCKS};
 use bowden_lab::search::gram::Grams;
 use nalgebra::{DMatrix, DVector};
 use rand::{Rng, SeedableRng};

@@ -2,7 +2,7 @@
 
 use crate::rig::{on, Files, CABLE};
 use bowden_lab::problem::{HeldOut, Preparation, Prepared};
-use bowden_lab::score::scan::{blocks, BLOCKS};
+use bowden_lab::score::blocks::{blocks, BLOCKS};
 use bowden_synth::{Mode, Recipe};
 
 fn three() -> Files {

@@ -2,9 +2,9 @@
 
 use crate::rig::{added, closed, declared, on, with_gain, Files, CABLE};
 use bowden::effect::Family;
-use bowden_lab::closing::close;
 use bowden_lab::conclude::intervals::parameters;
 use bowden_lab::problem::{HeldOut, Preparation, Prepared};
+use bowden_lab::search::close;
 use bowden_synth::{Base, Mode, Planted, Recipe};
 
 /// A stiffness that is bent, seen from two places: over the stroke of either file it is

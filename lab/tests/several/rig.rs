@@ -1,11 +1,11 @@
 //! Records of one rig on different motions, the way of a user's files.
 
-use bowden_lab::closing::close;
 use bowden_lab::ledger::Ledger;
 use bowden_lab::model::declared::structure;
 use bowden_lab::model::structure::Structure;
 use bowden_lab::problem::{HeldOut, Preparation, Prepared};
 use bowden_lab::record::{parse, Options, Record};
+use bowden_lab::search::close;
 use bowden_synth::{generate, Base, Mode, Planted, Recipe};
 
 /// A transmission in the paper's range.

@@ -4,13 +4,13 @@
 //! beside this crate; where it or a file is absent a test says so and passes.
 
 use bowden_lab::check::{About, Check, Errors, Given, Verdict};
-use bowden_lab::closing::close_within;
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::export::ModelFile;
 use bowden_lab::facts::CheckFacts;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{read, Mode, Options, Record};
+use bowden_lab::search::close_within;
 use std::path::PathBuf;
 
 struct Rig {

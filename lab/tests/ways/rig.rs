@@ -1,13 +1,13 @@
 //! One rig, recorded several times: the seed changes motion and noise, the rig stays.
 
 use bowden_lab::check::{About, Check, Errors, Given};
-use bowden_lab::closing::close_within;
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::export::ModelFile;
 use bowden_lab::ledger::Ledger;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options, Record};
+use bowden_lab::search::close_within;
 use bowden_synth::{generate, Base, Mode, Planted, Recipe};
 
 /// A transmission in the paper's range.

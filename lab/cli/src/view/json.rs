@@ -5,7 +5,7 @@ use super::hand_over::HandOverPart;
 use bowden_lab::facts::{
     Defect, Experiment, Explained, Facts, FileErrors, FinalFacts, Gate, Grade, HeldOutOf,
     ModelFacts, Parameter, RejectedFacts, RivalFacts, RoundFacts, RoundModel, Segments, Unneeded,
-    Worse,
+    Worse, HALVES,
 };
 use serde::Serialize;
 
@@ -19,6 +19,8 @@ struct Report<'a> {
     records: Option<Vec<RecordPart<'a>>>,
     declared: ModelPart<'a>,
     rounds: Vec<RoundPart<'a>>,
+    /// Found after these, and not delivered.
+    beyond: Vec<RoundPart<'a>>,
     r#final: FinalPart<'a>,
     rejected: Vec<RejectedPart<'a>>,
     defects: &'a [Defect],
@@ -90,6 +92,7 @@ struct RoundPart<'a> {
     effect: &'static str,
     channel: &'a str,
     grade: Grade,
+    support: Support,
     coefficients: Vec<Coefficient<'a>>,
     p: Option<f64>,
     explained: f64,
@@ -100,6 +103,13 @@ struct RoundPart<'a> {
     raises_held_out: bool,
     #[serde(flatten)]
     model: Option<&'a RoundModel>,
+}
+
+/// In how many half-records the same search finds the effect again.
+#[derive(Serialize)]
+struct Support {
+    recurs: usize,
+    of: usize,
 }
 
 #[derive(Serialize)]
@@ -197,6 +207,10 @@ impl<'a> From<&'a RoundFacts> for RoundPart<'a> {
             effect: round.effect,
             channel: &round.channel,
             grade: round.grade,
+            support: Support {
+                recurs: round.recurs,
+                of: HALVES,
+            },
             coefficients: coefficients.iter().map(Coefficient::from).collect(),
             p: round.p,
             explained: round.explained,
@@ -253,6 +267,7 @@ pub fn json(facts: &Facts) -> Result<String, serde_json::Error> {
         records: several.then(|| RecordPart::of_each(facts)),
         declared: ModelPart::from(&facts.declared),
         rounds: facts.rounds.iter().map(RoundPart::from).collect(),
+        beyond: facts.beyond.iter().map(RoundPart::from).collect(),
         r#final: FinalPart::new(&facts.last, HandOverPart::new(&facts.hand_over)),
         rejected: facts.rejected.iter().map(RejectedPart::from).collect(),
         defects: &facts.record.defects,

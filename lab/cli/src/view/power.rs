@@ -6,7 +6,7 @@ use serde::Serialize;
 use std::fmt::Write as _;
 
 /// What was done, in one sentence.
-const SIMULATED: &str = "each effect at the middle one of its trial shapes, added to the last model's prediction and its residual under circular shifts and changes of sign; every trial closed as a whole: fits, scan, duel, gates, all rounds; found: its family named or among the rivals";
+const SIMULATED: &str = "each effect at the middle one of its trial shapes, added to the last model's prediction and its residual under circular shifts and changes of sign; every trial closed as a whole: the search with its refits and tests; found: its family named or among the rivals";
 
 #[derive(Serialize)]
 struct Whole<'a> {

@@ -8,7 +8,7 @@ use super::words::{estimate, in_brackets, table};
 use anstyle::{AnsiColor, Style};
 use bowden_lab::facts::{
     number, percent, Defect, Facts, FinalFacts, Grade, Parameter, RecordFacts, Segments, Size,
-    Verdict, BLOCKS,
+    Verdict, BLOCKS, HALVES,
 };
 use std::fmt::Write as _;
 
@@ -154,9 +154,14 @@ fn errors(facts: &Facts) -> String {
     };
     let label = |text: &str| [String::new(), text.to_owned(), String::new(), String::new()];
     row(label("as declared"), &facts.declared.rmse, "");
-    for (index, round) in facts.rounds.iter().enumerate() {
+    let found = facts.rounds.iter().chain(&facts.beyond).enumerate();
+    for (index, round) in found {
+        let is_delivered = index < facts.rounds.len();
         let first = [
-            format!("+{}", index + 1),
+            match is_delivered {
+                true => format!("+{}", index + 1),
+                false => format!("({})", index + 1),
+            },
             round.title.clone(),
             grade(round.grade).to_owned(),
             format!("{:.1} %", 100.0 * round.explained),
@@ -168,6 +173,12 @@ fn errors(facts: &Facts) -> String {
         row(label("refit on fit + stop"), &facts.last.rmse, "");
     }
     line!(out, "{rounds}");
+    if !facts.beyond.is_empty() {
+        line!(
+            out,
+            "(n) found, and not delivered: with it the model errs more on half-records that it was not fitted to"
+        );
+    }
     let fell = facts.falls_up_to;
     if fell < facts.rounds.len() {
         line!(
@@ -185,8 +196,7 @@ fn errors(facts: &Facts) -> String {
 
 fn grade(grade: Grade) -> &'static str {
     match grade {
-        Grade::Strong => "strong",
-        Grade::Likely => "likely",
+        Grade::Firm => "firm",
         Grade::Weak => "weak",
     }
 }
@@ -201,6 +211,7 @@ fn names(facts: &Facts) -> String {
             "",
             "coefficient (95 %)",
             "p",
+            "recurs",
             "blocks better",
             "confounded with",
         ],
@@ -214,6 +225,7 @@ fn names(facts: &Facts) -> String {
             round
                 .p
                 .map_or_else(|| "–".to_owned(), |p| format!("{p:.1e}")),
+            format!("{} of {HALVES}", round.recurs),
             format!("{} of {BLOCKS}", round.blocks_better),
             if rivals.is_empty() {
                 "–".to_owned()

@@ -2,10 +2,10 @@
 
 /// The legend under the ledger.
 pub const LEGEND: [&str; 6] = [
-    "grade      how far the name can be trusted: strong, likely or weak; not how large the effect is",
+    "grade      how far the name can be trusted, firm or weak; not how large the effect is",
     "explains   share of the squared error on the fit segment that this round removes",
     "× floor    the error to its left in multiples of the sensor's noise behind the filter; 1.0 is noise alone",
-    "p          how often chance alone would do as well; blocks better: on how many of sixteen stretches the effect helps",
+    "p          how often chance alone would do as well; recurs: in how many of 100 half-records a search finds it again",
     "stop       segment that vetoes a round; held out: data that neither fit nor search has seen",
     "rejected   tried and turned down, with the reason; unneeded: declared, but the data do as well without it",
 ];
@@ -25,10 +25,14 @@ held out      The last 25 %: nothing is fitted to it and nothing is selected by 
               raises it: the search does not look, so the mark is a warning, not a rule.
 explains      The share of the squared error on the fit segment that a round removes, of what
               the row above leaves.
-grade         strong: removes a quarter of the squared error or more, has no rival, helps on 13
-              of 16 blocks, and came in the first three rounds. likely: a tenth, at most two
-              rivals, 11 blocks, the first four rounds. weak: anything less. The grade is of
-              the name. The size of the effect is its coefficient.
+grade         firm: the name recurs in at least 50 of 100 half-records, and nothing does as well
+              in its place. weak: one of several effects that would explain this. The grade is
+              of the name. The size of the effect is its coefficient.
+recurs        In how many of 100 random halves of the sixteen blocks the same search names this
+              effect again. Names from 50 on came again in another record of the same rig in
+              three cases of five, names below 50 in one of eight.
+(n)           A round in brackets was found and is not delivered: with it the model errs more on
+              blocks that were left out of its fit. Its model is in --json, under beyond.
 coefficient   The effect's gain in the final model with its 95 % interval, from leaving out each
               of sixteen blocks. \"acts, size unknown\": the interval holds zero, since other
               terms can stand in for this one.
@@ -39,10 +43,9 @@ blocks better On how many of sixteen stretches of equal path the effect lowers t
 confounded    Another effect explains the same on this record: it removes at least 90 % of what
               the named one removes, and leaves at most twice the error. The simplest is named.
 unneeded      A declared part without which the held-out error grows by less than a tenth.
-rejected      What was tried and turned down. not significant: p too large. too small a share:
-              less than 5 % of the squared error. not on enough blocks: it helps on fewer than
-              10 of 16. worse on the stop-check. no fit: the search found no optimum.
-              superseded by later ones. only noise is left.
+rejected      What was tried and turned down. not significant: p too large. not on enough
+              blocks: it helps on fewer than 10 of 16. worse on the stop-check. superseded by
+              later ones.
 
 verdict       explained            fit and held-out error are within 1.2 times the noise floor
               explained-coloured   the residual is larger, but a function of nothing measured

@@ -25,12 +25,12 @@
 mod planted;
 mod screen;
 
-use crate::closing::close;
 use crate::fit::Solution;
 use crate::ledger::Ledger;
 use crate::model::catalogue::{candidates, SIMPLICITY};
 use crate::model::structure::FitTerm;
 use crate::problem::Prepared;
+use crate::search::close;
 use bowden::effect::Family;
 use planted::Trials;
 use screen::Screen;

@@ -9,9 +9,9 @@ use super::needed;
 use super::planted::Trials;
 use crate::fit::projection::{rows, Span};
 use crate::fit::Solution;
-use crate::model::catalogue::candidates;
 use crate::problem::Prepared;
-use crate::score::scan::{blocks, scan, sign_flip_p, Regime, BLOCKS};
+use crate::score::blocks::{blocks, sign_flip_p, Regime, BLOCKS};
+use crate::search::tests;
 use nalgebra::DVector;
 
 /// Share of the squared error below which no gate lets an effect pass; without p-values
@@ -41,8 +41,7 @@ pub(super) enum Outcome {
 
 impl Screen {
     pub(super) fn new(data: &Prepared, solution: &Solution, trials: &Trials) -> Self {
-        let tried = candidates(data, &solution.structure, &solution.residual);
-        let scan = scan(data, solution, &tried);
+        let (regime, level) = tests(data, solution);
         let span = Span::of(data, solution.columns.iter().chain(&solution.tangents));
         let residuals = (0..trials.count())
             .map(|k| span.off(rows(data, &data.filtered(&trials.residual(k)))))
@@ -51,8 +50,8 @@ impl Screen {
             span,
             residuals,
             blocks: blocks(data),
-            level: scan.level,
-            regime: scan.regime,
+            level,
+            regime,
             largest: trials.size(),
         }
     }

@@ -1,15 +1,10 @@
 //! A tone: a line in the residual's spectrum, a function of nothing measured.
 //!
-//! Sought after the library. A peak counts against the median of the bins around it, since
+//! A peak counts against the median of the bins around it, since
 //! a coloured residual has no common level (Fisher's g supposes one and fires on every
 //! record), and not where the input's own lines and their multiples lie: there a bent
 //! curve would show as well.
 
-use super::attempt::{Accepted, Attempt};
-use super::gates::judge;
-use crate::fit::{fit, Solution};
-use crate::ledger::Rejection;
-use crate::model::catalogue::Candidate;
 use crate::model::structure::FitTerm;
 use crate::problem::spectrum::power_of_fit;
 use crate::problem::{Prepared, MOST_RECORDS};
@@ -32,42 +27,6 @@ const NEAR: f64 = 0.6;
 const LINE: f64 = 0.01;
 /// Steps to either side in which the frequency is refined, within one bin.
 const STEPS: i32 = 50;
-
-/// The strongest line that passes the gates, or what became of the strongest.
-pub(crate) fn tone(
-    data: &Prepared,
-    now: &Solution,
-    tried: &Attempt,
-) -> Result<Accepted, Option<Box<Rejection>>> {
-    if data.pieces.len() > 1 {
-        // A tone has no common phase in records that were taken one after the other.
-        return Err(None);
-    }
-    let (bin, p) = strongest(data, &now.residual).ok_or(None)?;
-    let term = term(data, &now.residual, bin).ok_or(None)?;
-    let candidate = Candidate {
-        family: term.effect.family(),
-        term,
-    };
-    let mut structure = now.structure.clone();
-    structure.terms.push(term);
-    let solution = fit(data, &structure, Some(now), 0.0).ok_or(None)?;
-    let rejected = |gate| {
-        Some(Box::new(Rejection {
-            candidate,
-            gate,
-            p: Some(p),
-        }))
-    };
-    let blocks_better = judge(data, now, &solution, &tried.evidence()).map_err(rejected)?;
-    Ok(Accepted {
-        candidate,
-        p: Some(p),
-        rivals: Vec::new(),
-        blocks_better,
-        solution,
-    })
-}
 
 /// Step of the estimation grid \[s\].
 fn step(data: &Prepared) -> f64 {

@@ -6,6 +6,15 @@ use std::ops::Range;
 /// Number of blocks.
 pub const BLOCKS: usize = 16;
 
+/// Whether the record has blocks enough for a test.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Regime {
+    /// Sixteen blocks, each at least three correlation times long: p-values.
+    Blocks,
+    /// Fewer: effects are accepted by size and repetition, the verdict is under-excited.
+    Effect,
+}
+
 /// Sixteen blocks of equal path length over the rows of the fit segment.
 ///
 /// Each is a range of positions in `data.split.fit`. Of several records each gets as many
