@@ -4,7 +4,7 @@ use bowden::model::Model;
 use std::path::Path;
 
 #[allow(dead_code)]
-#[path = "../../../examples/check_vector.rs"]
+#[path = "../../../identify/examples/check_vector.rs"]
 mod check_vector;
 #[allow(dead_code)]
 #[path = "../../../../examples/feed_forward.rs"]

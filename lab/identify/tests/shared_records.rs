@@ -1,7 +1,7 @@
 //! Records that others measured: how far the loop comes, and what it names on the way.
 //!
 //! They are not part of the project. `BOWDEN_SHARED_RECORDS` names their folder, else it
-//! is `../../shared/data` beside this crate; where it or a file is absent a test says so
+//! is `../../../shared/data` seen from this package; where it or a file is absent a test says so
 //! and passes. Figures are the NRMSE of the filtered output on the fit and held-out
 //! segments; how far to reach was set by a prototype of the method, plus 15 to 20 %.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
@@ -71,7 +71,7 @@ impl Row {
     /// Closes the loop and checks what is reached; `None` where the file is absent.
     fn close(&self) -> Option<Closed> {
         let folder = std::env::var_os("BOWDEN_SHARED_RECORDS").map_or_else(
-            || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/data")),
+            || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")),
             PathBuf::from,
         );
         let path = folder.join(self.file);

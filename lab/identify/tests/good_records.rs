@@ -214,7 +214,7 @@ fn mapping(path: &Path) -> Option<Options> {
 
 #[test]
 fn every_measured_record_is_read() {
-    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data");
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
     let Ok(folders) = std::fs::read_dir(&data) else {
         println!(
             "skipped: the measured records are not at {}",

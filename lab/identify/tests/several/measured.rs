@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 fn records(files: &[&str]) -> Option<Vec<Record>> {
     let folder = std::env::var_os("BOWDEN_SHARED_RECORDS").map_or_else(
-        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/data")),
+        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")),
         PathBuf::from,
     );
     let options = Options {

@@ -94,7 +94,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         || {
             PathBuf::from(concat!(
                 env!("CARGO_MANIFEST_DIR"),
-                "/../examples/data/demo.toml"
+                "/../../examples/data/demo.toml"
             ))
         },
         PathBuf::from,

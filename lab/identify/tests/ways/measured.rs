@@ -1,6 +1,6 @@
 //! Models on the next record of a rig that others measured.
 //!
-//! `BOWDEN_SHARED_RECORDS` names the folder of the records, else it is `../../shared/data`
+//! `BOWDEN_SHARED_RECORDS` names the folder of the records, else it is `../../../shared/data`
 //! beside this crate; where it or a file is absent a test says so and passes.
 
 use bowden_lab::check::{About, Check, Errors, Given, Verdict};
@@ -40,7 +40,7 @@ const PIEZO: Rig = Rig {
 impl Rig {
     fn record(&self, file: &str) -> Option<Record> {
         let folder = std::env::var_os("BOWDEN_SHARED_RECORDS").map_or_else(
-            || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/data")),
+            || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")),
             PathBuf::from,
         );
         let path = folder.join(self.folder).join(file);
