@@ -55,6 +55,10 @@ pub struct Reading {
     /// Add at most N effects, 0 to 8; 0 only fits what is declared and looks for nothing.
     #[arg(long, value_name = "N")]
     pub rounds: Option<usize>,
+    /// Stop looking after so many seconds and give the best so far; what is found then depends
+    /// on the machine.
+    #[arg(long, value_name = "SECONDS")]
+    pub budget: Option<f64>,
 }
 
 impl ModeName {
@@ -102,16 +106,22 @@ impl Columns {
 impl Reading {
     /// The columns, the filter, the declared model and the length of the search.
     pub fn asked(&self) -> Result<Asked, Failure> {
-        match self.rounds {
-            Some(rounds) if rounds > MOST_NAMES => Err(format!(
+        if let Some(rounds) = self.rounds.filter(|rounds| *rounds > MOST_NAMES) {
+            return Err(format!(
                 "--rounds {rounds}: 0 to {MOST_NAMES} were expected"
-            )),
-            _ => Ok(Asked {
-                declare: self.declare.clone(),
-                rounds: self.rounds,
-                ..self.columns.asked()?
-            }),
+            ));
         }
+        if let Some(budget) = self.budget.filter(|b| !(b.is_finite() && *b > 0.0)) {
+            return Err(format!(
+                "--budget {budget}: a positive number of seconds was expected"
+            ));
+        }
+        Ok(Asked {
+            declare: self.declare.clone(),
+            rounds: self.rounds,
+            budget: self.budget,
+            ..self.columns.asked()?
+        })
     }
 }
 

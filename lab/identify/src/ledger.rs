@@ -112,6 +112,8 @@ pub struct Ledger {
     /// The largest number of effects that was asked for, where that ended the search: more
     /// may be missing, and nothing has looked for it. `None` where the search ended by itself.
     pub stopped_by_request: Option<usize>,
+    /// The time \[s\] that was asked for, where that ended the search.
+    pub stopped_by_budget: Option<f64>,
 }
 
 impl Ledger {
@@ -128,12 +130,24 @@ impl Ledger {
             correlation_time: 0.0,
             integrates: false,
             stopped_by_request: None,
+            stopped_by_budget: None,
         }
+    }
+
+    /// Whether a limit that was asked for ended the search.
+    #[must_use]
+    pub fn is_stopped(&self) -> bool {
+        self.stopped_by_request.is_some() || self.stopped_by_budget.is_some()
     }
 
     /// That the search was ended by request, in a sentence; `None` where it ended by itself.
     #[must_use]
     pub fn stopped_words(&self) -> Option<String> {
+        if let Some(seconds) = self.stopped_by_budget {
+            return Some(format!(
+                "The search stopped after {seconds} s, as asked: this is the best model so far, and what else is missing was not looked for."
+            ));
+        }
         Some(match self.stopped_by_request? {
             0 => "No effect was looked for, as asked.".to_owned(),
             1 => "The search stopped after one effect, as asked: what else is missing was not looked for.".to_owned(),

@@ -36,6 +36,8 @@ struct Report<'a> {
     worse_files: Option<&'a [Worse]>,
     /// The largest number of effects that was asked for, where that ended the search.
     stopped_by_request: Option<usize>,
+    /// The time [s] that was asked for, where that ended the search.
+    stopped_by_budget: Option<f64>,
     verdict: &'static str,
     sentence: &'a str,
 }
@@ -279,6 +281,7 @@ pub fn json(facts: &Facts) -> Result<String, serde_json::Error> {
         integrates: facts.integrates,
         worse_files: several.then_some(&facts.worse[..]),
         stopped_by_request: facts.stopped_by_request,
+        stopped_by_budget: facts.stopped_by_budget,
         verdict: facts.verdict.name(),
         sentence: &facts.sentence,
     })

@@ -140,7 +140,7 @@ pub fn verdict(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Verdict {
     let untested = ledger.rounds.iter().any(|r| r.p.is_none());
     let share = judged(explained(data, &done.solution), &ledger.declared);
     // Where nothing was looked for there are no names that a test could be too weak for.
-    let only_fitted = ledger.stopped_by_request.is_some() && ledger.rounds.is_empty();
+    let only_fitted = ledger.is_stopped() && ledger.rounds.is_empty();
     if spoils(data, last).next().is_some() {
         Verdict::DataDefect
     } else if ledger.integrates || share < LEAST_EXPLAINED {
@@ -155,7 +155,7 @@ pub fn verdict(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Verdict {
         Verdict::Confounded
     } else if floors(data, done).is_some_and(|(fit, held)| fit.max(held) <= AT_FLOOR) {
         Verdict::Explained
-    } else if ledger.stopped_by_request.is_some() {
+    } else if ledger.is_stopped() {
         Verdict::Stopped
     } else {
         Verdict::ExplainedColoured
@@ -266,7 +266,7 @@ fn lacks(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
 }
 
 fn nothing_found(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
-    if ledger.stopped_by_request.is_some() {
+    if ledger.is_stopped() {
         let share = done.rmse.normalised(data, &data.target).held_out;
         return format!(
             "The declared model leaves a held-out error of {} of the output's standard deviation.",

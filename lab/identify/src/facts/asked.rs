@@ -5,7 +5,7 @@ use crate::model::declared::structure;
 use crate::model::structure::Structure;
 use crate::problem::{HeldOut, Preparation, Prepared};
 use crate::record::{agree, parse, read, Options, Record};
-use crate::search::{close_within, MOST_NAMES};
+use crate::search::{close_within, Limits, MOST_NAMES};
 use std::path::{Path, PathBuf};
 
 /// Columns, filter, declared model and length of the search.
@@ -19,6 +19,8 @@ pub struct Asked {
     pub declare: Vec<String>,
     /// The largest number of effects that may be added.
     pub rounds: Option<usize>,
+    /// After this time \[s\] the search gives the best so far.
+    pub budget: Option<f64>,
 }
 
 impl Asked {
@@ -78,15 +80,18 @@ impl Asked {
         Ok((data, structure))
     }
 
-    /// Runs the search with at most as many rounds as were asked for.
+    /// Runs the search within what was asked for.
     pub(super) fn search(
         &self,
         data: &Prepared,
         structure: &Structure,
         tell: &dyn Fn(&str),
     ) -> Result<Ledger, String> {
-        let most = self.rounds.unwrap_or(MOST_NAMES);
-        close_within(data, structure, most, tell)
+        let limits = Limits {
+            names: self.rounds.unwrap_or(MOST_NAMES),
+            seconds: self.budget,
+        };
+        close_within(data, structure, limits, tell)
     }
 
     fn declared(&self, data: &Prepared) -> Result<Structure, String> {

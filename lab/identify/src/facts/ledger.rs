@@ -58,6 +58,8 @@ pub struct Facts {
     pub worse: Vec<Worse>,
     /// The largest number of effects that was asked for, where that ended the search.
     pub stopped_by_request: Option<usize>,
+    /// The time \[s\] that was asked for, where that ended the search.
+    pub stopped_by_budget: Option<f64>,
     /// For how long the residual stays correlated \[s\], where that is too long for tests.
     pub correlated_for: Option<f64>,
     /// What the run amounts to.
@@ -193,6 +195,7 @@ impl Facts {
             integrates: ledger.integrates,
             worse: worse(data, &ledger.declared, &done.solution),
             stopped_by_request: ledger.stopped_by_request,
+            stopped_by_budget: ledger.stopped_by_budget,
             correlated_for: (ledger.regime == Regime::Effect).then_some(ledger.correlation_time),
             verdict: verdict(data, ledger, done),
             sentence: sentence(data, ledger, done),

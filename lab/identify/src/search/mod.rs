@@ -31,6 +31,7 @@ use linear::Linear;
 pub use policy::{MOST_NAMES, RECURRENCES};
 use run::Search;
 use std::sync::Arc;
+use std::time::Instant;
 
 /// Finds what a declared model lacks. `progress` is told what is being done.
 ///
@@ -44,19 +45,38 @@ pub fn close(
     close_within(data, structure, MOST_NAMES, progress)
 }
 
-/// As [`close`], with at most `most` effects added ([`MOST_NAMES`] at most). With 0 the
-/// declared model is fitted and nothing is looked for, no curve without a name either.
+/// When a search ends although it might find more.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// Most effects that are added, [`MOST_NAMES`] at most. With 0 the declared model is fitted
+    /// and nothing is looked for, no curve without a name either.
+    pub names: usize,
+    /// After this time \[s\] no further model is tried. The answer then depends on how fast the
+    /// machine is.
+    pub seconds: Option<f64>,
+}
+
+impl From<usize> for Limits {
+    fn from(names: usize) -> Self {
+        let seconds = None;
+        Self { names, seconds }
+    }
+}
+
+/// As [`close`], within limits.
 ///
 /// # Errors
 /// One sentence where the declared model cannot be fitted at all.
 pub fn close_within(
     data: &Prepared,
     structure: &Structure,
-    most: usize,
+    limits: impl Into<Limits>,
     mut progress: impl FnMut(&str),
 ) -> Result<Ledger, String> {
+    let begun = Instant::now();
     let cannot = "the declared model cannot be fitted to this record";
-    let most = most.min(MOST_NAMES);
+    let limits = limits.into();
+    let most = limits.names.min(MOST_NAMES);
     progress("fitting the declared model");
     let declared = fit(data, structure, None, 0.0).ok_or(cannot)?;
     if integrates(data, &declared) {
@@ -72,11 +92,13 @@ pub fn close_within(
         return Ok(ledger);
     }
     let mut search = Search::new(data, &declared, most);
-    search.run(&mut progress);
+    let budget = limits.seconds.map(|seconds| (begun, seconds));
+    let out_of_time = search.run(budget, &mut progress);
     progress("looking for what would do as well");
     let limited = (most < MOST_NAMES && search.is_cut).then_some(most);
     let mut ledger = search.ledger().ok_or(cannot)?;
     ledger.stopped_by_request = limited;
+    ledger.stopped_by_budget = limits.seconds.filter(|_| out_of_time);
     Ok(ledger)
 }
 

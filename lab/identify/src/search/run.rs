@@ -15,6 +15,7 @@ use crate::problem::Prepared;
 use crate::score::blocks::Regime;
 use crate::score::left_out::on_blocks;
 use std::sync::Arc;
+use std::time::Instant;
 
 /// A criterion that falls by less has not fallen.
 const FALLEN: f64 = 1e-3;
@@ -53,6 +54,8 @@ pub(super) struct Search<'a> {
     /// Whether more names than were asked for would have been looked at.
     pub(super) is_cut: bool,
     most: usize,
+    /// From when on, and for how long \[s\].
+    budget: Option<(Instant, f64)>,
     visited: Vec<Vec<Identity>>,
     failures: usize,
     only_curves: bool,
@@ -87,6 +90,7 @@ impl<'a> Search<'a> {
             correlation_time: 0.0,
             is_cut: false,
             most,
+            budget: None,
             visited: Vec::new(),
             failures: 0,
             only_curves: false,
@@ -95,9 +99,17 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Moves until nothing is gained.
-    pub(super) fn run(&mut self, mut progress: impl FnMut(&str)) {
+    /// Moves until nothing is gained, or the time since then is over; whether it was over.
+    pub(super) fn run(
+        &mut self,
+        budget: Option<(Instant, f64)>,
+        mut progress: impl FnMut(&str),
+    ) -> bool {
+        self.budget = budget;
         for turn in 1..=TURNS {
+            if self.is_over() {
+                return true;
+            }
             let found = self.now.structure.terms.len() - self.declared.structure.terms.len();
             progress(&format!(
                 "looking for what is missing, turn {turn}, found so far: {found}"
@@ -112,6 +124,12 @@ impl<'a> Search<'a> {
                 break;
             }
         }
+        false
+    }
+
+    fn is_over(&self) -> bool {
+        self.budget
+            .is_some_and(|(begun, seconds)| begun.elapsed().as_secs_f64() >= seconds)
     }
 
     /// The last model, to first order.
@@ -196,7 +214,7 @@ impl<'a> Search<'a> {
         for one in moves {
             let promising = one.promise <= least + policy::EQUAL
                 || one.promise <= moves[0].promise + policy::EQUAL;
-            if named && !promising {
+            if (named && !promising) || (!tried.is_empty() && self.is_over()) {
                 break;
             }
             self.visited.push(linear.identities(&one.kept, &one.added));
