@@ -46,12 +46,24 @@ pub(super) struct Proposed {
     pub(super) is_cut: bool,
 }
 
+/// What a search looks for, one after the other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Phase {
+    /// Any move that promises a lower criterion.
+    Any,
+    /// Fewer names, whatever they promise: a name at a trial shape is a poor stand-in for what
+    /// it is once it is refitted, and two that are bent together may stand where one belongs.
+    Fewer,
+    /// Once names have come to an end, a curve at a lower price.
+    Curves,
+}
+
 /// Which moves are wanted.
 pub(super) struct Wanted<'a> {
     /// Sets that were refitted before.
     pub(super) visited: &'a [Vec<Identity>],
-    /// Whether names have come to an end and only a curve is looked for.
-    pub(super) only_curves: bool,
+    /// Which kind of move is looked for.
+    pub(super) phase: Phase,
     /// Most names.
     pub(super) most: usize,
     /// The criterion of the present model.
@@ -74,7 +86,10 @@ impl Linear<'_> {
             .map(|kept| self.moves_from(&kept))
             .collect();
         let mut all: Vec<Move> = all.into_iter().flatten().collect();
-        all.retain(|m| m.promise < wanted.below);
+        all.retain(|m| match wanted.phase {
+            Phase::Fewer => self.takes_names_out(m),
+            Phase::Any | Phase::Curves => m.promise < wanted.below,
+        });
         all.sort_by(|a, b| a.promise.total_cmp(&b.promise));
         self.tested(all, wanted)
     }
@@ -215,11 +230,17 @@ impl Linear<'_> {
                 .filter(|m| matches!(m, Identity::Name(..)))
                 .count();
             let has_curve = one.added.iter().any(|&g| self.groups[g].is_curve());
-            if (wanted.only_curves && !has_curve) || seen.iter().any(|s| is_same(s, &members)) {
+            if (wanted.phase == Phase::Curves && !has_curve)
+                || seen.iter().any(|s| is_same(s, &members))
+            {
                 continue;
             }
             if names > policy::MOST_NAMES.min(wanted.most) + self.declared {
                 proposed.is_cut |= names <= policy::MOST_NAMES + self.declared;
+                continue;
+            }
+            let is_full = proposed.moves.len() >= policy::REFITTED;
+            if is_full && !self.is_one_stage(&one) {
                 continue;
             }
             tested += 1;
@@ -241,11 +262,29 @@ impl Linear<'_> {
             }
             seen.push(members);
             proposed.moves.push(one);
-            if proposed.moves.len() >= policy::REFITTED {
+            if proposed.moves.len() >= policy::REFITTED
+                && proposed.moves.iter().any(|m| self.is_one_stage(m))
+            {
                 break;
             }
         }
         proposed
+    }
+
+    /// Whether all that comes in is one stage. A stage bends every column, so its promise is the
+    /// poorest of all: the best one is refitted whatever else promises more.
+    pub(super) fn is_one_stage(&self, one: &Move) -> bool {
+        let [only] = one.added[..] else { return false };
+        let effect = self.groups[only].candidate().map(|c| c.term.effect);
+        effect.is_some_and(|e| e.is_input_stage() || e.is_output_stage())
+    }
+
+    /// Whether fewer names are left, and the curve as it is.
+    pub(super) fn takes_names_out(&self, one: &Move) -> bool {
+        let curves = one.added.iter().filter(|&&g| self.groups[g].is_curve());
+        one.added.len() < one.kept.dropped.len()
+            && curves.count() == 0
+            && one.kept.table == self.has_table()
     }
 
     fn p_values(&self, one: &Move) -> Vec<f64> {

@@ -276,8 +276,8 @@ impl Context<'_, '_> {
                 continue;
             }
             let gain = unit * swept.gain(&group.columns, target);
-            let nearly = gain >= NEARLY * policy::RIVAL_SHARE * (sse - self.full)
-                && (sse - gain) * NEARLY <= policy::RIVAL_REST * self.full;
+            // What it leaves at a trial shape says little of what it leaves at its own.
+            let nearly = gain >= NEARLY * policy::RIVAL_SHARE * (sse - self.full);
             let was = known.is_some_and(|e| e.siblings.iter().any(|s| s.is_like(&candidate)));
             if !nearly && !was {
                 continue;

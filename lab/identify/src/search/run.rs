@@ -2,13 +2,13 @@
 
 use super::bank::{Bank, Identity};
 use super::linear::{Linear, Member};
-use super::moves::{is_same, Move, Wanted};
+use super::moves::{is_same, Move, Phase, Wanted};
 use super::policy;
 use super::refit::{present, Tried};
 use crate::fit::projection::Span;
 use crate::fit::search::descend;
 use crate::fit::settle::settle;
-use crate::fit::Solution;
+use crate::fit::{fit, Solution};
 use crate::ledger::{Gate, Rejection};
 use crate::model::catalogue::Candidate;
 use crate::problem::Prepared;
@@ -58,7 +58,9 @@ pub(super) struct Search<'a> {
     budget: Option<(Instant, f64)>,
     visited: Vec<Vec<Identity>>,
     failures: usize,
-    only_curves: bool,
+    phase: Phase,
+    /// Whether the last model was searched from all starts.
+    is_last_anew: bool,
     /// What a search finds on half-records, from the declared model on.
     pub(super) on_halves: Vec<Vec<Identity>>,
     linear: Option<Standing<'a>>,
@@ -93,7 +95,8 @@ impl<'a> Search<'a> {
             budget: None,
             visited: Vec::new(),
             failures: 0,
-            only_curves: false,
+            phase: Phase::Any,
+            is_last_anew: false,
             on_halves: Vec::new(),
             linear: None,
         }
@@ -120,11 +123,34 @@ impl<'a> Search<'a> {
                 standing.linear.prices.curve = self.curve_price();
                 self.linear = Some(standing);
             }
-            if !goes_on {
+            if !goes_on && !self.begun_anew() {
                 break;
             }
         }
         false
+    }
+
+    /// Where names leave more than noise, the last model is searched once from all starts: the
+    /// few of a move may have missed its optimum. Whether that has found a better one.
+    fn begun_anew(&mut self) -> bool {
+        let is_much = self.now.rmse.fit > policy::MUCH_LEFT * self.data.noise_floor;
+        if self.is_last_anew || !is_much || Arc::ptr_eq(&self.now, &self.declared) {
+            return false;
+        }
+        self.is_last_anew = true;
+        let now = &self.now;
+        let Some(next) = fit(self.data, &now.structure, Some(now), 0.0) else {
+            return false;
+        };
+        let gained = (now.sse(self.data) / next.sse(self.data)).ln();
+        if gained < policy::LEAST || next.rmse.stop > policy::NOT_WORSE * now.rmse.stop {
+            return false;
+        }
+        self.now = Arc::new(next);
+        self.reached.push(Arc::clone(&self.now));
+        self.linear = None;
+        (self.phase, self.failures) = (Phase::Any, 0);
+        true
     }
 
     fn is_over(&self) -> bool {
@@ -141,9 +167,9 @@ impl<'a> Search<'a> {
     }
 
     fn curve_price(&self) -> f64 {
-        match self.only_curves {
-            true => policy::CURVE_AFTER_NAMES,
-            false => policy::CURVE_AGAINST_NAMES,
+        match self.phase {
+            Phase::Curves => policy::CURVE_AFTER_NAMES,
+            Phase::Any | Phase::Fewer => policy::CURVE_AGAINST_NAMES,
         }
     }
 
@@ -171,7 +197,7 @@ impl<'a> Search<'a> {
         let j = (standing.sse / linear.unit()).ln() + linear.price_of(&all);
         let proposed = linear.propose(&Wanted {
             visited: &self.visited,
-            only_curves: self.only_curves,
+            phase: self.phase,
             most: self.most,
             below: j - FALLEN,
         });
@@ -184,7 +210,10 @@ impl<'a> Search<'a> {
         match chosen(&tried).map(|best| self.accepted(standing, best, &tried)) {
             Some(true) => {
                 self.failures = 0;
-                !self.only_curves
+                if self.phase == Phase::Fewer {
+                    self.phase = Phase::Any;
+                }
+                self.phase != Phase::Curves
             }
             _ => {
                 self.failures += 1;
@@ -193,13 +222,18 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Once no name is found any more, curves are looked for at a lower price.
+    /// Once no name is found any more, fewer are looked for, then curves at a lower price.
     fn exhausted(&mut self) -> bool {
-        if self.only_curves || self.now.structure.table.is_some() {
+        self.failures = 0;
+        let names = self.now.structure.terms.len() - self.declared.structure.terms.len();
+        if self.phase == Phase::Any && names > 1 {
+            self.phase = Phase::Fewer;
+            return true;
+        }
+        if self.phase == Phase::Curves || self.now.structure.table.is_some() {
             return false;
         }
-        self.only_curves = true;
-        self.failures = 0;
+        self.phase = Phase::Curves;
         let has_curve = |v: &Vec<Identity>| v.iter().any(|m| matches!(m, Identity::Curve(_)));
         self.visited.retain(|v| !has_curve(v));
         true
@@ -212,9 +246,14 @@ impl<'a> Search<'a> {
         let mut tried: Vec<Tried> = Vec::new();
         let (mut least, mut named) = (j, false);
         for one in moves {
-            let promising = one.promise <= least + policy::EQUAL
+            let promising = self.phase == Phase::Fewer
+                || linear.is_one_stage(one)
+                || one.promise <= least + policy::EQUAL
                 || one.promise <= moves[0].promise + policy::EQUAL;
-            if (named && !promising) || (!tried.is_empty() && self.is_over()) {
+            if named && !promising {
+                continue;
+            }
+            if !tried.is_empty() && self.is_over() {
                 break;
             }
             self.visited.push(linear.identities(&one.kept, &one.added));
@@ -242,7 +281,11 @@ impl<'a> Search<'a> {
         let Some(next) = settle(self.data, &best.structure, &free, values) else {
             return false;
         };
-        if !best.made.added.is_empty() {
+        if linear.takes_names_out(&best.made) {
+            if next.rmse.stop > policy::NOT_WORSE * self.now.rmse.stop {
+                return false;
+            }
+        } else if !best.made.added.is_empty() {
             if let Err(gate) = gates(self.data, &self.now, &next, linear.regime) {
                 for (&g, &p) in best.made.added.iter().zip(&best.made.p) {
                     let candidate = linear.groups[g].candidate();

@@ -47,8 +47,9 @@ fn direct(
     target: usize,
 ) -> (DVector<f64>, DVector<f64>) {
     let (x, y) = (matrix(columns, chosen), vector(&columns[target]));
-    let svd = x.clone().svd(true, true);
-    let gains = svd.solve(&y, 1e-12).unwrap();
+    // By QR: the iterations of nalgebra's SVD stop at a few parts in a hundred thousand here.
+    let qr = x.clone().qr();
+    let gains = qr.r().solve_upper_triangular(&(qr.q().transpose() * &y)).unwrap();
     let rest = y - x * &gains;
     (gains, rest)
 }
@@ -174,27 +175,24 @@ fn the_p_value_of_two_columns_is_a_brute_force_count_of_the_whitened_length() {
 
 #[test]
 fn two_columns_explain_together_what_neither_shows_alone() {
-    // y = a − b, with a and b nearly the same: each alone is almost orthogonal to y.
+    // y is the difference of two columns that are nearly the same.
     let mut all = columns(4, 11);
-    let near = all[0].iter().zip(all[1].iter()).map(|(a, n)| a + 0.3 * n);
-    all[1] = Arc::new(near.collect());
-    let difference = all[0].iter().zip(all[1].iter()).map(|(a, b)| a - b);
-    let along: Vec<f64> = difference.collect();
-    // Without what the first column explains of it, so that the first gains nothing at all.
-    let share =
-        vector(&all[0]).dot(&DVector::from_column_slice(&along)) / vector(&all[0]).norm_squared();
-    let rest = along.iter().zip(all[0].iter()).map(|(y, a)| y - share * a);
-    all[3] = Arc::new(rest.collect());
+    let size = |c: &[f64]| c.iter().map(|v| v * v).sum::<f64>().sqrt();
+    let (a, n) = (Arc::clone(&all[0]), Arc::clone(&all[1]));
+    let part = 0.1 * size(&a) / size(&n);
+    let near: Vec<f64> = a.iter().zip(n.iter()).map(|(a, n)| a + part * n).collect();
+    let along = a.iter().zip(&near).map(|(a, b)| a - b).collect();
+    all[1] = Arc::new(near);
+    all[3] = Arc::new(along);
     let grams = Grams::new(&all, &rows(), &blocks());
     let swept = grams.without(&[]);
     let sse = swept.at(3, 3);
-    let single = |c: usize| swept.gain(&[c], 3) / sse;
-    assert!(
-        single(0) < 1e-9 && single(1) < 0.2,
-        "{} {}",
-        single(0),
-        single(1)
-    );
+    // y is a tenth of n, of which the first column has what chance gives to 320 numbers, and
+    // the second a hundredth besides.
+    let chance = 10.0 / ROWS as f64;
+    for column in [0, 1] {
+        assert!(swept.gain(&[column], 3) / sse < 0.01 + chance);
+    }
     assert!(swept.gain_of_pair(0, 1, 3).unwrap() / sse > 1.0 - 1e-9);
 }
 
