@@ -204,7 +204,7 @@ fn the_json_is_laid_out_as_documented() {
     let output = bowden(&["close", "--json"]);
     assert!(output.stderr.is_empty());
     let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(report["schema"], "bowden.close/1");
+    assert_eq!(report["schema"], "bowden.close/2");
     for (place, names) in LAYOUT {
         let found = report.pointer(place).unwrap().as_object().unwrap();
         let found: BTreeSet<&str> = found.keys().map(String::as_str).collect();

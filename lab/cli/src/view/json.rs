@@ -1,4 +1,4 @@
-//! The JSON of `bowden close --json`, schema `bowden.close/1`.
+//! The JSON of `bowden close --json`, schema `bowden.close/2`.
 
 use super::curve::UnknownPart;
 use super::hand_over::HandOverPart;
@@ -264,7 +264,7 @@ impl<'a> From<&'a RejectedFacts> for RejectedPart<'a> {
 pub fn json(facts: &Facts) -> Result<String, serde_json::Error> {
     let several = facts.record.files.len() > 1;
     serde_json::to_string(&Report {
-        schema: "bowden.close/1",
+        schema: "bowden.close/2",
         record: (!several).then(|| RecordPart::of_all(facts)),
         records: several.then(|| RecordPart::of_each(facts)),
         declared: ModelPart::from(&facts.declared),
