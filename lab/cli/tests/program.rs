@@ -128,6 +128,8 @@ const LAYOUT: &[(&str, &[&str])] = &[
             "unknown",
             "noise_floor",
             "stopped_by_request",
+            "stopped_by_budget",
+            "beyond",
             "deviation",
             "explains",
             "integrates",
@@ -179,6 +181,7 @@ const LAYOUT: &[(&str, &[&str])] = &[
             "effect",
             "channel",
             "grade",
+            "support",
             "coefficients",
             "p",
             "explained",
@@ -196,6 +199,7 @@ const LAYOUT: &[(&str, &[&str])] = &[
         "/rounds/0/coefficients/0",
         &["name", "value", "unit", "ci95"],
     ),
+    ("/rounds/0/support", &["recurs", "of"]),
     ("/rejected/0", &["family", "effect", "channel", "gate"]),
 ];
 
@@ -220,6 +224,24 @@ fn the_json_is_laid_out_as_documented() {
 }
 
 #[test]
+fn a_search_whose_time_is_over_gives_the_best_so_far_and_says_so() {
+    // Over before the first look at what is missing, on whatever machine.
+    let output = bowden(&["close", "--json", "--budget", "1e-9"]);
+    assert!(output.status.success());
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(report["stopped_by_budget"], 1e-9);
+    assert_eq!(report["verdict"], "stopped");
+    let sentence = report["sentence"].as_str().unwrap();
+    assert!(sentence.contains("stopped after"), "{sentence}");
+    assert_eq!(report["rounds"].as_array().unwrap().len(), 0);
+    assert!(report["declared"]["rmse"]["fit"].as_f64().unwrap() > 0.0);
+    // With time enough it is as if none had been given.
+    let plain = bowden(&["close", "--json"]);
+    let ample = bowden(&["close", "--json", "--budget", "3600"]);
+    assert_eq!(plain.stdout, ample.stdout);
+}
+
+#[test]
 fn a_bad_record_or_option_gives_one_line_and_status_two() {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str, bytes: &[u8]| {
@@ -236,6 +258,8 @@ fn a_bad_record_or_option_gives_one_line_and_status_two() {
     assert!(text.contains("text.csv:3") && text.contains('x'), "{text}");
     let good = record(&folder, "good.csv", &["--seconds", "5"]);
     for (option, value) in [
+        ("--budget", "0"),
+        ("--budget", "NaN"),
         ("--cutoff", "-1"),
         ("--cutoff", "NaN"),
         ("--cutoff", "900"),

@@ -1,11 +1,12 @@
 //! The words of the ledger, for whoever meets them for the first time.
 
 /// The legend under the ledger.
-pub const LEGEND: [&str; 6] = [
+pub const LEGEND: [&str; 7] = [
     "grade      how far the name can be trusted, firm or weak; not how large the effect is",
     "explains   share of the squared error on the fit segment that this round removes",
     "× floor    the error to its left in multiples of the sensor's noise behind the filter; 1.0 is noise alone",
-    "p          how often chance alone would do as well; recurs: in how many of 100 half-records a search finds it again",
+    "p          how often chance alone would do as well; blocks better: on how many of sixteen stretches the effect helps",
+    "recurs     in how many of 100 half-records the same search finds the effect again",
     "stop       segment that vetoes a round; held out: data that neither fit nor search has seen",
     "rejected   tried and turned down, with the reason; unneeded: declared, but the data do as well without it",
 ];

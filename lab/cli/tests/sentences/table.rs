@@ -15,6 +15,7 @@ fn each_word_of_the_tables_is_explained_under_them_and_in_the_help() {
         "explains",
         "stop",
         "blocks better",
+        "recurs",
         "p ",
         "unneeded",
         "rejected",

@@ -228,6 +228,9 @@ impl<'a> Search<'a> {
         let names = self.now.structure.terms.len() - self.declared.structure.terms.len();
         if self.phase == Phase::Any && names > 1 {
             self.phase = Phase::Fewer;
+            // A smaller set that was refitted on the way is worth another look from here.
+            let all = self.now.structure.terms.len();
+            self.visited.retain(|set| set.len() >= all);
             return true;
         }
         if self.phase == Phase::Curves || self.now.structure.table.is_some() {

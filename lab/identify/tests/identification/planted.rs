@@ -164,7 +164,8 @@ impl Outcome {
         let ledger = close(&made.data, &made.declare(&["bouc-wen"]), |_| ()).unwrap();
         let mut families = Vec::new();
         let mut found = Vec::new();
-        for round in &ledger.rounds {
+        // What is found and not delivered is a name all the same.
+        for round in ledger.rounds.iter().chain(&ledger.beyond) {
             families.push(round.candidate.family);
             families.extend(round.rivals.iter().map(|c| c.family));
             let rivals: Vec<_> = round.rivals.iter().map(|c| c.family.name()).collect();
