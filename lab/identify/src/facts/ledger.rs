@@ -2,7 +2,7 @@
 
 use super::hand_over::HandOverFacts;
 use super::model::{FinalFacts, ModelFacts};
-use super::record::RecordFacts;
+use super::record::{channel_name, RecordFacts};
 use super::round::{fits, RoundFacts};
 use crate::conclude::by_file::{worse, Worse};
 use crate::conclude::curve::{curve, Knot};
@@ -13,7 +13,6 @@ use crate::conclude::verdict::{falls_up_to, sentence, unknown_words, verdict, Ve
 use crate::export::hand_over::HandOver;
 use crate::fit::Segments;
 use crate::ledger::{Gate, Ledger, Unknown};
-use crate::model::catalogue::Candidate;
 use crate::problem::Prepared;
 use crate::score::blocks::{Regime, BLOCKS};
 use crate::score::explains::{explained, segments_differ, Explained};
@@ -119,12 +118,6 @@ pub struct UnknownFacts {
     pub sentence: String,
 }
 
-/// The channel that a candidate reads, by name.
-pub(super) fn channel(data: &Prepared, candidate: &Candidate) -> String {
-    data.channel(candidate.term.source)
-        .map_or_else(String::new, |c| c.name.clone())
-}
-
 /// Independent stretches of the fit segment, at most sixteen.
 fn block_count(data: &Prepared, ledger: &Ledger) -> usize {
     if ledger.regime == Regime::Blocks {
@@ -136,12 +129,11 @@ fn block_count(data: &Prepared, ledger: &Ledger) -> usize {
 
 impl UnknownFacts {
     fn new(data: &Prepared, ledger: &Ledger, unknown: &Unknown, done: &FinalFit) -> Self {
-        let channel = data.channel(unknown.variable.source());
         Self {
             variable: unknown.variable.name(data),
             words: unknown.variable.words(data),
             unit: unknown.variable.unit(data),
-            channel: channel.map_or_else(String::new, |c| c.name.clone()),
+            channel: channel_name(data, unknown.variable.source()),
             share: unknown.share,
             p: unknown.p,
             q: unknown.q,
@@ -169,7 +161,7 @@ impl Facts {
             title: term_title(data, &r.candidate.term),
             family: r.candidate.family.name(),
             effect: r.candidate.term.effect.name(),
-            channel: channel(data, &r.candidate),
+            channel: channel_name(data, r.candidate.term.source),
             gate: r.gate,
         });
         let unknown = ledger.unknown.as_ref();

@@ -6,7 +6,6 @@
 
 mod asked;
 mod check;
-mod check_sentence;
 mod close;
 mod hand_over;
 mod ledger;

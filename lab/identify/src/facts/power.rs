@@ -2,7 +2,7 @@
 
 use super::asked::Asked;
 use super::model::effects;
-use super::record::RecordFacts;
+use super::record::{channel_name, RecordFacts};
 use crate::conclude::intervals::{gain_unit, shape_unit, term_name};
 use crate::foresight::power::{power as try_all, Answer, Question, Row};
 use crate::problem::Prepared;
@@ -99,9 +99,7 @@ impl PowerRow {
             family: effect.family().name(),
             effect: effect.name(),
             name: term_name(data, &row.term),
-            channel: data
-                .channel(row.term.source)
-                .map_or_else(String::new, |c| c.name.clone()),
+            channel: channel_name(data, row.term.source),
             shapes: shapes.collect(),
             gain_unit: gain_unit(data, &row.term),
             answer: row.answer.clone(),

@@ -2,6 +2,7 @@
 
 use crate::problem::{Piece, Prepared};
 use crate::record::{Defect, Mode};
+use bowden::model::Source;
 use serde::Serialize;
 
 /// One record, or several of one rig that were joined.
@@ -104,4 +105,10 @@ fn file(data: &Prepared, piece: &Piece) -> FileFacts {
             (true, false) => HeldOutOf::Trailing,
         },
     }
+}
+
+/// The name of a channel; empty where the record has none.
+pub(super) fn channel_name(data: &Prepared, source: Source) -> String {
+    data.channel(source)
+        .map_or_else(String::new, |c| c.name.clone())
 }

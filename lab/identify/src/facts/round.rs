@@ -1,6 +1,6 @@
 //! One round of the search: what it added, how that stood its tests, the model after it.
 
-use super::ledger::channel;
+use super::record::channel_name;
 use crate::conclude::final_fit::FinalFit;
 use crate::conclude::intervals::{parameters, term_name, term_title, Parameter};
 use crate::conclude::verdict::raises;
@@ -149,13 +149,13 @@ impl RoundFacts {
         let rivals = round.rivals.iter().map(|r| RivalFacts {
             title: term_title(data, &r.term),
             family: r.family.name(),
-            channel: channel(data, r),
+            channel: channel_name(data, r.term.source),
         });
         Self {
             title: done.title_of(round),
             family: round.candidate.family.name(),
             effect: round.candidate.term.effect.name(),
-            channel: channel(data, &round.candidate),
+            channel: channel_name(data, round.candidate.term.source),
             grade: round.grade,
             recurs: round.recurs,
             size: size(data, done, all, round),

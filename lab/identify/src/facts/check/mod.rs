@@ -1,12 +1,14 @@
 //! Whether a model still holds on another record.
 
+mod sentence;
+
 use super::asked::Asked;
-use super::check_sentence::sentence;
-use super::record::RecordFacts;
+use super::record::{channel_name, RecordFacts};
 use crate::check::{Check, Errors, Given, Line, Outside, Verdict};
 use crate::problem::Prepared;
 use crate::record::Mode;
 use crate::score::dependences::Dependence;
+use sentence::sentence;
 use std::path::Path;
 
 /// A model on a record that it has not seen.
@@ -187,9 +189,7 @@ impl DependsOn {
         Self {
             variable: one.variable.name(data),
             words: one.variable.words(data),
-            channel: data
-                .channel(one.variable.source())
-                .map_or_else(String::new, |c| c.name.clone()),
+            channel: channel_name(data, one.variable.source()),
             share: one.share,
             p: one.p,
         }

@@ -1,8 +1,8 @@
 //! The verdict of a check in one or two sentences.
 
-use super::check::CheckFacts;
-use super::numbers::{number, share as percent, with_interval};
+use super::CheckFacts;
 use crate::check::{Fitted, Line, Verdict};
+use crate::facts::numbers::{number, share as percent, with_interval};
 use std::fmt::Write as _;
 
 /// Gain and offset are mentioned with a model that holds where they leave less than this
