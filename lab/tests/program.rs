@@ -26,7 +26,7 @@ fn refused(arguments: &[&str]) -> String {
 
 fn record(folder: &tempfile::TempDir, name: &str, arguments: &[&str]) -> String {
     let path = folder.path().join(name).display().to_string();
-    let mut all = vec!["record", "--out", &path];
+    let mut all = vec!["generate", "--out", &path];
     all.extend(arguments);
     assert!(bowden(&all).status.success());
     path
@@ -258,9 +258,9 @@ fn a_bad_record_or_option_gives_one_line_and_status_two() {
         let line = refused(&["close", &good, &format!("{option}={value}")]);
         assert!(line.starts_with("bowden: "), "{line}");
     }
-    assert!(refused(&["record", "--effect", "nonsense"]).contains("nonsense"));
-    assert!(refused(&["record", "--effect", "viscous:much"]).contains("much"));
-    assert!(refused(&["record", "--seconds", "0"]).contains("seconds"));
+    assert!(refused(&["generate", "--effect", "nonsense"]).contains("nonsense"));
+    assert!(refused(&["generate", "--effect", "viscous:much"]).contains("much"));
+    assert!(refused(&["generate", "--seconds", "0"]).contains("seconds"));
     // Usage errors are the argument parser's: several lines, but the same status.
     assert_eq!(
         bowden(&["close", "--no-such-option"]).status.code(),

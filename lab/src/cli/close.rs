@@ -16,7 +16,7 @@ use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
 /// Name of the embedded record: the command that writes the same one to a file.
-const EMBEDDED: &str = "(embedded: bowden record --mode torque --effect viscous --seed 7)";
+const EMBEDDED: &str = "(embedded: bowden generate --mode torque --effect viscous --seed 7)";
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum PerFile {

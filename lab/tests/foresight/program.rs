@@ -12,7 +12,7 @@ fn bowden(threads: &str, arguments: &[&str]) -> Output {
 
 fn made(folder: &tempfile::TempDir, name: &str, arguments: &[&str]) -> String {
     let path = folder.path().join(name).display().to_string();
-    let mut all = vec!["record", "--mode", "displacement", "--out", &path];
+    let mut all = vec!["generate", "--mode", "displacement", "--out", &path];
     all.extend(arguments);
     assert!(bowden("2", &all).status.success());
     path

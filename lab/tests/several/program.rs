@@ -36,7 +36,15 @@ impl Folder {
 
     fn record(&self, name: &str, arguments: &[&str]) -> String {
         let path = self.path(name);
-        let mut all = vec!["record", "--out", &path, "--seconds", "15", "--rate", "500"];
+        let mut all = vec![
+            "generate",
+            "--out",
+            &path,
+            "--seconds",
+            "15",
+            "--rate",
+            "500",
+        ];
         all.extend(arguments);
         assert!(bowden(&all, "2").status.success());
         path
