@@ -10,9 +10,10 @@ use crate::fit::{fit, Solution};
 use crate::model::structure::Structure;
 use crate::problem::{HeldOut, Prepared};
 use crate::record::{agree, parse, read, Options, Record};
-use crate::report::{json, text, Report};
+use crate::report::{json, text, Meter, Report, Stage};
 use bowden_synth::stored_csv;
 use clap::{Args, ValueEnum};
+use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 
 /// Name of the embedded record: the command that writes the same one to a file.
@@ -62,20 +63,12 @@ impl Close {
             return Err("--per-file gains: more than one file was expected".to_owned());
         }
         let read: Vec<&Path> = self.records.iter().map(PathBuf::as_path).collect();
-        if let Some(path) = &self.model_out {
-            model_form(path)?;
-            let several = self.per_file.is_some();
-            for file in written(path, if several { read.len() } else { 1 }) {
-                super::writable("--model-out", &file, &read)?;
-                super::writable("--model-out", &vector_of(&file), &read)?;
-            }
-        }
-        if let Some(path) = &self.trace {
-            super::writable("--trace", path, &read)?;
-        }
+        self.can_write(&read)?;
+        let mut meter = Meter::start();
         let bar = progress();
         bar.set_message("reading");
         let records = self.read(&options)?;
+        meter.begins(Stage::Preparing);
         let label: Vec<&str> = records.iter().map(|r| r.path.as_str()).collect();
         let label = label.join(", ");
         let (mut data, mut structure) = match &records[..] {
@@ -93,12 +86,16 @@ impl Close {
         }
         let ledger = self
             .reading
-            .close(&data, &structure, &bar)
+            .close(&data, &structure, |what| {
+                bar.set_message(what.to_owned());
+                meter.told();
+            })
             .map_err(|message| format!("{label}: {message}"))?;
         if self.per_file.is_none() && records.len() > 1 {
             bar.set_message("trying each file with gains of its own");
             data.notes.extend(hint(&data, &ledger.declared));
         }
+        meter.begins(Stage::Concluding);
         bar.set_message("fitting the final model");
         let done = FinalFit::new(&data, &ledger);
         let hand = HandOver::new(&records, &data, &ledger, &done, self.invertible, |what| {
@@ -120,13 +117,35 @@ impl Close {
         bar.set_message("looking for declared parts that are not needed");
         let hand = hand.as_ref().map_err(String::as_str);
         let report = if self.json {
-            json(&Report::new(&label, &data, &ledger, &done, hand)).map_err(|e| e.to_string())?
+            let report = Report::new(&label, &data, &ledger, &done, hand);
+            json(&report.with_cost(meter.read())).map_err(|e| e.to_string())?
         } else {
             let chosen = self.reading.columns.cutoff.is_some();
             text(&label, &data, &ledger, &done, hand, chosen)
         };
         bar.finish_and_clear();
-        super::say(report.trim_end())
+        super::say(report.trim_end())?;
+        // For whoever has watched the spinner; a file or a pipe gets the report alone.
+        if !self.json && std::io::stderr().is_terminal() {
+            anstream::eprintln!("{}", meter.read().line());
+        }
+        Ok(())
+    }
+
+    /// Refuses before anything is computed what could not be written afterwards.
+    fn can_write(&self, read: &[&Path]) -> Result<(), Failure> {
+        if let Some(path) = &self.model_out {
+            model_form(path)?;
+            let several = self.per_file.is_some();
+            for file in written(path, if several { read.len() } else { 1 }) {
+                super::writable("--model-out", &file, read)?;
+                super::writable("--model-out", &vector_of(&file), read)?;
+            }
+        }
+        match &self.trace {
+            Some(path) => super::writable("--trace", path, read),
+            None => Ok(()),
+        }
     }
 
     /// With gains of its own a file says nothing of another one's: the end of each is held

@@ -29,7 +29,7 @@ impl Plan {
         let (data, structure) = self.reading.prepare(&record)?;
         let ledger = self
             .reading
-            .close(&data, &structure, &bar)
+            .close(&data, &structure, |what| bar.set_message(what.to_owned()))
             .map_err(|message| format!("{}: {message}", record.path))?;
         bar.set_message("planning");
         let separated = separate_first(&data, &ledger);

@@ -43,7 +43,7 @@ impl Power {
         let (data, structure) = self.reading.prepare(&record)?;
         let ledger = self
             .reading
-            .close(&data, &structure, &bar)
+            .close(&data, &structure, |what| bar.set_message(what.to_owned()))
             .map_err(|message| format!("{label}: {message}"))?;
         let question = Question {
             effects: self.effects,

@@ -103,15 +103,14 @@ impl Reading {
         }
     }
 
-    /// Runs the loop with as many rounds as were asked for.
+    /// Runs the loop with as many rounds as were asked for; `tell` hears what is being done.
     pub fn close(
         &self,
         data: &Prepared,
         structure: &Structure,
-        bar: &ProgressBar,
+        tell: impl FnMut(&str),
     ) -> Result<Ledger, String> {
         let most = self.rounds.unwrap_or(MOST_ROUNDS);
-        let tell = |what: &str| bar.set_message(what.to_owned());
         close_within(data, structure, most, tell)
     }
 

@@ -1,5 +1,6 @@
 //! The JSON of `bowden close --json`, schema `bowden.close/1`.
 
+use super::cost::Cost;
 use super::curve::UnknownPart;
 use super::hand_over::HandOverPart;
 use super::rounds::{models, RoundModel};
@@ -46,6 +47,9 @@ pub struct Report {
     stopped_by_request: Option<usize>,
     verdict: &'static str,
     sentence: String,
+    /// Absent where nobody has measured it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cost: Option<Cost>,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -311,6 +315,16 @@ impl Report {
             stopped_by_request: ledger.stopped_by_request,
             verdict: verdict(data, ledger, done).name(),
             sentence: sentence(data, ledger, done),
+            cost: None,
+        }
+    }
+
+    /// The same report with what the run has cost.
+    #[must_use]
+    pub fn with_cost(self, cost: Cost) -> Self {
+        Self {
+            cost: Some(cost),
+            ..self
         }
     }
 }

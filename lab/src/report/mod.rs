@@ -3,6 +3,7 @@
 pub mod certificates;
 mod check;
 pub mod control;
+mod cost;
 mod curve;
 mod hand_over;
 mod json;
@@ -14,6 +15,7 @@ pub mod terms;
 mod words;
 
 pub use check::{check_json, check_text, sentence as check_sentence};
+pub use cost::{Cost, Meter, Stage};
 pub use json::{json, Report};
 pub use power::{power_json, power_text};
 pub use terminal::text;
