@@ -113,6 +113,7 @@ fn files_that_do_not_go_together_give_one_line_with_file_and_column() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run identification"]
 fn a_file_in_other_units_of_the_same_kind_is_converted() {
     let folder = Folder::new();
     let a = folder.record("a.csv", &["--seed", "1"]);
@@ -137,6 +138,7 @@ fn a_file_in_other_units_of_the_same_kind_is_converted() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run identification"]
 fn three_files_are_reported_one_by_one_and_the_same_on_any_number_of_threads() {
     let folder = Folder::new();
     let name = |seed: &str| folder.record(&format!("{seed}.csv"), &["--seed", seed]);
@@ -170,6 +172,7 @@ fn three_files_are_reported_one_by_one_and_the_same_on_any_number_of_threads() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run identification"]
 fn with_gains_of_their_own_each_file_gets_a_model_file() {
     let folder = Folder::new();
     let a = folder.record("a.csv", &["--seed", "1"]);
