@@ -1,6 +1,6 @@
 //! The verdict of a check in one or two sentences.
 
-use super::check::CheckFacts;
+use super::check_facts::CheckFacts;
 use super::numbers::{number, share as percent, with_interval};
 use crate::check::{Fitted, Line, Verdict};
 use std::fmt::Write as _;

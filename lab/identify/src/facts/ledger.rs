@@ -3,7 +3,7 @@
 use super::hand_over::HandOverFacts;
 use super::model::{FinalFacts, ModelFacts};
 use super::record::RecordFacts;
-use super::round::{fits, RoundFacts};
+use super::round::{channel, fits, RoundFacts};
 use crate::conclude::by_file::{worse, Worse};
 use crate::conclude::curve::{curve, Knot};
 use crate::conclude::final_fit::FinalFit;
@@ -13,7 +13,6 @@ use crate::conclude::verdict::{falls_up_to, sentence, unknown_words, verdict, Ve
 use crate::export::hand_over::HandOver;
 use crate::fit::Segments;
 use crate::ledger::{Gate, Ledger, Unknown};
-use crate::model::catalogue::Candidate;
 use crate::problem::Prepared;
 use crate::score::blocks::{Regime, BLOCKS};
 use crate::score::explains::{explained, segments_differ, Explained};
@@ -117,12 +116,6 @@ pub struct UnknownFacts {
     pub after: Segments,
     /// What is said of it.
     pub sentence: String,
-}
-
-/// The channel that a candidate reads, by name.
-pub(super) fn channel(data: &Prepared, candidate: &Candidate) -> String {
-    data.channel(candidate.term.source)
-        .map_or_else(String::new, |c| c.name.clone())
 }
 
 /// Independent stretches of the fit segment, at most sixteen.

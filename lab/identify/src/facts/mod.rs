@@ -6,8 +6,10 @@
 
 mod asked;
 mod check;
+mod check_facts;
 mod check_sentence;
 mod close;
+mod cost;
 mod hand_over;
 mod ledger;
 mod model;
@@ -18,8 +20,10 @@ mod record;
 mod round;
 
 pub use asked::Asked;
-pub use check::{check, CheckFacts, CheckQuestion, Checked, DependsOn, ModelOfFile};
+pub use check::{check, CheckQuestion, Checked, ModelOfFile};
+pub use check_facts::{CheckFacts, DependsOn};
 pub use close::{close, Close, Closed, Form, Handed};
+pub use cost::{CostFacts, Meter, StageSeconds};
 pub use hand_over::HandOverFacts;
 pub use ledger::{Detail, Facts, RejectedFacts, UnknownFacts};
 pub use model::{FinalFacts, GainsOfFile, ModelFacts};
@@ -42,6 +46,7 @@ pub use crate::fit::Segments;
 pub use crate::foresight::plan::{Aim, Experiment};
 pub use crate::foresight::power::{Answer, Question as PowerQuestion, SHARE, TRIALS, TRIALS_RANGE};
 pub use crate::ledger::{Gate, Grade};
+pub use crate::problem::cost::Counts;
 pub use crate::record::{Defect, Mode, Options, Record};
 pub use crate::score::blocks::BLOCKS;
 pub use crate::score::explains::Explained;

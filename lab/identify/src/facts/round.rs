@@ -1,6 +1,5 @@
 //! One round of the search: what it added, how that stood its tests, the model after it.
 
-use super::ledger::channel;
 use crate::conclude::final_fit::FinalFit;
 use crate::conclude::intervals::{parameters, term_name, term_title, Parameter};
 use crate::conclude::verdict::raises;
@@ -9,6 +8,7 @@ use crate::export::ModelFile;
 use crate::fit::Segments;
 use crate::foresight::plan::{separate, Experiment};
 use crate::ledger::{Grade, Ledger, Round};
+use crate::model::catalogue::Candidate;
 use crate::problem::Prepared;
 use serde::Serialize;
 
@@ -170,6 +170,12 @@ impl RoundFacts {
             fit,
         }
     }
+}
+
+/// The channel that a candidate reads, by name.
+pub(super) fn channel(data: &Prepared, candidate: &Candidate) -> String {
+    data.channel(candidate.term.source)
+        .map_or_else(String::new, |c| c.name.clone())
 }
 
 fn size(data: &Prepared, done: &FinalFit, all: &[Parameter], round: &Round) -> Size {
