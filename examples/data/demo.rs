@@ -1,4 +1,4 @@
-//! Identified by bowden 0.1.0 from (embedded: bowden record --mode torque --effect viscous --seed 7).
+//! Identified by bowden 0.1.0 from (embedded: bowden generate --mode torque --effect viscous --seed 7).
 //!
 //! Input [N·m], output [N·m], torque mode.
 //! Channels, in the order of `Sample::channels`: 0 phi_p [rad], 1 phi_d [rad].

@@ -2,14 +2,15 @@
 
 use super::reading::{progress, telling, Reading};
 use super::Failure;
-use crate::view::{json, text};
-use bowden_lab::facts::{close, Asked, Close as Question, Detail, Form, Handed, Record};
+use crate::view::{cost_line, json, text};
+use bowden_lab::facts::{close, Asked, Close as Question, Detail, Form, Handed, Meter, Record};
 use bowden_synth::stored_csv;
 use clap::{Args, ValueEnum};
+use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 
 /// Name of the embedded record: the command that writes the same one to a file.
-const EMBEDDED: &str = "(embedded: bowden record --mode torque --effect viscous --seed 7)";
+const EMBEDDED: &str = "(embedded: bowden generate --mode torque --effect viscous --seed 7)";
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum PerFile {
@@ -55,6 +56,7 @@ impl Close {
             return Err("--per-file gains: more than one file was expected".to_owned());
         }
         self.check_files()?;
+        let meter = Meter::start();
         let bar = progress();
         bar.set_message("reading");
         let records = self.read(&asked)?;
@@ -69,6 +71,7 @@ impl Close {
                 true => Detail::EachRound,
                 false => Detail::Ledger,
             },
+            meter,
         };
         let closed = close(&records, &question, &telling(&bar))?;
         if let Some(path) = &self.model_out {
@@ -78,11 +81,16 @@ impl Close {
             super::write_whole(path, trace.as_bytes())?;
         }
         let report = match self.json {
-            true => json(&closed.facts).map_err(|e| e.to_string())?,
+            true => json(&closed.facts, Some(&closed.cost)).map_err(|e| e.to_string())?,
             false => text(&closed.facts, chosen_cutoff),
         };
         bar.finish_and_clear();
-        super::say(report.trim_end())
+        super::say(report.trim_end())?;
+        // For whoever has watched the spinner; a file or a pipe gets the report alone.
+        if !self.json && std::io::stderr().is_terminal() {
+            anstream::eprintln!("{}", cost_line(&closed.cost));
+        }
+        Ok(())
     }
 
     /// Whether all that is to be written can be, before anything is computed for it.

@@ -7,11 +7,11 @@ mod certify;
 mod check;
 mod close;
 mod compare;
+mod generate;
 mod help;
 mod plan;
 mod power;
 mod reading;
-mod record;
 pub mod view;
 
 use clap::{Parser, Subcommand};
@@ -46,8 +46,10 @@ enum Command {
     Power(power::Power),
     /// Plan the experiment that tells what a record cannot: its motion, as CSV.
     Plan(plan::Plan),
-    /// Write a generated record with an effect that is not declared, as CSV.
-    Record(record::Record),
+    /// Generate a record with effects that the declared model lacks, as CSV.
+    // `record` was the name up to 0.1 and stays for scripts; the help does not show it.
+    #[command(alias = "record")]
+    Generate(generate::Generate),
     /// Explain a subcommand, or the words of the ledger: `bowden help terms`.
     Help(help::Help),
 }
@@ -65,7 +67,7 @@ pub fn run() -> Result<(), Failure> {
         Some(Command::Certify(certify)) => certify.run(),
         Some(Command::Power(power)) => power.run(),
         Some(Command::Plan(plan)) => plan.run(),
-        Some(Command::Record(record)) => record.run(),
+        Some(Command::Generate(generate)) => generate.run(),
         Some(Command::Help(help)) => help.run(),
     }
 }

@@ -15,6 +15,13 @@ fn text(bytes: &[u8]) -> &str {
     std::str::from_utf8(bytes).unwrap()
 }
 
+/// The JSON of a run but for its seconds, the one thing in it that a clock decides.
+fn without_seconds(stdout: &[u8]) -> String {
+    let (before, rest) = text(stdout).split_once("\"seconds\":{").unwrap();
+    let (_, after) = rest.split_once('}').unwrap();
+    format!("{before}{after}")
+}
+
 fn refused(arguments: &[&str]) -> String {
     let output = bowden(arguments, "2");
     assert_eq!(output.status.code(), Some(2), "{arguments:?}");
@@ -37,7 +44,15 @@ impl Folder {
 
     fn record(&self, name: &str, arguments: &[&str]) -> String {
         let path = self.path(name);
-        let mut all = vec!["record", "--out", &path, "--seconds", "15", "--rate", "500"];
+        let mut all = vec![
+            "generate",
+            "--out",
+            &path,
+            "--seconds",
+            "15",
+            "--rate",
+            "500",
+        ];
         all.extend(arguments);
         assert!(bowden(&all, "2").status.success());
         path
@@ -99,6 +114,7 @@ fn files_that_do_not_go_together_give_one_line_with_file_and_column() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run identification"]
 fn a_file_in_other_units_of_the_same_kind_is_converted() {
     let folder = Folder::new();
     let a = folder.record("a.csv", &["--seed", "1"]);
@@ -123,6 +139,7 @@ fn a_file_in_other_units_of_the_same_kind_is_converted() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run identification"]
 fn three_files_are_reported_one_by_one_and_the_same_on_any_number_of_threads() {
     let folder = Folder::new();
     let name = |seed: &str| folder.record(&format!("{seed}.csv"), &["--seed", seed]);
@@ -130,7 +147,11 @@ fn three_files_are_reported_one_by_one_and_the_same_on_any_number_of_threads() {
     let arguments = ["close", &a, &b, &c, "--json"];
     let first = bowden(&arguments, "1");
     assert_eq!(first.status.code(), Some(0), "{}", text(&first.stderr));
-    assert_eq!(first.stdout, bowden(&arguments, "3").stdout);
+    let again = bowden(&arguments, "3");
+    assert_eq!(
+        without_seconds(&first.stdout),
+        without_seconds(&again.stdout)
+    );
     let json: serde_json::Value = serde_json::from_slice(&first.stdout).unwrap();
     assert!(json.get("record").is_none());
     let records = json["records"].as_array().unwrap();
@@ -152,6 +173,7 @@ fn three_files_are_reported_one_by_one_and_the_same_on_any_number_of_threads() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run identification"]
 fn with_gains_of_their_own_each_file_gets_a_model_file() {
     let folder = Folder::new();
     let a = folder.record("a.csv", &["--seed", "1"]);

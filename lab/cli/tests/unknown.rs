@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use bowden_cli::view::{json, text};
-use bowden_lab::facts::{close, Asked, Close, Detail, Facts};
+use bowden_lab::facts::{close, Asked, Close, Detail, Facts, Meter};
 use bowden_synth::{generate, Mode, Planted, Recipe};
 
 /// A bump over the position, three times the noise: no effect of the catalogue.
@@ -25,6 +25,7 @@ fn bump() -> Facts {
         models: false,
         trace: false,
         detail: Detail::EachRound,
+        meter: Meter::start(),
     };
     close(&[record], &question, &|_| ()).unwrap().facts
 }
@@ -32,7 +33,7 @@ fn bump() -> Facts {
 #[test]
 fn the_report_of_something_unknown_says_so_in_both_forms_and_is_the_same_on_one_thread() {
     let facts = bump();
-    let printed = json(&facts).unwrap();
+    let printed = json(&facts, None).unwrap();
     let report: serde_json::Value = serde_json::from_str(&printed).unwrap();
     assert_eq!(report["verdict"], "unknown");
     let unknown = &report["unknown"];
@@ -57,6 +58,6 @@ fn the_report_of_something_unknown_says_so_in_both_forms_and_is_the_same_on_one_
         .num_threads(1)
         .build()
         .unwrap();
-    let again = pool.install(|| json(&bump()).unwrap());
+    let again = pool.install(|| json(&bump(), None).unwrap());
     assert_eq!(printed, again);
 }

@@ -1,7 +1,7 @@
 //! Makes test records with known missing effects.
 //!
 //! ```text
-//! bowden record --mode torque --effect viscous --seed 7 > my.csv
+//! bowden generate --mode torque --effect viscous --seed 7 > my.csv
 //! bowden close my.csv
 //! ```
 //! writes twenty seconds at 1 kHz of a transmission by the paper's (5) to (7)

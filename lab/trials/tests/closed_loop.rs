@@ -88,6 +88,7 @@ fn lowers_the_error_of_the_quiet_adaptive_law(outcomes: &[Outcome]) {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run closed-loop"]
 fn viscous_friction_that_nobody_declared_is_found_and_fed_forward() {
     let outcomes = lowers_the_error_of_pi("viscous", VERY_QUIET);
     lowers_the_error_of_the_quiet_adaptive_law(&outcomes);
@@ -97,6 +98,7 @@ fn viscous_friction_that_nobody_declared_is_found_and_fed_forward() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run closed-loop"]
 fn dry_friction_that_nobody_declared_is_found_and_fed_forward() {
     lowers_the_error_of_the_quiet_adaptive_law(&lowers_the_error_of_pi("coulomb", QUIET));
 }
@@ -105,6 +107,7 @@ fn dry_friction_that_nobody_declared_is_found_and_fed_forward() {
 /// half of what the bench record holds, and on some seeds `close` names nothing in it or
 /// only what cannot be fed forward: then nothing is gained, and nothing may be lost.
 #[test]
+#[ignore = "slow: bash .ci/run closed-loop"]
 fn stribeck_friction_that_shakes_the_joint_is_at_least_not_made_worse() {
     let outcomes = outcomes("stribeck", QUIET);
     let mut gained = 0;
@@ -128,21 +131,25 @@ fn stribeck_friction_that_shakes_the_joint_is_at_least_not_made_worse() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run closed-loop"]
 fn a_backlash_that_nobody_declared_is_found_and_fed_forward() {
     lowers_the_error_of_pi("backlash", QUIET);
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run closed-loop"]
 fn a_ripple_that_nobody_declared_is_found_and_fed_forward() {
     lowers_the_error_of_pi("ripple", QUIET);
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run closed-loop"]
 fn load_friction_that_nobody_declared_is_found_and_fed_forward() {
     lowers_the_error_of_pi("load-friction", QUIET);
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run closed-loop"]
 fn position_friction_that_nobody_declared_is_found_and_fed_forward() {
     lowers_the_error_of_pi("position-friction", QUIET);
 }

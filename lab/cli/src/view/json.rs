@@ -3,9 +3,9 @@
 use super::curve::UnknownPart;
 use super::hand_over::HandOverPart;
 use bowden_lab::facts::{
-    Defect, Experiment, Explained, Facts, FileErrors, FinalFacts, Gate, Grade, HeldOutOf,
-    ModelFacts, Parameter, RejectedFacts, RivalFacts, RoundFacts, RoundModel, Segments, Unneeded,
-    Worse, HALVES,
+    CostFacts, Defect, Experiment, Explained, Facts, FileErrors, FinalFacts, Gate, Grade,
+    HeldOutOf, ModelFacts, Parameter, RejectedFacts, RivalFacts, RoundFacts, RoundModel, Segments,
+    Unneeded, Worse, HALVES,
 };
 use serde::Serialize;
 
@@ -40,6 +40,9 @@ struct Report<'a> {
     stopped_by_budget: Option<f64>,
     verdict: &'static str,
     sentence: &'a str,
+    /// Absent where nobody has measured it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cost: Option<&'a CostFacts>,
 }
 
 #[derive(Serialize)]
@@ -257,11 +260,11 @@ impl<'a> From<&'a RejectedFacts> for RejectedPart<'a> {
     }
 }
 
-/// The facts as one line of JSON.
+/// The facts, and what the run cost, as one line of JSON.
 ///
 /// # Errors
 /// Where a number is not finite, which no fitted model has.
-pub fn json(facts: &Facts) -> Result<String, serde_json::Error> {
+pub fn json(facts: &Facts, cost: Option<&CostFacts>) -> Result<String, serde_json::Error> {
     let several = facts.record.files.len() > 1;
     serde_json::to_string(&Report {
         schema: "bowden.close/2",
@@ -284,5 +287,6 @@ pub fn json(facts: &Facts) -> Result<String, serde_json::Error> {
         stopped_by_budget: facts.stopped_by_budget,
         verdict: facts.verdict.name(),
         sentence: &facts.sentence,
+        cost,
     })
 }

@@ -5,6 +5,7 @@ mod check;
 pub mod compare;
 mod compare_found;
 mod compare_rows;
+mod cost;
 mod curve;
 mod hand_over;
 mod json;
@@ -15,6 +16,7 @@ pub mod terms;
 mod words;
 
 pub use check::{check_json, check_text};
+pub use cost::cost_line;
 pub use json::json;
 pub use power::{power_json, power_text};
 pub use terminal::text;

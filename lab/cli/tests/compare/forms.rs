@@ -99,7 +99,7 @@ fn a_model_that_close_has_written_is_fed_forward() {
     let folder = tempfile::tempdir().unwrap();
     let (record, model) = (folder.path().join("r.csv"), folder.path().join("m.toml"));
     let (record, model) = (record.to_str().unwrap(), model.to_str().unwrap());
-    assert!(bowden(&["record", "--out", record]).status.success());
+    assert!(bowden(&["generate", "--out", record]).status.success());
     let closed = bowden(&["close", record, "--model-out", model]);
     assert!(closed.status.success(), "{closed:?}");
     let report = json(&[

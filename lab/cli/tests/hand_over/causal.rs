@@ -89,7 +89,7 @@ fn what_was_found_is_told_although_nothing_can_be_handed_over() {
     let because = HandOver::new(&[], data, ledger, done, false, |_| ()).unwrap_err();
     let hand = Err(because.as_str());
     let facts = Facts::new("made.csv", data, ledger, done, hand, Detail::EachRound);
-    let report = json(&facts).unwrap();
+    let report = json(&facts, None).unwrap();
     let report: serde_json::Value = serde_json::from_str(&report).unwrap();
     let part = &report["final"];
     assert!(part["causal_nrmse"].is_null() && part["handed_over"].is_null());

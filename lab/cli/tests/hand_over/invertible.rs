@@ -204,6 +204,7 @@ fn a_rig_whose_own_model_has_an_inverse_is_handed_over_as_it_is() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn no_stage_is_handed_over_as_invertible_and_its_loss_is_said() {
     let recipe = Recipe {
         seed: 61,
@@ -223,6 +224,7 @@ fn no_stage_is_handed_over_as_invertible_and_its_loss_is_said() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn without_bouc_wen_there_is_nothing_to_invert_and_the_program_says_so() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("model.toml").display().to_string();

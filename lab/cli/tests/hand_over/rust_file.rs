@@ -202,7 +202,7 @@ fn model_rs_says_what_its_numbers_mean_and_holds_no_path() {
     let path = |name: &str| folder.path().join(name).display().to_string();
     let csv = path("bench.csv");
     said(&[
-        "record",
+        "generate",
         "--mode",
         "torque",
         "--effect",

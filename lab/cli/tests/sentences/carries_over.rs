@@ -38,6 +38,7 @@ fn a_model_whose_held_out_error_rises_is_not_to_be_used_on_other_data() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn a_round_that_raises_the_held_out_error_is_marked() {
     let closed = turned_closed();
     let rounds = closed.json["rounds"].as_array().unwrap();
@@ -58,6 +59,7 @@ fn a_round_that_raises_the_held_out_error_is_marked() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn a_held_out_part_that_is_much_quieter_is_told_with_both_standard_deviations() {
     let mut rows = Rows::generated(&[
         "--mode", "torque", "--seed", "34", "--rate", "500", "--effect", "viscous",
@@ -129,6 +131,7 @@ fn a_sound_record_is_explained_and_the_sentence_has_the_figures_of_the_line_abov
 
 /// Two configurations of one rig, the second with an offset that creeps away in what is held out.
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn with_gains_of_its_own_a_file_that_gets_worse_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let straight = Rows::generated(&[

@@ -18,7 +18,7 @@ pub const PHI_P: usize = 3;
 impl Rows {
     /// A record of the program's generator.
     pub fn generated(arguments: &[&str]) -> Self {
-        let output = bowden(&[&["record"], arguments].concat());
+        let output = bowden(&[&["generate"], arguments].concat());
         assert!(output.status.success(), "{output:?}");
         let text = String::from_utf8(output.stdout).unwrap();
         let mut lines = text.lines();

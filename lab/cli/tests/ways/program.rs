@@ -108,6 +108,7 @@ fn the_text_of_a_check_ends_with_a_sentence_and_its_trace_has_the_models_parts()
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn the_json_of_close_has_the_model_after_each_round_and_rounds_writes_the_same() {
     let folder = Folder::new();
     let recipe = Recipe {
@@ -195,6 +196,7 @@ fn rounds_beyond_the_loops_own_are_refused() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn plan_and_power_take_the_rounds_too() {
     let folder = Folder::new();
     let record = folder.record(

@@ -1,6 +1,7 @@
 //! The main question: which effect does the declared model lack?
 
 use super::asked::Asked;
+use super::cost::{CostFacts, Meter, Stage};
 use super::ledger::{Detail, Facts};
 use crate::conclude::final_fit::FinalFit;
 use crate::conclude::trace::trace;
@@ -10,6 +11,7 @@ use crate::fit::{fit, Solution};
 use crate::model::structure::Structure;
 use crate::problem::{HeldOut, Prepared};
 use crate::record::Record;
+use std::cell::Cell;
 
 /// What is asked of one record or of several.
 #[derive(Debug, Clone)]
@@ -26,6 +28,8 @@ pub struct Close {
     pub trace: bool,
     /// How much is computed of each round.
     pub detail: Detail,
+    /// Started before the records were read.
+    pub meter: Meter,
 }
 
 /// The answer.
@@ -38,6 +42,8 @@ pub struct Closed {
     pub models: Vec<Handed>,
     /// The signals over time as CSV, where that was asked for.
     pub trace: Option<String>,
+    /// What the run cost.
+    pub cost: CostFacts,
 }
 
 /// A model that is handed over, with its test vector.
@@ -90,6 +96,8 @@ impl Handed {
 /// where a model is asked for, also if nothing can be handed over.
 pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Result<Closed, String> {
     let asked = &question.asked;
+    let mut meter = question.meter;
+    meter.begins(Stage::Preparing);
     let label: Vec<&str> = records.iter().map(|r| r.path.as_str()).collect();
     let label = label.join(", ");
     let (mut data, mut structure) = match records {
@@ -105,13 +113,22 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
         }
         structure.own_gains = records.len();
     }
+    let heard = Cell::new(meter);
+    let hear = |what: &str| {
+        tell(what);
+        let mut meter = heard.get();
+        meter.told();
+        heard.set(meter);
+    };
     let ledger = asked
-        .search(&data, &structure, tell)
+        .search(&data, &structure, &hear)
         .map_err(|message| format!("{label}: {message}"))?;
+    let mut meter = heard.get();
     if !question.own_gains && records.len() > 1 {
         tell("trying each file with gains of its own");
         data.notes.extend(hint(&data, &ledger.declared));
     }
+    meter.begins(Stage::Concluding);
     tell("fitting the final model");
     let done = FinalFit::new(&data, &ledger);
     let hand = HandOver::new(records, &data, &ledger, &done, question.invertible, tell);
@@ -136,6 +153,7 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
         facts: Facts::new(&label, &data, &ledger, &done, hand, question.detail),
         models,
         trace,
+        cost: meter.read(),
     })
 }
 

@@ -15,7 +15,6 @@ mod tie;
 
 use crate::model::structure::{Role, Structure};
 use crate::problem::Prepared;
-pub use search::evaluations;
 use search::{descend, descend_fully};
 use settle::{choose, settle};
 pub use solution::{Segments, Solution};

@@ -4,21 +4,13 @@ use super::linear::{solve_linear, Linear};
 use super::tie::{slope, ties};
 use crate::model::columns::{raw_columns_knowing, Beforehand, RawColumns};
 use crate::model::structure::{Free, Range, Role, Structure};
+use crate::problem::cost::{EVALUATIONS, JACOBIANS, SEARCHES};
 use crate::problem::Prepared;
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};
 use std::cell::Cell;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::Arc;
-
-static EVALUATIONS: AtomicUsize = AtomicUsize::new(0);
-
-/// Evaluations of a model over all samples since the program began, of all threads.
-#[must_use]
-pub fn evaluations() -> usize {
-    EVALUATIONS.load(Ordering::Relaxed)
-}
 
 /// Everything about one set of shapes.
 pub(super) struct Evaluation {
@@ -35,7 +27,7 @@ pub(super) fn evaluate(
     values: &[f64],
     last: Option<&Evaluation>,
 ) -> Option<Evaluation> {
-    EVALUATIONS.fetch_add(1, Ordering::Relaxed);
+    EVALUATIONS.add(1);
     let known = Beforehand {
         last: last.map(|l| &l.raw),
         slopes: true,
@@ -90,6 +82,7 @@ impl Evaluation {
         free: &[Free],
         values: &[f64],
     ) -> Option<Vec<Vec<f64>>> {
+        JACOBIANS.add(1);
         let (raw, gains) = (&self.raw, &self.linear.gains);
         let moves = raw.moves(data, structure, free, values)?;
         let slopes: Vec<Vec<f64>> = (0..free.len())
@@ -228,6 +221,7 @@ pub(crate) fn descend(
     most: usize,
     tolerance: f64,
 ) -> Option<(f64, Vec<f64>)> {
+    SEARCHES.add(1);
     let problem = Reduced::new(data, structure, free, start);
     let sse = problem.now.as_ref()?.residual.norm_squared();
     if free.is_empty() {

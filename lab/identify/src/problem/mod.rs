@@ -22,6 +22,7 @@ use std::ops::Range;
 
 mod blind;
 mod build;
+pub mod cost;
 pub mod filter;
 mod search;
 pub mod spectrum;
@@ -279,6 +280,7 @@ fn filtered_all(
     stride: usize,
     columns: &[&[f64]],
 ) -> Vec<Vec<f64>> {
+    cost::COLUMNS_FILTERED.add(columns.len());
     let of = |piece: &Piece| {
         let own: Vec<&[f64]> = columns.iter().map(|c| &c[piece.work.clone()]).collect();
         smoother.apply_all(&own, stride)

@@ -57,13 +57,16 @@ pub(super) struct Slope {
     pub(super) column: Arc<Vec<f64>>,
 }
 
+/// A variable, and the filtered hat functions over it.
+pub(super) type Curve = (Variable, Vec<Arc<Vec<f64>>>);
+
 /// Columns that depend neither on the hysteresis state nor on the output are kept.
 pub(super) struct Bank<'a> {
     data: &'a Prepared,
     variables: Vec<Variable>,
     values: Vec<(FitTerm, Arc<Vec<f64>>)>,
     slopes: Vec<(FitTerm, Vec<Slope>)>,
-    curves: Vec<(Variable, Vec<Arc<Vec<f64>>>)>,
+    curves: Vec<Curve>,
 }
 
 /// The point on the line of a value, off the flat ends.
@@ -154,8 +157,8 @@ impl<'a> Bank<'a> {
     }
 
     /// The hat functions over each variable that says more than the phase of the motion.
-    pub(super) fn curves(&mut self, now: &Solution) -> Vec<(Variable, Vec<Arc<Vec<f64>>>)> {
-        let made: Vec<Option<(Variable, Vec<Arc<Vec<f64>>>)>> = self
+    pub(super) fn curves(&mut self, now: &Solution) -> Vec<Curve> {
+        let made: Vec<Option<Curve>> = self
             .variables
             .par_iter()
             .map(|&v| {

@@ -44,6 +44,7 @@ const TRIPLES: [Triple; 4] = [
 ];
 
 #[test]
+#[ignore = "slow: bash .ci/run identification"]
 fn names_that_only_together_are_right_are_found_together() {
     for (mode, seed, planted) in TRIPLES {
         let recipe = Recipe {

@@ -78,12 +78,14 @@ fn added(colour: f64) -> Vec<String> {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run identification"]
 fn white_noise_adds_nothing_in_forty_records() {
     let added = added(0.0);
     assert!(added.is_empty(), "{added:#?}");
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run identification"]
 fn noise_with_a_correlation_of_0_9_adds_nothing_in_forty_records() {
     let added = added(0.9);
     assert!(added.is_empty(), "{added:#?}");
@@ -96,6 +98,7 @@ fn noise_with_a_correlation_of_0_9_adds_nothing_in_forty_records() {
 /// 1 in 17 in all where 1 in 40 is the aim. The limits are what a Poisson count of those
 /// rates stays below in forty records 99 times in 100.
 #[test]
+#[ignore = "slow: bash .ci/run identification"]
 fn noise_with_a_correlation_of_0_99_seldom_adds_an_effect_in_forty_records() {
     let added = added(0.99);
     println!("correlation 0.99: {added:#?}");

@@ -35,6 +35,7 @@ fn line(mode: Mode) -> Base {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run identification"]
 fn hysteresis_that_is_there_is_needed() {
     for mode in MODES {
         for effects in [Vec::new(), vec![Planted::new("viscous")]] {
@@ -50,6 +51,7 @@ fn hysteresis_that_is_there_is_needed() {
 
 /// With a viscous term the loop is open all the same.
 #[test]
+#[ignore = "slow: bash .ci/run identification"]
 fn a_rig_that_is_a_line_and_viscous_is_not_sold_a_hysteresis() {
     for mode in MODES {
         for effects in [Vec::new(), vec![Planted::new("viscous")]] {
@@ -65,6 +67,7 @@ fn a_rig_that_is_a_line_and_viscous_is_not_sold_a_hysteresis() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run identification"]
 fn a_declared_term_is_needed_where_it_is_in_the_record_and_only_there() {
     for mode in MODES {
         let with = |effects: Vec<Planted>| Recipe {

@@ -49,7 +49,10 @@ fn direct(
     let (x, y) = (matrix(columns, chosen), vector(&columns[target]));
     // By QR: the iterations of nalgebra's SVD stop at a few parts in a hundred thousand here.
     let qr = x.clone().qr();
-    let gains = qr.r().solve_upper_triangular(&(qr.q().transpose() * &y)).unwrap();
+    let gains = qr
+        .r()
+        .solve_upper_triangular(&(qr.q().transpose() * &y))
+        .unwrap();
     let rest = y - x * &gains;
     (gains, rest)
 }

@@ -65,6 +65,7 @@ fn configurations() -> Files {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run identification"]
 fn with_gains_of_their_own_two_configurations_share_shapes_and_effects() {
     let files = configurations();
     let data = files.joined(HeldOut::Trailing);
@@ -106,6 +107,7 @@ fn with_gains_of_their_own_two_configurations_share_shapes_and_effects() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run identification"]
 fn a_file_that_the_fit_never_saw_is_predicted_down_to_its_noise() {
     let recipe = |seed, rate| Recipe {
         rate,

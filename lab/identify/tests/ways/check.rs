@@ -37,6 +37,7 @@ fn own_model(mode: Mode, seed: u64, colour: f64) -> Given {
 
 /// Twelve pairs of records in each of four cells: white and coloured noise, both modes.
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn calibration_of_what_holds_on_the_next_record_of_the_same_rig() {
     let cells: Vec<(Mode, f64, u64)> = MODES
         .into_iter()
@@ -117,6 +118,7 @@ fn an_offset_that_has_moved_is_called_an_offset() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn an_effect_that_came_after_the_model_makes_it_not_hold_and_its_variable_is_named() {
     for (mode, effect, gain, variable) in [
         (
@@ -239,6 +241,7 @@ fn a_model_that_explains_nothing_does_not_hold_however_bad_it_was_before() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn the_start_of_the_record_does_not_count_and_less_of_it_does_not_for_a_model_without_memory() {
     let given = own_model(Mode::Displacement, 71_107, 0.0);
     let next = Recipe {
@@ -264,6 +267,7 @@ fn the_start_of_the_record_does_not_count_and_less_of_it_does_not_for_a_model_wi
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn the_check_of_a_models_own_record_gives_its_own_error_again() {
     for mode in MODES {
         let recipe = Recipe {
@@ -300,6 +304,7 @@ fn the_check_of_a_models_own_record_gives_its_own_error_again() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn an_output_stage_and_a_play_in_series_run_as_they_were_fitted() {
     let recipe = Recipe {
         play: 0.5,

@@ -38,6 +38,7 @@ fn no_rounds_fit_what_is_declared_and_claim_nothing_of_what_is_missing() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn rounds_end_where_they_were_asked_to_and_the_sentence_says_so() {
     for most in [1, 2] {
         let closed = Closed::new(&three(), &["bouc-wen"], most);
@@ -83,6 +84,7 @@ fn a_declared_model_at_the_noise_is_explained_without_a_search_but_nothing_is_cl
 
 /// A bump over the position is in no catalogue: with a search it becomes a table.
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn no_rounds_draw_no_curve_of_what_has_no_name() {
     let recipe = Recipe {
         effects: vec![Planted::new("bump-position")],

@@ -84,6 +84,7 @@ fn traced(closed: &Closed) -> Read {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn the_trace_is_what_the_fit_sees_and_its_errors_are_those_of_the_report() {
     let recipe = Recipe {
         effects: vec![
@@ -166,6 +167,7 @@ fn the_shares_sum_to_the_final_model_with_an_output_stage_too() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn the_shares_sum_to_the_final_model_with_a_table_and_in_torque_mode() {
     let recipe = Recipe {
         effects: vec![Planted::new("bump-position")],

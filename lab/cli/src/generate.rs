@@ -1,4 +1,4 @@
-//! `bowden record`: a generated record as CSV on stdout or in a file.
+//! `bowden generate`: a generated record as CSV on stdout or in a file.
 
 use super::Failure;
 use bowden_synth::{generate, Mode, Planted, Recipe};
@@ -12,7 +12,7 @@ enum ModeName {
 }
 
 #[derive(Args)]
-pub struct Record {
+pub struct Generate {
     /// What drives the transmission.
     #[arg(long, value_enum, default_value = "torque")]
     mode: ModeName,
@@ -66,7 +66,7 @@ fn planted(text: &str) -> Result<Planted, Failure> {
     })
 }
 
-impl Record {
+impl Generate {
     pub fn run(self) -> Result<(), Failure> {
         let mode = match self.mode {
             ModeName::Torque => Mode::Torque,
