@@ -5,7 +5,7 @@ use super::carries_over::{delivered, recurrences};
 use super::linear::{Kept, Linear};
 use super::moves::Move;
 use super::policy;
-use super::refit::{FAIR, HYSTERESES, INSIDE, ROUGH};
+use super::refit::{renamed, FAIR, HYSTERESES, INSIDE, ROUGH};
 use super::run::{Entry, Search, Standing};
 use crate::fit::projection::Span;
 use crate::fit::search::descend;
@@ -30,12 +30,16 @@ const STARTS: usize = 2;
 impl Search<'_> {
     /// The ledger of what was found.
     pub(super) fn ledger(mut self) -> Option<Ledger> {
-        let path = self.path()?;
         let standing = self.last();
         let rivals = self.rivals(&standing);
         let own = self.declared.structure.terms.len();
         let names = self.now.structure.terms[own..].iter().map(Identity::of);
         let recurs = recurrences(names, &self.on_halves, &standing.linear);
+        let order = standing.linear.by_weight();
+        self.now = Arc::new(arranged(self.data, &self.now, &order)?);
+        let weight = order[own..].iter().map(|index| index - own);
+        let weighed: Vec<_> = weight.map(|i| (rivals[i].clone(), recurs[i])).collect();
+        let path = self.path()?;
         let mut ledger = Ledger::of((*self.declared).clone());
         ledger.regime = self.regime;
         ledger.correlation_time = self.correlation_time;
@@ -53,7 +57,7 @@ impl Search<'_> {
             }
         }
         let mut before = Arc::clone(&self.declared);
-        for (index, (solution, rivals)) in path.iter().zip(rivals).enumerate() {
+        for (index, (solution, (rivals, recurs))) in path.iter().zip(weighed).enumerate() {
             let term = self.now.structure.terms[own + index];
             let candidate = Candidate {
                 term,
@@ -66,13 +70,13 @@ impl Search<'_> {
             let explained = 1.0 - solution.sse(self.data) / before.sse(self.data);
             let (blocks_better, _) = on_blocks(self.data, &before, solution, self.regime);
             ledger.rounds.push(Round {
-                grade: grade(recurs[index], &rivals),
+                grade: grade(recurs, &rivals),
                 candidate,
                 p,
                 rivals,
                 explained,
                 blocks_better,
-                recurs: recurs[index],
+                recurs,
                 before: before.rmse,
                 after: solution.rmse,
                 solution: (**solution).clone(),
@@ -103,26 +107,23 @@ impl Search<'_> {
         })
     }
 
-    /// The models with the first name, the first two, …, in the order in which they came.
+    /// The models with the first name, the first two, …
     fn path(&self) -> Option<Vec<Arc<Solution>>> {
         let terms = &self.now.structure.terms;
         let own = self.declared.structure.terms.len();
         let mut path: Vec<Arc<Solution>> = Vec::new();
         for count in own + 1..=terms.len() {
-            let order: Vec<Identity> = terms[..count].iter().map(Identity::of).collect();
-            let is_it = |s: &&Arc<Solution>| {
-                let theirs = s.structure.terms.iter().map(Identity::of);
-                s.structure.table.is_none() && theirs.eq(order.iter().copied())
+            let wanted: Vec<Identity> = terms[..count].iter().map(Identity::of).collect();
+            let known = |s: &Arc<Solution>| {
+                let order = order_of(s, &wanted).filter(|_| s.structure.table.is_none())?;
+                arranged(self.data, s, &order)
             };
             // The last search of a set is the best one.
-            let solution = match self.reached.iter().rev().find(is_it) {
-                Some(known) => Arc::clone(known),
-                None => {
-                    let last = path.last().unwrap_or(&self.declared);
-                    Arc::new(self.shortened(count, last)?)
-                }
+            let solution = match self.reached.iter().rev().find_map(known) {
+                Some(known) => known,
+                None => self.shortened(count, path.last().unwrap_or(&self.declared))?,
             };
-            path.push(solution);
+            path.push(Arc::new(solution));
         }
         Some(path)
     }
@@ -221,6 +222,70 @@ impl Search<'_> {
             }
         }
         rivals
+    }
+}
+
+/// The terms of a solution by index, in a wanted order; `None` where it has others.
+fn order_of(solution: &Solution, wanted: &[Identity]) -> Option<Vec<usize>> {
+    let terms = &solution.structure.terms;
+    let mut order: Vec<usize> = Vec::new();
+    for identity in wanted {
+        let is_next = |i: &usize| !order.contains(i) && Identity::of(&terms[*i]) == *identity;
+        let next = (0..terms.len()).find(is_next)?;
+        order.push(next);
+    }
+    (order.len() == terms.len()).then_some(order)
+}
+
+/// The same model with its terms in another order.
+fn arranged(data: &Prepared, solution: &Solution, order: &[usize]) -> Option<Solution> {
+    if order.iter().copied().eq(0..solution.structure.terms.len()) {
+        return Some(solution.clone());
+    }
+    let mut structure: Structure = solution.structure.clone();
+    structure.terms = order.iter().map(|&i| solution.structure.terms[i]).collect();
+    let free = structure.free(data);
+    let value = |f: &Free| {
+        let own = term_of(f.role).map_or(f.role, |index| renamed(f.role, order[index]));
+        solution.value(own)
+    };
+    let values: Option<Vec<f64>> = free.iter().map(value).collect();
+    settle(data, &structure, &free, values?)
+}
+
+/// The term that a parameter belongs to.
+fn term_of(role: Role) -> Option<usize> {
+    match role {
+        Role::Shape { term, .. }
+        | Role::Origin { term }
+        | Role::Start { term, .. }
+        | Role::Stage { term } => Some(term),
+        _ => None,
+    }
+}
+
+impl Linear<'_> {
+    /// The terms by what they explain: the declared ones, then the name that alone leaves
+    /// least, the one that leaves least beside it, and so on.
+    fn by_weight(&self) -> Vec<usize> {
+        let all = self.now.structure.terms.len();
+        let mut order: Vec<usize> = (0..self.declared).collect();
+        while order.len() < all {
+            let error = |index: usize| {
+                let out = |i: &usize| *i != index && !order.contains(i);
+                let kept = Kept {
+                    dropped: (self.declared..all).filter(out).collect(),
+                    table: self.has_table(),
+                };
+                let (target, unit) = self.target_of(&kept);
+                unit * self.grams.squared_error(&self.columns_of(&kept), target)
+            };
+            let left = (self.declared..all).filter(|i| !order.contains(i));
+            let best = left.min_by(|&a, &b| error(a).total_cmp(&error(b)));
+            let Some(best) = best else { break };
+            order.push(best);
+        }
+        order
     }
 }
 
