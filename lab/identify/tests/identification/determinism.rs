@@ -31,6 +31,7 @@ fn closing_twice_gives_the_same_ledger_to_the_last_bit() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run identification"]
 fn the_number_of_threads_does_not_change_a_bit() {
     let made = three_effects();
     let on = |threads: usize| {

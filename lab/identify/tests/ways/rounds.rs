@@ -58,6 +58,7 @@ fn rounds_end_where_they_were_asked_to_and_the_sentence_says_so() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn a_search_that_ends_before_its_limit_has_not_been_stopped() {
     let recipe = Recipe {
         effects: vec![with_gain("viscous", 0.02)],
