@@ -8,7 +8,7 @@
 //! | [`problem`] | uniform time, one zero-phase smoother for all columns and the output, the split |
 //! | [`model`] | effects that may be missing, terms and their parameters, their columns |
 //! | [`fit`] | variable projection: gains by QR, shapes by Levenberg-Marquardt |
-//! | [`score`] | which effect is missing? Scores on blocks, free curves, whiteness |
+//! | [`score`] | what a residual says: blocks and their exact test, free curves, lines, whiteness |
 //! | [`ledger`] | rounds, rejections, what has no name |
 //! | [`search`] | which effects are missing: the search that fills the ledger |
 //! | [`conclude`] | final refit, intervals, verdict, shares, traces |

@@ -12,11 +12,11 @@ use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::conclude::unneeded::unneeded;
 use bowden_lab::conclude::verdict::{verdict, Verdict};
 use bowden_lab::fit::Segments;
-use bowden_lab::ledger::{Ledger, Round};
+use bowden_lab::ledger::{Grade, Ledger, Round};
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{read, Mode, Options};
-use bowden_lab::search::close;
+use bowden_lab::search::{close, close_within};
 use std::path::PathBuf;
 
 /// A record and how it is read.
@@ -172,7 +172,7 @@ impl Closed {
 /// A positioning drive whose declared hysteresis is nearly none: mass and friction.
 #[test]
 #[ignore = "slow: bash .ci/run measured-records"]
-fn emps_with_nothing_declared_finds_inertia_and_viscous_then_asymmetry_then_coulomb() {
+fn emps_with_nothing_declared_finds_inertia_and_viscous_then_asymmetry_then_dry_friction() {
     let row = Row {
         reach: (5.0, 5.3),
         ..EMPS
@@ -182,7 +182,10 @@ fn emps_with_nothing_declared_finds_inertia_and_viscous_then_asymmetry_then_coul
     first.sort();
     assert_eq!(first, [Family::Viscous, Family::Inertia]);
     let asymmetry = closed.place(Family::Asymmetry, 2);
-    closed.place(Family::Coulomb, asymmetry + 1);
+    // The constant part of the dry friction may be in the declared hysteresis, which is
+    // a relay here; its fall with speed is not.
+    let dry = |r: &Round| [Family::Coulomb, Family::Stribeck].contains(&r.candidate.family);
+    assert!(closed.ledger.rounds[asymmetry + 1..].iter().any(dry));
 }
 
 /// The published model of the same drive, which its authors mended by an asymmetry.
@@ -210,7 +213,7 @@ fn emps_with_its_published_model_declared_finds_asymmetry_first() {
 
 #[test]
 #[ignore = "slow: bash .ci/run measured-records"]
-fn mr_damper_finds_viscous_then_drag() {
+fn mr_damper_finds_what_rises_with_speed_first() {
     let row = Row {
         file: "mr_damper_utfsm/sine_25mm0x25Hz0x5A.csv",
         columns: ("displacement_mm", "force_N"),
@@ -218,8 +221,8 @@ fn mr_damper_finds_viscous_then_drag() {
         ..PLAIN
     };
     let Some(closed) = row.close() else { return };
-    assert_eq!(closed.family(0), Family::Viscous);
-    assert_eq!(closed.family(1), Family::Drag);
+    // Four cycles of one sine: its speed is one function of its position and direction.
+    closed.assert_first_is_one_of(&[Family::Viscous, Family::Drag, Family::Rate]);
 }
 
 #[test]
@@ -289,7 +292,10 @@ fn fatigue_rig_finds_viscous_delay_or_lag_first_and_needs_no_hysteresis() {
     };
     let Some(closed) = row.close() else { return };
     closed.assert_first_is_one_of(&[Family::Viscous, Family::Delay, Family::Lag]);
-    let parts = unneeded(&closed.ledger, &closed.done);
+    // Beside that one effect. Eight leave so little that the hysteresis takes a tenth of it.
+    let declared = structure(&["bouc-wen".to_owned()], &closed.data).unwrap();
+    let one = close_within(&closed.data, &declared, 1, |_| ()).unwrap();
+    let parts = unneeded(&one, &FinalFit::new(&closed.data, &one));
     assert!(parts.iter().any(|p| p.effect == "bouc-wen"), "{parts:?}");
 }
 
@@ -306,21 +312,24 @@ fn davinci_tool_4_23_finds_a_function_of_an_angle_first() {
     assert!(matches!(source, Source::Channel(_)), "reads {source:?}");
 }
 
-/// Its residual is too slow for sixteen blocks: effects are accepted without a p-value,
-/// until what is left is fast enough.
+/// Two slow strokes of 17 s: many functions of the angles do as well, and no name is to be
+/// trusted.
 #[test]
 #[ignore = "slow: bash .ci/run measured-records"]
-fn davinci_tool_4_03_starts_in_effect_mode_and_is_under_excited() {
+fn davinci_tool_4_03_gives_weak_names_only_and_says_which_others_do_as_well() {
     let row = Row {
         file: "davinci_cable_tool/tool4_l_4_03.csv",
         reach: (12.0, 15.0),
         ..DAVINCI
     };
     let Some(closed) = row.close() else { return };
-    assert_eq!(closed.round(0).p, None);
+    for round in &closed.ledger.rounds {
+        assert_eq!(round.grade, Grade::Weak);
+        assert!(!round.rivals.is_empty());
+    }
     assert_eq!(
         verdict(&closed.data, &closed.ledger, &closed.done),
-        Verdict::UnderExcited
+        Verdict::Confounded
     );
 }
 

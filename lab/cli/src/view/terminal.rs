@@ -247,6 +247,9 @@ fn coefficient(size: &Size) -> String {
     }
 }
 
+/// So many of what was turned down are listed.
+const REJECTED: usize = 6;
+
 /// What is said of a coefficient whose interval holds zero.
 const SIZE_UNKNOWN: &str = "acts, size unknown";
 
@@ -327,9 +330,14 @@ fn conclusion(facts: &Facts) -> String {
     out.push_str(&hand_over::text(&facts.hand_over));
     if !facts.rejected.is_empty() {
         let rejected = facts.rejected.iter();
-        let list: Vec<String> = rejected
+        let mut list: Vec<String> = rejected
             .map(|r| format!("{}: {}", r.title, r.gate.words()))
             .collect();
+        let more = list.len().saturating_sub(REJECTED);
+        list.truncate(REJECTED);
+        if more > 0 {
+            list.push(format!("and {more} more, in --json"));
+        }
         line!(out, "{DIM}rejected  {}{DIM:#}", list.join("; "));
     }
     for part in &facts.unneeded {
