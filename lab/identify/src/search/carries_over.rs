@@ -4,7 +4,7 @@
 //! misfit, and no test within the record tells a name that will come again from one that
 //! will not. Two rules help. The round that is delivered is the one whose model errs least
 //! on blocks that were left out of its linear fit ([`delivered`]); and a name is told in how
-//! many of a hundred half-records a search finds it again ([`recurrences`]).
+//! many of a hundred half-records a search finds it again (`recurrences`).
 
 use super::bank::{on_line, Identity};
 use super::gram::Partial;

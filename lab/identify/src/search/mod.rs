@@ -1,13 +1,13 @@
 //! Which effects are missing: one search over sets of effects.
 //!
-//! Everything that may be missing is a column, computed and filtered once ([`bank`]). The
-//! columns' products, one matrix for each of sixteen blocks ([`gram`]), answer every question
+//! Everything that may be missing is a column, computed and filtered once (`bank`). The
+//! columns' products, one matrix for each of sixteen blocks (`gram`), answer every question
 //! but one without touching a sample again: the error of a set, what each effect and each
-//! pair would add to it, the exact sign-flip p-value of a member ([`linear`], [`moves`]).
+//! pair would add to it, the exact sign-flip p-value of a member (`linear`, `moves`).
 //! The one question that is left, the error with all shapes refitted, is asked of the three
-//! best moves of a round only ([`refit`]). What is accepted is linearised again ([`run`]),
+//! best moves of a round only (`refit`). What is accepted is linearised again (`run`),
 //! until no move lowers the criterion. Rounds, rivals and the curve of what has no name are
-//! read off the set that remains ([`readoff`]).
+//! read off the set that remains (`readoff`).
 
 mod bank;
 pub mod carries_over;
