@@ -133,7 +133,7 @@ pub(super) struct Linear<'a> {
     target: usize,
     /// The output as it would be without some stages, to first order.
     unstaged: Vec<(Vec<usize>, usize)>,
-    columns: Vec<Arc<Vec<f64>>>,
+    pub(super) columns: Vec<Arc<Vec<f64>>>,
 }
 
 impl<'a> Linear<'a> {

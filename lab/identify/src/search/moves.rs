@@ -7,10 +7,11 @@
 
 use super::bank::Identity;
 use super::gram::Swept;
-use super::linear::{Kept, Linear};
+use super::linear::{Kept, Linear, Member};
 use super::policy;
 use crate::ledger::{Gate, Rejection};
 use crate::model::catalogue::Candidate;
+use crate::model::Variable;
 use crate::score::blocks::Regime;
 
 /// Pairs of names whose slopes are looked at, of each set that is kept.
@@ -102,6 +103,7 @@ impl Linear<'_> {
             dropped.push(vec![a]);
             dropped.extend((a + 1..names.end).map(|b| vec![a, b]));
         }
+        dropped.extend(self.crowds());
         let with = |table: bool| {
             let sets = dropped.iter().filter(move |d| table || d.len() < 2);
             sets.map(move |d| Kept {
@@ -120,6 +122,28 @@ impl Linear<'_> {
                 })
                 .collect(),
         }
+    }
+
+    /// Three and more names over one variable: together they imitate any curve over it, so they
+    /// are compared with one.
+    fn crowds(&self) -> Vec<Vec<usize>> {
+        let names = || self.declared..self.now.structure.terms.len();
+        let over = |index: usize, variable: Variable| {
+            let term = self.now.structure.terms[index];
+            let family = term.effect.family();
+            Candidate { term, family }.variables().contains(&variable)
+        };
+        let curves = self.groups.iter().filter_map(|g| match g.member {
+            Member::Curve(variable) => Some(variable),
+            Member::Name(_) => None,
+        });
+        let mut crowds: Vec<Vec<usize>> = curves
+            .map(|variable| names().filter(|&i| over(i, variable)).collect())
+            .filter(|crowd: &Vec<usize>| crowd.len() > 2)
+            .collect();
+        crowds.sort();
+        crowds.dedup();
+        crowds
     }
 
     fn moves_from(&self, kept: &Kept) -> Vec<Move> {
@@ -230,6 +254,12 @@ impl Linear<'_> {
                 .filter(|m| matches!(m, Identity::Name(..)))
                 .count();
             let has_curve = one.added.iter().any(|&g| self.groups[g].is_curve());
+            // A curve would stand for the names that nobody asked for.
+            let is_full = wanted.most < policy::MOST_NAMES && names >= wanted.most + self.declared;
+            if has_curve && is_full {
+                proposed.is_cut = true;
+                continue;
+            }
             if (wanted.phase == Phase::Curves && !has_curve)
                 || seen.iter().any(|s| is_same(s, &members))
             {

@@ -299,14 +299,16 @@ fn grade(recurs: usize, rivals: &[Candidate]) -> Grade {
 }
 
 /// Leaves the rounds in the model that err least on blocks left out, and moves the others
-/// beyond them. A curve is found beside all names and goes with the last of them; it is not
-/// measured itself, because half a record may not reach all of its hats.
+/// beyond them. Beside a curve all stay: the names were fitted beside it and say little without
+/// it, and half a record may not reach all of its hats.
 fn deliver(data: &Prepared, ledger: &mut Ledger) {
+    if ledger.unknown.is_some() {
+        return;
+    }
     let rounds = ledger.rounds.iter().map(|r| &r.solution);
     let path: Vec<&Solution> = std::iter::once(&ledger.declared).chain(rounds).collect();
     let best = delivered(data, &path);
     if best < ledger.rounds.len() {
-        ledger.unknown = None;
         ledger.beyond = ledger.rounds.split_off(best);
     }
 }

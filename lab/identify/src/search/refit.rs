@@ -1,7 +1,7 @@
 //! The real error of a move: shapes searched from where the Gram matrix points.
 
 use super::bank::{on_line, Own};
-use super::linear::{Linear, Member};
+use super::linear::{Kept, Linear, Member};
 use super::moves::Move;
 use crate::fit::projection::Span;
 use crate::fit::search::descend;
@@ -118,7 +118,10 @@ impl Linear<'_> {
                     from.push(From::Added(g));
                 }
                 Member::Curve(variable) => {
-                    let (scored, price) = self.curve(moved, variable)?;
+                    let (scored, price) = match one.kept.dropped.is_empty() {
+                        true => self.curve(moved, &self.now, variable)?,
+                        false => self.curve_instead(&one.kept, variable)?,
+                    };
                     structure.table = Some(scored.table);
                     curve = price;
                 }
@@ -131,10 +134,21 @@ impl Linear<'_> {
         })
     }
 
+    /// The curve beside what is kept, free to do what the names did that go out for it.
+    fn curve_instead(&self, kept: &Kept, variable: Variable) -> Option<(Scored, f64)> {
+        let columns = self.columns_of(kept);
+        let moved = Span::of(self.data, columns.iter().map(|&c| &*self.columns[c]));
+        let without = Solution {
+            residual: self.data.target.clone(),
+            ..(*self.now).clone()
+        };
+        self.curve(&moved, &without, variable)
+    }
+
     /// The curve with the number of hats that promises most.
-    fn curve(&self, moved: &Span, variable: Variable) -> Option<(Scored, f64)> {
+    fn curve(&self, moved: &Span, now: &Solution, variable: Variable) -> Option<(Scored, f64)> {
         let made = HATS.into_iter().filter_map(|count| {
-            let scored = score(self.data, &self.now, moved, variable, count)?;
+            let scored = score(self.data, now, moved, variable, count)?;
             let price = self.prices.of_curve(count);
             Some(((1.0 - scored.share).max(1e-14).ln() + price, scored, price))
         });

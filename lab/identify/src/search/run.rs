@@ -210,10 +210,13 @@ impl<'a> Search<'a> {
         match chosen(&tried).map(|best| self.accepted(standing, best, &tried)) {
             Some(true) => {
                 self.failures = 0;
-                if self.phase == Phase::Fewer {
-                    self.phase = Phase::Any;
-                }
-                self.phase != Phase::Curves
+                self.phase = match self.phase {
+                    // What a curve does, names beside it need not do.
+                    Phase::Curves => Phase::Fewer,
+                    Phase::Any | Phase::Fewer if self.now.structure.table.is_some() => self.phase,
+                    Phase::Any | Phase::Fewer => Phase::Any,
+                };
+                true
             }
             _ => {
                 self.failures += 1;
