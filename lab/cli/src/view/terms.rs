@@ -30,8 +30,7 @@ grade         firm: the name recurs in at least 50 of 100 half-records, and noth
               in its place. weak: one of several effects that would explain this. The grade is
               of the name. The size of the effect is its coefficient.
 recurs        In how many of 100 random halves of the sixteen blocks the same search names this
-              effect again. Names from 50 on came again in another record of the same rig in
-              three cases of five, names below 50 in one of eight.
+              effect again.
 (n)           A round in brackets was found and is not delivered: with it the model errs more on
               blocks that were left out of its fit. Its model is in --json, under beyond.
 coefficient   The effect's gain in the final model with its 95 % interval, from leaving out each

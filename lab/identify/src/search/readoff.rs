@@ -289,8 +289,7 @@ impl Linear<'_> {
     }
 }
 
-/// How far a name can be trusted: at half of the half-records and more three names in five
-/// came again in another record of the same rig, below it one in eight.
+/// How far a name can be trusted.
 fn grade(recurs: usize, rivals: &[Candidate]) -> Grade {
     match 2 * recurs >= policy::RECURRENCES && rivals.is_empty() {
         true => Grade::Firm,
