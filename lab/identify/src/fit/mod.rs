@@ -10,7 +10,7 @@ pub(crate) mod projection;
 pub(crate) mod search;
 pub(crate) mod settle;
 mod solution;
-mod starts;
+pub(crate) mod starts;
 mod tie;
 
 use crate::model::structure::{Role, Structure};

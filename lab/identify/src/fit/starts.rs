@@ -55,7 +55,7 @@ impl Known {
 
 /// The hysteresis state at the start is searched from inside its range: on the end of it
 /// the map is flat, and a search from there never gets away.
-const INSIDE: f64 = 0.9;
+pub(crate) const INSIDE: f64 = 0.9;
 
 /// Eight deterministic starts, and the present optimum where there is one.
 pub(super) fn starts(

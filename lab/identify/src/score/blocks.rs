@@ -90,6 +90,19 @@ fn divide(path: &[f64], rows: Range<usize>, count: usize, ranges: &mut Vec<Range
     }
 }
 
+impl Regime {
+    /// Of a residual on the fit rows, with its correlation time in samples.
+    pub(crate) fn of(data: &Prepared, residual: &[f64]) -> (Self, f64) {
+        let samples = correlation_samples(residual);
+        let shortest = blocks(data).iter().map(ExactSizeIterator::len).min();
+        let regime = match shortest.unwrap_or(0) as f64 >= 3.0 * samples {
+            true => Self::Blocks,
+            false => Self::Effect,
+        };
+        (regime, samples)
+    }
+}
+
 /// Share of all sign patterns that count, the real one always among them.
 ///
 /// Patterns are walked in Gray-code order: each differs from the last in one sign.

@@ -1,6 +1,6 @@
 //! On which variables a residual depends, as free curves of ten hats tested by sign flips.
 
-use super::blocks::{blocks, correlation_samples};
+use super::blocks::Regime;
 use super::hats::{is_phase, score, Scored, HATS};
 use crate::fit::projection::{rows, Span};
 use crate::fit::Solution;
@@ -42,11 +42,11 @@ pub(crate) fn dependences(data: &Prepared, now: &Solution, held: &[Vec<f64>]) ->
                 span.add(rows(data, &data.filtered(&column)));
             }
             let rest = span.off(rows(data, &now.residual));
-            let tested = has_blocks(data, rest.as_slice());
+            let (regime, _) = Regime::of(data, rest.as_slice());
             Some(Dependence {
                 variable: scored.table.variable,
                 share: scored.share,
-                p: tested.then_some(scored.p),
+                p: (regime == Regime::Blocks).then_some(scored.p),
             })
         })
         .collect()
@@ -73,10 +73,4 @@ fn curves(data: &Prepared, now: &Solution, moved: &Span, variables: &[Variable])
     found.retain(|s| s.share >= CLOSE * best && s.share >= SHARE);
     found.truncate(CURVES);
     found
-}
-
-/// Whether sixteen blocks are long enough for what is correlated like that.
-fn has_blocks(data: &Prepared, rest: &[f64]) -> bool {
-    let shortest = blocks(data).iter().map(ExactSizeIterator::len).min();
-    shortest.unwrap_or(0) as f64 >= 3.0 * correlation_samples(rest)
 }

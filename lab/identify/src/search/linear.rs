@@ -8,7 +8,7 @@ use crate::fit::Solution;
 use crate::model::catalogue::Candidate;
 use crate::model::Variable;
 use crate::problem::Prepared;
-use crate::score::blocks::{blocks, correlation_samples, Regime};
+use crate::score::blocks::{blocks, Regime};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::sync::Arc;
 
@@ -259,12 +259,9 @@ impl<'a> Linear<'a> {
                 self.data.target[i] - sum
             })
             .collect();
-        let samples = correlation_samples(&rest);
-        let shortest = blocks(self.data).iter().map(ExactSizeIterator::len).min();
+        let (regime, samples) = Regime::of(self.data, &rest);
+        self.regime = regime;
         self.correlation_time = samples * self.data.dt * self.data.stride as f64;
-        if (shortest.unwrap_or(0) as f64) < 3.0 * samples {
-            self.regime = Regime::Effect;
-        }
         let values = rows.len() as f64 / (2.0 * samples).max(1.0);
         self.prices = Prices::new(level, self.regime, (band, values), curve);
     }

@@ -24,7 +24,7 @@ use crate::fit::{fit, Solution};
 use crate::ledger::Ledger;
 use crate::model::structure::Structure;
 use crate::problem::Prepared;
-use crate::score::blocks::{blocks, correlation_samples, Regime};
+use crate::score::blocks::Regime;
 use crate::score::explains::integrates;
 use bank::Bank;
 use linear::Linear;
@@ -106,12 +106,7 @@ pub fn close_within(
 fn independence(data: &Prepared, solution: &Solution) -> (Regime, f64) {
     let rows = data.split.fit.iter();
     let rest: Vec<f64> = rows.map(|&i| solution.residual[i]).collect();
-    let samples = correlation_samples(&rest);
-    let shortest = blocks(data).iter().map(ExactSizeIterator::len).min();
-    let regime = match shortest.unwrap_or(0) as f64 >= 3.0 * samples {
-        true => Regime::Blocks,
-        false => Regime::Effect,
-    };
+    let (regime, samples) = Regime::of(data, &rest);
     (regime, samples * data.dt * data.stride as f64)
 }
 

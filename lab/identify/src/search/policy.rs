@@ -93,3 +93,9 @@ pub const RECURRENCES: usize = 100;
 ///
 /// Where much is missing at once, one effect removed may uncover another just there.
 pub const NOT_WORSE: f64 = 1.05;
+
+/// Whether an effect does as well as the named one: from the squared errors without either,
+/// with the named one, and with the other.
+pub(super) fn is_rival(without: f64, named: f64, other: f64) -> bool {
+    without - other >= RIVAL_SHARE * (without - named) && other <= RIVAL_REST * named
+}

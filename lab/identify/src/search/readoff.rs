@@ -5,7 +5,7 @@ use super::carries_over::{delivered, recurrences};
 use super::linear::{Kept, Linear};
 use super::moves::Move;
 use super::policy;
-use super::refit::{renamed, FAIR, HYSTERESES, INSIDE, ROUGH};
+use super::refit::{other_hystereses, renamed, FAIR, ROUGH};
 use super::run::{Entry, Search, Standing};
 use crate::fit::projection::Span;
 use crate::fit::search::descend;
@@ -140,16 +140,8 @@ impl Search<'_> {
         };
         let mut starts = vec![of(&self.now, last), of(last, &self.now)];
         if structure.hysteresis {
-            for (rho, sigma, n) in HYSTERESES {
-                let at = |(f, &v): (&Free, &f64)| match f.role {
-                    Role::Rho => rho / self.data.input.reach,
-                    Role::Sigma => sigma,
-                    Role::N => n,
-                    Role::Eta0 { .. } => v.clamp(-INSIDE, INSIDE),
-                    _ => v,
-                };
-                starts.push(free.iter().zip(&starts[0]).map(at).collect());
-            }
+            let present = starts[0].clone();
+            starts.extend(other_hystereses(self.data, &free, &present));
         }
         let search = |start: &[f64], (most, tolerance)| {
             descend(&self.coarse, &structure, &free, start, most, tolerance)
@@ -192,10 +184,7 @@ impl Search<'_> {
         let term = self.now.structure.terms[index];
         let known = self.entry(Identity::of(&term));
         let (close, sse) = context.close(&kept, (term.effect.family(), term.source), known);
-        let good = |left: f64| {
-            sse - left >= policy::RIVAL_SHARE * (sse - context.full)
-                && left <= policy::RIVAL_REST * context.full
-        };
+        let good = |left: f64| policy::is_rival(sse, context.full, left);
         let really: Vec<Option<(Candidate, f64)>> = close
             .into_par_iter()
             .map(|g| {

@@ -5,6 +5,7 @@ use super::linear::{Kept, Linear, Member};
 use super::moves::Move;
 use crate::fit::projection::Span;
 use crate::fit::search::descend;
+use crate::fit::starts::INSIDE;
 use crate::fit::Solution;
 use crate::model::catalogue::simplicity;
 use crate::model::structure::{FitTerm, Free, Range, Role, Structure};
@@ -18,9 +19,7 @@ pub(super) const ROUGH: (usize, f64) = (10, 1e-3);
 pub(super) const FAIR: (usize, f64) = (40, 1e-5);
 /// The hysteresis may have bent to stand in for what is missing: two starts away from it,
 /// in units of one over the input's reach for rho.
-pub(super) const HYSTERESES: [(f64, f64, f64); 2] = [(3.0, 0.6, 2.0), (25.0, 0.8, 1.5)];
-/// The hysteresis state at the start is searched from inside of its range.
-pub(super) const INSIDE: f64 = 0.9;
+const HYSTERESES: [(f64, f64, f64); 2] = [(3.0, 0.6, 2.0), (25.0, 0.8, 1.5)];
 
 /// A move that was refitted on the coarse grid.
 pub(super) struct Tried {
@@ -186,16 +185,7 @@ impl Linear<'_> {
         let plain: Vec<f64> = known.iter().map(|(value, _)| *value).collect();
         let mut starts = vec![plain.clone(), stepped.collect()];
         if plan.structure.hysteresis {
-            for (rho, sigma, n) in HYSTERESES {
-                let at = |(f, &v): (&Free, &f64)| match f.role {
-                    Role::Rho => rho / self.data.input.reach,
-                    Role::Sigma => sigma,
-                    Role::N => n,
-                    Role::Eta0 { .. } => v.clamp(-INSIDE, INSIDE),
-                    _ => v,
-                };
-                starts.push(free.iter().zip(&plain).map(at).collect());
-            }
+            starts.extend(other_hystereses(self.data, free, &plain));
         }
         starts
     }
@@ -228,6 +218,24 @@ impl Linear<'_> {
             }
         }
     }
+}
+
+/// The same values with each of the other hystereses.
+pub(super) fn other_hystereses<'a>(
+    data: &'a Prepared,
+    free: &'a [Free],
+    values: &'a [f64],
+) -> impl Iterator<Item = Vec<f64>> + 'a {
+    HYSTERESES.into_iter().map(move |(rho, sigma, n)| {
+        let at = |(f, &v): (&Free, &f64)| match f.role {
+            Role::Rho => rho / data.input.reach,
+            Role::Sigma => sigma,
+            Role::N => n,
+            Role::Eta0 { .. } => v.clamp(-INSIDE, INSIDE),
+            _ => v,
+        };
+        free.iter().zip(values).map(at).collect()
+    })
 }
 
 /// Where a parameter of a new term starts.

@@ -370,9 +370,7 @@ fn chosen(tried: &[Tried]) -> Option<&Tried> {
 fn siblings(standing: &Standing, best: &Tried, tried: &[Tried], own: usize) -> Vec<Candidate> {
     let linear = &standing.linear;
     let as_good = |t: &&Tried| {
-        t.sse <= policy::RIVAL_REST * best.sse
-            && standing.sse - t.sse >= policy::RIVAL_SHARE * (standing.sse - best.sse)
-            && t.made.kept == best.made.kept
+        policy::is_rival(standing.sse, best.sse, t.sse) && t.made.kept == best.made.kept
     };
     let instead = |t: &Tried| -> Option<Candidate> {
         let mut theirs = t.made.added.iter().filter(|g| !best.made.added.contains(g));
