@@ -20,6 +20,13 @@ pub struct Candidate {
     pub family: Family,
 }
 
+impl From<FitTerm> for Candidate {
+    fn from(term: FitTerm) -> Self {
+        let family = term.effect.family();
+        Self { term, family }
+    }
+}
+
 impl Candidate {
     /// What the effect is a function of, or stands for.
     #[must_use]

@@ -237,8 +237,7 @@ fn tone(data: &Prepared, now: &Solution) -> Option<Candidate> {
     }
     let (frequency, _) = tones::strongest(data, &now.residual)?;
     let term = tones::term(data, &now.residual, frequency)?;
-    let family = term.effect.family();
-    Some(Candidate { term, family })
+    Some(term.into())
 }
 
 /// Steps in time at the peaks of what a step at each row would take of the residual.

@@ -129,9 +129,8 @@ impl Linear<'_> {
     fn crowds(&self) -> Vec<Vec<usize>> {
         let names = || self.declared..self.now.structure.terms.len();
         let over = |index: usize, variable: Variable| {
-            let term = self.now.structure.terms[index];
-            let family = term.effect.family();
-            Candidate { term, family }.variables().contains(&variable)
+            let variables = Candidate::from(self.now.structure.terms[index]).variables();
+            variables.contains(&variable)
         };
         let curves = self.groups.iter().filter_map(|g| match g.member {
             Member::Curve(variable) => Some(variable),

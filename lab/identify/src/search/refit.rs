@@ -7,7 +7,7 @@ use crate::fit::projection::Span;
 use crate::fit::search::descend;
 use crate::fit::starts::INSIDE;
 use crate::fit::Solution;
-use crate::model::catalogue::simplicity;
+use crate::model::catalogue::{simplicity, Candidate};
 use crate::model::structure::{FitTerm, Free, Range, Role, Structure};
 use crate::model::Variable;
 use crate::problem::Prepared;
@@ -32,13 +32,25 @@ pub(super) struct Tried {
 }
 
 impl Tried {
-    /// Curves after names, then the simplicity of all effects together.
-    pub(super) fn rank(&self) -> (usize, usize) {
-        let terms = self.structure.terms.iter();
+    /// Crowds after curves, curves after names, then the simplicity of all effects together.
+    pub(super) fn rank(&self) -> (bool, bool, usize) {
+        let terms = &self.structure.terms;
         // Each effect counts as much as the least simple one, so that fewer come first.
-        let sum = terms.map(|t| simplicity(&t.effect).0 + 30).sum();
-        (usize::from(self.structure.table.is_some()), sum)
+        let sum = terms.iter().map(|t| simplicity(&t.effect).0 + 30).sum();
+        let came_in = &terms[terms.len().saturating_sub(self.made.added.len())..];
+        let has_curve = self.structure.table.is_some();
+        (!has_curve && is_crowd(came_in), has_curve, sum)
     }
+}
+
+/// Whether three or more effects read one variable: so many names imitate any curve over it.
+fn is_crowd(terms: &[FitTerm]) -> bool {
+    let read: Vec<Vec<Variable>> = terms
+        .iter()
+        .map(|&term| Candidate::from(term).variables())
+        .collect();
+    let over = |variable: &Variable| read.iter().filter(|r| r.contains(variable)).count();
+    read.iter().flatten().any(|variable| over(variable) > 2)
 }
 
 /// Where a term of the new structure comes from.

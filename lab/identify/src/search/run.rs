@@ -340,9 +340,8 @@ impl<'a> Search<'a> {
     /// A term that goes out again for what comes in.
     fn out(&self, index: usize) -> Rejection {
         let term = self.now.structure.terms[index];
-        let family = term.effect.family();
         Rejection {
-            candidate: Candidate { term, family },
+            candidate: term.into(),
             gate: Gate::Superseded,
             p: self.entry(Identity::of(&term)).and_then(|e| e.p),
         }
