@@ -7,8 +7,7 @@
 //! many of a hundred half-records a search finds it again (`recurrences`).
 
 use super::bank::{on_line, Identity};
-use super::gram::Partial;
-use super::linear::{Kept, Linear};
+use super::linear::Linear;
 use super::policy;
 use crate::fit::Solution;
 use crate::problem::Prepared;
@@ -153,62 +152,12 @@ pub(super) fn recurrences(
 }
 
 impl Linear<'_> {
-    /// What a forward search finds on each half of the blocks.
+    /// What a forward selection finds on each half of the blocks.
     pub(super) fn found_on_halves(&self) -> Vec<Vec<Identity>> {
         use rayon::prelude::*;
-        let names = self.declared..self.now.structure.terms.len();
-        let kept = Kept {
-            dropped: names.clone().collect(),
-            table: self.has_table(),
-        };
-        let columns = self.columns_of(&kept);
-        let (target, _) = self.target_of(&self.everything());
         halves(self.grams.blocks(), policy::RECURRENCES)
             .into_par_iter()
-            .map(|half| {
-                let swept = self.grams.on_blocks(&half, &columns);
-                self.forward(swept, target, names.clone())
-            })
+            .map(|half| self.found_on(&half))
             .collect()
-    }
-
-    /// Forward selection among the candidates and the model's own names.
-    fn forward(
-        &self,
-        mut swept: Partial,
-        target: usize,
-        names: std::ops::Range<usize>,
-    ) -> Vec<Identity> {
-        let own = names.map(|index| {
-            let columns = self.term(index).to_vec();
-            let price = self.prices.of_name(columns.len());
-            (
-                Identity::of(&self.now.structure.terms[index]),
-                columns,
-                price,
-            )
-        });
-        let groups = (0..self.groups.len()).filter(|&g| !self.groups[g].is_curve());
-        let groups = groups.map(|g| {
-            let group = &self.groups[g];
-            (group.identity(), group.columns.clone(), self.price(g))
-        });
-        let all: Vec<(Identity, Vec<usize>, f64)> = own.chain(groups).collect();
-        let mut found: Vec<Identity> = Vec::new();
-        while found.len() < policy::MOST_NAMES {
-            let sse = swept.at(target, target).max(1e-14);
-            let left = |columns: &[usize]| (1.0 - swept.gain(columns, target) / sse).max(1e-14);
-            let best = all
-                .iter()
-                .filter(|(identity, ..)| !found.contains(identity))
-                .map(|(identity, columns, price)| (left(columns).ln() + price, identity, columns))
-                .min_by(|a, b| a.0.total_cmp(&b.0));
-            let Some((_, identity, columns)) = best.filter(|(change, ..)| *change < 0.0) else {
-                break;
-            };
-            found.push(*identity);
-            swept.sweep(columns);
-        }
-        found
     }
 }

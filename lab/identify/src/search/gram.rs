@@ -13,9 +13,11 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// A pivot below this share of a column's squared norm: the column depends on the others.
-const DEPENDENT: f64 = 1e-9;
+pub(super) const DEPENDENT: f64 = 1e-9;
 /// The same for a slope beside a column, which only refines it.
 const SLOPE: f64 = 1e-5;
+/// Groups of so many columns are solved without memory from the heap.
+const SMALL: usize = 6;
 /// A direction with less than this of its squared norm left has no score of its own.
 const DIRECTION: f64 = 1e-4;
 
@@ -71,21 +73,26 @@ impl Grams {
             .zip(blocks)
             .for_each(|(part, block)| {
                 let rows = &rows[block.clone()];
-                let at = |j: usize, i: usize| columns[i][rows[j]] / scale[i];
-                let all = DMatrix::from_fn(rows.len(), size, at);
-                // As a product of two matrices, which is faster than `tr_mul`.
-                let products = all.columns_range(old..).transpose() * &all;
-                let mut grown = vec![0.0; size * size];
-                for i in 0..old {
-                    grown[i * size..i * size + old].copy_from_slice(&part[i * old..(i + 1) * old]);
-                }
-                for i in old..size {
-                    for j in 0..size {
-                        let product = products[(i - old, j)];
-                        grown[i * size + j] = product;
-                        grown[j * size + i] = product;
+                let mut all = Vec::with_capacity(rows.len() * size);
+                for (column, scale) in columns.iter().zip(scale) {
+                    let factor = scale.recip();
+                    let from = all.len();
+                    for run in rows.chunk_by(|a, b| *b == a + 1) {
+                        all.extend_from_slice(&column[run[0]..=run[run.len() - 1]]);
+                    }
+                    for v in &mut all[from..] {
+                        *v *= factor;
                     }
                 }
+                let all = DMatrix::from_vec(rows.len(), size, all);
+                // As a product of two matrices, which is faster than `tr_mul`.
+                let products = all.transpose() * all.columns_range(old..);
+                let mut grown = Vec::with_capacity(size * size);
+                for i in 0..old {
+                    grown.extend_from_slice(&part[i * old..(i + 1) * old]);
+                    grown.extend(products.row(i).iter());
+                }
+                grown.extend_from_slice(products.as_slice());
                 *part = grown;
             });
         self.size = size;
@@ -131,18 +138,9 @@ impl Grams {
         swept
     }
 
-    /// The same on some blocks only, with entries scaled up to the whole record; computed
-    /// where they are asked for.
-    #[must_use]
-    pub fn on_blocks(&self, blocks: &[usize], columns: &[usize]) -> Partial<'_> {
-        let mut partial = Partial {
-            grams: self,
-            factor: self.parts.len() as f64 / blocks.len().max(1) as f64,
-            blocks: blocks.to_vec(),
-            swept: Vec::new(),
-        };
-        partial.sweep(columns);
-        partial
+    /// Products of a column with all others on one block.
+    pub(super) fn row_of(&self, block: usize, column: usize) -> &[f64] {
+        &self.parts[block][column * self.size..(column + 1) * self.size]
     }
 
     fn compact(&self, index: &[usize]) -> Vec<f64> {
@@ -282,7 +280,7 @@ fn eliminate(a: &mut [f64], m: usize, pivots: usize) -> Vec<bool> {
 }
 
 /// A Gram matrix of what some columns leave of all others: their Schur complement.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Swept {
     size: usize,
     /// Rows; only the upper triangle is kept up to date.
@@ -290,6 +288,12 @@ pub struct Swept {
 }
 
 impl Swept {
+    /// Number of columns.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        self.size
+    }
+
     /// Product of two residual columns.
     #[must_use]
     pub fn at(&self, i: usize, j: usize) -> f64 {
@@ -340,7 +344,8 @@ impl Swept {
     /// The same where no column is above the others, as with a curve's.
     #[must_use]
     pub fn gain_of_any(&self, group: &[usize], target: usize) -> f64 {
-        gain(|i, j| self.at(i, j), group, target)
+        let upper = |i: usize, j: usize| self.at(group[i], group[j]);
+        gain(upper, |i| self.at(group[i], target), group.len())
     }
 
     /// Reduction of the target's squared error by two columns together; `None` where they
@@ -355,80 +360,40 @@ impl Swept {
     }
 }
 
-/// What some columns leave of all others on some blocks.
-///
-/// A search on a half of the blocks asks for a few hundred entries of a few hundred thousand.
-#[derive(Debug, Clone)]
-pub struct Partial<'a> {
-    grams: &'a Grams,
-    blocks: Vec<usize>,
-    factor: f64,
-    /// For each column of the set its products with what those before it leave of all
-    /// columns, over the root of its own.
-    swept: Vec<Vec<f64>>,
-}
-
-impl Partial<'_> {
-    /// Product of two residual columns.
-    #[must_use]
-    pub fn at(&self, i: usize, j: usize) -> f64 {
-        let place = i * self.grams.size + j;
-        let sum: f64 = self
-            .blocks
-            .iter()
-            .map(|&b| self.grams.parts[b][place])
-            .sum();
-        let taken: f64 = self.swept.iter().map(|row| row[i] * row[j]).sum();
-        self.factor * sum - taken
-    }
-
-    /// Takes more columns into the set.
-    pub fn sweep(&mut self, columns: &[usize]) {
-        for &s in columns {
-            let pivot = self.at(s, s);
-            if pivot < DEPENDENT {
-                continue;
-            }
-            let root = pivot.sqrt();
-            let row = (0..self.grams.size).map(|j| self.at(s, j) / root);
-            let row: Vec<f64> = row.collect();
-            self.swept.push(row);
+/// Reduction of the target's squared error by some columns, from the products of residuals:
+/// `upper(i, j)` with `i <= j` among the columns, `right(i)` with the target.
+pub(super) fn gain(
+    upper: impl Fn(usize, usize) -> f64,
+    right: impl Fn(usize) -> f64,
+    d: usize,
+) -> f64 {
+    let (mut small, mut large) = ([0.0; SMALL * (SMALL + 1)], Vec::new());
+    let a: &mut [f64] = match d <= SMALL {
+        true => &mut small[..d * (d + 1)],
+        false => {
+            large.resize(d * (d + 1), 0.0);
+            &mut large
         }
-    }
-
-    /// As [`Swept::gain`].
-    #[must_use]
-    pub fn gain(&self, group: &[usize], target: usize) -> f64 {
-        match group.first() {
-            Some(&first) if self.at(first, first) > EXCITED => {
-                gain(|i, j| self.at(i, j), group, target)
-            }
-            _ => 0.0,
+    };
+    let m = d + 1;
+    for i in 0..d {
+        for j in i..d {
+            a[i * m + j] = upper(i, j);
         }
+        a[i * m + d] = right(i);
     }
-}
-
-/// Reduction of the target's squared error by some columns, from the products of residuals.
-fn gain(at: impl Fn(usize, usize) -> f64, group: &[usize], target: usize) -> f64 {
-    let d = group.len();
-    let mut a: Vec<f64> = Vec::with_capacity(d * d);
-    for &i in group {
-        a.extend(group.iter().map(|&j| at(i, j)));
-    }
-    let mut b: Vec<f64> = group.iter().map(|&i| at(i, target)).collect();
     let mut gain = 0.0;
     for s in 0..d {
-        let pivot = a[s * d + s];
+        let pivot = a[s * m + s];
         if pivot < SLOPE {
             continue;
         }
-        gain += b[s] * b[s] / pivot;
+        gain += a[s * m + d] * a[s * m + d] / pivot;
         for i in s + 1..d {
-            let factor = a[i * d + s] / pivot;
-            for j in s + 1..d {
-                a[i * d + j] -= factor * a[s * d + j];
+            let factor = a[s * m + i] / pivot;
+            for j in i..m {
+                a[i * m + j] -= factor * a[s * m + j];
             }
-            b[i] -= factor * b[s];
         }
     }
     gain

@@ -1,6 +1,7 @@
 //! A model and all that may be added to it, to first order: one Gram matrix.
 
 use super::bank::{Bank, Identity, Slope};
+use super::forward::Sought;
 use super::gram::{Grams, Swept};
 use super::policy;
 use super::present::Present;
@@ -118,6 +119,10 @@ pub(super) struct Linear<'a> {
     pub(super) now: Arc<Solution>,
     pub(super) declared: usize,
     pub(super) grams: Grams,
+    /// What the declared part leaves.
+    base: Swept,
+    /// What a forward selection chooses among.
+    pub(super) sought: Sought,
     pub(super) groups: Vec<Group>,
     pub(super) prices: Prices,
     pub(super) regime: Regime,
@@ -167,6 +172,8 @@ impl<'a> Linear<'a> {
             now: Arc::clone(now),
             declared,
             grams: Grams::new(&columns, rows, &blocks(data)),
+            base: Swept::default(),
+            sought: Sought::default(),
             groups,
             prices: Prices::new(level, regime, (band, band), curve),
             regime,
@@ -180,6 +187,8 @@ impl<'a> Linear<'a> {
             columns,
         };
         linear.refine(bank);
+        linear.base = linear.grams.without(&linear.own);
+        linear.sought = Sought::of(&linear);
         linear.judge_blocks(level, (band, curve));
         linear
     }
@@ -292,6 +301,13 @@ impl<'a> Linear<'a> {
         columns
     }
 
+    /// The Gram matrix without what the kept columns explain.
+    pub(super) fn without(&self, kept: &Kept) -> Swept {
+        let mut swept = self.base.clone();
+        swept.sweep(&self.columns_of(kept)[self.own.len()..]);
+        swept
+    }
+
     /// Gain and slopes of one term.
     pub(super) fn term(&self, index: usize) -> &[usize] {
         &self.terms[index]
@@ -368,49 +384,6 @@ impl<'a> Linear<'a> {
         }
         pairs.sort_by(|p, q| q.0.total_cmp(&p.0));
         pairs
-    }
-
-    /// Names that are added one by one while the criterion falls, from a set on.
-    pub(super) fn greedy(&self, kept: &Kept, added: &[usize], most: usize) -> Vec<usize> {
-        let mut columns = self.columns_of(kept);
-        for &g in added {
-            columns.extend(&self.groups[g].columns);
-        }
-        let (target, _) = self.target_of(kept);
-        let swept = self.grams.without(&columns);
-        let mut all = added.to_vec();
-        self.complete(swept, target, &mut all, most);
-        all
-    }
-
-    /// The same from a swept matrix on.
-    pub(super) fn complete(
-        &self,
-        mut swept: Swept,
-        target: usize,
-        all: &mut Vec<usize>,
-        most: usize,
-    ) {
-        while all.len() < most {
-            let sse = swept.at(target, target).max(1e-14);
-            let free = |g: &usize| {
-                let own = &self.groups[*g];
-                !own.is_curve() && all.iter().all(|&a| !self.groups[a].is_like(own))
-            };
-            let best = (0..self.groups.len())
-                .filter(free)
-                .map(|g| {
-                    let gain = swept.gain(&self.groups[g].columns, target);
-                    let left = (1.0 - gain / sse).max(1e-14);
-                    (left.ln() + self.price(g), g)
-                })
-                .min_by(|a, b| a.0.total_cmp(&b.0));
-            let Some((_, g)) = best.filter(|(change, _)| *change < 0.0) else {
-                return;
-            };
-            swept.sweep(&self.groups[g].columns);
-            all.push(g);
-        }
     }
 }
 

@@ -11,9 +11,11 @@
 
 mod bank;
 pub mod carries_over;
+mod forward;
 pub mod gram;
 mod linear;
 mod moves;
+pub mod partial;
 pub mod policy;
 mod present;
 mod readoff;

@@ -146,7 +146,7 @@ impl Linear<'_> {
     }
 
     fn moves_from(&self, kept: &Kept) -> Vec<Move> {
-        let swept = self.grams.without(&self.columns_of(kept));
+        let swept = self.without(kept);
         let (target, unit) = self.target_of(kept);
         let sse = swept.at(target, target).max(1e-14);
         let price = self.price_of(kept) + unit.ln();
@@ -179,7 +179,7 @@ impl Linear<'_> {
         }
         moves.sort_by(|a, b| a.promise.total_cmp(&b.promise));
         moves.truncate(MOVES);
-        self.add_completed(kept, &mut moves, &make);
+        self.add_completed((kept, &swept), &mut moves, &make);
         moves
     }
 
@@ -209,7 +209,7 @@ impl Linear<'_> {
     /// does: so the best sets of names are completed before a curve is compared with them.
     fn add_completed(
         &self,
-        kept: &Kept,
+        (kept, swept): (&Kept, &Swept),
         moves: &mut Vec<Move>,
         make: &dyn Fn(Vec<usize>, f64) -> Move,
     ) {
@@ -223,10 +223,10 @@ impl Linear<'_> {
         for added in begun {
             let present = self.now.structure.terms.len() - self.declared;
             let room = policy::MOST_NAMES.saturating_sub(present - kept.dropped.len());
-            let whole = self.greedy(kept, &added, room);
+            let (target, _) = self.target_of(kept);
+            let whole = self.completed(swept, target, &added, room);
             if whole.len() > added.len().max(2) {
                 let mut columns = self.columns_of(kept);
-                let (target, _) = self.target_of(kept);
                 let before = self.grams.squared_error(&columns, target);
                 for &g in &whole {
                     columns.extend(&self.groups[g].columns);

@@ -319,7 +319,7 @@ impl Context<'_, '_> {
         known: Option<&Entry>,
     ) -> (Vec<usize>, f64) {
         let linear = self.linear;
-        let swept = linear.grams.without(&linear.columns_of(kept));
+        let swept = linear.without(kept);
         let (target, unit) = linear.target_of(kept);
         let sse = unit * swept.at(target, target);
         let mut close: Vec<(f64, usize)> = Vec::new();

@@ -1,0 +1,201 @@
+//! Forward selection asks a Gram matrix for few of its entries, so only those are kept.
+//!
+//! A step of it needs the products within each group of columns and with the target: two
+//! thousand of a few hundred thousand. They are brought up to date as columns come in; of
+//! the rest, a row is computed when its column does.
+
+use super::gram::{gain, Grams, Swept, DEPENDENT};
+use super::policy::EXCITED;
+use std::ops::Range;
+
+/// The entries that a selection among some groups of columns asks for.
+#[derive(Debug, Clone, Default)]
+pub struct Entries {
+    /// The columns of all groups, one after the other.
+    columns: Vec<usize>,
+    groups: Vec<Range<usize>>,
+    /// Products within the groups: the upper triangle of each by rows.
+    inner: Vec<(usize, usize)>,
+    /// Where those of each group begin.
+    begin: Vec<usize>,
+}
+
+impl Entries {
+    /// The entries of groups of columns; the first of a group is its own, the others are its
+    /// slopes.
+    #[must_use]
+    pub fn of<'a>(groups: impl IntoIterator<Item = &'a [usize]>) -> Self {
+        let mut entries = Self::default();
+        for group in groups {
+            let first = entries.columns.len();
+            entries.columns.extend(group);
+            entries.groups.push(first..entries.columns.len());
+            entries.begin.push(entries.inner.len());
+            for (n, &i) in group.iter().enumerate() {
+                entries.inner.extend(group[n..].iter().map(|&j| (i, j)));
+            }
+        }
+        entries
+    }
+
+    /// Columns of a group.
+    #[must_use]
+    pub fn group(&self, group: usize) -> &[usize] {
+        &self.columns[self.groups[group].clone()]
+    }
+
+    /// Number of groups.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.groups.len()
+    }
+
+    /// Whether there is no group.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.groups.is_empty()
+    }
+}
+
+/// Where entries come from.
+enum Source<'a> {
+    /// Some blocks, scaled up to the whole record.
+    Blocks(&'a Grams, &'a [usize], f64),
+    /// What a set leaves on the whole fit segment.
+    Swept(&'a Swept),
+}
+
+/// What a growing set of columns leaves of some groups of columns and of a target.
+pub struct Partial<'a> {
+    source: Source<'a>,
+    entries: &'a Entries,
+    target: usize,
+    inner: Vec<f64>,
+    with_target: Vec<f64>,
+    rest: f64,
+    /// For each column of the set its products with what those before it leave of all
+    /// columns, over the root of its own.
+    swept: Vec<Vec<f64>>,
+}
+
+impl<'a> Partial<'a> {
+    /// On some blocks only, with entries scaled up to the whole record.
+    #[must_use]
+    pub fn on_blocks(
+        grams: &'a Grams,
+        blocks: &'a [usize],
+        entries: &'a Entries,
+        target: usize,
+    ) -> Self {
+        let factor = grams.blocks() as f64 / blocks.len().max(1) as f64;
+        Self::new(Source::Blocks(grams, blocks, factor), entries, target)
+    }
+
+    /// From what a set leaves on.
+    #[must_use]
+    pub fn beside(swept: &'a Swept, entries: &'a Entries, target: usize) -> Self {
+        Self::new(Source::Swept(swept), entries, target)
+    }
+
+    fn new(source: Source<'a>, entries: &'a Entries, target: usize) -> Self {
+        let at = |&(i, j): &(usize, usize)| source.at(i, j);
+        let inner = entries.inner.iter().map(at).collect();
+        let columns = entries.columns.iter();
+        let with_target = columns.map(|&c| source.at(c, target)).collect();
+        let rest = source.at(target, target);
+        Self {
+            source,
+            entries,
+            target,
+            inner,
+            with_target,
+            rest,
+            swept: Vec::new(),
+        }
+    }
+
+    /// Squared error of the set, in units of the target's squared scale.
+    #[must_use]
+    pub fn squared_error(&self) -> f64 {
+        self.rest
+    }
+
+    /// Takes more columns into the set.
+    pub fn sweep(&mut self, columns: &[usize]) {
+        for &s in columns {
+            let mut row = self.source.row(s);
+            for before in &self.swept {
+                let factor = before[s];
+                for (v, r) in row.iter_mut().zip(before) {
+                    *v -= factor * r;
+                }
+            }
+            let pivot = row[s];
+            if pivot < DEPENDENT {
+                continue;
+            }
+            let scale = pivot.sqrt().recip();
+            for v in &mut row {
+                *v *= scale;
+            }
+            for (v, &(i, j)) in self.inner.iter_mut().zip(&self.entries.inner) {
+                *v -= row[i] * row[j];
+            }
+            let own = row[self.target];
+            for (v, &c) in self.with_target.iter_mut().zip(&self.entries.columns) {
+                *v -= row[c] * own;
+            }
+            self.rest -= own * own;
+            self.swept.push(row);
+        }
+    }
+
+    /// As [`Swept::gain`].
+    #[must_use]
+    pub fn gain(&self, group: usize) -> f64 {
+        let columns = self.entries.groups[group].clone();
+        let (d, inner) = (columns.len(), &self.inner[self.entries.begin[group]..]);
+        match inner.first() {
+            Some(&own) if d > 0 && own > EXCITED => {
+                let right = &self.with_target[columns];
+                // Row i of the triangle begins after i rows of d, d - 1, … entries.
+                gain(
+                    |i, j| inner[i * (2 * d + 1 - i) / 2 + j - i],
+                    |i| right[i],
+                    d,
+                )
+            }
+            _ => 0.0,
+        }
+    }
+}
+
+impl Source<'_> {
+    fn at(&self, i: usize, j: usize) -> f64 {
+        match self {
+            Self::Blocks(grams, blocks, factor) => {
+                let sum: f64 = blocks.iter().map(|&b| grams.row_of(b, i)[j]).sum();
+                factor * sum
+            }
+            Self::Swept(swept) => swept.at(i, j),
+        }
+    }
+
+    fn row(&self, s: usize) -> Vec<f64> {
+        match self {
+            Self::Blocks(grams, blocks, factor) => {
+                let mut row = vec![0.0; grams.size()];
+                for &block in *blocks {
+                    for (r, v) in row.iter_mut().zip(grams.row_of(block, s)) {
+                        *r += v;
+                    }
+                }
+                for r in &mut row {
+                    *r *= factor;
+                }
+                row
+            }
+            Self::Swept(swept) => (0..swept.size()).map(|j| swept.at(s, j)).collect(),
+        }
+    }
+}
