@@ -103,34 +103,65 @@ impl Regime {
     }
 }
 
-/// Share of all sign patterns that count, the real one always among them.
+/// Exact sign-flip p-value of some scores on each block: the share of all sign patterns whose
+/// sum is at least as long as the real one.
 ///
-/// Patterns are walked in Gray-code order: each differs from the last in one sign.
-/// `counts(block, sign)` is told which block's sign has changed, and to what.
-pub(crate) fn share_of_patterns(mut counts: impl FnMut(usize, f64) -> bool) -> f64 {
-    let mut signs = [1.0; BLOCKS];
-    let patterns = 1_u32 << (BLOCKS - 1);
-    let mut counted = 1_u32;
-    for pattern in 1..patterns {
-        // The last block keeps its sign: a pattern and its negative have the same sum.
-        let flip = pattern.trailing_zeros() as usize;
-        signs[flip] = -signs[flip];
-        counted += u32::from(counts(flip, signs[flip]));
+/// Every sum is one over the first half of the blocks plus one over the others, so that half
+/// as many signs are walked through twice, and the rest is a sum of two tables.
+#[must_use]
+pub fn flips(scores: &[Vec<f64>]) -> f64 {
+    let directions = scores.first().map_or(0, Vec::len);
+    let [first @ .., last] = scores else {
+        return 1.0;
+    };
+    if directions == 0 || scores.len() != BLOCKS {
+        return 1.0;
     }
-    f64::from(counted) / f64::from(patterns)
+    let (low, high) = first.split_at(BLOCKS / 2);
+    let (mut lows, mut highs, mut real) = (Vec::new(), Vec::new(), 0.0);
+    for direction in 0..directions {
+        let sum: f64 = scores.iter().map(|own| own[direction]).sum();
+        real += sum * sum;
+        lows.push(signed_sums(0.0, low, direction));
+        // The last block keeps its sign: a pattern and its negative have the same length.
+        highs.push(signed_sums(last[direction], high, direction));
+    }
+    // Equal up to the rounding of a sum of sixteen numbers.
+    let threshold = real * (1.0 - 1e-9);
+    let patterns = lows[0].len() * highs[0].len();
+    let mut lengths = vec![0.0; lows[0].len()];
+    let mut counted = 0;
+    for pattern in 0..highs[0].len() {
+        lengths.fill(0.0);
+        for (low, high) in lows.iter().zip(&highs) {
+            let of_others = high[pattern];
+            for (length, own) in lengths.iter_mut().zip(low) {
+                *length += (own + of_others) * (own + of_others);
+            }
+        }
+        counted += lengths.iter().filter(|l| **l >= threshold).count();
+    }
+    counted as f64 / patterns as f64
 }
 
-/// Share of all sign patterns whose sum is at least as far from zero as the real one.
+/// A number plus the scores of some blocks in one direction, with all patterns of signs.
+fn signed_sums(start: f64, scores: &[Vec<f64>], direction: usize) -> Vec<f64> {
+    let mut sums = vec![start];
+    for own in scores {
+        let score = own[direction];
+        let minus: Vec<f64> = sums.iter().map(|sum| sum - score).collect();
+        for sum in &mut sums {
+            *sum += score;
+        }
+        sums.extend(minus);
+    }
+    sums
+}
+
+/// The same of one score on each block.
 #[must_use]
 pub fn sign_flip_p(scores: &[f64; BLOCKS]) -> f64 {
-    let observed = scores.iter().sum::<f64>().abs();
-    // Equal up to the rounding of a walk over 2^15 patterns.
-    let threshold = observed - 1e-9 * scores.iter().map(|s| s.abs()).sum::<f64>();
-    let mut sum: f64 = scores.iter().sum();
-    share_of_patterns(|block, sign| {
-        sum += 2.0 * sign * scores[block];
-        sum.abs() >= threshold
-    })
+    flips(&scores.map(|score| vec![score]))
 }
 
 /// Time after which the autocorrelation has fallen to 1/e, in samples.

@@ -3,7 +3,7 @@
 //! Of the ten directions only those are kept in which the rest of the model cannot move:
 //! a curve is told apart from a constant, or from the declared stiffness, by nothing.
 
-use super::blocks::{blocks, share_of_patterns};
+use super::blocks::{blocks, flips};
 use crate::fit::projection::{rows, Span};
 use crate::fit::Solution;
 use crate::model::{Table, Variable};
@@ -25,8 +25,15 @@ pub(crate) struct Scored {
     pub(crate) table: Table,
     /// Share of the squared error.
     pub(crate) share: f64,
+    /// The curve's scores on each block.
+    scores: Vec<Vec<f64>>,
+}
+
+impl Scored {
     /// Exact sign-flip p-value of the whole curve.
-    pub(crate) p: f64,
+    pub(crate) fn p(&self) -> f64 {
+        flips(&self.scores)
+    }
 }
 
 /// Fits a curve over the variable to what a model leaves, off all that it can move.
@@ -38,10 +45,12 @@ pub(crate) fn score(
     count: usize,
 ) -> Option<Scored> {
     let hats = hats(data, now, variable, count)?;
-    let raw: Vec<DVector<f64>> = hats
-        .columns(data, &now.eta)?
+    let columns = hats.columns(data, &now.eta)?;
+    let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+    let raw: Vec<DVector<f64>> = data
+        .filtered_all(&columns)
         .iter()
-        .map(|column| rows(data, &data.filtered(column)))
+        .map(|column| rows(data, column))
         .collect();
     let whole = DMatrix::from_columns(&raw);
     let left: Vec<DVector<f64>> = raw.into_iter().map(|c| moved.off(c)).collect();
@@ -66,7 +75,7 @@ pub(crate) fn score(
     let gain: f64 = units.iter().map(|u| u.dot(&residual).powi(2)).sum();
     Some(Scored {
         share: gain / residual.norm_squared(),
-        p: flips(data, &units, &residual),
+        scores: scores(data, &units, &residual),
         table: Table { shapes, ..hats },
     })
 }
@@ -106,22 +115,13 @@ pub(crate) fn hats(
     })
 }
 
-/// Share of all sign patterns of the blocks under which the curve takes as much.
-fn flips(data: &Prepared, units: &[DVector<f64>], residual: &DVector<f64>) -> f64 {
-    let scores: Vec<DVector<f64>> = blocks(data)
-        .into_iter()
-        .map(|block| {
-            let part = |u: &DVector<f64>| block.clone().map(|k| u[k] * residual[k]).sum();
-            DVector::from_iterator(units.len(), units.iter().map(part))
-        })
-        .collect();
-    let mut sum: DVector<f64> = scores.iter().sum();
-    // Equal up to the rounding of a walk over 2^15 patterns.
-    let threshold = sum.norm_squared() * (1.0 - 1e-9);
-    share_of_patterns(|block, sign| {
-        sum.axpy(2.0 * sign, &scores[block], 1.0);
-        sum.norm_squared() >= threshold
-    })
+/// Products with the residual on each block.
+fn scores(data: &Prepared, units: &[DVector<f64>], residual: &DVector<f64>) -> Vec<Vec<f64>> {
+    let of = |block: std::ops::Range<usize>| {
+        let part = |u: &DVector<f64>| block.clone().map(|k| u[k] * residual[k]).sum();
+        units.iter().map(part).collect()
+    };
+    blocks(data).into_iter().map(of).collect()
 }
 
 /// Whether a variable that starts anew with each stroke says where in the stroke the

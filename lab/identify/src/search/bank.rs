@@ -23,6 +23,8 @@ pub(super) const HATS_IN_GRAM: usize = 20;
 const STEPS: usize = 4;
 /// Step of the difference quotients, on the line that a range is mapped to.
 const DIFFERENCE: f64 = 1e-3;
+/// Columns that go through the filter at once.
+const ABREAST: usize = 8;
 /// Beyond this the map of a range to the line is flat.
 const FLAT: f64 = 5.0;
 
@@ -107,16 +109,16 @@ impl<'a> Bank<'a> {
         let mut tried = candidates(self.data, &now.structure, &now.residual);
         tried.extend(steps(self.data, now, &tried));
         tried.extend(tone(self.data, now));
-        let made: Vec<Option<Arc<Vec<f64>>>> = tried
-            .par_iter()
-            .map(|c| match self.values.iter().find(|(t, _)| *t == c.term) {
-                Some((_, known)) => Some(Arc::clone(known)),
-                None => {
-                    let column = self.data.filtered(&now.adds(self.data, &c.term)?);
-                    is_finite(&column).then(|| Arc::new(column))
-                }
-            })
+        let known = |c: &Candidate| self.values.iter().find(|(t, _)| *t == c.term);
+        let mut made: Vec<Option<Arc<Vec<f64>>>> = tried
+            .iter()
+            .map(|c| known(c).map(|(_, column)| Arc::clone(column)))
             .collect();
+        let anew: Vec<usize> = (0..tried.len()).filter(|&i| made[i].is_none()).collect();
+        let columns = filtered(self.data, &anew, |&i| now.adds(self.data, &tried[i].term));
+        for (i, column) in anew.into_iter().zip(columns) {
+            made[i] = column;
+        }
         let pairs = tried.into_iter().zip(made);
         let all: Vec<_> = pairs.filter_map(|(c, column)| Some((c, column?))).collect();
         for (c, column) in all.iter().filter(|(c, _)| is_fixed(&c.term)) {
@@ -129,26 +131,25 @@ impl<'a> Bank<'a> {
 
     /// The slopes of some candidates in their own shapes and origins.
     pub(super) fn slopes(&mut self, now: &Solution, wanted: &[FitTerm]) -> Vec<Vec<Slope>> {
-        let made: Vec<Vec<Slope>> = wanted
-            .par_iter()
-            .map(|term| {
-                let parameters = parameters(self.data, now, term);
-                let known = self.slopes.iter().find(|(t, known)| {
-                    t == term
-                        && known
-                            .iter()
-                            .map(|s| (s.own, s.range))
-                            .eq(parameters.clone())
-                });
-                match known {
-                    Some((_, known)) => known.clone(),
-                    None => parameters
-                        .into_iter()
-                        .filter_map(|(own, range)| slope(self.data, now, term, own, range))
-                        .collect(),
-                }
-            })
-            .collect();
+        let mut made: Vec<Vec<Slope>> = Vec::with_capacity(wanted.len());
+        let mut anew: Vec<(usize, Own, Range)> = Vec::new();
+        for (index, term) in wanted.iter().enumerate() {
+            let asked = parameters(self.data, now, term);
+            let is_same = |(t, known): &&(FitTerm, Vec<Slope>)| {
+                t == term && known.iter().map(|s| (s.own, s.range)).eq(asked.clone())
+            };
+            let known = self.slopes.iter().find(is_same);
+            made.push(known.map_or_else(Vec::new, |(_, slopes)| slopes.clone()));
+            if known.is_none() {
+                anew.extend(asked.into_iter().map(|(own, range)| (index, own, range)));
+            }
+        }
+        let columns = filtered(self.data, &anew, |&(index, own, range)| {
+            slope(self.data, now, &wanted[index], own, range)
+        });
+        for ((index, own, range), column) in anew.into_iter().zip(columns) {
+            made[index].extend(column.map(|column| Slope { own, range, column }));
+        }
         for (term, own) in wanted.iter().zip(&made).filter(|(t, _)| is_fixed(t)) {
             self.slopes.retain(|(t, _)| t != term);
             self.slopes.push((*term, own.clone()));
@@ -166,11 +167,10 @@ impl<'a> Bank<'a> {
                     return Some(known.clone());
                 }
                 let raw = hats(self.data, now, v, HATS_IN_GRAM)?.columns(self.data, &now.eta)?;
-                let columns: Vec<_> = raw
-                    .iter()
-                    .map(|c| Arc::new(self.data.filtered(c)))
-                    .collect();
-                columns.iter().all(|c| is_finite(c)).then_some((v, columns))
+                let raw: Vec<&[f64]> = raw.iter().map(|c| &c[..]).collect();
+                let columns = self.data.filtered_all(&raw);
+                let is_usable = columns.iter().all(|c| is_finite(c));
+                is_usable.then(|| (v, columns.into_iter().map(Arc::new).collect()))
             })
             .collect();
         let made: Vec<_> = made.into_iter().flatten().collect();
@@ -202,7 +202,35 @@ fn parameters(data: &Prepared, now: &Solution, term: &FitTerm) -> Vec<(Own, Rang
     .collect()
 }
 
-fn slope(data: &Prepared, now: &Solution, term: &FitTerm, own: Own, range: Range) -> Option<Slope> {
+/// Columns of the work grid through the filter, which takes several abreast; `None` where
+/// there is none or where it is not finite.
+fn filtered<T: Sync>(
+    data: &Prepared,
+    wanted: &[T],
+    raw: impl Fn(&T) -> Option<Vec<f64>> + Sync,
+) -> Vec<Option<Arc<Vec<f64>>>> {
+    let few = |some: &[T]| {
+        let raw: Vec<Option<Vec<f64>>> = some.iter().map(&raw).collect();
+        let present: Vec<&[f64]> = raw.iter().flatten().map(Vec::as_slice).collect();
+        let mut smooth = data.filtered_all(&present).into_iter();
+        let mut of = |is: bool| is.then(|| smooth.next()).flatten();
+        let all: Vec<_> = raw.iter().map(|column| of(column.is_some())).collect();
+        all.into_iter()
+            .map(|column| column.filter(|c| is_finite(c)).map(Arc::new))
+            .collect::<Vec<_>>()
+    };
+    let all: Vec<Vec<_>> = wanted.par_chunks(ABREAST).map(few).collect();
+    all.into_iter().flatten().collect()
+}
+
+/// A slope before the filter, as a difference quotient.
+fn slope(
+    data: &Prepared,
+    now: &Solution,
+    term: &FitTerm,
+    own: Own,
+    range: Range,
+) -> Option<Vec<f64>> {
     let moved = |v: f64| match own {
         Own::Shape(index) => Some(FitTerm {
             effect: term.effect.with_shape(index, v).ok()?,
@@ -215,18 +243,12 @@ fn slope(data: &Prepared, now: &Solution, term: &FitTerm, own: Own, range: Range
         Own::Origin => term.origin,
     };
     let u = on_line(range, value);
-    let at = |u: f64| Some(data.filtered(&now.adds(data, &moved(range.decode(u))?)?));
-    let (up, down) = (at(u + DIFFERENCE)?, at(u - DIFFERENCE)?);
-    let column: Vec<f64> = up
-        .iter()
-        .zip(&down)
-        .map(|(a, b)| (a - b) / (2.0 * DIFFERENCE))
-        .collect();
-    is_finite(&column).then(|| Slope {
-        own,
-        range,
-        column: Arc::new(column),
-    })
+    let at = |u: f64| now.adds(data, &moved(range.decode(u))?);
+    let (mut up, down) = (at(u + DIFFERENCE)?, at(u - DIFFERENCE)?);
+    for (a, b) in up.iter_mut().zip(&down) {
+        *a = (*a - b) / (2.0 * DIFFERENCE);
+    }
+    Some(up)
 }
 
 /// The strongest line of the residual's spectrum.

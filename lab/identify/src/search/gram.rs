@@ -7,7 +7,7 @@
 //! needs the scores of the blocks only (Lehmann and Romano, 2005, section 15.2).
 
 use super::policy::EXCITED;
-use crate::score::blocks::{share_of_patterns, BLOCKS};
+use crate::score::blocks::flips;
 use nalgebra::{DMatrix, SymmetricEigen};
 use std::ops::Range;
 use std::sync::Arc;
@@ -90,7 +90,8 @@ impl Grams {
                 let mut grown = Vec::with_capacity(size * size);
                 for i in 0..old {
                     grown.extend_from_slice(&part[i * old..(i + 1) * old]);
-                    grown.extend(products.row(i).iter());
+                    let new = products.as_slice()[i..].iter().step_by(size);
+                    grown.extend(new.take(size - old));
                 }
                 grown.extend_from_slice(products.as_slice());
                 *part = grown;
@@ -201,7 +202,7 @@ impl Grams {
             scores.push((0..d).map(|i| products[(i, d)]).collect());
             inner += products.view((0, 0), (d, d));
         }
-        flips(whitened(&scores, inner))
+        flips(&whitened(&scores, inner))
     }
 }
 
@@ -225,30 +226,6 @@ fn whitened(scores: &[Vec<f64>], inner: DMatrix<f64>) -> Vec<Vec<f64>> {
         .iter()
         .map(|s| good.iter().map(|&i| along(s, i)).collect())
         .collect()
-}
-
-/// Share of all sign patterns whose sum is at least as long as the real one.
-fn flips(scores: Vec<Vec<f64>>) -> f64 {
-    let directions = scores.first().map_or(0, Vec::len);
-    if directions == 0 || scores.len() != BLOCKS {
-        return 1.0;
-    }
-    let mut sum = vec![0.0; directions];
-    for own in &scores {
-        for (s, v) in sum.iter_mut().zip(own) {
-            *s += v;
-        }
-    }
-    // Equal up to the rounding of a walk over 2^15 patterns.
-    let threshold = sum.iter().map(|v| v * v).sum::<f64>() * (1.0 - 1e-9);
-    share_of_patterns(|block, sign| {
-        let mut length = 0.0;
-        for (s, v) in sum.iter_mut().zip(&scores[block]) {
-            *s += 2.0 * sign * v;
-            length += *s * *s;
-        }
-        length >= threshold
-    })
 }
 
 /// Gauss-Jordan elimination of the first `pivots` rows and columns of a symmetric matrix of

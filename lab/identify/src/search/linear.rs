@@ -124,6 +124,8 @@ pub(super) struct Linear<'a> {
     /// What a forward selection chooses among.
     pub(super) sought: Sought,
     pub(super) groups: Vec<Group>,
+    /// Groups of one number have the same name, whatever their shapes.
+    pub(super) kinds: Vec<usize>,
     pub(super) prices: Prices,
     pub(super) regime: Regime,
     /// Correlation time of what the best set leaves \[s\].
@@ -175,6 +177,7 @@ impl<'a> Linear<'a> {
             base: Swept::default(),
             sought: Sought::default(),
             groups,
+            kinds: Vec::new(),
             prices: Prices::new(level, regime, (band, band), curve),
             regime,
             correlation_time: correlation,
@@ -189,6 +192,7 @@ impl<'a> Linear<'a> {
         linear.refine(bank);
         linear.base = linear.grams.without(&linear.own);
         linear.sought = Sought::of(&linear);
+        linear.kinds = kinds(&linear.groups);
         linear.judge_blocks(level, (band, curve));
         linear
     }
@@ -205,9 +209,12 @@ impl<'a> Linear<'a> {
             .iter()
             .map(|g| reduces(swept.gain(&g.columns, self.target)))
             .collect();
-        let pairs = self.pairs(&swept, self.target);
-        let paired = pairs.iter().take(PAIRED);
-        for &(_, a, b) in paired.filter(|(gain, ..)| reduces(*gain)) {
+        let mut pairs = self.pairs(&swept, self.target);
+        if pairs.len() > PAIRED {
+            pairs.select_nth_unstable_by(PAIRED, |p, q| q.0.total_cmp(&p.0));
+            pairs.truncate(PAIRED);
+        }
+        for &(_, a, b) in pairs.iter().filter(|(gain, ..)| reduces(*gain)) {
             (wanted[a], wanted[b]) = (true, true);
         }
         let any = wanted.iter().any(|w| *w);
@@ -366,8 +373,7 @@ impl<'a> Linear<'a> {
         all
     }
 
-    /// All pairs of names by what the two values take together, the best first; each two
-    /// names once.
+    /// All pairs of candidates with what the two values take together.
     pub(super) fn pairs(&self, swept: &Swept, target: usize) -> Vec<(f64, usize, usize)> {
         let usable: Vec<usize> = (0..self.groups.len())
             .filter(|&g| !self.groups[g].is_curve())
@@ -382,9 +388,21 @@ impl<'a> Linear<'a> {
                 pairs.extend(gain.map(|gain| (gain, a, b)));
             }
         }
-        pairs.sort_by(|p, q| q.0.total_cmp(&p.0));
         pairs
     }
+}
+
+/// A number for each group, the same for those that are alike.
+fn kinds(groups: &[Group]) -> Vec<usize> {
+    let mut first: Vec<&Group> = Vec::new();
+    let mut number = |group| {
+        let known = first.iter().position(|other| other.is_like(group));
+        known.unwrap_or_else(|| {
+            first.push(group);
+            first.len() - 1
+        })
+    };
+    groups.iter().map(&mut number).collect()
 }
 
 /// Level of one test: the family-wise level over families and channels.

@@ -185,24 +185,25 @@ impl Linear<'_> {
 
     /// The best pairs, with their slopes; each two names once.
     fn best_pairs(&self, swept: &Swept, target: usize) -> Vec<(f64, usize, usize)> {
-        let mut taken: Vec<(usize, usize)> = Vec::new();
-        for (_, a, b) in self.pairs(swept, target) {
-            let like = |x: usize, y: usize| self.groups[x].is_like(&self.groups[y]);
-            let known = taken
-                .iter()
-                .any(|&(x, y)| (like(x, a) && like(y, b)) || (like(x, b) && like(y, a)));
-            if !known && !like(a, b) {
-                taken.push((a, b));
-            }
-            if taken.len() >= PAIRS {
-                break;
+        let of = &self.kinds;
+        let kinds = of.iter().max().map_or(0, |last| last + 1);
+        let mut best: Vec<Option<(f64, usize, usize)>> = vec![None; kinds * kinds];
+        for pair in self.pairs(swept, target) {
+            let (a, b) = (of[pair.1], of[pair.2]);
+            let slot = &mut best[a.min(b) * kinds + a.max(b)];
+            if a != b && slot.is_none_or(|known| known.0 < pair.0) {
+                *slot = Some(pair);
             }
         }
+        let mut taken: Vec<(f64, usize, usize)> = best.into_iter().flatten().collect();
+        taken.sort_by(|p, q| q.0.total_cmp(&p.0));
+        taken.truncate(PAIRS);
         let gain = |a: usize, b: usize| {
             let both = [&self.groups[a].columns[..], &self.groups[b].columns[..]].concat();
             swept.gain(&both, target)
         };
-        taken.into_iter().map(|(a, b)| (gain(a, b), a, b)).collect()
+        let slopes = |(_, a, b)| (gain(a, b), a, b);
+        taken.into_iter().map(slopes).collect()
     }
 
     /// Names may each be poor, by twos poor as well, and together explain what one curve

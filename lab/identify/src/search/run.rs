@@ -415,7 +415,11 @@ impl Linear<'_> {
             Member::Name(_) => Some(swept.gain(&g.columns, target)),
             Member::Curve(_) => None,
         });
-        let pair = self.pairs(&swept, target).first().map_or(0.0, |p| p.0);
+        let pair = self
+            .pairs(&swept, target)
+            .iter()
+            .map(|p| p.0)
+            .fold(0.0, f64::max);
         (names.fold(pair, f64::max) / whole.max(f64::MIN_POSITIVE)).min(1.0)
     }
 }

@@ -1,7 +1,7 @@
 //! The algebra of the search against direct computation on the samples.
 #![allow(clippy::unwrap_used)]
 
-use bowden_lab::score::blocks::{sign_flip_p, BLOCKS};
+use bowden_lab::score::blocks::{flips, sign_flip_p, BLOCKS};
 use bowden_lab::search::gram::Grams;
 use bowden_lab::search::partial::{Entries, Partial};
 use nalgebra::{DMatrix, DVector};
@@ -241,5 +241,30 @@ fn the_entries_that_are_kept_up_to_date_are_those_of_the_whole_matrix() {
                 assert!((partial.gain(group) - expected).abs() < ROUNDING * sse);
             }
         }
+    }
+}
+
+#[test]
+fn a_p_value_is_the_share_of_all_patterns_of_signs_that_are_as_long() {
+    let mut rng = ChaCha8Rng::seed_from_u64(31);
+    for directions in [1, 2, 5] {
+        let drift = 0.4;
+        let mut score = || rng.random_range(-1.0..1.0) + drift;
+        let scores: Vec<Vec<f64>> = (0..BLOCKS)
+            .map(|_| (0..directions).map(|_| score()).collect())
+            .collect();
+        let length = |pattern: u32| -> f64 {
+            let sum = |d: usize| -> f64 {
+                let sign = |b: usize| f64::from(1 - 2 * (pattern >> b & 1) as i32);
+                (0..BLOCKS).map(|b| sign(b) * scores[b][d]).sum()
+            };
+            (0..directions).map(|d| sum(d).powi(2)).sum()
+        };
+        // Random lengths are not equal: a part in a billion is for the real pattern itself.
+        let least = length(0) * (1.0 - 1e-9);
+        let patterns = 0..1_u32 << BLOCKS;
+        let counted = patterns.clone().filter(|&p| length(p) >= least).count();
+        let expected = counted as f64 / patterns.len() as f64;
+        assert_eq!(flips(&scores), expected, "{directions} directions");
     }
 }
