@@ -46,7 +46,7 @@ pub(crate) fn dependences(data: &Prepared, now: &Solution, held: &[Vec<f64>]) ->
             Some(Dependence {
                 variable: scored.table.variable,
                 share: scored.share,
-                p: (regime == Regime::Blocks).then(|| scored.p()),
+                p: (regime == Regime::Blocks).then(|| scored.p(data)),
             })
         })
         .collect()
@@ -66,7 +66,7 @@ fn curves(data: &Prepared, now: &Solution, moved: &Span, variables: &[Variable])
     let mut found: Vec<Scored> = scored
         .into_iter()
         .flatten()
-        .filter(|s| s.p() <= level && !is_phase(data, now, s.table.variable))
+        .filter(|s| s.p(data) <= level && !is_phase(data, now, s.table.variable))
         .collect();
     found.sort_by(|a, b| b.share.total_cmp(&a.share));
     let best = found.first().map_or(0.0, |s| s.share);

@@ -25,14 +25,20 @@ pub(crate) struct Scored {
     pub(crate) table: Table,
     /// Share of the squared error.
     pub(crate) share: f64,
-    /// The curve's scores on each block.
-    scores: Vec<Vec<f64>>,
+    /// Its directions, of unit norm off the model, and the residual there.
+    units: Vec<DVector<f64>>,
+    residual: DVector<f64>,
 }
 
 impl Scored {
     /// Exact sign-flip p-value of the whole curve.
-    pub(crate) fn p(&self) -> f64 {
-        flips(&self.scores)
+    pub(crate) fn p(&self, data: &Prepared) -> f64 {
+        let of = |block: std::ops::Range<usize>| {
+            let part = |u: &DVector<f64>| block.clone().map(|k| u[k] * self.residual[k]).sum();
+            self.units.iter().map(part).collect()
+        };
+        let scores: Vec<Vec<f64>> = blocks(data).into_iter().map(of).collect();
+        flips(&scores)
     }
 }
 
@@ -75,7 +81,8 @@ pub(crate) fn score(
     let gain: f64 = units.iter().map(|u| u.dot(&residual).powi(2)).sum();
     Some(Scored {
         share: gain / residual.norm_squared(),
-        scores: scores(data, &units, &residual),
+        units,
+        residual,
         table: Table { shapes, ..hats },
     })
 }
@@ -113,15 +120,6 @@ pub(crate) fn hats(
         shapes: (0..n).map(unit).collect(),
         knots,
     })
-}
-
-/// Products with the residual on each block.
-fn scores(data: &Prepared, units: &[DVector<f64>], residual: &DVector<f64>) -> Vec<Vec<f64>> {
-    let of = |block: std::ops::Range<usize>| {
-        let part = |u: &DVector<f64>| block.clone().map(|k| u[k] * residual[k]).sum();
-        units.iter().map(part).collect()
-    };
-    blocks(data).into_iter().map(of).collect()
 }
 
 /// Whether a variable that starts anew with each stroke says where in the stroke the

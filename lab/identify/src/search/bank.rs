@@ -64,7 +64,10 @@ pub(super) type Curve = (Variable, Vec<Arc<Vec<f64>>>);
 
 /// Columns that depend neither on the hysteresis state nor on the output are kept.
 pub(super) struct Bank<'a> {
-    data: &'a Prepared,
+    /// The whole record: what is tried, and over which ranges.
+    pub(super) data: &'a Prepared,
+    /// As much of it as the fit sees, on a coarser grid: columns are of this.
+    pub(super) seen: &'a Prepared,
     variables: Vec<Variable>,
     values: Vec<(FitTerm, Arc<Vec<f64>>)>,
     slopes: Vec<(FitTerm, Vec<Slope>)>,
@@ -90,10 +93,11 @@ fn is_finite(column: &[f64]) -> bool {
 }
 
 impl<'a> Bank<'a> {
-    pub(super) fn new(data: &'a Prepared, declared: &Solution) -> Self {
+    pub(super) fn new((data, seen): (&'a Prepared, &'a Prepared), declared: &Solution) -> Self {
         let all = Variable::all(data, declared.structure.hysteresis);
         Self {
             data,
+            seen,
             variables: all
                 .into_par_iter()
                 .filter(|v| !is_phase(data, declared, *v))
@@ -104,8 +108,13 @@ impl<'a> Bank<'a> {
         }
     }
 
-    /// Every candidate at its trial shapes, with its column.
-    pub(super) fn names(&mut self, now: &Solution) -> Vec<(Candidate, Arc<Vec<f64>>)> {
+    /// Every candidate at its trial shapes, with its column; the model on the whole record and
+    /// on what the fit sees.
+    pub(super) fn names(
+        &mut self,
+        now: &Solution,
+        seen: &Solution,
+    ) -> Vec<(Candidate, Arc<Vec<f64>>)> {
         let mut tried = candidates(self.data, &now.structure, &now.residual);
         tried.extend(steps(self.data, now, &tried));
         tried.extend(tone(self.data, now));
@@ -115,7 +124,7 @@ impl<'a> Bank<'a> {
             .map(|c| known(c).map(|(_, column)| Arc::clone(column)))
             .collect();
         let anew: Vec<usize> = (0..tried.len()).filter(|&i| made[i].is_none()).collect();
-        let columns = filtered(self.data, &anew, |&i| now.adds(self.data, &tried[i].term));
+        let columns = filtered(self.seen, &anew, |&i| seen.adds(self.seen, &tried[i].term));
         for (i, column) in anew.into_iter().zip(columns) {
             made[i] = column;
         }
@@ -144,8 +153,8 @@ impl<'a> Bank<'a> {
                 anew.extend(asked.into_iter().map(|(own, range)| (index, own, range)));
             }
         }
-        let columns = filtered(self.data, &anew, |&(index, own, range)| {
-            slope(self.data, now, &wanted[index], own, range)
+        let columns = filtered(self.seen, &anew, |&(index, own, range)| {
+            slope(self.seen, now, &wanted[index], own, range)
         });
         for ((index, own, range), column) in anew.into_iter().zip(columns) {
             made[index].extend(column.map(|column| Slope { own, range, column }));
@@ -166,9 +175,9 @@ impl<'a> Bank<'a> {
                 if let Some(known) = self.curves.iter().find(|(own, _)| *own == v) {
                     return Some(known.clone());
                 }
-                let raw = hats(self.data, now, v, HATS_IN_GRAM)?.columns(self.data, &now.eta)?;
+                let raw = hats(self.seen, now, v, HATS_IN_GRAM)?.columns(self.seen, &now.eta)?;
                 let raw: Vec<&[f64]> = raw.iter().map(|c| &c[..]).collect();
-                let columns = self.data.filtered_all(&raw);
+                let columns = self.seen.filtered_all(&raw);
                 let is_usable = columns.iter().all(|c| is_finite(c));
                 is_usable.then(|| (v, columns.into_iter().map(Arc::new).collect()))
             })

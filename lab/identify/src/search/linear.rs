@@ -116,7 +116,10 @@ impl Prices {
 /// One linearisation.
 pub(super) struct Linear<'a> {
     pub(super) data: &'a Prepared,
-    pub(super) now: Arc<Solution>,
+    /// As much of the record as the fit sees, on a coarser grid: all columns are of this.
+    pub(super) seen: &'a Prepared,
+    /// The model on `seen`.
+    pub(super) now: Solution,
     pub(super) declared: usize,
     pub(super) grams: Grams,
     /// What the declared part leaves.
@@ -145,15 +148,16 @@ pub(super) struct Linear<'a> {
 
 impl<'a> Linear<'a> {
     pub(super) fn new(
-        (data, bank): (&'a Prepared, &mut Bank<'a>),
-        now: &Arc<Solution>,
+        bank: &mut Bank<'a>,
+        (whole, now): (&Solution, Solution),
         declared: usize,
         curve: f64,
     ) -> Self {
-        let present = Present::new(data, now);
+        let (data, seen) = (bank.data, bank.seen);
+        let present = Present::new(seen, &now);
         let mut columns = present.columns;
         let mut groups = Vec::new();
-        for (candidate, column) in bank.names(now) {
+        for (candidate, column) in bank.names(whole, &now) {
             let past = usize::from(candidate.term.has_past());
             let in_time = usize::from(candidate.term.effect.shape_names().contains(&"t_s"));
             groups.push(Group {
@@ -164,14 +168,15 @@ impl<'a> Linear<'a> {
             });
             columns.push(column);
         }
-        let rows = &data.split.fit;
+        let rows = &seen.split.fit;
         let level = level(&groups);
         let (regime, correlation) = (Regime::Blocks, 0.0);
         let step = data.dt * data.stride as f64;
         let band = rows.len() as f64 * step * 2.0 * data.cutoff;
         let mut linear = Self {
             data,
-            now: Arc::clone(now),
+            seen,
+            now,
             declared,
             grams: Grams::new(&columns, rows, &blocks(data)),
             base: Swept::default(),
@@ -251,7 +256,7 @@ impl<'a> Linear<'a> {
             }
         }
         self.grams
-            .extend(&self.columns, &self.data.split.fit, &blocks(self.data));
+            .extend(&self.columns, &self.seen.split.fit, &blocks(self.data));
     }
 
     /// Whether the blocks are long enough for a test, from what the best set of names leaves:
@@ -263,7 +268,7 @@ impl<'a> Linear<'a> {
             columns.extend(&self.groups[g].columns);
         }
         let gains = self.grams.coefficients(&columns, self.target);
-        let rows = &self.data.split.fit;
+        let rows = &self.seen.split.fit;
         let rest: Vec<f64> = rows
             .iter()
             .map(|&i| {
@@ -272,7 +277,7 @@ impl<'a> Linear<'a> {
                     .zip(&gains)
                     .map(|(&c, g)| g * self.columns[c][i])
                     .sum();
-                self.data.target[i] - sum
+                self.seen.target[i] - sum
             })
             .collect();
         let (regime, samples) = Regime::of(self.data, &rest);

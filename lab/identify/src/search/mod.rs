@@ -31,8 +31,8 @@ use crate::score::explains::integrates;
 use bank::Bank;
 use linear::Linear;
 pub use policy::{MOST_NAMES, RECURRENCES};
+use refit::present;
 use run::Search;
-use std::sync::Arc;
 use std::time::Instant;
 
 /// Finds what a declared model lacks. `progress` is told what is being done.
@@ -93,7 +93,8 @@ pub fn close_within(
         ledger.stopped_by_request = Some(0);
         return Ok(ledger);
     }
-    let mut search = Search::new(data, &declared, most);
+    let (coarse, fine) = (data.for_search(true), data.for_search(false));
+    let mut search = Search::new((data, &coarse, &fine), &declared, most);
     let budget = limits.seconds.map(|seconds| (begun, seconds));
     let out_of_time = search.run(budget, &mut progress);
     progress("looking for what would do as well");
@@ -113,11 +114,16 @@ fn independence(data: &Prepared, solution: &Solution) -> (Regime, f64) {
 }
 
 /// Whether the record has blocks enough to test what a model lacks, and the level of one test.
+///
+/// No test where the model cannot be evaluated.
 pub(crate) fn tests(data: &Prepared, solution: &Solution) -> (Regime, f64) {
     let declared = solution.structure.terms.len();
-    let mut bank = Bank::new(data, solution);
+    let coarse = data.for_search(true);
+    let Some((seen, _)) = present(data, &coarse, solution) else {
+        return (Regime::Effect, policy::LEVEL);
+    };
+    let mut bank = Bank::new((data, &coarse), solution);
     let price = policy::CURVE_AGAINST_NAMES;
-    let now = Arc::new(solution.clone());
-    let linear = Linear::new((data, &mut bank), &now, declared, price);
+    let linear = Linear::new(&mut bank, (solution, seen), declared, price);
     (linear.regime, linear.prices.level)
 }

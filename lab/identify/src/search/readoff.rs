@@ -30,7 +30,7 @@ const STARTS: usize = 2;
 impl Search<'_> {
     /// The ledger of what was found.
     pub(super) fn ledger(mut self) -> Option<Ledger> {
-        let standing = self.last();
+        let standing = self.last()?;
         let rivals = self.rivals(&standing);
         let own = self.declared.structure.terms.len();
         let names = self.now.structure.terms[own..].iter().map(Identity::of);
@@ -144,12 +144,12 @@ impl Search<'_> {
             starts.extend(other_hystereses(self.data, &free, &present));
         }
         let search = |start: &[f64], (most, tolerance)| {
-            descend(&self.coarse, &structure, &free, start, most, tolerance)
+            descend(self.coarse, &structure, &free, start, most, tolerance)
         };
         let rough = starts.iter().filter_map(|s| search(s, ROUGH));
         let (_, start) = rough.min_by(|a, b| a.0.total_cmp(&b.0))?;
         let (_, start) = search(&start, FAIR)?;
-        let (_, values) = descend(&self.fine, &structure, &free, &start, 30, 1e-6)?;
+        let (_, values) = descend(self.fine, &structure, &free, &start, 30, 1e-6)?;
         settle(self.data, &structure, &free, values)
     }
 
@@ -194,7 +194,7 @@ impl Search<'_> {
                     promise: 0.0,
                     p: Vec::new(),
                 };
-                let real = linear.refit((&self.coarse, context.moved), &swap, STARTS)?;
+                let real = linear.refit((self.coarse, context.moved), &swap, STARTS)?;
                 let left = real.sse / context.scale;
                 let candidate = linear.groups[g].candidate()?;
                 good(left).then_some((candidate, left))

@@ -5,6 +5,7 @@ use super::linear::{Kept, Linear, Member};
 use super::moves::Move;
 use crate::fit::projection::Span;
 use crate::fit::search::descend;
+use crate::fit::settle::settle;
 use crate::fit::starts::INSIDE;
 use crate::fit::Solution;
 use crate::model::catalogue::{simplicity, Candidate};
@@ -148,10 +149,10 @@ impl Linear<'_> {
     /// The curve beside what is kept, free to do what the names did that go out for it.
     fn curve_instead(&self, kept: &Kept, variable: Variable) -> Option<(Scored, f64)> {
         let columns = self.columns_of(kept);
-        let moved = Span::of(self.data, columns.iter().map(|&c| &*self.columns[c]));
+        let moved = Span::of(self.seen, columns.iter().map(|&c| &*self.columns[c]));
         let without = Solution {
-            residual: self.data.target.clone(),
-            ..(*self.now).clone()
+            residual: self.seen.target.clone(),
+            ..self.now.clone()
         };
         self.curve(&moved, &without, variable)
     }
@@ -159,7 +160,7 @@ impl Linear<'_> {
     /// The curve with the number of hats that promises most.
     fn curve(&self, moved: &Span, now: &Solution, variable: Variable) -> Option<(Scored, f64)> {
         let made = HATS.into_iter().filter_map(|count| {
-            let scored = score(self.data, now, moved, variable, count)?;
+            let scored = score(self.seen, now, moved, variable, count)?;
             let price = self.prices.of_curve(count);
             Some(((1.0 - scored.share).max(1e-14).ln() + price, scored, price))
         });
@@ -271,9 +272,13 @@ pub(super) fn renamed(role: Role, term: usize) -> Role {
     }
 }
 
-/// The squared error of the present model on the coarse grid.
-pub(super) fn present(data: &Prepared, coarse: &Prepared, now: &Solution) -> f64 {
+/// The present model on the coarse grid, and its squared error there.
+pub(super) fn present(
+    data: &Prepared,
+    coarse: &Prepared,
+    now: &Solution,
+) -> Option<(Solution, f64)> {
     let free = now.structure.free(data);
-    let reached = descend(coarse, &now.structure, &free, &now.values, 10, 1e-4);
-    reached.map_or(f64::INFINITY, |(sse, _)| sse)
+    let (sse, values) = descend(coarse, &now.structure, &free, &now.values, 10, 1e-4)?;
+    Some((settle(coarse, &now.structure, &free, values)?, sse))
 }

@@ -38,8 +38,8 @@ pub(super) struct Entry {
 /// A search under way.
 pub(super) struct Search<'a> {
     pub(super) data: &'a Prepared,
-    pub(super) coarse: Prepared,
-    pub(super) fine: Prepared,
+    pub(super) coarse: &'a Prepared,
+    pub(super) fine: &'a Prepared,
     pub(super) bank: Bank<'a>,
     pub(super) declared: Arc<Solution>,
     pub(super) now: Arc<Solution>,
@@ -68,6 +68,8 @@ pub(super) struct Search<'a> {
 
 /// The present model, to first order and in fact.
 pub(super) struct Standing<'a> {
+    /// The model that this is of.
+    of: Arc<Solution>,
     pub(super) linear: Linear<'a>,
     pub(super) moved: Span,
     /// Squared error on the coarse grid.
@@ -75,13 +77,17 @@ pub(super) struct Standing<'a> {
 }
 
 impl<'a> Search<'a> {
-    pub(super) fn new(data: &'a Prepared, declared: &Solution, most: usize) -> Self {
+    pub(super) fn new(
+        (data, coarse, fine): (&'a Prepared, &'a Prepared, &'a Prepared),
+        declared: &Solution,
+        most: usize,
+    ) -> Self {
         let declared = Arc::new(declared.clone());
         Self {
             data,
-            coarse: data.for_search(true),
-            fine: data.for_search(false),
-            bank: Bank::new(data, &declared),
+            coarse,
+            fine,
+            bank: Bank::new((data, coarse), &declared),
             now: Arc::clone(&declared),
             reached: vec![Arc::clone(&declared)],
             declared,
@@ -117,9 +123,11 @@ impl<'a> Search<'a> {
             progress(&format!(
                 "looking for what is missing, turn {turn}, found so far: {found}"
             ));
-            let mut standing = self.last();
+            let Some(mut standing) = self.last() else {
+                break;
+            };
             let goes_on = self.turn(&standing);
-            if Arc::ptr_eq(&standing.linear.now, &self.now) {
+            if Arc::ptr_eq(&standing.of, &self.now) {
                 standing.linear.prices.curve = self.curve_price();
                 self.linear = Some(standing);
             }
@@ -159,9 +167,9 @@ impl<'a> Search<'a> {
     }
 
     /// The last model, to first order.
-    pub(super) fn last(&mut self) -> Standing<'a> {
+    pub(super) fn last(&mut self) -> Option<Standing<'a>> {
         match self.linear.take() {
-            Some(standing) => standing,
+            Some(standing) => Some(standing),
             None => self.stand(),
         }
     }
@@ -173,16 +181,17 @@ impl<'a> Search<'a> {
         }
     }
 
-    fn stand(&mut self) -> Standing<'a> {
+    fn stand(&mut self) -> Option<Standing<'a>> {
         let declared = self.declared.structure.terms.len();
         let price = self.curve_price();
-        let bank = &mut self.bank;
-        let linear = Linear::new((self.data, bank), &self.now, declared, price);
-        Standing {
-            moved: Span::of(self.data, self.now.columns.iter().chain(&self.now.tangents)),
-            sse: present(self.data, &self.coarse, &self.now),
-            linear,
-        }
+        let (seen, sse) = present(self.data, self.coarse, &self.now)?;
+        let moved = Span::of(self.coarse, seen.columns.iter().chain(&seen.tangents));
+        Some(Standing {
+            of: Arc::clone(&self.now),
+            linear: Linear::new(&mut self.bank, (&self.now, seen), declared, price),
+            moved,
+            sse,
+        })
     }
 
     /// One round of moves; whether another one is worth while.
@@ -263,7 +272,7 @@ impl<'a> Search<'a> {
                 break;
             }
             self.visited.push(linear.identities(&one.kept, &one.added));
-            let refit = linear.refit((&self.coarse, &standing.moved), one, STARTS);
+            let refit = linear.refit((self.coarse, &standing.moved), one, STARTS);
             if let Some(real) = refit {
                 // A curve bounds no name: names are refitted before a curve may win.
                 if real.structure.table.is_none() || linear.has_table() {
@@ -282,7 +291,7 @@ impl<'a> Search<'a> {
     fn accepted(&mut self, standing: &Standing<'a>, best: &Tried, tried: &[Tried]) -> bool {
         let linear = &standing.linear;
         let free = best.structure.free(self.data);
-        let values = descend(&self.fine, &best.structure, &free, &best.values, 30, 1e-6)
+        let values = descend(self.fine, &best.structure, &free, &best.values, 30, 1e-6)
             .map_or_else(|| best.values.clone(), |(_, values)| values);
         let Some(next) = settle(self.data, &best.structure, &free, values) else {
             return false;
