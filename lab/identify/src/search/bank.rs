@@ -4,6 +4,7 @@
 //! anything, the slopes of the column in the candidate's own shapes: the linear step in them
 //! replaces a finer lattice. A curve over one variable is twenty hat functions.
 
+use super::gram::Grams;
 use crate::fit::projection::{rows, Span};
 use crate::fit::Solution;
 use crate::model::catalogue::{candidates, Candidate};
@@ -15,6 +16,7 @@ use crate::score::tones;
 use bowden::effect::{Effect, Family};
 use bowden::model::Source;
 use rayon::prelude::*;
+use std::collections::HashSet;
 use std::sync::Arc;
 
 /// Hat functions of a curve in the Gram matrix: ten miss a bump of 0.08 of the range.
@@ -72,6 +74,11 @@ pub(super) struct Bank<'a> {
     values: Vec<(FitTerm, Arc<Vec<f64>>)>,
     slopes: Vec<(FitTerm, Vec<Slope>)>,
     curves: Vec<Curve>,
+    /// What was asked for since columns were kept last.
+    asked: Vec<FitTerm>,
+    /// Columns of the former linearisation that are the same in the next one, with their
+    /// products.
+    pub(super) products: (Vec<Arc<Vec<f64>>>, Grams),
 }
 
 /// The point on the line of a value, off the flat ends.
@@ -105,6 +112,8 @@ impl<'a> Bank<'a> {
             values: Vec::new(),
             slopes: Vec::new(),
             curves: Vec::new(),
+            asked: Vec::new(),
+            products: Default::default(),
         }
     }
 
@@ -118,6 +127,7 @@ impl<'a> Bank<'a> {
         let mut tried = candidates(self.data, &now.structure, &now.residual);
         tried.extend(steps(self.data, now, &tried));
         tried.extend(tone(self.data, now));
+        self.asked = tried.iter().map(|c| c.term).collect();
         let known = |c: &Candidate| self.values.iter().find(|(t, _)| *t == c.term);
         let mut made: Vec<Option<Arc<Vec<f64>>>> = tried
             .iter()
@@ -136,6 +146,28 @@ impl<'a> Bank<'a> {
             }
         }
         all
+    }
+
+    /// Keeps the columns that are the same for all models, with their products. What was not
+    /// asked for is forgotten: lines and steps are of one residual.
+    pub(super) fn keep(&mut self, columns: &[Arc<Vec<f64>>], grams: &Grams) {
+        self.values.retain(|(t, _)| self.asked.contains(t));
+        self.slopes.retain(|(t, _)| self.asked.contains(t));
+        let values = self.values.iter().map(|(_, column)| column);
+        let slopes = self
+            .slopes
+            .iter()
+            .flat_map(|(_, own)| own.iter().map(|s| &s.column));
+        let curves = self.curves.iter().flat_map(|(_, hats)| hats);
+        let fixed: HashSet<usize> = values
+            .chain(slopes)
+            .chain(curves)
+            .map(|column| Arc::as_ptr(column) as usize)
+            .collect();
+        let is_fixed = |&place: &usize| fixed.contains(&(Arc::as_ptr(&columns[place]) as usize));
+        let places: Vec<usize> = (0..columns.len()).filter(is_fixed).collect();
+        let kept = places.iter().map(|&place| Arc::clone(&columns[place]));
+        self.products = (kept.collect(), grams.only(&places));
     }
 
     /// The slopes of some candidates in their own shapes and origins.

@@ -24,7 +24,7 @@ const DIRECTION: f64 = 1e-4;
 /// Products of all columns with each other: in total and for each block.
 ///
 /// Columns are scaled to unit deviation on the fit rows; a constant column to unit norm.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Grams {
     size: usize,
     scale: Vec<f64>,
@@ -50,12 +50,7 @@ impl Grams {
     /// Multiplies columns on the given rows; a block is a range of positions in `rows`.
     #[must_use]
     pub fn new(columns: &[Arc<Vec<f64>>], rows: &[usize], blocks: &[Range<usize>]) -> Self {
-        let mut grams = Self {
-            size: 0,
-            scale: Vec::new(),
-            whole: Vec::new(),
-            parts: vec![Vec::new(); blocks.len()],
-        };
+        let mut grams = Self::default();
         grams.extend(columns, rows, blocks);
         grams
     }
@@ -65,6 +60,7 @@ impl Grams {
     pub fn extend(&mut self, columns: &[Arc<Vec<f64>>], rows: &[usize], blocks: &[Range<usize>]) {
         use rayon::prelude::*;
         let (old, size) = (self.size, columns.len());
+        self.parts.resize(blocks.len(), Vec::new());
         let new = columns[old..].iter().map(|c| scale_of(c, rows));
         self.scale.extend(new.collect::<Vec<f64>>());
         let scale = &self.scale;
@@ -90,14 +86,51 @@ impl Grams {
                 let mut grown = Vec::with_capacity(size * size);
                 for i in 0..old {
                     grown.extend_from_slice(&part[i * old..(i + 1) * old]);
-                    let new = products.as_slice()[i..].iter().step_by(size);
-                    grown.extend(new.take(size - old));
+                    grown.extend((0..size - old).map(|j| products[(i, j)]));
                 }
                 grown.extend_from_slice(products.as_slice());
                 *part = grown;
             });
+        let mut whole = Vec::with_capacity(size * size);
+        for i in 0..old {
+            whole.extend_from_slice(&self.whole[i * old..(i + 1) * old]);
+            whole.resize((i + 1) * size, 0.0);
+        }
+        whole.resize(size * size, 0.0);
+        let (known, new) = whole.split_at_mut(old * size);
+        for part in &self.parts {
+            for (sum, v) in new.iter_mut().zip(&part[old * size..]) {
+                *sum += v;
+            }
+        }
+        for (n, row) in new.chunks_exact(size.max(1)).enumerate() {
+            for (i, v) in row[..old].iter().enumerate() {
+                known[i * size + old + n] = *v;
+            }
+        }
+        self.whole = whole;
         self.size = size;
-        self.whole = self.of_blocks(0..blocks.len());
+    }
+
+    /// The products of some of the columns, in that order.
+    #[must_use]
+    pub fn only(&self, columns: &[usize]) -> Self {
+        let of = |all: &Vec<f64>| {
+            let mut some = Vec::with_capacity(columns.len() * columns.len());
+            for &i in columns {
+                let row = &all[i * self.size..(i + 1) * self.size];
+                for run in columns.chunk_by(|a, b| *b == a + 1) {
+                    some.extend_from_slice(&row[run[0]..=run[run.len() - 1]]);
+                }
+            }
+            some
+        };
+        Self {
+            size: columns.len(),
+            scale: columns.iter().map(|&i| self.scale[i]).collect(),
+            whole: of(&self.whole),
+            parts: self.parts.iter().map(of).collect(),
+        }
     }
 
     /// Number of columns.
@@ -116,16 +149,6 @@ impl Grams {
     #[must_use]
     pub fn unit(&self, column: usize) -> f64 {
         self.scale[column].powi(2)
-    }
-
-    fn of_blocks(&self, blocks: impl IntoIterator<Item = usize>) -> Vec<f64> {
-        let mut sum = vec![0.0; self.size * self.size];
-        for block in blocks {
-            for (s, v) in sum.iter_mut().zip(&self.parts[block]) {
-                *s += v;
-            }
-        }
-        sum
     }
 
     /// The Gram matrix without what some columns explain, on the whole fit segment.

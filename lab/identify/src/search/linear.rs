@@ -11,6 +11,7 @@ use crate::model::Variable;
 use crate::problem::Prepared;
 use crate::score::blocks::{blocks, Regime};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Most degrees of freedom with a quantile of their own.
@@ -60,6 +61,35 @@ impl Group {
     /// The same of any shape; two curves are alike over whatever variables.
     pub(super) fn is_like(&self, other: &Self) -> bool {
         self.identity() == other.identity() || (self.is_curve() && other.is_curve())
+    }
+}
+
+/// Columns, each of them once.
+#[derive(Default)]
+pub(super) struct Places {
+    pub(super) all: Vec<Arc<Vec<f64>>>,
+    /// Index by address.
+    known: HashMap<usize, usize>,
+}
+
+impl Places {
+    fn of(all: Vec<Arc<Vec<f64>>>) -> Self {
+        let address = |(place, column)| (Arc::as_ptr(column) as usize, place);
+        let known = all.iter().enumerate().map(address).collect();
+        Self { all, known }
+    }
+
+    /// The index of a column, which is added where it is new.
+    fn place(&mut self, column: Arc<Vec<f64>>) -> usize {
+        let next = self.all.len();
+        let place = *self
+            .known
+            .entry(Arc::as_ptr(&column) as usize)
+            .or_insert(next);
+        if place == next {
+            self.all.push(column);
+        }
+        place
     }
 }
 
@@ -143,7 +173,7 @@ pub(super) struct Linear<'a> {
     target: usize,
     /// The output as it would be without some stages, to first order.
     unstaged: Vec<(Vec<usize>, usize)>,
-    pub(super) columns: Vec<Arc<Vec<f64>>>,
+    pub(super) columns: Places,
 }
 
 impl<'a> Linear<'a> {
@@ -154,19 +184,19 @@ impl<'a> Linear<'a> {
         curve: f64,
     ) -> Self {
         let (data, seen) = (bank.data, bank.seen);
-        let present = Present::new(seen, &now);
-        let mut columns = present.columns;
+        let (known, grams) = std::mem::take(&mut bank.products);
+        let present = Present::new(known, seen, &now);
+        let mut columns = Places::of(present.columns);
         let mut groups = Vec::new();
         for (candidate, column) in bank.names(whole, &now) {
             let past = usize::from(candidate.term.has_past());
             let in_time = usize::from(candidate.term.effect.shape_names().contains(&"t_s"));
             groups.push(Group {
                 member: Member::Name(candidate),
-                columns: vec![columns.len()],
+                columns: vec![columns.place(column)],
                 slopes: Vec::new(),
                 freedoms: 1 + past + in_time,
             });
-            columns.push(column);
         }
         let rows = &seen.split.fit;
         let level = level(&groups);
@@ -178,7 +208,7 @@ impl<'a> Linear<'a> {
             seen,
             now,
             declared,
-            grams: Grams::new(&columns, rows, &blocks(data)),
+            grams,
             base: Swept::default(),
             sought: Sought::default(),
             groups,
@@ -194,12 +224,19 @@ impl<'a> Linear<'a> {
             unstaged: present.unstaged,
             columns,
         };
+        linear.multiply();
         linear.refine(bank);
+        bank.keep(&linear.columns.all, &linear.grams);
         linear.base = linear.grams.without(&linear.own);
         linear.sought = Sought::of(&linear);
         linear.kinds = kinds(&linear.groups);
         linear.judge_blocks(level, (band, curve));
         linear
+    }
+
+    fn multiply(&mut self) {
+        let (rows, blocks) = (&self.seen.split.fit, blocks(self.data));
+        self.grams.extend(&self.columns.all, rows, &blocks);
     }
 
     /// Adds the slopes of what gains anything, and the curves where anything does.
@@ -235,8 +272,8 @@ impl<'a> Linear<'a> {
         for (&g, slopes) in chosen.iter().zip(bank.slopes(&self.now, &terms)) {
             let group = &mut self.groups[g];
             for slope in &slopes {
-                group.columns.push(self.columns.len());
-                self.columns.push(Arc::clone(&slope.column));
+                let place = self.columns.place(Arc::clone(&slope.column));
+                group.columns.push(place);
             }
             group.freedoms += slopes.len();
             group.slopes = slopes;
@@ -245,18 +282,17 @@ impl<'a> Linear<'a> {
             && self.now.structure.table.is_none()
         {
             for (variable, hats) in bank.curves(&self.now) {
-                let first = self.columns.len();
+                let freedoms = hats.len();
+                let places = hats.into_iter().map(|hat| self.columns.place(hat));
                 self.groups.push(Group {
                     member: Member::Curve(variable),
-                    columns: (first..first + hats.len()).collect(),
+                    columns: places.collect(),
                     slopes: Vec::new(),
-                    freedoms: hats.len(),
+                    freedoms,
                 });
-                self.columns.extend(hats);
             }
         }
-        self.grams
-            .extend(&self.columns, &self.seen.split.fit, &blocks(self.data));
+        self.multiply();
     }
 
     /// Whether the blocks are long enough for a test, from what the best set of names leaves:
@@ -275,7 +311,7 @@ impl<'a> Linear<'a> {
                 let sum: f64 = columns
                     .iter()
                     .zip(&gains)
-                    .map(|(&c, g)| g * self.columns[c][i])
+                    .map(|(&c, g)| g * self.columns.all[c][i])
                     .sum();
                 self.seen.target[i] - sum
             })

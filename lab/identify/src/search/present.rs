@@ -18,10 +18,12 @@ pub(super) struct Present {
 }
 
 impl Present {
-    pub(super) fn new(data: &Prepared, now: &Solution) -> Self {
-        let mut columns: Vec<Arc<Vec<f64>>> = now.columns.iter().cloned().map(Arc::new).collect();
-        let base = now.structure.base();
-        let (mut own, mut next): (Vec<usize>, usize) = ((0..base).collect(), base);
+    /// The model's columns after those that are there.
+    pub(super) fn new(mut columns: Vec<Arc<Vec<f64>>>, data: &Prepared, now: &Solution) -> Self {
+        let first = columns.len();
+        columns.extend(now.columns.iter().cloned().map(Arc::new));
+        let mut next = first + now.structure.base();
+        let mut own: Vec<usize> = (first..next).collect();
         let mut terms: Vec<Vec<usize>> = Vec::new();
         for term in &now.structure.terms {
             terms.push(if term.is_linear() {

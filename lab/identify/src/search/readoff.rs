@@ -5,7 +5,7 @@ use super::carries_over::{delivered, recurrences};
 use super::linear::{Kept, Linear};
 use super::moves::Move;
 use super::policy;
-use super::refit::{other_hystereses, renamed, FAIR, ROUGH};
+use super::refit::{other_hystereses, renamed, Priced, FAIR, ROUGH};
 use super::run::{Entry, Search, Standing};
 use crate::fit::projection::Span;
 use crate::fit::search::descend;
@@ -24,6 +24,8 @@ use std::sync::Arc;
 const RIVALS: usize = 8;
 /// A candidate is refitted as a rival from this part of the rule on, to first order.
 const NEARLY: f64 = 0.95;
+/// A rough search that ends at so many times what is allowed is not continued.
+const HOPELESS: f64 = 1.5;
 /// Starts of a rival's refit: its trial shapes and the linear step.
 const STARTS: usize = 2;
 
@@ -185,6 +187,9 @@ impl Search<'_> {
         let known = self.entry(Identity::of(&term));
         let (close, sse) = context.close(&kept, (term.effect.family(), term.source), known);
         let good = |left: f64| policy::is_rival(sse, context.full, left);
+        let allowed = sse - policy::RIVAL_SHARE * (sse - context.full);
+        let allowed = allowed.min(policy::RIVAL_REST * context.full);
+        let nearly = |left: f64| left <= HOPELESS * allowed;
         let really: Vec<Option<(Candidate, f64)>> = close
             .into_par_iter()
             .map(|g| {
@@ -194,7 +199,9 @@ impl Search<'_> {
                     promise: 0.0,
                     p: Vec::new(),
                 };
-                let real = linear.refit((self.coarse, context.moved), &swap, STARTS)?;
+                let grids = (self.coarse, context.moved);
+                let wanted = |rough: &Priced| nearly(rough.sse / context.scale);
+                let real = linear.refit(grids, &swap, STARTS, wanted)?;
                 let left = real.sse / context.scale;
                 let candidate = linear.groups[g].candidate()?;
                 good(left).then_some((candidate, left))

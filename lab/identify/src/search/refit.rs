@@ -32,6 +32,12 @@ pub(super) struct Tried {
     pub(super) sse: f64,
 }
 
+/// What a search has reached: the squared error and the criterion.
+pub(super) struct Priced {
+    pub(super) sse: f64,
+    pub(super) j: f64,
+}
+
 impl Tried {
     /// Crowds after curves, curves after names, then the simplicity of all effects together.
     pub(super) fn rank(&self) -> (bool, bool, usize) {
@@ -70,12 +76,14 @@ struct Plan {
 }
 
 impl Linear<'_> {
-    /// Searches the shapes of a move on the coarse grid, from at most so many starts.
+    /// Searches the shapes of a move on the coarse grid, from at most so many starts; `None`
+    /// where a rough search ends at a squared error from which nobody wants to go on.
     pub(super) fn refit(
         &self,
         (coarse, moved): (&Prepared, &Span),
         one: &Move,
         most: usize,
+        wanted: impl Fn(&Priced) -> bool,
     ) -> Option<Tried> {
         use rayon::prelude::*;
         let plan = self.plan(moved, one)?;
@@ -91,7 +99,6 @@ impl Linear<'_> {
             .into_iter()
             .flatten()
             .min_by(|a, b| a.0.total_cmp(&b.0))?;
-        let (sse, values) = search(&best.1, FAIR)?;
         let added: f64 = one
             .added
             .iter()
@@ -100,8 +107,17 @@ impl Linear<'_> {
                 Member::Curve(_) => plan.curve,
             })
             .sum();
+        let price = self.price_of(&one.kept) + added;
+        let priced = |sse: f64| Priced {
+            sse,
+            j: (sse / self.unit()).ln() + price,
+        };
+        if !wanted(&priced(best.0)) {
+            return None;
+        }
+        let (sse, values) = search(&best.1, FAIR)?;
         Some(Tried {
-            j: (sse / self.unit()).ln() + self.price_of(&one.kept) + added,
+            j: priced(sse).j,
             made: one.clone(),
             structure: plan.structure,
             values,
@@ -149,7 +165,7 @@ impl Linear<'_> {
     /// The curve beside what is kept, free to do what the names did that go out for it.
     fn curve_instead(&self, kept: &Kept, variable: Variable) -> Option<(Scored, f64)> {
         let columns = self.columns_of(kept);
-        let moved = Span::of(self.seen, columns.iter().map(|&c| &*self.columns[c]));
+        let moved = Span::of(self.seen, columns.iter().map(|&c| &*self.columns.all[c]));
         let without = Solution {
             residual: self.seen.target.clone(),
             ..self.now.clone()

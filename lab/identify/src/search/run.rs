@@ -21,8 +21,13 @@ use std::time::Instant;
 const FALLEN: f64 = 1e-3;
 /// Models in a row, so that the search ends in any case.
 const TURNS: usize = 40;
-/// Starts of a real refit.
+/// Starts of a real refit: the trial shapes, the linear step, and two other hystereses, which
+/// may have bent to stand in for all that is missing.
 const STARTS: usize = 4;
+/// The same once there is a name that the hysteresis need not stand in for.
+const STARTS_BESIDE_NAMES: usize = 2;
+/// A rough search that ends so far above the criterion is not continued.
+const HOPELESS: f64 = 0.5;
 
 /// What a search knows of a member that came in.
 pub(super) struct Entry {
@@ -260,8 +265,17 @@ impl<'a> Search<'a> {
         let linear = &standing.linear;
         let mut tried: Vec<Tried> = Vec::new();
         let (mut least, mut named) = (j, false);
+        let starts = match Arc::ptr_eq(&self.now, &self.declared) {
+            true => STARTS,
+            false => STARTS_BESIDE_NAMES,
+        };
         for one in moves {
+            // What a pair promises its members may do alone, from their own shapes.
+            let is_part = |t: &Tried| {
+                t.made.kept == one.kept && one.added.iter().all(|g| t.made.added.contains(g))
+            };
             let promising = self.phase == Phase::Fewer
+                || tried.iter().any(is_part)
                 || linear.is_one_stage(one)
                 || one.promise <= least + policy::EQUAL
                 || one.promise <= moves[0].promise + policy::EQUAL;
@@ -272,7 +286,8 @@ impl<'a> Search<'a> {
                 break;
             }
             self.visited.push(linear.identities(&one.kept, &one.added));
-            let refit = linear.refit((self.coarse, &standing.moved), one, STARTS);
+            let grids = (self.coarse, &standing.moved);
+            let refit = linear.refit(grids, one, starts, |rough| rough.j < j + HOPELESS);
             if let Some(real) = refit {
                 // A curve bounds no name: names are refitted before a curve may win.
                 if real.structure.table.is_none() || linear.has_table() {
