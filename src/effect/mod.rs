@@ -168,6 +168,21 @@ macro_rules! effects {
                 }
             }
 
+            /// The regressors of a record, one a sample: each as by
+            /// [`regressor`](Self::regressor), bit for bit, for less on many samples.
+            pub fn regressors(
+                &self,
+                state: &mut EffectState<T>,
+                record: impl Iterator<Item = Situation<T>>,
+                mut take: impl FnMut(T),
+            ) {
+                // Which effect it is, is asked once, not once a sample.
+                match self {
+                    $($(Self::$plain => record.for_each(|at| take(evaluate(&$module::$plain, state, &at))),)+)*
+                    $($(Self::$shaped(config) => record.for_each(|at| take(evaluate(config, state, &at))),)+)*
+                }
+            }
+
             /// The regressor at one sample; the caller multiplies by the gain.
             ///
             /// Finite for finite input. Where a number that the effect reads is not

@@ -27,6 +27,20 @@ proptest! {
     }
 
     #[test]
+    fn a_whole_record_gives_the_regressors_of_its_samples_to_the_bit(
+        path in prop::collection::vec(prop::array::uniform11(extreme()), 1..8),
+    ) {
+        let path: Vec<Situation<f32>> = path.into_iter().map(situation).collect();
+        for name in names() {
+            let (effect, mut state) = (make::<f32>(name), EffectState::default());
+            let mut whole = Vec::new();
+            effect.regressors(&mut state, path.iter().copied(), |value| whole.push(value.to_bits()));
+            let each: Vec<u32> = along(&effect, &path).into_iter().map(f32::to_bits).collect();
+            prop_assert_eq!(whole, each, "{}", name);
+        }
+    }
+
+    #[test]
     fn a_bad_number_that_is_read_gives_0_and_leaves_the_state(
         path in prop::collection::vec(plausible(), 0..5),
         at in plausible(),

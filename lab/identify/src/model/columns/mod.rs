@@ -82,9 +82,9 @@ pub fn effect_column(data: &Prepared, term: &FitTerm, eta: &[f64]) -> Option<Vec
             Family::Pretension => piece.since,
             _ => 0.0,
         };
-        for (k, i) in piece.work.clone().enumerate() {
+        let at = |(k, i): (usize, usize)| {
             let motion = &channel.motion[i];
-            let at = Situation {
+            Situation {
                 dt: data.dt,
                 time: since + k as f64 * data.dt,
                 motion: Motion {
@@ -95,9 +95,11 @@ pub fn effect_column(data: &Prepared, term: &FitTerm, eta: &[f64]) -> Option<Vec
                 load: load.map_or(0.0, |l| l[i].position),
                 eta: eta[i],
                 output: 0.0,
-            };
-            column.push(term.effect.regressor(&mut state, &at));
-        }
+            }
+        };
+        let samples = piece.work.clone().enumerate().map(at);
+        let push = |value| column.push(value);
+        term.effect.regressors(&mut state, samples, push);
     }
     Some(column)
 }
