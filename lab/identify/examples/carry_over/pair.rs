@@ -20,8 +20,8 @@ use std::path::Path;
 /// rivals of a name in other families and on other channels only.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Identity {
-    family: &'static str,
-    channel: Option<String>,
+    pub family: &'static str,
+    pub channel: Option<String>,
 }
 
 impl Identity {
@@ -104,23 +104,12 @@ impl Closed {
         })
     }
 
-    /// Whether a name of another record is among the delivered names, or is a rival of one.
-    pub fn knows(&self, other: &Identity) -> bool {
-        self.names
-            .iter()
-            .any(|own| own.identity == *other || own.rivals.contains(other))
-    }
-
     /// Delivered rounds that raise the held-out error.
     pub fn raising(&self) -> Share {
         Share {
             count: self.names.iter().filter(|name| name.raises).count(),
             of: self.names.len(),
         }
-    }
-
-    pub fn firm(&self) -> impl Iterator<Item = &Name> {
-        self.names.iter().filter(|name| name.grade == Grade::Firm)
     }
 }
 
@@ -214,11 +203,22 @@ impl std::fmt::Display for Share {
 }
 
 /// The firm names of one record that another one knows: names itself, or has as a rival of one
-/// of its names. A firm name has no rivals of its own.
-pub fn known(of: &Closed, by: &Closed) -> Share {
+/// of its names, firm or weak. Two rounds of one family on one channel are one name. A firm name
+/// has no rivals of its own.
+pub fn known(of: &[Name], by: &[Name]) -> Share {
+    let mut firm: Vec<&Identity> = Vec::new();
+    for name in of.iter().filter(|name| name.grade == Grade::Firm) {
+        if !firm.contains(&&name.identity) {
+            firm.push(&name.identity);
+        }
+    }
+    let knows = |other: &&&Identity| {
+        let mut names = by.iter();
+        names.any(|own| own.identity == ***other || own.rivals.contains(other))
+    };
     Share {
-        count: of.firm().filter(|name| by.knows(&name.identity)).count(),
-        of: of.firm().count(),
+        count: firm.iter().filter(knows).count(),
+        of: firm.len(),
     }
 }
 
@@ -252,7 +252,7 @@ impl Rig {
         let pairs = self.closed.iter().enumerate().flat_map(|(i, of)| {
             let others = self.closed.iter().enumerate();
             let others = others.filter(move |(j, _)| *j != i);
-            others.map(move |(_, by)| known(of, by))
+            others.map(move |(_, by)| known(&of.names, &by.names))
         });
         pairs.sum()
     }
@@ -293,7 +293,7 @@ impl Rig {
         for one in &self.carried {
             let find = |label: &str| self.closed.iter().find(|c| c.label == label);
             let known = match (find(&one.from), find(&one.to)) {
-                (Some(of), Some(by)) => known(of, by),
+                (Some(of), Some(by)) => known(&of.names, &by.names),
                 _ => Share::default(),
             };
             println!(
