@@ -8,6 +8,7 @@
 
 use super::excitation;
 use crate::fit::Solution;
+use crate::model::effects::shown_by;
 use crate::model::structure::{FitTerm, Range, Role};
 use crate::model::units::Unit;
 use crate::problem::Prepared;
@@ -198,7 +199,7 @@ fn linear(
             None => excitation::TRANSMISSION,
             Some(index) => {
                 let term: &FitTerm = &solution.structure.terms[index];
-                excitation::of_family(term.effect.family())
+                shown_by(term.effect.name())
             }
         },
         sign,

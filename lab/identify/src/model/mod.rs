@@ -3,7 +3,9 @@
 pub mod catalogue;
 pub mod columns;
 pub mod declared;
+pub(crate) mod effects;
 pub(crate) mod kind;
+mod range;
 pub mod structure;
 mod table;
 pub mod units;
