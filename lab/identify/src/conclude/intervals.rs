@@ -8,13 +8,12 @@
 
 use super::excitation;
 use crate::fit::Solution;
-use crate::model::effects::shown_by;
+use crate::model::effects::{entry, shown_by, ToldBy};
 use crate::model::structure::{FitTerm, Range, Role};
 use crate::model::units::Unit;
 use crate::problem::Prepared;
 use crate::record::Mode;
 use crate::score::blocks::{blocks, BLOCKS};
-use bowden::effect::Family;
 use bowden::model::Source;
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -91,27 +90,20 @@ pub fn term_name(data: &Prepared, term: &FitTerm) -> String {
 #[must_use]
 pub fn term_title(data: &Prepared, term: &FitTerm) -> String {
     let name = term_name(data, term);
-    let shape = |name: &str| {
-        let names = term.effect.shape_names();
-        let index = names.iter().position(|own| *own == name)?;
-        term.effect.shape(index)
-    };
-    match term.effect.family() {
-        Family::Tone => shape("f").map(|f| format!("{name} ({f:.3} Hz)")),
-        Family::Ripple => shape("k").map(|k| {
+    let told_by = entry(term.effect.name()).map_or(ToldBy::Name, |entry| entry.told_by);
+    match (told_by, term.effect.shape(0)) {
+        (ToldBy::Name, _) | (_, None) => name,
+        (ToldBy::Frequency, Some(f)) => format!("{name} ({f:.3} Hz)"),
+        (ToldBy::Order, Some(k)) => {
             let unit = data.channel(term.source).and_then(|c| c.unit.as_deref());
             let of_an_angle = |k: f64| format!("{name} (order {k:.2})");
             match unit {
                 None | Some("rad") => of_an_angle(k),
                 Some("deg" | "°") => of_an_angle(k.to_degrees()),
-                Some(unit) => {
-                    format!("{name} (period {:.3} {unit})", std::f64::consts::TAU / k)
-                }
+                Some(unit) => format!("{name} (period {:.3} {unit})", std::f64::consts::TAU / k),
             }
-        }),
-        _ => None,
+        }
     }
-    .unwrap_or(name)
 }
 
 /// Unit of a term's gain.

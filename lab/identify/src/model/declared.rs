@@ -4,7 +4,7 @@ use super::effects::{entry, first_of, Declared, Zero};
 use super::structure::{FitTerm, Structure};
 use crate::problem::{Prepared, MOST_RECORDS};
 use crate::record::Mode;
-use bowden::effect::Effect;
+use bowden::effect::{Effect, Family};
 use bowden::model::Source;
 
 /// The effect that a user means by a name in `--declare`: an effect's own name, or a
@@ -30,7 +30,8 @@ pub fn declared(name: &str, data: &Prepared) -> Result<FitTerm, String> {
         }
     };
     let unknown = || {
-        format!("--declare {name}: not an effect that can be declared; known: bouc-wen, offset, gain, viscous, drag, coulomb, stribeck, asymmetry, load-friction, capstan, direction, inertia, stiffness, gravity, position-friction, backlash, play-in-series, delay, lag, creep, rate, presliding, pinching, degradation, drift, temperature, saturation, crosstalk")
+        let known = families().join(", ");
+        format!("--declare {name}: not an effect that can be declared; known: bouc-wen, {known}, and further effects of these families, such as play-in-series, by their own names")
     };
     let entry = entry(name).or_else(|| first_of(name)).ok_or_else(unknown)?;
     let channel = data.channel(source).unwrap_or(&data.input);
@@ -48,6 +49,13 @@ pub fn declared(name: &str, data: &Prepared) -> Result<FitTerm, String> {
         origin,
         start: [0.0; MOST_RECORDS],
     })
+}
+
+/// The families of which the first effect can be declared.
+fn families() -> Vec<&'static str> {
+    let can = |name: &&str| first_of(name).is_some_and(|entry| entry.declared != Declared::Never);
+    let names = Family::ALL.iter().map(|family| family.name());
+    names.filter(can).collect()
 }
 
 /// The structure that a `--declare` list means.

@@ -1,10 +1,10 @@
 //! What is fitted: hysteresis or not, which effects, and which shapes are free.
 
-use super::effects::{entry, Stage};
+use super::effects::{entry, Entry, FittedZero, Stage};
 use super::Table;
 use crate::problem::{Prepared, MOST_RECORDS};
 use crate::record::Mode;
-use bowden::effect::{Effect, Family};
+use bowden::effect::Effect;
 use bowden::model::Source;
 
 pub use super::range::Range;
@@ -35,6 +35,16 @@ impl FitTerm {
     #[must_use]
     pub fn has_past(&self) -> bool {
         entry(self.effect.name()).is_some_and(|entry| entry.past)
+    }
+
+    /// Whether a shape is a moment of the record, which moves by whole samples.
+    pub(crate) fn is_moment(&self, shape: usize) -> bool {
+        entry(self.effect.name()).is_some_and(|entry| entry.is_moment(shape))
+    }
+
+    /// Whether the effect happens at a moment of the record.
+    pub(crate) fn has_moment(&self) -> bool {
+        (0..self.effect.shape_names().len()).any(|shape| self.is_moment(shape))
     }
 }
 
@@ -165,7 +175,7 @@ impl Structure {
                     range: Range::Linear(-reach, reach),
                 }));
             }
-            if self.origin_matters(fit) {
+            if self.origin_matters(entry, fit) {
                 let (middle, reach) = (channel.middle, channel.reach);
                 free.push(Free {
                     role: Role::Origin { term },
@@ -187,7 +197,7 @@ impl Structure {
 
     /// Whether a term's zero of position can be told from the record: moving it must
     /// not be the same as adding what the model has anyway.
-    fn origin_matters(&self, term: &FitTerm) -> bool {
+    fn origin_matters(&self, entry: &Entry, term: &FitTerm) -> bool {
         let spanned = |names: &[&str]| {
             names.iter().all(|name| {
                 (*name == "stiffness-linear" && self.hysteresis && term.source == Source::Input)
@@ -197,15 +207,10 @@ impl Structure {
                         .any(|t| t.source == term.source && t.effect.name() == *name)
             })
         };
-        match term.effect.name() {
-            "stiffness-quadratic" => !spanned(&["stiffness-linear"]),
-            "stiffness-cubic" => !spanned(&["stiffness-linear", "stiffness-quadratic"]),
-            "position-friction" => !self
-                .terms
-                .iter()
-                .any(|t| t.source == term.source && t.effect.name() == "coulomb"),
-            "stiffness-progressive" | "dead-zone" | "capstan" => true,
-            _ => false,
+        match entry.fitted_zero {
+            FittedZero::Never => false,
+            FittedZero::Always => true,
+            FittedZero::Unless(names) => !spanned(names),
         }
     }
 
@@ -238,7 +243,7 @@ impl Structure {
     pub fn sign_kept(&self, mode: Mode) -> Vec<bool> {
         let mut kept = vec![false; self.base()];
         for term in self.terms.iter().filter(|t| t.is_linear()) {
-            let friction = matches!(term.effect.family(), Family::Viscous | Family::Coulomb);
+            let friction = entry(term.effect.name()).is_some_and(|entry| entry.takes_energy);
             kept.push(friction && mode == Mode::Displacement && term.source == Source::Input);
         }
         kept.resize(kept.len() + self.table_gains(), false);

@@ -8,7 +8,7 @@
 use crate::fit::{Segments, Solution};
 use crate::model::Variable;
 use crate::problem::{Channel, Prepared};
-use bowden::effect::Family;
+use bowden::effect::Quantity;
 use bowden::model::Source;
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
@@ -48,8 +48,8 @@ fn reads(solution: &Solution) -> Vec<Reads> {
     let structure = &solution.structure;
     let mut all = vec![Reads::Input; structure.base()];
     for term in structure.terms.iter().filter(|t| t.is_linear()) {
-        all.push(match term.effect.family() {
-            Family::Tone | Family::Drift | Family::Pretension => Reads::Time,
+        all.push(match term.effect.info().reads {
+            [Quantity::Time] => Reads::Time,
             _ => of_source(term.source),
         });
     }

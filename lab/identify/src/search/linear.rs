@@ -148,7 +148,7 @@ impl<'a> Linear<'a> {
         let mut groups = Vec::new();
         for (candidate, column) in bank.names(now) {
             let past = usize::from(candidate.term.has_past());
-            let in_time = usize::from(candidate.term.effect.shape_names().contains(&"t_s"));
+            let in_time = usize::from(candidate.term.has_moment());
             groups.push(Group {
                 member: Member::Name(candidate),
                 columns: vec![columns.len()],

@@ -10,7 +10,7 @@
 use crate::model::structure::{FitTerm, Free, Role, Structure};
 use crate::model::Variable;
 use crate::problem::{Channel, Piece, Prepared};
-use bowden::effect::{Effect, EffectState, Family, Motion, Situation};
+use bowden::effect::{Effect, EffectState, Motion, Situation};
 use bowden::hysteresis::{Sensitivity, Shape};
 use gathered::Gathered;
 use loops::{seen, trace, trajectory};
@@ -78,9 +78,10 @@ pub fn effect_column(data: &Prepared, term: &FitTerm, eta: &[f64]) -> Option<Vec
     let mut column = Vec::with_capacity(eta.len());
     for (record, piece) in data.pieces.iter().enumerate() {
         let mut state = before(data, term, channel, record, piece);
-        let since = match term.effect.family() {
-            Family::Pretension => piece.since,
-            _ => 0.0,
+        // A moment counts from the first record on.
+        let since = match term.has_moment() {
+            true => piece.since,
+            false => 0.0,
         };
         for (k, i) in piece.work.clone().enumerate() {
             let motion = &channel.motion[i];

@@ -28,8 +28,7 @@ impl Variation {
     /// Step of the central difference at a value.
     fn step(&self, data: &Prepared, term: &FitTerm, value: f64) -> Option<f64> {
         Some(match self {
-            // A step in time moves by whole samples.
-            Self::Shape { index } if term.effect.shape_names()[*index] == "t_s" => data.dt,
+            Self::Shape { index } if term.is_moment(*index) => data.dt,
             Self::Shape { .. } => 1e-5 * value.abs().max(1e-6),
             Self::Start { .. } | Self::Origin => 1e-5 * data.channel(term.source)?.reach,
         })

@@ -34,10 +34,16 @@ pub(crate) struct Entry {
     pub(crate) stage: Option<Stage>,
     /// From where it measures position, if it reads one.
     pub(crate) zero: Zero,
+    /// Whether that zero is fitted.
+    pub(crate) fitted_zero: FittedZero,
+    /// Whether its gain is a friction coefficient, which takes energy out.
+    pub(crate) takes_energy: bool,
     /// What a candidate of it is a function of, or stands for.
     pub(crate) on: &'static [On],
     /// Whether a model can have two of it on one channel.
     pub(crate) several: bool,
+    /// What people tell two of it apart by.
+    pub(crate) told_by: ToldBy,
     /// Whether it remembers motion from before the record, so that its start is fitted.
     pub(crate) past: bool,
     /// Why it belongs to the record and is not handed over; `None` where it belongs to the
@@ -108,6 +114,29 @@ pub(crate) enum Zero {
     Sensor,
 }
 
+/// Whether the zero from which an effect measures position is fitted: only where moving it is
+/// not the same as adding what the model has anyway.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FittedZero {
+    /// Never: all that it could add are effects of their own.
+    Never,
+    /// Always.
+    Always,
+    /// Unless the model has all of these on the same channel.
+    Unless(&'static [&'static str]),
+}
+
+/// What people tell two effects of one name and channel apart by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ToldBy {
+    /// The name says all.
+    Name,
+    /// Its first shape, a frequency \[Hz\].
+    Frequency,
+    /// Its first shape, an angular frequency over the position.
+    Order,
+}
+
 /// How an effect is declared, with the shapes from which the fit starts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Declared {
@@ -146,8 +175,11 @@ const PLAIN: Entry = Entry {
     bounds: &[],
     stage: None,
     zero: Zero::Channel,
+    fitted_zero: FittedZero::Never,
+    takes_energy: false,
     on: &[On::Read],
     several: false,
+    told_by: ToldBy::Name,
     past: false,
     of_the_record: None,
     shown_by: WHOLE_RANGE,
@@ -229,6 +261,11 @@ impl Place {
 }
 
 impl Entry {
+    /// Whether a shape is a moment of the record, which moves by whole samples.
+    pub(crate) fn is_moment(&self, shape: usize) -> bool {
+        self.bounds.get(shape) == Some(&Bounds::FitSegment)
+    }
+
     /// What an effect on a source is a function of.
     pub(crate) fn variables(&self, effect: &Effect<f64>, source: Source) -> Vec<Variable> {
         let mut all = Vec::new();
@@ -305,6 +342,30 @@ mod tests {
             let is_stage = info.reads.contains(&Quantity::Output);
             assert_eq!(entry.stage.is_some(), is_stage, "{name}: range of its gain");
             assert!(info.memory || !entry.past, "{name} remembers nothing");
+            let is_named = entry.told_by == ToldBy::Name;
+            assert!(is_named || shapes > 0, "{name}: no shape to tell it by");
+            if entry.fitted_zero != FittedZero::Never {
+                let has_zero = info.reads.contains(&Quantity::Position);
+                assert!(has_zero, "{name} measures no position");
+            }
+            if let FittedZero::Unless(others) = entry.fitted_zero {
+                for other in others {
+                    assert!(super::entry(other).is_some(), "{name}: {other}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_family_stands_for_its_first_effect() {
+        for (family, first) in [
+            ("drag", "drag-quadratic"),
+            ("asymmetry", "asymmetry-viscous"),
+            ("direction", "drive-friction"),
+            ("stiffness", "stiffness-linear"),
+            ("saturation", "saturation-upper"),
+        ] {
+            assert_eq!(first_of(family).unwrap().name, first);
         }
     }
 

@@ -1,7 +1,9 @@
 //! Effects of what moves, and of the input torque.
 
 use super::Scale::{Number, PerReach, Reach, Speed};
-use super::{on, Bounds, Declared, Entry, On, Place, Trials, Zero, AS_IT_IS, PLAIN};
+use super::{
+    on, Bounds, Declared, Entry, FittedZero, On, Place, ToldBy, Trials, Zero, AS_IT_IS, PLAIN,
+};
 use std::f64::consts::PI;
 
 // Motions that show several effects.
@@ -25,6 +27,7 @@ pub(super) const MOTION: &[Entry] = &[
         rank: 2,
         tried: &[on(Place::Motion, AS_IT_IS)],
         shown_by: "speeds that vary tenfold",
+        takes_energy: true,
         ..PLAIN
     },
     Entry {
@@ -52,6 +55,7 @@ pub(super) const MOTION: &[Entry] = &[
         bounds: &[SMOOTH_SIGN],
         on: &[On::Read, On::Reversal],
         shown_by: "slow passages through standstill, and fast ones",
+        takes_energy: true,
         ..PLAIN
     },
     Entry {
@@ -106,6 +110,7 @@ pub(super) const MOTION: &[Entry] = &[
         rank: 7,
         tried: &[on(Place::Motion, AS_IT_IS), on(Place::Torque, AS_IT_IS)],
         shown_by: SLOW_STROKES,
+        fitted_zero: FittedZero::Unless(&["stiffness-linear"]),
         ..PLAIN
     },
     Entry {
@@ -113,6 +118,7 @@ pub(super) const MOTION: &[Entry] = &[
         rank: 7,
         tried: &[on(Place::Motion, AS_IT_IS), on(Place::Torque, AS_IT_IS)],
         shown_by: SLOW_STROKES,
+        fitted_zero: FittedZero::Unless(&["stiffness-linear", "stiffness-quadratic"]),
         ..PLAIN
     },
     Entry {
@@ -120,6 +126,7 @@ pub(super) const MOTION: &[Entry] = &[
         rank: 7,
         tried: &[on(Place::Motion, AS_IT_IS), on(Place::Torque, AS_IT_IS)],
         shown_by: SLOW_STROKES,
+        fitted_zero: FittedZero::Always,
         ..PLAIN
     },
     Entry {
@@ -185,6 +192,7 @@ pub(super) const MOTION: &[Entry] = &[
         bounds: &[SMOOTH_SIGN],
         on: &[On::DirectedPosition],
         shown_by: "short strokes at several positions",
+        fitted_zero: FittedZero::Unless(&["coulomb"]),
         ..PLAIN
     },
     Entry {
@@ -236,6 +244,7 @@ pub(super) const MOTION: &[Entry] = &[
         bounds: &[SMOOTH_SIGN, Bounds::PerReach(1e-3, 3.0)],
         on: &[On::DirectedLoad],
         shown_by: LOADS,
+        fitted_zero: FittedZero::Always,
         ..PLAIN
     },
     Entry {
@@ -294,6 +303,7 @@ pub(super) const MOTION: &[Entry] = &[
         bounds: &[HALF_WIDTH],
         on: &[On::Reversal, On::Position],
         shown_by: "reversals with strokes shorter and longer than the play",
+        fitted_zero: FittedZero::Always,
         ..PLAIN
     },
     Entry {
@@ -372,6 +382,7 @@ pub(super) const MOTION: &[Entry] = &[
         bounds: &[Bounds::Value(0.8, 1.25), Bounds::Phase],
         several: true,
         shown_by: SLOW_STROKES,
+        told_by: ToldBy::Order,
         ..PLAIN
     },
     Entry {

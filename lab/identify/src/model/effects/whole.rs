@@ -1,7 +1,7 @@
 //! Effects of the model as a whole, of time, of a temperature and of other channels.
 
 use super::Scale::{Middle, Number, Path, Stroke};
-use super::{on, Bounds, Declared, Entry, On, Place, Stage, Trials, Zero, AS_IT_IS, PLAIN};
+use super::{on, Bounds, Declared, Entry, On, Place, Stage, ToldBy, Trials, Zero, AS_IT_IS, PLAIN};
 
 // Motions that show several effects.
 const FASTER: &str = "faster motion: several tones up to the cut-off";
@@ -133,6 +133,7 @@ pub(super) const WHOLE: &[Entry] = &[
         bounds: &[Bounds::Value(0.97, 1.03), Bounds::Phase],
         of_the_record: Some("a function of time alone, with the phase of this record"),
         shown_by: LONGER,
+        told_by: ToldBy::Frequency,
         ..PLAIN
     },
 ];
