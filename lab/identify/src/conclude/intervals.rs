@@ -7,6 +7,7 @@
 //! without it a block's residuals are too small, since the block itself was fitted.
 
 use super::excitation;
+use crate::algebra::inverse;
 use crate::fit::Solution;
 use crate::model::effects::{entry, shown_by, ToldBy};
 use crate::model::structure::{FitTerm, Range, Role};
@@ -312,7 +313,7 @@ impl Design {
     }
 
     fn bread(&self) -> Option<DMatrix<f64>> {
-        self.gram.clone().cholesky().map(|c| c.inverse())
+        inverse(self.gram.clone())
     }
 
     /// For each column the other one with whose estimate its own is most correlated.
@@ -360,7 +361,7 @@ pub(crate) fn jackknife(
             DVector::from_iterator(block.len(), block.map(|k| solution.residual[rows[k]]));
         let score = part.tr_mul(&residual);
         // By how much each parameter would move without this block.
-        let rest = (gram - part.tr_mul(&part)).cholesky().map(|c| c.inverse());
+        let rest = inverse(gram - part.tr_mul(&part));
         let plain = &bread * &score;
         let moved = rest.as_ref().map(|rest| rest * &score);
         let mut all = vec![f64::NAN; columns.len()];

@@ -17,6 +17,7 @@ mod trajectory;
 pub use strengthen::strengthen;
 pub use trajectory::{trajectory, Kind, Trajectory};
 
+use crate::algebra::imitated;
 use crate::conclude::intervals::term_name;
 use crate::fit::{glance_from, Known};
 use crate::ledger::{Ledger, Round};
@@ -86,7 +87,7 @@ fn apart(
         return None;
     }
     Some(Apart {
-        correlation: (1.0 - (part / whole).powi(2)).max(0.0).sqrt(),
+        correlation: imitated(whole, part),
         left: gain(part) / (rest.len() as f64).sqrt(),
     })
 }
