@@ -252,32 +252,34 @@ fn named(
     role: Role,
 ) -> (String, Option<String>, Option<usize>) {
     let input = data.input.unit.as_deref();
-    let fit = |term: usize| &solution.structure.terms[term];
-    let of_source = |term: usize| data.channel(fit(term).source).and_then(|c| c.unit.clone());
     let one = Unit::one().text();
-    match role {
-        Role::Rho => ("rho".to_owned(), Unit::one().times(input, -1).text(), None),
-        Role::Sigma => ("sigma".to_owned(), one, None),
-        Role::N => ("n".to_owned(), one, None),
-        Role::Eta0 { record } => (of_record(data, "eta0", record), one, None),
-        Role::Shape { term, index } => {
-            let shape = fit(term).effect.shape_names()[index];
-            let name = format!("{}.{shape}", term_name(data, fit(term)));
-            (name, shape_unit(data, fit(term), index), Some(term))
+    let terms = &solution.structure.terms;
+    let place = role.term().and_then(|term| terms.place(term));
+    let fit = place.and_then(|place| terms.get(place));
+    let name = fit.map_or_else(String::new, |fit| term_name(data, fit));
+    let of_source = || {
+        let channel = data.channel(fit?.source);
+        channel.and_then(|c| c.unit.clone())
+    };
+    let (name, unit) = match role {
+        Role::Rho => ("rho".to_owned(), Unit::one().times(input, -1).text()),
+        Role::Sigma => ("sigma".to_owned(), one),
+        Role::N => ("n".to_owned(), one),
+        Role::Eta0 { record } => (of_record(data, "eta0", record), one),
+        Role::Shape { index, .. } => {
+            let names = fit.map_or(&[][..], |fit| fit.effect.shape_names());
+            let shape = names.get(index).copied().unwrap_or_default();
+            let unit = fit.and_then(|fit| shape_unit(data, fit, index));
+            (format!("{name}.{shape}"), unit)
         }
-        Role::Origin { term } => {
-            let name = format!("{}.origin", term_name(data, fit(term)));
-            (name, of_source(term), Some(term))
-        }
-        Role::Start { term, record } => {
-            let name = format!("{}.start", term_name(data, fit(term)));
-            (of_record(data, &name, record), of_source(term), Some(term))
-        }
-        Role::Stage { term } => {
-            let (name, unit) = (term_name(data, fit(term)), gain_unit(data, fit(term)));
-            (name, unit, Some(term))
-        }
-    }
+        Role::Origin { .. } => (format!("{name}.origin"), of_source()),
+        Role::Start { record, .. } => (
+            of_record(data, &format!("{name}.start"), record),
+            of_source(),
+        ),
+        Role::Stage { .. } => (name, fit.and_then(|fit| gain_unit(data, fit))),
+    };
+    (name, unit, place)
 }
 
 /// Columns on the rows of the fit segment, at unit norm.

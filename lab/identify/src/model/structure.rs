@@ -4,49 +4,12 @@ use super::effects::{entry, Entry, FittedZero, Stage};
 use super::Table;
 use crate::problem::{Prepared, MOST_RECORDS};
 use crate::record::Mode;
-use bowden::effect::Effect;
 use bowden::model::Source;
 
+pub use super::parameter::{Free, Role};
 pub use super::range::Range;
-
-/// One effect in a model under fit.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FitTerm {
-    /// The effect with its present shapes.
-    pub effect: Effect<f64>,
-    /// The motion that it reads.
-    pub source: Source,
-    /// The origin from which it measures position.
-    pub origin: f64,
-    /// How far the channel had moved just before each record began: what an effect with
-    /// memory remembers of that is unknown and is fitted.
-    pub start: [f64; MOST_RECORDS],
-}
-
-impl FitTerm {
-    /// Whether its gain is one of the linear ones: that of an output stage acts on all
-    /// columns, and an input stage has a gain of one.
-    #[must_use]
-    pub fn is_linear(&self) -> bool {
-        !self.effect.is_output_stage() && !self.effect.is_input_stage()
-    }
-
-    /// Whether the effect remembers motion from before the record.
-    #[must_use]
-    pub fn has_past(&self) -> bool {
-        entry(self.effect.name()).is_some_and(|entry| entry.past)
-    }
-
-    /// Whether a shape is a moment of the record, which moves by whole samples.
-    pub(crate) fn is_moment(&self, shape: usize) -> bool {
-        entry(self.effect.name()).is_some_and(|entry| entry.is_moment(shape))
-    }
-
-    /// Whether the effect happens at a moment of the record.
-    pub(crate) fn has_moment(&self) -> bool {
-        (0..self.effect.shape_names().len()).any(|shape| self.is_moment(shape))
-    }
-}
+pub use super::term::{FitTerm, TermId};
+pub use super::terms::Terms;
 
 /// A model under fit: what is in it, not how large it is.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -57,7 +20,7 @@ pub struct Structure {
     /// common to all.
     pub own_gains: usize,
     /// The effects, in the order in which they came.
-    pub terms: Vec<FitTerm>,
+    pub terms: Terms,
     /// A curve over one variable, for what has no name.
     pub table: Option<Table>,
     /// Whether output stages and input stages are kept out of the search: a model with one
@@ -66,55 +29,6 @@ pub struct Structure {
     /// Whether the gains are confined to those for which the transmission has an inverse,
     /// `sigma <= B/(2·kappa_eta·rho)`.
     pub invertible: bool,
-}
-
-/// What a free parameter is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Role {
-    /// Bouc-Wen rho.
-    Rho,
-    /// Bouc-Wen sigma.
-    Sigma,
-    /// Bouc-Wen n.
-    N,
-    /// The hysteresis state at the first sample of a record.
-    Eta0 {
-        /// Index of the record.
-        record: usize,
-    },
-    /// Shape `index` of term `term`.
-    Shape {
-        /// Index of the term.
-        term: usize,
-        /// Index of the shape in the effect.
-        index: usize,
-    },
-    /// The origin from which term `term` measures position.
-    Origin {
-        /// Index of the term.
-        term: usize,
-    },
-    /// What term `term` remembers from before a record.
-    Start {
-        /// Index of the term.
-        term: usize,
-        /// Index of the record.
-        record: usize,
-    },
-    /// The gain of an output stage: it acts on all columns, so it is not linear.
-    Stage {
-        /// Index of the term.
-        term: usize,
-    },
-}
-
-/// A non-linear parameter and its range.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Free {
-    /// What it is.
-    pub role: Role,
-    /// Where it may lie.
-    pub range: Range,
 }
 
 /// Ranges of rho in units of one over the input's half-range.
@@ -151,7 +65,7 @@ impl Structure {
                 range: Range::Linear(-1.0, 1.0),
             }));
         }
-        for (term, fit) in self.terms.iter().enumerate() {
+        for (term, fit) in self.terms.with_ids() {
             let Some(channel) = data.channel(fit.source) else {
                 continue;
             };

@@ -104,10 +104,10 @@ fn pair(placed: &Placed<'_>, a: (&FitTerm, f64), b: (&FitTerm, f64)) -> Option<A
 
 /// A rival with its shapes fitted beside the rest of the model.
 fn refined(data: &Prepared, round: &Round, rival: &Candidate) -> Option<FitTerm> {
-    let last = round.solution.structure.terms.len().checked_sub(1)?;
     let mut structure = round.solution.structure.clone();
-    structure.terms[last] = rival.term;
-    let known = Known::of(&round.solution).without(last);
+    structure.terms.remove(*structure.terms.ids().last()?);
+    structure.terms.push(rival.term);
+    let known = Known::of(&round.solution);
     let (_, fitted, _) = glance_from(&data.for_search(true), &structure, &known, 0.0)?;
     fitted.terms.last().copied()
 }
