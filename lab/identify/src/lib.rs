@@ -4,6 +4,7 @@
 //!
 //! | room | what happens there |
 //! |---|---|
+//! | `algebra` | the linear algebra of all others: spans, systems, directions |
 //! | [`record`] | a file is read and checked, its defects are named |
 //! | [`problem`] | uniform time, one zero-phase smoother for all columns and the output, the split |
 //! | [`model`] | effects that may be missing, terms and their parameters, their columns |
@@ -21,6 +22,7 @@
 //! is what runs in firmware. The package `bowden-synth` makes test records and shares no
 //! code with any of these.
 
+pub(crate) mod algebra;
 pub mod check;
 pub mod conclude;
 pub mod export;

@@ -7,7 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// From the ground up, in the order in which data walk through them.
-const FLOORS: [&str; 12] = [
+const FLOORS: [&str; 13] = [
+    "algebra",
     "record",
     "problem",
     "model",

@@ -1,5 +1,6 @@
 //! Gain and offset of a prediction, the only two numbers that a check fits.
 
+use crate::algebra::line;
 use crate::conclude::intervals::quantile;
 use crate::problem::Prepared;
 use crate::score::blocks::{blocks, BLOCKS};
@@ -60,15 +61,6 @@ impl Line {
 /// Gain and offset without the rows at those positions. A prediction that does not move has
 /// no gain: it keeps its own.
 fn solve(data: &Prepared, prediction: &[f64], rows: &[usize], out: Range<usize>) -> (f64, f64) {
-    let kept = || rows[..out.start].iter().chain(&rows[out.end..]);
-    let count = kept().count().max(1) as f64;
-    let mean = |of: &[f64]| kept().map(|&i| of[i]).sum::<f64>() / count;
-    let (p, y) = (mean(prediction), mean(&data.target));
-    let (mut own, mut cross) = (0.0, 0.0);
-    for &i in kept() {
-        own += (prediction[i] - p).powi(2);
-        cross += (prediction[i] - p) * (data.target[i] - y);
-    }
-    let gain = if own > 0.0 { cross / own } else { 1.0 };
-    (gain, y - gain * p)
+    let kept = rows[..out.start].iter().chain(&rows[out.end..]);
+    line(kept.map(|&i| (prediction[i], data.target[i])))
 }

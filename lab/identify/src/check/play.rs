@@ -3,7 +3,7 @@
 use super::given::{Given, MOST_TERMS};
 use crate::fit::{Segments, Solution};
 use crate::model::columns::{raw_columns, weighted};
-use crate::model::structure::{FitTerm, Free, Range, Role, Structure};
+use crate::model::structure::{FitTerm, Free, Range, Role, Structure, Terms};
 use crate::problem::{Prepared, MOST_RECORDS};
 use crate::record::Mode;
 use bowden::model::{Model, Source};
@@ -26,7 +26,7 @@ pub(super) fn play(data: &Prepared, given: &Given, eta0: f64) -> Result<Solution
                 start: [0.0; MOST_RECORDS],
             })
         })
-        .collect::<Result<Vec<_>, String>>()?;
+        .collect::<Result<Terms, String>>()?;
     let structure = Structure {
         hysteresis: model.transmission().is_some(),
         terms,
@@ -47,9 +47,9 @@ pub(super) fn play(data: &Prepared, given: &Given, eta0: f64) -> Result<Solution
             (Role::Eta0 { record: 0 }, eta0),
         ]);
     }
-    for (index, (term, own)) in structure.terms.iter().zip(model.terms()).enumerate() {
+    for ((id, term), own) in structure.terms.with_ids().zip(model.terms()) {
         if term.effect.is_output_stage() {
-            known.push((Role::Stage { term: index }, own.gain));
+            known.push((Role::Stage { term: id }, own.gain));
         } else if term.is_linear() {
             gains.push(own.gain);
         }

@@ -7,13 +7,14 @@
 //! without it a block's residuals are too small, since the block itself was fitted.
 
 use super::excitation;
+use crate::algebra::inverse;
 use crate::fit::Solution;
+use crate::model::effects::{entry, shown_by, ToldBy};
 use crate::model::structure::{FitTerm, Range, Role};
 use crate::model::units::Unit;
 use crate::problem::Prepared;
 use crate::record::Mode;
 use crate::score::blocks::{blocks, BLOCKS};
-use bowden::effect::Family;
 use bowden::model::Source;
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -90,27 +91,20 @@ pub fn term_name(data: &Prepared, term: &FitTerm) -> String {
 #[must_use]
 pub fn term_title(data: &Prepared, term: &FitTerm) -> String {
     let name = term_name(data, term);
-    let shape = |name: &str| {
-        let names = term.effect.shape_names();
-        let index = names.iter().position(|own| *own == name)?;
-        term.effect.shape(index)
-    };
-    match term.effect.family() {
-        Family::Tone => shape("f").map(|f| format!("{name} ({f:.3} Hz)")),
-        Family::Ripple => shape("k").map(|k| {
+    let told_by = entry(term.effect.name()).map_or(ToldBy::Name, |entry| entry.told_by);
+    match (told_by, term.effect.shape(0)) {
+        (ToldBy::Name, _) | (_, None) => name,
+        (ToldBy::Frequency, Some(f)) => format!("{name} ({f:.3} Hz)"),
+        (ToldBy::Order, Some(k)) => {
             let unit = data.channel(term.source).and_then(|c| c.unit.as_deref());
             let of_an_angle = |k: f64| format!("{name} (order {k:.2})");
             match unit {
                 None | Some("rad") => of_an_angle(k),
                 Some("deg" | "°") => of_an_angle(k.to_degrees()),
-                Some(unit) => {
-                    format!("{name} (period {:.3} {unit})", std::f64::consts::TAU / k)
-                }
+                Some(unit) => format!("{name} (period {:.3} {unit})", std::f64::consts::TAU / k),
             }
-        }),
-        _ => None,
+        }
     }
-    .unwrap_or(name)
 }
 
 /// Unit of a term's gain.
@@ -198,7 +192,7 @@ fn linear(
             None => excitation::TRANSMISSION,
             Some(index) => {
                 let term: &FitTerm = &solution.structure.terms[index];
-                excitation::of_family(term.effect.family())
+                shown_by(term.effect.name())
             }
         },
         sign,
@@ -258,32 +252,34 @@ fn named(
     role: Role,
 ) -> (String, Option<String>, Option<usize>) {
     let input = data.input.unit.as_deref();
-    let fit = |term: usize| &solution.structure.terms[term];
-    let of_source = |term: usize| data.channel(fit(term).source).and_then(|c| c.unit.clone());
     let one = Unit::one().text();
-    match role {
-        Role::Rho => ("rho".to_owned(), Unit::one().times(input, -1).text(), None),
-        Role::Sigma => ("sigma".to_owned(), one, None),
-        Role::N => ("n".to_owned(), one, None),
-        Role::Eta0 { record } => (of_record(data, "eta0", record), one, None),
-        Role::Shape { term, index } => {
-            let shape = fit(term).effect.shape_names()[index];
-            let name = format!("{}.{shape}", term_name(data, fit(term)));
-            (name, shape_unit(data, fit(term), index), Some(term))
+    let terms = &solution.structure.terms;
+    let place = role.term().and_then(|term| terms.place(term));
+    let fit = place.and_then(|place| terms.get(place));
+    let name = fit.map_or_else(String::new, |fit| term_name(data, fit));
+    let of_source = || {
+        let channel = data.channel(fit?.source);
+        channel.and_then(|c| c.unit.clone())
+    };
+    let (name, unit) = match role {
+        Role::Rho => ("rho".to_owned(), Unit::one().times(input, -1).text()),
+        Role::Sigma => ("sigma".to_owned(), one),
+        Role::N => ("n".to_owned(), one),
+        Role::Eta0 { record } => (of_record(data, "eta0", record), one),
+        Role::Shape { index, .. } => {
+            let names = fit.map_or(&[][..], |fit| fit.effect.shape_names());
+            let shape = names.get(index).copied().unwrap_or_default();
+            let unit = fit.and_then(|fit| shape_unit(data, fit, index));
+            (format!("{name}.{shape}"), unit)
         }
-        Role::Origin { term } => {
-            let name = format!("{}.origin", term_name(data, fit(term)));
-            (name, of_source(term), Some(term))
-        }
-        Role::Start { term, record } => {
-            let name = format!("{}.start", term_name(data, fit(term)));
-            (of_record(data, &name, record), of_source(term), Some(term))
-        }
-        Role::Stage { term } => {
-            let (name, unit) = (term_name(data, fit(term)), gain_unit(data, fit(term)));
-            (name, unit, Some(term))
-        }
-    }
+        Role::Origin { .. } => (format!("{name}.origin"), of_source()),
+        Role::Start { record, .. } => (
+            of_record(data, &format!("{name}.start"), record),
+            of_source(),
+        ),
+        Role::Stage { .. } => (name, fit.and_then(|fit| gain_unit(data, fit))),
+    };
+    (name, unit, place)
 }
 
 /// Columns on the rows of the fit segment, at unit norm.
@@ -319,7 +315,7 @@ impl Design {
     }
 
     fn bread(&self) -> Option<DMatrix<f64>> {
-        self.gram.clone().cholesky().map(|c| c.inverse())
+        inverse(self.gram.clone())
     }
 
     /// For each column the other one with whose estimate its own is most correlated.
@@ -367,7 +363,7 @@ pub(crate) fn jackknife(
             DVector::from_iterator(block.len(), block.map(|k| solution.residual[rows[k]]));
         let score = part.tr_mul(&residual);
         // By how much each parameter would move without this block.
-        let rest = (gram - part.tr_mul(&part)).cholesky().map(|c| c.inverse());
+        let rest = inverse(gram - part.tr_mul(&part));
         let plain = &bread * &score;
         let moved = rest.as_ref().map(|rest| rest * &score);
         let mut all = vec![f64::NAN; columns.len()];

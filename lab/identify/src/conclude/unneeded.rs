@@ -58,28 +58,24 @@ pub fn unneeded(ledger: &Ledger, done: &FinalFit) -> Vec<Unneeded> {
 
 fn without_term(data: &Prepared, full: &Solution, term: usize) -> Option<Solution> {
     let mut structure = full.structure.clone();
-    structure.terms.remove(term);
-    let known = Known::of(full).without(term);
-    fit_from(data, &structure, Some(&known), 0.0)
+    structure.terms.remove(*structure.terms.ids().get(term)?);
+    fit_from(data, &structure, Some(&Known::of(full)), 0.0)
 }
 
 /// The model as a line, without what reads the hysteresis state.
 fn without_hysteresis(data: &Prepared, full: &Solution) -> Option<Solution> {
-    let (mut structure, mut known) = (full.structure.clone(), Known::of(full));
+    let mut structure = full.structure.clone();
     structure.hysteresis = false;
     let over_eta = |table: &Table| table.variable == Variable::Eta;
     if structure.table.as_ref().is_some_and(over_eta) {
         structure.table = None;
     }
     let goes = |t: &FitTerm| t.effect.reads_eta() || t.effect.is_input_stage();
-    while let Some(term) = structure.terms.iter().position(goes) {
-        structure.terms.remove(term);
-        known = known.without(term);
-    }
+    structure.terms.retain(|t| !goes(t));
     for name in ["offset", "stiffness-linear"] {
         add_to_input(data, &mut structure, name)?;
     }
-    fit_from(data, &structure, Some(&known), 0.0)
+    fit_from(data, &structure, Some(&Known::of(full)), 0.0)
 }
 
 fn add_to_input(data: &Prepared, structure: &mut Structure, name: &str) -> Option<()> {

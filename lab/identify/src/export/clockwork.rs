@@ -6,7 +6,8 @@
 //! others; then the model that is handed over is fitted again without them, on the same
 //! segments: among the models that firmware can run it is the one that fits best.
 
-use crate::fit::{Known, Solution};
+use crate::fit::Solution;
+use crate::model::effects::of_the_record;
 use crate::model::structure::Structure;
 use crate::problem::Prepared;
 use bowden::effect::{Effect, Family};
@@ -20,41 +21,23 @@ pub fn is_clockwork(effect: &Effect<f64>) -> bool {
 /// Whether the effects of a family count from the first sample of their record.
 #[must_use]
 pub fn counts_from_the_start(family: Family) -> bool {
-    matches!(
-        family,
-        Family::Tone | Family::Drift | Family::Pretension | Family::Degradation
-    )
+    of_the_record(family).is_some()
 }
 
-/// Why an effect of this family is not handed over.
+/// Why an effect of this family is not handed over; empty where it is.
 #[must_use]
 pub fn because(family: Family) -> &'static str {
-    match family {
-        Family::Tone => "a function of time alone, with the phase of this record",
-        Family::Drift => "a function of time alone, from the start of this record",
-        Family::Pretension => "a step at one moment of this record",
-        _ => "counts the path from the start of this record",
-    }
+    of_the_record(family).unwrap_or_default()
 }
 
-/// A structure without the effects that `goes` names and without the table of what has no
-/// name; what is known of the rest, and which terms went.
+/// The structure of a solution without the effects that `goes` names and without the table of
+/// what has no name.
 #[must_use]
-pub fn without(
-    solution: &Solution,
-    goes: impl Fn(&Effect<f64>) -> bool,
-) -> (Structure, Known, Vec<usize>) {
+pub fn without(solution: &Solution, goes: impl Fn(&Effect<f64>) -> bool) -> Structure {
     let mut structure = solution.structure.clone();
-    let mut known = Known::of(solution);
     structure.table = None;
-    let gone: Vec<usize> = (0..structure.terms.len())
-        .filter(|&term| goes(&structure.terms[term].effect))
-        .collect();
-    for &term in gone.iter().rev() {
-        structure.terms.remove(term);
-        known = known.without(term);
-    }
-    (structure, known, gone)
+    structure.terms.retain(|t| !goes(&t.effect));
+    structure
 }
 
 /// Whether the record's own clockwork, or its table, is part of a solution.

@@ -159,12 +159,12 @@ fn records_own(data: &Prepared, solution: &Solution) -> Vec<LeftOut> {
 /// The fit without what is left out, within what can be inverted if that is asked for.
 pub(crate) fn handed_over(base: &FinalFit, invertible: bool) -> Result<Solution, String> {
     let (data, last) = (&base.data, &base.solution);
-    let (mut structure, known, _) = without(last, |effect| {
+    let mut structure = without(last, |effect| {
         is_clockwork(effect) || (invertible && is_stage(effect))
     });
     let free = match has_clockwork(last) || structure.terms.len() < last.structure.terms.len() {
         false => last.clone(),
-        true => fit_from(data, &structure, Some(&known), 0.0)
+        true => fit_from(data, &structure, Some(&Known::of(last)), 0.0)
             .ok_or("the model cannot be fitted without what belongs to the record")?,
     };
     if !invertible || !stands_against(data, &free)? {

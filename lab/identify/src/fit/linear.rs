@@ -1,8 +1,12 @@
 //! Gains by least squares once the shapes are known.
 
 use super::tie::Tie;
+use crate::algebra::Span;
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
+
+/// Below this share of its norm a column is a sum of the others within rounding.
+const SUM_OF_OTHERS: f64 = 1e-9;
 
 /// Gains, and the basis that they leave.
 pub(super) struct Linear {
@@ -54,7 +58,12 @@ fn non_negative(
 ) -> Linear {
     let y = DVector::from_iterator(rows.len(), rows.iter().map(|&i| target[i]));
     loop {
-        let (basis, gains, used) = orthonormal(rows, columns, &active, &y);
+        let mut span = Span::with_tolerance(SUM_OF_OTHERS);
+        let column =
+            |k: usize| DVector::from_iterator(rows.len(), rows.iter().map(|&i| columns[k][i]));
+        let used = active.iter().copied().filter(|&k| span.add(column(k)));
+        let used: Vec<usize> = used.collect();
+        let gains = span.gains(&y);
         let worst = used
             .iter()
             .zip(&gains)
@@ -70,64 +79,10 @@ fn non_negative(
                 }
                 return Linear {
                     gains: all,
-                    basis,
+                    basis: span.matrix(rows.len()),
                     tied: Vec::new(),
                 };
             }
         }
     }
-}
-
-/// Orthonormal basis of the chosen columns (twice-repeated Gram-Schmidt, which is as
-/// good as Householder) and the least-squares gains; dependent columns are left out.
-fn orthonormal(
-    rows: &[usize],
-    columns: &[Arc<Vec<f64>>],
-    chosen: &[usize],
-    y: &DVector<f64>,
-) -> (DMatrix<f64>, Vec<f64>, Vec<usize>) {
-    let n = rows.len();
-    let mut basis: Vec<DVector<f64>> = Vec::with_capacity(chosen.len());
-    let mut used = Vec::with_capacity(chosen.len());
-    let mut upper: Vec<Vec<f64>> = Vec::with_capacity(chosen.len());
-    for &k in chosen {
-        let mut v = DVector::from_iterator(n, rows.iter().map(|&i| columns[k][i]));
-        let norm = v.norm();
-        if !(norm.is_finite() && norm > 0.0) {
-            continue;
-        }
-        let mut coefficients = vec![0.0; basis.len()];
-        for _ in 0..2 {
-            for (c, q) in coefficients.iter_mut().zip(&basis) {
-                let dot = q.dot(&v);
-                v.axpy(-dot, q, 1.0);
-                *c += dot;
-            }
-        }
-        let left = v.norm();
-        // Below this a column is a sum of the others within rounding.
-        if left < 1e-9 * norm {
-            continue;
-        }
-        v /= left;
-        coefficients.push(left);
-        upper.push(coefficients);
-        basis.push(v);
-        used.push(k);
-    }
-    let m = basis.len();
-    let mut gains: Vec<f64> = basis.iter().map(|q| q.dot(y)).collect();
-    for i in (0..m).rev() {
-        gains[i] /= upper[i][i];
-        let g = gains[i];
-        for (j, slot) in gains.iter_mut().enumerate().take(i) {
-            *slot -= upper[i][j] * g;
-        }
-    }
-    let basis = if m == 0 {
-        DMatrix::zeros(n, 0)
-    } else {
-        DMatrix::from_columns(&basis)
-    };
-    (basis, gains, used)
 }

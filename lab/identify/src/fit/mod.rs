@@ -119,18 +119,12 @@ pub fn glance_from(
         .filter_map(|(_, start)| descend(data, structure, &free, start, 10, 1e-3));
     let (_, start) = rough.min_by(|a, b| a.0.total_cmp(&b.0))?;
     let (sse, values) = descend(data, structure, &free, &start, 30, 1e-4)?;
-    let mut refined = structure.clone();
-    let mut gain = stage_gain;
-    for (f, &v) in free.iter().zip(&values) {
-        match f.role {
-            Role::Shape { term, index } => {
-                refined.terms[term].effect = refined.terms[term].effect.with_shape(index, v).ok()?
-            }
-            Role::Origin { term } => refined.terms[term].origin = v,
-            Role::Start { term, record } => refined.terms[term].start[record] = v,
-            Role::Stage { term } if term + 1 == structure.terms.len() => gain = v,
-            _ => {}
-        }
-    }
+    let refined = Structure {
+        terms: structure.terms.at(&free, &values)?,
+        ..structure.clone()
+    };
+    let last = structure.terms.ids().last();
+    let own = last.and_then(|&term| free.iter().position(|f| f.role == Role::Stage { term }));
+    let gain = own.map_or(stage_gain, |i| values[i]);
     Some((sse, refined, gain))
 }

@@ -2,6 +2,7 @@
 
 use super::linear::{solve_linear, Linear};
 use super::tie::{slope, ties};
+use crate::algebra::take_off;
 use crate::model::columns::{raw_columns_knowing, Beforehand, RawColumns};
 use crate::model::structure::{Free, Range, Role, Structure};
 use crate::problem::cost::{EVALUATIONS, JACOBIANS, SEARCHES};
@@ -194,8 +195,7 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Reduced<'_> {
         let mut jacobian = DMatrix::zeros(rows.len(), self.free.len());
         for (j, (free, tangent)) in self.free.iter().zip(tangents).enumerate() {
             let mut column = DVector::from_iterator(rows.len(), rows.iter().map(|&i| tangent[i]));
-            let projected = now.linear.basis.tr_mul(&column);
-            column.gemv(-1.0, &now.linear.basis, &projected, 1.0);
+            take_off(&now.linear.basis, &mut column);
             column *= -free.range.slope(self.line[j]);
             jacobian.set_column(j, &column);
         }

@@ -3,7 +3,7 @@
 use super::search::{evaluate, Evaluation};
 use super::{Segments, Solution};
 use crate::model::columns::weighted;
-use crate::model::structure::{Free, Role, Structure};
+use crate::model::structure::{Free, Structure};
 use crate::problem::Prepared;
 use std::sync::Arc;
 
@@ -39,17 +39,10 @@ pub(crate) fn settle(
         .zip(&values)
         .map(|(f, &v)| f.range.at_bound(f.range.encode(v)))
         .collect();
-    let mut fitted = structure.clone();
-    for (f, &v) in free.iter().zip(&values) {
-        match f.role {
-            Role::Shape { term, index } => {
-                fitted.terms[term].effect = fitted.terms[term].effect.with_shape(index, v).ok()?
-            }
-            Role::Origin { term } => fitted.terms[term].origin = v,
-            Role::Start { term, record } => fitted.terms[term].start[record] = v,
-            _ => {}
-        }
-    }
+    let fitted = Structure {
+        terms: structure.terms.at(free, &values)?,
+        ..structure.clone()
+    };
     Some(Solution {
         structure: fitted,
         free: free.to_vec(),

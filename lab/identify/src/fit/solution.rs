@@ -114,7 +114,10 @@ impl Solution {
     pub fn gain(&self, term: usize) -> f64 {
         let effect = &self.structure.terms[term].effect;
         if effect.is_output_stage() {
-            return self.value(Role::Stage { term }).unwrap_or(0.0);
+            let id = self.structure.terms.ids().get(term);
+            return id
+                .and_then(|&term| self.value(Role::Stage { term }))
+                .unwrap_or(0.0);
         }
         if effect.is_input_stage() {
             return 1.0;

@@ -4,7 +4,8 @@ use super::Solution;
 use crate::model::structure::{Free, Range, Role, Structure};
 use crate::problem::Prepared;
 
-/// Where an earlier fit ended: the values of its free parameters.
+/// Where an earlier fit ended: the values of its free parameters. Those of terms that have gone
+/// since belong to no parameter any more.
 #[derive(Debug, Clone)]
 pub struct Known(Vec<(Role, f64)>);
 
@@ -14,38 +15,6 @@ impl Known {
     pub fn of(solution: &Solution) -> Self {
         let roles = solution.free.iter().map(|f| f.role);
         Self(roles.zip(solution.values.iter().copied()).collect())
-    }
-
-    /// The gain from which an output stage is to start.
-    pub fn set_stage(&mut self, term: usize, gain: f64) {
-        self.0.push((Role::Stage { term }, gain));
-    }
-
-    /// The values of what is left when a term is taken out.
-    #[must_use]
-    pub fn without(&self, gone: usize) -> Self {
-        let renamed = |role: Role| -> Option<Role> {
-            let moved = |term: usize| match term.cmp(&gone) {
-                std::cmp::Ordering::Less => Some(term),
-                std::cmp::Ordering::Equal => None,
-                std::cmp::Ordering::Greater => Some(term - 1),
-            };
-            Some(match role {
-                Role::Shape { term, index } => Role::Shape {
-                    term: moved(term)?,
-                    index,
-                },
-                Role::Origin { term } => Role::Origin { term: moved(term)? },
-                Role::Start { term, record } => Role::Start {
-                    term: moved(term)?,
-                    record,
-                },
-                Role::Stage { term } => Role::Stage { term: moved(term)? },
-                own => own,
-            })
-        };
-        let kept = self.0.iter().filter_map(|&(r, v)| Some((renamed(r)?, v)));
-        Self(kept.collect())
     }
 
     fn value(&self, role: Role) -> Option<f64> {
@@ -89,10 +58,13 @@ pub(super) fn starts(
                 }
                 (Role::Stage { .. }, _) => present(f.role).unwrap_or(stage_gain),
                 (Role::Shape { term, index }, _) => {
-                    structure.terms[term].effect.shape(index).unwrap_or(0.0)
+                    let term = structure.terms.find(term);
+                    term.and_then(|t| t.effect.shape(index)).unwrap_or(0.0)
                 }
-                (Role::Origin { term }, _) => structure.terms[term].origin,
-                (Role::Start { term, record }, _) => structure.terms[term].start[record],
+                (Role::Origin { term }, _) => structure.terms.find(term).map_or(0.0, |t| t.origin),
+                (Role::Start { term, record }, _) => {
+                    structure.terms.find(term).map_or(0.0, |t| t.start[record])
+                }
                 (role, None) => present(role).unwrap_or(0.5),
             })
             .collect()

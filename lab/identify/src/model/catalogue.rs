@@ -1,15 +1,17 @@
 //! Which effects are tried on a record: every family, on every channel, at a few shapes.
 //!
-//! The shapes are a coarse grid in units of the record's own ranges. What is found is
+//! The shapes are a coarse grid in units of the record's own ranges, from the table of
+//! [`effects`](super::effects). What is found is
 //! refitted with its shapes free, so the grid need only be close.
 
-use super::kind::{kind, Kind};
+use super::effects::{entry, rank, table, Entry, Place, Trials, Zero};
 use super::structure::{FitTerm, Structure};
 use super::variable::Variable;
 use crate::problem::{Channel, Prepared, MOST_RECORDS};
 use crate::record::Mode;
 use bowden::effect::{Effect, Family, Quantity, CATALOGUE};
 use bowden::model::Source;
+use std::ops::Range;
 
 /// An effect that may be missing.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,44 +33,8 @@ impl Candidate {
     /// What the effect is a function of, or stands for.
     #[must_use]
     pub fn variables(&self) -> Vec<Variable> {
-        let source = self.term.source;
-        let reads = self.term.effect.info().reads;
-        let on = |quantity| reads.contains(&quantity);
-        let mut all = match self.family {
-            Family::PositionFriction => vec![Variable::DirectedPosition(source)],
-            Family::LoadFriction | Family::Direction | Family::Capstan => {
-                vec![Variable::DirectedLoad(source)]
-            }
-            Family::Backlash | Family::Presliding | Family::Creep => Vec::new(),
-            _ if on(Quantity::Acceleration) => vec![Variable::Acceleration(source)],
-            _ if on(Quantity::Velocity) => vec![Variable::Velocity(source)],
-            _ if on(Quantity::Eta) => vec![Variable::Eta],
-            _ if on(Quantity::Time) => vec![Variable::Time],
-            _ => vec![Variable::Position(source)],
-        };
-        let local = matches!(
-            self.family,
-            Family::Backlash
-                | Family::Presliding
-                | Family::Creep
-                | Family::Stribeck
-                | Family::Coulomb
-                | Family::Asymmetry
-                | Family::Delay
-                | Family::Lag
-                | Family::Rate
-                | Family::Pinching
-        );
-        if local {
-            all.extend([
-                Variable::ReversalDistance(source),
-                Variable::ReversalTime(source),
-            ]);
-        }
-        if self.family == Family::Backlash {
-            all.push(Variable::Position(source));
-        }
-        all
+        let effect = &self.term.effect;
+        entry(effect.name()).map_or_else(Vec::new, |own| own.variables(effect, self.term.source))
     }
 
     /// Whether the other is the same effect of the same channel, of whatever shape.
@@ -79,56 +45,49 @@ impl Candidate {
     }
 }
 
-/// From the simplest to the least simple: of two rivals the earlier one is named.
-pub const SIMPLICITY: [Family; 28] = [
-    Family::Offset,
-    Family::Gain,
-    Family::Viscous,
-    Family::Coulomb,
-    Family::Inertia,
-    Family::Delay,
-    Family::Lag,
-    Family::Stiffness,
-    Family::Gravity,
-    Family::Temperature,
-    Family::Drift,
-    Family::Pretension,
-    Family::Asymmetry,
-    Family::Drag,
-    Family::LoadFriction,
-    Family::Crosstalk,
-    Family::PositionFriction,
-    Family::Saturation,
-    Family::Direction,
-    Family::Capstan,
-    Family::Rate,
-    Family::Stribeck,
-    Family::Backlash,
-    Family::Presliding,
-    Family::Creep,
-    Family::Pinching,
-    Family::Degradation,
-    Family::Ripple,
-];
-
-/// Rank: the family's in [`SIMPLICITY`], then the effect's place in the core's catalogue.
+/// Rank among rivals, of which the lowest is named: that of the family, then the effect's
+/// place in the core's catalogue.
 #[must_use]
 pub fn simplicity(effect: &Effect<f64>) -> (usize, usize) {
-    let family = SIMPLICITY
-        .iter()
-        .position(|&f| f == effect.family())
-        .unwrap_or(SIMPLICITY.len());
     let own = CATALOGUE
         .iter()
         .position(|info| info.name == effect.name())
         .unwrap_or(CATALOGUE.len());
-    (family, own)
+    (rank(effect.name()), own)
 }
 
 /// Value below which the share `q` of the channel's positions lies, from its origin.
 fn quantile(sorted: &[f64], q: f64) -> f64 {
     let at = ((sorted.len() - 1) as f64 * q).round() as usize;
     sorted[at]
+}
+
+/// A channel on which effects are tried.
+struct Site<'a> {
+    source: Source,
+    channel: &'a Channel,
+    /// Whether it stands for the model as a whole, which has no zero of position.
+    whole: bool,
+    /// The positions from their origin, in order, once somebody asks for them.
+    sorted: Option<Vec<f64>>,
+}
+
+impl Site<'_> {
+    fn origin(&self, entry: &Entry) -> f64 {
+        match entry.zero {
+            Zero::Channel if !self.whole => self.channel.origin,
+            _ => 0.0,
+        }
+    }
+
+    /// Position below which the channel stays for that share of the time, from its origin.
+    fn quantile(&mut self, share: f64) -> f64 {
+        let channel = self.channel;
+        let sorted = self
+            .sorted
+            .get_or_insert_with(|| sorted_positions(channel, channel.origin));
+        quantile(sorted, share)
+    }
 }
 
 struct Collector<'a> {
@@ -139,7 +98,9 @@ struct Collector<'a> {
 }
 
 impl Collector<'_> {
-    fn add(&mut self, source: Source, origin: f64, name: &str, shapes: &[f64]) {
+    /// One candidate, unless the structure has no place for it.
+    fn add(&mut self, entry: &Entry, source: Source, origin: f64, shapes: &[f64]) {
+        let name = entry.name;
         let Ok(effect) = Effect::try_from_name(name, shapes) else {
             return;
         };
@@ -150,16 +111,12 @@ impl Collector<'_> {
         if self.structure.no_stages && (effect.is_output_stage() || effect.is_input_stage()) {
             return;
         }
-        let several = matches!(
-            effect.family(),
-            Family::Ripple | Family::Presliding | Family::Pretension
-        ) || name == "hinge";
         let there = self
             .structure
             .terms
             .iter()
             .any(|t| t.source == source && t.effect.name() == name);
-        if there && !several {
+        if there && !entry.several {
             return;
         }
         // Only an effect that reads the position has a zero of it.
@@ -180,59 +137,36 @@ impl Collector<'_> {
         });
     }
 
-    fn motion(&mut self, source: Source, channel: &Channel, loaded: bool) {
-        let (o, speed, reach) = (channel.origin, channel.speed, channel.reach);
-        self.add(source, o, "viscous", &[]);
-        self.add(source, o, "drag-quadratic", &[]);
-        self.add(source, o, "drag-cubic", &[]);
-        for width in [0.01, 0.08] {
-            self.add(source, o, "coulomb", &[width * speed]);
-        }
-        for v_s in [0.05, 0.15, 0.4] {
-            self.add(source, o, "stribeck", &[v_s * speed, 1.0]);
-        }
-        self.add(source, o, "asymmetry-viscous", &[]);
-        self.add(source, o, "asymmetry-drag", &[]);
-        self.add(source, o, "inertia", &[]);
-        self.stiffness(source, channel);
-        if matches!(channel.unit.as_deref(), None | Some("rad"))
-            && self.data.mode == Mode::Torque
-            && reach > 0.3
-        {
-            for psi in [0.0, 0.25, 0.5, 0.75] {
-                self.add(source, 0.0, "gravity", &[psi * std::f64::consts::PI]);
+    /// An effect at all its trial shapes on one channel.
+    fn tried(&mut self, entry: &Entry, trials: &Trials, at: &mut Site<'_>) {
+        let (source, channel, origin) = (at.source, at.channel, at.origin(entry));
+        match trials {
+            Trials::At(all) => {
+                for trial in *all {
+                    let shapes = trial.iter().map(|scale| scale.on(self.data, channel));
+                    let shapes: Vec<f64> = shapes.collect();
+                    self.add(entry, source, origin, &shapes);
+                }
+            }
+            Trials::Quantiles(shares) => {
+                for share in *shares {
+                    let position = at.quantile(*share);
+                    self.add(entry, source, origin, &[position]);
+                }
+            }
+            Trials::TimeConstants(all) => {
+                let free = self.unfilled(channel);
+                for tau in all.iter().filter(|tau| free.contains(*tau)) {
+                    self.add(entry, source, origin, &[*tau]);
+                }
+            }
+            Trials::Orders => self.orders(entry, source, channel),
+            Trials::Moments => {
+                for t_s in self.steps() {
+                    self.add(entry, source, origin, &[t_s]);
+                }
             }
         }
-        for width in [0.01, 0.08] {
-            self.add(source, o, "position-friction", &[width * speed]);
-        }
-        self.add(source, o, "position-hysteresis", &[]);
-        if loaded {
-            for name in ["load-friction", "drive-friction", "back-drive-friction"] {
-                self.add(source, o, name, &[0.05 * speed]);
-            }
-            self.add(source, o, "capstan", &[0.05 * speed, 0.2 / reach]);
-        }
-        for r in [0.03, 0.1, 0.3] {
-            self.add(source, o, "backlash", &[r * reach]);
-        }
-        // A torque has no slack: only a motion can be handed on late.
-        if source == Source::Input {
-            for r in [0.01, 0.03, 0.1, 0.3] {
-                self.add(source, o, "play-in-series", &[r * reach]);
-            }
-        }
-        for r in [0.08, 0.16, 0.3, 0.55] {
-            self.add(source, o, "dead-zone", &[r * reach]);
-        }
-        for r in [0.01, 0.03, 0.1, 0.3, 0.8] {
-            self.add(source, o, "presliding", &[r * reach]);
-            self.add(source, o, "presliding-dahl", &[r * reach]);
-        }
-        self.creep(source, channel);
-        self.ripple(source, channel);
-        self.add(source, o, "rate", &[]);
-        self.add(source, o, "rate-symmetric", &[]);
     }
 
     /// Fifteen positions inside the segment that the fit sees; of several records also
@@ -260,7 +194,7 @@ impl Collector<'_> {
     ///
     /// Orders from two and a half periods over the range (fewer are no ripple but a bent line) up to where the usual speed
     /// makes them faster than the cut-off.
-    fn ripple(&mut self, source: Source, channel: &Channel) {
+    fn orders(&mut self, entry: &Entry, source: Source, channel: &Channel) {
         let two_pi = 2.0 * std::f64::consts::PI;
         let range = 2.0 * channel.reach;
         if !(range > 0.0 && channel.speed > 0.0) {
@@ -291,105 +225,58 @@ impl Collector<'_> {
         peaks.sort_by(|a, b| b.0.total_cmp(&a.0));
         for (_, k, psi) in peaks.into_iter().take(3) {
             for quarter in [0.0, 0.25 * two_pi] {
-                self.add(source, channel.origin, "ripple", &[k, psi + quarter]);
+                self.add(entry, source, channel.origin, &[k, psi + quarter]);
             }
         }
     }
 
-    fn stiffness(&mut self, source: Source, channel: &Channel) {
-        let o = channel.origin;
-        for name in [
-            "stiffness-linear",
-            "stiffness-quadratic",
-            "stiffness-cubic",
-            "stiffness-progressive",
-        ] {
-            self.add(source, o, name, &[]);
-        }
-        let sorted = sorted_positions(channel, o);
-        for q in [0.25, 0.5, 0.75] {
-            self.add(source, o, "hinge", &[quantile(&sorted, q)]);
-        }
-        for q in [0.8, 0.92] {
-            self.add(source, o, "saturation-upper", &[quantile(&sorted, q)]);
-            self.add(source, o, "saturation-lower", &[quantile(&sorted, 1.0 - q)]);
-        }
-    }
-
-    /// Creep needs time constants that the motion does not already fill.
-    fn creep(&mut self, source: Source, channel: &Channel) {
+    /// The time constants \[s\] that the motion of a channel does not already fill.
+    fn unfilled(&self, channel: &Channel) -> Range<f64> {
         let n = channel.motion.len() as f64;
-        let rms = (channel
-            .motion
-            .iter()
-            .map(|m| (m.position - channel.origin).powi(2))
-            .sum::<f64>()
-            / n)
-            .sqrt();
-        for tau in [0.1, 1.0, 10.0] {
-            if channel.speed > 0.0
-                && tau >= 1.5 * rms / channel.speed
-                && tau < 0.5 * n * self.data.dt
-            {
-                self.add(source, channel.origin, "creep", &[tau]);
+        let squares = channel.motion.iter();
+        let squares = squares.map(|m| (m.position - channel.origin).powi(2));
+        let rms = (squares.sum::<f64>() / n).sqrt();
+        match channel.speed > 0.0 {
+            true => 1.5 * rms / channel.speed..0.5 * n * self.data.dt,
+            false => 0.0..0.0,
+        }
+    }
+
+    /// The effects of the model as a whole.
+    fn whole(&mut self) {
+        let data = self.data;
+        let without = data.mode == Mode::Torque && !self.structure.hysteresis;
+        let mut at = Site {
+            source: Source::Input,
+            channel: &data.input,
+            whole: true,
+            sorted: None,
+        };
+        for entry in table() {
+            for tried in entry.tried {
+                if tried.place == Place::Whole
+                    || (tried.place == Place::WholeWithoutTransmission && without)
+                {
+                    self.tried(entry, &tried.shapes, &mut at);
+                }
             }
         }
     }
 
-    fn torque(&mut self, channel: &Channel) {
-        let (source, o) = (Source::Input, channel.origin);
-        for name in [
-            "stiffness-quadratic",
-            "stiffness-cubic",
-            "stiffness-progressive",
-        ] {
-            self.add(source, o, name, &[]);
-        }
-        let sorted = sorted_positions(channel, o);
-        for q in [0.8, 0.92] {
-            self.add(source, o, "saturation-upper", &[quantile(&sorted, q)]);
-            self.add(source, o, "saturation-lower", &[quantile(&sorted, 1.0 - q)]);
-        }
-        for r in [0.03, 0.1, 0.3] {
-            self.add(source, o, "backlash", &[r * channel.reach]);
-            self.add(source, o, "dead-zone", &[r * channel.reach]);
-        }
-        for r in [0.03, 0.1, 0.3, 0.8] {
-            self.add(source, o, "presliding", &[r * channel.reach]);
-            self.add(source, o, "presliding-dahl", &[r * channel.reach]);
-        }
-        self.creep(source, channel);
-        self.add(source, o, "rate", &[]);
-        self.add(source, o, "rate-symmetric", &[]);
-    }
-
-    fn whole_model(&mut self) {
-        let input = Source::Input;
-        self.add(input, 0.0, "offset", &[]);
-        if self.data.mode == Mode::Torque && !self.structure.hysteresis {
-            self.add(input, 0.0, "gain", &[]);
-        }
-        self.add(input, 0.0, "delay", &[]);
-        for share in [0.02, 0.2, 1.0] {
-            self.add(
-                input,
-                0.0,
-                "lag",
-                &[share * self.data.input.reach / self.data.input.speed.max(1e-300)],
-            );
-        }
-        self.add(input, 0.0, "asymmetry-eta", &[]);
-        self.add(input, 0.0, "asymmetry-eta-squared", &[]);
-        let path = self.data.path.last().copied().unwrap_or(1.0);
-        for share in [0.1, 1.0] {
-            self.add(input, 0.0, "degradation", &[share * path]);
-        }
-        for w in [0.2, 0.5] {
-            self.add(input, 0.0, "pinching", &[w]);
-        }
-        self.add(input, 0.0, "drift", &[]);
-        for t_s in self.steps() {
-            self.add(input, 0.0, "pretension", &[t_s]);
+    /// The effects of one channel.
+    fn channel(&mut self, source: Source, channel: &Channel) {
+        let mut at = Site {
+            source,
+            channel,
+            whole: false,
+            sorted: None,
+        };
+        for entry in table() {
+            for tried in entry.tried {
+                if tried.place.is(self.data, source, channel) {
+                    self.tried(entry, &tried.shapes, &mut at);
+                }
+            }
         }
     }
 }
@@ -409,21 +296,10 @@ pub fn candidates(data: &Prepared, structure: &Structure, residual: &[f64]) -> V
         residual,
         found: Vec::new(),
     };
-    all.whole_model();
-    let loaded = data.mode == Mode::Torque || data.load.is_some();
-    let channels = std::iter::once((Source::Input, &data.input)).chain(
-        data.channels
-            .iter()
-            .enumerate()
-            .map(|(i, c)| (Source::Channel(i as u8), c)),
-    );
-    for (source, channel) in channels {
-        match kind(data.mode, source, channel) {
-            Kind::Motion => all.motion(source, channel, loaded),
-            Kind::Torque => all.torque(channel),
-            Kind::Temperature => all.add(source, 0.0, "temperature", &[channel.middle]),
-            Kind::Load | Kind::Other => all.add(source, channel.origin, "crosstalk", &[]),
-        }
+    all.whole();
+    all.channel(Source::Input, &data.input);
+    for (index, channel) in data.channels.iter().enumerate() {
+        all.channel(Source::Channel(index as u8), channel);
     }
     all.found
 }

@@ -1,9 +1,10 @@
 //! What a `--declare` list means.
 
+use super::effects::{entry, first_of, Declared, Zero};
 use super::structure::{FitTerm, Structure};
 use crate::problem::{Prepared, MOST_RECORDS};
 use crate::record::Mode;
-use bowden::effect::Effect;
+use bowden::effect::{Effect, Family};
 use bowden::model::Source;
 
 /// The effect that a user means by a name in `--declare`: an effect's own name, or a
@@ -28,57 +29,33 @@ pub fn declared(name: &str, data: &Prepared) -> Result<FitTerm, String> {
             (name, source)
         }
     };
-    let own = match name {
-        "drag" => "drag-quadratic",
-        "asymmetry" => "asymmetry-viscous",
-        "direction" => "drive-friction",
-        "stiffness" => "stiffness-linear",
-        "saturation" => "saturation-upper",
-        other => other,
+    let unknown = || {
+        let known = families().join(", ");
+        format!("--declare {name}: not an effect that can be declared; known: bouc-wen, {known}, and further effects of these families, such as play-in-series, by their own names")
     };
+    let entry = entry(name).or_else(|| first_of(name)).ok_or_else(unknown)?;
     let channel = data.channel(source).unwrap_or(&data.input);
-    let shapes: &[f64] = match own {
-        "capstan" => &[0.05 * channel.speed, 0.2 / channel.reach],
-        "degradation" => &[data.path.last().copied().unwrap_or(1.0)],
-        "coulomb"
-        | "position-friction"
-        | "load-friction"
-        | "drive-friction"
-        | "back-drive-friction" => &[0.05 * channel.speed],
-        "stribeck" => &[0.3 * channel.speed, 1.0],
-        "backlash" | "play-in-series" | "dead-zone" | "presliding" => &[0.1 * channel.reach],
-        "lag" => &[channel.reach / channel.speed.max(1e-300)],
-        "creep" => &[1.0],
-        "pinching" => &[0.3],
-        "hinge" | "saturation-upper" | "saturation-lower" | "gravity" => &[0.0],
-        "temperature" => &[channel.middle],
-        _ => &[],
+    let (scales, source, origin) = match (entry.declared, entry.zero) {
+        (Declared::OnChannel(scales), Zero::Channel) => (scales, source, channel.origin),
+        (Declared::OnChannel(scales), Zero::Sensor) => (scales, source, 0.0),
+        (Declared::OnInput(scales), _) => (scales, Source::Input, 0.0),
+        (Declared::Never, _) => return Err(unknown()),
     };
-    let whole = matches!(
-        own,
-        "offset" | "gain" | "delay" | "lag" | "drift" | "play-in-series"
-    );
-    let (source, origin) = if whole {
-        (Source::Input, 0.0)
-    } else {
-        (
-            source,
-            if own == "gravity" || own == "temperature" {
-                0.0
-            } else {
-                channel.origin
-            },
-        )
-    };
-    let effect = Effect::try_from_name(own, shapes).map_err(|_| {
-        format!("--declare {name}: not an effect that can be declared; known: bouc-wen, offset, gain, viscous, drag, coulomb, stribeck, asymmetry, load-friction, capstan, direction, inertia, stiffness, gravity, position-friction, backlash, play-in-series, delay, lag, creep, rate, presliding, pinching, degradation, drift, temperature, saturation, crosstalk")
-    })?;
+    let shapes: Vec<f64> = scales.iter().map(|scale| scale.on(data, channel)).collect();
+    let effect = Effect::try_from_name(entry.name, &shapes).map_err(|_| unknown())?;
     Ok(FitTerm {
         effect,
         source,
         origin,
         start: [0.0; MOST_RECORDS],
     })
+}
+
+/// The families of which the first effect can be declared.
+fn families() -> Vec<&'static str> {
+    let can = |name: &&str| first_of(name).is_some_and(|entry| entry.declared != Declared::Never);
+    let names = Family::ALL.iter().map(|family| family.name());
+    names.filter(can).collect()
 }
 
 /// The structure that a `--declare` list means.

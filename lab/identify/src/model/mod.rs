@@ -3,9 +3,14 @@
 pub mod catalogue;
 pub mod columns;
 pub mod declared;
+pub(crate) mod effects;
 pub(crate) mod kind;
+mod parameter;
+mod range;
 pub mod structure;
 mod table;
+mod term;
+mod terms;
 pub mod units;
 mod variable;
 

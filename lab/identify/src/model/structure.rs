@@ -1,42 +1,15 @@
 //! What is fitted: hysteresis or not, which effects, and which shapes are free.
 
+use super::effects::{entry, Entry, FittedZero, Stage};
 use super::Table;
-use crate::problem::{Channel, Prepared, MOST_RECORDS};
+use crate::problem::{Prepared, MOST_RECORDS};
 use crate::record::Mode;
-use bowden::effect::{Effect, Family};
 use bowden::model::Source;
 
-/// One effect in a model under fit.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FitTerm {
-    /// The effect with its present shapes.
-    pub effect: Effect<f64>,
-    /// The motion that it reads.
-    pub source: Source,
-    /// The origin from which it measures position.
-    pub origin: f64,
-    /// How far the channel had moved just before each record began: what an effect with
-    /// memory remembers of that is unknown and is fitted.
-    pub start: [f64; MOST_RECORDS],
-}
-
-impl FitTerm {
-    /// Whether its gain is one of the linear ones: that of an output stage acts on all
-    /// columns, and an input stage has a gain of one.
-    #[must_use]
-    pub fn is_linear(&self) -> bool {
-        !self.effect.is_output_stage() && !self.effect.is_input_stage()
-    }
-
-    /// Whether the effect remembers motion from before the record.
-    #[must_use]
-    pub fn has_past(&self) -> bool {
-        matches!(
-            self.effect.family(),
-            Family::Creep | Family::Presliding | Family::Backlash
-        ) && self.effect.has_memory()
-    }
-}
+pub use super::parameter::{Free, Role};
+pub use super::range::Range;
+pub use super::term::{FitTerm, TermId};
+pub use super::terms::Terms;
 
 /// A model under fit: what is in it, not how large it is.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -47,7 +20,7 @@ pub struct Structure {
     /// common to all.
     pub own_gains: usize,
     /// The effects, in the order in which they came.
-    pub terms: Vec<FitTerm>,
+    pub terms: Terms,
     /// A curve over one variable, for what has no name.
     pub table: Option<Table>,
     /// Whether output stages and input stages are kept out of the search: a model with one
@@ -56,131 +29,6 @@ pub struct Structure {
     /// Whether the gains are confined to those for which the transmission has an inverse,
     /// `sigma <= B/(2·kappa_eta·rho)`.
     pub invertible: bool,
-}
-
-/// A free parameter's range, mapped to the whole line so that bounds hold by construction.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Range {
-    /// Between two positive bounds, logarithmic.
-    Log(f64, f64),
-    /// Between two bounds.
-    Linear(f64, f64),
-    /// Lower end plus a positive logarithmic part between two bounds.
-    Above(f64, f64, f64),
-    /// Not bounded (a phase).
-    Free,
-}
-
-fn logistic(u: f64) -> f64 {
-    1.0 / (1.0 + (-u).exp())
-}
-
-fn logit(p: f64) -> f64 {
-    let p = p.clamp(1e-6, 1.0 - 1e-6);
-    (p / (1.0 - p)).ln()
-}
-
-impl Range {
-    /// The value at a point of the line.
-    #[must_use]
-    pub fn decode(self, u: f64) -> f64 {
-        match self {
-            Self::Log(lo, hi) => lo * (hi / lo).powf(logistic(u)),
-            Self::Linear(lo, hi) => lo + (hi - lo) * logistic(u),
-            Self::Above(base, lo, hi) => base + lo * (hi / lo).powf(logistic(u)),
-            Self::Free => u,
-        }
-    }
-
-    /// The point of the line for a value; values on a bound land near it.
-    #[must_use]
-    pub fn encode(self, value: f64) -> f64 {
-        let log = |v: f64, lo: f64, hi: f64| logit((v.max(lo) / lo).ln() / (hi / lo).ln());
-        match self {
-            Self::Log(lo, hi) => log(value, lo, hi),
-            Self::Linear(lo, hi) => logit((value - lo) / (hi - lo)),
-            Self::Above(base, lo, hi) => log(value - base, lo, hi),
-            Self::Free => value,
-        }
-    }
-
-    /// d value / d u.
-    #[must_use]
-    pub fn slope(self, u: f64) -> f64 {
-        let p = logistic(u);
-        match self {
-            Self::Log(lo, hi) => self.decode(u) * (hi / lo).ln() * p * (1.0 - p),
-            Self::Linear(lo, hi) => (hi - lo) * p * (1.0 - p),
-            Self::Above(base, lo, hi) => (self.decode(u) - base) * (hi / lo).ln() * p * (1.0 - p),
-            Self::Free => 1.0,
-        }
-    }
-
-    /// The bound that is nearer to a value, in words.
-    #[must_use]
-    pub fn nearest(self, value: f64) -> &'static str {
-        if self.encode(value) < 0.0 {
-            "lower"
-        } else {
-            "upper"
-        }
-    }
-
-    /// Whether the point lies within 1 % of the range's width from an end.
-    #[must_use]
-    pub fn at_bound(self, u: f64) -> bool {
-        let p = logistic(u);
-        !matches!(self, Self::Free) && !(0.01..=0.99).contains(&p)
-    }
-}
-
-/// What a free parameter is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Role {
-    /// Bouc-Wen rho.
-    Rho,
-    /// Bouc-Wen sigma.
-    Sigma,
-    /// Bouc-Wen n.
-    N,
-    /// The hysteresis state at the first sample of a record.
-    Eta0 {
-        /// Index of the record.
-        record: usize,
-    },
-    /// Shape `index` of term `term`.
-    Shape {
-        /// Index of the term.
-        term: usize,
-        /// Index of the shape in the effect.
-        index: usize,
-    },
-    /// The origin from which term `term` measures position.
-    Origin {
-        /// Index of the term.
-        term: usize,
-    },
-    /// What term `term` remembers from before a record.
-    Start {
-        /// Index of the term.
-        term: usize,
-        /// Index of the record.
-        record: usize,
-    },
-    /// The gain of an output stage: it acts on all columns, so it is not linear.
-    Stage {
-        /// Index of the term.
-        term: usize,
-    },
-}
-
-/// A non-linear parameter and its range.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Free {
-    /// What it is.
-    pub role: Role,
-    /// Where it may lie.
-    pub range: Range,
 }
 
 /// Ranges of rho in units of one over the input's half-range.
@@ -217,14 +65,17 @@ impl Structure {
                 range: Range::Linear(-1.0, 1.0),
             }));
         }
-        for (term, fit) in self.terms.iter().enumerate() {
+        for (term, fit) in self.terms.with_ids() {
             let Some(channel) = data.channel(fit.source) else {
                 continue;
             };
-            if fit.effect.is_output_stage() {
-                let range = match fit.effect.family() {
-                    Family::Delay => Range::Linear(-2.0 / data.cutoff, 2.0 / data.cutoff),
-                    _ => Range::Linear(-3.0, 3.0),
+            let Some(entry) = entry(fit.effect.name()) else {
+                continue;
+            };
+            if let Some(stage) = entry.stage {
+                let range = match stage {
+                    Stage::Periods(most) => Range::Linear(-most / data.cutoff, most / data.cutoff),
+                    Stage::Number(most) => Range::Linear(-most, most),
                 };
                 free.push(Free {
                     role: Role::Stage { term },
@@ -238,22 +89,16 @@ impl Structure {
                     range: Range::Linear(-reach, reach),
                 }));
             }
-            if self.origin_matters(fit) {
+            if self.origin_matters(entry, fit) {
                 let (middle, reach) = (channel.middle, channel.reach);
                 free.push(Free {
                     role: Role::Origin { term },
                     range: Range::Linear(middle - 1.5 * reach, middle + 1.5 * reach),
                 });
             }
-            for (index, name) in fit.effect.shape_names().iter().enumerate() {
+            for (index, bounds) in entry.bounds.iter().enumerate() {
                 let value = fit.effect.shape(index).unwrap_or(0.0);
-                if let Some(range) = shape_range(
-                    name,
-                    value,
-                    channel,
-                    data,
-                    fit.effect.family() == Family::Lag,
-                ) {
+                if let Some(range) = bounds.on(data, channel, value) {
                     free.push(Free {
                         role: Role::Shape { term, index },
                         range,
@@ -266,7 +111,7 @@ impl Structure {
 
     /// Whether a term's zero of position can be told from the record: moving it must
     /// not be the same as adding what the model has anyway.
-    fn origin_matters(&self, term: &FitTerm) -> bool {
+    fn origin_matters(&self, entry: &Entry, term: &FitTerm) -> bool {
         let spanned = |names: &[&str]| {
             names.iter().all(|name| {
                 (*name == "stiffness-linear" && self.hysteresis && term.source == Source::Input)
@@ -276,15 +121,10 @@ impl Structure {
                         .any(|t| t.source == term.source && t.effect.name() == *name)
             })
         };
-        match term.effect.name() {
-            "stiffness-quadratic" => !spanned(&["stiffness-linear"]),
-            "stiffness-cubic" => !spanned(&["stiffness-linear", "stiffness-quadratic"]),
-            "position-friction" => !self
-                .terms
-                .iter()
-                .any(|t| t.source == term.source && t.effect.name() == "coulomb"),
-            "stiffness-progressive" | "dead-zone" | "capstan" => true,
-            _ => false,
+        match entry.fitted_zero {
+            FittedZero::Never => false,
+            FittedZero::Always => true,
+            FittedZero::Unless(names) => !spanned(names),
         }
     }
 
@@ -317,7 +157,7 @@ impl Structure {
     pub fn sign_kept(&self, mode: Mode) -> Vec<bool> {
         let mut kept = vec![false; self.base()];
         for term in self.terms.iter().filter(|t| t.is_linear()) {
-            let friction = matches!(term.effect.family(), Family::Viscous | Family::Coulomb);
+            let friction = entry(term.effect.name()).is_some_and(|entry| entry.takes_energy);
             kept.push(friction && mode == Mode::Displacement && term.source == Source::Input);
         }
         kept.resize(kept.len() + self.table_gains(), false);
@@ -329,70 +169,4 @@ impl Structure {
 fn fitted(data: &Prepared) -> impl Iterator<Item = usize> + '_ {
     let pieces = data.pieces.iter().take(MOST_RECORDS).enumerate();
     pieces.filter(|(_, p)| p.fitted).map(|(record, _)| record)
-}
-
-/// The range over which a shape is fitted; `None` where it stays as it was set.
-fn shape_range(
-    name: &str,
-    value: f64,
-    channel: &Channel,
-    data: &Prepared,
-    lag: bool,
-) -> Option<Range> {
-    let (reach, speed) = (channel.reach, channel.speed);
-    if !(reach > 0.0 && speed > 0.0) {
-        return None;
-    }
-    let seconds = data.work_len() as f64 * data.dt;
-    Some(match name {
-        // Wider than this it is no dry friction any more but a bent viscous term.
-        "v_e" => Range::Log(1e-3 * speed, 0.15 * speed),
-        // Stribeck friction is a matter of low speed.
-        "v_s" => Range::Log(1e-2 * speed, 0.5 * speed),
-        "a" => Range::Linear(0.5, 3.0),
-        "t_s" => {
-            let at = |row: Option<&usize>| row.map_or(0.0, |&r| data.moment(r));
-            Range::Linear(at(data.split.fit.first()), at(data.split.fit.last()))
-        }
-        "x_h" | "x_s" => Range::Linear(-reach, reach),
-        "psi" => Range::Free,
-        "k" => Range::Log(0.8 * value, 1.25 * value),
-        "r" => Range::Log(2e-3 * reach, 1.9 * reach),
-        // A lag slower than the motion is creep or drift under another name.
-        "tau" if lag => Range::Log(0.2 * data.dt, 3.0 * reach / speed),
-        "tau" => Range::Log(0.5 * data.dt, 0.5 * seconds),
-        "w" => Range::Log(0.03, 3.0),
-        "mu" => Range::Log(1e-3 / reach, 3.0 / reach),
-        "w_c" => {
-            let path = data.path.last().copied().unwrap_or(1.0);
-            Range::Log(0.01 * path, 30.0 * path)
-        }
-        "f" => Range::Log(0.97 * value, 1.03 * value),
-        _ => return None,
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::assert_relative_eq;
-
-    #[test]
-    fn ranges_map_there_and_back_and_their_slopes_are_derivatives() {
-        for range in [
-            Range::Log(1e-3, 50.0),
-            Range::Linear(-2.0, 5.0),
-            Range::Above(0.5, 1e-3, 1e3),
-            Range::Free,
-        ] {
-            for u in [-3.0, -0.2, 0.0, 1.7, 4.0] {
-                let value = range.decode(u);
-                assert_relative_eq!(range.encode(value), u, epsilon = 1e-6);
-                let h = 1e-6;
-                let numeric = (range.decode(u + h) - range.decode(u - h)) / (2.0 * h);
-                // Central differences of a smooth function: relative error about h².
-                assert_relative_eq!(range.slope(u), numeric, max_relative = 1e-6);
-            }
-        }
-    }
 }

@@ -5,10 +5,11 @@
 //! explain, how much do the other channels add, and how much is carried by functions of
 //! nothing measured, such as a tone or a drift? The last kind is never counted as explained.
 
+use crate::algebra::least_norm;
 use crate::fit::{Segments, Solution};
 use crate::model::Variable;
 use crate::problem::{Channel, Prepared};
-use bowden::effect::Family;
+use bowden::effect::Quantity;
 use bowden::model::Source;
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
@@ -48,8 +49,8 @@ fn reads(solution: &Solution) -> Vec<Reads> {
     let structure = &solution.structure;
     let mut all = vec![Reads::Input; structure.base()];
     for term in structure.terms.iter().filter(|t| t.is_linear()) {
-        all.push(match term.effect.family() {
-            Family::Tone | Family::Drift | Family::Pretension => Reads::Time,
+        all.push(match term.effect.info().reads {
+            [Quantity::Time] => Reads::Time,
             _ => of_source(term.source),
         });
     }
@@ -87,10 +88,7 @@ fn regression(rows: &[usize], columns: &[&[f64]], target: &[f64]) -> (Vec<f64>, 
     });
     let y = DVector::from_iterator(rows.len(), rows.iter().map(|&i| target[i]));
     // The threshold of rank is that of rounding over a record of 10^6 samples.
-    let factors = x
-        .svd(true, true)
-        .solve(&y, 1e-10)
-        .unwrap_or_else(|_| DVector::zeros(n + 1));
+    let factors = least_norm(x, &y, 1e-10).unwrap_or_else(|| DVector::zeros(n + 1));
     let at = |i: usize| {
         let sum: f64 = (0..n).map(|j| factors[j] / scale[j] * columns[j][i]).sum();
         target[i] - sum - factors[n]

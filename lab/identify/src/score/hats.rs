@@ -4,11 +4,12 @@
 //! a curve is told apart from a constant, or from the declared stiffness, by nothing.
 
 use super::blocks::{blocks, flips};
+use crate::algebra::{directions, whitening};
 use crate::fit::projection::{rows, Span};
 use crate::fit::Solution;
 use crate::model::{Table, Variable};
 use crate::problem::Prepared;
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use nalgebra::{DMatrix, DVector};
 
 /// Hat functions of a curve that is tested.
 pub(crate) const HATS: usize = 10;
@@ -61,18 +62,15 @@ pub(crate) fn score(
     let whole = DMatrix::from_columns(&raw);
     let left: Vec<DVector<f64>> = raw.into_iter().map(|c| moved.off(c)).collect();
     let left = DMatrix::from_columns(&left);
-    // Directions of unit norm before the projection, in falling order of what is left.
-    let root = whole.tr_mul(&whole).cholesky()?.l().try_inverse()?;
+    // Directions of unit norm before the projection.
+    let root = whitening(whole.tr_mul(&whole))?;
     let inner = &root * left.tr_mul(&left) * root.transpose();
-    let eigen = SymmetricEigen::new(inner);
     let mut shapes = Vec::new();
     let mut units = Vec::new();
-    for (k, &rest) in eigen.eigenvalues.iter().enumerate() {
-        if rest > APART {
-            let weights = root.transpose() * eigen.eigenvectors.column(k);
-            units.push(&left * &weights / rest.sqrt());
-            shapes.push(weights.iter().copied().collect());
-        }
+    for (rest, direction) in directions(inner, APART) {
+        let weights = root.transpose() * direction;
+        units.push(&left * &weights / rest.sqrt());
+        shapes.push(weights.iter().copied().collect());
     }
     if shapes.is_empty() {
         return None;

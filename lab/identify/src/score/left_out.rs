@@ -1,6 +1,7 @@
 //! On how many blocks a model is better than another, with its gains fitted on the others.
 
 use super::blocks::{blocks, Regime, BLOCKS};
+use crate::algebra::least_norm;
 use crate::fit::Solution;
 use crate::problem::Prepared;
 use nalgebra::{DMatrix, DVector};
@@ -67,9 +68,7 @@ fn left_out(data: &Prepared, solution: &Solution) -> Vec<f64> {
             gram += g;
             score += s;
         }
-        let change = nalgebra::SVD::new(gram, true, true)
-            .solve(&score, 1e-10)
-            .unwrap_or_else(|_| DVector::zeros(m));
+        let change = least_norm(gram, &score, 1e-10).unwrap_or_else(|| DVector::zeros(m));
         let loss: f64 = rows[block.clone()]
             .iter()
             .map(|&i| {

@@ -227,14 +227,11 @@ impl<'a> Bank<'a> {
 /// The free shapes and the origin of a candidate next to a model, with their ranges.
 fn parameters(data: &Prepared, now: &Solution, term: &FitTerm) -> Vec<(Own, Range)> {
     let mut structure = now.structure.clone();
-    structure.terms.push(*term);
-    let last = structure.terms.len() - 1;
+    let last = structure.terms.push(*term);
     let free = structure.free(data).into_iter();
     free.filter_map(|f| match f.role {
         // A step in time has no slope: the lattice of steps is refined instead.
-        Role::Shape { term: of, index }
-            if of == last && term.effect.shape_names()[index] != "t_s" =>
-        {
+        Role::Shape { term: of, index } if of == last && !term.is_moment(index) => {
             Some((Own::Shape(index), f.range))
         }
         Role::Origin { term: of } if of == last => Some((Own::Origin, f.range)),

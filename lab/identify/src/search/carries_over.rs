@@ -9,6 +9,7 @@
 use super::bank::{on_line, Identity};
 use super::linear::Linear;
 use super::policy;
+use crate::algebra::least_norm;
 use crate::fit::Solution;
 use crate::problem::Prepared;
 use crate::score::blocks::blocks;
@@ -97,9 +98,9 @@ impl Parts {
         for (j, _) in self.slopes.iter().enumerate().filter(|(_, is)| **is) {
             normal[(j, j)] += variance;
         }
-        let right = sum.view((0, m), (m, 1)).into_owned();
-        let change = normal.svd(true, true).solve(&right, 1e-10).ok()?;
-        let weights = DVector::from_fn(m + 1, |j, _| if j < m { -change[(j, 0)] } else { 1.0 });
+        let right = sum.column(m).rows(0, m).into_owned();
+        let change = least_norm(normal, &right, 1e-10)?;
+        let weights = DVector::from_fn(m + 1, |j, _| if j < m { -change[j] } else { 1.0 });
         let (mut squares, mut rows) = (0.0, 0.0);
         for block in (0..self.grams.len()).filter(|b| !fitted.contains(b)) {
             squares += weights.dot(&(&self.grams[block] * &weights));

@@ -7,8 +7,9 @@
 //! needs the scores of the blocks only (Lehmann and Romano, 2005, section 15.2).
 
 use super::policy::EXCITED;
+use crate::algebra::directions;
 use crate::score::blocks::flips;
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -231,23 +232,14 @@ impl Grams {
 
 /// Scores along the directions that are left, each of unit variance.
 fn whitened(scores: &[Vec<f64>], inner: DMatrix<f64>) -> Vec<Vec<f64>> {
-    let eigen = SymmetricEigen::new(inner);
-    let good: Vec<usize> = (0..eigen.eigenvalues.len())
-        .filter(|&i| eigen.eigenvalues[i] > DIRECTION)
-        .collect();
-    let along = |s: &Vec<f64>, i: usize| -> f64 {
-        let dot: f64 = eigen
-            .eigenvectors
-            .column(i)
-            .iter()
-            .zip(s)
-            .map(|(a, b)| a * b)
-            .sum();
-        dot / eigen.eigenvalues[i].sqrt()
+    let directions = directions(inner, DIRECTION);
+    let along = |s: &Vec<f64>, (size, direction): &(f64, DVector<f64>)| -> f64 {
+        let dot: f64 = direction.iter().zip(s).map(|(a, b)| a * b).sum();
+        dot / size.sqrt()
     };
     scores
         .iter()
-        .map(|s| good.iter().map(|&i| along(s, i)).collect())
+        .map(|s| directions.iter().map(|own| along(s, own)).collect())
         .collect()
 }
 

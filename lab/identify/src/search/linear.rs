@@ -190,7 +190,7 @@ impl<'a> Linear<'a> {
         let mut groups = Vec::new();
         for (candidate, column) in bank.names(whole, &now) {
             let past = usize::from(candidate.term.has_past());
-            let in_time = usize::from(candidate.term.effect.shape_names().contains(&"t_s"));
+            let in_time = usize::from(candidate.term.has_moment());
             groups.push(Group {
                 member: Member::Name(candidate),
                 columns: vec![columns.place(column)],

@@ -38,12 +38,10 @@ impl Present {
         for ((f, &value), tangent) in now.free.iter().zip(&now.values).zip(&now.tangents) {
             let slope = f.range.slope(on_line(f.range, value));
             free.push(columns.len());
-            match f.role {
-                Role::Shape { term, .. }
-                | Role::Origin { term }
-                | Role::Start { term, .. }
-                | Role::Stage { term } => terms[term].push(columns.len()),
-                _ => own.push(columns.len()),
+            let place = f.role.term().and_then(|id| now.structure.terms.place(id));
+            match place {
+                Some(term) => terms[term].push(columns.len()),
+                None => own.push(columns.len()),
             }
             columns.push(Arc::new(tangent.iter().map(|t| t * slope).collect()));
         }
@@ -69,12 +67,13 @@ impl Present {
             let pairs = of.iter().zip(&now.tangents[i]);
             pairs.map(|(y, t)| y + now.values[i] * t).collect()
         };
-        let stages: Vec<(usize, usize)> = (0..now.structure.terms.len())
-            .filter_map(|term| {
-                let input = now.structure.terms[term].effect.is_input_stage();
+        let terms = now.structure.terms.with_ids().enumerate();
+        let stages: Vec<(usize, usize)> = terms
+            .filter_map(|(term, (id, own))| {
+                let input = own.effect.is_input_stage();
                 let at = now.free.iter().position(|f| match f.role {
-                    Role::Stage { term: of } => of == term,
-                    Role::Shape { term: of, .. } => of == term && input,
+                    Role::Stage { term: of } => of == id,
+                    Role::Shape { term: of, .. } => of == id && input,
                     _ => false,
                 })?;
                 Some((term, at))

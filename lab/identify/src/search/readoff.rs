@@ -5,7 +5,7 @@ use super::carries_over::{delivered, recurrences};
 use super::linear::{Kept, Linear};
 use super::moves::Move;
 use super::policy;
-use super::refit::{other_hystereses, renamed, Priced, FAIR, ROUGH};
+use super::refit::{other_hystereses, Priced, FAIR, ROUGH};
 use super::run::{Entry, Search, Standing};
 use crate::fit::projection::Span;
 use crate::fit::search::descend;
@@ -14,7 +14,7 @@ use crate::fit::Solution;
 use crate::ledger::Unknown;
 use crate::ledger::{Grade, Ledger, Round};
 use crate::model::catalogue::Candidate;
-use crate::model::structure::{Free, Role, Structure};
+use crate::model::structure::{Free, Structure};
 use crate::problem::Prepared;
 use crate::score::blocks::Regime;
 use crate::score::left_out::on_blocks;
@@ -122,7 +122,12 @@ impl Search<'_> {
             };
             // The last search of a set is the best one.
             let solution = match self.reached.iter().rev().find_map(known) {
-                Some(known) => known,
+                Some(mut known) => {
+                    // A name that went out and came back is a term of its own on the way.
+                    let own = &mut known.structure.terms;
+                    own.recognise(&mut known.free, terms);
+                    known
+                }
                 None => self.shortened(count, path.last().unwrap_or(&self.declared))?,
             };
             path.push(Arc::new(solution));
@@ -239,25 +244,10 @@ fn arranged(data: &Prepared, solution: &Solution, order: &[usize]) -> Option<Sol
         return Some(solution.clone());
     }
     let mut structure: Structure = solution.structure.clone();
-    structure.terms = order.iter().map(|&i| solution.structure.terms[i]).collect();
+    structure.terms = solution.structure.terms.arranged(order);
     let free = structure.free(data);
-    let value = |f: &Free| {
-        let own = term_of(f.role).map_or(f.role, |index| renamed(f.role, order[index]));
-        solution.value(own)
-    };
-    let values: Option<Vec<f64>> = free.iter().map(value).collect();
+    let values: Option<Vec<f64>> = free.iter().map(|f| solution.value(f.role)).collect();
     settle(data, &structure, &free, values?)
-}
-
-/// The term that a parameter belongs to.
-fn term_of(role: Role) -> Option<usize> {
-    match role {
-        Role::Shape { term, .. }
-        | Role::Origin { term }
-        | Role::Start { term, .. }
-        | Role::Stage { term } => Some(term),
-        _ => None,
-    }
 }
 
 impl Linear<'_> {

@@ -9,7 +9,7 @@ use crate::fit::settle::settle;
 use crate::fit::starts::INSIDE;
 use crate::fit::Solution;
 use crate::model::catalogue::{simplicity, Candidate};
-use crate::model::structure::{FitTerm, Free, Range, Role, Structure};
+use crate::model::structure::{FitTerm, Free, Range, Role, Structure, TermId};
 use crate::model::Variable;
 use crate::problem::Prepared;
 use crate::score::hats::{score, Scored};
@@ -60,17 +60,11 @@ fn is_crowd(terms: &[FitTerm]) -> bool {
     read.iter().flatten().any(|variable| over(variable) > 2)
 }
 
-/// Where a term of the new structure comes from.
-#[derive(Clone, Copy)]
-enum From {
-    Present(usize),
-    Added(usize),
-}
-
 /// The structure of a move and the starts of its search.
 struct Plan {
     structure: Structure,
-    from: Vec<From>,
+    /// The terms that come in, each with its group.
+    added: Vec<(TermId, usize)>,
     /// Price of a curve that comes in.
     curve: f64,
 }
@@ -127,13 +121,10 @@ impl Linear<'_> {
 
     fn plan(&self, moved: &Span, one: &Move) -> Option<Plan> {
         let mut structure = self.now.structure.clone();
-        let mut from = Vec::new();
-        structure.terms.clear();
-        for (index, term) in self.now.structure.terms.iter().enumerate() {
-            if !one.kept.dropped.contains(&index) {
-                structure.terms.push(*term);
-                from.push(From::Present(index));
-            }
+        let mut added = Vec::new();
+        let ids = self.now.structure.terms.ids();
+        for &index in &one.kept.dropped {
+            structure.terms.remove(ids[index]);
         }
         if !one.kept.table {
             structure.table = None;
@@ -141,10 +132,7 @@ impl Linear<'_> {
         let mut curve = 0.0;
         for &g in &one.added {
             match self.groups[g].member {
-                Member::Name(c) => {
-                    structure.terms.push(c.term);
-                    from.push(From::Added(g));
-                }
+                Member::Name(c) => added.push((structure.terms.push(c.term), g)),
                 Member::Curve(variable) => {
                     let (scored, price) = match one.kept.dropped.is_empty() {
                         true => self.curve(moved, &self.now, variable)?,
@@ -157,7 +145,7 @@ impl Linear<'_> {
         }
         Some(Plan {
             structure,
-            from,
+            added,
             curve,
         })
     }
@@ -225,27 +213,22 @@ impl Linear<'_> {
             let i = self.now.free.iter().position(|f| f.role == role)?;
             Some((self.now.values[i], gain(self.free[i])))
         };
-        let (Role::Shape { term, .. }
-        | Role::Origin { term }
-        | Role::Start { term, .. }
-        | Role::Stage { term }) = role
-        else {
+        let Some(term) = role.term() else {
             return present(role).unwrap_or((0.5, 0.0));
         };
-        match plan.from[term] {
-            From::Present(index) => present(renamed(role, index)).unwrap_or((0.0, 0.0)),
-            From::Added(g) => {
-                let group = &self.groups[g];
-                let own = gain(group.columns[0]);
-                let slope = group.slopes.iter().position(|s| match (s.own, role) {
-                    (Own::Shape(i), Role::Shape { index, .. }) => i == index,
-                    (Own::Origin, Role::Origin { .. }) => true,
-                    _ => false,
-                });
-                let step = slope.map_or(0.0, |i| gain(group.columns[1 + i]) / own);
-                (start_of(&plan.structure.terms[term], role, own), step)
-            }
-        }
+        let Some((_, g)) = plan.added.iter().find(|(id, _)| *id == term) else {
+            return present(role).unwrap_or((0.0, 0.0));
+        };
+        let group = &self.groups[*g];
+        let own = gain(group.columns[0]);
+        let slope = group.slopes.iter().position(|s| match (s.own, role) {
+            (Own::Shape(i), Role::Shape { index, .. }) => i == index,
+            (Own::Origin, Role::Origin { .. }) => true,
+            _ => false,
+        });
+        let step = slope.map_or(0.0, |i| gain(group.columns[1 + i]) / own);
+        let start = plan.structure.terms.find(term);
+        (start.map_or(0.0, |t| start_of(t, role, own)), step)
     }
 }
 
@@ -274,17 +257,6 @@ fn start_of(term: &FitTerm, role: Role, gain: f64) -> f64 {
         Role::Origin { .. } => term.origin,
         Role::Stage { .. } => gain,
         _ => 0.0,
-    }
-}
-
-/// The role of the same parameter where its term has another index.
-pub(super) fn renamed(role: Role, term: usize) -> Role {
-    match role {
-        Role::Shape { index, .. } => Role::Shape { term, index },
-        Role::Origin { .. } => Role::Origin { term },
-        Role::Start { record, .. } => Role::Start { term, record },
-        Role::Stage { .. } => Role::Stage { term },
-        own => own,
     }
 }
 

@@ -17,6 +17,7 @@ mod trajectory;
 pub use strengthen::strengthen;
 pub use trajectory::{trajectory, Kind, Trajectory};
 
+use crate::algebra::imitated;
 use crate::conclude::intervals::term_name;
 use crate::fit::{glance_from, Known};
 use crate::ledger::{Ledger, Round};
@@ -86,7 +87,7 @@ fn apart(
         return None;
     }
     Some(Apart {
-        correlation: (1.0 - (part / whole).powi(2)).max(0.0).sqrt(),
+        correlation: imitated(whole, part),
         left: gain(part) / (rest.len() as f64).sqrt(),
     })
 }
@@ -103,10 +104,10 @@ fn pair(placed: &Placed<'_>, a: (&FitTerm, f64), b: (&FitTerm, f64)) -> Option<A
 
 /// A rival with its shapes fitted beside the rest of the model.
 fn refined(data: &Prepared, round: &Round, rival: &Candidate) -> Option<FitTerm> {
-    let last = round.solution.structure.terms.len().checked_sub(1)?;
     let mut structure = round.solution.structure.clone();
-    structure.terms[last] = rival.term;
-    let known = Known::of(&round.solution).without(last);
+    structure.terms.remove(*structure.terms.ids().last()?);
+    structure.terms.push(rival.term);
+    let known = Known::of(&round.solution);
     let (_, fitted, _) = glance_from(&data.for_search(true), &structure, &known, 0.0)?;
     fitted.terms.last().copied()
 }

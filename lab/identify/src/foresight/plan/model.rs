@@ -3,7 +3,7 @@
 use crate::fit::projection::{rows, Span};
 use crate::fit::Solution;
 use crate::model::columns::{effect_column, raw_columns, series_column, stage_column};
-use crate::model::structure::{FitTerm, Free, Role, Structure};
+use crate::model::structure::{FitTerm, Free, Structure};
 use crate::problem::Prepared;
 use bowden::effect::Quantity;
 use nalgebra::DVector;
@@ -44,21 +44,14 @@ impl Model {
     /// A fitted model before its last term came in, with the values that it has now.
     pub(super) fn before_last(solution: &Solution) -> Option<Self> {
         let mut model = Self::whole(solution);
-        let gone = model.structure.terms.pop()?;
-        let last = model.structure.terms.len();
+        let last = *model.structure.terms.ids().last()?;
+        let gone = model.structure.terms.remove(last)?;
         if gone.is_linear() {
             let linear = model.gains.len() - model.structure.table_gains();
             model.gains.remove(linear.checked_sub(1)?);
         }
-        let own = |role: Role| match role {
-            Role::Shape { term, .. }
-            | Role::Origin { term }
-            | Role::Start { term, .. }
-            | Role::Stage { term } => term == last,
-            _ => false,
-        };
         let kept = solution.free.iter().zip(&solution.values);
-        let kept = kept.filter(|(f, _)| !own(f.role));
+        let kept = kept.filter(|(f, _)| f.role.term() != Some(last));
         (model.free, model.values) = kept.map(|(f, v)| (*f, *v)).unzip();
         Some(model)
     }

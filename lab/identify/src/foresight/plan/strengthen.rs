@@ -3,6 +3,7 @@
 use super::model::{Model, Placed};
 use super::trajectory::{trajectory, Kind};
 use super::{best, describe, Aim, Experiment};
+use crate::algebra::imitated;
 use crate::conclude::intervals::parameters;
 use crate::fit::projection::{rows, Span};
 use crate::fit::Solution;
@@ -19,10 +20,7 @@ fn shows(placed: &Placed<'_>, data: &Prepared, j: usize) -> Option<(f64, f64)> {
     let column = rows(data, &placed.columns[j]);
     let (whole, count) = (column.norm(), column.len() as f64);
     let rest = others.off(column).norm();
-    (whole > 0.0).then(|| {
-        let imitated = (1.0 - (rest / whole).powi(2)).max(0.0).sqrt();
-        (rest / count.sqrt(), imitated)
-    })
+    (whole > 0.0).then(|| (rest / count.sqrt(), imitated(whole, rest)))
 }
 
 /// The experiment that shows best what the record does not identify; `None` where all is

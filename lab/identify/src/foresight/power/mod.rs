@@ -27,7 +27,8 @@ mod screen;
 
 use crate::fit::Solution;
 use crate::ledger::Ledger;
-use crate::model::catalogue::{candidates, SIMPLICITY};
+use crate::model::catalogue::candidates;
+use crate::model::effects::rank;
 use crate::model::structure::FitTerm;
 use crate::problem::Prepared;
 use crate::search::close;
@@ -162,10 +163,9 @@ fn targets(data: &Prepared, solution: &Solution, names: &[String]) -> Result<Vec
         ));
     }
     rows.retain(|row| names.is_empty() || names.iter().any(|n| asked(&row.term, n)));
-    let rank = |family: Family| SIMPLICITY.iter().position(|&f| f == family);
     rows.sort_by_cached_key(|row| {
         (
-            rank(row.term.effect.family()).unwrap_or(SIMPLICITY.len()),
+            rank(row.term.effect.name()),
             row.term.effect.name(),
             crate::conclude::intervals::term_name(data, &row.term),
         )

@@ -7,10 +7,10 @@
 //! is that since the record's beginning, as a rig warms up anew; only the step of the
 //! pretension counts from the first record on: what has slipped stays so in the next one.
 
-use crate::model::structure::{FitTerm, Free, Role, Structure};
+use crate::model::structure::{FitTerm, Free, Role, Structure, TermId, Terms};
 use crate::model::Variable;
 use crate::problem::{Channel, Piece, Prepared};
-use bowden::effect::{Effect, EffectState, Family, Motion, Situation};
+use bowden::effect::{Effect, EffectState, Motion, Situation};
 use bowden::hysteresis::{Sensitivity, Shape};
 use gathered::Gathered;
 use loops::{seen, trace, trajectory};
@@ -37,7 +37,7 @@ pub struct RawColumns {
     /// The hysteresis state.
     pub eta: Vec<f64>,
     /// The structure at these values.
-    terms: Vec<FitTerm>,
+    terms: Terms,
     /// The hysteresis, and its state at the start of each record.
     shape: Option<(Shape<f64>, Vec<f64>)>,
     /// The hysteresis with its slopes, where they came with it.
@@ -78,9 +78,10 @@ pub fn effect_column(data: &Prepared, term: &FitTerm, eta: &[f64]) -> Option<Vec
     let mut column = Vec::with_capacity(eta.len());
     for (record, piece) in data.pieces.iter().enumerate() {
         let mut state = before(data, term, channel, record, piece);
-        let since = match term.effect.family() {
-            Family::Pretension => piece.since,
-            _ => 0.0,
+        // A moment counts from the first record on.
+        let since = match term.has_moment() {
+            true => piece.since,
+            false => 0.0,
         };
         let at = |(k, i): (usize, usize)| {
             let motion = &channel.motion[i];
@@ -152,7 +153,7 @@ pub(crate) fn raw_columns_knowing(
     values: &[f64],
     known: Beforehand<'_>,
 ) -> Option<RawColumns> {
-    let terms = shaped(structure, free, values)?;
+    let terms = structure.terms.at(free, values)?;
     let mut gathered = Gathered::after(known.last, structure.linear());
     let seen = seen(data, &terms)?;
     let mut eta = vec![0.0; data.work_len()];
@@ -178,8 +179,8 @@ pub(crate) fn raw_columns_knowing(
         }
         shape = Some((bouc_wen, eta0));
     }
-    for (index, term) in terms.iter().enumerate().filter(|(_, t)| t.is_linear()) {
-        let fixed = !term.effect.reads_eta() && !is_searched(free, index);
+    for (id, term) in terms.with_ids().filter(|(_, t)| t.is_linear()) {
+        let fixed = !term.effect.reads_eta() && !is_searched(free, id);
         gathered.push(fixed, || effect_column(data, term, &eta))?;
     }
     if let Some(table) = &structure.table {
@@ -213,22 +214,6 @@ pub(crate) fn raw_columns_knowing(
     })
 }
 
-/// The terms at the values of their free parameters.
-fn shaped(structure: &Structure, free: &[Free], values: &[f64]) -> Option<Vec<FitTerm>> {
-    let mut terms = structure.terms.clone();
-    for (f, &v) in free.iter().zip(values) {
-        match f.role {
-            Role::Shape { term, index } => {
-                terms[term].effect = terms[term].effect.with_shape(index, v).ok()?
-            }
-            Role::Origin { term } => terms[term].origin = v,
-            Role::Start { term, record } => terms[term].start[record] = v,
-            _ => {}
-        }
-    }
-    Some(terms)
-}
-
 /// The hysteresis at the values of its free parameters, and its state at each beginning.
 fn hysteresis(data: &Prepared, free: &[Free], values: &[f64]) -> Option<(Shape<f64>, Vec<f64>)> {
     let value = |role: Role| free.iter().position(|f| f.role == role).map(|i| values[i]);
@@ -239,13 +224,8 @@ fn hysteresis(data: &Prepared, free: &[Free], values: &[f64]) -> Option<(Shape<f
 }
 
 /// Whether the column of a linear term moves with a free parameter of its own.
-fn is_searched(free: &[Free], index: usize) -> bool {
-    free.iter().any(|f| match f.role {
-        Role::Shape { term, .. } | Role::Origin { term } | Role::Start { term, .. } => {
-            term == index
-        }
-        _ => false,
-    })
+fn is_searched(free: &[Free], term: TermId) -> bool {
+    free.iter().any(|f| f.role.term() == Some(term))
 }
 
 /// A column of the transmission: as it is, or on one record alone where each has its own.
@@ -326,12 +306,12 @@ impl RawColumns {
             }
             k = structure.base();
         }
-        for (index, term) in self.terms.iter().enumerate() {
+        for (id, term) in self.terms.with_ids() {
             if term.effect.is_output_stage() || term.effect.is_input_stage() {
                 continue;
             }
             for (j, (f, &value)) in free.iter().zip(values).enumerate() {
-                if let Some(variation) = Variation::of(index, f.role) {
+                if let Some(variation) = Variation::of(id, f.role) {
                     let slope = variation.slope(data, term, value, &self.eta)?;
                     moves[j].push((k, slope));
                 }

@@ -46,7 +46,8 @@ impl Moves {
                 Role::Start { term, .. } => (term, 1e-5 * data.input.reach),
                 _ => continue,
             };
-            if !structure.terms[term].effect.is_input_stage() {
+            let own = structure.terms.find(term);
+            if !own.is_some_and(|own| own.effect.is_input_stage()) {
                 continue;
             }
             let at = |sign: f64| {

@@ -1,7 +1,7 @@
 //! Output stages: they act on the sum of all columns, so each acts on every column alike.
 
 use super::{weighted, RawColumns};
-use crate::model::structure::{FitTerm, Free, Role};
+use crate::model::structure::{FitTerm, Free, Role, Terms};
 use crate::problem::Prepared;
 use bowden::effect::{Effect, EffectState, Situation};
 use std::ops::Range;
@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 /// The output stages, which act on every column alike.
 pub(super) struct Stages {
-    pub(super) list: Vec<(usize, FitTerm, f64)>,
+    pub(super) list: Vec<(FitTerm, f64)>,
     dt: f64,
     /// The records on the work grid.
     records: Vec<Range<usize>>,
@@ -33,7 +33,7 @@ impl Stages {
     /// Those among the terms, each with its gain; `None` where a gain is not given.
     pub(super) fn of(
         data: &Prepared,
-        terms: &[FitTerm],
+        terms: &Terms,
         free: &[Free],
         values: &[f64],
     ) -> Option<Self> {
@@ -41,29 +41,29 @@ impl Stages {
             owner: vec![None; free.len()],
             ..Self::none(data)
         };
-        let output_stages = terms.iter().enumerate();
-        for (index, term) in output_stages.filter(|(_, t)| t.effect.is_output_stage()) {
+        let output_stages = terms.with_ids();
+        for (id, term) in output_stages.filter(|(_, t)| t.effect.is_output_stage()) {
             let place = stages.list.len();
             let mut own_gain = None;
             for ((slot, f), &value) in stages.owner.iter_mut().zip(free).zip(values) {
                 match f.role {
-                    Role::Stage { term } if term == index => {
+                    Role::Stage { term } if term == id => {
                         own_gain = Some(value);
                         *slot = Some((place, None));
                     }
-                    Role::Shape { term, index: shape } if term == index => {
-                        *slot = Some((place, Some(shape)))
+                    Role::Shape { term, index } if term == id => {
+                        *slot = Some((place, Some(index)));
                     }
                     _ => {}
                 }
             }
-            stages.list.push((index, *term, own_gain?));
+            stages.list.push((*term, own_gain?));
         }
         Some(stages)
     }
 
     pub(super) fn through(&self, column: &mut [f64], which: Range<usize>) {
-        for (_, term, gain) in &self.list[which] {
+        for (term, gain) in &self.list[which] {
             self.apply(&term.effect, *gain, column);
         }
     }
@@ -108,7 +108,7 @@ impl RawColumns {
         let before: Vec<&[f64]> = before.iter().map(|c| c.as_slice()).collect();
         let mut output = weighted(&before, gains, tangent.len());
         self.stages.through(&mut output, 0..position);
-        let (_, term, gain) = &list[position];
+        let (term, gain) = &list[position];
         let mut part = match shape {
             None => self.stages.alone(&term.effect, &output),
             Some(index) => {

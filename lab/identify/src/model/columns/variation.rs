@@ -1,7 +1,7 @@
 //! The slope of an effect's column in one of its own parameters.
 
 use super::effect_column;
-use crate::model::structure::{FitTerm, Role};
+use crate::model::structure::{FitTerm, Role, TermId};
 use crate::problem::Prepared;
 
 /// A parameter of a term that its column depends on.
@@ -12,15 +12,13 @@ pub(super) enum Variation {
 }
 
 impl Variation {
-    /// What a free parameter varies of the term of that index; `None` where it belongs to
-    /// another one, or to the transmission.
-    pub(super) fn of(index: usize, role: Role) -> Option<Self> {
+    /// What a free parameter varies of a term; `None` where it belongs to another one, or to
+    /// the transmission.
+    pub(super) fn of(own: TermId, role: Role) -> Option<Self> {
         match role {
-            Role::Shape { term, index: shape } if term == index => {
-                Some(Self::Shape { index: shape })
-            }
-            Role::Start { term, record } if term == index => Some(Self::Start { record }),
-            Role::Origin { term } if term == index => Some(Self::Origin),
+            Role::Shape { term, index } if term == own => Some(Self::Shape { index }),
+            Role::Start { term, record } if term == own => Some(Self::Start { record }),
+            Role::Origin { term } if term == own => Some(Self::Origin),
             _ => None,
         }
     }
@@ -28,8 +26,7 @@ impl Variation {
     /// Step of the central difference at a value.
     fn step(&self, data: &Prepared, term: &FitTerm, value: f64) -> Option<f64> {
         Some(match self {
-            // A step in time moves by whole samples.
-            Self::Shape { index } if term.effect.shape_names()[*index] == "t_s" => data.dt,
+            Self::Shape { index } if term.is_moment(*index) => data.dt,
             Self::Shape { .. } => 1e-5 * value.abs().max(1e-6),
             Self::Start { .. } | Self::Origin => 1e-5 * data.channel(term.source)?.reach,
         })

@@ -1,0 +1,19 @@
+//! The linear algebra of the lab: each question in one place, with its tolerance as a
+//! parameter.
+//!
+//! | question | answer |
+//! |---|---|
+//! | What of a column lies outside a set of columns, and the gains of the set | [`Span`], [`take_off`] |
+//! | The least-norm solution of a system, whatever its rank | [`least_norm`] |
+//! | The inverse of a positive definite matrix, and a root of that | [`inverse`], [`whitening`] |
+//! | The directions in which a positive semi-definite matrix has a size | [`directions`] |
+//! | The line through points | [`line`] |
+//!
+//! The sweep of Gram matrices, which grow by columns from round to round, is
+//! [`Grams`](crate::search::gram::Grams).
+
+mod solve;
+mod span;
+
+pub(crate) use solve::{directions, inverse, least_norm, line, whitening};
+pub(crate) use span::{imitated, take_off, Span};
