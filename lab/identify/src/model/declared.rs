@@ -31,7 +31,7 @@ pub fn declared(name: &str, data: &Prepared) -> Result<FitTerm, String> {
     };
     let unknown = || {
         let known = families().join(", ");
-        format!("--declare {name}: not an effect that can be declared; known: bouc-wen, {known}, and further effects of these families, such as play-in-series, by their own names")
+        format!("--declare {name}: not an effect that can be declared; known: bouc-wen, {known}, or an effect of these families by its own name, such as play-in-series")
     };
     let entry = entry(name).or_else(|| first_of(name)).ok_or_else(unknown)?;
     let channel = data.channel(source).unwrap_or(&data.input);

@@ -4,9 +4,11 @@ use super::parameter::{Free, Role};
 use super::term::{FitTerm, TermId};
 use std::ops::Deref;
 
-/// Terms in the order in which they came. A slice of them is for reading: a term comes in by
-/// [`push`](Self::push), which gives it its identity, and no identity is given twice, by none
-/// of its clones either as long as one goes on from the other.
+/// Terms in the order in which they came.
+///
+/// They are read as a slice; [`push`](Self::push) adds a term and gives it its identity. An
+/// identity is never given again, nor by a clone that takes the place of the original. Two
+/// clones that both go on may give one identity to different terms.
 #[derive(Debug, Clone, Default)]
 pub struct Terms {
     own: Vec<FitTerm>,
@@ -142,8 +144,8 @@ impl Terms {
         Some(all)
     }
 
-    /// Gives the terms the identities that the first terms of another model have, which are the
-    /// same effects in the same order, and its parameters those of their terms.
+    /// Takes over the identities of the first terms of another model, which are the same effects
+    /// in the same order, and tells the parameters.
     pub(crate) fn recognise(&mut self, free: &mut [Free], other: &Self) {
         for f in free {
             let place = f.role.term().and_then(|id| self.place(id));

@@ -123,7 +123,7 @@ impl Search<'_> {
             // The last search of a set is the best one.
             let solution = match self.reached.iter().rev().find_map(known) {
                 Some(mut known) => {
-                    // A name that went out and came back is a term of its own on the way.
+                    // A name that went out and came back has another identity in an earlier model.
                     let own = &mut known.structure.terms;
                     own.recognise(&mut known.free, terms);
                     known
