@@ -3,63 +3,8 @@
 use super::bank::Identity;
 use super::gram::Swept;
 use super::linear::{Kept, Linear};
-use super::partial::{Entries, Partial};
+use super::partial::Partial;
 use super::policy;
-
-/// What a forward selection chooses among: the model's own names, then the candidates.
-#[derive(Default)]
-pub(super) struct Sought {
-    entries: Entries,
-    identities: Vec<Identity>,
-    /// Number of columns that each pays for.
-    freedoms: Vec<usize>,
-    /// The candidate's group; `None` of a name of the model.
-    groups: Vec<Option<usize>>,
-}
-
-impl Sought {
-    pub(super) fn of(linear: &Linear) -> Self {
-        let own = (linear.declared..linear.now.structure.terms.len()).map(|index| {
-            let columns = linear.term(index);
-            let identity = Identity::of(&linear.now.structure.terms[index]);
-            (None, identity, columns, columns.len())
-        });
-        let groups = linear.groups.iter().enumerate();
-        let groups = groups.filter(|(_, group)| !group.is_curve());
-        let groups = groups.map(|(g, group)| {
-            let columns = &group.columns[..];
-            (Some(g), group.identity(), columns, group.freedoms)
-        });
-        let all: Vec<_> = own.chain(groups).collect();
-        Self {
-            entries: Entries::of(all.iter().map(|one| one.2)),
-            identities: all.iter().map(|one| one.1).collect(),
-            freedoms: all.iter().map(|one| one.3).collect(),
-            groups: all.iter().map(|one| one.0).collect(),
-        }
-    }
-
-    /// What lowers the criterion most, if anything does; `factors` are e to the prices.
-    fn best(
-        &self,
-        partial: &Partial,
-        factors: &[f64],
-        allowed: impl Fn(usize) -> bool,
-    ) -> Option<usize> {
-        let sse = partial.squared_error().max(1e-14);
-        let left = |n: usize| (1.0 - partial.gain(n) / sse).max(1e-14) * factors[n];
-        let all = (0..self.identities.len()).filter(|&n| allowed(n));
-        let best = all
-            .map(|n| (left(n), n))
-            .min_by(|a, b| a.0.total_cmp(&b.0))?;
-        (best.0 < 1.0).then_some(best.1)
-    }
-
-    fn factors(&self, linear: &Linear) -> Vec<f64> {
-        let price = |&freedoms: &usize| linear.prices.of_name(freedoms).exp();
-        self.freedoms.iter().map(price).collect()
-    }
-}
 
 impl Linear<'_> {
     /// Names that are added one by one while the criterion falls, from a set on.
@@ -77,7 +22,7 @@ impl Linear<'_> {
         most: usize,
     ) -> Vec<usize> {
         let sought = &self.sought;
-        let factors = sought.factors(self);
+        let factors = sought.factors(|freedoms| self.prices.of_name(freedoms));
         let mut partial = Partial::beside(swept, &sought.entries, target);
         for &g in added {
             partial.sweep(&self.groups[g].columns);
@@ -102,7 +47,7 @@ impl Linear<'_> {
     /// blocks, beside the declared model.
     pub(super) fn found_on(&self, blocks: &[usize]) -> Vec<Identity> {
         let sought = &self.sought;
-        let factors = sought.factors(self);
+        let factors = sought.factors(|freedoms| self.prices.of_name(freedoms));
         let names = self.declared..self.now.structure.terms.len();
         let declared = Kept {
             dropped: names.collect(),

@@ -1,10 +1,10 @@
 //! A model and all that may be added to it, to first order: one Gram matrix.
 
 use super::bank::{Bank, Identity, Slope};
-use super::forward::Sought;
 use super::gram::{Grams, Swept};
 use super::policy;
 use super::present::Present;
+use super::sought::{Choice, Sought};
 use crate::fit::Solution;
 use crate::model::catalogue::Candidate;
 use crate::model::Variable;
@@ -228,7 +228,7 @@ impl<'a> Linear<'a> {
         linear.refine(bank);
         bank.keep(&linear.columns.all, &linear.grams);
         linear.base = linear.grams.without(&linear.own);
-        linear.sought = Sought::of(&linear);
+        linear.sought = Sought::of(&linear.choices());
         linear.kinds = kinds(&linear.groups);
         linear.judge_blocks(level, (band, curve));
         linear
@@ -237,6 +237,26 @@ impl<'a> Linear<'a> {
     fn multiply(&mut self) {
         let (rows, blocks) = (&self.seen.split.fit, blocks(self.data));
         self.grams.extend(&self.columns.all, rows, &blocks);
+    }
+
+    /// The model's own names, then the candidates.
+    fn choices(&self) -> Vec<Choice<'_>> {
+        let names = self.declared..self.now.structure.terms.len();
+        let own = names.map(|index| Choice {
+            group: None,
+            identity: Identity::of(&self.now.structure.terms[index]),
+            columns: self.term(index),
+            freedoms: self.term(index).len(),
+        });
+        let groups = self.groups.iter().enumerate();
+        let groups = groups.filter(|(_, group)| !group.is_curve());
+        let groups = groups.map(|(g, group)| Choice {
+            group: Some(g),
+            identity: group.identity(),
+            columns: &group.columns,
+            freedoms: group.freedoms,
+        });
+        own.chain(groups).collect()
     }
 
     /// Adds the slopes of what gains anything, and the curves where anything does.

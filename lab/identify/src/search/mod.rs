@@ -21,6 +21,7 @@ mod present;
 mod readoff;
 mod refit;
 mod run;
+mod sought;
 
 use crate::fit::{fit, Solution};
 use crate::ledger::Ledger;
