@@ -68,7 +68,7 @@ pub(super) type Curve = (Variable, Vec<Arc<Vec<f64>>>);
 pub(super) struct Bank<'a> {
     /// The whole record: what is tried, and over which ranges.
     pub(super) data: &'a Prepared,
-    /// As much of it as the fit sees, on a coarser grid: columns are of this.
+    /// As much of it as the fit sees: columns are of this.
     pub(super) seen: &'a Prepared,
     variables: Vec<Variable>,
     values: Vec<(FitTerm, Arc<Vec<f64>>)>,

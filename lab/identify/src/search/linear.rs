@@ -146,7 +146,7 @@ impl Prices {
 /// One linearisation.
 pub(super) struct Linear<'a> {
     pub(super) data: &'a Prepared,
-    /// As much of the record as the fit sees, on a coarser grid: all columns are of this.
+    /// As much of the record as the fit sees: all columns are of this.
     pub(super) seen: &'a Prepared,
     /// The model on `seen`.
     pub(super) now: Solution,

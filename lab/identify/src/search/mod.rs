@@ -32,7 +32,7 @@ use crate::score::explains::integrates;
 use bank::Bank;
 use linear::Linear;
 pub use policy::{MOST_NAMES, RECURRENCES};
-use refit::present;
+use refit::on;
 use run::Search;
 use std::time::Instant;
 
@@ -119,11 +119,11 @@ fn independence(data: &Prepared, solution: &Solution) -> (Regime, f64) {
 /// No test where the model cannot be evaluated.
 pub(crate) fn tests(data: &Prepared, solution: &Solution) -> (Regime, f64) {
     let declared = solution.structure.terms.len();
-    let coarse = data.for_search(true);
-    let Some((seen, _)) = present(data, &coarse, solution) else {
+    let fine = data.for_search(false);
+    let Some(seen) = on(&fine, data, solution) else {
         return (Regime::Effect, policy::LEVEL);
     };
-    let mut bank = Bank::new((data, &coarse), solution);
+    let mut bank = Bank::new((data, &fine), solution);
     let price = policy::CURVE_AGAINST_NAMES;
     let linear = Linear::new(&mut bank, (solution, seen), declared, price);
     (linear.regime, linear.prices.level)

@@ -260,13 +260,15 @@ fn start_of(term: &FitTerm, role: Role, gain: f64) -> f64 {
     }
 }
 
-/// The present model on the coarse grid, and its squared error there.
-pub(super) fn present(
-    data: &Prepared,
-    coarse: &Prepared,
-    now: &Solution,
-) -> Option<(Solution, f64)> {
+/// The squared error of the present model on the coarse grid.
+pub(super) fn present(data: &Prepared, coarse: &Prepared, now: &Solution) -> f64 {
     let free = now.structure.free(data);
-    let (sse, values) = descend(coarse, &now.structure, &free, &now.values, 10, 1e-4)?;
-    Some((settle(coarse, &now.structure, &free, values)?, sse))
+    let reached = descend(coarse, &now.structure, &free, &now.values, 10, 1e-4);
+    reached.map_or(f64::INFINITY, |(sse, _)| sse)
+}
+
+/// The present model on as much of the record as the fit sees.
+pub(super) fn on(seen: &Prepared, data: &Prepared, now: &Solution) -> Option<Solution> {
+    let free = now.structure.free(data);
+    settle(seen, &now.structure, &free, now.values.clone())
 }

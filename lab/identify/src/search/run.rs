@@ -4,7 +4,7 @@ use super::bank::{Bank, Identity};
 use super::linear::{Linear, Member};
 use super::moves::{is_same, Move, Phase, Wanted};
 use super::policy;
-use super::refit::{present, Tried};
+use super::refit::{on, present, Tried};
 use crate::fit::projection::Span;
 use crate::fit::search::descend;
 use crate::fit::settle::settle;
@@ -21,11 +21,9 @@ use std::time::Instant;
 const FALLEN: f64 = 1e-3;
 /// Models in a row, so that the search ends in any case.
 const TURNS: usize = 40;
-/// Starts of a real refit: the trial shapes, the linear step, and two other hystereses, which
-/// may have bent to stand in for all that is missing.
+/// Starts of a real refit: the trial shapes, the linear step, and two other hystereses. Without
+/// the last two beside names, a damper's record ends with six names where four do as well.
 const STARTS: usize = 4;
-/// The same once there is a name that the hysteresis need not stand in for.
-const STARTS_BESIDE_NAMES: usize = 2;
 /// A rough search that ends so far above the criterion is not continued.
 const HOPELESS: f64 = 0.5;
 
@@ -92,7 +90,7 @@ impl<'a> Search<'a> {
             data,
             coarse,
             fine,
-            bank: Bank::new((data, coarse), &declared),
+            bank: Bank::new((data, fine), &declared),
             now: Arc::clone(&declared),
             reached: vec![Arc::clone(&declared)],
             declared,
@@ -189,13 +187,13 @@ impl<'a> Search<'a> {
     fn stand(&mut self) -> Option<Standing<'a>> {
         let declared = self.declared.structure.terms.len();
         let price = self.curve_price();
-        let (seen, sse) = present(self.data, self.coarse, &self.now)?;
-        let moved = Span::of(self.coarse, seen.columns.iter().chain(&seen.tangents));
+        let seen = on(self.fine, self.data, &self.now)?;
+        let moved = Span::of(self.fine, seen.columns.iter().chain(&seen.tangents));
         Some(Standing {
             of: Arc::clone(&self.now),
             linear: Linear::new(&mut self.bank, (&self.now, seen), declared, price),
             moved,
-            sse,
+            sse: present(self.data, self.coarse, &self.now),
         })
     }
 
@@ -265,10 +263,6 @@ impl<'a> Search<'a> {
         let linear = &standing.linear;
         let mut tried: Vec<Tried> = Vec::new();
         let (mut least, mut named) = (j, false);
-        let starts = match Arc::ptr_eq(&self.now, &self.declared) {
-            true => STARTS,
-            false => STARTS_BESIDE_NAMES,
-        };
         for one in moves {
             // What a pair promises its members may do alone, from their own shapes.
             let is_part = |t: &Tried| {
@@ -287,7 +281,7 @@ impl<'a> Search<'a> {
             }
             self.visited.push(linear.identities(&one.kept, &one.added));
             let grids = (self.coarse, &standing.moved);
-            let refit = linear.refit(grids, one, starts, |rough| rough.j < j + HOPELESS);
+            let refit = linear.refit(grids, one, STARTS, |rough| rough.j < j + HOPELESS);
             if let Some(real) = refit {
                 // A curve bounds no name: names are refitted before a curve may win.
                 if real.structure.table.is_none() || linear.has_table() {
