@@ -4,6 +4,7 @@
 //! columns' products, one matrix for each of sixteen blocks (`gram`), answer every question
 //! but one without touching a sample again: the error of a set, what each effect and each
 //! pair would add to it, the exact sign-flip p-value of a member (`linear`, `moves`).
+//! A forward selection keeps up to date only what it asks for (`partial`, `sought`, `forward`).
 //! The one question that is left, the error with all shapes refitted, is asked of the three
 //! best moves of a round only (`refit`). What is accepted is linearised again (`run`),
 //! until no move lowers the criterion. Rounds, rivals and the curve of what has no name are
