@@ -116,12 +116,14 @@ impl Grams {
     /// The products of some of the columns, in that order.
     #[must_use]
     pub fn only(&self, columns: &[usize]) -> Self {
+        let runs = columns.chunk_by(|a, b| *b == a + 1);
+        let runs: Vec<Range<usize>> = runs.map(|run| run[0]..run[0] + run.len()).collect();
         let of = |all: &Vec<f64>| {
             let mut some = Vec::with_capacity(columns.len() * columns.len());
             for &i in columns {
                 let row = &all[i * self.size..(i + 1) * self.size];
-                for run in columns.chunk_by(|a, b| *b == a + 1) {
-                    some.extend_from_slice(&row[run[0]..=run[run.len() - 1]]);
+                for run in &runs {
+                    some.extend_from_slice(&row[run.clone()]);
                 }
             }
             some
