@@ -1,8 +1,7 @@
 //! Which effects are tried on a record: every family, on every channel, at a few shapes.
 //!
 //! The shapes are a coarse grid in units of the record's own ranges, from the table of
-//! [`effects`](super::effects). What is found is
-//! refitted with its shapes free, so the grid need only be close.
+//! `effects`. What is found is refitted with its shapes free, so the grid need only be close.
 
 use super::effects::{entry, rank, table, Entry, Place, Trials, Zero};
 use super::structure::{FitTerm, Structure};
