@@ -11,6 +11,9 @@
 
 use std::f64::consts::PI;
 
+/// Signals that go through the filter at once.
+pub(crate) const ABREAST: usize = 8;
+
 /// One second-order section in transposed direct form II.
 #[derive(Debug, Clone, Copy)]
 struct Section {
@@ -115,12 +118,12 @@ impl ZeroPhase {
     #[must_use]
     pub fn apply_all(&self, signals: &[&[f64]], stride: usize) -> Vec<Vec<f64>> {
         let mut all = Vec::with_capacity(signals.len());
-        for group in signals.chunks(8) {
+        for group in signals.chunks(ABREAST) {
             match *group {
                 [a] => all.extend(self.abreast([a], stride)),
                 [a, b] => all.extend(self.abreast([a, b], stride)),
                 _ if group.len() <= 4 => all.extend(self.some_of::<4>(group, stride)),
-                _ => all.extend(self.some_of::<8>(group, stride)),
+                _ => all.extend(self.some_of::<ABREAST>(group, stride)),
             }
         }
         all

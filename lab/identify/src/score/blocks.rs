@@ -106,8 +106,8 @@ impl Regime {
 /// Exact sign-flip p-value of some scores on each block: the share of all sign patterns whose
 /// sum is at least as long as the real one.
 ///
-/// Every sum is one over the first half of the blocks plus one over the others, so that half
-/// as many signs are walked through twice, and the rest is a sum of two tables.
+/// 1 where a score is not finite. Each signed sum over all blocks is a sum over the first half
+/// of them plus a sum over the other half, so two short tables of signed sums give all patterns.
 #[must_use]
 pub fn flips(scores: &[Vec<f64>]) -> f64 {
     let directions = scores.first().map_or(0, Vec::len);
@@ -125,6 +125,9 @@ pub fn flips(scores: &[Vec<f64>]) -> f64 {
         lows.push(signed_sums(0.0, low, direction));
         // The last block keeps its sign: a pattern and its negative have the same length.
         highs.push(signed_sums(last[direction], high, direction));
+    }
+    if !real.is_finite() {
+        return 1.0;
     }
     // Equal up to the rounding of a sum of sixteen numbers.
     let threshold = real * (1.0 - 1e-9);

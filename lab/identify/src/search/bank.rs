@@ -10,6 +10,7 @@ use crate::fit::Solution;
 use crate::model::catalogue::{candidates, Candidate};
 use crate::model::structure::{FitTerm, Range, Role};
 use crate::model::Variable;
+use crate::problem::filter::ABREAST;
 use crate::problem::Prepared;
 use crate::score::hats::{hats, is_phase};
 use crate::score::tones;
@@ -25,8 +26,6 @@ pub(super) const HATS_IN_GRAM: usize = 20;
 const STEPS: usize = 4;
 /// Step of the difference quotients, on the line that a range is mapped to.
 const DIFFERENCE: f64 = 1e-3;
-/// Columns that go through the filter at once.
-const ABREAST: usize = 8;
 /// Beyond this the map of a range to the line is flat.
 const FLAT: f64 = 5.0;
 

@@ -43,18 +43,6 @@ impl Entries {
     pub fn group(&self, group: usize) -> &[usize] {
         &self.columns[self.groups[group].clone()]
     }
-
-    /// Number of groups.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.groups.len()
-    }
-
-    /// Whether there is no group.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.groups.is_empty()
-    }
 }
 
 /// Where entries come from.

@@ -24,8 +24,6 @@ use std::sync::Arc;
 const RIVALS: usize = 8;
 /// A candidate is refitted as a rival from this part of the rule on, to first order.
 const NEARLY: f64 = 0.95;
-/// A rough search that ends at so many times what is allowed is not continued.
-const HOPELESS: f64 = 1.5;
 /// Starts of a rival's refit: its trial shapes and the linear step.
 const STARTS: usize = 2;
 
@@ -61,10 +59,7 @@ impl Search<'_> {
         let mut before = Arc::clone(&self.declared);
         for (index, (solution, (rivals, recurs))) in path.iter().zip(weighed).enumerate() {
             let term = self.now.structure.terms[own + index];
-            let candidate = Candidate {
-                term,
-                family: term.effect.family(),
-            };
+            let candidate = Candidate::from(term);
             let p = self.entry(Identity::of(&term)).and_then(|e| e.p);
             if p.is_none() {
                 ledger.regime = Regime::Effect;
@@ -191,10 +186,7 @@ impl Search<'_> {
         let term = self.now.structure.terms[index];
         let known = self.entry(Identity::of(&term));
         let (close, sse) = context.close(&kept, (term.effect.family(), term.source), known);
-        let good = |left: f64| policy::is_rival(sse, context.full, left);
-        let allowed = sse - policy::RIVAL_SHARE * (sse - context.full);
-        let allowed = allowed.min(policy::RIVAL_REST * context.full);
-        let nearly = |left: f64| left <= HOPELESS * allowed;
+        let allowed = policy::allowed_to_a_rival(sse, context.full);
         let really: Vec<Option<(Candidate, f64)>> = close
             .into_par_iter()
             .map(|g| {
@@ -205,11 +197,12 @@ impl Search<'_> {
                     p: Vec::new(),
                 };
                 let grids = (self.coarse, context.moved);
-                let wanted = |rough: &Priced| nearly(rough.sse / context.scale);
+                let wanted =
+                    |rough: &Priced| rough.sse / context.scale <= policy::HOPELESS_RIVAL * allowed;
                 let real = linear.refit(grids, &swap, STARTS, wanted)?;
                 let left = real.sse / context.scale;
                 let candidate = linear.groups[g].candidate()?;
-                good(left).then_some((candidate, left))
+                (left <= allowed).then_some((candidate, left))
             })
             .collect();
         let mut found: Vec<(Candidate, f64)> = really.into_iter().flatten().collect();

@@ -25,8 +25,6 @@ const TURNS: usize = 40;
 /// the last two are left out beside names, a damper's record ends with six names instead of
 /// four, and with 7.4 % held out instead of 6.1 %.
 const STARTS: usize = 4;
-/// A rough search that ends so far above the criterion is not continued.
-const HOPELESS: f64 = 0.5;
 
 /// What a search knows of a member that came in.
 pub(super) struct Entry {
@@ -282,7 +280,7 @@ impl<'a> Search<'a> {
             }
             self.visited.push(linear.identities(&one.kept, &one.added));
             let grids = (self.coarse, &standing.moved);
-            let refit = linear.refit(grids, one, STARTS, |rough| rough.j < j + HOPELESS);
+            let refit = linear.refit(grids, one, STARTS, |rough| rough.j < j + policy::HOPELESS);
             if let Some(real) = refit {
                 // A curve bounds no name: names are refitted before a curve may win.
                 if real.structure.table.is_none() || linear.has_table() {
@@ -388,7 +386,7 @@ fn chosen(tried: &[Tried]) -> Option<&Tried> {
 fn siblings(standing: &Standing, best: &Tried, tried: &[Tried], own: usize) -> Vec<Candidate> {
     let linear = &standing.linear;
     let as_good = |t: &&Tried| {
-        policy::is_rival(standing.sse, best.sse, t.sse) && t.made.kept == best.made.kept
+        t.sse <= policy::allowed_to_a_rival(standing.sse, best.sse) && t.made.kept == best.made.kept
     };
     let instead = |t: &Tried| -> Option<Candidate> {
         let mut theirs = t.made.added.iter().filter(|g| !best.made.added.contains(g));
@@ -423,12 +421,11 @@ fn gates(data: &Prepared, old: &Solution, new: &Solution, regime: Regime) -> Res
 impl Linear<'_> {
     /// What the best one or two names take, of what a curve takes, to first order.
     fn explained_by_names(&self, one: &Move, curve: usize) -> f64 {
-        let mut columns = self.columns_of(&one.kept);
+        let mut swept = self.without(&one.kept);
         for &g in one.added.iter().filter(|&&g| g != curve) {
-            columns.extend(&self.groups[g].columns);
+            swept.sweep(&self.groups[g].columns);
         }
         let (target, _) = self.target_of(&one.kept);
-        let swept = self.grams.without(&columns);
         let whole = swept.gain_of_any(&self.groups[curve].columns, target);
         let names = self.groups.iter().filter_map(|g| match g.member {
             Member::Name(_) => Some(swept.gain(&g.columns, target)),

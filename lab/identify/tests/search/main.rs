@@ -266,5 +266,12 @@ fn a_p_value_is_the_share_of_all_patterns_of_signs_that_are_as_long() {
         let counted = patterns.clone().filter(|&p| length(p) >= least).count();
         let expected = counted as f64 / patterns.len() as f64;
         assert_eq!(flips(&scores), expected, "{directions} directions");
+        let mut bad = scores;
+        bad[3][0] = f64::NAN;
+        assert_eq!(
+            flips(&bad),
+            1.0,
+            "a score that is not a number is no evidence"
+        );
     }
 }
