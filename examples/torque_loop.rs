@@ -48,7 +48,7 @@ impl TorqueLoop {
             anti_windup: AntiWindup::BackCalculation { tracking_time: 0.1 },
             // 20 ms without a good sample: let go.
             fallback: Fallback::try_new(20, 0.0)?,
-            ..PidSettings::new(0.5, 25.0)
+            ..PidSettings::unlimited(0.5, 25.0)
         })?;
         Ok(Self {
             pi,

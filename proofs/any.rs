@@ -18,15 +18,15 @@ pub(crate) fn limits() -> Limits<f32> {
     let slewed = range.and_then(|range| range.with_slew(kani::any()));
     let chosen = if kani::any() { range } else { slewed };
     kani::assume(chosen.is_ok());
-    chosen.unwrap_or(Limits::none())
+    chosen.unwrap_or(Limits::unlimited())
 }
 
 /// Any fallback that its constructors accept.
 pub(crate) fn fallback() -> Fallback<f32> {
     if kani::any() {
-        return Fallback::hold();
+        return Fallback::hold_for_ever();
     }
     let safe = Fallback::try_new(kani::any(), kani::any());
     kani::assume(safe.is_ok());
-    safe.unwrap_or(Fallback::hold())
+    safe.unwrap_or(Fallback::hold_for_ever())
 }

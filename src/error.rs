@@ -31,7 +31,54 @@ impl fmt::Display for Error {
     }
 }
 
+impl Error {
+    /// The parameter's name, or the condition that is not met.
+    #[must_use]
+    pub const fn about(&self) -> &'static str {
+        match self {
+            Self::NonFinite(name)
+            | Self::OutOfRange(name)
+            | Self::Inadmissible(name)
+            | Self::Capacity(name) => name,
+        }
+    }
+}
+
 impl core::error::Error for Error {}
+
+/// What a `const` constructor gives, checked by the compiler.
+///
+/// What the constructor refuses does not compile; the compiler's message holds the name of
+/// the parameter. The configuration lives in flash and costs nothing at start-up.
+///
+/// ```
+/// use bowden::constant;
+/// use bowden::control::{Fallback, Limits, Pid, PidSettings};
+/// static PI: Pid<f32> = constant!(Pid::<f32>::const_new(PidSettings::unlimited(
+///     30.0,
+///     18.0,
+///     constant!(Limits::<f32>::const_new(-20.0, 60.0)), // [N·m]
+///     0.005,                                            // longest dt [s]
+///     constant!(Fallback::<f32>::const_new(20, 0.0)),   // after 20 bad samples, [N·m]
+/// )));
+/// assert_eq!(PI.settings().k_p, 30.0);
+/// ```
+///
+/// ```compile_fail
+/// # use bowden::{constant, control::Limits};
+/// const REVERSED: Limits<f32> = constant!(Limits::<f32>::const_new(60.0, -20.0));
+/// ```
+#[macro_export]
+macro_rules! constant {
+    ($checked:expr) => {
+        const {
+            match $checked {
+                Ok(it) => it,
+                Err(error) => ::core::panic!("{}", error.about()),
+            }
+        }
+    };
+}
 
 /// Passes a finite value on, refuses NaN and infinities with the parameter's name.
 ///

@@ -25,6 +25,7 @@ mod serial;
 use crate::effect::{saturate, Effect, EffectState, Motion, Situation};
 use crate::error::finite;
 use crate::hysteresis::BoucWen;
+use crate::signal::Compensated;
 use crate::transmission::Transmission;
 use crate::{Error, Real};
 
@@ -255,7 +256,7 @@ impl<T: Real, const N: usize> Model<T, N> {
                 origin: T::zero(),
                 ..*term
             };
-            if let Some(there) = situation(&seen, at, state.time, eta) {
+            if let Some(there) = situation(&seen, at, state.time.value, eta) {
                 let mut there = own(index, there);
                 there.motion.position = saturate(there.motion.position - term.origin);
                 *share = saturate(term.gain * term.effect.regressor(memory, &there));
@@ -319,7 +320,7 @@ impl<T: Real, const N: usize> Model<T, N> {
                 if term.effect.is_output_stage() != stage || term.effect.is_input_stage() {
                     continue;
                 }
-                let Some(situation) = situation(term, at, state.time, eta) else {
+                let Some(situation) = situation(term, at, state.time.value, eta) else {
                     continue;
                 };
                 let situation = Situation {
@@ -340,7 +341,7 @@ impl<T: Real, const N: usize> Model<T, N> {
         let places = self.terms().iter().zip(&mut state.effects);
         let stages = places.filter(|(term, _)| term.effect.is_input_stage());
         stages.fold(at.input.position, |moved, (term, memory)| {
-            match situation(term, at, state.time, T::zero()) {
+            match situation(term, at, state.time.value, T::zero()) {
                 Some(there) => saturate(moved + term.gain * term.effect.regressor(memory, &there)),
                 None => moved,
             }
@@ -384,9 +385,8 @@ pub struct ModelState<T, const N: usize> {
     hysteresis: BoucWen<T>,
     effects: [EffectState<T>; N],
     started: bool,
-    time: T,
-    /// What rounding has kept back of the time: dt is far below it.
-    carry: T,
+    /// Compensated: dt is far below it.
+    time: Compensated<T>,
     output: T,
 }
 
@@ -410,8 +410,7 @@ impl<T: Real, const N: usize> ModelState<T, N> {
             hysteresis,
             effects: [EffectState::new(); N],
             started: false,
-            time: T::zero(),
-            carry: T::zero(),
+            time: Compensated::new(T::zero()),
             output: T::zero(),
         }
     }
@@ -425,7 +424,7 @@ impl<T: Real, const N: usize> ModelState<T, N> {
     /// Time since the first good sample \[s\]; bad ones do not count.
     #[must_use]
     pub fn time(&self) -> T {
-        self.time
+        self.time.value
     }
 
     /// The last good output, 0 before the first one.
@@ -440,10 +439,8 @@ impl<T: Real, const N: usize> ModelState<T, N> {
             self.started = true;
             return;
         }
-        let step = dt - self.carry;
-        let time = self.time + step;
-        if time.is_finite() {
-            self.carry = (time - self.time) - step;
+        let time = self.time.plus(dt);
+        if time.value.is_finite() && time.carry.is_finite() {
             self.time = time;
         }
     }

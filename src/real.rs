@@ -26,6 +26,14 @@ mod sealed {
 pub trait Real:
     FloatCore + NumAssign + Debug + Display + Default + Send + Sync + 'static + sealed::Sealed
 {
+    /// Zero; a constant, so that configurations can be built at compile time.
+    const ZERO: Self;
+    /// One.
+    const ONE: Self;
+    /// The lowest finite value.
+    const LOWEST: Self;
+    /// The highest finite value.
+    const HIGHEST: Self;
     /// The nearest value to `x`. Used for constants.
     fn of(x: f64) -> Self;
     /// The value as `f64`, exact.
@@ -58,6 +66,10 @@ macro_rules! real {
     ($float:ty, $exp:ident, $exp_m1:ident, $ln:ident, $ln_1p:ident, $pow:ident, $sqrt:ident,
      $sin:ident, $cos:ident, $tan:ident, $atan:ident, $tanh:ident) => {
         impl Real for $float {
+            const ZERO: Self = 0.0;
+            const ONE: Self = 1.0;
+            const LOWEST: Self = <$float>::MIN;
+            const HIGHEST: Self = <$float>::MAX;
             #[inline]
             #[allow(clippy::cast_possible_truncation)]
             fn of(x: f64) -> Self {

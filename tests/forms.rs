@@ -408,19 +408,32 @@ fn a_state_is_read_with_the_memories_that_it_lists() {
     assert!(serde_json::from_str::<ModelState<f64, 2>>(&beyond).is_err());
 }
 
-/// A derivative whose last sample is not finite would hold the error's rate for ever.
+/// A number that is not finite would be refused on every sample, for ever.
 #[test]
-fn a_stored_adaptive_state_whose_last_error_is_not_finite_is_not_valid() {
+fn a_stored_adaptive_state_with_a_number_that_is_not_finite_is_refused() {
     let law = Adaptive::<f64, 2>::paper();
     let mut state = AdaptiveState::new(&law);
     law.step(&mut state, &AdaptiveInput::new(1e-3, 1.0, 0.5, [0.1, 0.2]));
     let mut stored: toml::Table = toml::from_str(&toml::to_string(&state).unwrap()).unwrap();
-    let read = |stored: &toml::Table| -> AdaptiveState<f64, 2> {
-        toml::from_str(&toml::to_string(stored).unwrap()).unwrap()
+    let read = |stored: &toml::Table| {
+        toml::from_str::<AdaptiveState<f64, 2>>(&toml::to_string(stored).unwrap())
     };
-    assert!(law.is_valid(&read(&stored)));
-    let rate = stored["error_rate"].as_table_mut().unwrap();
-    assert!(rate["last"].as_float().unwrap().is_finite());
-    rate.insert("last".to_owned(), f64::NAN.into());
-    assert!(!law.is_valid(&read(&stored)));
+    assert!(law.is_valid(&read(&stored).unwrap()));
+    for (table, field) in [
+        ("error_rate", "last"),
+        ("error_rate", "rate"),
+        ("z", "value"),
+        ("lag", "carry"),
+        ("beta", "value"),
+        ("delta", "carry"),
+        ("held", "command"),
+    ] {
+        let mut broken = stored.clone();
+        let part = broken[table].as_table_mut().unwrap();
+        assert!(part[field].as_float().unwrap().is_finite());
+        part.insert(field.to_owned(), f64::NAN.into());
+        assert!(read(&broken).is_err(), "{table}.{field}");
+    }
+    stored.insert("gap".to_owned(), (-1.0).into());
+    assert!(read(&stored).is_err(), "a negative gap");
 }

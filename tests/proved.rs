@@ -81,7 +81,7 @@ proptest! {
             beta: Estimator::fixed(g).within(0.8, 1.2),
             delta: Estimator::fixed(1.0).within(0.0, 4.0).adapting(6e-3, 0.01),
             smooth_sign: sign,
-            ..AdaptiveSettings::new(Form::Lag { step: 0.001, plant_gain: 1.0 }, 24.0, 8.0, 0.05)
+            ..AdaptiveSettings::unlimited(Form::Lag { step: 0.001, plant_gain: 1.0 }, 24.0, 8.0, 0.05)
         }).unwrap();
         let plant = tracking::StaticPlant { gain: 1.0, disturbance };
         // z = 0, and the command that gives this error.
@@ -168,7 +168,7 @@ proptest! {
         let limits = Limits::try_new(-20.0, 60.0).unwrap().with_slew(1e4).unwrap();
         let fallback = Fallback::try_new(3, -2.0).unwrap();
         let pid = Pid::try_new(PidSettings {
-            k_d: 2.0, derivative_time: 0.1, limits, fallback, ..PidSettings::new(30.0, 18.0)
+            k_d: 2.0, derivative_time: 0.1, limits, fallback, ..PidSettings::unlimited(30.0, 18.0)
         }).unwrap();
         let form = if literal {
             Form::Literal { time_constant: 0.005 }
@@ -181,7 +181,7 @@ proptest! {
             theta: [Estimator::fixed(0.0).within(-5.0, 5.0).adapting(5e-4, 0.01)],
             limits,
             fallback,
-            ..AdaptiveSettings::new(form, 24.0, 8.0, 0.05)
+            ..AdaptiveSettings::unlimited(form, 24.0, 8.0, 0.05)
         }).unwrap();
         let (mut state, mut adapted) = (PidState::new(), AdaptiveState::new(&law));
         for [dt, reference, measured, x, feed_forward] in samples {
@@ -204,13 +204,13 @@ proptest! {
         let law = Adaptive::<f32, 0>::try_new(AdaptiveSettings {
             beta: Estimator::fixed(1.0).within(1.0, 1.0),
             delta: Estimator::fixed(1.0).within(0.0, 1.0),
-            ..AdaptiveSettings::new(form, 24.0, 8.0, 0.05)
+            ..AdaptiveSettings::unlimited(form, 24.0, 8.0, 0.05)
         }).unwrap();
         let mut state = AdaptiveState::new(&law);
         for (dt, reference, measured) in samples {
             // Without limits and feed-forward the command that is out is the lag's.
             let before = state.command();
-            let out = law.step(&mut state, &AdaptiveInput::new(dt, reference, measured, []));
+            let out = law.step_with_terms(&mut state, &AdaptiveInput::new(dt, reference, measured, []));
             prop_assert_eq!(out.status, Status::Good);
             prop_assert!(control::the_lag_does_not_pass_its_target(before, &out));
         }
@@ -224,7 +224,7 @@ proptest! {
         let quiet = Adaptive::<f32, 2>::paper();
         let mut state = AdaptiveState::new(&quiet);
         for _ in 0..samples {
-            quiet.step(&mut state, &AdaptiveInput::new(0.001, 25.0, 20.0, [0.1, 0.0]));
+            quiet.step_with_terms(&mut state, &AdaptiveInput::new(0.001, 25.0, 20.0, [0.1, 0.0]));
         }
         let form = if literal {
             Form::Literal { time_constant: 0.005 }
@@ -236,7 +236,7 @@ proptest! {
             delta: Estimator::fixed(1.0).within(0.0, 4.0),
             z_limit: 0.5,
             limits: Limits::try_new(-5.0, high).unwrap(),
-            ..AdaptiveSettings::new(form, 12.0, 8.0, 0.05)
+            ..AdaptiveSettings::unlimited(form, 12.0, 8.0, 0.05)
         }).unwrap();
         let [dt, reference, measured, x, feed_forward] = at;
         let input = AdaptiveInput {
@@ -260,14 +260,14 @@ proptest! {
             delta: Estimator::fixed(1.0).within(0.0, 4.0),
             z_limit: 0.5,
             limits,
-            ..AdaptiveSettings::new(form, 12.0, 8.0, 0.05)
+            ..AdaptiveSettings::unlimited(form, 12.0, 8.0, 0.05)
         }).unwrap();
         let [output, dt, reference, measured, x, feed_forward] = at;
         let input = AdaptiveInput {
             feed_forward, ..AdaptiveInput::new(dt, reference, measured, [x])
         };
         prop_assert!(control::a_start_keeps_the_command(&law, output, &input));
-        let settings = PidSettings { limits, ..PidSettings::new(30.0, 18.0) };
+        let settings = PidSettings { limits, ..PidSettings::unlimited(30.0, 18.0) };
         let pid = Pid::try_new(settings).unwrap();
         let at = PidInput { feed_forward, ..PidInput::new(dt, reference, measured) };
         let mut state = PidState::new();
@@ -325,7 +325,7 @@ fn a_disturbance_in_its_bound_leaves_the_box_where_w_with_the_reference_is_beyon
         delta: Estimator::fixed(0.0).within(0.0, 4.0),
         frozen: true,
         smooth_sign: SmoothSign::Clamp,
-        ..AdaptiveSettings::new(
+        ..AdaptiveSettings::unlimited(
             Form::Lag {
                 step: 0.001,
                 plant_gain: 1.0,
@@ -343,7 +343,7 @@ fn a_disturbance_in_its_bound_leaves_the_box_where_w_with_the_reference_is_beyon
         let mut most = 0.0_f32;
         for _ in 0..20_000 {
             let measured = state.command() - disturbance;
-            let out = law.step(
+            let out = law.step_with_terms(
                 &mut state,
                 &AdaptiveInput::new(0.001, reference, measured, []),
             );

@@ -6,7 +6,7 @@ use crate::properties::control::{
 };
 use bowden::control::{
     Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Form, Leakage, Limits,
-    SmoothSign, Status,
+    Missing, SmoothSign, Status,
 };
 
 /// Whatever the gains, the samples and the order of hand-overs: a finite command within the
@@ -28,7 +28,7 @@ fn estimator(from: &mut Numbers) -> Option<Estimator<f32>> {
         gain: from.any()?,
         prior: from.any()?,
         leakage,
-        ..Estimator::fixed(from.any()?)
+        ..Estimator::free(from.any()?)
     };
     Some(if from.flag()? {
         value.within(from.any()?, from.any()?)
@@ -60,9 +60,14 @@ fn law(from: &mut Numbers) -> Option<Adaptive<f32, 2>> {
         theta: [estimator(from)?, estimator(from)?],
         z_limit: from.any()?,
         frozen: from.flag()?,
+        missing: [
+            [Missing::Hold, Missing::Drop][usize::from(from.byte()? % 2)],
+            [Missing::Hold, Missing::Drop][usize::from(from.byte()? % 2)],
+        ],
         limits: from.limits()?,
+        longest_dt: from.any()?,
         fallback: from.fallback()?,
-        ..AdaptiveSettings::new(form, from.any()?, from.any()?, from.any()?)
+        ..AdaptiveSettings::unlimited(form, from.any()?, from.any()?, from.any()?)
     })
     .ok()
 }
@@ -84,7 +89,7 @@ fn run(from: &mut Numbers) -> Option<()> {
     } else {
         Adaptive::paper()
     };
-    let free = law.settings().limits == Limits::none();
+    let free = law.settings().limits == Limits::unlimited();
     let lags = matches!(law.settings().form, Form::Lag { .. });
     let mut state = AdaptiveState::new(&law);
     let mut lag = Some(state.command());
@@ -98,6 +103,7 @@ fn run(from: &mut Numbers) -> Option<()> {
                 state = AdaptiveState::resume_from(&law, from.any()?, &sample(from)?);
                 lag = None;
             }
+            48..=55 => state.acknowledge(),
             32..=47 => {
                 law.take_over(&mut state, &sample(from)?);
                 lag = None;
@@ -106,15 +112,15 @@ fn run(from: &mut Numbers) -> Option<()> {
                 let at = sample(from)?;
                 let mut again = state;
                 assert!(adaptive_commands_within_its_limits(&law, &mut state, &at));
-                let out = law.step(&mut again, &at);
+                let out = law.step_with_terms(&mut again, &at);
                 assert!(again == state, "the same sample gives the same state");
                 if let (Some(before), true, true) = (lag, free, lags) {
                     assert!(the_lag_does_not_pass_its_target(before, &out));
                 }
                 match out.status {
                     Status::Good => lag = Some(out.terms.law),
-                    // The next good sample starts from the safe command.
-                    Status::Safe(_) => lag = None,
+                    // The next good sample starts from the safe command, once it was seen.
+                    Status::Safe(_) | Status::Degraded(_) => lag = None,
                     Status::Held(_) => {}
                 }
             }

@@ -94,9 +94,9 @@ impl<'a> Numbers<'a> {
     /// Limits that their constructors accept; none where they refuse.
     pub fn limits(&mut self) -> Option<Limits<f32>> {
         if self.flag()? {
-            return Some(Limits::none());
+            return Some(Limits::unlimited());
         }
-        let range = Limits::try_new(self.any()?, self.any()?).unwrap_or(Limits::none());
+        let range = Limits::try_new(self.any()?, self.any()?).unwrap_or(Limits::unlimited());
         Some(if self.flag()? {
             range.with_slew(self.any()?).unwrap_or(range)
         } else {
@@ -107,7 +107,7 @@ impl<'a> Numbers<'a> {
     /// A fallback; to hold where its constructor refuses.
     pub fn fallback(&mut self) -> Option<Fallback<f32>> {
         let after = u32::from(self.byte()? % 4);
-        Some(Fallback::try_new(after, self.any()?).unwrap_or(Fallback::hold()))
+        Some(Fallback::try_new(after, self.any()?).unwrap_or(Fallback::hold_for_ever()))
     }
 
     /// A shape that its constructor accepts.

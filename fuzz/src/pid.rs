@@ -36,6 +36,7 @@ fn pid(from: &mut Numbers) -> Option<Pid<f32>> {
         setpoint_weight: from.any()?,
         anti_windup,
         limits: from.limits()?,
+        longest_dt: from.any()?,
         fallback: from.fallback()?,
     })
     .ok()
@@ -63,7 +64,8 @@ fn run(from: &mut Numbers) -> Option<()> {
                 active = 1 - active;
                 pids[active].take_over(&mut state);
             }
-            32..=63 => {
+            32..=39 => state.acknowledge(),
+            40..=63 => {
                 let output = from.any()?;
                 let before = state;
                 if state.resume_from(pid, output, &sample(from)?) == Status::Good {

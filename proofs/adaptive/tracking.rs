@@ -19,7 +19,7 @@ fn paper() -> Adaptive<f32, 0> {
         delta: Estimator::fixed(0.0).within(0.0, 0.0),
         smooth_sign: SmoothSign::Clamp,
         frozen: true,
-        ..AdaptiveSettings::new(lag, 24.0, 8.0, 0.05)
+        ..AdaptiveSettings::unlimited(lag, 24.0, 8.0, 0.05)
     })
 }
 

@@ -23,44 +23,84 @@ pub fn follows(limits: &Limits<f32>, last: f32, command: f32, dt: f32) -> bool {
 struct Answer<'a> {
     limits: &'a Limits<f32>,
     fallback: &'a Fallback<f32>,
-    dt: f32,
-    /// Whether every number that the step reads can be used.
+    /// The sample's, and the longest that is one.
+    dt: [f32; 2],
+    /// Whether every other number that the step reads can be used.
     usable: bool,
     status: Status,
-    /// The command that was out, and how many samples in a row had been bad.
-    before: (f32, u32),
-    /// The same after the step.
-    after: (f32, u32),
+    before: Out,
+    after: Out,
+}
+
+/// The command that is out, the score of the bad samples, and whether the safe command is
+/// latched.
+#[derive(Clone, Copy)]
+struct Out {
+    command: f32,
+    score: u32,
+    latched: bool,
 }
 
 impl Answer<'_> {
     /// The command is finite and within the limits. After a good sample, and that is one
-    /// whose numbers can be used and whose `dt` is above zero, it keeps the slew rate; after a
-    /// bad one it is the command before or, from the stated sample on, the safe command.
+    /// whose numbers can be used and whose `dt` is above zero and not too long, it keeps the
+    /// slew rate; after a bad one it is the command before or, once the score is full, the
+    /// safe command, which stays.
     fn is_as_promised(&self) -> bool {
-        let ((last, bad), (command, count)) = (self.before, self.after);
+        let (before, after) = (self.before, self.after);
         let safe = self.fallback.command();
-        let usable = self.usable && self.dt > 0.0 && self.dt.is_finite();
-        let late = count >= self.fallback.after();
-        let counted = count == bad.saturating_add(1);
+        let [dt, longest] = self.dt;
+        let usable = self.usable && dt > 0.0 && dt <= longest;
+        let most = self.fallback.most();
+        let counted = after.score == most.min(before.score.saturating_add(self.fallback.weight()));
         let told = |fault| (fault == Fault::Overflow) == usable;
-        command.is_finite()
-            && self.limits.contains(command)
+        after.command.is_finite()
+            && self.limits.contains(after.command)
             && match self.status {
-                Status::Good => {
-                    usable && count == 0 && follows(self.limits, last, command, self.dt)
+                Status::Good | Status::Degraded(_) => {
+                    let dropped = matches!(self.status, Status::Degraded(Fault::Regressor(_)));
+                    (usable || dropped)
+                        && !before.latched
+                        && !after.latched
+                        && after.score <= before.score
+                        && follows(self.limits, before.command, after.command, dt)
                 }
                 Status::Held(fault) => {
-                    let held = clamp(last, self.limits.low(), self.limits.high());
-                    told(fault) && command == held && counted && !(late && safe.is_some())
+                    told(fault)
+                        && after.command == self.limits.confine(before.command)
+                        && counted
+                        && !before.latched
+                        && !after.latched
+                        && !(after.score >= most && safe.is_some())
                 }
-                Status::Safe(fault) => told(fault) && safe == Some(command) && counted && late,
+                Status::Safe(fault) => {
+                    let full = counted && after.score >= most && told(fault);
+                    after.latched
+                        && safe.is_none_or(|safe| after.command == safe)
+                        && (before.latched || full)
+                }
             }
     }
 }
 
+fn pid_out(command: f32, state: &PidState<f32>) -> Out {
+    Out {
+        command,
+        score: state.bad_score(),
+        latched: state.is_latched(),
+    }
+}
+
+fn adaptive_out<const N: usize>(command: f32, state: &AdaptiveState<f32, N>) -> Out {
+    Out {
+        command,
+        score: state.bad_score(),
+        latched: state.is_latched(),
+    }
+}
+
 /// Whatever the sample, the command is as promised; a bad sample leaves the state but for its
-/// count.
+/// score.
 pub fn pid_commands_within_its_limits(
     pid: &Pid<f32>,
     state: &mut PidState<f32>,
@@ -74,16 +114,31 @@ pub fn pid_commands_within_its_limits(
     let answer = Answer {
         limits: &settings.limits,
         fallback: &settings.fallback,
-        dt: at.dt,
+        dt: [at.dt, settings.longest_dt],
         usable: velocity && numbers && at.feed_forward.is_finite(),
         status: out.status,
-        before: (before.command(), before.consecutive_bad()),
-        after: (out.command, state.consecutive_bad()),
+        before: pid_out(before.command(), &before),
+        after: pid_out(out.command, state),
     };
     answer.is_as_promised()
         && (out.status == Status::Good || untouched)
         && state.integral().is_finite()
         && state.rate().is_finite()
+}
+
+/// From **any** state, one of another controller or of broken memory too, the command is
+/// finite and within the limits, and a safe command that is latched stays out.
+pub fn pid_commands_within_its_limits_from_any_state(
+    pid: &Pid<f32>,
+    state: &mut PidState<f32>,
+    at: &PidInput<f32>,
+) -> bool {
+    let (limits, fallback) = (&pid.settings().limits, &pid.settings().fallback);
+    let latched = state.is_latched();
+    let out = pid.step(state, at);
+    limits.contains(out.command)
+        && (!latched || (state.is_latched() && matches!(out.status, Status::Safe(_))))
+        && (!state.is_latched() || fallback.command().is_none_or(|safe| out.command == safe))
 }
 
 /// Whatever the sample, the command is as promised and the state stays valid: finite, every
@@ -95,29 +150,66 @@ pub fn adaptive_commands_within_its_limits<const N: usize>(
 ) -> bool {
     let (before, settings) = (*state, law.settings());
     let out = law.step(state, input);
-    let untouched = state.accumulated_error() == before.accumulated_error()
-        && state.beta_hat() == before.beta_hat()
+    let waits = state.beta_hat() == before.beta_hat()
         && state.delta_hat() == before.delta_hat()
         && state.theta_hat() == before.theta_hat();
-    let in_time = law.largest_step().is_none_or(|longest| input.dt <= longest);
+    let untouched = waits && state.accumulated_error() == before.accumulated_error();
     let answer = Answer {
         limits: &settings.limits,
         fallback: &settings.fallback,
-        dt: input.dt,
-        usable: in_time
-            && input.feed_forward.is_finite()
+        dt: [input.dt, law.longest_dt()],
+        usable: input.feed_forward.is_finite()
             && input.reference.is_finite()
             && input.next_reference.is_finite()
             && input.measured.is_finite()
             && input.regressors.iter().all(|x| x.is_finite()),
         status: out.status,
-        before: (before.command(), before.consecutive_bad()),
-        after: (out.command, state.consecutive_bad()),
+        before: adaptive_out(before.command(), &before),
+        after: adaptive_out(out.command, state),
     };
     answer.is_as_promised()
         && out.command == state.command()
-        && (out.status == Status::Good || untouched)
+        && match out.status {
+            Status::Good => true,
+            Status::Degraded(_) => waits,
+            Status::Held(_) | Status::Safe(_) => untouched,
+        }
         && law.is_valid(state)
+}
+
+/// From **any** state, one of another law or of broken memory too, the command is finite and
+/// within the limits, and a safe command that is latched stays out.
+pub fn adaptive_commands_within_its_limits_from_any_state<const N: usize>(
+    law: &Adaptive<f32, N>,
+    state: &mut AdaptiveState<f32, N>,
+    input: &AdaptiveInput<f32, N>,
+) -> bool {
+    let (limits, fallback) = (&law.settings().limits, &law.settings().fallback);
+    let latched = state.is_latched();
+    let out = law.step(state, input);
+    limits.contains(out.command)
+        && (!latched || (state.is_latched() && matches!(out.status, Status::Safe(_))))
+        && (!state.is_latched() || fallback.command().is_none_or(|safe| out.command == safe))
+}
+
+/// However good and bad samples follow each other, the safe command is out at the latest
+/// when a stretch of n samples has held B bad ones with `(weight + 1)·B - n >= most`.
+///
+/// `margin` is the greatest `(weight + 1)·B - n` of a stretch that ends here, by Kadane's
+/// recursion; this is one step of it, and of the score.
+pub fn the_score_keeps_up(fallback: &Fallback<f32>, score: u32, margin: u32, is_bad: bool) -> bool {
+    let most = fallback.most();
+    let next = if is_bad {
+        score.saturating_add(fallback.weight()).min(most)
+    } else {
+        score.saturating_sub(1)
+    };
+    let wanted = if is_bad {
+        margin.saturating_add(fallback.weight())
+    } else {
+        margin.saturating_sub(1)
+    };
+    score < margin.min(most) || next >= wanted.min(most)
 }
 
 /// Other settings that take a running law over leave the command that is out, as far as
@@ -128,9 +220,9 @@ pub fn a_hand_over_keeps_the_command<const N: usize>(
     input: &AdaptiveInput<f32, N>,
 ) -> bool {
     let limits = &law.settings().limits;
-    let before = clamp(state.command(), limits.low(), limits.high());
+    let (before, latched) = (limits.confine(state.command()), state.is_latched());
     law.take_over(state, input);
-    state.command() == before && law.is_valid(state)
+    state.command() == before && state.is_latched() == latched && law.is_valid(state)
 }
 
 /// A law that starts from an output has that as its command, as far as its range allows it,
@@ -144,11 +236,12 @@ pub fn a_start_keeps_the_command<const N: usize>(
     let state = AdaptiveState::resume_from(law, output, input);
     let start = if output.is_finite() { output } else { 0.0 };
     let command = clamp(start, limits.low(), limits.high());
-    state.command() == command && state.consecutive_bad() == 0 && law.is_valid(&state)
+    state.command() == command && state.bad_score() == 0 && law.is_valid(&state)
 }
 
 /// A PID that starts from an output has that as its command, as far as its range allows it;
-/// where a number is not finite, or overflows, integral, rate and command stay.
+/// where a number is not finite, or overflows, integral, rate and command stay; so they do
+/// where the safe command is latched.
 pub fn a_pid_start_keeps_the_command(
     pid: &Pid<f32>,
     state: &mut PidState<f32>,
@@ -165,15 +258,19 @@ pub fn a_pid_start_keeps_the_command(
                 && state.command() == command
                 && integral.is_finite()
                 && state.rate() == 0.0
-                && state.consecutive_bad() == 0
+                && state.bad_score() == 0
+                && !before.is_latched()
         }
+        Status::Degraded(_) => false,
         Status::Held(_) => {
             state.command() == before.command()
                 && integral == before.integral()
                 && state.rate() == before.rate()
         }
         Status::Safe(_) => {
-            Some(state.command()) == pid.settings().fallback.command()
+            let safe = pid.settings().fallback.command();
+            safe.is_none_or(|safe| state.command() == safe)
+                && state.is_latched()
                 && integral == before.integral()
                 && state.rate() == before.rate()
         }

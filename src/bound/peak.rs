@@ -27,7 +27,7 @@ use crate::{Error, Real};
 /// let law = Adaptive::try_new(AdaptiveSettings {
 ///     beta: Estimator::fixed(1.0), // alpha is known: g = 1
 ///     delta: Estimator::fixed(7.0).within(0.0, 8.0).adapting(0.00625, 0.01),
-///     ..AdaptiveSettings::<f64, 0>::new(literal, 24.0, 8.0, 0.05)
+///     ..AdaptiveSettings::<f64, 0>::unlimited(literal, 24.0, 8.0, 0.05)
 /// })?;
 /// let peak = PeakContinuous::try_new(&law, &Plant::new(1.0, 7.056))?;
 /// assert!((peak.bound - 0.588).abs() < 0.0005); // 2·7.056/(24 - 1/64) [N·m]

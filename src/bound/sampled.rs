@@ -37,7 +37,7 @@ use crate::{Error, Real};
 /// let law = Adaptive::try_new(AdaptiveSettings {
 ///     beta: Estimator::fixed(1.0).within(0.95, 1.05).adapting(2.5e-4, 0.01),
 ///     delta: Estimator::fixed(7.0).within(0.0, 7.056).adapting(0.00625, 0.01),
-///     ..AdaptiveSettings::<f64, 0>::new(lag, 24.0, 8.0, 0.2)
+///     ..AdaptiveSettings::<f64, 0>::unlimited(lag, 24.0, 8.0, 0.2)
 /// })?;
 /// let plant = Plant {
 ///     delta_rate: 45.7, // [N·m/s]

@@ -13,7 +13,7 @@
 //! model. Feed it with the reference, not with the measured output: a noisy desired
 //! output destroys the hysteresis state ([`transmission`](crate::transmission)).
 
-use super::status::{usable, usable_dt};
+use super::status::{fault_of_dt, first_fault};
 use super::{Fault, Status};
 use crate::effect::{Effect, Motion, Situation};
 use crate::error::finite;
@@ -171,6 +171,7 @@ pub struct Compensator<T, const N: usize> {
     effects: Model<T, N>,
     input_range: Option<BenchRange<T>>,
     term_ranges: [Option<BenchRange<T>>; N],
+    longest_dt: T,
 }
 
 impl<T: Real, const N: usize> Compensator<T, N> {
@@ -202,7 +203,22 @@ impl<T: Real, const N: usize> Compensator<T, N> {
             effects: model.without_transmission(),
             input_range: None,
             term_ranges: [None; N],
+            longest_dt: T::HIGHEST,
         })
+    }
+
+    /// The same, where a `dt` longer than this one is a bad sample \[s\]; any is good before.
+    ///
+    /// A counter that wrapped would age every memory of the model (creep, temperature) by
+    /// an hour.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"longest_dt"`.
+    pub fn with_longest_dt(self, longest_dt: T) -> Result<Self, Error> {
+        if finite(longest_dt, "longest_dt")? <= T::ZERO {
+            return Err(Error::OutOfRange("longest_dt"));
+        }
+        Ok(Self { longest_dt, ..self })
     }
 
     /// The same, with motions clamped to what the bench has seen of each source.
@@ -243,7 +259,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
 
     /// One sample: the input that makes the model's output `desired`.
     ///
-    /// A bad sample (a `dt` that is not positive, a desired output or a number that a
+    /// A bad sample (a `dt` that is not positive or too long, a desired output or a number that a
     /// term reads that is not finite, a missing channel) leaves the state, but for the
     /// count of bad ones, and holds the last good command, zero before the first one.
     pub fn step(
@@ -275,8 +291,12 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         state: &CompensatorState<T, N>,
         at: &CompensatorInput<T>,
     ) -> Result<(CompensatorState<T, N>, T), Fault> {
-        let dt = usable_dt(at.dt)?;
-        let desired = usable(at.desired, Fault::Reference)?;
+        let (dt, desired) = (at.dt, at.desired);
+        let fault = fault_of_dt(dt, self.longest_dt)
+            .or_else(|| first_fault(&[(desired, Fault::Reference)]));
+        if let Some(fault) = fault {
+            return Err(fault);
+        }
         let (input, load, channels) = (at.input, at.load, at.channels);
         let sample = Sample {
             dt,
@@ -298,7 +318,9 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         // The inverse holds what is out of the reach of floats; here that must be told.
         let cable = &self.transmission;
         let most = target.abs() + cable.offset().abs() + cable.kappa_eta().abs();
-        usable(T::of(2.0) * most / cable.gain(), Fault::Overflow)?;
+        if !(T::of(2.0) * most / cable.gain()).is_finite() {
+            return Err(Fault::Overflow);
+        }
         self.inverse.step(&mut next.hysteresis, target);
         Ok((next, effects))
     }

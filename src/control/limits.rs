@@ -1,12 +1,11 @@
 //! What a command may be: a range and, if wanted, a slew rate.
 
-use crate::error::finite;
 use crate::signal::clamp;
 use crate::{Error, Real};
 
 /// Range \[command unit\] and slew rate \[command unit/s\] of a command.
 ///
-/// The range may be asymmetric. [`Limits::none`] is the range of the float itself, so
+/// The range may be asymmetric. [`Limits::unlimited`] is the range of the float itself, so
 /// that a command is finite in any case.
 ///
 /// ```
@@ -35,6 +34,65 @@ pub struct Limits<T> {
     slew: Option<T>,
 }
 
+/// The checks of the range, for any float and for constants.
+macro_rules! range {
+    ($low:ident, $high:ident) => {
+        if !$low.is_finite() {
+            Err(Error::NonFinite("low"))
+        } else if !$high.is_finite() {
+            Err(Error::NonFinite("high"))
+        } else if $low < $high {
+            Ok(Self {
+                low: $low,
+                high: $high,
+                slew: None,
+            })
+        } else {
+            Err(Error::Inadmissible("low < high"))
+        }
+    };
+}
+
+/// The checks of the slew rate, likewise.
+macro_rules! slewed {
+    ($range:ident, $slew:ident, $zero:expr) => {
+        if !$slew.is_finite() {
+            Err(Error::NonFinite("slew"))
+        } else if $slew <= $zero {
+            Err(Error::OutOfRange("slew"))
+        } else {
+            Ok(Self {
+                slew: Some($slew),
+                ..$range
+            })
+        }
+    };
+}
+
+macro_rules! constant {
+    ($float:ty) => {
+        impl Limits<$float> {
+            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
+            ///
+            /// # Errors
+            /// As [`try_new`](Self::try_new).
+            pub const fn const_new(low: $float, high: $float) -> Result<Self, Error> {
+                range!(low, high)
+            }
+
+            /// [`with_slew`](Self::with_slew) at compile time.
+            ///
+            /// # Errors
+            /// As [`with_slew`](Self::with_slew).
+            pub const fn const_with_slew(self, slew: $float) -> Result<Self, Error> {
+                slewed!(self, slew, 0.0)
+            }
+        }
+    };
+}
+constant!(f32);
+constant!(f64);
+
 impl<T: Real> Limits<T> {
     /// The range `low..=high` \[command unit\], without a slew rate.
     ///
@@ -42,57 +100,46 @@ impl<T: Real> Limits<T> {
     /// [`Error::NonFinite`] with `"low"` or `"high"`; [`Error::Inadmissible`] unless
     /// `low < high`.
     pub fn try_new(low: T, high: T) -> Result<Self, Error> {
-        let (low, high) = (finite(low, "low")?, finite(high, "high")?);
-        if low < high {
-            Ok(Self {
-                low,
-                high,
-                slew: None,
-            })
-        } else {
-            Err(Error::Inadmissible("low < high"))
-        }
+        range!(low, high)
     }
 
-    /// Every finite command.
+    /// Every finite command: for a simulation, not for a machine.
     #[must_use]
-    pub fn none() -> Self {
+    pub const fn unlimited() -> Self {
         Self {
-            low: T::min_value(),
-            high: T::max_value(),
+            low: T::LOWEST,
+            high: T::HIGHEST,
             slew: None,
         }
     }
 
     /// The same range with a slew rate above zero \[command unit/s\].
     ///
+    /// A slew rate below `2·k_p·noise·rate` (noise: the largest change of the measured output
+    /// between samples, rate: samples per second) cuts off what the noise asks for, and the
+    /// loop may oscillate: choose a greater one, or a smaller gain.
+    ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"slew"`.
     pub fn with_slew(self, slew: T) -> Result<Self, Error> {
-        if finite(slew, "slew")? <= T::zero() {
-            return Err(Error::OutOfRange("slew"));
-        }
-        Ok(Self {
-            slew: Some(slew),
-            ..self
-        })
+        slewed!(self, slew, T::ZERO)
     }
 
     /// Least command \[command unit\].
     #[must_use]
-    pub fn low(&self) -> T {
+    pub const fn low(&self) -> T {
         self.low
     }
 
     /// Greatest command \[command unit\].
     #[must_use]
-    pub fn high(&self) -> T {
+    pub const fn high(&self) -> T {
         self.high
     }
 
     /// Slew rate \[command unit/s\], where there is one.
     #[must_use]
-    pub fn slew(&self) -> Option<T> {
+    pub const fn slew(&self) -> Option<T> {
         self.slew
     }
 
@@ -118,6 +165,16 @@ impl<T: Real> Limits<T> {
             None => wanted,
         };
         clamp(reachable, self.low, self.high)
+    }
+}
+
+impl<T: Real> Limits<T> {
+    /// The command within the range that is nearest to `command`; zero's nearest for NaN.
+    #[inline]
+    #[must_use]
+    pub fn confine(&self, command: T) -> T {
+        let known = if command.is_nan() { T::ZERO } else { command };
+        clamp(known, self.low, self.high)
     }
 }
 

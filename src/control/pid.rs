@@ -7,13 +7,14 @@
 //! command = u within the range and the slew rate
 //! ```
 //!
-//! - `dt` may vary from call to call. The derivative goes through the exact discrete
-//!   first-order lag: its time constant means the same at every rate.
+//! - `dt` may vary from call to call, up to a longest one. The derivative goes through the
+//!   implicit first-order lag, stable for any `dt`: see [`Derivative`].
 //! - The integral is kept as a command, so that another `k_i` moves nothing, and as a
 //!   compensated sum: in `f32` a plain one stops once its steps are below half an ulp.
-//! - The anti-windup sees the slew rate as it sees the range, see [`AntiWindup`].
+//! - The anti-windup knows the slew rate from the range, see [`AntiWindup`].
 //! - A bad sample leaves the memory as it was and holds the command, see [`Status`]. The
-//!   derivative bridges the gap that it leaves; the integral does not count it.
+//!   derivative bridges the gap that it leaves; the integral does not count it. After too
+//!   many the safe command is out until [`PidState::acknowledge`].
 //!
 //! Source: the paper's section 3.1; Åström & Hägglund, *Advanced PID Control*, 2006.
 
@@ -25,26 +26,29 @@ pub use settings::{AntiWindup, Damping, PidSettings};
 pub use signals::{PidInput, PidOutput, PidTerms};
 pub use state::PidState;
 
-use super::status::{usable, usable_dt};
-use super::{Fault, Status};
-use crate::signal::{clamp, Derivative, DerivativeState};
+use super::status::{fault_of_dt, first_fault, is_usable, Latch};
+use super::{Fault, Output, Status};
+use crate::signal::{clamp, Compensated, Derivative};
 use crate::{Error, Real};
 use state::Last;
 
 /// A PI, PID or PIV controller, equations (14)-(16); checked, immutable.
 ///
 /// ```
-/// use bowden::control::{AntiWindup, Limits, Pid, PidInput, PidSettings, PidState, Status};
-/// let pid = Pid::try_new(PidSettings {
-///     limits: Limits::try_new(-20.0, 60.0)?, // [N·m]
-///     anti_windup: AntiWindup::Conditional,
-///     ..PidSettings::new(30.0, 18.0)
-/// })?;
+/// use bowden::control::{Fallback, Limits, Pid, PidInput, PidSettings, PidState, Status};
+/// let pid = Pid::try_new(PidSettings::new(
+///     30.0,
+///     18.0,
+///     Limits::try_new(-20.0, 60.0)?, // [N·m]
+///     0.005,                         // longest dt [s]
+///     Fallback::try_new(20, 0.0)?,   // after 20 bad samples: [N·m]
+/// ))?;
 /// let mut state = PidState::new();
 ///
 /// let out = pid.step(&mut state, &PidInput::new(0.001, 1.0, 0.5_f32));
-/// assert_eq!(out.terms.proportional, 15.0); // -k_p·e
-/// assert!((out.terms.integral - 0.009).abs() < 1e-7); // -k_i·e·dt
+/// let terms = pid.terms(&state);
+/// assert_eq!(terms.proportional, 15.0); // -k_p·e
+/// assert!((terms.integral - 0.009).abs() < 1e-7); // -k_i·e·dt
 ///
 /// let held = pid.step(&mut state, &PidInput::new(0.001, 1.0, f32::NAN));
 /// assert_eq!(held.command, out.command);
@@ -85,7 +89,7 @@ impl<T: Real> Pid<T> {
     #[must_use]
     pub fn paper_pi() -> Self {
         Self {
-            settings: PidSettings::new(T::of(30.0), T::of(18.0)),
+            settings: PidSettings::unlimited(T::of(30.0), T::of(18.0)),
         }
     }
 
@@ -123,7 +127,7 @@ impl<T: Real> Pid<T> {
     #[must_use]
     pub fn matched_pi() -> Self {
         Self {
-            settings: PidSettings::new(T::of(30.0), T::of(320.0)),
+            settings: PidSettings::unlimited(T::of(30.0), T::of(320.0)),
         }
     }
 
@@ -134,26 +138,27 @@ impl<T: Real> Pid<T> {
         &self.settings
     }
 
-    /// One sample: the command \[command unit\], what happened, and every term.
+    /// One sample: the command \[command unit\], and what happened.
     ///
-    /// The command is finite and within the limits for any input. A bad sample leaves
-    /// the state as it was, but for the count of bad ones and their time.
+    /// The command is finite and within the limits for any input **and any state**, one
+    /// that was stored or that belongs to another controller included. A bad sample leaves
+    /// the state as it was, but for the score of bad ones and their time.
     #[inline]
-    pub fn step(&self, state: &mut PidState<T>, at: &PidInput<T>) -> PidOutput<T> {
-        let status = match self.advance(state, at) {
-            Ok(next) => {
-                *state = next;
-                Status::Good
+    pub fn step(&self, state: &mut PidState<T>, at: &PidInput<T>) -> Output<T> {
+        if state.held.is_closed() {
+            if let Some(command) = self.advance(state, at) {
+                let status = Status::Good;
+                return Output { command, status };
             }
-            Err(fault) => {
-                state.wait(at.dt);
-                state.held.bad(fault, &self.settings.fallback)
-            }
-        };
-        let limits = &self.settings.limits;
+        }
+        self.exception(state, at)
+    }
+
+    /// The same, and every term for telemetry: [`terms`](Self::terms) after the step.
+    pub fn step_with_terms(&self, state: &mut PidState<T>, at: &PidInput<T>) -> PidOutput<T> {
+        let Output { command, status } = self.step(state, at);
         PidOutput {
-            // A state that comes from another controller may hold what this one must not.
-            command: clamp(state.command(), limits.low(), limits.high()),
+            command,
             status,
             terms: self.terms(state),
         }
@@ -169,7 +174,7 @@ impl<T: Real> Pid<T> {
         PidTerms {
             error: last.measured - last.reference,
             proportional: self.proportional(last),
-            integral: state.integral,
+            integral: state.integral.value,
             derivative,
             velocity,
             feed_forward: last.feed_forward,
@@ -190,12 +195,12 @@ impl<T: Real> Pid<T> {
     ///
     /// ```
     /// use bowden::control::{Pid, PidInput, PidSettings, PidState};
-    /// let quiet = Pid::try_new(PidSettings::new(3.0, 1.0))?;
+    /// let quiet = Pid::try_new(PidSettings::unlimited(3.0, 1.0))?;
     /// let mut state = PidState::new();
     /// let sample = PidInput::new(0.001, 2.0, 1.5_f64);
     /// let before = quiet.step(&mut state, &sample).command;
     ///
-    /// let firm = Pid::try_new(PidSettings::new(30.0, 1.0))?;
+    /// let firm = Pid::try_new(PidSettings::unlimited(30.0, 1.0))?;
     /// firm.take_over(&mut state);
     /// let after = firm.step(&mut state, &sample).command;
     /// assert!((after - before - 0.0005).abs() < 1e-12); // k_i·0.5·dt, not 13.5
@@ -212,94 +217,148 @@ impl<T: Real> Pid<T> {
         let below = last.unlimited < last.command && (ramps || last.command <= limits.low());
         let low = if below { T::neg_infinity() } else { even };
         let high = if above { T::infinity() } else { even };
-        let integral = self.confine(clamp(state.integral, low, high));
+        let integral = self.confine(clamp(state.integral.value, low, high));
         let unlimited = rest + integral;
         if integral.is_finite() && unlimited.is_finite() {
             state.last = Some(Last { unlimited, ..last });
-            state.set_integral(integral);
+            state.integral = Compensated::new(integral);
         }
     }
 
-    /// The integral with which the terms give `output` at a sample, from rest.
+    /// The sample and the integral with which the terms give `output` there, from rest.
     fn started_at(&self, output: T, at: &PidInput<T>) -> Result<(Last<T>, T), Fault> {
-        let command = usable(output, Fault::Command)?;
+        if let Some(fault) = first_fault(&[(output, Fault::Command)]).or_else(|| self.fault(at)) {
+            return Err(fault);
+        }
         let limits = &self.settings.limits;
-        let command = clamp(command, limits.low(), limits.high());
-        let mut last = self.usable(at)?;
-        let rest = self.rest(&last, T::zero());
+        let mut last = Last::of(at);
+        let rest = self.rest(&last, T::ZERO);
+        let command = clamp(output, limits.low(), limits.high());
         let integral = self.confine(command - rest);
         last.command = command;
         last.unlimited = rest + integral;
-        usable(integral, Fault::Overflow)?;
-        usable(last.unlimited, Fault::Overflow)?;
-        Ok((last, integral))
+        if is_usable(integral) && is_usable(last.unlimited) {
+            Ok((last, integral))
+        } else {
+            Err(Fault::Overflow)
+        }
     }
 
-    /// The state after a good sample, or what is wrong with the sample.
+    /// The command of a good sample, which moves the state; `None`, and nothing has moved,
+    /// where a number cannot be used or the law overflows.
     #[inline]
-    fn advance(&self, state: &PidState<T>, at: &PidInput<T>) -> Result<PidState<T>, Fault> {
-        let dt = usable_dt(at.dt)?;
-        let mut last = self.usable(at)?;
-        let rate = self.rate(state, &last, dt);
+    fn advance(&self, state: &mut PidState<T>, at: &PidInput<T>) -> Option<T> {
+        let s = &self.settings;
+        let error = at.measured - at.reference;
+        let mut all = at.dt + error + at.feed_forward;
+        if let Damping::Velocity = s.damping {
+            all += at.velocity;
+        }
+        if !(is_usable(all) && at.dt > T::ZERO && at.dt <= s.longest_dt) {
+            return None;
+        }
+        let mut last = Last::of(at);
+        let rate = self.rate(state, &last, at.dt);
         let rest = self.rest(&last, rate);
-
-        let mut next = *state;
-        next.rate = rate;
-        let change = self.change(state, &last, dt);
-        next.add(change);
-        next.confine(self.confine(next.integral));
-        let limits = &self.settings.limits;
-        last.unlimited = rest + next.integral;
-        last.command = limits.apply(state.command(), last.unlimited, dt);
-        if matches!(self.settings.anti_windup, AntiWindup::Conditional) {
-            let excess = last.unlimited - last.command;
-            let (up, down) = (change > T::zero(), change < T::zero());
-            if (excess > T::zero() && up) || (excess < T::zero() && down) {
-                next.restore_sum(state);
-                last.unlimited = rest + next.integral;
-                last.command = limits.apply(state.command(), last.unlimited, dt);
+        let change = -s.k_i * error * at.dt;
+        let returned = self.returned(state, at.dt);
+        let mut integral = self.confined(state.integral.plus(change + returned));
+        last.unlimited = rest + integral.value;
+        if let AntiWindup::Conditional = s.anti_windup {
+            let above = last.unlimited > s.limits.high() && change > T::ZERO;
+            let below = last.unlimited < s.limits.low() && change < T::ZERO;
+            if above || below {
+                integral = state.integral.plus(returned);
+                last.unlimited = rest + integral.value;
             }
         }
-        usable(next.sum(), Fault::Overflow)?;
-        usable(last.unlimited, Fault::Overflow)?;
-        next.take(last);
-        Ok(next)
+        if !is_usable(last.unlimited + integral.carry) {
+            return None;
+        }
+        last.command = s.limits.apply(state.command(), last.unlimited, at.dt);
+        state.integral = integral;
+        state.rate = rate;
+        state.gap = T::ZERO;
+        state.held.good(last.command);
+        state.last = Some(last);
+        Some(last.command)
     }
 
-    /// The sample, where all that is read of it is finite and its error too.
-    #[inline]
-    fn usable(&self, at: &PidInput<T>) -> Result<Last<T>, Fault> {
-        let reference = usable(at.reference, Fault::Reference)?;
-        let measured = usable(at.measured, Fault::Measured)?;
-        let velocity = match self.settings.damping {
-            Damping::Velocity => usable(at.velocity, Fault::Velocity)?,
-            // Not read here; kept for a PIV that may take over.
-            Damping::Rate { .. } => usable(at.velocity, Fault::Velocity).unwrap_or(T::zero()),
+    /// A bad sample, a latched safe command, or the first good sample after one.
+    #[cold]
+    fn exception(&self, state: &mut PidState<T>, at: &PidInput<T>) -> Output<T> {
+        let s = &self.settings;
+        let fault = self.fault(at);
+        let status = match (state.held.latched(&s.fallback), fault) {
+            (Some(safe), _) => safe,
+            (None, None) if !state.held.is_closed() => self.close(state, at),
+            (None, fault) => {
+                state.wait(at.dt, s.longest_dt);
+                state
+                    .held
+                    .bad(fault.unwrap_or(Fault::Overflow), &s.fallback)
+            }
         };
-        let feed_forward = usable(at.feed_forward, Fault::FeedForward)?;
-        usable(measured - reference, Fault::Overflow)?;
-        Ok(Last {
-            reference,
-            measured,
-            velocity,
-            feed_forward,
-            command: T::zero(),
-            unlimited: T::zero(),
+        Output {
+            // A state may come from anywhere.
+            command: s.limits.confine(state.command()),
+            status,
+        }
+    }
+
+    /// The first good sample after a safe command that was acknowledged.
+    fn close(&self, state: &mut PidState<T>, at: &PidInput<T>) -> Status {
+        let started = if self.settings.k_i == T::ZERO {
+            // An integral that nothing moves would stay in the command for ever.
+            state.gap = T::HIGHEST;
+            self.advance(state, at).ok_or(Fault::Overflow).map(|_| ())
+        } else {
+            let started = self.started_at(state.command(), at);
+            started.map(|(last, integral)| state.start(last, integral))
+        };
+        match started {
+            Ok(()) => {
+                state.held.latch = Latch::Closed;
+                Status::Good
+            }
+            Err(fault) => state.held.bad(fault, &self.settings.fallback),
+        }
+    }
+
+    /// What is wrong with a sample, where something is; not whether the law overflows on it.
+    fn fault(&self, at: &PidInput<T>) -> Option<Fault> {
+        let velocity = match self.settings.damping {
+            Damping::Velocity => at.velocity,
+            Damping::Rate { .. } => T::ZERO,
+        };
+        fault_of_dt(at.dt, self.settings.longest_dt).or_else(|| {
+            first_fault(&[
+                (at.reference, Fault::Reference),
+                (at.measured, Fault::Measured),
+                (velocity, Fault::Velocity),
+                (at.feed_forward, Fault::FeedForward),
+                (at.measured - at.reference, Fault::Overflow),
+            ])
         })
     }
 
-    /// Change of the integral term over one sample.
+    /// What the limits cut off the last command, as far as it flows back into the integral.
     #[inline]
-    fn change(&self, state: &PidState<T>, last: &Last<T>, dt: T) -> T {
-        let change = -self.settings.k_i * (last.measured - last.reference) * dt;
-        match (self.settings.anti_windup, &state.last) {
-            (AntiWindup::BackCalculation { tracking_time }, Some(before))
-                if before.unlimited != before.command =>
-            {
-                let share = -(-dt / tracking_time).exp_m1();
-                change - share * (before.unlimited - before.command)
+    fn returned(&self, state: &PidState<T>, dt: T) -> T {
+        let (Some(before), s) = (&state.last, &self.settings) else {
+            return T::ZERO;
+        };
+        match s.anti_windup {
+            AntiWindup::BackCalculation { tracking_time } => {
+                (before.command - before.unlimited) * (dt / (tracking_time + dt))
             }
-            _ => change,
+            // T_t = k_p/k_i, without dividing by a gain that may be zero.
+            AntiWindup::Conditional if s.limits.slew().is_some() && s.k_i != T::ZERO => {
+                let wanted = clamp(before.unlimited, s.limits.low(), s.limits.high());
+                let share = s.k_i * dt / (s.k_p + s.k_i * dt);
+                (before.command - wanted) * share
+            }
+            _ => T::ZERO,
         }
     }
 
@@ -307,14 +366,13 @@ impl<T: Real> Pid<T> {
     #[inline]
     fn rate(&self, state: &PidState<T>, now: &Last<T>, dt: T) -> T {
         match (self.settings.damping, &state.last) {
-            (Damping::Rate { weight }, Some(before)) if self.settings.k_d != T::zero() => {
+            (Damping::Rate { weight }, Some(before)) if self.settings.k_d != T::ZERO => {
                 // From the samples themselves: right also where the weight has changed.
                 let sample = |at: &Last<T>| at.measured - weight * at.reference;
-                let mut filter = DerivativeState::at(sample(before), state.rate);
-                let derivative = Derivative::assumed(self.settings.derivative_time);
-                derivative.step(&mut filter, sample(now), dt + state.gap)
+                let filter = Derivative::assumed(self.settings.derivative_time);
+                filter.after(state.rate, sample(now) - sample(before), dt + state.gap)
             }
-            _ => T::zero(),
+            _ => T::ZERO,
         }
     }
 
@@ -342,14 +400,44 @@ impl<T: Real> Pid<T> {
     /// The integral within the range of [`AntiWindup::Clamp`], where that was chosen.
     #[inline]
     fn confine(&self, integral: T) -> T {
-        let (zero, limits) = (T::zero(), &self.settings.limits);
+        let (zero, limits) = (T::ZERO, &self.settings.limits);
         match self.settings.anti_windup {
             AntiWindup::Clamp => clamp(
                 integral,
-                clamp(limits.low(), T::min_value(), zero),
-                clamp(limits.high(), zero, T::max_value()),
+                clamp(limits.low(), T::LOWEST, zero),
+                clamp(limits.high(), zero, T::HIGHEST),
             ),
             _ => integral,
+        }
+    }
+
+    /// The same of the sum: at an edge of the range it owes nothing.
+    #[inline]
+    fn confined(&self, integral: Compensated<T>) -> Compensated<T> {
+        let value = self.confine(integral.value);
+        if value == integral.value {
+            integral
+        } else {
+            Compensated::new(value)
+        }
+    }
+}
+
+impl<T: Real> Last<T> {
+    /// A sample that can be used, before the law has seen it.
+    #[inline]
+    fn of(at: &PidInput<T>) -> Self {
+        Self {
+            reference: at.reference,
+            measured: at.measured,
+            velocity: if is_usable(at.velocity) {
+                at.velocity
+            } else {
+                T::ZERO
+            },
+            feed_forward: at.feed_forward,
+            command: T::ZERO,
+            unlimited: T::ZERO,
         }
     }
 }

@@ -1,7 +1,6 @@
 //! What a step did: a good one, or a bad sample and what was commanded instead.
 
-use super::Limits;
-use crate::error::finite;
+use crate::signal::clamp;
 use crate::{Error, Real};
 
 /// Which input of a step could not be used.
@@ -15,7 +14,7 @@ pub enum Fault {
     Dt,
     /// `dt` is zero or negative: time has not moved on.
     DtNotPositive,
-    /// `dt` is longer than the law is stable for.
+    /// `dt` is longer than the longest that was stated, or than the law is stable for.
     DtTooLong,
     /// The reference, or its next value.
     Reference,
@@ -34,6 +33,14 @@ pub enum Fault {
 }
 
 /// What a step did.
+///
+/// ```text
+///           bad                  score reaches after·weight
+///  Good ─────────────▶ Held ───────────────────────────────▶ Safe
+///   ▲ ◀───────────────  │                                      │
+///   │     good                                                 │ acknowledge()
+///   └───────────────────────────── good ─────────── returning ◀┘
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
@@ -41,18 +48,48 @@ pub enum Fault {
 pub enum Status {
     /// All samples were good; the state has moved on.
     Good,
+    /// A regressor was bad and its term was dropped; the loop is closed, the estimates wait.
+    Degraded(Fault),
     /// A bad sample: the state is as it was, the last good command is held.
     Held(Fault),
-    /// Too many bad samples in a row: the state is as it was, the safe command is out.
+    /// Too many bad samples: the safe command is out until
+    /// [`acknowledge`](crate::control::Controller::acknowledge), good samples or not.
+    ///
+    /// The fault is the one that was too many.
     Safe(Fault),
+}
+
+impl Status {
+    /// What was wrong, where something was.
+    #[must_use]
+    pub const fn fault(self) -> Option<Fault> {
+        match self {
+            Self::Good => None,
+            Self::Degraded(fault) | Self::Held(fault) | Self::Safe(fault) => Some(fault),
+        }
+    }
+
+    /// Whether the command comes from this sample: good, or good but for a dropped term.
+    #[must_use]
+    pub const fn is_live(self) -> bool {
+        matches!(self, Self::Good | Self::Degraded(_))
+    }
 }
 
 /// What to command when samples stay bad.
 ///
+/// A score counts: a bad sample adds the weight, a good one takes 1 away. At `after·weight`
+/// the safe command goes out and is latched. So the safe command is out
+/// - at the `after`-th bad sample in a row, and
+/// - at the latest when any stretch of n samples has held B bad ones with
+///   `(weight + 1)·B − n ≥ after·weight`: with weight 4, wherever more than one sample in five
+///   is bad for long enough. A single good sample does not clear the count.
+///
 /// ```
 /// use bowden::control::Fallback;
-/// let fallback = Fallback::try_new(10, 0.0)?; // zero from the tenth bad sample on
+/// let fallback = Fallback::try_new(10, 0.0)?; // zero from the tenth bad sample in a row on
 /// assert_eq!((fallback.after(), fallback.command()), (10, Some(0.0)));
+/// assert_eq!(fallback.weight(), 4);
 /// # Ok::<(), bowden::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,124 +107,235 @@ pub enum Status {
 )]
 pub struct Fallback<T> {
     after: u32,
+    weight: u32,
     command: Option<T>,
 }
+
+/// How many good samples make up for a bad one, by default: more than one bad sample in five
+/// is then too many for ever.
+const WEIGHT: u32 = 4;
+
+/// The checks of a fallback, for any float and for constants.
+macro_rules! fallback {
+    ($after:ident, $command:ident) => {
+        if $after == 0 {
+            Err(Error::OutOfRange("after"))
+        } else if !$command.is_finite() {
+            Err(Error::NonFinite("safe command"))
+        } else {
+            Ok(Self {
+                after: $after,
+                weight: WEIGHT,
+                command: Some($command),
+            })
+        }
+    };
+}
+
+macro_rules! constant {
+    ($float:ty) => {
+        impl Fallback<$float> {
+            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
+            ///
+            /// # Errors
+            /// As [`try_new`](Self::try_new).
+            pub const fn const_new(after: u32, command: $float) -> Result<Self, Error> {
+                fallback!(after, command)
+            }
+        }
+    };
+}
+constant!(f32);
+constant!(f64);
 
 impl<T: Real> Fallback<T> {
     /// The safe command \[command unit\] from the `after`-th bad sample in a row on.
     ///
-    /// It goes out at once, whatever the slew rate: it is what the machine needs then.
-    /// The first good command after it starts from it.
+    /// It goes out at once, whatever the slew rate: it is what the machine needs then. It
+    /// stays out until it is acknowledged; the first good sample after that starts from it.
     ///
     /// # Errors
     /// [`Error::NonFinite`] with `"safe command"`, [`Error::OutOfRange`] with `"after"`
     /// where that is zero.
     pub fn try_new(after: u32, command: T) -> Result<Self, Error> {
-        if after == 0 {
-            return Err(Error::OutOfRange("after"));
-        }
-        Ok(Self {
-            after,
-            command: Some(finite(command, "safe command")?),
-        })
+        fallback!(after, command)
     }
 
-    /// Holds the last good command for ever.
-    #[must_use]
-    pub fn hold() -> Self {
-        Self {
-            after: u32::MAX,
-            command: None,
-        }
-    }
-
-    /// Refuses a safe command that the limits would not let out.
+    /// The same where `weight` good samples make up for a bad one; 4 by default.
+    ///
+    /// At 0, which is refused, nothing would ever count; at 1 every second sample may be bad.
     ///
     /// # Errors
-    /// [`Error::Inadmissible`].
-    pub(crate) fn check_within(&self, limits: &Limits<T>) -> Result<(), Error> {
-        match self.command {
-            Some(safe) if !limits.contains(safe) => Err(Error::Inadmissible(
-                "the safe command lies within the limits",
-            )),
-            _ => Ok(()),
+    /// [`Error::OutOfRange`] with `"weight"`.
+    pub const fn with_weight(self, weight: u32) -> Result<Self, Error> {
+        if weight == 0 {
+            return Err(Error::OutOfRange("weight"));
+        }
+        Ok(Self { weight, ..self })
+    }
+
+    /// Holds the last good command for ever: for a simulation, not for a machine.
+    #[must_use]
+    pub const fn hold_for_ever() -> Self {
+        Self {
+            after: u32::MAX,
+            weight: WEIGHT,
+            command: None,
         }
     }
 
     /// From which bad sample in a row on the safe command is out.
     #[must_use]
-    pub fn after(&self) -> u32 {
+    pub const fn after(&self) -> u32 {
         self.after
+    }
+
+    /// How many good samples make up for a bad one.
+    #[must_use]
+    pub const fn weight(&self) -> u32 {
+        self.weight
+    }
+
+    /// The score at which the safe command goes out: `after·weight`.
+    #[must_use]
+    pub const fn most(&self) -> u32 {
+        self.after.saturating_mul(self.weight)
     }
 
     /// The safe command \[command unit\], where there is one.
     #[must_use]
-    pub fn command(&self) -> Option<T> {
+    pub const fn command(&self) -> Option<T> {
         self.command
     }
 }
 
-/// The command that is out, and for how many samples in a row there was no better.
+/// What is wrong with a safe command that is not within the limits.
+pub(crate) const OUTSIDE: &str = "the safe command lies within the limits";
+
+/// Whether the loop is closed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(crate) enum Latch {
+    /// It is.
+    #[default]
+    Closed,
+    /// The safe command is out, for this fault, until it is acknowledged.
+    Safe(Fault),
+    /// It was acknowledged: the next good sample starts from the command that is out.
+    Returning,
+}
+
+/// The command that is out, the score of the bad samples, and whether the loop is closed.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct Held<T> {
     pub(crate) command: T,
-    pub(crate) bad: u32,
+    pub(crate) score: u32,
+    pub(crate) latch: Latch,
 }
 
 impl<T: Real> Held<T> {
-    pub(crate) fn new(command: T) -> Self {
-        Self { command, bad: 0 }
+    pub(crate) const fn new(command: T) -> Self {
+        Self {
+            command,
+            score: 0,
+            latch: Latch::Closed,
+        }
     }
 
     /// Takes note of a good command.
     #[inline]
-    pub(crate) fn good(&mut self, command: T) -> Status {
-        *self = Self::new(command);
-        Status::Good
+    pub(crate) fn good(&mut self, command: T) {
+        self.command = command;
+        self.score = self.score.saturating_sub(1);
     }
 
-    /// Whether the safe command is out.
+    /// Whether nothing stands between a good sample and the command.
     #[inline]
-    pub(crate) fn is_safe(&self, fallback: &Fallback<T>) -> bool {
-        fallback.command.is_some() && self.bad >= fallback.after
+    pub(crate) fn is_closed(&self) -> bool {
+        self.latch == Latch::Closed
+    }
+
+    /// Whether the safe command is out until it is acknowledged.
+    pub(crate) fn is_latched(&self) -> bool {
+        matches!(self.latch, Latch::Safe(_))
+    }
+
+    /// Where the safe command is latched: puts it out, and says why.
+    pub(crate) fn latched(&mut self, fallback: &Fallback<T>) -> Option<Status> {
+        let Latch::Safe(fault) = self.latch else {
+            return None;
+        };
+        self.command = fallback.command.unwrap_or(self.command);
+        Some(Status::Safe(fault))
     }
 
     /// Counts a bad sample, and lets the safe command out when there were enough.
-    #[inline]
     pub(crate) fn bad(&mut self, fault: Fault, fallback: &Fallback<T>) -> Status {
-        self.bad = self.bad.saturating_add(1);
+        if let Some(safe) = self.latched(fallback) {
+            return safe;
+        }
+        let most = fallback.most();
+        self.score = self.score.saturating_add(fallback.weight).min(most);
         match fallback.command {
-            Some(safe) if self.bad >= fallback.after => {
+            Some(safe) if self.score >= most => {
                 self.command = safe;
+                self.latch = Latch::Safe(fault);
                 Status::Safe(fault)
             }
             _ => Status::Held(fault),
         }
     }
+
+    /// Lets the loop be closed again by the next good sample; nothing where it is closed.
+    pub(crate) fn acknowledge(&mut self) {
+        if let Latch::Safe(_) = self.latch {
+            self.latch = Latch::Returning;
+            self.score = 0;
+        }
+    }
 }
 
-/// The sample time, or why it cannot be used.
-#[inline]
-pub(crate) fn usable_dt<T: Real>(dt: T) -> Result<T, Fault> {
+/// What is wrong with the sample time, where something is.
+pub(crate) fn fault_of_dt<T: Real>(dt: T, longest: T) -> Option<Fault> {
     if !dt.is_finite() {
-        Err(Fault::Dt)
-    } else if dt <= T::zero() {
-        Err(Fault::DtNotPositive)
+        Some(Fault::Dt)
+    } else if dt <= T::ZERO {
+        Some(Fault::DtNotPositive)
+    } else if dt > longest {
+        Some(Fault::DtTooLong)
     } else {
-        Ok(dt)
+        None
     }
 }
 
-/// A finite sample, or the fault.
-#[inline]
-pub(crate) fn usable<T: Real>(value: T, fault: Fault) -> Result<T, Fault> {
-    if value.is_finite() {
-        Ok(value)
-    } else {
-        Err(fault)
+/// The time since the last good sample after one more bad one.
+///
+/// The highest float where the sample's own time is unknown: a signal that has moved since has
+/// no rate then.
+pub(crate) fn gap_after<T: Real>(gap: T, dt: T, longest: T) -> T {
+    match fault_of_dt(dt, longest) {
+        None => clamp(gap + dt, T::ZERO, T::HIGHEST),
+        Some(_) if dt == T::ZERO => gap,
+        Some(_) => T::HIGHEST,
     }
+}
+
+/// The first of these numbers that is not finite.
+pub(crate) fn first_fault<T: Real>(numbers: &[(T, Fault)]) -> Option<Fault> {
+    let bad = numbers.iter().find(|(number, _)| !number.is_finite());
+    bad.map(|&(_, fault)| fault)
+}
+
+/// Whether a number is finite, without a branch where several are added up first.
+#[inline]
+pub(crate) fn is_usable<T: Real>(sum: T) -> bool {
+    // A product of zero and an infinity is NaN.
+    sum * T::ZERO == T::ZERO
 }
 
 /// What is read before it is checked.
@@ -196,7 +344,14 @@ pub(crate) fn usable<T: Real>(value: T, fault: Fault) -> Result<T, Fault> {
 #[serde(deny_unknown_fields)]
 struct Unchecked<T> {
     after: u32,
+    #[serde(default = "usual")]
+    weight: u32,
     command: Option<T>,
+}
+
+#[cfg(feature = "serde")]
+const fn usual() -> u32 {
+    WEIGHT
 }
 
 #[cfg(feature = "serde")]
@@ -204,8 +359,8 @@ impl<T: Real> TryFrom<Unchecked<T>> for Fallback<T> {
     type Error = Error;
     fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
         match raw.command {
-            Some(command) => Self::try_new(raw.after, command),
-            None => Ok(Self::hold()),
+            Some(command) => Self::try_new(raw.after, command)?.with_weight(raw.weight),
+            None => Ok(Self::hold_for_ever()),
         }
     }
 }

@@ -2,18 +2,17 @@
 //! half an ulp: after a few hours of work, or on a slow approach to a limit.
 
 use super::bounds::saturate;
+use crate::signal::two_sum;
 use crate::Real;
 
-/// `[sum, carry]` after one more step; `carry` is what rounding has added too much
-/// (Kahan's sum). Finite for finite numbers.
+/// `[sum, carry]` after one more step; the carry is what the sum owes
+/// ([`Compensated`](crate::signal::Compensated)). Finite for finite numbers.
 #[inline]
 pub(super) fn add<T: Real>([sum, carry]: [T; 2], step: T) -> [T; 2] {
-    let step = saturate(step - carry);
-    let total = sum + step;
-    // At the end of the floats `total - sum` may overflow where the total does not.
-    let lost = (total - sum) - step;
-    if lost.is_finite() {
-        [total, lost]
+    let (total, owed) = two_sum(sum, saturate(step + carry));
+    // At the end of the floats the way to what is owed may overflow, and the total too.
+    if owed.is_finite() {
+        [total, owed]
     } else {
         [saturate(total), T::zero()]
     }

@@ -10,6 +10,7 @@ use super::{file, padding, Model, ModelState, Term};
 use crate::effect::EffectState;
 use crate::error::finite;
 use crate::hysteresis::BoucWen;
+use crate::signal::Compensated;
 use crate::transmission::Transmission;
 use crate::{Error, Real};
 use core::fmt;
@@ -148,10 +149,9 @@ impl<T: Real + Serialize, const N: usize> Serialize for ModelState<T, N> {
             effects,
             started,
             time,
-            carry,
             output,
         } = self;
-        let (started, time, carry, output) = (*started, *time, *carry, *output);
+        let (started, time, carry, output) = (*started, time.value, time.carry, *output);
         StateView {
             hysteresis,
             effects,
@@ -171,8 +171,10 @@ impl<'de, T: Real + Deserialize<'de>, const N: usize> Deserialize<'de> for Model
             hysteresis: fields.hysteresis,
             effects: fields.effects.items,
             started: fields.started,
-            time: finite(fields.time, "time").map_err(D::Error::custom)?,
-            carry: finite(fields.carry, "carry").map_err(D::Error::custom)?,
+            time: Compensated {
+                value: finite(fields.time, "time").map_err(D::Error::custom)?,
+                carry: finite(fields.carry, "carry").map_err(D::Error::custom)?,
+            },
             output: finite(fields.output, "output").map_err(D::Error::custom)?,
         })
     }

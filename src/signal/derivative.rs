@@ -5,9 +5,9 @@ use crate::{Error, Real};
 
 /// First-order filtered derivative with a time constant \[s\].
 ///
-/// `v⁺ = v + (1 - e^(-dt/tau))·((x - x_last)/dt - v)`: the difference quotient through
-/// the exact discrete first-order lag, so that `tau` means the same at every rate and
-/// `dt` may vary. It starts at rate zero with the first sample: no kick.
+/// `v⁺ = (tau·v + x - x_last)/(tau + dt)`: the difference quotient through the first-order
+/// lag in its implicit (backward Euler) form, which is stable for any `dt` and needs no
+/// exponential. `dt` may vary. It starts at rate zero with the first sample: no kick.
 ///
 /// ```
 /// use bowden::signal::{Derivative, DerivativeState};
@@ -61,7 +61,7 @@ impl<T: Real> Derivative<T> {
 
     /// The same where the time constant was checked before.
     #[inline]
-    pub(crate) fn assumed(time_constant: T) -> Self {
+    pub(crate) const fn assumed(time_constant: T) -> Self {
         Self { time_constant }
     }
 
@@ -75,7 +75,7 @@ impl<T: Real> Derivative<T> {
     /// The filtered rate [signal unit/s] after a sample that came `dt` \[s\] later.
     ///
     /// A sample that is not finite, a `dt` that is not positive and finite, or a
-    /// quotient that overflows leaves the state and returns the rate that was.
+    /// rate that overflows leaves the state and returns the rate that was.
     #[inline]
     pub fn step(&self, state: &mut DerivativeState<T>, sample: T, dt: T) -> T {
         if !sample.is_finite() {
@@ -85,16 +85,25 @@ impl<T: Real> Derivative<T> {
             state.last = Some(sample);
             return state.rate;
         };
-        let quotient = (sample - last) / dt;
-        if dt > T::zero() && dt.is_finite() && quotient.is_finite() {
-            // 0/0 cannot occur: dt > 0, so that a time constant of zero gives e^(-inf), and
-            // one of -0.0 the same.
-            let share = -(-(dt / self.time_constant).abs()).exp_m1();
-            // Two products instead of share·(quotient - rate), which could overflow.
-            state.rate = (T::one() - share) * state.rate + share * quotient;
-            state.last = Some(sample);
+        if dt > T::ZERO && dt.is_finite() {
+            let rate = self.after(state.rate, sample - last, dt);
+            if rate.is_finite() {
+                state.rate = rate;
+                state.last = Some(sample);
+            }
         }
         state.rate
+    }
+
+    /// The filtered rate after the signal has moved by `change` in `dt > 0`; the rate as it
+    /// was where `dt` is the highest float, which stands for a time that nobody knows.
+    #[inline]
+    pub(crate) fn after(&self, rate: T, change: T, dt: T) -> T {
+        if dt < T::HIGHEST {
+            (self.time_constant * rate + change) / (self.time_constant + dt)
+        } else {
+            rate
+        }
     }
 }
 
@@ -102,14 +111,15 @@ impl<T: Real> DerivativeState<T> {
     /// A state that starts at rate zero with the first good sample.
     #[inline]
     #[must_use]
-    pub fn new() -> Self {
+    pub const fn new() -> Self {
         Self {
             last: None,
-            rate: T::zero(),
+            rate: T::ZERO,
         }
     }
 
     /// A state that has seen `last` and stands at `rate`.
+    #[cfg(kani)]
     #[inline]
     pub(crate) fn at(last: T, rate: T) -> Self {
         Self {

@@ -1,20 +1,28 @@
 //! Signal conditioning that a bad sample cannot poison.
 //!
-//! One concept a file: [`clamp`], the bad-sample [`Guard`], the play operator
-//! [`Play`], the filtered [`Derivative`] and [`Rates`], which turns the positions of a
-//! sensor into the [`Motion`] that effects read. Configuration and state are apart; after
+//! One concept a file: [`clamp`], the [`Compensated`] sum, the bad-sample [`Guard`],
+//! [`Plausible`] for numbers that are finite and wrong, the play operator [`Play`], the
+//! filtered [`Derivative`], the reference [`Ramp`] and [`Rates`], which turns the positions
+//! of a sensor into the [`Motion`] that effects read. Configuration and state are apart; after
 //! construction nothing returns an error and nothing panics.
 
 mod clamp;
+mod compensated;
 mod derivative;
 mod guard;
 mod motion;
+mod plausible;
 mod play;
+mod ramp;
 mod rates;
 
 pub use clamp::clamp;
+pub(crate) use compensated::two_sum;
+pub use compensated::Compensated;
 pub use derivative::{Derivative, DerivativeState};
 pub use guard::{Guard, GuardState};
 pub use motion::Motion;
+pub use plausible::{Implausible, Plausible, PlausibleOutput, PlausibleState};
 pub use play::{Play, PlayState};
+pub use ramp::{Ramp, RampState};
 pub use rates::{Rates, RatesFault, RatesOutput, RatesState, RatesStatus};

@@ -50,7 +50,7 @@ impl Loop {
             beta: adapting(random, 0.6 / alpha, 1.4 / alpha),
             delta: adapting(random, 0.0, 9.0),
             theta: [adapting(random, -3.0, 3.0)],
-            ..AdaptiveSettings::new(form, gain, lambda, random.within(0.02, 1.0))
+            ..AdaptiveSettings::unlimited(form, gain, lambda, random.within(0.02, 1.0))
         })
         .unwrap();
         let known = Known {

@@ -53,7 +53,7 @@ fn a_regressor_that_is_not_there_changes_nothing_in_theorem_1() {
         beta: paper.beta,
         delta: paper.delta,
         theta: [first, second, third],
-        ..AdaptiveSettings::<f64, 3>::new(paper.form, paper.gain, paper.lambda, paper.epsilon)
+        ..AdaptiveSettings::<f64, 3>::unlimited(paper.form, paper.gain, paper.lambda, paper.epsilon)
     })
     .unwrap();
     let two = Theorem1::try_new(&Adaptive::paper(), &Plant::new(0.5, 7.0)).unwrap();
@@ -151,7 +151,7 @@ fn the_continuous_peak_is_588_mn_m_where_beta_is_known() {
     };
     let law = Adaptive::try_new(AdaptiveSettings {
         beta: Estimator::fixed(1.0 / 0.6),
-        ..AdaptiveSettings::<f64, 0>::new(literal, 24.0, 8.0, 0.05)
+        ..AdaptiveSettings::<f64, 0>::unlimited(literal, 24.0, 8.0, 0.05)
     })
     .unwrap();
     let peak = PeakContinuous::try_new(&law, &Plant::new(0.6, 7.056)).unwrap();
@@ -179,7 +179,7 @@ fn the_sampled_peak_against_what_is_known_of_beta() {
             delta: Estimator::fixed(7.0)
                 .within(0.0, 7.056)
                 .adapting(6.25e-3, 0.01),
-            ..AdaptiveSettings::<f64, 0>::new(lag, 24.0, 8.0, 7.056 / 40.0)
+            ..AdaptiveSettings::<f64, 0>::unlimited(lag, 24.0, 8.0, 7.056 / 40.0)
         })
         .unwrap();
         let plant = Plant {
@@ -235,7 +235,7 @@ fn each_term_of_the_per_step_inequality_is_as_documented() {
         beta: Estimator::fixed(0.5).within(0.4, 0.6).adapting(0.01, 0.5),
         delta: Estimator::fixed(1.0).within(0.0, 4.0).adapting(0.1, 0.25),
         theta: [Estimator::fixed(0.0).within(-1.0, 1.0).adapting(0.2, 0.125)],
-        ..AdaptiveSettings::<f64, 1>::new(lag, 20.0, 10.0, 0.2)
+        ..AdaptiveSettings::<f64, 1>::unlimited(lag, 20.0, 10.0, 0.2)
     })
     .unwrap();
     let regressor = Known {

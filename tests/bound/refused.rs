@@ -17,7 +17,7 @@ fn lag() -> AdaptiveSettings<f64, 1> {
             .within(0.0, 7.0)
             .adapting(6.25e-3, 0.01),
         theta: [Estimator::fixed(0.0).within(-5.0, 5.0).adapting(5e-4, 0.01)],
-        ..AdaptiveSettings::new(form, 24.0, 8.0, 0.2)
+        ..AdaptiveSettings::unlimited(form, 24.0, 8.0, 0.2)
     }
 }
 
@@ -143,7 +143,7 @@ fn an_assumption_that_can_be_checked_is_checked() {
         ..plant
     };
     let wide = AdaptiveSettings {
-        theta: [Estimator::fixed(0.0).adapting(0.1, 0.01)],
+        theta: [Estimator::free(0.0).adapting(0.1, 0.01)],
         ..lag()
     };
     assert_eq!(

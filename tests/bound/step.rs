@@ -56,7 +56,7 @@ impl System {
             beta: estimator(random, low, high, 1e-3),
             delta: estimator(random, 0.0, most, 0.05),
             theta: [estimator(random, theta - side, theta + side, 0.01)],
-            ..AdaptiveSettings::new(form(1.0), gains.0, gains.1, gains.2)
+            ..AdaptiveSettings::unlimited(form(1.0), gains.0, gains.1, gains.2)
         };
         let h = settings.largest_step().unwrap() * random.within(0.1, 1.0);
         settings.form = form(h);
@@ -131,7 +131,7 @@ fn walk(
             next_reference: next[0],
             ..AdaptiveInput::new(h, r, y, [x])
         };
-        let output = law.step(&mut state, &input);
+        let output = law.step_with_terms(&mut state, &input);
         if let Some((terms, push, after)) = last {
             check(&terms, &push, [output.terms.s, output.terms.z], after);
         }

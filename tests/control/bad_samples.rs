@@ -80,20 +80,26 @@ fn bad() -> Vec<(PidInput<f64>, Fault)> {
 fn every_bad_input_is_told_by_name_and_holds_the_command_and_the_memory() {
     let pid = Pid::paper_piv();
     let mut state = PidState::new();
-    let before = pid.step(&mut state, &good());
+    let before = pid.step_with_terms(&mut state, &good());
     let memory = state;
     for (count, (at, fault)) in (1_u32..).zip(bad()) {
-        let out = pid.step(&mut state, &at);
+        let out = pid.step_with_terms(&mut state, &at);
         assert_eq!(out.status, Status::Held(fault), "{at:?}");
         assert_eq!((out.command, out.terms), (before.command, before.terms));
-        assert_eq!(state.consecutive_bad(), count);
+        assert_eq!(state.bad_score(), 4 * count);
         assert_eq!(
             (state.integral(), state.rate()),
             (memory.integral(), memory.rate())
         );
     }
-    assert_eq!(pid.step(&mut state, &good()).status, Status::Good);
-    assert_eq!(state.consecutive_bad(), 0);
+    assert_eq!(
+        pid.step_with_terms(&mut state, &good()).status,
+        Status::Good
+    );
+    assert_eq!(
+        state.bad_score(),
+        4 * u32::try_from(bad().len()).unwrap() - 1
+    );
 }
 
 #[test]
@@ -108,9 +114,13 @@ fn a_good_sample_after_bad_ones_is_as_if_they_had_not_been() {
             ..good()
         };
         frozen.measured = f64::NAN;
-        pid.step(&mut with, &frozen);
-        assert_eq!(pid.step(&mut with, &at), pid.step(&mut without, &at));
-        assert_eq!(with, without);
+        pid.step_with_terms(&mut with, &frozen);
+        assert_eq!(
+            pid.step_with_terms(&mut with, &at),
+            pid.step_with_terms(&mut without, &at)
+        );
+        assert_eq!(pid.terms(&with), pid.terms(&without));
+        assert_eq!(with.rate(), without.rate());
     }
 }
 
@@ -121,52 +131,66 @@ fn a_velocity_that_nobody_reads_may_be_anything() {
         ..good()
     };
     for pid in [Pid::paper_pi(), Pid::paper_pid()] {
-        assert_eq!(pid.step(&mut PidState::new(), &at).status, Status::Good);
+        assert_eq!(
+            pid.step_with_terms(&mut PidState::new(), &at).status,
+            Status::Good
+        );
     }
 }
 
 #[test]
-fn the_safe_command_goes_out_at_the_stated_sample_and_until_a_good_one() {
+fn the_safe_command_goes_out_at_the_stated_sample_and_the_slew_rate_starts_from_it() {
     let pid = Pid::try_new(PidSettings {
         fallback: Fallback::try_new(3, -2.0).unwrap(),
         limits: Limits::try_new(-5.0, 15.0)
             .unwrap()
             .with_slew(1000.0)
             .unwrap(),
-        ..PidSettings::new(10.0, 20.0)
+        ..PidSettings::unlimited(10.0, 20.0)
     })
     .unwrap();
     let mut state = PidState::new();
     for _ in 0..10 {
-        pid.step(&mut state, &good());
+        pid.step_with_terms(&mut state, &good());
     }
     let lost = PidInput {
         measured: f64::NAN,
         ..good()
     };
-    let out: Vec<_> = (0..5).map(|_| pid.step(&mut state, &lost)).collect();
+    let out: Vec<_> = (0..5)
+        .map(|_| pid.step_with_terms(&mut state, &lost))
+        .collect();
     let held = Status::Held(Fault::Measured);
     let safe = Status::Safe(Fault::Measured);
     let statuses: Vec<_> = out.iter().map(|out| out.status).collect();
     assert_eq!(statuses, [held, held, safe, safe, safe]);
     assert!(out[1].command > 2.0);
     assert!(out[2..].iter().all(|out| out.command == -2.0));
-    // The slew rate starts from the safe command: 1000/s for 1 ms.
-    assert_eq!(pid.step(&mut state, &good()).command, -1.0);
+    state.acknowledge();
+    // The first good sample starts from it, the slew rate goes on: 1000/s for 1 ms.
+    assert_eq!(pid.step_with_terms(&mut state, &good()).command, -2.0);
+    let up = PidInput {
+        feed_forward: 10.0,
+        ..good()
+    };
+    assert_eq!(pid.step_with_terms(&mut state, &up).command, -1.0);
 }
 
 #[test]
 fn before_the_first_good_sample_the_command_is_within_the_limits_too() {
     let pid = Pid::try_new(PidSettings {
         limits: Limits::try_new(3.0, 15.0).unwrap(),
-        ..PidSettings::new(10.0, 20.0)
+        ..PidSettings::unlimited(10.0, 20.0)
     })
     .unwrap();
     let lost = PidInput {
         measured: f64::NAN,
         ..good()
     };
-    assert_eq!(pid.step(&mut PidState::new(), &lost).command, 3.0);
+    assert_eq!(
+        pid.step_with_terms(&mut PidState::new(), &lost).command,
+        3.0
+    );
 }
 
 #[test]
@@ -175,14 +199,14 @@ fn the_derivative_bridges_the_gap_that_bad_samples_leave() {
     let pid = Pid::try_new(PidSettings {
         k_d: 1.0,
         damping: Damping::on_error(),
-        ..PidSettings::new(0.0, 0.0)
+        ..PidSettings::unlimited(0.0, 0.0)
     })
     .unwrap();
     let mut state = PidState::new();
     for k in 0..100_u32 {
         let lost = (40..50).contains(&k);
         let measured = if lost { f64::NAN } else { 3e-3 * f64::from(k) };
-        pid.step(&mut state, &PidInput::new(1e-3, 0.0, measured));
+        pid.step_with_terms(&mut state, &PidInput::new(1e-3, 0.0, measured));
         if k > 1 {
             // Samples around 0.3 over 1 ms: an ulp of the one is 1e-13 of the other.
             assert!((state.rate() - 3.0).abs() < 1e-11);
@@ -194,16 +218,16 @@ fn the_derivative_bridges_the_gap_that_bad_samples_leave() {
 fn an_integral_that_cannot_grow_further_is_told_and_can_come_back() {
     let pid = Pid::try_new(PidSettings {
         anti_windup: AntiWindup::None,
-        ..PidSettings::new(0.0, 1.0)
+        ..PidSettings::unlimited(0.0, 1.0)
     })
     .unwrap();
     let mut state = PidState::new();
     let mut up = PidInput::new(1.0, 1.2e308, 0.0);
-    pid.step(&mut state, &up);
-    let out = pid.step(&mut state, &up);
+    pid.step_with_terms(&mut state, &up);
+    let out = pid.step_with_terms(&mut state, &up);
     assert_eq!(out.status, Status::Held(Fault::Overflow));
     assert_eq!(out.command, 1.2e308);
     up.reference = -1.2e308;
-    assert_eq!(pid.step(&mut state, &up).status, Status::Good);
+    assert_eq!(pid.step_with_terms(&mut state, &up).status, Status::Good);
     assert_eq!(state.integral(), 0.0);
 }

@@ -21,7 +21,7 @@ fn a_start_goes_on_from_the_output_with_the_feed_forward_in_it() {
         let mut state = PidState::new();
         assert_eq!(state.resume_from(&pid, 41.5, &at(300)), Status::Good);
         assert_eq!(state.command(), 41.5);
-        let out = pid.step(&mut state, &at(300));
+        let out = pid.step_with_terms(&mut state, &at(300));
         let one_step = 18.0 * out.terms.error.abs() * DT;
         // The rounding of a sum of five numbers around 100.
         assert!((out.command - 41.5).abs() <= one_step + 1e-12);
@@ -32,7 +32,7 @@ fn a_start_goes_on_from_the_output_with_the_feed_forward_in_it() {
 fn a_start_outside_the_limits_begins_at_the_limit() {
     let pid = Pid::try_new(PidSettings {
         limits: Limits::try_new(-5.0, 15.0).unwrap(),
-        ..PidSettings::new(10.0, 20.0)
+        ..PidSettings::unlimited(10.0, 20.0)
     })
     .unwrap();
     let mut state = PidState::new();
@@ -43,7 +43,7 @@ fn a_start_outside_the_limits_begins_at_the_limit() {
 #[test]
 fn a_start_from_something_that_is_no_number_is_refused_and_told() {
     let (pid, mut state) = (Pid::paper_piv(), PidState::new());
-    pid.step(&mut state, &at(0));
+    pid.step_with_terms(&mut state, &at(0));
     let before = state;
     let nan = f64::NAN;
     let mut refuses = |output, at: PidInput<f64>, fault| {
@@ -81,7 +81,7 @@ fn a_start_from_something_that_is_no_number_is_refused_and_told() {
 
 /// Every pair of these settings must hand over to each other.
 fn family() -> Vec<Pid<f64>> {
-    let plain = PidSettings::new(30.0, 18.0);
+    let plain = PidSettings::unlimited(30.0, 18.0);
     let rate = |weight, k_d, derivative_time| PidSettings {
         damping: Damping::Rate { weight },
         k_d,
@@ -90,8 +90,8 @@ fn family() -> Vec<Pid<f64>> {
     };
     let all = [
         plain,
-        PidSettings::new(3.0, 320.0),
-        PidSettings::new(7.0, 0.0),
+        PidSettings::unlimited(3.0, 320.0),
+        PidSettings::unlimited(7.0, 0.0),
         PidSettings {
             setpoint_weight: 0.2,
             ..plain
@@ -113,7 +113,7 @@ fn any_settings_take_over_from_any_others_without_a_jump() {
         for to in family() {
             let mut state = PidState::new();
             for k in 0..200 {
-                from.step(&mut state, &at(k));
+                from.step_with_terms(&mut state, &at(k));
             }
             let before = state.command();
             to.take_over(&mut state);
@@ -126,7 +126,7 @@ fn any_settings_take_over_from_any_others_without_a_jump() {
                 dt: 1e-9,
                 ..at(199)
             };
-            let out = to.step(&mut state, &again);
+            let out = to.step_with_terms(&mut state, &again);
             let fades = out.terms.derivative.abs() * 1e-9 / 0.02;
             let integral = 320.0 * out.terms.error.abs() * 1e-9;
             assert!((out.command - before).abs() <= fades + integral + 1e-11);
@@ -138,7 +138,7 @@ fn any_settings_take_over_from_any_others_without_a_jump() {
 fn a_limited_command_stays_at_its_limit_and_the_integral_where_it_was() {
     let settings = |k_p| PidSettings {
         limits: Limits::try_new(-5.0, 15.0).unwrap(),
-        ..PidSettings::new(k_p, 20.0)
+        ..PidSettings::unlimited(k_p, 20.0)
     };
     let before = Pid::try_new(settings(10.0)).unwrap();
     let mut state = PidState::new();
@@ -160,7 +160,7 @@ fn wider_limits_do_not_let_out_at_once_what_the_old_ones_cut_off() {
     let within = |high: f64| {
         Pid::try_new(PidSettings {
             limits: Limits::try_new(-high, high).unwrap(),
-            ..PidSettings::new(10.0, 20.0)
+            ..PidSettings::unlimited(10.0, 20.0)
         })
         .unwrap()
     };
@@ -192,12 +192,12 @@ fn a_reset_forgets_all_but_the_command_that_is_out() {
             .with_slew(1000.0)
             .unwrap(),
         anti_windup: AntiWindup::Clamp,
-        ..PidSettings::new(10.0, 20.0)
+        ..PidSettings::unlimited(10.0, 20.0)
     })
     .unwrap();
     let mut state = PidState::new();
     for k in 0..100 {
-        pid.step(&mut state, &at(k));
+        pid.step_with_terms(&mut state, &at(k));
     }
     let out = state.command();
     state.reset();
@@ -205,7 +205,9 @@ fn a_reset_forgets_all_but_the_command_that_is_out() {
         (state.integral(), state.rate(), state.command()),
         (0.0, 0.0, out)
     );
-    let next = pid.step(&mut state, &PidInput::new(DT, 0.0, 0.0)).command;
+    let next = pid
+        .step_with_terms(&mut state, &PidInput::new(DT, 0.0, 0.0))
+        .command;
     assert!((next - (out - 1.0)).abs() < 1e-12); // the slew rate goes on from there
     state = PidState::new();
     assert_eq!(state, PidState::default());

@@ -28,7 +28,7 @@ fn ours(tau: f64) -> Step {
         derivative_time: tau,
         damping: Damping::on_measurement(),
         limits: Limits::try_new(-LIMIT, LIMIT).unwrap(),
-        ..PidSettings::new(K_P, K_I)
+        ..PidSettings::unlimited(K_P, K_I)
     })
     .unwrap();
     let mut state = PidState::new();
@@ -43,7 +43,7 @@ fn share(tau: f64) -> f64 {
     if tau == 0.0 {
         1.0
     } else {
-        1.0 - (-DT / tau).exp()
+        DT / (tau + DT)
     }
 }
 
@@ -214,29 +214,29 @@ const EXPECTED: &str = "\
 measured NaN  bowden          told, then off by 0.002
 measured NaN  pid 4           NaN, NaN for good
 measured NaN  robust-pid 0.1  NaN, NaN for good
-measured NaN  multicalc 0.10  at the limit, then off by 1009.429
-measured NaN  pidgeon 0.3     told, then off by 0.106
+measured NaN  multicalc 0.10  at the limit, then off by 1009.424
+measured NaN  pidgeon 0.3     told, then off by 0.103
 measured inf  bowden          told, then off by 0.002
 measured inf  pid 4           at the limit, then off by 1009.279
 measured inf  robust-pid 0.1  at the limit, NaN for good
-measured inf  multicalc 0.10  at the limit, then off by 1009.429
-measured inf  pidgeon 0.3     told, then off by 0.106
+measured inf  multicalc 0.10  at the limit, then off by 1009.424
+measured inf  pidgeon 0.3     told, then off by 0.103
 reference NaN bowden          told, then off by 0.002
 reference NaN pid 4           NaN, NaN for good
 reference NaN robust-pid 0.1  NaN, NaN for good
-reference NaN multicalc 0.10  at the limit, then off by 1009.429
-reference NaN pidgeon 0.3     told, then off by 0.106
+reference NaN multicalc 0.10  at the limit, then off by 1009.424
+reference NaN pidgeon 0.3     told, then off by 0.103
 dt 0          bowden          told, then off by 0.000
 dt 0          pid 4           dt is fixed
-dt 0          robust-pid 0.1  goes on, then off by 0.833
+dt 0          robust-pid 0.1  goes on, then off by 0.815
 dt 0          multicalc 0.10  dt is fixed
 dt 0          pidgeon 0.3     told, then off by 0.000
-dt negative   bowden          told, then off by 0.000
+dt negative   bowden          told, then off by 0.002
 dt negative   pid 4           dt is fixed
-dt negative   robust-pid 0.1  goes on, then off by 0.833
+dt negative   robust-pid 0.1  goes on, then off by 0.815
 dt negative   multicalc 0.10  dt is fixed
 dt negative   pidgeon 0.3     told, then off by 0.000
-dt NaN        bowden          told, then off by 0.000
+dt NaN        bowden          told, then off by 0.002
 dt NaN        pid 4           dt is fixed
 dt NaN        robust-pid 0.1  NaN, NaN for good
 dt NaN        multicalc 0.10  dt is fixed

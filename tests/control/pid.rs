@@ -21,7 +21,7 @@ fn a_pi_answers_a_step_of_the_error_with_a_line() {
     // (15) with e = -2 from t = 0 on: u = 2·(k_p + k_i·t).
     let (pid, mut state) = (Pid::paper_pi(), PidState::new());
     for k in 1..=5000 {
-        let out = pid.step(&mut state, &PidInput::new(1e-3, 25.0, 23.0));
+        let out = pid.step_with_terms(&mut state, &PidInput::new(1e-3, 25.0, 23.0));
         close(out.command, 2.0 * (30.0 + 18.0 * 1e-3 * f64::from(k)));
         assert_eq!((out.terms.error, out.terms.proportional), (-2.0, 60.0));
     }
@@ -33,7 +33,7 @@ fn the_integral_of_a_constant_error_is_the_same_for_any_split_of_the_time() {
     let integral = |parts: &[f64]| {
         let mut state = PidState::new();
         for &dt in parts {
-            pid.step(&mut state, &PidInput::new(dt, 1.0, 0.25));
+            pid.step_with_terms(&mut state, &PidInput::new(dt, 1.0, 0.25));
         }
         state.integral()
     };
@@ -46,12 +46,12 @@ fn the_integral_of_a_constant_error_is_the_same_for_any_split_of_the_time() {
 #[test]
 fn an_f32_integral_does_not_stall_on_steps_below_half_an_ulp() {
     // The integral stands at 1000, an ulp of which is 6e-5; a step is 1e-6.
-    let pid = Pid::try_new(PidSettings::new(0.0_f32, 1.0)).unwrap();
+    let pid = Pid::try_new(PidSettings::unlimited(0.0_f32, 1.0)).unwrap();
     let mut state = PidState::new();
     let at = PidInput::new(1e-4, 0.01, 0.0);
     state.resume_from(&pid, 1000.0, &at);
     for _ in 0..1_000_000 {
-        pid.step(&mut state, &at);
+        pid.step_with_terms(&mut state, &at);
     }
     // A million of them are 1; a plain sum would still stand at 1000.
     assert!((state.integral() - 1001.0).abs() < 1e-3);
@@ -62,40 +62,45 @@ fn filtered(time: f64, damping: Damping<f64>) -> Pid<f64> {
         k_d: 2.0,
         derivative_time: time,
         damping,
-        ..PidSettings::new(0.0, 0.0)
+        ..PidSettings::unlimited(0.0, 0.0)
     })
     .unwrap()
 }
 
 #[test]
-fn the_filtered_derivative_of_a_ramp_is_the_exact_lag_at_any_rate() {
-    // Slope 3 through 1/(1 + tau·s): 3·(1 - e^(-t/tau)), at 200 Hz as at 10 kHz.
+fn the_filtered_derivative_of_a_ramp_is_the_implicit_lag_at_any_rate() {
+    // Slope 3 through 1/(1 + tau·s), implicit: 3·(1 - (tau/(tau + dt))^k).
     let (tau, slope, end) = (0.02, 3.0, 0.05_f64);
-    let expected = -2.0 * slope * (1.0 - (-end / tau).exp());
+    let exact = -2.0 * slope * (1.0 - (-end / tau).exp());
     for samples in [10, 50, 500] {
         let (pid, mut state) = (filtered(tau, Damping::on_error()), PidState::new());
         let dt = end / f64::from(samples);
         let mut term = 0.0;
         for k in 0..=samples {
             let measured = slope * dt * f64::from(k);
-            let out = pid.step(&mut state, &PidInput::new(dt, 0.0, measured));
+            let out = pid.step_with_terms(&mut state, &PidInput::new(dt, 0.0, measured));
             term = out.terms.derivative;
         }
-        close(term, expected);
+        let factor: f64 = tau / (tau + dt);
+        close(term, -2.0 * slope * (1.0 - factor.powi(samples)));
+        // The two lags differ by dt/(2·tau)·x·e^(-x) of the slope, x = t/tau, to first order.
+        let apart = 2.0 * slope * (dt / tau) * 0.5 * (end / tau) * (-end / tau).exp();
+        assert!((term - exact).abs() < 1.3 * apart, "{term} {exact}");
     }
 }
 
 #[test]
-fn the_derivative_of_a_ramp_is_the_exact_lag_also_with_jitter() {
+fn the_derivative_of_a_ramp_is_the_implicit_lag_also_with_jitter() {
     let (tau, slope) = (0.02, 3.0);
     let (pid, mut state) = (filtered(tau, Damping::on_error()), PidState::new());
-    pid.step(&mut state, &PidInput::new(1e-3, 0.0, 0.0));
-    let mut t = 0.0;
+    pid.step_with_terms(&mut state, &PidInput::new(1e-3, 0.0, 0.0));
+    let (mut t, mut left) = (0.0, 1.0);
     for k in 0..200_u32 {
         let dt = 1e-4 * f64::from(1 + k * 7 % 13);
         t += dt;
-        let out = pid.step(&mut state, &PidInput::new(dt, 0.0, slope * t));
-        let exact = -2.0 * slope * (1.0 - (-t / tau).exp());
+        left *= tau / (tau + dt);
+        let out = pid.step_with_terms(&mut state, &PidInput::new(dt, 0.0, slope * t));
+        let exact = -2.0 * slope * (1.0 - left);
         // The quotient of two samples is rounded like the samples over dt.
         assert!((out.terms.derivative - exact).abs() < 1e-10);
     }
@@ -103,13 +108,13 @@ fn the_derivative_of_a_ramp_is_the_exact_lag_also_with_jitter() {
 
 #[test]
 fn a_step_decays_by_the_same_factor_each_sample() {
-    // The lag's own impulse response: k_d·(step/dt)·(1-a)·a^k, a = e^(-dt/tau).
+    // The lag's own impulse response: k_d·(step/dt)·(1-a)·a^k, a = tau/(tau + dt).
     let (dt, tau) = (1e-3, 5e-3);
     let (pid, mut state) = (filtered(tau, Damping::on_error()), PidState::new());
-    pid.step(&mut state, &PidInput::new(dt, 0.0, 0.0));
-    let a = (-dt / tau).exp();
+    pid.step_with_terms(&mut state, &PidInput::new(dt, 0.0, 0.0));
+    let a: f64 = tau / (tau + dt);
     for k in 0..20 {
-        let out = pid.step(&mut state, &PidInput::new(dt, 0.0, 1.0));
+        let out = pid.step_with_terms(&mut state, &PidInput::new(dt, 0.0, 1.0));
         close(out.terms.derivative, -2.0 / dt * (1.0 - a) * a.powi(k));
     }
 }
@@ -118,8 +123,8 @@ fn a_step_decays_by_the_same_factor_each_sample() {
 fn a_step_of_the_reference_kicks_by_the_set_point_weight() {
     for (weight, kick) in [(1.0, 2000.0), (0.25, 500.0), (0.0, 0.0)] {
         let (pid, mut state) = (filtered(0.0, Damping::Rate { weight }), PidState::new());
-        pid.step(&mut state, &PidInput::new(1e-3, 0.0, 0.5));
-        let out = pid.step(&mut state, &PidInput::new(1e-3, 1.0, 0.5));
+        pid.step_with_terms(&mut state, &PidInput::new(1e-3, 0.0, 0.5));
+        let out = pid.step_with_terms(&mut state, &PidInput::new(1e-3, 1.0, 0.5));
         close(out.terms.derivative, kick);
     }
     assert_eq!(Damping::on_measurement(), Damping::Rate { weight: 0.0 });
@@ -129,10 +134,10 @@ fn a_step_of_the_reference_kicks_by_the_set_point_weight() {
 fn the_proportional_term_sees_its_share_of_the_reference_the_integral_all_of_it() {
     let pid = Pid::try_new(PidSettings {
         setpoint_weight: 0.25,
-        ..PidSettings::new(10.0, 1.0)
+        ..PidSettings::unlimited(10.0, 1.0)
     })
     .unwrap();
-    let out = pid.step(&mut PidState::new(), &PidInput::new(0.5, 8.0, 1.0));
+    let out = pid.step_with_terms(&mut PidState::new(), &PidInput::new(0.5, 8.0, 1.0));
     assert_eq!(out.terms.proportional, 10.0 * (0.25 * 8.0 - 1.0));
     assert_eq!(out.terms.integral, 7.0 * 0.5);
     assert_eq!(out.terms.error, -7.0);
@@ -147,7 +152,7 @@ fn piv_damps_with_the_measured_velocity_as_it_is() {
         feed_forward: 4.0,
         ..PidInput::new(1e-3, 25.0, 25.0)
     };
-    let out = Pid::paper_piv().step(&mut state, &at);
+    let out = Pid::paper_piv().step_with_terms(&mut state, &at);
     assert_eq!((out.terms.velocity, out.terms.derivative), (-3.0, 0.0));
     assert_eq!(out.command, 1.0);
 }
@@ -167,7 +172,7 @@ fn the_terms_add_up_to_the_unlimited_command() {
             feed_forward: t.cos(),
             ..PidInput::new(1e-3, (7.0 * t).sin(), (5.0 * t).sin())
         };
-        let terms = pid.step(&mut state, &at).terms;
+        let terms = pid.step_with_terms(&mut state, &at).terms;
         let sum = terms.proportional + terms.integral + terms.derivative;
         close(terms.unlimited, sum + terms.velocity + terms.feed_forward);
         assert_eq!(terms, pid.terms(&state));
@@ -190,7 +195,7 @@ fn the_papers_gains_are_those_of_its_table_1() {
 }
 
 fn refused<T: Real>(change: impl Fn(&mut PidSettings<T>)) -> Error {
-    let mut settings = PidSettings::new(T::of(30.0), T::of(18.0));
+    let mut settings = PidSettings::unlimited(T::of(30.0), T::of(18.0));
     change(&mut settings);
     Pid::try_new(settings).unwrap_err()
 }
@@ -223,7 +228,7 @@ fn gains_of_opposite_signs_and_a_safe_command_outside_the_limits_are_refused() {
     let settings = PidSettings {
         k_d: -2.0,
         damping: Damping::Velocity,
-        ..PidSettings::new(30.0, 18.0)
+        ..PidSettings::unlimited(30.0, 18.0)
     };
     assert!(Pid::try_new(settings).is_ok());
     assert!(inadmissible(refused::<f64>(|s| {
@@ -234,8 +239,8 @@ fn gains_of_opposite_signs_and_a_safe_command_outside_the_limits_are_refused() {
 
 #[test]
 fn a_plant_that_acts_in_reverse_takes_negative_gains() {
-    let pid = Pid::try_new(PidSettings::new(-30.0, -18.0)).unwrap();
-    let out = pid.step(&mut PidState::new(), &PidInput::new(1e-3, 1.0, 0.0));
+    let pid = Pid::try_new(PidSettings::unlimited(-30.0, -18.0)).unwrap();
+    let out = pid.step_with_terms(&mut PidState::new(), &PidInput::new(1e-3, 1.0, 0.0));
     close(out.command, -30.018);
     assert_eq!(out.status, Status::Good);
 }
@@ -253,7 +258,7 @@ fn settings_and_states_are_read_through_their_checks() {
     assert!(serde_json::from_str::<Pid<f64>>(r#"{"k_p": 1, "k_i": 1, "kd": 1}"#).is_err());
 
     let mut state = PidState::new();
-    pid.step(&mut state, &PidInput::new(1e-3, 1.0, 0.5));
+    pid.step_with_terms(&mut state, &PidInput::new(1e-3, 1.0, 0.5));
     let text = serde_json::to_string(&state).unwrap();
     assert_eq!(serde_json::from_str::<PidState<f64>>(&text).unwrap(), state);
     let broken = text.replace("\"gap\":0.0", "\"gap\":-1.0");

@@ -49,7 +49,7 @@ fn deviation(settings: AdaptiveSettings<f64, 1>, seed: u64) -> (f64, f64) {
             next_reference: next_r,
             ..AdaptiveInput::new(h, r, y, [x])
         };
-        let terms = law.step(&mut state, &input).terms;
+        let terms = law.step_with_terms(&mut state, &input).terms;
         plant.u = state.command();
         let at = ErrorState {
             s: terms.s,
@@ -122,7 +122,7 @@ fn on_a_static_plant(settings: AdaptiveSettings<f64, 1>, samples: u32) -> f64 {
             next_reference: at(step + 1),
             ..AdaptiveInput::new(0.001, at(step), y, [0.0])
         };
-        plant.u = law.step(&mut state, &input).command;
+        plant.u = law.step_with_terms(&mut state, &input).command;
         if last.abs() >= 1e9 {
             break;
         }
@@ -139,7 +139,7 @@ fn on_an_inertial_plant(settings: AdaptiveSettings<f64, 1>, samples: u32) -> f64
     for _ in 0..samples {
         last = y - 5.0;
         let input = AdaptiveInput::new(0.001, 5.0, y, [0.0]);
-        let next = law.step(&mut state, &input).command;
+        let next = law.step_with_terms(&mut state, &input).command;
         for _ in 0..fine {
             let h = 0.001 / f64::from(fine);
             rate += h * (omega * omega * (u - y) - 2.0 * damping * omega * rate);

@@ -110,6 +110,7 @@ fn after_the_safe_command_both_forms_go_on_from_it() {
                 (Status::Safe(Fault::Measured), -20.0)
             );
         }
+        state.acknowledge();
         let output = law.step(&mut state, &good);
         assert_eq!(output.status, Status::Good);
         assert!(
@@ -117,6 +118,7 @@ fn after_the_safe_command_both_forms_go_on_from_it() {
             "{}",
             output.command
         );
+        let output = law.step(&mut state, &good);
         assert!(output.command > -20.0);
     }
 }

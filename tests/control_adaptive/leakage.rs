@@ -11,7 +11,7 @@ fn leaked(h: f64, seconds: f64, leakage: Leakage<f64>, prior: f64) -> f64 {
         gain: 1.0,
         leakage,
         prior,
-        ..Estimator::fixed(7.0)
+        ..Estimator::free(7.0)
     };
     let law = Adaptive::try_new(AdaptiveSettings { delta, ..literal() }).unwrap();
     let mut state = AdaptiveState::new(&law);
@@ -46,7 +46,7 @@ fn where_an_estimate_settles_does_not_depend_on_the_rate() {
     for h in [1e-3, 0.1, 30.0] {
         let theta = Estimator {
             prior: 0.5,
-            ..Estimator::fixed(0.0).adapting(5e-4, 0.01)
+            ..Estimator::free(0.0).adapting(5e-4, 0.01)
         };
         let settings = AdaptiveSettings {
             theta: [theta],
@@ -84,13 +84,13 @@ fn a_switching_leakage_acts_only_beyond_its_bound() {
 fn in_f32_a_leakage_below_the_rounding_still_acts() {
     let (h, sigma) = (5e-5_f32, 0.001_f32); // 20 kHz
     let mut plain = 7.0_f32;
-    let delta = Estimator::fixed(7.0_f32).adapting(1.0, sigma);
+    let delta = Estimator::free(7.0_f32).adapting(1.0, sigma);
     let form = Form::Literal {
         time_constant: 0.005,
     };
     let settings = AdaptiveSettings {
         delta,
-        ..AdaptiveSettings::<f32, 0>::new(form, 24.0, 8.0, 0.05)
+        ..AdaptiveSettings::<f32, 0>::unlimited(form, 24.0, 8.0, 0.05)
     };
     let law = Adaptive::try_new(settings).unwrap();
     let mut state = AdaptiveState::new(&law);

@@ -28,7 +28,7 @@ fn after_the_safe_command_the_lag_goes_on_from_it_less_the_feed_forward() {
         ..AdaptiveInput::new(0.001, 30.0, 29.9, [0.0])
     };
     for _ in 0..300 {
-        law.step(&mut state, &good);
+        law.step_with_terms(&mut state, &good);
     }
     let bad = AdaptiveInput {
         measured: f64::NAN,
@@ -38,7 +38,8 @@ fn after_the_safe_command_the_lag_goes_on_from_it_less_the_feed_forward() {
         law.step(&mut state, &bad);
     }
     assert_eq!(state.command(), -20.0);
-    let out = law.step(&mut state, &good);
+    state.acknowledge();
+    let out = law.step_with_terms(&mut state, &good);
     assert_eq!(out.status, Status::Good);
     let expected = lagged(-24.0, out.terms.beta_hat, out.terms.virtual_command);
     assert!(
@@ -56,13 +57,13 @@ fn at_a_limit_the_accumulated_error_waits_on_the_error_and_the_estimates_wait_on
         let mut state = AdaptiveState::new(&free);
         for step in 0..1100 {
             let measured = 4.0 - 0.001 * f64::from(step);
-            free.step(&mut state, &AdaptiveInput::new(0.001, 3.0, measured, [0.3]));
+            free.step_with_terms(&mut state, &AdaptiveInput::new(0.001, 3.0, measured, [0.3]));
         }
         let limits = Limits::try_new(-1.0, 1.0).unwrap();
         let law = Adaptive::try_new(AdaptiveSettings { limits, ..settings }).unwrap();
         let before = state;
         // e = -0.1 asks for less of what the limit cuts, s = -0.1 + 8·0.5 for more.
-        let out = law.step(&mut state, &AdaptiveInput::new(0.001, 3.0, 2.9, [0.3]));
+        let out = law.step_with_terms(&mut state, &AdaptiveInput::new(0.001, 3.0, 2.9, [0.3]));
         assert!(out.terms.limited && out.command == -1.0, "{out:?}");
         assert!(out.terms.error < 0.0 && out.terms.s > 0.0);
         let moved = state.accumulated_error() - before.accumulated_error();
@@ -82,9 +83,9 @@ fn at_a_limit_the_lag_keeps_the_command_less_the_feed_forward() {
         feed_forward: 4.0,
         ..AdaptiveInput::new(0.001, 30.0, 20.0, [0.0])
     };
-    assert!(law.step(&mut state, &at).terms.limited);
+    assert!(law.step_with_terms(&mut state, &at).terms.limited);
     assert_eq!(state.command(), 5.0);
-    let terms = law.step(&mut state, &at).terms;
+    let terms = law.step_with_terms(&mut state, &at).terms;
     // The law's share of the 5 that are out is 1.
     let expected = lagged(1.0, terms.beta_hat, terms.virtual_command);
     assert!((terms.law - expected).abs() < ROUNDING, "{terms:?}");
@@ -100,12 +101,12 @@ fn a_switching_leakage_is_the_same_on_both_sides_of_the_prior() {
         let delta = Estimator {
             leakage,
             prior: 10.0,
-            ..Estimator::fixed(start)
+            ..Estimator::free(start)
         };
         let law = Adaptive::try_new(AdaptiveSettings { delta, ..literal() }).unwrap();
         let mut state = AdaptiveState::new(&law);
         for _ in 0..1000 {
-            law.step(&mut state, &AdaptiveInput::new(0.001, 0.0, 0.0, [0.0]));
+            law.step_with_terms(&mut state, &AdaptiveInput::new(0.001, 0.0, 0.0, [0.0]));
         }
         state.delta_hat() - 10.0
     };
@@ -123,7 +124,7 @@ fn a_literal_law_that_takes_over_does_not_take_the_old_rate_of_the_error() {
     // The error rises by 50 N·m/s: its rate, over lambda, is 6 N·m of the virtual command.
     for step in 0..20 {
         let measured = 3.0 + 0.05 * f64::from(step);
-        from.step(&mut state, &AdaptiveInput::new(0.001, 3.0, measured, [0.1]));
+        from.step_with_terms(&mut state, &AdaptiveInput::new(0.001, 3.0, measured, [0.1]));
     }
     let before = state.command();
     let to = AdaptiveSettings {
@@ -134,7 +135,7 @@ fn a_literal_law_that_takes_over_does_not_take_the_old_rate_of_the_error() {
     let to = Adaptive::try_new(to).unwrap();
     let input = AdaptiveInput::new(0.001, 3.0, 4.0, [0.1]);
     to.take_over(&mut state, &input);
-    let out = to.step(&mut state, &input);
+    let out = to.step_with_terms(&mut state, &input);
     assert_eq!(out.terms.error_rate, 0.0);
     // z is found to its last bit, times k·lambda + 1/lambda = 75.
     assert!((out.command - before).abs() < 1e-11, "{out:?} {before}");
@@ -150,7 +151,7 @@ fn a_lag_that_resumes_on_a_bad_sample_goes_on_from_the_command_that_is_out() {
     };
     let mut state = AdaptiveState::resume_from(&law, 25.0, &bad);
     assert_eq!(state.command(), 25.0);
-    let terms = law.step(&mut state, &good).terms;
+    let terms = law.step_with_terms(&mut state, &good).terms;
     let expected = lagged(25.0, terms.beta_hat, terms.virtual_command);
     assert!((terms.law - expected).abs() < ROUNDING, "{terms:?}");
 }

@@ -26,7 +26,7 @@ fn lag() -> AdaptiveSettings<f64, 1> {
             .within(0.0, 7.0)
             .adapting(6.25e-3, 0.01),
         theta: [Estimator::fixed(0.0).within(-5.0, 5.0).adapting(5e-4, 0.01)],
-        ..AdaptiveSettings::new(form, 24.0, 8.0, 0.2)
+        ..AdaptiveSettings::unlimited(form, 24.0, 8.0, 0.2)
     }
 }
 

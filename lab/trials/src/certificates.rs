@@ -100,7 +100,7 @@ fn resting(settings: &AdaptiveSettings<f64, 2>) -> Result<Adaptive<f64, 0>, Erro
         step: 1.0 / RATE,
         plant_gain: 1.0,
     };
-    let gains = AdaptiveSettings::new(lag, settings.gain, settings.lambda, settings.epsilon);
+    let gains = AdaptiveSettings::unlimited(lag, settings.gain, settings.lambda, settings.epsilon);
     Adaptive::try_new(AdaptiveSettings {
         beta: Estimator {
             initial: 1.0,

@@ -179,14 +179,14 @@ impl AdaptiveGains {
             beta,
             delta,
             theta: [velocity, acceleration],
-            ..AdaptiveSettings::new(form, gain, lambda, epsilon)
+            ..AdaptiveSettings::unlimited(form, gain, lambda, epsilon)
         }
     }
 
     /// As the core's settings, with a third regressor that starts at, and leaks to, `prior`.
     #[must_use]
     pub fn settings(&self, prior: f64) -> AdaptiveSettings<f64, 3> {
-        let theta = Estimator::fixed(0.0).adapting(self.lambda_mu_i / self.lambda, self.sigma_i);
+        let theta = Estimator::free(0.0).adapting(self.lambda_mu_i / self.lambda, self.sigma_i);
         let third = Estimator {
             prior,
             gain: if prior == 0.0 { 0.0 } else { theta.gain },
@@ -195,17 +195,17 @@ impl AdaptiveGains {
             } else {
                 theta.leakage
             },
-            ..Estimator::fixed(prior)
+            ..Estimator::free(prior)
         };
         let literal = Form::Literal {
             time_constant: self.derivative_time,
         };
         AdaptiveSettings {
-            beta: Estimator::fixed(self.beta)
+            beta: Estimator::free(self.beta)
                 .adapting(self.lambda_gamma / self.lambda, self.sigma_alpha),
-            delta: Estimator::fixed(self.delta).adapting(self.lambda_mu / self.lambda, self.sigma),
+            delta: Estimator::free(self.delta).adapting(self.lambda_mu / self.lambda, self.sigma),
             theta: [theta, theta, third],
-            ..AdaptiveSettings::new(literal, self.k, self.lambda, self.epsilon)
+            ..AdaptiveSettings::unlimited(literal, self.k, self.lambda, self.epsilon)
         }
     }
 }

@@ -5,7 +5,10 @@ mod compensator;
 mod pid;
 
 use crate::{any, never_panics};
-use bowden::control::{Fallback, Limits};
+use bowden::control::{
+    Adaptive, AdaptiveSettings, Controller, Fallback, Limits, LoopSample, Pid, PidSettings,
+    PidState, Status,
+};
 use bowden::Real;
 use std::hint::black_box;
 
@@ -13,25 +16,71 @@ pub use adaptive::law;
 
 pub fn all<T: Real>() -> Option<()> {
     never_panics!(control_limits_try_new, Limits::<T>::try_new(any(), any()));
-    never_panics!(control_limits_none, Limits::<T>::none());
-    let limits = black_box(Limits::<T>::none());
+    never_panics!(control_limits_unlimited, Limits::<T>::unlimited());
+    let limits = black_box(Limits::<T>::unlimited());
     never_panics!(control_limits_with_slew, limits.with_slew(any()));
     never_panics!(control_limits_low, limits.low());
     never_panics!(control_limits_high, limits.high());
     never_panics!(control_limits_slew, limits.slew());
     never_panics!(control_limits_contains, limits.contains(any()));
     never_panics!(control_limits_apply, limits.apply(any(), any(), any()));
+    never_panics!(control_limits_confine, limits.confine(any()));
 
     never_panics!(
         control_status_try_new,
         Fallback::<T>::try_new(black_box(3), any())
     );
-    never_panics!(control_status_hold, Fallback::<T>::hold());
-    let fallback = black_box(Fallback::<T>::hold());
+    never_panics!(
+        control_status_hold_for_ever,
+        Fallback::<T>::hold_for_ever()
+    );
+    let fallback = black_box(Fallback::<T>::hold_for_ever());
+    never_panics!(control_status_with_weight, fallback.with_weight(black_box(3)));
+    never_panics!(control_status_weight, fallback.weight());
+    never_panics!(control_status_most, fallback.most());
     never_panics!(control_status_after, fallback.after());
     never_panics!(control_status_command, fallback.command());
+
+    let status = black_box(Status::Good);
+    never_panics!(control_status_fault, status.fault());
+    never_panics!(control_status_is_live, status.is_live());
+    let at = LoopSample::new(any(), any(), any());
+    never_panics!(control_controller_new, LoopSample::<T>::new(any(), any(), any()));
+    let pi = black_box(Pid::<T>::paper_pi());
+    let mut state = black_box(PidState::new());
+    never_panics!(
+        control_controller_step,
+        Controller::step(&pi, &mut state, &at)
+    );
+    never_panics!(
+        error_about,
+        black_box(bowden::Error::Capacity("terms")).about()
+    );
+    constants();
 
     pid::all::<T>()?;
     adaptive::all::<T>()?;
     compensator::all::<T>()
+}
+
+/// The constructors of constants, which are functions too.
+fn constants() {
+    let (low, high) = (any::<f32>(), any::<f32>());
+    never_panics!(control_limits_const_new, Limits::<f32>::const_new(low, high));
+    let limits = black_box(Limits::<f32>::unlimited());
+    never_panics!(control_limits_const_with_slew, limits.const_with_slew(low));
+    never_panics!(
+        control_status_const_new,
+        Fallback::<f32>::const_new(black_box(3), low)
+    );
+    let settings = black_box(PidSettings::unlimited(low, high));
+    never_panics!(
+        control_pid_settings_const_new,
+        Pid::<f32>::const_new(settings)
+    );
+    let settings = black_box(AdaptiveSettings::<f32, 2>::paper());
+    never_panics!(
+        control_adaptive_settings_const_new,
+        Adaptive::<f32, 2>::const_new(settings)
+    );
 }

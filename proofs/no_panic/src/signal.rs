@@ -8,6 +8,47 @@ use std::hint::black_box;
 pub fn all<T: Real>() -> Option<()> {
     never_panics!(signal_clamp_clamp, clamp::<T>(any(), any(), any()));
 
+    never_panics!(
+        signal_compensated_new,
+        Compensated::<T>::new(any())
+    );
+    let sum = black_box(Compensated::<T>::new(any()));
+    never_panics!(signal_compensated_plus, sum.plus(any()));
+
+    never_panics!(
+        signal_plausible_try_new,
+        Plausible::<T>::try_new(any(), any())
+    );
+    never_panics!(
+        signal_plausible_const_new,
+        Plausible::<f32>::const_new(any(), any())
+    );
+    let single = black_box(Plausible::<f32>::try_new(-any::<f32>(), any())).ok()?;
+    never_panics!(
+        signal_plausible_const_with_rate,
+        single.const_with_rate(any())
+    );
+    let plausible = black_box(Plausible::<T>::try_new(any(), any())).ok()?;
+    never_panics!(signal_plausible_with_rate, plausible.with_rate(any()));
+    never_panics!(
+        signal_plausible_with_stuck_after,
+        plausible.with_stuck_after(black_box(3))
+    );
+    never_panics!(signal_plausible_new, PlausibleState::<T>::new());
+    let mut state = black_box(PlausibleState::<T>::new());
+    never_panics!(
+        signal_plausible_step,
+        plausible.step(&mut state, any(), any(), black_box(true))
+    );
+    never_panics!(signal_plausible_last, state.last());
+
+    never_panics!(signal_ramp_try_new, Ramp::<T>::try_new(any(), any()));
+    let ramp = black_box(Ramp::<T>::try_new(any(), any())).ok()?;
+    never_panics!(signal_ramp_at, RampState::<T>::at(any()));
+    let mut state = black_box(RampState::<T>::at(any()));
+    never_panics!(signal_ramp_step, ramp.step(&mut state, any(), any()));
+    never_panics!(signal_ramp_value, state.value());
+
     never_panics!(signal_play_try_new, Play::<T>::try_new(any()));
     let play = black_box(Play::<T>::try_new(any())).ok()?;
     never_panics!(signal_play_new, PlayState::<T>::new());

@@ -17,7 +17,6 @@
 //! The paper has none: [`AdaptiveSettings::paper`] has boxes as wide as the float. The lag
 //! form demands one for beta_hat, above zero, and one for delta_hat, not below zero.
 
-mod compensated;
 mod estimator;
 #[cfg(feature = "serde")]
 mod list;
@@ -31,14 +30,14 @@ mod smooth_sign;
 mod state;
 mod step;
 
-use compensated::Compensated;
 pub use estimator::{Estimator, Leakage};
 pub use recursion::{Disturbance, ErrorState, LagRecursion};
-pub use settings::{AdaptiveSettings, Form};
+pub use settings::{AdaptiveSettings, Form, Missing};
 pub use smooth_sign::SmoothSign;
 pub use state::{AdaptiveInput, AdaptiveOutput, AdaptiveState, AdaptiveTerms};
 
-use crate::signal::Derivative;
+#[cfg(kani)]
+use crate::signal::Compensated;
 use crate::{Error, Real};
 
 /// Robust adaptive torque control over `N` regressors, (17)-(26).
@@ -69,10 +68,8 @@ use crate::{Error, Real};
 )]
 pub struct Adaptive<T, const N: usize> {
     settings: AdaptiveSettings<T, N>,
-    /// Of the error; only the literal form steps it.
-    derivative: Derivative<T>,
-    /// The largest step of the lag form.
-    longest: Option<T>,
+    /// The longest step that is accepted \[s\].
+    longest: T,
 }
 
 impl<T: Real, const N: usize> Adaptive<T, N> {
@@ -91,15 +88,11 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     }
 
     fn checked(settings: AdaptiveSettings<T, N>) -> Self {
-        let time_constant = match settings.form {
-            Form::Literal { time_constant } => time_constant,
-            Form::Lag { .. } => T::zero(),
+        let longest = match settings.largest_step() {
+            Some(largest) if largest < settings.longest_dt => largest,
+            _ => settings.longest_dt,
         };
-        Self {
-            settings,
-            derivative: Derivative::assumed(time_constant),
-            longest: settings.largest_step(),
-        }
+        Self { settings, longest }
     }
 
     /// The settings.
@@ -108,10 +101,18 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         &self.settings
     }
 
-    /// Longest `dt` \[s\] that a step of the lag form accepts; `None`: any.
+    /// Longest `dt` \[s\] that a step accepts: the stated one or, in the lag form, the
+    /// [largest](AdaptiveSettings::largest_step) that it admits where that is shorter.
+    #[must_use]
+    pub fn longest_dt(&self) -> T {
+        self.longest
+    }
+
+    /// Longest `dt` \[s\] that the box theorem of the lag form admits; `None` for the literal
+    /// form. See [`AdaptiveSettings::largest_step`].
     #[must_use]
     pub fn largest_step(&self) -> Option<T> {
-        self.longest
+        self.settings.largest_step()
     }
 
     /// Whether a state could have come from this law: finite, everything in its box.
@@ -133,8 +134,11 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
             && settings.beta.holds(&state.beta)
             && settings.delta.holds(&state.delta)
             && theta.all(|(theta, estimate)| theta.holds(estimate))
-            && state.lag.is_finite()
+            && state.lag.value.is_finite()
+            && state.lag.carry.is_finite()
             && state.error_rate.is_finite()
+            && state.gap.is_finite()
+            && state.gap >= T::ZERO
             && settings.limits.contains(state.held.command)
     }
 }

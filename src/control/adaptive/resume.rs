@@ -2,11 +2,12 @@
 
 use super::{Adaptive, AdaptiveInput, AdaptiveState, AdaptiveTerms};
 use crate::control::status::Held;
-use crate::signal::{clamp, DerivativeState};
+use crate::control::{Fault, Status};
+use crate::signal::{clamp, Compensated, DerivativeState};
 use crate::Real;
 
-/// Enough to exhaust an f64 between two values that differ by its largest.
-const HALVINGS: u32 = 64;
+/// More halvings than a float has digits: what is left of the bracket is below its rounding.
+const HALVINGS: (u32, u32) = (26, 56);
 
 impl<T: Real, const N: usize> AdaptiveState<T, N> {
     /// A state whose first step on `input` commands `output` \[command unit\].
@@ -23,7 +24,7 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
     /// let law = Adaptive::try_new(AdaptiveSettings {
     ///     beta: Estimator::fixed(1.2).within(0.5, 2.0),
     ///     delta: Estimator::fixed(7.0).within(0.0, 7.0),
-    ///     ..AdaptiveSettings::<f64, 1>::new(literal, 24.0, 8.0, 0.05)
+    ///     ..AdaptiveSettings::<f64, 1>::unlimited(literal, 24.0, 8.0, 0.05)
     /// })?;
     /// let input = AdaptiveInput::new(0.001, 25.0, 24.0, [0.3]);
     /// let mut state = AdaptiveState::resume_from(&law, 31.0, &input);
@@ -34,8 +35,7 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
     pub fn resume_from(law: &Adaptive<T, N>, output: T, input: &AdaptiveInput<T, N>) -> Self {
         let mut state = Self::new(law);
         if output.is_finite() {
-            let limits = &law.settings().limits;
-            state.held = Held::new(clamp(output, limits.low(), limits.high()));
+            state.held = Held::new(law.settings().limits.confine(output));
             law.settle(&mut state, input);
         }
         state
@@ -65,38 +65,65 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// ```
     pub fn take_over(&self, state: &mut AdaptiveState<T, N>, input: &AdaptiveInput<T, N>) {
         let settings = &self.settings;
-        let into = |value: T, low: T, high: T| super::Compensated::new(clamp(value, low, high));
+        let into = |value: T, low: T, high: T| Compensated::new(clamp(value, low, high));
         state.beta = into(state.beta.value, settings.beta.low, settings.beta.high);
         state.delta = into(state.delta.value, settings.delta.low, settings.delta.high);
         for (estimate, theta) in state.theta.iter_mut().zip(&settings.theta) {
             *estimate = into(estimate.value, theta.low, theta.high);
         }
-        let limits = &settings.limits;
-        let command = clamp(state.held.command, limits.low(), limits.high());
-        state.held = Held::new(command);
+        state.held.command = settings.limits.confine(state.held.command);
         self.settle(state, input);
     }
 
+    /// Starts so that the next step on `input` commands `output` \[command unit\].
+    ///
+    /// As [`AdaptiveState::resume_from`], for a state that is there: a sample that cannot be
+    /// used counts as a bad one, and where the safe command is latched it stays.
+    pub fn resume(
+        &self,
+        state: &mut AdaptiveState<T, N>,
+        output: T,
+        input: &AdaptiveInput<T, N>,
+    ) -> Status {
+        let fallback = &self.settings.fallback;
+        if let Some(safe) = state.held.latched(fallback) {
+            return safe;
+        }
+        let fault = if output.is_finite() {
+            self.fault(input)
+        } else {
+            Some(Fault::Command)
+        };
+        match fault {
+            Some(fault) => state.held.bad(fault, fallback),
+            None => {
+                *state = AdaptiveState::resume_from(self, output, input);
+                Status::Good
+            }
+        }
+    }
+
     /// Chooses z such that the law gives the held command on this input.
-    fn settle(&self, state: &mut AdaptiveState<T, N>, input: &AdaptiveInput<T, N>) {
+    pub(super) fn settle(&self, state: &mut AdaptiveState<T, N>, input: &AdaptiveInput<T, N>) {
         let settings = &self.settings;
         let limit = settings.z_limit;
-        state.z = super::Compensated::new(clamp(state.z.value, -limit, limit));
+        state.z = Compensated::new(clamp(state.z.value, -limit, limit));
         state.error_rate = DerivativeState::new();
+        state.gap = T::ZERO;
         let share = state.held.command - input.feed_forward;
         // Also on a sample that cannot be used: the lag goes on from what is out.
-        state.lag = if share.is_finite() {
+        state.lag = Compensated::new(if share.is_finite() {
             share
         } else {
             state.held.command
-        };
+        });
         let wanted = share / state.beta.value;
         if !wanted.is_finite() {
             return;
         }
         let z = self.z_that_gives(wanted, state, input);
         if z.is_finite() {
-            state.z = super::Compensated::new(clamp(z, -limit, limit));
+            state.z = Compensated::new(clamp(z, -limit, limit));
         }
     }
 
@@ -123,16 +150,25 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
             return T::nan();
         }
         let (mut low, mut high) = (linear - reach, linear + reach);
-        for _ in 0..HALVINGS {
-            terms.z = low + (high - low) * T::of(0.5);
-            terms.s = terms.error + settings.lambda * terms.z;
-            terms.smooth_sign = settings.smooth_sign.of(terms.s / settings.epsilon);
-            if self.virtual_command(&terms, input) > wanted {
-                low = terms.z;
+        let (few, many) = HALVINGS;
+        // A float of 24 digits, or one of 53.
+        let halvings = if T::epsilon() > T::of(1e-9) {
+            few
+        } else {
+            many
+        };
+        let mut z = linear;
+        for _ in 0..halvings {
+            z = low + (high - low) * T::of(0.5);
+            let s = terms.error + settings.lambda * z;
+            // (linear - z)·slope is what the linear part gives above what is wanted.
+            let sign = settings.smooth_sign.of(s / settings.epsilon);
+            if (linear - z) * slope > terms.delta_hat * sign {
+                low = z;
             } else {
-                high = terms.z;
+                high = z;
             }
         }
-        terms.z
+        z
     }
 }

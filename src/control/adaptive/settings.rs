@@ -1,10 +1,9 @@
 //! What the law is made from, and the conditions it must meet.
 
-use super::estimator::{BETA, DELTA, THETA};
-use super::{Estimator, SmoothSign};
+use super::estimator::{self, BETA, DELTA, THETA};
+use super::{Adaptive, Estimator, Leakage, SmoothSign};
+use crate::control::status::OUTSIDE;
 use crate::control::{Fallback, Limits};
-use crate::error::finite;
-use crate::signal::Derivative;
 use crate::{Error, Real};
 
 /// How the error's rate enters the law: each form is for one kind of plant.
@@ -38,6 +37,20 @@ pub enum Form<T> {
     },
 }
 
+/// What a regressor that is not finite does: a NaN encoder need not open the torque loop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Missing {
+    /// A bad sample: the command is held.
+    #[default]
+    Hold,
+    /// Its term is left out of this sample's command, all estimates wait, the torque loop
+    /// stays closed: [`Status::Degraded`](crate::control::Status::Degraded).
+    Drop,
+}
+
 /// Settings of an [`Adaptive`](super::Adaptive) law over `N` regressors, (19)-(26).
 ///
 /// ```
@@ -45,7 +58,7 @@ pub enum Form<T> {
 /// let settings = AdaptiveSettings {
 ///     beta: Estimator::fixed(1.0).within(0.8, 1.2).adapting(2.5e-4, 0.01),
 ///     delta: Estimator::fixed(1.0).within(0.0, 7.0).adapting(6e-3, 0.01),
-///     ..AdaptiveSettings::<f64, 2>::new(
+///     ..AdaptiveSettings::<f64, 2>::unlimited(
 ///         Form::Lag { step: 0.001, plant_gain: 1.0 }, // \[s\], [N·m/command unit]
 ///         24.0, 8.0, 0.05,
 ///     )
@@ -97,33 +110,196 @@ pub struct AdaptiveSettings<T, const N: usize> {
     /// The estimates stay as they are.
     #[cfg_attr(feature = "serde", serde(default))]
     pub frozen: bool,
+    /// What each regressor does where it is not finite.
+    #[cfg_attr(
+        feature = "serde",
+        serde(with = "super::list", default = "all_hold::<N>")
+    )]
+    pub missing: [Missing; N],
     /// Range and slew rate of the command.
-    #[cfg_attr(feature = "serde", serde(default = "Limits::none"))]
+    #[cfg_attr(feature = "serde", serde(default = "Limits::unlimited"))]
     pub limits: Limits<T>,
+    /// Longest `dt` that is a sample, above zero \[s\]: five nominal steps, say.
+    ///
+    /// The lag form accepts none longer than [`largest_step`](Self::largest_step) either.
+    #[cfg_attr(feature = "serde", serde(default = "any_dt"))]
+    pub longest_dt: T,
     /// What to command when samples stay bad.
-    #[cfg_attr(feature = "serde", serde(default = "Fallback::hold"))]
+    #[cfg_attr(feature = "serde", serde(default = "Fallback::hold_for_ever"))]
     pub fallback: Fallback<T>,
 }
 
+#[cfg(feature = "serde")]
+fn any_dt<T: Real>() -> T {
+    T::HIGHEST
+}
+
+#[cfg(feature = "serde")]
+fn all_hold<const N: usize>() -> [Missing; N] {
+    [Missing::Hold; N]
+}
+
+/// The largest step of the lag form, for any float and for constants.
+macro_rules! largest_step {
+    ($settings:ident, $plant_gain:ident, $T:ty) => {{
+        let (s, one) = ($settings, <$T as Real>::ONE);
+        let steepest = s.gain + s.delta.high / s.epsilon;
+        let loop_gain = $plant_gain * s.beta.high * steepest;
+        // Written so that an overflow gives a largest step of zero.
+        if loop_gain > one {
+            one / (s.lambda * loop_gain)
+        } else {
+            one / s.lambda
+        }
+    }};
+}
+
+/// A number that is finite and above zero, or the error with its name.
+macro_rules! positive {
+    ($value:expr, $name:literal, $zero:ident) => {
+        if !$value.is_finite() {
+            return Err(Error::NonFinite($name));
+        }
+        if $value <= $zero {
+            return Err(Error::OutOfRange($name));
+        }
+    };
+}
+
+/// Every check of the settings, for any float and for constants.
+macro_rules! checks {
+    ($settings:ident, $T:ty) => {{
+        let (s, zero, one) = ($settings, <$T as Real>::ZERO, <$T as Real>::ONE);
+        positive!(s.gain, "gain", zero);
+        positive!(s.lambda, "lambda", zero);
+        positive!(s.epsilon, "epsilon", zero);
+        positive!(s.z_limit, "z_limit", zero);
+        estimator::checks!(s.beta, BETA, $T);
+        estimator::checks!(s.delta, DELTA, $T);
+        // A `for` is not constant.
+        let mut i = 0;
+        while i < N {
+            estimator::checks!(s.theta[i], THETA, $T);
+            i += 1;
+        }
+        positive!(s.longest_dt, "longest_dt", zero);
+        if let Some(safe) = s.fallback.command() {
+            if safe < s.limits.low() || safe > s.limits.high() {
+                return Err(Error::Inadmissible(OUTSIDE));
+            }
+        }
+        match s.form {
+            Form::Literal { time_constant } => {
+                if !time_constant.is_finite() {
+                    return Err(Error::NonFinite("time_constant"));
+                }
+                if time_constant < zero {
+                    return Err(Error::OutOfRange("time_constant"));
+                }
+            }
+            Form::Lag { step, plant_gain } => {
+                positive!(step, "step", zero);
+                positive!(plant_gain, "plant_gain", zero);
+                if s.beta.low <= zero {
+                    return Err(Error::Inadmissible("lag form: beta.low > 0"));
+                }
+                if s.delta.low < zero {
+                    return Err(Error::Inadmissible("lag form: delta.low >= 0"));
+                }
+                if step * s.lambda > one {
+                    return Err(Error::Inadmissible("lag form: h*lambda <= 1"));
+                }
+                let largest: $T = largest_step!(s, plant_gain, $T);
+                if step > largest || largest.is_nan() {
+                    return Err(Error::Inadmissible(
+                        "lag form: h*lambda*g*(k + delta.high/epsilon) <= 1",
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }};
+}
+
+macro_rules! constant {
+    ($float:ty) => {
+        impl<const N: usize> AdaptiveSettings<$float, N> {
+            const fn const_check(&self) -> Result<(), Error> {
+                checks!(self, $float)
+            }
+        }
+
+        impl<const N: usize> Adaptive<$float, N> {
+            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
+            ///
+            /// # Errors
+            /// As [`try_new`](Self::try_new).
+            pub const fn const_new(settings: AdaptiveSettings<$float, N>) -> Result<Self, Error> {
+                if let Err(error) = settings.const_check() {
+                    return Err(error);
+                }
+                let longest = match settings.form {
+                    Form::Literal { .. } => settings.longest_dt,
+                    Form::Lag { plant_gain, .. } => {
+                        let s = &settings;
+                        let largest: $float = largest_step!(s, plant_gain, $float);
+                        if largest < settings.longest_dt {
+                            largest
+                        } else {
+                            settings.longest_dt
+                        }
+                    }
+                };
+                Ok(Self { settings, longest })
+            }
+        }
+    };
+}
+constant!(f32);
+constant!(f64);
+
 impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
-    /// k, lambda \[1/s\] and epsilon \[N·m\] with fixed estimates: start of a struct update.
+    /// k, lambda \[1/s\] and epsilon \[N·m\] for a machine, with fixed estimates: start of a
+    /// struct update.
     ///
-    /// beta_hat is one, delta_hat and theta_hat are zero; no limits.
+    /// beta_hat is one, delta_hat and theta_hat are zero; `longest_dt` in \[s\].
     #[must_use]
-    pub fn new(form: Form<T>, gain: T, lambda: T, epsilon: T) -> Self {
+    pub const fn new(
+        form: Form<T>,
+        gain: T,
+        lambda: T,
+        epsilon: T,
+        limits: Limits<T>,
+        longest_dt: T,
+        fallback: Fallback<T>,
+    ) -> Self {
+        Self {
+            limits,
+            longest_dt,
+            fallback,
+            ..Self::unlimited(form, gain, lambda, epsilon)
+        }
+    }
+
+    /// The same for a simulation: no limits, any `dt` that the form admits, the last command
+    /// for ever.
+    #[must_use]
+    pub const fn unlimited(form: Form<T>, gain: T, lambda: T, epsilon: T) -> Self {
         Self {
             form,
             gain,
             lambda,
             epsilon,
             smooth_sign: SmoothSign::Tanh,
-            beta: Estimator::fixed(T::one()),
-            delta: Estimator::fixed(T::zero()),
-            theta: [Estimator::fixed(T::zero()); N],
-            z_limit: T::max_value(),
+            beta: Estimator::fixed(T::ONE),
+            delta: Estimator::fixed(T::ZERO),
+            theta: [Estimator::fixed(T::ZERO); N],
+            z_limit: T::HIGHEST,
             frozen: false,
-            limits: Limits::none(),
-            fallback: Fallback::hold(),
+            missing: [Missing::Hold; N],
+            limits: Limits::unlimited(),
+            longest_dt: T::HIGHEST,
+            fallback: Fallback::hold_for_ever(),
         }
     }
 
@@ -139,58 +315,12 @@ impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
         let Form::Lag { plant_gain, .. } = self.form else {
             return None;
         };
-        let steepest = self.gain + self.delta.high / self.epsilon;
-        let loop_gain = plant_gain * self.beta.high * steepest;
-        // Written so that an overflow gives a largest step of zero.
-        Some(if loop_gain > T::one() {
-            T::one() / (self.lambda * loop_gain)
-        } else {
-            T::one() / self.lambda
-        })
+        Some(largest_step!(self, plant_gain, T))
     }
 
     /// Everything that must hold.
     pub(super) fn check(&self) -> Result<(), Error> {
-        positive(self.gain, "gain")?;
-        positive(self.lambda, "lambda")?;
-        positive(self.epsilon, "epsilon")?;
-        positive(self.z_limit, "z_limit")?;
-        self.beta.check(&BETA)?;
-        self.delta.check(&DELTA)?;
-        for theta in &self.theta {
-            theta.check(&THETA)?;
-        }
-        if let Some(safe) = self.fallback.command() {
-            if !self.limits.contains(safe) {
-                return Err(Error::Inadmissible("the safe command within the limits"));
-            }
-        }
-        match self.form {
-            Form::Literal { time_constant } => Derivative::try_new(time_constant).map(|_| ()),
-            Form::Lag { step, plant_gain } => {
-                positive(step, "step")?;
-                positive(plant_gain, "plant_gain")?;
-                self.check_lag(step)
-            }
-        }
-    }
-
-    fn check_lag(&self, step: T) -> Result<(), Error> {
-        if self.beta.low <= T::zero() {
-            return Err(Error::Inadmissible("lag form: beta.low > 0"));
-        }
-        if self.delta.low < T::zero() {
-            return Err(Error::Inadmissible("lag form: delta.low >= 0"));
-        }
-        if step * self.lambda > T::one() {
-            return Err(Error::Inadmissible("lag form: h*lambda <= 1"));
-        }
-        match self.largest_step() {
-            Some(largest) if step <= largest => Ok(()),
-            _ => Err(Error::Inadmissible(
-                "lag form: h*lambda*g*(k + delta.high/epsilon) <= 1",
-            )),
-        }
+        checks!(self, T)
     }
 }
 
@@ -211,23 +341,15 @@ impl<T: Real> AdaptiveSettings<T, 2> {
     #[must_use]
     pub fn paper() -> Self {
         let leakage = T::of(0.01);
-        let velocity = Estimator::fixed(T::zero()).adapting(T::of(0.004 / 8.0), leakage);
+        let velocity = Estimator::free(T::zero()).adapting(T::of(0.004 / 8.0), leakage);
         let literal = Form::Literal {
             time_constant: T::of(0.005),
         };
         Self {
-            beta: Estimator::fixed(T::zero()).adapting(T::of(0.002 / 8.0), leakage),
-            delta: Estimator::fixed(T::of(7.0)).adapting(T::of(0.05 / 8.0), leakage),
+            beta: Estimator::free(T::zero()).adapting(T::of(0.002 / 8.0), leakage),
+            delta: Estimator::free(T::of(7.0)).adapting(T::of(0.05 / 8.0), leakage),
             theta: [velocity; 2],
-            ..Self::new(literal, T::of(24.0), T::of(8.0), T::of(0.05))
+            ..Self::unlimited(literal, T::of(24.0), T::of(8.0), T::of(0.05))
         }
-    }
-}
-
-fn positive<T: Real>(value: T, name: &'static str) -> Result<T, Error> {
-    if finite(value, name)? > T::zero() {
-        Ok(value)
-    } else {
-        Err(Error::OutOfRange(name))
     }
 }

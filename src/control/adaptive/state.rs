@@ -1,10 +1,9 @@
 //! What goes into a step, what comes out, and what is kept between.
 
-use super::compensated::Compensated;
 use super::Adaptive;
-use crate::control::status::Held;
+use crate::control::status::{gap_after, Held};
 use crate::control::Status;
-use crate::signal::{clamp, DerivativeState};
+use crate::signal::{Compensated, DerivativeState};
 use crate::Real;
 
 /// One sample for an [`Adaptive`] law.
@@ -34,19 +33,19 @@ impl<T: Real, const N: usize> AdaptiveInput<T, N> {
     /// assert_eq!((input.next_reference, input.feed_forward), (25.0, 0.0));
     /// ```
     #[must_use]
-    pub fn new(dt: T, reference: T, measured: T, regressors: [T; N]) -> Self {
+    pub const fn new(dt: T, reference: T, measured: T, regressors: [T; N]) -> Self {
         Self {
             dt,
             reference,
             next_reference: reference,
             measured,
             regressors,
-            feed_forward: T::zero(),
+            feed_forward: T::ZERO,
         }
     }
 }
 
-/// What a step commands, and why.
+/// What [`Adaptive::step_with_terms`] gives: the command, and why.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct AdaptiveOutput<T, const N: usize> {
@@ -104,7 +103,7 @@ pub struct AdaptiveTerms<T, const N: usize> {
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(
-        deny_unknown_fields,
+        try_from = "Unchecked<T, N>",
         bound(
             serialize = "T: Real + serde::Serialize",
             deserialize = "T: Real + serde::Deserialize<'de>"
@@ -115,12 +114,15 @@ pub struct AdaptiveState<T, const N: usize> {
     pub(super) z: Compensated<T>,
     pub(super) error_rate: DerivativeState<T>,
     /// The law's share of the last command, which the lag form moves on from.
-    pub(super) lag: T,
+    pub(super) lag: Compensated<T>,
     pub(super) beta: Compensated<T>,
     pub(super) delta: Compensated<T>,
     #[cfg_attr(feature = "serde", serde(with = "super::list"))]
     pub(super) theta: [Compensated<T>; N],
     pub(super) held: Held<T>,
+    /// Time of the bad samples since the last good one \[s\]; the highest float where nobody
+    /// knows it: the error's rate then stays as it is for a sample.
+    pub(super) gap: T,
 }
 
 impl<T: Real, const N: usize> AdaptiveState<T, N> {
@@ -128,22 +130,34 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
     #[must_use]
     pub fn new(law: &Adaptive<T, N>) -> Self {
         let settings = law.settings();
-        let limits = &settings.limits;
-        let command = clamp(T::zero(), limits.low(), limits.high());
+        let command = settings.limits.confine(T::ZERO);
         Self {
-            z: Compensated::new(T::zero()),
+            z: Compensated::new(T::ZERO),
             error_rate: DerivativeState::new(),
-            lag: command,
+            lag: Compensated::new(command),
             beta: Compensated::new(settings.beta.initial),
             delta: Compensated::new(settings.delta.initial),
             theta: settings.theta.map(|theta| Compensated::new(theta.initial)),
             held: Held::new(command),
+            gap: T::ZERO,
         }
     }
 
-    /// Back to the start, as [`new`](Self::new).
+    /// Back to the start, as [`new`](Self::new); a safe command that is latched stays so.
     pub fn reset(&mut self, law: &Adaptive<T, N>) {
+        let held = self.held;
         *self = Self::new(law);
+        if held.is_latched() {
+            self.held = held;
+        }
+    }
+
+    /// Takes note that somebody has seen the fault: the loop may be closed again.
+    ///
+    /// While the safe command is latched ([`Status::Safe`]) nothing else closes it. The next
+    /// good sample then goes on from the safe command, with the estimates as they were.
+    pub fn acknowledge(&mut self) {
+        self.held.acknowledge();
     }
 
     /// Accumulated error z \[N·m·s\], (17).
@@ -175,9 +189,67 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
     pub fn command(&self) -> T {
         self.held.command
     }
-    /// How many samples in a row were bad; stays at `u32::MAX`.
+
+    /// Score of the bad samples, see [`Fallback`](crate::control::Fallback).
     #[must_use]
-    pub fn consecutive_bad(&self) -> u32 {
-        self.held.bad
+    pub fn bad_score(&self) -> u32 {
+        self.held.score
+    }
+
+    /// Whether the safe command is latched.
+    #[must_use]
+    pub fn is_latched(&self) -> bool {
+        self.held.is_latched()
+    }
+
+    /// Counts the time of a bad sample.
+    pub(super) fn wait(&mut self, dt: T, longest: T) {
+        self.gap = gap_after(self.gap, dt, longest);
+    }
+}
+
+/// What is read before it is checked.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields, bound = "T: Real + serde::Deserialize<'de>")]
+struct Unchecked<T, const N: usize> {
+    z: Compensated<T>,
+    error_rate: DerivativeState<T>,
+    lag: Compensated<T>,
+    beta: Compensated<T>,
+    delta: Compensated<T>,
+    #[serde(with = "super::list")]
+    theta: [Compensated<T>; N],
+    held: Held<T>,
+    gap: T,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real, const N: usize> TryFrom<Unchecked<T, N>> for AdaptiveState<T, N> {
+    type Error = crate::Error;
+
+    /// Refuses numbers that are not finite; [`Adaptive::is_valid`] says more, of one law.
+    fn try_from(raw: Unchecked<T, N>) -> Result<Self, crate::Error> {
+        let sums = [raw.z, raw.lag, raw.beta, raw.delta];
+        let finite = sums.iter().chain(&raw.theta).all(Compensated::is_finite)
+            && raw.error_rate.is_finite()
+            && raw.held.command.is_finite()
+            && raw.gap.is_finite()
+            && raw.gap >= T::ZERO;
+        if !finite {
+            return Err(crate::Error::Inadmissible(
+                "a state has finite numbers and no negative gap",
+            ));
+        }
+        Ok(Self {
+            z: raw.z,
+            error_rate: raw.error_rate,
+            lag: raw.lag,
+            beta: raw.beta,
+            delta: raw.delta,
+            theta: raw.theta,
+            held: raw.held,
+            gap: raw.gap,
+        })
     }
 }

@@ -1,8 +1,10 @@
 //! One step of the law, in the order that the theorems assume.
 
-use super::{Adaptive, AdaptiveInput, AdaptiveOutput, AdaptiveState, AdaptiveTerms, Form};
-use crate::control::status::{usable, usable_dt};
-use crate::control::Fault;
+use super::{Adaptive, AdaptiveInput, AdaptiveOutput, AdaptiveState, AdaptiveTerms};
+use super::{Form, Missing};
+use crate::control::status::{fault_of_dt, first_fault, is_usable, Latch};
+use crate::control::{Fault, Output, Status};
+use crate::signal::{Compensated, Derivative, DerivativeState};
 use crate::Real;
 
 impl<T: Real, const N: usize> Adaptive<T, N> {
@@ -17,122 +19,264 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// estimates wait while s asks for more than the limit gives; both unwind at once.
     ///
     /// A bad sample leaves the state and holds the last good command, see
-    /// [`control`](crate::control). A `dt` longer than [`largest_step`](Self::largest_step)
+    /// [`control`](crate::control). A `dt` longer than [`longest_dt`](Self::longest_dt)
     /// counts as one. So does a sample that is finite but so large that the law
-    /// overflows ([`Fault::Overflow`]).
+    /// overflows ([`Fault::Overflow`]). The command is within the limits **from any state**,
+    /// one that was stored or that belongs to another law included.
     #[inline]
-    pub fn step(
+    pub fn step(&self, state: &mut AdaptiveState<T, N>, input: &AdaptiveInput<T, N>) -> Output<T> {
+        if state.held.is_closed() {
+            if let Some(command) = self.advance(state, input, self.settings.frozen) {
+                let status = Status::Good;
+                return Output { command, status };
+            }
+        }
+        self.exception(state, input)
+    }
+
+    /// The same, and every term for telemetry: [`terms`](Self::terms) before the step.
+    ///
+    /// `limited` is told of the command that went out.
+    pub fn step_with_terms(
         &self,
         state: &mut AdaptiveState<T, N>,
         input: &AdaptiveInput<T, N>,
     ) -> AdaptiveOutput<T, N> {
-        let (status, terms) = match self.advance(state, input) {
-            Ok((mut next, command, terms)) => {
-                let status = next.held.good(command);
-                *state = next;
-                (status, terms)
-            }
-            Err(fault) => {
-                let terms = AdaptiveTerms::at_rest(state);
-                (state.held.bad(fault, &self.settings.fallback), terms)
-            }
+        let terms = if state.held.latch == Latch::Returning {
+            self.terms(&self.returned(state, input), input)
+        } else {
+            self.terms(state, input)
+        };
+        let Output { command, status } = self.step(state, input);
+        let terms = if status == Status::Good {
+            let limited = command != terms.unlimited;
+            AdaptiveTerms { limited, ..terms }
+        } else {
+            AdaptiveTerms::at_rest(state)
         };
         AdaptiveOutput {
-            command: state.held.command,
+            command,
             status,
             terms,
         }
     }
 
-    /// The state, command and terms after a sample, or what was wrong with it.
-    fn advance(
+    /// Every term that a step on a good sample would have, from a state before that step.
+    #[must_use]
+    pub fn terms(
         &self,
         state: &AdaptiveState<T, N>,
         input: &AdaptiveInput<T, N>,
-    ) -> Result<Advanced<T, N>, Fault> {
-        self.check(input)?;
+    ) -> AdaptiveTerms<T, N> {
+        self.evaluated(state, input).terms
+    }
+
+    /// The command of a good sample, which moves the state; `None`, and nothing has moved,
+    /// where a number cannot be used or the law overflows.
+    #[inline]
+    fn advance(
+        &self,
+        state: &mut AdaptiveState<T, N>,
+        input: &AdaptiveInput<T, N>,
+        frozen: bool,
+    ) -> Option<T> {
         let dt = input.dt;
-        let mut next = *state;
-        let terms = self.terms(state, &mut next, input);
-        if !(terms.unlimited.is_finite() && terms.virtual_command.is_finite()) {
-            return Err(Fault::Overflow);
+        let mut all = dt + (input.measured - input.reference) + input.next_reference;
+        all += input.feed_forward;
+        for x in &input.regressors {
+            all += *x;
+        }
+        if !(is_usable(all) && dt > T::ZERO && dt <= self.longest) {
+            return None;
+        }
+        let Evaluated {
+            terms,
+            error_rate,
+            lag,
+        } = self.evaluated(state, input);
+        if !is_usable(terms.unlimited + terms.virtual_command) {
+            return None;
         }
         let limits = &self.settings.limits;
         let command = limits.apply(state.held.command, terms.unlimited, dt);
-        let limited = command != terms.unlimited;
-        next.lag = if limited {
-            command - input.feed_forward
+        let lag = if command == terms.unlimited {
+            lag
         } else {
-            terms.law
+            Compensated::new(command - input.feed_forward)
         };
         // An error of this sign asks for more than the limit gives.
         let asks_more = |error: T| {
-            (command < terms.unlimited && error < T::zero())
-                || (command > terms.unlimited && error > T::zero())
+            (command < terms.unlimited && error < T::ZERO)
+                || (command > terms.unlimited && error > T::ZERO)
         };
+        let mut z = state.z;
         if !asks_more(terms.error) {
             let limit = self.settings.z_limit;
-            let moved = state.z.add(dt * terms.error, -limit, limit);
-            next.z = moved.ok_or(Fault::Overflow)?;
+            z = z.add(dt * terms.error, -limit, limit)?;
         }
-        if !self.settings.frozen && !asks_more(terms.s) {
-            self.adapt(&mut next, input, &terms)
-                .ok_or(Fault::Overflow)?;
+        let mut estimates = (state.beta, state.delta, state.theta);
+        if !frozen && !asks_more(terms.s) {
+            estimates = self.adapted(state, input, &terms)?;
         }
-        if !next.lag.is_finite() {
-            return Err(Fault::Overflow);
+        if !is_usable(lag.value + lag.carry) {
+            return None;
         }
-        Ok((next, command, AdaptiveTerms { limited, ..terms }))
+        state.z = z;
+        state.error_rate = error_rate;
+        state.lag = lag;
+        (state.beta, state.delta, state.theta) = estimates;
+        state.gap = T::ZERO;
+        state.held.good(command);
+        Some(command)
     }
 
-    /// Refuses what cannot be used, in the order of the fields.
-    fn check(&self, input: &AdaptiveInput<T, N>) -> Result<(), Fault> {
-        let dt = usable_dt(input.dt)?;
-        if self.longest.is_some_and(|longest| dt > longest) {
-            return Err(Fault::DtTooLong);
+    /// A bad sample, a dropped regressor, a latched safe command, or the first good sample
+    /// after one.
+    #[cold]
+    fn exception(&self, state: &mut AdaptiveState<T, N>, input: &AdaptiveInput<T, N>) -> Output<T> {
+        let fallback = &self.settings.fallback;
+        let status = match (state.held.latched(fallback), self.without_dropped(input)) {
+            (Some(safe), _) => safe,
+            (None, Err(fault)) => {
+                state.wait(input.dt, self.longest);
+                state.held.bad(fault, fallback)
+            }
+            (None, Ok((live, dropped))) => {
+                let frozen = self.settings.frozen || dropped.is_some();
+                let command = if state.held.is_closed() {
+                    self.advance(state, &live, frozen)
+                } else {
+                    self.close(state, &live, frozen)
+                };
+                match (command, dropped) {
+                    (Some(_), None) => Status::Good,
+                    (Some(_), Some(fault)) => Status::Degraded(fault),
+                    (None, _) => {
+                        state.wait(input.dt, self.longest);
+                        state.held.bad(Fault::Overflow, fallback)
+                    }
+                }
+            }
+        };
+        Output {
+            // A state may come from anywhere.
+            command: self.settings.limits.confine(state.held.command),
+            status,
         }
-        usable(input.reference, Fault::Reference)?;
-        usable(input.next_reference, Fault::Reference)?;
-        usable(input.measured, Fault::Measured)?;
-        for (i, x) in input.regressors.iter().enumerate() {
-            usable(*x, Fault::Regressor(u8::try_from(i).unwrap_or(u8::MAX)))?;
-        }
-        usable(input.feed_forward, Fault::FeedForward)?;
-        Ok(())
     }
 
-    /// The law (18), (19), (23), or its lag form. Only the error's rate moves in `next`.
-    fn terms(
+    /// The first good sample after a safe command that was acknowledged.
+    ///
+    /// The lag goes on from the safe command; the literal form starts where it gives that
+    /// command. The estimates are as they were.
+    fn close(
+        &self,
+        state: &mut AdaptiveState<T, N>,
+        live: &AdaptiveInput<T, N>,
+        frozen: bool,
+    ) -> Option<T> {
+        let mut next = self.returned(state, live);
+        let command = self.advance(&mut next, live, frozen)?;
+        next.held.latch = Latch::Closed;
+        *state = next;
+        Some(command)
+    }
+
+    /// The state from which the first good sample after a safe command goes on.
+    fn returned(
         &self,
         state: &AdaptiveState<T, N>,
-        next: &mut AdaptiveState<T, N>,
+        live: &AdaptiveInput<T, N>,
+    ) -> AdaptiveState<T, N> {
+        let mut next = *state;
+        next.held.command = self.settings.limits.confine(state.held.command);
+        match self.settings.form {
+            Form::Literal { .. } => self.settle(&mut next, live),
+            Form::Lag { .. } => {
+                next.gap = T::ZERO;
+                next.lag = Compensated::new(next.held.command - live.feed_forward);
+            }
+        }
+        next
+    }
+
+    /// The sample without the regressors that may be dropped, and the first that was.
+    fn without_dropped(
+        &self,
         input: &AdaptiveInput<T, N>,
-    ) -> AdaptiveTerms<T, N> {
+    ) -> Result<(AdaptiveInput<T, N>, Option<Fault>), Fault> {
+        let (mut live, mut dropped) = (*input, None);
+        let policies = &self.settings.missing;
+        for ((i, x), missing) in live.regressors.iter_mut().enumerate().zip(policies) {
+            if !x.is_finite() && *missing == Missing::Drop {
+                *x = T::ZERO;
+                dropped = dropped.or(Some(Fault::Regressor(u8::try_from(i).unwrap_or(u8::MAX))));
+            }
+        }
+        match self.fault(&live) {
+            Some(fault) => Err(fault),
+            None => Ok((live, dropped)),
+        }
+    }
+
+    /// What is wrong with a sample, where something is; not whether the law overflows on it.
+    pub(super) fn fault(&self, input: &AdaptiveInput<T, N>) -> Option<Fault> {
+        let bad = |x: &T| !x.is_finite();
+        fault_of_dt(input.dt, self.longest)
+            .or_else(|| {
+                first_fault(&[
+                    (input.reference, Fault::Reference),
+                    (input.next_reference, Fault::Reference),
+                    (input.measured, Fault::Measured),
+                ])
+            })
+            .or_else(|| {
+                let first = input.regressors.iter().position(bad)?;
+                Some(Fault::Regressor(u8::try_from(first).unwrap_or(u8::MAX)))
+            })
+            .or_else(|| first_fault(&[(input.feed_forward, Fault::FeedForward)]))
+    }
+
+    /// The law (18), (19), (23), or its lag form, and where it leaves its two memories.
+    #[inline]
+    fn evaluated(
+        &self,
+        state: &AdaptiveState<T, N>,
+        input: &AdaptiveInput<T, N>,
+    ) -> Evaluated<T, N> {
         let settings = &self.settings;
         let error = input.measured - input.reference;
-        let error_rate = match settings.form {
-            Form::Literal { .. } => self.derivative.step(&mut next.error_rate, error, input.dt),
-            Form::Lag { .. } => T::zero(),
-        };
+        let mut rate = state.error_rate;
+        if let Form::Literal { time_constant } = settings.form {
+            let filter = Derivative::assumed(time_constant);
+            filter.step(&mut rate, error, input.dt + state.gap);
+        }
         let mut terms = AdaptiveTerms {
             error,
-            error_rate,
             feed_forward: input.feed_forward,
             ..AdaptiveTerms::at_rest(state)
         };
+        if let Form::Literal { .. } = settings.form {
+            terms.error_rate = rate.rate();
+        }
         terms.s = error + settings.lambda * terms.z;
         terms.smooth_sign = settings.smooth_sign.of(terms.s / settings.epsilon);
         terms.virtual_command = self.virtual_command(&terms, input);
         let wanted = terms.beta_hat * terms.virtual_command;
-        terms.law = match settings.form {
-            Form::Literal { .. } => wanted,
+        let lag = match settings.form {
+            Form::Literal { .. } => Compensated::new(wanted),
             Form::Lag { .. } => {
-                let start = self.lag_start(state, input);
-                start + input.dt * settings.lambda * (wanted - start)
+                let way = wanted - state.lag.value;
+                state.lag.plus(input.dt * settings.lambda * way)
             }
         };
+        terms.law = lag.value;
         terms.unlimited = terms.law + input.feed_forward;
-        terms
+        Evaluated {
+            terms,
+            error_rate: rate,
+            lag,
+        }
     }
 
     /// ubar of (23), where the lag form has the reference's rate for the error's.
@@ -158,37 +302,38 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
             - terms.delta_hat * terms.smooth_sign
     }
 
-    /// Where the lag moves on from: from the safe command if that was out.
-    fn lag_start(&self, state: &AdaptiveState<T, N>, input: &AdaptiveInput<T, N>) -> T {
-        if state.held.is_safe(&self.settings.fallback) {
-            state.held.command - input.feed_forward
-        } else {
-            state.lag
-        }
-    }
-
     /// (24)-(26); `None` where an estimate overflows.
-    fn adapt(
+    #[inline]
+    fn adapted(
         &self,
-        next: &mut AdaptiveState<T, N>,
+        state: &AdaptiveState<T, N>,
         input: &AdaptiveInput<T, N>,
         terms: &AdaptiveTerms<T, N>,
-    ) -> Option<()> {
+    ) -> Option<Estimates<T, N>> {
         let settings = &self.settings;
         let (dt, pull) = (input.dt, settings.lambda * terms.s);
-        let beta = &settings.beta;
-        next.beta = beta.update(next.beta, dt, -pull * terms.virtual_command)?;
-        let delta = &settings.delta;
-        next.delta = delta.update(next.delta, dt, pull * terms.smooth_sign)?;
-        for i in 0..N {
-            let (estimate, x) = (next.theta.get_mut(i)?, input.regressors.get(i)?);
-            *estimate = settings.theta.get(i)?.update(*estimate, dt, -pull * *x)?;
+        let drive = -pull * terms.virtual_command;
+        let beta = settings.beta.update(state.beta, dt, drive)?;
+        let drive = pull * terms.smooth_sign;
+        let delta = settings.delta.update(state.delta, dt, drive)?;
+        let mut theta = state.theta;
+        let each = theta.iter_mut().zip(&settings.theta);
+        for ((estimate, estimator), x) in each.zip(&input.regressors) {
+            *estimate = estimator.update(*estimate, dt, -pull * *x)?;
         }
-        Some(())
+        Some((beta, delta, theta))
     }
 }
 
-type Advanced<T, const N: usize> = (AdaptiveState<T, N>, T, AdaptiveTerms<T, N>);
+/// beta_hat, delta_hat and theta_hat.
+type Estimates<T, const N: usize> = (Compensated<T>, Compensated<T>, [Compensated<T>; N]);
+
+/// The law on one sample, and where it leaves its memories.
+struct Evaluated<T, const N: usize> {
+    terms: AdaptiveTerms<T, N>,
+    error_rate: DerivativeState<T>,
+    lag: Compensated<T>,
+}
 
 impl<T: Real, const N: usize> AdaptiveTerms<T, N> {
     /// What a state alone says: z and the estimates.

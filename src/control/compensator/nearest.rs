@@ -99,6 +99,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
             effects: model.without_terms(is_stage),
             input_range: None,
             term_ranges: [None; N],
+            longest_dt: T::HIGHEST,
         };
         let changed = Changed {
             sigma: lowered(before.sigma(), after.sigma()),

@@ -1,8 +1,8 @@
 //! What a [`Pid`](super::Pid) is made of, before it is checked.
 
 use super::Pid;
+use crate::control::status::OUTSIDE;
 use crate::control::{Fallback, Limits};
-use crate::error::finite;
 use crate::{Error, Real};
 
 /// What the gain `k_d` multiplies.
@@ -29,26 +29,26 @@ pub enum Damping<T> {
 impl<T: Real> Damping<T> {
     /// Derivative of the error, as in (14): a step of the reference kicks.
     #[must_use]
-    pub fn on_error() -> Self {
-        Self::Rate { weight: T::one() }
+    pub const fn on_error() -> Self {
+        Self::Rate { weight: T::ONE }
     }
 
     /// Derivative of the measurement: a step of the reference does not kick.
     #[must_use]
-    pub fn on_measurement() -> Self {
-        Self::Rate { weight: T::zero() }
+    pub const fn on_measurement() -> Self {
+        Self::Rate { weight: T::ZERO }
     }
 }
 
 /// What keeps the integral from growing while the command is limited.
 ///
-/// Limited means: by the range or by the slew rate.
+/// Limited means: by the range or by the slew rate, unless a variant says otherwise.
 ///
 /// ```
 /// use bowden::control::{AntiWindup, Limits, Pid, PidInput, PidSettings, PidState};
 /// let integral = |anti_windup| {
 ///     let limits = Limits::try_new(-10.0, 10.0)?;
-///     let pid = Pid::try_new(PidSettings { anti_windup, limits, ..PidSettings::new(2.0, 5.0) })?;
+///     let pid = Pid::try_new(PidSettings { anti_windup, limits, ..PidSettings::unlimited(2.0, 5.0) })?;
 ///     let mut state = PidState::new();
 ///     for _ in 0..1000 {
 ///         pid.step(&mut state, &PidInput::new(0.001, 8.0, 0.0)); // wants 16 and more
@@ -74,27 +74,36 @@ pub enum AntiWindup<T> {
     /// What the limits cut off flows back into the integral.
     ///
     /// The part cut off at one sample enters at the next one, times
-    /// `1 − e^(−dt/T_t)`: with the other terms at rest it decays as `e^(−t/T_t)`, at any
-    /// rate and for any `dt`.
+    /// `dt/(T_t + dt)`: with the other terms at rest it decays by `T_t/(T_t + dt)` a sample,
+    /// as `e^(−t/T_t)` where dt is short, and never overshoots.
     BackCalculation {
         /// T_t, above zero \[s\]; `k_p/k_i` is a usual choice.
         tracking_time: T,
     },
-    /// A change that would push a limited command further out is left out.
+    /// A change that would push a command beyond the range further out is left out.
     ///
-    /// A change in the other direction is always taken, so that the integral unwinds.
+    /// A change in the other direction is always taken, so that the integral unwinds. What
+    /// the slew rate cuts off, which passes by itself, is back-calculated with
+    /// T_t = `k_p/k_i`: were it treated as the range, the integral would stand still for as
+    /// long as the command moves.
     Conditional,
 }
 
 /// Settings of a [`Pid`](super::Pid), with public fields; [`Pid::try_new`] checks them.
 ///
 /// ```
-/// use bowden::control::{Damping, Pid, PidSettings};
+/// use bowden::control::{Damping, Fallback, Limits, Pid, PidSettings};
 /// let pid = Pid::try_new(PidSettings {
 ///     k_d: 2.0,
 ///     derivative_time: 0.1, // [s]
 ///     damping: Damping::on_measurement(),
-///     ..PidSettings::new(30.0, 18.0_f64)
+///     ..PidSettings::new(
+///         30.0,
+///         18.0_f64,
+///         Limits::try_new(-20.0, 60.0)?, // [N·m]
+///         0.005,                         // longest dt [s]
+///         Fallback::try_new(20, 0.0)?,   // after 20 bad samples: [N·m]
+///     )
 /// })?;
 /// assert_eq!(pid.settings().k_d, 2.0);
 /// # Ok::<(), bowden::Error>(())
@@ -136,10 +145,15 @@ pub struct PidSettings<T> {
     #[cfg_attr(feature = "serde", serde(default = "conditional"))]
     pub anti_windup: AntiWindup<T>,
     /// Range and slew rate of the command.
-    #[cfg_attr(feature = "serde", serde(default = "Limits::none"))]
+    #[cfg_attr(feature = "serde", serde(default = "Limits::unlimited"))]
     pub limits: Limits<T>,
+    /// Longest `dt` that is a sample, above zero \[s\]: five nominal steps, say.
+    ///
+    /// A longer one (a counter that wrapped, a task that was starved) is a bad sample.
+    #[cfg_attr(feature = "serde", serde(default = "any_dt"))]
+    pub longest_dt: T,
     /// What goes out when samples stay bad; a safe command lies within `limits`.
-    #[cfg_attr(feature = "serde", serde(default = "Fallback::hold"))]
+    #[cfg_attr(feature = "serde", serde(default = "Fallback::hold_for_ever"))]
     pub fallback: Fallback<T>,
 }
 
@@ -148,60 +162,141 @@ fn conditional<T>() -> AntiWindup<T> {
     AntiWindup::Conditional
 }
 
+#[cfg(feature = "serde")]
+fn any_dt<T: Real>() -> T {
+    T::HIGHEST
+}
+
+/// Every check of the settings, for any float and for constants.
+macro_rules! checks {
+    ($settings:ident, $T:ty) => {{
+        let (s, zero, one) = ($settings, <$T as Real>::ZERO, <$T as Real>::ONE);
+        if !s.k_p.is_finite() {
+            return Err(Error::NonFinite("k_p"));
+        }
+        if !s.k_i.is_finite() {
+            return Err(Error::NonFinite("k_i"));
+        }
+        if !s.k_d.is_finite() {
+            return Err(Error::NonFinite("k_d"));
+        }
+        if (s.k_p > zero && s.k_i < zero) || (s.k_p < zero && s.k_i > zero) {
+            return Err(Error::Inadmissible("k_p and k_i have the same sign"));
+        }
+        if let Damping::Rate { weight } = s.damping {
+            if !weight.is_finite() {
+                return Err(Error::NonFinite("derivative weight"));
+            }
+            if weight < zero || weight > one {
+                return Err(Error::OutOfRange("derivative weight"));
+            }
+            let above = s.k_p > zero || s.k_i > zero;
+            let below = s.k_p < zero || s.k_i < zero;
+            if (above && s.k_d < zero) || (below && s.k_d > zero) {
+                return Err(Error::Inadmissible("k_d has the sign of k_p and k_i"));
+            }
+        }
+        if !s.setpoint_weight.is_finite() {
+            return Err(Error::NonFinite("setpoint_weight"));
+        }
+        if s.setpoint_weight < zero || s.setpoint_weight > one {
+            return Err(Error::OutOfRange("setpoint_weight"));
+        }
+        if !s.derivative_time.is_finite() {
+            return Err(Error::NonFinite("derivative_time"));
+        }
+        if s.derivative_time < zero {
+            return Err(Error::OutOfRange("derivative_time"));
+        }
+        if let AntiWindup::BackCalculation { tracking_time } = s.anti_windup {
+            if !tracking_time.is_finite() {
+                return Err(Error::NonFinite("tracking_time"));
+            }
+            if tracking_time <= zero {
+                return Err(Error::OutOfRange("tracking_time"));
+            }
+        }
+        if !s.longest_dt.is_finite() {
+            return Err(Error::NonFinite("longest_dt"));
+        }
+        if s.longest_dt <= zero {
+            return Err(Error::OutOfRange("longest_dt"));
+        }
+        if let Some(safe) = s.fallback.command() {
+            if safe < s.limits.low() || safe > s.limits.high() {
+                return Err(Error::Inadmissible(OUTSIDE));
+            }
+        }
+        Ok(())
+    }};
+}
+
+macro_rules! constant {
+    ($float:ty) => {
+        impl PidSettings<$float> {
+            const fn const_check(&self) -> Result<(), Error> {
+                checks!(self, $float)
+            }
+        }
+
+        impl Pid<$float> {
+            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
+            ///
+            /// # Errors
+            /// As [`try_new`](Self::try_new).
+            pub const fn const_new(settings: PidSettings<$float>) -> Result<Self, Error> {
+                match settings.const_check() {
+                    Ok(()) => Ok(Self { settings }),
+                    Err(error) => Err(error),
+                }
+            }
+        }
+    };
+}
+constant!(f32);
+constant!(f64);
+
 impl<T: Real> PidSettings<T> {
-    /// A plain PI (15): full set-point weight, conditional anti-windup, no limits.
+    /// A plain PI (15) for a machine: what the drive may get, and what happens in a fault.
+    ///
+    /// Full set-point weight, conditional anti-windup. `longest_dt` in \[s\].
     #[must_use]
-    pub fn new(k_p: T, k_i: T) -> Self {
+    pub const fn new(
+        k_p: T,
+        k_i: T,
+        limits: Limits<T>,
+        longest_dt: T,
+        fallback: Fallback<T>,
+    ) -> Self {
+        Self {
+            limits,
+            longest_dt,
+            fallback,
+            ..Self::unlimited(k_p, k_i)
+        }
+    }
+
+    /// The same for a simulation: no limits, any `dt`, the last command for ever.
+    #[must_use]
+    pub const fn unlimited(k_p: T, k_i: T) -> Self {
         Self {
             k_p,
             k_i,
-            k_d: T::zero(),
+            k_d: T::ZERO,
             damping: Damping::on_error(),
-            derivative_time: T::zero(),
-            setpoint_weight: T::one(),
+            derivative_time: T::ZERO,
+            setpoint_weight: T::ONE,
             anti_windup: AntiWindup::Conditional,
-            limits: Limits::none(),
-            fallback: Fallback::hold(),
+            limits: Limits::unlimited(),
+            longest_dt: T::HIGHEST,
+            fallback: Fallback::hold_for_ever(),
         }
     }
 
     /// Everything that a field's docs promise.
     pub(super) fn check(&self) -> Result<(), Error> {
-        finite(self.k_p, "k_p")?;
-        finite(self.k_i, "k_i")?;
-        finite(self.k_d, "k_d")?;
-        if opposed(self.k_p, self.k_i) {
-            return Err(Error::Inadmissible("k_p and k_i have the same sign"));
-        }
-        if let Damping::Rate { weight } = self.damping {
-            share(weight, "derivative weight")?;
-            if opposed(self.k_p, self.k_d) || opposed(self.k_i, self.k_d) {
-                return Err(Error::Inadmissible("k_d has the sign of k_p and k_i"));
-            }
-        }
-        share(self.setpoint_weight, "setpoint_weight")?;
-        if finite(self.derivative_time, "derivative_time")? < T::zero() {
-            return Err(Error::OutOfRange("derivative_time"));
-        }
-        if let AntiWindup::BackCalculation { tracking_time } = self.anti_windup {
-            if finite(tracking_time, "tracking_time")? <= T::zero() {
-                return Err(Error::OutOfRange("tracking_time"));
-            }
-        }
-        self.fallback.check_within(&self.limits)
+        checks!(self, T)
     }
-}
-
-/// Whether one is above zero and the other below.
-fn opposed<T: Real>(a: T, b: T) -> bool {
-    (a > T::zero() && b < T::zero()) || (a < T::zero() && b > T::zero())
-}
-
-fn share<T: Real>(value: T, name: &'static str) -> Result<(), Error> {
-    if finite(value, name)? < T::zero() || value > T::one() {
-        return Err(Error::OutOfRange(name));
-    }
-    Ok(())
 }
 
 #[cfg(feature = "serde")]

@@ -42,7 +42,7 @@ impl<T: Real> PidInput<T> {
     }
 }
 
-/// What a step of a [`Pid`](super::Pid) gives.
+/// What [`Pid::step_with_terms`](super::Pid::step_with_terms) gives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -60,7 +60,7 @@ pub struct PidOutput<T> {
 /// ```
 /// use bowden::control::{Pid, PidInput, PidState};
 /// let at = PidInput { velocity: 0.1, feed_forward: 5.0, ..PidInput::new(0.001, 1.0, 0.5) };
-/// let terms = Pid::paper_piv().step(&mut PidState::new(), &at).terms;
+/// let terms = Pid::paper_piv().step_with_terms(&mut PidState::new(), &at).terms;
 /// assert_eq!((terms.proportional, terms.velocity, terms.feed_forward), (15.0, -1.0, 5.0));
 /// assert_eq!(terms.unlimited, 15.0 + terms.integral - 1.0 + 5.0);
 /// ```

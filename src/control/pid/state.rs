@@ -1,8 +1,9 @@
 //! What a [`Pid`] remembers between samples.
 
 use super::{Pid, PidInput};
-use crate::control::status::{usable_dt, Held};
+use crate::control::status::{gap_after, Held};
 use crate::control::Status;
+use crate::signal::Compensated;
 use crate::Real;
 
 /// State of a [`Pid`]: the integral, the filtered rate, the last good sample.
@@ -34,14 +35,13 @@ use crate::Real;
 )]
 pub struct PidState<T> {
     /// The integral term \[command unit\].
-    pub(super) integral: T,
-    /// What rounding has added to it too much (Kahan's sum).
-    carry: T,
+    pub(super) integral: Compensated<T>,
     /// Filtered rate of y − c·y_r, zero where that is not used.
     pub(super) rate: T,
     pub(super) last: Option<Last<T>>,
     pub(super) held: Held<T>,
-    /// Time of the bad samples since the last good one \[s\].
+    /// Time of the bad samples since the last good one \[s\]; the highest float where
+    /// nobody knows it: the rate then stays as it is for a sample.
     pub(super) gap: T,
 }
 
@@ -53,6 +53,7 @@ pub struct PidState<T> {
 pub(crate) struct Last<T> {
     pub(crate) reference: T,
     pub(crate) measured: T,
+    /// Zero where it was no number, which only PIV minds.
     pub(crate) velocity: T,
     pub(crate) feed_forward: T,
     pub(crate) command: T,
@@ -65,14 +66,13 @@ impl<T: Real> PidState<T> {
     /// A slew rate starts from that zero; start with [`PidState::resume_from`] where
     /// something else is out.
     #[must_use]
-    pub fn new() -> Self {
+    pub const fn new() -> Self {
         Self {
-            integral: T::zero(),
-            carry: T::zero(),
-            rate: T::zero(),
+            integral: Compensated::new(T::ZERO),
+            rate: T::ZERO,
             last: None,
-            held: Held::new(T::zero()),
-            gap: T::zero(),
+            held: Held::new(T::ZERO),
+            gap: T::ZERO,
         }
     }
 
@@ -86,7 +86,7 @@ impl<T: Real> PidState<T> {
     /// the integral go that far, it goes as far as it may.
     ///
     /// A number that is not finite, or an overflow, leaves the state as it was, but for
-    /// the count of bad samples, and is told.
+    /// the count of bad samples, and is told. Where the safe command is latched it stays.
     ///
     /// ```
     /// use bowden::control::{Pid, PidInput, PidState, Status};
@@ -97,24 +97,49 @@ impl<T: Real> PidState<T> {
     /// assert_eq!(pid.step(&mut state, &at).command, 42.0);
     /// ```
     pub fn resume_from(&mut self, pid: &Pid<T>, output: T, at: &PidInput<T>) -> Status {
+        let fallback = &pid.settings().fallback;
+        if let Some(safe) = self.held.latched(fallback) {
+            return safe;
+        }
         match pid.started_at(output, at) {
             Ok((last, integral)) => {
-                *self = Self::new();
-                self.integral = integral;
-                self.take(last);
+                self.start(last, integral);
                 Status::Good
             }
-            Err(fault) => self.held.bad(fault, &pid.settings().fallback),
+            Err(fault) => self.held.bad(fault, fallback),
         }
+    }
+
+    /// Stands at a sample with this integral, at rest.
+    pub(super) fn start(&mut self, last: Last<T>, integral: T) {
+        *self = Self {
+            integral: Compensated::new(integral),
+            last: Some(last),
+            held: Held::new(last.command),
+            ..Self::new()
+        };
+    }
+
+    /// Takes note that somebody has seen the fault: the loop may be closed again.
+    ///
+    /// While the safe command is latched ([`Status::Safe`]) nothing else closes it. The next
+    /// good sample then starts from the safe command, without a jump, as
+    /// [`resume_from`](Self::resume_from) does; without an integral gain it starts from the
+    /// terms themselves, through the slew rate.
+    pub fn acknowledge(&mut self) {
+        self.held.acknowledge();
     }
 
     /// Forgets integral, rate and samples; the command that is out stays known.
     ///
-    /// A slew rate goes on from there. For a state that knows of no command, assign
-    /// [`PidState::new`].
+    /// A slew rate goes on from there, and a safe command that is latched stays so. For a
+    /// state that knows of no command, assign [`PidState::new`].
     pub fn reset(&mut self) {
         *self = Self {
-            held: Held::new(self.held.command),
+            held: Held {
+                score: 0,
+                ..self.held
+            },
             ..Self::new()
         };
     }
@@ -130,7 +155,7 @@ impl<T: Real> PidState<T> {
     #[inline]
     #[must_use]
     pub fn integral(&self) -> T {
-        self.integral
+        self.integral.value
     }
 
     /// The filtered rate of `y − c·y_r` \[output unit/s\]; zero where it is not used.
@@ -140,76 +165,34 @@ impl<T: Real> PidState<T> {
         self.rate
     }
 
-    /// How many samples in a row were bad; stays at `u32::MAX`.
+    /// Score of the bad samples, see [`Fallback`](crate::control::Fallback).
     #[inline]
     #[must_use]
-    pub fn consecutive_bad(&self) -> u32 {
-        self.held.bad
+    pub fn bad_score(&self) -> u32 {
+        self.held.score
+    }
+
+    /// Whether the safe command is latched.
+    #[inline]
+    #[must_use]
+    pub fn is_latched(&self) -> bool {
+        self.held.is_latched()
     }
 
     /// Whether this is a state that steps can lead to: every number is finite.
     #[cfg(any(feature = "serde", kani))]
     pub(crate) fn is_valid(&self) -> bool {
-        let own = [self.integral, self.carry, self.rate, self.gap];
-        own.iter().all(|number| number.is_finite())
+        self.integral.is_finite()
+            && self.rate.is_finite()
+            && self.gap.is_finite()
             && self.gap >= T::zero()
             && self.held.command.is_finite()
             && self.last.is_none_or(|last| last.is_valid())
     }
 
-    /// Adds to the integral; `f32` would lose a step below half an ulp.
-    #[inline]
-    pub(super) fn add(&mut self, change: T) {
-        let step = change - self.carry;
-        let total = self.integral + step;
-        self.carry = (total - self.integral) - step;
-        self.integral = total;
-    }
-
-    /// Puts the integral elsewhere.
-    #[inline]
-    pub(super) fn set_integral(&mut self, integral: T) {
-        self.integral = integral;
-        self.carry = T::zero();
-    }
-
-    /// The same, unless it is there already: then its carry stays.
-    #[inline]
-    pub(super) fn confine(&mut self, integral: T) {
-        if integral != self.integral {
-            self.set_integral(integral);
-        }
-    }
-
-    /// The integral of another state.
-    #[inline]
-    pub(super) fn restore_sum(&mut self, of: &Self) {
-        (self.integral, self.carry) = (of.integral, of.carry);
-    }
-
-    /// The integral less its carry: finite where both are.
-    #[inline]
-    pub(super) fn sum(&self) -> T {
-        self.integral - self.carry
-    }
-
-    /// Takes note of a good sample.
-    #[inline]
-    pub(super) fn take(&mut self, last: Last<T>) {
-        self.held.good(last.command);
-        self.gap = T::zero();
-        self.last = Some(last);
-    }
-
-    /// Counts the time of a bad sample, where it has any.
-    #[inline]
-    pub(super) fn wait(&mut self, dt: T) {
-        if let Ok(dt) = usable_dt(dt) {
-            let gap = self.gap + dt;
-            if gap.is_finite() {
-                self.gap = gap;
-            }
-        }
+    /// Counts the time of a bad sample.
+    pub(super) fn wait(&mut self, dt: T, longest: T) {
+        self.gap = gap_after(self.gap, dt, longest);
     }
 }
 
@@ -228,8 +211,7 @@ impl<T: Real> Last<T> {
 #[cfg_attr(feature = "serde", derive(serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub(crate) struct Unchecked<T> {
-    pub(crate) integral: T,
-    pub(crate) carry: T,
+    pub(crate) integral: Compensated<T>,
     pub(crate) rate: T,
     pub(crate) last: Option<Last<T>>,
     pub(crate) held: Held<T>,
@@ -242,7 +224,6 @@ impl<T: Real> TryFrom<Unchecked<T>> for PidState<T> {
     fn try_from(raw: Unchecked<T>) -> Result<Self, crate::Error> {
         let state = Self {
             integral: raw.integral,
-            carry: raw.carry,
             rate: raw.rate,
             last: raw.last,
             held: raw.held,

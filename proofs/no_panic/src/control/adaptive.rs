@@ -24,9 +24,15 @@ pub fn all<T: Real>() -> Option<()> {
     let form = black_box(Form::Literal {
         time_constant: any(),
     });
+    let limits = black_box(Limits::unlimited());
+    let fallback = black_box(Fallback::hold_for_ever());
     never_panics!(
         control_adaptive_settings_new,
-        AdaptiveSettings::<T, 2>::new(form, any(), any(), any())
+        AdaptiveSettings::<T, 2>::new(form, any(), any(), any(), limits, any(), fallback)
+    );
+    never_panics!(
+        control_adaptive_settings_unlimited,
+        AdaptiveSettings::<T, 2>::unlimited(form, any(), any(), any())
     );
     never_panics!(
         control_adaptive_settings_largest_step,
@@ -45,7 +51,22 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(control_adaptive_settings, *law.settings());
     never_panics!(control_adaptive_largest_step, law.largest_step());
     never_panics!(control_adaptive_is_valid, law.is_valid(&state));
+    never_panics!(control_adaptive_longest_dt, law.longest_dt());
     never_panics!(control_adaptive_step_step, law.step(&mut state, &at));
+    never_panics!(
+        control_adaptive_step_step_with_terms,
+        law.step_with_terms(&mut state, &at)
+    );
+    never_panics!(control_adaptive_step_terms, law.terms(&state, &at));
+    never_panics!(
+        control_adaptive_resume_resume,
+        law.resume(black_box(&mut state), any(), &at)
+    );
+    never_panics!(
+        control_adaptive_state_acknowledge,
+        black_box(&mut state).acknowledge()
+    );
+    never_panics!(control_adaptive_state_is_latched, state.is_latched());
     never_panics!(
         control_adaptive_resume_resume_from,
         AdaptiveState::resume_from(&law, any(), &at)
@@ -66,10 +87,7 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(control_adaptive_state_delta_hat, state.delta_hat());
     never_panics!(control_adaptive_state_theta_hat, state.theta_hat());
     never_panics!(control_adaptive_state_command, state.command());
-    never_panics!(
-        control_adaptive_state_consecutive_bad,
-        state.consecutive_bad()
-    );
+    never_panics!(control_adaptive_state_bad_score, state.bad_score());
     Some(())
 }
 
@@ -81,6 +99,7 @@ fn parts<T: Real>() {
         control_adaptive_estimator_fixed,
         Estimator::<T>::fixed(any())
     );
+    never_panics!(control_adaptive_estimator_free, Estimator::<T>::free(any()));
     let estimator = black_box(Estimator::<T>::fixed(any()));
     never_panics!(
         control_adaptive_estimator_within,

@@ -57,6 +57,10 @@ pub fn all<T: Real>() -> Option<()> {
     };
     let compensator = black_box(compensator.with_ranges(ranges)).ok()?;
     let mut state = black_box(CompensatorState::new());
+    never_panics!(
+        control_compensator_with_longest_dt,
+        compensator.with_longest_dt(any())
+    );
     never_panics!(control_compensator_step, compensator.step(&mut state, &at));
     never_panics!(control_compensator_command, state.command());
     never_panics!(control_compensator_eta, state.eta());

@@ -1,7 +1,7 @@
 //! `control/pid.rs`, `control/pid/`
 
 use crate::{any, never_panics};
-use bowden::control::{Damping, Pid, PidInput, PidSettings, PidState};
+use bowden::control::{Damping, Fallback, Limits, Pid, PidInput, PidSettings, PidState};
 use bowden::Real;
 use std::hint::black_box;
 
@@ -11,9 +11,15 @@ pub fn all<T: Real>() -> Option<()> {
         control_pid_settings_on_measurement,
         Damping::<T>::on_measurement()
     );
+    let limits = black_box(Limits::unlimited());
+    let fallback = black_box(Fallback::hold_for_ever());
     never_panics!(
         control_pid_settings_new,
-        PidSettings::<T>::new(any(), any())
+        PidSettings::<T>::new(any(), any(), limits, any(), fallback)
+    );
+    never_panics!(
+        control_pid_settings_unlimited,
+        PidSettings::<T>::unlimited(any(), any())
     );
     never_panics!(
         control_pid_signals_new,
@@ -24,7 +30,7 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(control_pid_paper_piv, Pid::<T>::paper_piv());
     never_panics!(control_pid_matched_pi, Pid::<T>::matched_pi());
 
-    let settings = black_box(PidSettings::<T>::new(any(), any()));
+    let settings = black_box(PidSettings::<T>::unlimited(any(), any()));
     never_panics!(control_pid_try_new, Pid::try_new(settings));
     let pid = black_box(Pid::try_new(settings)).ok()?;
     let at = black_box(PidInput::new(any(), any(), any()));
@@ -32,6 +38,10 @@ pub fn all<T: Real>() -> Option<()> {
     let mut state = black_box(PidState::new());
     never_panics!(control_pid_settings, *pid.settings());
     never_panics!(control_pid_step, pid.step(&mut state, &at));
+    never_panics!(
+        control_pid_step_with_terms,
+        pid.step_with_terms(&mut state, &at)
+    );
     never_panics!(control_pid_terms, pid.terms(black_box(&state)));
     never_panics!(control_pid_take_over, pid.take_over(black_box(&mut state)));
     never_panics!(
@@ -42,6 +52,11 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(control_pid_state_command, state.command());
     never_panics!(control_pid_state_integral, state.integral());
     never_panics!(control_pid_state_rate, state.rate());
-    never_panics!(control_pid_state_consecutive_bad, state.consecutive_bad());
+    never_panics!(control_pid_state_bad_score, state.bad_score());
+    never_panics!(control_pid_state_is_latched, state.is_latched());
+    never_panics!(
+        control_pid_state_acknowledge,
+        black_box(&mut state).acknowledge()
+    );
     Some(())
 }

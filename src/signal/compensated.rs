@@ -1,27 +1,52 @@
 //! A sum that keeps what rounding would drop.
 
-use crate::signal::clamp;
+use super::clamp;
 use crate::Real;
 
 /// A running sum with the part that the last addition lost to rounding.
 ///
-/// Estimates and the accumulated error move by `h` times something small each sample.
-/// In f32 an increment below half an ulp of the sum would vanish, for ever: a leakage of
-/// 0.001/s at 20 kHz moves an estimate by 5e-8 of itself, and f32 has 6e-8.
+/// Integrals and estimates move by `h` times something small each sample. In `f32` an
+/// increment below half an ulp of the sum would vanish, for ever: a leakage of 0.001/s at
+/// 20 kHz moves an estimate by 5e-8 of itself, and `f32` has 6e-8.
+///
+/// ```
+/// use bowden::signal::Compensated;
+/// let mut plain = 1.0_f32;
+/// let mut sum = Compensated::new(1.0_f32);
+/// for _ in 0..1_000_000 {
+///     plain += 1e-8;
+///     sum = sum.plus(1e-8);
+/// }
+/// assert_eq!(plain, 1.0); // a million increments, all lost
+/// assert!((sum.value - 1.01).abs() < 1e-6);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(crate) struct Compensated<T> {
-    pub(crate) value: T,
-    pub(crate) carry: T,
+pub struct Compensated<T> {
+    /// The sum.
+    pub value: T,
+    /// What it owes: the next increment is added together with it.
+    pub carry: T,
 }
 
 impl<T: Real> Compensated<T> {
-    pub(crate) fn new(value: T) -> Self {
+    /// A sum that owes nothing.
+    #[must_use]
+    pub const fn new(value: T) -> Self {
         Self {
             value,
-            carry: T::zero(),
+            carry: T::ZERO,
         }
+    }
+
+    /// The sum after `increment`; where it is finite, so may be the carry or not.
+    #[inline]
+    #[must_use]
+    pub fn plus(self, increment: T) -> Self {
+        let (value, carry) = two_sum(self.value, increment + self.carry);
+        Self { value, carry }
     }
 
     /// The sum after `increment`, within `[low, high]`.
@@ -29,19 +54,24 @@ impl<T: Real> Compensated<T> {
     /// `None` where it is not finite before it is clamped: an overflow, or NaN.
     #[inline]
     pub(crate) fn add(self, increment: T, low: T, high: T) -> Option<Self> {
-        let wanted = increment + self.carry;
-        let (sum, lost) = two_sum(self.value, wanted);
-        if !sum.is_finite() {
+        let sum = self.plus(increment);
+        if !sum.value.is_finite() {
             return None;
         }
-        let value = clamp(sum, low, high);
-        // At an edge of the box nothing is owed; the way to `lost` may overflow.
-        let carry = if value == sum && lost.is_finite() {
-            lost
+        let value = clamp(sum.value, low, high);
+        // At an edge of the box nothing is owed; the way to the carry may overflow.
+        let carry = if value == sum.value && sum.carry.is_finite() {
+            sum.carry
         } else {
-            T::zero()
+            T::ZERO
         };
         Some(Self { value, carry })
+    }
+
+    /// Whether both numbers are finite.
+    #[cfg(any(feature = "serde", kani))]
+    pub(crate) fn is_finite(&self) -> bool {
+        self.value.is_finite() && self.carry.is_finite()
     }
 }
 

@@ -1,0 +1,236 @@
+//! Numbers that are finite and wrong, and configurations in flash.
+
+use super::{law, limits};
+use bowden::constant;
+use bowden::control::{
+    Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Fallback, Form, Limits,
+    Pid, PidInput, PidSettings, PidState, SmoothSign, Status,
+};
+use bowden::signal::{Implausible, Plausible, PlausibleState, Ramp, RampState};
+
+#[test]
+fn a_reset_encoder_does_not_move_the_estimates() {
+    // The position jumps by 0.6 rad in 1 ms: twice differenced that is 6e5 rad/s².
+    let acceleration = |k: u32| match k {
+        500 => 6e5,
+        _ => (0.01 * f64::from(k)).sin(),
+    };
+    let law = Adaptive::try_new(law(false, 1e12)).unwrap();
+    let checked = Plausible::try_new(-500.0, 500.0).unwrap();
+    let run = |with: bool| {
+        let (mut state, mut seen) = (AdaptiveState::new(&law), PlausibleState::new());
+        let mut most = 0.0_f64;
+        for k in 0..600 {
+            let raw = acceleration(k);
+            let there = checked.step(&mut seen, raw, 0.001, true).value;
+            let x = if with { there } else { raw };
+            let out = law.step(&mut state, &AdaptiveInput::new(0.001, 25.0, 24.9, [x]));
+            most = most.max(out.command.abs());
+        }
+        (state.theta_hat()[0], most)
+    };
+    let ((theta, most), (thrown, thrown_most)) = (run(true), run(false));
+    assert!(
+        thrown_most > 1e5 && (thrown - theta).abs() > 1.0,
+        "{thrown} {thrown_most}"
+    );
+    assert!(most < 200.0 && (theta - 1.0).abs() < 0.1, "{theta} {most}");
+}
+
+#[test]
+fn a_sample_is_plausible_within_its_range_and_its_rate() {
+    let plausible = Plausible::try_new(-10.0, 10.0)
+        .unwrap()
+        .with_rate(100.0)
+        .unwrap();
+    let mut state = PlausibleState::new();
+    let mut fault = |sample: f64, dt: f64| plausible.step(&mut state, sample, dt, true).fault;
+    assert_eq!(
+        fault(9.0, 0.001),
+        None,
+        "the first may be anywhere in the range"
+    );
+    assert_eq!(fault(11.0, 0.001), Some(Implausible::OutOfRange));
+    assert_eq!(fault(f64::NAN, 0.001), Some(Implausible::NotFinite));
+    assert_eq!(fault(f64::INFINITY, 0.001), Some(Implausible::NotFinite));
+    assert_eq!(
+        fault(8.0, 0.001),
+        Some(Implausible::TooFast),
+        "0.4 in four samples"
+    );
+    // A signal that has really moved is taken up again: 1 in 10 ms.
+    let waits = (0..20).take_while(|_| fault(8.0, 0.001).is_some()).count();
+    assert_eq!(waits, 5);
+    assert_eq!(fault(8.1, 0.001), None);
+    // After a gap of unknown length it may be anywhere in the range.
+    assert_eq!(fault(f64::NAN, f64::NAN), Some(Implausible::NotFinite));
+    assert_eq!(fault(-9.0, 0.001), None);
+}
+
+#[test]
+fn a_frozen_sensor_is_told_while_the_machine_moves_only() {
+    let plausible = Plausible::try_new(-10.0, 10.0).unwrap().with_stuck_after(5);
+    let mut state = PlausibleState::new();
+    let mut fault = |sample: f64, moves| plausible.step(&mut state, sample, 0.001, moves).fault;
+    for _ in 0..100 {
+        assert_eq!(fault(3.0, false), None, "at rest it may repeat itself");
+    }
+    for _ in 0..4 {
+        assert_eq!(fault(3.0, true), None);
+    }
+    assert_eq!(fault(3.0, true), Some(Implausible::Stuck));
+    assert_eq!(
+        fault(3.0, false),
+        Some(Implausible::Stuck),
+        "it has not moved since"
+    );
+    assert_eq!(fault(3.1, true), None);
+}
+
+#[test]
+fn a_reference_ramp_keeps_its_rate_and_never_passes_what_was_wanted() {
+    let ramp = Ramp::try_new(50.0, 0.02).unwrap();
+    let mut state = RampState::at(0.0);
+    let mut last = 0.0_f64;
+    for _ in 0..2000 {
+        let value = ramp.step(&mut state, 25.0, 0.001);
+        assert!((value - last) <= 0.05 + 1e-12 && value <= 25.0); // 50/s for 1 ms
+        last = value;
+    }
+    assert!((last - 25.0).abs() < 1e-6);
+    for (wanted, dt) in [
+        (f64::NAN, 0.001),
+        (30.0, f64::NAN),
+        (30.0, 0.0),
+        (30.0, -1.0),
+    ] {
+        assert_eq!(ramp.step(&mut state, wanted, dt), last);
+    }
+    assert!(Ramp::try_new(0.0, 0.0).is_err() && Ramp::try_new(1.0, -1.0).is_err());
+}
+
+/// Range, longest dt \[s\] and safe command of a drive, in flash.
+const RANGE: Limits<f32> =
+    constant!(constant!(Limits::<f32>::const_new(-20.0, 60.0)).const_with_slew(2000.0));
+const SAFE: Fallback<f32> = constant!(Fallback::<f32>::const_new(20, 0.0));
+static PI: Pid<f32> = constant!(Pid::<f32>::const_new(PidSettings::new(
+    30.0, 18.0, RANGE, 0.005, SAFE
+)));
+static PI_64: Pid<f64> = constant!(Pid::<f64>::const_new(PidSettings::new(
+    30.0,
+    18.0,
+    constant!(Limits::<f64>::const_new(-20.0, 60.0)),
+    0.005,
+    constant!(Fallback::<f64>::const_new(20, 0.0)),
+)));
+const LAG: Form<f32> = Form::Lag {
+    step: 0.001,
+    plant_gain: 1.0,
+};
+static LAW: Adaptive<f32, 2> = constant!(Adaptive::<f32, 2>::const_new(AdaptiveSettings {
+    beta: Estimator::fixed(1.0)
+        .within(0.9, 1.1)
+        .adapting(2.5e-4, 0.01),
+    delta: Estimator::fixed(1.0).within(0.0, 7.0).adapting(6e-3, 0.01),
+    smooth_sign: SmoothSign::Clamp,
+    ..AdaptiveSettings::new(LAG, 24.0, 8.0, 0.2, RANGE, 0.005, SAFE)
+}));
+static LAW_64: Adaptive<f64, 0> =
+    constant!(Adaptive::<f64, 0>::const_new(AdaptiveSettings::unlimited(
+        Form::Literal {
+            time_constant: 0.005
+        },
+        24.0,
+        8.0,
+        0.05
+    )));
+static SENSOR: Plausible<f32> =
+    constant!(constant!(Plausible::<f32>::const_new(-200.0, 200.0)).const_with_rate(1e5));
+
+#[test]
+fn a_configuration_in_flash_is_the_one_that_is_checked_at_run_time() {
+    assert_eq!(Ok(PI), Pid::try_new(*PI.settings()));
+    assert_eq!(Ok(PI_64), Pid::try_new(*PI_64.settings()));
+    assert_eq!(Ok(LAW), Adaptive::try_new(*LAW.settings()));
+    assert_eq!(Ok(LAW_64), Adaptive::try_new(*LAW_64.settings()));
+    assert_eq!(
+        Ok(SENSOR),
+        Plausible::try_new(-200.0, 200.0).and_then(|s| s.with_rate(1e5))
+    );
+    let mut state = PidState::new();
+    let out = PI.step(&mut state, &PidInput::new(0.001, 1.0, 0.9));
+    assert_eq!(out.status, Status::Good);
+    assert_eq!(limits(1.0).low(), -1.0);
+}
+
+#[test]
+fn a_constant_is_refused_with_the_words_of_the_run_time() {
+    let nan = f32::NAN;
+    assert_eq!(
+        Limits::<f32>::const_new(1.0, 0.0),
+        Limits::try_new(1.0_f32, 0.0)
+    );
+    assert_eq!(
+        Limits::<f32>::const_new(nan, 0.0),
+        Limits::try_new(nan, 0.0)
+    );
+    assert_eq!(RANGE.const_with_slew(0.0), RANGE.with_slew(0.0));
+    assert_eq!(
+        Fallback::<f32>::const_new(0, 0.0),
+        Fallback::try_new(0, 0.0_f32)
+    );
+    assert_eq!(
+        Fallback::<f32>::const_new(1, nan),
+        Fallback::try_new(1, nan)
+    );
+    let plain = PidSettings::unlimited(30.0_f32, 18.0);
+    for settings in [
+        PidSettings { k_p: nan, ..plain },
+        PidSettings { k_i: -1.0, ..plain },
+        PidSettings { k_d: -1.0, ..plain },
+        PidSettings {
+            setpoint_weight: 2.0,
+            ..plain
+        },
+        PidSettings {
+            derivative_time: -1.0,
+            ..plain
+        },
+        PidSettings {
+            longest_dt: 0.0,
+            ..plain
+        },
+    ] {
+        let refused = Pid::<f32>::const_new(settings);
+        assert!(refused.is_err());
+        assert_eq!(refused, Pid::try_new(settings));
+    }
+    let law = *LAW.settings();
+    for settings in [
+        AdaptiveSettings {
+            epsilon: 0.0,
+            ..law
+        },
+        AdaptiveSettings {
+            epsilon: 1e-3,
+            ..law
+        },
+        AdaptiveSettings { lambda: 1e4, ..law },
+        AdaptiveSettings {
+            delta: Estimator::fixed(-1.0),
+            ..law
+        },
+        AdaptiveSettings {
+            beta: Estimator::free(1.0),
+            ..law
+        },
+        AdaptiveSettings {
+            longest_dt: nan,
+            ..law
+        },
+    ] {
+        let refused = Adaptive::<f32, 2>::const_new(settings);
+        assert!(refused.is_err());
+        assert_eq!(refused, Adaptive::try_new(settings));
+    }
+}

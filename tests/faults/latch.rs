@@ -1,0 +1,248 @@
+//! How the safe command goes out, and how it ends.
+
+use super::{fallback, law, limits, pi, DT, LONGEST};
+use bowden::control::{
+    Adaptive, AdaptiveSettings, Controller, Damping, Fallback, Fault, LoopSample, Pid, PidSettings,
+    Status,
+};
+use proptest::prelude::*;
+
+const VELOCITY: [f64; 1] = [0.2];
+
+fn good() -> LoopSample<'static, f64> {
+    LoopSample {
+        regressors: &VELOCITY,
+        ..LoopSample::new(DT, 25.0, 24.5)
+    }
+}
+
+fn bad() -> LoopSample<'static, f64> {
+    LoopSample {
+        measured: f64::NAN,
+        ..good()
+    }
+}
+
+fn steps<C: Controller<f64>>(
+    law: &C,
+    state: &mut C::State,
+    at: &LoopSample<f64>,
+    n: u32,
+) -> (f64, Status) {
+    let mut out = (law.command(state), Status::Good);
+    for _ in 0..n {
+        let step = law.step(state, at);
+        out = (step.command, step.status);
+    }
+    out
+}
+
+/// Every law of a machine, by one function: one trait over all of them.
+fn every_law(check: impl Fn(&dyn Fn(u8) -> Box<dyn Runs>)) {
+    check(&|kind| match kind {
+        0 => Box::new(Running::new(Pid::try_new(pi()).unwrap())),
+        1 => Box::new(Running::new(
+            Pid::try_new(PidSettings {
+                k_d: 0.5,
+                derivative_time: 0.01,
+                ..pi()
+            })
+            .unwrap(),
+        )),
+        2 => Box::new(Running::new(
+            Pid::try_new(PidSettings {
+                k_d: 1.0,
+                damping: Damping::Velocity,
+                ..pi()
+            })
+            .unwrap(),
+        )),
+        3 => Box::new(Running::new(Adaptive::try_new(law(false, 60.0)).unwrap())),
+        _ => Box::new(Running::new(Adaptive::try_new(law(true, 60.0)).unwrap())),
+    });
+}
+
+/// A law with its state.
+struct Running<C: Controller<f64>> {
+    law: C,
+    state: C::State,
+}
+
+impl<C: Controller<f64>> Running<C> {
+    fn new(law: C) -> Self {
+        let state = law.start();
+        Self { law, state }
+    }
+}
+
+trait Runs {
+    fn run(&mut self, at: &LoopSample<f64>, n: u32) -> (f64, Status);
+    fn acknowledge(&mut self);
+    fn resume(&mut self, output: f64) -> Status;
+}
+
+impl<C: Controller<f64>> Runs for Running<C> {
+    fn run(&mut self, at: &LoopSample<f64>, n: u32) -> (f64, Status) {
+        steps(&self.law, &mut self.state, at, n)
+    }
+    fn acknowledge(&mut self) {
+        self.law.acknowledge(&mut self.state);
+    }
+    fn resume(&mut self, output: f64) -> Status {
+        self.law.resume_from(&mut self.state, output, &good())
+    }
+}
+
+#[test]
+fn the_safe_command_stays_until_it_is_acknowledged() {
+    every_law(|make| {
+        for kind in 0..5 {
+            let mut law = make(kind);
+            let (running, _) = law.run(&good(), 500);
+            assert!(running.abs() > 1.0, "{kind}: {running}");
+            let (_, status) = law.run(&bad(), 19);
+            assert_eq!(status, Status::Held(Fault::Measured));
+            let safe = (0.0, Status::Safe(Fault::Measured));
+            assert_eq!(law.run(&bad(), 1), safe);
+            // Good samples do not restart the motor, nor does another start.
+            assert_eq!(law.run(&good(), 1000), safe, "{kind}");
+            assert_eq!(law.resume(30.0), safe.1);
+            assert_eq!(law.run(&good(), 1), safe);
+            // It was seen, but the sensor is still dead.
+            law.acknowledge();
+            let held = (0.0, Status::Held(Fault::Measured));
+            assert_eq!(law.run(&bad(), 19), held);
+            assert_eq!(law.run(&bad(), 1), safe);
+            law.acknowledge();
+            let (first, status) = law.run(&good(), 1);
+            assert_eq!(status, Status::Good);
+            // From the safe command on: a PID and the literal form exactly, the lag by a share
+            // h·lambda = 0.008 of the way to a command that lies within 100.
+            let way = if kind == 4 { 0.8 } else { 1e-9 };
+            assert!(first.abs() < way, "{kind}: {first}");
+            let (again, _) = law.run(&good(), 2000);
+            assert!(again.abs() > 1.0, "{kind}: {again}");
+        }
+    });
+}
+
+#[test]
+fn nine_bad_samples_of_ten_are_too_many() {
+    every_law(|make| {
+        for kind in 0..5 {
+            let mut law = make(kind);
+            law.run(&good(), 500);
+            let mut latched_at = None;
+            for k in 0..1000_u32 {
+                let at = if k % 10 == 9 { good() } else { bad() };
+                if let (_, Status::Safe(_)) = law.run(&at, 1) {
+                    latched_at = Some(k + 1);
+                    break;
+                }
+            }
+            // Score 4·9 - 1 in ten samples: 80 is reached within the third ten.
+            assert!(
+                latched_at.is_some_and(|k| (20..=30).contains(&k)),
+                "{latched_at:?}"
+            );
+        }
+    });
+}
+
+#[test]
+fn one_bad_sample_in_a_hundred_is_no_reason_to_stop() {
+    every_law(|make| {
+        for kind in 0..5 {
+            let mut law = make(kind);
+            for k in 0..20_000_u32 {
+                let at = if k % 100 == 0 { bad() } else { good() };
+                let (_, status) = law.run(&at, 1);
+                assert!(!matches!(status, Status::Safe(_)), "{kind}: {k}");
+            }
+        }
+    });
+}
+
+#[test]
+fn without_an_integral_gain_no_old_command_stays_in_the_sum() {
+    let proportional = Pid::try_new(PidSettings { k_i: 0.0, ..pi() }).unwrap();
+    let mut law = Running::new(proportional);
+    let (before, _) = law.run(&good(), 10);
+    law.run(&bad(), 20);
+    law.acknowledge();
+    assert_eq!(law.run(&good(), 10), (before, Status::Good));
+}
+
+#[test]
+fn a_loop_without_a_safe_command_holds_for_ever_and_says_so_by_its_name() {
+    let held = PidSettings {
+        fallback: Fallback::hold_for_ever(),
+        ..pi()
+    };
+    let mut law = Running::new(Pid::try_new(held).unwrap());
+    let (before, _) = law.run(&good(), 500);
+    let (after, status) = law.run(&bad(), 100_000);
+    assert_eq!((after, status), (before, Status::Held(Fault::Measured)));
+    assert_eq!(law.run(&good(), 1).1, Status::Good);
+}
+
+proptest! {
+    /// The promise in the docs of `Fallback`: whatever the order of good and bad samples, the
+    /// safe command is out when a stretch of n of them has held B bad ones with
+    /// (weight + 1)·B - n >= after·weight, and a sum over every stretch says when that is.
+    #[test]
+    fn the_safe_command_is_out_no_later_than_stated(
+        samples in prop::collection::vec(any::<bool>(), 1..400),
+        after in 1_u32..12,
+        weight in 1_u32..9,
+    ) {
+        let fallback = Fallback::try_new(after, 0.0).unwrap().with_weight(weight).unwrap();
+        let mut law = Running::new(Pid::try_new(PidSettings { fallback, ..pi() }).unwrap());
+        let mut latched = false;
+        for (end, &is_bad) in samples.iter().enumerate() {
+            let at = if is_bad { bad() } else { good() };
+            latched |= matches!(law.run(&at, 1).1, Status::Safe(_));
+            let late = (0..=end).any(|begin| {
+                let stretch = &samples[begin..=end];
+                let bad = stretch.iter().filter(|bad| **bad).count() as i64;
+                i64::from(weight + 1) * bad - stretch.len() as i64 >= i64::from(after * weight)
+            });
+            prop_assert!(latched || !late);
+        }
+    }
+}
+
+#[test]
+fn settings_that_break_the_promise_are_refused_by_name() {
+    let refused = |settings: PidSettings<f64>| Pid::try_new(settings).unwrap_err().to_string();
+    let outside = Fallback::try_new(20, 70.0).unwrap();
+    assert!(refused(PidSettings {
+        fallback: outside,
+        ..pi()
+    })
+    .contains("safe command"));
+    assert!(refused(PidSettings {
+        longest_dt: 0.0,
+        ..pi()
+    })
+    .contains("longest_dt"));
+    assert!(refused(PidSettings {
+        longest_dt: f64::NAN,
+        ..pi()
+    })
+    .contains("longest_dt"));
+    assert!(fallback()
+        .with_weight(0)
+        .unwrap_err()
+        .to_string()
+        .contains("weight"));
+    let adaptive = AdaptiveSettings {
+        longest_dt: -1.0,
+        ..law(true, 60.0)
+    };
+    assert!(Adaptive::try_new(adaptive)
+        .unwrap_err()
+        .to_string()
+        .contains("longest_dt"));
+    assert!(LONGEST > DT && limits(60.0).contains(0.0));
+}

@@ -1,0 +1,53 @@
+//! The faults that every motor meets, one named test each.
+
+// Clippy's allowance covers the test functions, not what they share.
+#![allow(clippy::unwrap_used)]
+
+mod adaptive;
+mod inputs;
+mod latch;
+mod pid;
+
+use bowden::control::{AdaptiveSettings, Estimator, Fallback, Form, Limits, PidSettings};
+
+/// Nominal step \[s\], and the longest: five of them.
+const DT: f64 = 1e-3;
+const LONGEST: f64 = 5e-3;
+
+/// Zero after 20 bad samples in a row.
+fn fallback() -> Fallback<f64> {
+    Fallback::try_new(20, 0.0).unwrap()
+}
+
+fn limits(most: f64) -> Limits<f64> {
+    Limits::try_new(-most, most).unwrap()
+}
+
+/// A PI with limits of ±60.
+fn pi() -> PidSettings<f64> {
+    PidSettings::new(3.0, 30.0, limits(60.0), LONGEST, fallback())
+}
+
+/// A law over one regressor within `most`, in the literal or in the lag form.
+fn law(lag: bool, most: f64) -> AdaptiveSettings<f64, 1> {
+    let form = if lag {
+        Form::Lag {
+            step: DT,
+            plant_gain: 1.0,
+        }
+    } else {
+        Form::Literal {
+            time_constant: 0.005,
+        }
+    };
+    AdaptiveSettings {
+        beta: Estimator::fixed(1.0)
+            .within(0.9, 1.1)
+            .adapting(2.5e-4, 0.01),
+        delta: Estimator::fixed(1.0)
+            .within(0.0, 7.0)
+            .adapting(6.25e-3, 0.01),
+        theta: [Estimator::fixed(1.0).within(-5.0, 5.0).adapting(5e-4, 0.01)],
+        ..AdaptiveSettings::new(form, 24.0, 8.0, 0.2, limits(most), LONGEST, fallback())
+    }
+}
