@@ -43,12 +43,16 @@ struct TorqueLoop {
 impl TorqueLoop {
     fn try_new() -> Result<Self, Error> {
         let pi = Pid::try_new(PidSettings {
-            // What the drive can give, and how fast it may change.
-            limits: Limits::try_new(-10.0, 60.0)?.with_slew(2000.0)?,
             anti_windup: AntiWindup::BackCalculation { tracking_time: 0.1 },
-            // 20 ms without a good sample: let go.
-            fallback: Fallback::try_new(20, 0.0)?,
-            ..PidSettings::unlimited(0.5, 25.0)
+            ..PidSettings::new(
+                0.5,
+                25.0,
+                Limits::try_new(-10.0, 60.0)?.with_slew(2000.0)?,
+                // Five timer periods: what is longer is no sample.
+                0.005,
+                // 20 ms without a good sample: let go, until somebody has seen it.
+                Fallback::try_new(20, 0.0)?,
+            )
         })?;
         Ok(Self {
             pi,
@@ -74,7 +78,12 @@ impl TorqueLoop {
             feed_forward: bench.command,
             ..PidInput::new(dt, reference, measured)
         };
-        self.pi.step(&mut self.pi_state, &sample)
+        self.pi.step_with_terms(&mut self.pi_state, &sample)
+    }
+
+    /// The operator has seen the fault: the next good sample closes the loop again.
+    fn acknowledge(&mut self) {
+        self.pi_state.acknowledge();
     }
 
     /// Takes over from a command that is out already, without a jump.
@@ -139,7 +148,9 @@ fn quiet_run(bench: bool) -> Result<f64, Error> {
             torque_loop.tick(DT as f32, wanted as f32, measured as f32, velocity as f32)
         } else {
             let sample = PidInput::new(DT as f32, wanted as f32, measured as f32);
-            torque_loop.pi.step(&mut torque_loop.pi_state, &sample)
+            torque_loop
+                .pi
+                .step_with_terms(&mut torque_loop.pi_state, &sample)
         };
         let (tau_o, sensed) = joint.step(f64::from(out.command), velocity);
         measured = sensed;
@@ -166,11 +177,14 @@ fn main() -> Result<(), Error> {
             6000..=6099 => f32::NAN, // a connector that comes off, and is put back
             _ => measured as f32,
         };
+        if k == 6500 {
+            torque_loop.acknowledge();
+        }
         let out = torque_loop.tick(DT as f32, wanted as f32, sensor, velocity as f32);
         let (tau_o, sensed) = joint.step(f64::from(out.command), velocity);
         measured = sensed;
 
-        if k % 1000 == 0 || matches!(k, 4005 | 6019 | 6100) {
+        if k % 1000 == 0 || matches!(k, 4005 | 6019 | 6100 | 6500) {
             let terms = out.terms;
             let note = match out.status {
                 Status::Good if terms.saturated => "limited".to_string(),

@@ -2,7 +2,7 @@
 
 use super::any::{fallback, limits};
 use bowden::control::{Adaptive, AdaptiveSettings, AdaptiveState, Estimator, Form, Leakage};
-use bowden::control::{Fallback, Limits, SmoothSign};
+use bowden::control::{Fallback, Limits, Missing, SmoothSign};
 use bowden::hysteresis::{BoucWen, Shape};
 use bowden::signal::{Derivative, Guard, Play};
 use bowden::transmission::{Mode, Transmission};
@@ -120,7 +120,9 @@ fn laws_of_any_settings() {
         theta: [estimator(), estimator()],
         z_limit: kani::any(),
         frozen: kani::any(),
+        missing: [Missing::Hold; 2],
         limits: limits(),
+        longest_dt: kani::any(),
         fallback: fallback(),
     });
     kani::cover!(law.is_err());

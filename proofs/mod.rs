@@ -15,7 +15,7 @@ pub(crate) mod any;
 mod construction;
 mod contracts;
 pub(crate) mod limited;
-mod pid;
+pub(crate) mod pid;
 pub(crate) mod properties;
 mod signal;
 pub(crate) mod stubs;

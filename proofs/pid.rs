@@ -3,11 +3,13 @@
 use super::any::{fallback, limits};
 use super::properties::control::{
     a_pid_start_keeps_the_command, follows, pid_commands_within_its_limits,
+    pid_commands_within_its_limits_from_any_state, the_score_keeps_up,
 };
 use super::{limited, stubs};
 use bowden::control::pid::state::{Last, Unchecked};
-use bowden::control::status::Held;
-use bowden::control::{AntiWindup, Damping, Limits, Pid, PidInput, PidSettings, PidState};
+use bowden::control::status::{Held, Latch};
+use bowden::control::{AntiWindup, Damping, Fault, Limits, Pid, PidInput, PidSettings, PidState};
+use bowden::signal::Compensated;
 
 /// Any settings that the constructor accepts, with this anti-windup.
 fn pid(anti_windup: AntiWindup<f32>, damping: Damping<f32>) -> Pid<f32> {
@@ -20,6 +22,7 @@ fn pid(anti_windup: AntiWindup<f32>, damping: Damping<f32>) -> Pid<f32> {
         setpoint_weight: kani::any(),
         anti_windup,
         limits: limits(),
+        longest_dt: kani::any(),
         fallback: fallback(),
     };
     let pid = Pid::try_new(settings);
@@ -27,8 +30,17 @@ fn pid(anti_windup: AntiWindup<f32>, damping: Damping<f32>) -> Pid<f32> {
     pid.unwrap_or(Pid::paper_pi())
 }
 
-/// Any state that steps can lead to.
-fn state() -> PidState<f32> {
+/// The loop closed, the safe command out for any fault, or the way back.
+pub(crate) fn latch() -> Latch {
+    match kani::any::<u8>() {
+        0 => Latch::Closed,
+        1 => Latch::Returning,
+        fault => Latch::Safe(if fault == 2 { Fault::Dt } else { Fault::Measured }),
+    }
+}
+
+/// Any numbers in the fields of a state.
+fn raw() -> Unchecked<f32> {
     let last = Last {
         reference: kani::any(),
         measured: kani::any(),
@@ -37,18 +49,25 @@ fn state() -> PidState<f32> {
         command: kani::any(),
         unlimited: kani::any(),
     };
-    let raw = Unchecked {
-        integral: kani::any(),
-        carry: kani::any(),
+    Unchecked {
+        integral: Compensated {
+            value: kani::any(),
+            carry: kani::any(),
+        },
         rate: kani::any(),
         last: kani::any::<bool>().then_some(last),
         held: Held {
             command: kani::any(),
-            bad: kani::any(),
+            score: kani::any(),
+            latch: latch(),
         },
         gap: kani::any(),
-    };
-    let state = PidState::try_from(raw);
+    }
+}
+
+/// Any state that steps can lead to.
+fn state() -> PidState<f32> {
+    let state = PidState::try_from(raw());
     kani::assume(state.is_ok());
     state.unwrap_or_default()
 }
@@ -68,7 +87,7 @@ fn any_sample(anti_windup: AntiWindup<f32>, damping: Damping<f32>) {
     let (pid, mut state, input) = (pid(anti_windup, damping), state(), input());
     let before = state;
     let kept = pid_commands_within_its_limits(&pid, &mut state, &input);
-    kani::cover!(state.consecutive_bad() == 0 && state.integral() != before.integral());
+    kani::cover!(!before.is_latched() && state.integral() != before.integral());
     kani::cover!(input.measured.is_nan() && state.command() != before.command());
     assert!(kept && state.is_valid());
 }
@@ -136,6 +155,34 @@ fn piv_any_sample() {
     any_sample(AntiWindup::Conditional, Damping::Velocity);
 }
 
+/// K15. From any state, of whatever bits: the command is finite and within the limits, and a
+/// safe command that is latched stays out.
+///
+/// Assumes: nothing of gains, sample or state; the limits as by slew_limit_any_rate.
+#[kani::proof]
+#[kani::stub(Limits::apply, limited::apply)]
+fn pid_from_any_state() {
+    let (pid, at) = (pid(AntiWindup::Conditional, rate()), input());
+    let mut state = PidState::assumed(raw());
+    let before = state;
+    let kept = pid_commands_within_its_limits_from_any_state(&pid, &mut state, &at);
+    kani::cover!(before.integral().is_nan() && at.measured == 1.0);
+    kani::cover!(before.command().is_nan() && at.dt == 0.001);
+    kani::cover!(before.is_latched());
+    assert!(kept);
+}
+
+/// K16. The score of bad samples keeps up with the worst stretch of samples, so that the safe
+/// command is out when `(weight + 1)·B - n` of any stretch reaches `after·weight`. One step of
+/// an induction: the margin of the worst stretch that ends here moves by the weight or by -1.
+#[kani::proof]
+fn score_keeps_up() {
+    let fallback = fallback();
+    let (score, margin, is_bad) = (kani::any(), kani::any(), kani::any());
+    kani::cover!(score < fallback.most() && score >= margin && margin > 3 && is_bad);
+    assert!(the_score_keeps_up(&fallback, score, margin, is_bad));
+}
+
 /// K10. Other settings take a running PID over: the command that is out stays, from which a
 /// slew rate goes on, the state stays valid, and only the integral moves.
 #[kani::proof]
@@ -156,6 +203,6 @@ fn pid_resume_from() {
     let output = kani::any();
     let kept = a_pid_start_keeps_the_command(&pid, &mut state, output, &at);
     kani::cover!(state.command() == output && output > 1.0 && state.integral() < -1.0);
-    kani::cover!(state.consecutive_bad() > 1);
+    kani::cover!(state.is_latched());
     assert!(kept && state.is_valid());
 }

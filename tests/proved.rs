@@ -212,8 +212,59 @@ proptest! {
             let before = state.command();
             let out = law.step_with_terms(&mut state, &AdaptiveInput::new(dt, reference, measured, []));
             prop_assert_eq!(out.status, Status::Good);
-            prop_assert!(control::the_lag_does_not_pass_its_target(before, &out));
+            // Half an ulp is owed by the sum, and half an ulp is rounded.
+            let owed = f32::EPSILON * before.abs().max(out.terms.law.abs());
+            prop_assert!(control::the_lag_does_not_pass_its_target(before, owed, &out));
         }
+    }
+
+    #[test]
+    fn from_a_state_of_another_law_a_command_is_within_the_limits_of_the_law_that_steps(
+        wide in 20.0..1e6_f32,
+        narrow in 0.1..20.0_f32,
+        lag: bool,
+        safe: bool,
+        samples in prop::collection::vec(prop::array::uniform4(any_float()), 1..40),
+    ) {
+        let form = if lag {
+            Form::Lag { step: 0.001, plant_gain: 1.0 }
+        } else {
+            Form::Literal { time_constant: 0.005 }
+        };
+        let limits = |most: f32| Limits::try_new(-most, most).unwrap();
+        let fallback = |most: f32| match safe {
+            true => Fallback::try_new(3, most).unwrap(),
+            false => Fallback::hold_for_ever(),
+        };
+        let law = |most: f32| Adaptive::<f32, 1>::try_new(AdaptiveSettings {
+            beta: Estimator::fixed(1.0).within(0.8, 1.2).adapting(2.5e-4, 0.01),
+            ..AdaptiveSettings::new(form, 24.0, 8.0, 0.05, limits(most), 0.005, fallback(most))
+        }).unwrap();
+        let pid = |most: f32| Pid::try_new(
+            PidSettings::new(3.0, 30.0, limits(most), 0.005, fallback(most))
+        ).unwrap();
+        let (mut state, mut adapted) = (PidState::new(), AdaptiveState::new(&law(wide)));
+        for (k, [reference, measured, x, feed_forward]) in samples.into_iter().enumerate() {
+            let most = if k % 2 == 0 { wide } else { narrow };
+            let at = PidInput { feed_forward, ..PidInput::new(0.001, reference, measured) };
+            prop_assert!(
+                control::pid_commands_within_its_limits_from_any_state(&pid(most), &mut state, &at)
+            );
+            let at = AdaptiveInput {
+                feed_forward, ..AdaptiveInput::new(0.001, reference, measured, [x])
+            };
+            prop_assert!(control::adaptive_commands_within_its_limits_from_any_state(
+                &law(most), &mut adapted, &at
+            ));
+        }
+    }
+
+    #[test]
+    fn the_score_of_bad_samples_keeps_up(
+        after in 1_u32.., weight in 1_u32.., score: u32, margin: u32, is_bad: bool
+    ) {
+        let fallback = Fallback::try_new(after, 0.0).unwrap().with_weight(weight).unwrap();
+        prop_assert!(control::the_score_keeps_up(&fallback, score, margin, is_bad));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! K4, K5, K9: one estimate, whatever drives it.
 
-use super::super::compensated::{two_sum, Compensated};
+use crate::signal::{two_sum, Compensated};
 use super::super::{Estimator, Leakage};
 use super::state::{estimator, leakage};
 use crate::proofs::any::{finite, within};

@@ -4,13 +4,14 @@
 //! here the update returns anything that this leaves, and the virtual command anything at
 //! all. So the claims rest on the checks of the step, not on its arithmetic.
 
-use super::super::compensated::Compensated;
 use super::super::{Adaptive, AdaptiveInput, AdaptiveTerms, Estimator, Form, SmoothSign};
-use super::state::{input, law, state};
+use super::state::{any_state, input, law, state};
 use crate::control::Limits;
-use crate::proofs::properties::control::{adaptive_commands_within_its_limits, follows};
+use crate::proofs::properties::control::{
+    adaptive_commands_within_its_limits, adaptive_commands_within_its_limits_from_any_state, follows,
+};
 use crate::proofs::{limited, stubs};
-use crate::signal::{Derivative, DerivativeState};
+use crate::signal::{Compensated, Derivative, DerivativeState};
 use crate::Real;
 
 /// What `estimate_in_its_box` proves of an update, and no more.
@@ -63,7 +64,7 @@ fn any_sample<const N: usize>(form: Form<f32>, smooth_sign: SmoothSign) {
     let (mut state, input) = (state(&law), input());
     let before = state;
     let kept = adaptive_commands_within_its_limits(&law, &mut state, &input);
-    kani::cover!(state.held.bad == 0 && state.beta.value != before.beta.value);
+    kani::cover!(state.held.is_closed() && state.beta.value != before.beta.value);
     kani::cover!(input.measured.is_nan() && state.held.command != before.held.command);
     assert!(kept);
 }
@@ -124,4 +125,73 @@ fn a_bad_rate_shows() {
 fn literal_any_sample() {
     let time_constant = kani::any();
     any_sample::<2>(Form::Literal { time_constant }, SmoothSign::Tanh);
+}
+
+/// Any z, NaN included, for what the search of a return finds.
+fn any_z<T: Real, const N: usize>(
+    _: &Adaptive<T, N>,
+    _: T,
+    _: &crate::control::AdaptiveState<T, N>,
+    _: &AdaptiveInput<T, N>,
+) -> T {
+    T::of(kani::any())
+}
+
+fn from_any_state(form: Form<f32>) {
+    let law = law::<2>(form, SmoothSign::Tanh);
+    let (mut state, input) = (any_state(), input());
+    let before = state;
+    let kept = adaptive_commands_within_its_limits_from_any_state(&law, &mut state, &input);
+    kani::cover!(before.command().is_nan() && input.dt == 0.001);
+    kani::cover!(before.is_latched());
+    assert!(kept);
+}
+
+/// K15. Lag form, two regressors, from any state of whatever bits: the command is finite and
+/// within the limits, and a safe command that is latched stays out.
+///
+/// Assumes: nothing of gains, sample or state; the limits as by slew_limit_any_rate, any
+/// virtual command, any sum of an estimate.
+#[kani::proof]
+#[kani::unwind(3)]
+#[kani::stub(libm::tanhf, stubs::tanhf)]
+#[kani::stub(Estimator::update, any_sum)]
+#[kani::stub(Adaptive::virtual_command, any_virtual_command)]
+#[kani::stub(Limits::apply, limited::apply)]
+fn lag_from_any_state() {
+    let form = Form::Lag {
+        step: kani::any(),
+        plant_gain: kani::any(),
+    };
+    from_any_state(form);
+}
+
+/// K15. The same of the literal form.
+///
+/// Assumes: as lag_from_any_state; any filtered rate, any z for the one that a return searches.
+#[kani::proof]
+#[kani::unwind(3)]
+#[kani::stub(libm::tanhf, stubs::tanhf)]
+#[kani::stub(Derivative::step, any_rate)]
+#[kani::stub(Estimator::update, any_sum)]
+#[kani::stub(Adaptive::virtual_command, any_virtual_command)]
+#[kani::stub(Adaptive::z_that_gives, any_z)]
+#[kani::stub(Limits::apply, limited::apply)]
+fn literal_from_any_state() {
+    let time_constant = kani::any();
+    from_any_state(Form::Literal { time_constant });
+}
+
+/// Any sum, or an overflow: more than an update can give.
+fn any_sum<T: Real>(
+    _: &Estimator<T>,
+    _: Compensated<T>,
+    _: T,
+    _: T,
+) -> Option<Compensated<T>> {
+    let sum = Compensated {
+        value: T::of(kani::any()),
+        carry: T::of(kani::any()),
+    };
+    kani::any::<bool>().then_some(sum)
 }

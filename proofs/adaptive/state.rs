@@ -1,11 +1,11 @@
 //! Arbitrary laws, states and samples.
 
-use super::super::compensated::Compensated;
 use super::super::{Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState};
-use super::super::{Estimator, Form, Leakage, SmoothSign};
+use super::super::{Estimator, Form, Leakage, Missing, SmoothSign};
 use crate::control::status::Held;
 use crate::proofs::any::{fallback, finite, limits};
-use crate::signal::{Derivative, DerivativeState};
+use crate::proofs::pid::latch;
+use crate::signal::{Compensated, DerivativeState};
 
 /// Any leakage.
 pub(super) fn leakage() -> Leakage<f32> {
@@ -47,14 +47,22 @@ pub(super) fn law<const N: usize>(form: Form<f32>, smooth_sign: SmoothSign) -> A
         theta: core::array::from_fn(|_| estimator(leakage())),
         z_limit: kani::any(),
         frozen: kani::any(),
+        missing: core::array::from_fn(|_| {
+            if kani::any() {
+                Missing::Hold
+            } else {
+                Missing::Drop
+            }
+        }),
         limits: limits(),
+        longest_dt: kani::any(),
         fallback: fallback(),
     };
-    kani::assume(settings.fallback.check_within(&settings.limits).is_ok());
+    let safe = settings.fallback.command();
+    kani::assume(safe.is_none_or(|safe| settings.limits.contains(safe)));
     Adaptive {
         settings,
-        derivative: Derivative::assumed(kani::any()),
-        longest: kani::any_where(|longest: &Option<f32>| longest.is_none_or(|dt| !dt.is_nan())),
+        longest: kani::any_where(|longest: &f32| longest.is_finite()),
     }
 }
 
@@ -65,25 +73,32 @@ fn sum() -> Compensated<f32> {
     }
 }
 
-/// Any state that is valid for the law.
-pub(super) fn state<const N: usize>(law: &Adaptive<f32, N>) -> AdaptiveState<f32, N> {
+/// Any numbers in the fields of a state.
+pub(super) fn any_state<const N: usize>() -> AdaptiveState<f32, N> {
     let seen = DerivativeState::at(kani::any(), kani::any());
-    let state = AdaptiveState {
+    AdaptiveState {
         z: sum(),
         error_rate: if kani::any() {
             seen
         } else {
             DerivativeState::new()
         },
-        lag: kani::any(),
+        lag: sum(),
         beta: sum(),
         delta: sum(),
         theta: core::array::from_fn(|_| sum()),
         held: Held {
             command: kani::any(),
-            bad: kani::any(),
+            score: kani::any(),
+            latch: latch(),
         },
-    };
+        gap: kani::any(),
+    }
+}
+
+/// Any state that is valid for the law.
+pub(super) fn state<const N: usize>(law: &Adaptive<f32, N>) -> AdaptiveState<f32, N> {
+    let state = any_state();
     kani::assume(law.is_valid(&state));
     state
 }
@@ -112,13 +127,15 @@ pub(super) fn finite_state<const N: usize>() -> AdaptiveState<f32, N> {
     AdaptiveState {
         z: finite_sum(),
         error_rate: DerivativeState::at(finite(), finite()),
-        lag: finite(),
+        lag: finite_sum(),
         beta: finite_sum(),
         delta: finite_sum(),
         theta: core::array::from_fn(|_| finite_sum()),
         held: Held {
             command: finite(),
-            bad: kani::any(),
+            score: kani::any(),
+            latch: latch(),
         },
+        gap: finite(),
     }
 }

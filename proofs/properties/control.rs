@@ -196,7 +196,7 @@ pub fn adaptive_commands_within_its_limits_from_any_state<const N: usize>(
 /// when a stretch of n samples has held B bad ones with `(weight + 1)·B - n >= most`.
 ///
 /// `margin` is the greatest `(weight + 1)·B - n` of a stretch that ends here, by Kadane's
-/// recursion; this is one step of it, and of the score.
+/// recursion; this is one step of it, and of the score, until the safe command is out.
 pub fn the_score_keeps_up(fallback: &Fallback<f32>, score: u32, margin: u32, is_bad: bool) -> bool {
     let most = fallback.most();
     let next = if is_bad {
@@ -209,7 +209,7 @@ pub fn the_score_keeps_up(fallback: &Fallback<f32>, score: u32, margin: u32, is_
     } else {
         margin.saturating_sub(1)
     };
-    score < margin.min(most) || next >= wanted.min(most)
+    score >= most || score < margin || next >= wanted.min(most)
 }
 
 /// Other settings that take a running law over leave the command that is out, as far as
@@ -301,15 +301,17 @@ pub fn compensator_commands_are_finite<const N: usize>(
 }
 
 /// After a good sample the lag form's command lies between the one `before` and its target
-/// `beta_hat·ubar`, as far as their difference can be written.
+/// `beta_hat·ubar`, as far as their difference can be written; `owed` is what the sum still
+/// owes to rounding.
 pub fn the_lag_does_not_pass_its_target<const N: usize>(
     before: f32,
+    owed: f32,
     out: &AdaptiveOutput<f32, N>,
 ) -> bool {
     let wanted = out.terms.beta_hat * out.terms.virtual_command;
     let farthest = before + (wanted - before);
     let law = out.terms.law;
     out.status != Status::Good
-        || (before <= law && law <= farthest)
-        || (farthest <= law && law <= before)
+        || (before - owed <= law && law <= farthest + owed)
+        || (farthest - owed <= law && law <= before + owed)
 }

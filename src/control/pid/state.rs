@@ -219,16 +219,24 @@ pub(crate) struct Unchecked<T> {
 }
 
 #[cfg(any(feature = "serde", kani))]
-impl<T: Real> TryFrom<Unchecked<T>> for PidState<T> {
-    type Error = crate::Error;
-    fn try_from(raw: Unchecked<T>) -> Result<Self, crate::Error> {
-        let state = Self {
+impl<T: Real> PidState<T> {
+    /// These fields, whatever they are.
+    pub(crate) fn assumed(raw: Unchecked<T>) -> Self {
+        Self {
             integral: raw.integral,
             rate: raw.rate,
             last: raw.last,
             held: raw.held,
             gap: raw.gap,
-        };
+        }
+    }
+}
+
+#[cfg(any(feature = "serde", kani))]
+impl<T: Real> TryFrom<Unchecked<T>> for PidState<T> {
+    type Error = crate::Error;
+    fn try_from(raw: Unchecked<T>) -> Result<Self, crate::Error> {
+        let state = Self::assumed(raw);
         if state.is_valid() {
             Ok(state)
         } else {
