@@ -54,7 +54,7 @@ impl core::error::Error for Error {}
 /// ```
 /// use bowden::constant;
 /// use bowden::control::{Fallback, Limits, Pid, PidSettings};
-/// static PI: Pid<f32> = constant!(Pid::<f32>::const_new(PidSettings::unlimited(
+/// static PI: Pid<f32> = constant!(Pid::<f32>::const_new(PidSettings::new(
 ///     30.0,
 ///     18.0,
 ///     constant!(Limits::<f32>::const_new(-20.0, 60.0)), // [N·m]

@@ -265,9 +265,12 @@ impl<T: Real> Pid<T> {
         let mut integral = self.confined(state.integral.plus(change + returned));
         last.unlimited = rest + integral.value;
         if let AntiWindup::Conditional = s.anti_windup {
-            let above = last.unlimited > s.limits.high() && change > T::ZERO;
-            let below = last.unlimited < s.limits.low() && change < T::ZERO;
-            if above || below {
+            let further = if last.unlimited > s.limits.high() {
+                change > T::ZERO
+            } else {
+                last.unlimited < s.limits.low() && change < T::ZERO
+            };
+            if further {
                 integral = state.integral.plus(returned);
                 last.unlimited = rest + integral.value;
             }
@@ -414,6 +417,9 @@ impl<T: Real> Pid<T> {
     /// The same of the sum: at an edge of the range it owes nothing.
     #[inline]
     fn confined(&self, integral: Compensated<T>) -> Compensated<T> {
+        if !matches!(self.settings.anti_windup, AntiWindup::Clamp) {
+            return integral;
+        }
         let value = self.confine(integral.value);
         if value == integral.value {
             integral
