@@ -6,28 +6,37 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// The images of these steps, by name.
-pub fn images(root: &Path, target: &Target, steps: &[&str]) -> Result<BTreeMap<String, PathBuf>> {
+/// The programs of a package, by name.
+pub fn images(
+    root: &Path,
+    target: &Target,
+    package: &str,
+    features: &[&str],
+    names: &[&str],
+) -> Result<BTreeMap<String, PathBuf>> {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.current_dir(root).stdout(Stdio::piped()).args([
         "build",
         "--quiet",
         "--locked",
         "--release",
-        "--package=bowden-image",
         "--message-format=json-render-diagnostics",
         "--target",
         target.triple,
+        "--package",
+        package,
+        "--features",
+        &features.join(","),
     ]);
-    for step in steps {
-        cargo.args(["--bin", step]);
+    for name in names {
+        cargo.args(["--bin", name]);
     }
     for name in foreign(std::env::vars_os().map(|(name, _)| name.to_string_lossy().into_owned())) {
         cargo.env_remove(name);
     }
     let output = cargo.output().context("cargo")?;
     if !output.status.success() {
-        bail!("the images for {} do not build", target.triple);
+        bail!("{package} does not build for {}", target.triple);
     }
     Ok(executables(&String::from_utf8_lossy(&output.stdout)))
 }

@@ -1,6 +1,6 @@
 //! Runs an image in QEMU.
 
-use crate::target::{Target, SHIFT};
+use crate::target::Target;
 use anyhow::{bail, Context, Result};
 use std::io::Read;
 use std::path::Path;
@@ -10,11 +10,11 @@ use std::time::{Duration, Instant};
 /// Far more than any image takes: the closed loop without a float unit takes ten seconds.
 const LIMIT: Duration = Duration::from_secs(180);
 
-/// What the image prints.
-pub fn run(target: &Target, image: &Path) -> Result<String> {
+/// What the image prints; `icount` is how the emulator's time passes.
+pub fn run(target: &Target, image: &Path, icount: &str) -> Result<Vec<u8>> {
     let mut qemu = Command::new(target.emulator);
     qemu.args(target.machine)
-        .args(["-icount", SHIFT])
+        .args(["-icount", icount, "-no-reboot"])
         .args(["-display", "none", "-monitor", "none", "-serial", "none"])
         .args(["-chardev", "stdio,id=out"])
         .args(["-semihosting-config", "enable=on,target=native,chardev=out"])
@@ -26,14 +26,14 @@ pub fn run(target: &Target, image: &Path) -> Result<String> {
 }
 
 /// What a program prints, if it ends in time and well.
-fn printed(command: &mut Command, limit: Duration) -> Result<String> {
+fn printed(command: &mut Command, limit: Duration) -> Result<Vec<u8>> {
     let mut child = command.spawn()?;
     let Some(mut output) = child.stdout.take() else {
         bail!("no output");
     };
     let reader = std::thread::spawn(move || {
-        let mut text = String::new();
-        output.read_to_string(&mut text).map(|_| text)
+        let mut bytes = Vec::new();
+        output.read_to_end(&mut bytes).map(|_| bytes)
     });
     let begun = Instant::now();
     let status = loop {
@@ -55,7 +55,7 @@ fn printed(command: &mut Command, limit: Duration) -> Result<String> {
         _ => bail!("ended with {status}"),
     }
     match reader.join() {
-        Ok(text) => Ok(text?),
+        Ok(bytes) => Ok(bytes?),
         Err(_) => bail!("the output could not be read"),
     }
 }
@@ -64,7 +64,7 @@ fn printed(command: &mut Command, limit: Duration) -> Result<String> {
 mod tests {
     use super::*;
 
-    fn shell(script: &str, limit: Duration) -> Result<String> {
+    fn shell(script: &str, limit: Duration) -> Result<Vec<u8>> {
         let mut shell = Command::new("sh");
         shell.args(["-c", script]).stdout(Stdio::piped());
         printed(&mut shell, limit)
@@ -72,7 +72,7 @@ mod tests {
 
     #[test]
     fn what_is_printed_comes_back() {
-        assert_eq!(shell("echo end", LIMIT).unwrap(), "end\n");
+        assert_eq!(shell("echo end", LIMIT).unwrap(), b"end\n");
     }
 
     #[test]

@@ -16,6 +16,7 @@ mod measured;
 mod report;
 mod table;
 mod target;
+mod torque_loop;
 
 use anyhow::{bail, Context, Result};
 use bowden_cases::NAMES;
@@ -35,6 +36,7 @@ cargo xtask [OPTIONS]
   --step NAME       this step only; can be given several times
   --tighten         lower the budgets in budgets.toml to what is measured, and add those
                     that are missing; a budget is never raised by a program
+  --torque-loop     only run the example on the chip, and show its log
   --markdown        print the table of the README instead
 ";
 
@@ -45,6 +47,7 @@ struct Asked {
     steps: Vec<String>,
     tighten: bool,
     markdown: bool,
+    torque_loop: bool,
 }
 
 impl Asked {
@@ -60,6 +63,7 @@ impl Asked {
                 "--target" => asked.targets.push(value()?),
                 "--step" => asked.steps.push(value()?),
                 "--tighten" => asked.tighten = true,
+                "--torque-loop" => asked.torque_loop = true,
                 "--markdown" => asked.markdown = true,
                 other => bail!("unknown argument {other:?}"),
             }
@@ -73,6 +77,11 @@ impl Asked {
             bail!("unknown step {name:?}; there are {}", NAMES.join(", "));
         }
         Ok(asked)
+    }
+
+    /// Whether nothing was left out.
+    fn is_everything(&self) -> bool {
+        self.targets.is_empty() && self.steps.is_empty() && !self.markdown
     }
 
     fn targets(&self) -> impl Iterator<Item = &'static Target> + '_ {
@@ -117,6 +126,11 @@ fn run(asked: &Asked) -> Result<ExitCode> {
     let mut budgets = Budgets::read(&root.join("budgets.toml"))?;
     let design = Design::read(&root.join("design.toml"))?;
     let mut skipped = Vec::new();
+    if asked.torque_loop {
+        let log = torque_loop::run(&root, &mut skipped)?;
+        log.iter().for_each(|line| println!("{line}"));
+        return Ok(ended(&skipped, &[]));
+    }
     let mut broken = budgets.without_a_step(NAMES, &TARGETS.map(|target| target.triple));
     if !asked.markdown {
         table::versions();
@@ -145,17 +159,31 @@ fn run(asked: &Asked) -> Result<ExitCode> {
     if asked.tighten {
         budgets.write(&root.join("budgets.toml"))?;
     }
-    for reason in &skipped {
+    if asked.is_everything() {
+        match torque_loop::run(&root, &mut skipped) {
+            Ok(log) => println!(
+                "\ntorque loop: {} lines of its log are the host's",
+                log.len()
+            ),
+            Err(error) => broken.push(format!("{error:#}")),
+        }
+    }
+    Ok(ended(&skipped, &broken))
+}
+
+/// Says what was skipped and what is wrong; the exit status.
+fn ended(skipped: &[String], broken: &[String]) -> ExitCode {
+    for reason in skipped {
         println!("skipped: {reason}");
     }
-    for line in &broken {
+    for line in broken {
         println!("FAILED: {line}");
     }
-    Ok(match (broken.is_empty(), skipped.is_empty()) {
+    match (broken.is_empty(), skipped.is_empty()) {
         (false, _) => ExitCode::FAILURE,
         (true, false) => ExitCode::from(SKIPPED),
         (true, true) => ExitCode::SUCCESS,
-    })
+    }
 }
 
 #[cfg(test)]

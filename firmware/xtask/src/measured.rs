@@ -5,7 +5,7 @@ use crate::compare;
 use crate::elf::Image;
 use crate::emulator;
 use crate::report::{Report, Step};
-use crate::target::Target;
+use crate::target::{Target, SHIFT};
 use anyhow::{ensure, Context, Result};
 use bowden_cases::{Signal, NAMES};
 use std::path::Path;
@@ -65,14 +65,15 @@ pub fn all(
     let wanted: Vec<&str> = std::iter::once(empty)
         .chain(steps.iter().copied())
         .collect();
-    let images = build::images(root, target, &wanted)?;
+    let images = build::images(root, target, "bowden-image", &[], &wanted)?;
     let path = |step: &str| {
         let path = images.get(step);
         path.with_context(|| format!("cargo built no image {step:?} for {}", target.triple))
     };
     let run = |step: &str| -> Result<Report> {
-        let text = emulator::run(target, path(step)?)?;
-        Report::parse(&text, target.ticks).with_context(|| format!("{step} on {}", target.triple))
+        let bytes = emulator::run(target, path(step)?, SHIFT)?;
+        Report::parse(&String::from_utf8_lossy(&bytes), target.ticks)
+            .with_context(|| format!("{step} on {}", target.triple))
     };
     let base = Image::read(path(empty)?)?;
     let overhead = if emulated { overhead(&run(empty)?)? } else { 0 };
