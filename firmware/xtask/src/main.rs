@@ -37,7 +37,7 @@ cargo xtask [OPTIONS]
   --tighten         lower the budgets in budgets.toml to what is measured, and add those
                     that are missing; a budget is never raised by a program
   --torque-loop     only run the example on the chip, and show its log
-  --markdown        print the table of the README instead
+  --markdown        also write the first target's table into README.md
 ";
 
 /// What the command line asks for.
@@ -81,7 +81,7 @@ impl Asked {
 
     /// Whether nothing was left out.
     fn is_everything(&self) -> bool {
-        self.targets.is_empty() && self.steps.is_empty() && !self.markdown
+        self.targets.is_empty() && self.steps.is_empty()
     }
 
     fn targets(&self) -> impl Iterator<Item = &'static Target> + '_ {
@@ -132,9 +132,7 @@ fn run(asked: &Asked) -> Result<ExitCode> {
         return Ok(ended(&skipped, &[]));
     }
     let mut broken = budgets.without_a_step(NAMES, &TARGETS.map(|target| target.triple));
-    if !asked.markdown {
-        table::versions();
-    }
+    table::versions();
     for target in asked.targets() {
         if !target.is_installed() {
             skipped.push(format!(
@@ -150,10 +148,11 @@ fn run(asked: &Asked) -> Result<ExitCode> {
         for (step, measured) in &measured {
             broken.extend(budgets.broken(step, target.triple, measured));
         }
-        if asked.markdown {
-            table::markdown(target, &measured);
-        } else {
-            table::print(target, &measured, &budgets, &design);
+        table::print(target, &measured, &budgets, &design);
+        if asked.markdown && target.triple == TARGETS[0].triple {
+            let path = root.join("README.md");
+            let text = std::fs::read_to_string(&path)?;
+            std::fs::write(&path, table::with_table(&text, &measured)?)?;
         }
     }
     if asked.tighten {

@@ -4,6 +4,7 @@ use crate::budget::Budgets;
 use crate::design::Design;
 use crate::measured::{Cost, Measured};
 use crate::target::{Target, TARGETS};
+use anyhow::{Context, Result};
 use bowden_cases::Signal;
 use std::process::Command;
 
@@ -102,16 +103,31 @@ fn remarks(measured: &Measured) -> String {
     parts.join(", ")
 }
 
-/// The table for the README: what a loop at 1 kHz pays for each step.
-pub fn markdown(target: &Target, steps: &[(&str, Measured)]) {
-    println!("\n`{}`\n", target.triple);
-    println!("| step | sine | noise | jumps | faults | flash \\[B\\] | stack \\[B\\] |");
-    println!("|---|---|---|---|---|---|---|");
+/// Where the table stands in `firmware/README.md`.
+const BEGIN: &str = "<!-- cargo xtask --markdown -->\n";
+const END: &str = "<!-- end -->";
+
+/// A text with its table replaced by what is measured.
+pub fn with_table(text: &str, steps: &[(&str, Measured)]) -> Result<String> {
+    let parts = text.split_once(BEGIN).and_then(|(before, rest)| {
+        let (_, after) = rest.split_once(END)?;
+        Some((before, after))
+    });
+    let (before, after) = parts.context("no place for the table")?;
+    let mut table = String::from(
+        "| step | sine | noise | jumps | faults | flash \\[B\\] | stack \\[B\\] |\n\
+         |---|---|---|---|---|---|---|\n",
+    );
     for (step, measured) in steps {
-        let Some(run) = &measured.run else { continue };
+        let run = measured
+            .run
+            .as_ref()
+            .context("the table needs an emulator")?;
         let costs = run.costs.map(both).join(" | ");
-        println!("| {step} | {costs} | {} | {} |", measured.code, run.stack);
+        let (code, stack) = (measured.code, run.stack);
+        table += &format!("| {step} | {costs} | {code} | {stack} |\n");
     }
+    Ok([before, BEGIN, &table, END, after].concat())
 }
 
 #[cfg(test)]
@@ -142,5 +158,26 @@ mod tests {
         measured.run = None;
         measured.panics = true;
         assert_eq!(remarks(&measured), "soft-float double, can panic");
+    }
+    #[test]
+    fn a_table_takes_the_place_of_the_one_before() {
+        let cost = Cost { mean: 1, worst: 2 };
+        let measured = Measured {
+            code: 30,
+            soft_double: false,
+            panics: false,
+            run: Some(Run {
+                stack: 40,
+                ulp: 0,
+                costs: [cost; 4],
+            }),
+        };
+        let text = format!("a\n{BEGIN}old\n{END}\nb\n");
+        let new = with_table(&text, &[("pi", measured.clone())]).unwrap();
+        let row = "| pi | 1 (2) | 1 (2) | 1 (2) | 1 (2) | 30 | 40 |\n";
+        assert!(new.contains(row), "{new}");
+        assert!(!new.contains("old") && new.starts_with("a\n") && new.ends_with("\nb\n"));
+        assert_eq!(with_table(&new, &[("pi", measured.clone())]).unwrap(), new);
+        assert!(with_table("a\nb\n", &[("pi", measured)]).is_err());
     }
 }
