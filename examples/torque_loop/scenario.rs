@@ -121,6 +121,8 @@ pub struct Scenario {
 pub struct Told {
     /// What the firmware does.
     pub action: Action,
+    /// Whether the fault was acknowledged, where somebody tried to.
+    pub acknowledged: Option<bool>,
     /// A line for the log, where there is one.
     pub line: Option<Line>,
 }
@@ -161,10 +163,8 @@ impl Scenario {
             },
             counts: counts(angle),
         });
-        if k == 5050 || k == 6000 {
-            // The first comes while the sensor is still dead, and is refused.
-            self.control.acknowledge();
-        }
+        // The first comes while the sensor is still dead, and is refused.
+        let acknowledged = matches!(k, 5050 | 6000).then(|| self.control.acknowledge());
         self.joint.step(&action, velocity);
         let news = core::mem::discriminant(&self.status) != core::mem::discriminant(&action.status);
         self.status = action.status;
@@ -175,7 +175,11 @@ impl Scenario {
             command: milli(action.command),
             status: action.status,
         });
-        Some(Told { action, line })
+        Some(Told {
+            action,
+            acknowledged,
+            line,
+        })
     }
 }
 

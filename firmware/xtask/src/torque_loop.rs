@@ -115,6 +115,9 @@ mod tests {
         assert!(told[5019..=6000]
             .iter()
             .all(|told| told.action.command == 0.0));
+        // Refused while the sensor is dead, and nobody asked before or after.
+        let asked: Vec<_> = told.iter().filter_map(|told| told.acknowledged).collect();
+        assert_eq!(asked, [false, true]);
         assert!(told[6001].action.enabled);
         // One step of the slew rate at most: 2 N·m in a millisecond.
         assert!(told[6001].action.command.abs() <= 2.0);
