@@ -26,8 +26,8 @@ pub(crate) fn fallback() -> Fallback<f32> {
     if kani::any() {
         return Fallback::hold_for_ever();
     }
-    let safe = Fallback::try_new(kani::any(), kani::any())
-        .and_then(|safe| safe.with_weight(kani::any()));
+    let safe =
+        Fallback::try_new(kani::any(), kani::any()).and_then(|safe| safe.with_weight(kani::any()));
     kani::assume(safe.is_ok());
     safe.unwrap_or(Fallback::hold_for_ever())
 }

@@ -35,7 +35,11 @@ pub(crate) fn latch() -> Latch {
     match kani::any::<u8>() {
         0 => Latch::Closed,
         1 => Latch::Returning,
-        fault => Latch::Safe(if fault == 2 { Fault::Dt } else { Fault::Measured }),
+        fault => Latch::Safe(if fault == 2 {
+            Fault::Dt
+        } else {
+            Fault::Measured
+        }),
     }
 }
 

@@ -1,9 +1,9 @@
 //! K4, K5, K9: one estimate, whatever drives it.
 
-use crate::signal::{two_sum, Compensated};
 use super::super::{Estimator, Leakage};
 use super::state::{estimator, leakage};
 use crate::proofs::any::{finite, within};
+use crate::signal::{two_sum, Compensated};
 use crate::Real;
 
 /// Any sum that the box holds.

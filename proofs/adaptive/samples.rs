@@ -8,7 +8,8 @@ use super::super::{Adaptive, AdaptiveInput, AdaptiveTerms, Estimator, Form, Smoo
 use super::state::{any_state, input, law, state};
 use crate::control::Limits;
 use crate::proofs::properties::control::{
-    adaptive_commands_within_its_limits, adaptive_commands_within_its_limits_from_any_state, follows,
+    adaptive_commands_within_its_limits, adaptive_commands_within_its_limits_from_any_state,
+    follows,
 };
 use crate::proofs::{limited, stubs};
 use crate::signal::{Compensated, Derivative, DerivativeState};
@@ -183,12 +184,7 @@ fn literal_from_any_state() {
 }
 
 /// Any sum, or an overflow: more than an update can give.
-fn any_sum<T: Real>(
-    _: &Estimator<T>,
-    _: Compensated<T>,
-    _: T,
-    _: T,
-) -> Option<Compensated<T>> {
+fn any_sum<T: Real>(_: &Estimator<T>, _: Compensated<T>, _: T, _: T) -> Option<Compensated<T>> {
     let sum = Compensated {
         value: T::of(kani::any()),
         carry: T::of(kani::any()),

@@ -1,13 +1,13 @@
 //! K2, K12: the whole shipped step of the lag form.
 
 use super::super::{Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState};
-use crate::signal::Compensated;
 use super::super::{ErrorState, Estimator, Form, SmoothSign};
 use super::samples::any_virtual_command;
 use crate::control::status::Held;
 use crate::proofs::any::within;
 use crate::proofs::properties::control::the_lag_does_not_pass_its_target;
 use crate::proofs::properties::tracking::{the_law_keeps_the_box, StaticPlant};
+use crate::signal::Compensated;
 
 /// Table 2 in lag form at 1 kHz on a plant of known gain, estimates at rest.
 fn paper() -> Adaptive<f32, 0> {

@@ -1,0 +1,82 @@
+//! The hysteresis step, the transmission over it, and its inverse.
+
+use crate::{Case, Output, Sample};
+use bowden::hysteresis::{BoucWen, Shape};
+use bowden::transmission::{Inverse as Inverted, Transmission};
+use bowden::Error;
+use core::hint::black_box;
+
+/// The paper's first set, with the sigma that is given.
+pub(crate) fn transmission(sigma: f32) -> Result<Transmission<f32>, Error> {
+    let (rho, sigma, n) = black_box((0.09582, sigma, 3.871));
+    let (b, kappa_eta, t0) = black_box((0.9978, 7.004, 0.05174));
+    Transmission::torque(b, kappa_eta, t0, Shape::try_new(rho, sigma, n)?)
+}
+
+/// sigma as it was identified.
+const IDENTIFIED: f32 = 98.36;
+/// sigma within what has an inverse, B/(2·kappa_eta·rho) = 0.743.
+pub(crate) const INVERTIBLE: f32 = 0.6;
+
+/// The Bouc-Wen step of the paper's first set; the value is eta.
+#[derive(Debug)]
+pub struct Hysteresis {
+    shape: Shape<f32>,
+    state: BoucWen<f32>,
+}
+
+impl Case for Hysteresis {
+    fn try_new() -> Result<Self, Error> {
+        Ok(Self {
+            shape: *transmission(IDENTIFIED)?.shape(),
+            state: BoucWen::new(),
+        })
+    }
+
+    #[inline]
+    fn step(&mut self, at: &Sample) -> Output {
+        Output::of(self.shape.step(&mut self.state, at.input))
+    }
+}
+
+/// The transmission of the paper's first set; the value is tau_o.
+#[derive(Debug)]
+pub struct Forward {
+    transmission: Transmission<f32>,
+    state: BoucWen<f32>,
+}
+
+impl Case for Forward {
+    fn try_new() -> Result<Self, Error> {
+        Ok(Self {
+            transmission: transmission(IDENTIFIED)?,
+            state: BoucWen::new(),
+        })
+    }
+
+    #[inline]
+    fn step(&mut self, at: &Sample) -> Output {
+        Output::of(self.transmission.step(&mut self.state, at.input))
+    }
+}
+
+/// The inverse at sigma = 0.6; the value is tau_i.
+#[derive(Debug)]
+pub struct Inverse {
+    inverse: Inverted<f32>,
+    state: BoucWen<f32>,
+}
+
+impl Case for Inverse {
+    fn try_new() -> Result<Self, Error> {
+        Ok(Self {
+            inverse: transmission(INVERTIBLE)?.inverse()?,
+            state: BoucWen::new(),
+        })
+    }
+
+    #[inline]
+    fn step(&mut self, at: &Sample) -> Output {
+        Output::of(self.inverse.step(&mut self.state, at.input))
+    }
+}
