@@ -183,8 +183,26 @@ fn pid_from_any_state() {
 fn score_keeps_up() {
     let fallback = fallback();
     let (score, margin, is_bad) = (kani::any(), kani::any(), kani::any());
+    let latch = Latch::Closed;
+    let mut held = Held {
+        command: 1.0,
+        score,
+        latch,
+    };
+    if is_bad {
+        held.bad(Fault::Measured, &fallback);
+    } else {
+        held.good(1.0);
+    }
     kani::cover!(score < fallback.most() && score >= margin && margin > 3 && is_bad);
-    assert!(the_score_keeps_up(&fallback, score, margin, is_bad));
+    assert!(the_score_keeps_up(
+        &fallback,
+        (score, held.score),
+        margin,
+        is_bad
+    ));
+    let out = held.score >= fallback.most() && fallback.command().is_some() && is_bad;
+    assert!(out == held.is_latched());
 }
 
 /// K10. Other settings take a running PID over: the command that is out stays, from which a

@@ -112,6 +112,31 @@ fn slew_reaches_around() {
     assert!(low <= last && last <= high);
 }
 
+/// K15. Whatever the command before, the slew rate and dt are, NaN included: a command that is
+/// wanted, infinite or not, ends within the range.
+///
+/// Assumes: any limits, any ends of the slew rate's reach.
+#[kani::proof]
+#[kani::stub(around, all_ends)]
+fn slew_limit_from_any_command() {
+    let limits =
+        Limits::try_new(kani::any(), kani::any()).and_then(|range| range.with_slew(kani::any()));
+    kani::assume(limits.is_ok());
+    if let Ok(limits) = limits {
+        let (last, wanted, dt): (f32, f32, f32) = (kani::any(), kani::any(), kani::any());
+        kani::assume(!wanted.is_nan());
+        let command = limits.apply(last, wanted, dt);
+        kani::cover!(last.is_nan() && command == 1.0);
+        kani::cover!(wanted.is_infinite());
+        assert!(limits.contains(command));
+    }
+}
+
+/// Any two numbers, NaN included.
+fn all_ends<T: Real>(_: T, _: T) -> (T, T) {
+    (T::of(kani::any()), T::of(kani::any()))
+}
+
 /// K10. The same as slew_limit for any slew rate, any finite dt above zero and any command:
 /// within the range, and within the limit's ends wherever the command before lay in the range.
 ///

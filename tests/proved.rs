@@ -261,10 +261,20 @@ proptest! {
 
     #[test]
     fn the_score_of_bad_samples_keeps_up(
-        after in 1_u32.., weight in 1_u32.., score: u32, margin: u32, is_bad: bool
+        after in 1_u32..20, weight in 1_u32..9, samples in prop::collection::vec(any::<bool>(), 1..200)
     ) {
         let fallback = Fallback::try_new(after, 0.0).unwrap().with_weight(weight).unwrap();
-        prop_assert!(control::the_score_keeps_up(&fallback, score, margin, is_bad));
+        let limits = Limits::try_new(-9.0, 9.0).unwrap();
+        let pid = Pid::try_new(PidSettings::new(3.0, 30.0, limits, 0.005, fallback)).unwrap();
+        let (mut state, mut margin) = (PidState::new(), 0);
+        for is_bad in samples {
+            let before = state.bad_score();
+            let measured = if is_bad { f32::NAN } else { 0.1 };
+            pid.step(&mut state, &PidInput::new(0.001, 0.2, measured));
+            let scores = (before, state.bad_score());
+            prop_assert!(control::the_score_keeps_up(&fallback, scores, margin, is_bad));
+            margin = control::next_margin(&fallback, margin, is_bad);
+        }
     }
 
     #[test]

@@ -196,20 +196,25 @@ pub fn adaptive_commands_within_its_limits_from_any_state<const N: usize>(
 /// when a stretch of n samples has held B bad ones with `(weight + 1)·B - n >= most`.
 ///
 /// `margin` is the greatest `(weight + 1)·B - n` of a stretch that ends here, by Kadane's
-/// recursion; this is one step of it, and of the score, until the safe command is out.
-pub fn the_score_keeps_up(fallback: &Fallback<f32>, score: u32, margin: u32, is_bad: bool) -> bool {
+/// recursion. This is one step of it and of the controller's score, from `before` to `after`,
+/// until the safe command is out.
+pub fn the_score_keeps_up(
+    fallback: &Fallback<f32>,
+    (before, after): (u32, u32),
+    margin: u32,
+    is_bad: bool,
+) -> bool {
     let most = fallback.most();
-    let next = if is_bad {
-        score.saturating_add(fallback.weight()).min(most)
-    } else {
-        score.saturating_sub(1)
-    };
-    let wanted = if is_bad {
+    before >= most || before < margin || after >= next_margin(fallback, margin, is_bad).min(most)
+}
+
+/// The margin one sample later.
+pub fn next_margin(fallback: &Fallback<f32>, margin: u32, is_bad: bool) -> u32 {
+    if is_bad {
         margin.saturating_add(fallback.weight())
     } else {
         margin.saturating_sub(1)
-    };
-    score >= most || score < margin || next >= wanted.min(most)
+    }
 }
 
 /// Other settings that take a running law over leave the command that is out, as far as

@@ -246,7 +246,9 @@ impl<T: Real> Pid<T> {
 
     /// The command of a good sample, which moves the state; `None`, and nothing has moved,
     /// where a number cannot be used or the law overflows.
-    #[inline]
+    ///
+    /// Not inlined: the exceptions call it too, and a copy is 1 KB of flash.
+    #[inline(never)]
     fn advance(&self, state: &mut PidState<T>, at: &PidInput<T>) -> Option<T> {
         let s = &self.settings;
         let error = at.measured - at.reference;
@@ -289,6 +291,7 @@ impl<T: Real> Pid<T> {
 
     /// A bad sample, a latched safe command, or the first good sample after one.
     #[cold]
+    #[inline(never)]
     fn exception(&self, state: &mut PidState<T>, at: &PidInput<T>) -> Output<T> {
         let s = &self.settings;
         let fault = self.fault(at);
@@ -368,8 +371,11 @@ impl<T: Real> Pid<T> {
     /// Filtered rate of `y - c·y_r`, zero where it is not used.
     #[inline]
     fn rate(&self, state: &PidState<T>, now: &Last<T>, dt: T) -> T {
+        if self.settings.k_d == T::ZERO {
+            return T::ZERO;
+        }
         match (self.settings.damping, &state.last) {
-            (Damping::Rate { weight }, Some(before)) if self.settings.k_d != T::ZERO => {
+            (Damping::Rate { weight }, Some(before)) => {
                 // From the samples themselves: right also where the weight has changed.
                 let sample = |at: &Last<T>| at.measured - weight * at.reference;
                 let filter = Derivative::assumed(self.settings.derivative_time);

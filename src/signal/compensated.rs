@@ -51,16 +51,18 @@ impl<T: Real> Compensated<T> {
 
     /// The sum after `increment`, within `[low, high]`.
     ///
-    /// `None` where it is not finite before it is clamped: an overflow, or NaN.
+    /// `None` where it, or what it owes, is not finite before it is clamped: an overflow, or
+    /// NaN.
     #[inline]
     pub(crate) fn add(self, increment: T, low: T, high: T) -> Option<Self> {
         let sum = self.plus(increment);
-        if !sum.value.is_finite() {
+        // One test of both: a product of zero and an infinity is NaN.
+        if (sum.value + sum.carry) * T::ZERO != T::ZERO {
             return None;
         }
         let value = clamp(sum.value, low, high);
-        // At an edge of the box nothing is owed; the way to the carry may overflow.
-        let carry = if value == sum.value && sum.carry.is_finite() {
+        // At an edge of the box nothing is owed.
+        let carry = if value == sum.value {
             sum.carry
         } else {
             T::ZERO

@@ -73,7 +73,9 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
 
     /// The command of a good sample, which moves the state; `None`, and nothing has moved,
     /// where a number cannot be used or the law overflows.
-    #[inline]
+    ///
+    /// Not inlined: the exceptions call it too, and a copy is 2 KB of flash.
+    #[inline(never)]
     fn advance(
         &self,
         state: &mut AdaptiveState<T, N>,
@@ -133,6 +135,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// A bad sample, a dropped regressor, a latched safe command, or the first good sample
     /// after one.
     #[cold]
+    #[inline(never)]
     fn exception(&self, state: &mut AdaptiveState<T, N>, input: &AdaptiveInput<T, N>) -> Output<T> {
         let fallback = &self.settings.fallback;
         let status = match (state.held.latched(fallback), self.without_dropped(input)) {
