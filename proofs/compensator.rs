@@ -54,6 +54,7 @@ fn compensator() -> Result<Compensator<f32, 1>, Error> {
 #[kani::stub(Model::effects, any_shares)]
 #[kani::stub(Model::first_blind_term, any_blind_term)]
 #[kani::stub(Inverse::solve, any_root)]
+#[kani::stub(Shape::advance, any_eta)]
 #[kani::stub(Shape::bounded, any_eta)]
 fn compensator_any_sample() {
     let compensator = compensator();

@@ -397,28 +397,33 @@ impl<T: Real> Inverse<T> {
         } else if error <= T::zero() && start > low {
             low = start;
         }
-        let (mut input, mut error, mut slope) = (start, error, self.slope(eta, direction));
+        let (mut input, mut error, mut there) = (start, error, eta);
         let (mut best, mut best_error) = ((start, eta), error.abs());
         // The whole curve bends one way, so that Newton's steps from one of its ends, the
         // start or the other, do not pass the root.
         let mut end = Some(if direction > T::zero() { high } else { low });
+        let mut is_halving = false;
         for _ in 0..MOST_EVALUATIONS {
             if best_error <= tolerance {
                 break;
             }
-            let newton = input - error / slope;
-            let middle = low + (high - low) * T::of(0.5);
+            // Where Newton does not halve the error (a slope near zero): halve the bracket.
+            let newton = if is_halving {
+                low
+            } else {
+                input - error / self.slope(there, direction)
+            };
             let is_inside = newton > low && newton < high;
             let jump = if is_inside { None } else { end.take() };
             let next = if is_inside {
                 newton
             } else {
-                jump.unwrap_or(middle)
+                jump.unwrap_or(low + (high - low) * T::of(0.5))
             };
             if next == input {
                 break;
             }
-            let there = self.shape.advance(eta, next - start);
+            there = self.shape.advance(eta, next - start);
             let previous = error.abs();
             input = next;
             error = self.gain * input + self.hysteresis * there - target;
@@ -431,11 +436,7 @@ impl<T: Real> Inverse<T> {
                 best = (input, there);
                 best_error = error.abs();
             }
-            slope = self.slope(there, direction);
-            if jump.is_none() && error.abs() > previous * T::of(0.5) {
-                // Newton does not halve the error (a slope near zero): halve the bracket.
-                slope = T::zero();
-            }
+            is_halving = jump.is_none() && error.abs() > previous * T::of(0.5);
         }
         best
     }
