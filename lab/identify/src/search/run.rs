@@ -143,7 +143,7 @@ impl<'a> Search<'a> {
     /// Fits the final model once more from all starts if its residual exceeds the noise: the few
     /// starts of a move may have missed the optimum. Returns whether a better one was found.
     fn begun_anew(&mut self) -> bool {
-        let is_much = self.now.rmse.fit > policy::MUCH_LEFT * self.data.noise_floor;
+        let is_much = self.now.rmse.fit > policy::AT_FLOOR * self.data.noise_floor;
         if self.is_last_anew || !is_much || Arc::ptr_eq(&self.now, &self.declared) {
             return false;
         }
