@@ -1,18 +1,17 @@
 //! What `bowden close --json` says of its own cost.
 #![allow(clippy::unwrap_used)]
 
+#[allow(dead_code)]
+mod shell;
+
 use serde_json::Value;
-use std::process::Command;
+use shell::bowden;
 use std::time::Instant;
 
 /// The part `cost`, and the wall time of the whole process \[s\].
 fn cost(arguments: &[&str]) -> (Value, f64) {
     let begun = Instant::now();
-    let output = Command::new(env!("CARGO_BIN_EXE_bowden"))
-        .args(arguments)
-        .arg("--json")
-        .output()
-        .unwrap();
+    let output = bowden(&[arguments, &["--json"]].concat());
     let seconds = begun.elapsed().as_secs_f64();
     assert!(output.status.success(), "{output:?}");
     let mut report: Value = serde_json::from_slice(&output.stdout).unwrap();

@@ -1,21 +1,16 @@
 //! The two commands from outside.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use std::process::{Command, Output};
+#[allow(dead_code)]
+mod shell;
 
-fn bowden(threads: &str, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_bowden"))
-        .args(arguments)
-        .env("RAYON_NUM_THREADS", threads)
-        .output()
-        .unwrap()
-}
+use shell::{bowden, bowden_on};
 
 fn made(folder: &tempfile::TempDir, name: &str, arguments: &[&str]) -> String {
     let path = folder.path().join(name).display().to_string();
     let mut all = vec!["generate", "--mode", "displacement", "--out", &path];
     all.extend(arguments);
-    assert!(bowden("2", &all).status.success());
+    assert!(bowden(&all).status.success());
     path
 }
 
@@ -34,7 +29,7 @@ fn the_power_of_a_record_is_the_same_bytes_for_any_number_of_threads() {
             "--trials",
             "5",
         ];
-        let output = bowden(threads, &all);
+        let output = bowden_on(threads, &all);
         assert!(output.status.success() && output.stderr.is_empty());
         output.stdout
     };
@@ -58,7 +53,7 @@ fn a_plan_is_a_table_of_motion_and_names_what_it_is_for() {
         "c.csv",
         &["--seed", "2", "--effect", "viscous:0.6"],
     );
-    let output = bowden("2", &["plan", &path]);
+    let output = bowden(&["plan", &path]);
     assert!(output.status.success());
     let csv = String::from_utf8(output.stdout).unwrap();
     assert!(csv.starts_with("t [s],x [mm]\n0,"));
@@ -70,13 +65,13 @@ fn a_plan_is_a_table_of_motion_and_names_what_it_is_for() {
         .unwrap()
         .contains("viscous from delay"));
     let out = folder.path().join("plan.csv").display().to_string();
-    assert!(bowden("1", &["plan", &path, "--out", &out])
+    assert!(bowden_on("1", &["plan", &path, "--out", &out])
         .status
         .success());
     assert_eq!(std::fs::read_to_string(&out).unwrap(), csv);
-    let closed = bowden("2", &["close", &path]).stdout;
+    let closed = bowden(&["close", &path]).stdout;
     assert!(String::from_utf8(closed).unwrap().contains("to separate: "));
-    let closed = bowden("2", &["close", &path, "--json"]).stdout;
+    let closed = bowden(&["close", &path, "--json"]).stdout;
     let report: serde_json::Value = serde_json::from_slice(&closed).unwrap();
     let experiment = &report["rounds"][0]["experiment"];
     assert!(experiment["trajectory"].is_string(), "{experiment}");
@@ -101,7 +96,7 @@ fn bad_use_gives_one_line_and_status_two_and_leaves_nothing_behind() {
         &["plan", &path, "--declare", "nonsense", "--out", &nowhere],
     ];
     for arguments in cases {
-        let output = bowden("2", arguments);
+        let output = bowden(arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
         assert!(output.stdout.is_empty(), "{arguments:?}");
         let line = String::from_utf8(output.stderr).unwrap();

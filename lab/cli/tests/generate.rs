@@ -1,25 +1,15 @@
 //! `bowden generate`, and the name that it had before.
 #![allow(clippy::unwrap_used)]
 
-use std::process::{Command, Output};
+#[allow(dead_code)]
+mod shell;
 
-fn bowden(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_bowden"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
-
-fn stdout(arguments: &[&str]) -> String {
-    let output = bowden(arguments);
-    assert!(output.status.success(), "{arguments:?}: {output:?}");
-    String::from_utf8(output.stdout).unwrap()
-}
+use shell::said;
 
 #[test]
 fn the_old_name_record_gives_the_same_bytes() {
     let made = |name: &str| {
-        stdout(&[
+        said(&[
             name,
             "--effect",
             "viscous:2",
@@ -38,7 +28,7 @@ fn the_old_name_record_gives_the_same_bytes() {
 #[test]
 fn the_help_names_generate_and_not_record() {
     for arguments in [&["--help"][..], &["help"]] {
-        let help = stdout(arguments);
+        let help = said(arguments);
         let is_listed = |name: &str| {
             let mut first = help.lines().filter_map(|l| l.split_whitespace().next());
             first.any(|word| word == name)
@@ -48,7 +38,7 @@ fn the_help_names_generate_and_not_record() {
         assert!(!help.contains("alias"), "{help}");
     }
     for name in ["generate", "record"] {
-        let usage = stdout(&[name, "--help"]);
+        let usage = said(&[name, "--help"]);
         assert!(usage.contains("Usage: bowden generate"), "{usage}");
         assert!(!usage.contains("bowden record"), "{usage}");
     }

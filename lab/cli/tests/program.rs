@@ -1,36 +1,11 @@
 //! The program from outside: exit status, what goes to which stream, files written.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+#[allow(dead_code)]
+mod shell;
+
+use shell::{bowden, bowden_on, refused, text, without_seconds};
 use std::collections::BTreeSet;
-use std::process::{Command, Output};
-
-fn bowden(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_bowden"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
-
-fn text(bytes: &[u8]) -> &str {
-    std::str::from_utf8(bytes).unwrap()
-}
-
-/// Exit 2, nothing on stdout, and exactly one line on stderr.
-fn refused(arguments: &[&str]) -> String {
-    let output = bowden(arguments);
-    assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-    assert!(output.stdout.is_empty(), "{arguments:?}");
-    let line = text(&output.stderr).trim_end().to_owned();
-    assert_eq!(line.lines().count(), 1, "{line}");
-    line
-}
-
-/// The JSON of a run but for its seconds, the one thing in it that a clock decides.
-fn without_seconds(stdout: &[u8]) -> String {
-    let (before, rest) = text(stdout).split_once("\"seconds\":{").unwrap();
-    let (_, after) = rest.split_once('}').unwrap();
-    format!("{before}{after}")
-}
 
 fn record(folder: &tempfile::TempDir, name: &str, arguments: &[&str]) -> String {
     let path = folder.path().join(name).display().to_string();
@@ -105,14 +80,7 @@ fn the_same_record_gives_the_same_bytes_whatever_the_number_of_threads() {
             "3",
         ],
     );
-    let run = |threads: &str| {
-        Command::new(env!("CARGO_BIN_EXE_bowden"))
-            .args(["close", &path, "--json"])
-            .env("RAYON_NUM_THREADS", threads)
-            .output()
-            .unwrap()
-            .stdout
-    };
+    let run = |threads: &str| bowden_on(threads, &["close", &path, "--json"]).stdout;
     let first = without_seconds(&run("1"));
     assert_eq!(first, without_seconds(&run("1")));
     assert_eq!(first, without_seconds(&run("3")));

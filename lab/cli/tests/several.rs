@@ -1,35 +1,10 @@
 //! The program from outside: one line and status 2, or a report by file.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use std::process::{Command, Output};
+#[allow(dead_code)]
+mod shell;
 
-fn bowden(arguments: &[&str], threads: &str) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_bowden"))
-        .args(arguments)
-        .env("RAYON_NUM_THREADS", threads)
-        .output()
-        .unwrap()
-}
-
-fn text(bytes: &[u8]) -> &str {
-    std::str::from_utf8(bytes).unwrap()
-}
-
-/// The JSON of a run but for its seconds, the one thing in it that a clock decides.
-fn without_seconds(stdout: &[u8]) -> String {
-    let (before, rest) = text(stdout).split_once("\"seconds\":{").unwrap();
-    let (_, after) = rest.split_once('}').unwrap();
-    format!("{before}{after}")
-}
-
-fn refused(arguments: &[&str]) -> String {
-    let output = bowden(arguments, "2");
-    assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-    assert!(output.stdout.is_empty(), "{arguments:?}");
-    let line = text(&output.stderr).trim_end().to_owned();
-    assert_eq!(line.lines().count(), 1, "{line}");
-    line
-}
+use shell::{bowden, bowden_on, refused, text, without_seconds};
 
 struct Folder(tempfile::TempDir);
 
@@ -54,7 +29,7 @@ impl Folder {
             "500",
         ];
         all.extend(arguments);
-        assert!(bowden(&all, "2").status.success());
+        assert!(bowden(&all).status.success());
         path
     }
 
@@ -130,7 +105,7 @@ fn a_file_in_other_units_of_the_same_kind_is_converted() {
     let c = folder.path("c.csv");
     std::fs::write(&c, converted).unwrap();
     let error = |other: &str| {
-        let out = bowden(&["close", &a, other, "--json"], "2");
+        let out = bowden(&["close", &a, other, "--json"]);
         let json: serde_json::Value = serde_json::from_slice(&out.stdout).unwrap();
         json["declared"]["rmse"]["fit"].as_f64().unwrap()
     };
@@ -145,9 +120,9 @@ fn three_files_are_reported_one_by_one_and_the_same_on_any_number_of_threads() {
     let name = |seed: &str| folder.record(&format!("{seed}.csv"), &["--seed", seed]);
     let (a, b, c) = (name("1"), name("2"), name("3"));
     let arguments = ["close", &a, &b, &c, "--json"];
-    let first = bowden(&arguments, "1");
+    let first = bowden_on("1", &arguments);
     assert_eq!(first.status.code(), Some(0), "{}", text(&first.stderr));
-    let again = bowden(&arguments, "3");
+    let again = bowden_on("3", &arguments);
     assert_eq!(
         without_seconds(&first.stdout),
         without_seconds(&again.stdout)
@@ -166,7 +141,7 @@ fn three_files_are_reported_one_by_one_and_the_same_on_any_number_of_threads() {
         // One file is held out, so its error is that of the whole.
         assert_eq!(files[2]["held_out"], json[model]["rmse"]["held_out"]);
     }
-    let ledger = bowden(&["close", &a, &b, &c], "2");
+    let ledger = bowden(&["close", &a, &b, &c]);
     let ledger = text(&ledger.stdout);
     assert!(ledger.contains(&format!("held out: {c}")), "{ledger}");
     assert!(ledger.contains("error by file"), "{ledger}");
@@ -179,10 +154,7 @@ fn with_gains_of_their_own_each_file_gets_a_model_file() {
     let a = folder.record("a.csv", &["--seed", "1"]);
     let b = folder.record("b.csv", &["--seed", "2"]);
     let out = folder.path("model.toml");
-    let ran = bowden(
-        &["close", &a, &b, "--per-file", "gains", "--model-out", &out],
-        "2",
-    );
+    let ran = bowden(&["close", &a, &b, "--per-file", "gains", "--model-out", &out]);
     assert_eq!(ran.status.code(), Some(0), "{}", text(&ran.stderr));
     assert!(text(&ran.stdout).contains("gains by file"));
     assert!(!std::path::Path::new(&out).exists());

@@ -8,14 +8,17 @@
 //! what was found (rivals in parentheses) and the time taken.
 #![allow(clippy::unwrap_used)]
 
-use bowden_lab::conclude::intervals::{parameters, term_name};
-use bowden_lab::fit::{Segments, Solution};
+#[allow(dead_code)]
+#[path = "../tests/identification/rig.rs"]
+mod rig;
+
+use bowden_lab::conclude::intervals::term_name;
+use bowden_lab::fit::Solution;
 use bowden_lab::ledger::{Ledger, Round};
-use bowden_lab::model::declared::structure;
-use bowden_lab::problem::{Preparation, Prepared};
-use bowden_lab::record::{parse, Options};
+use bowden_lab::problem::Prepared;
 use bowden_lab::search::close;
-use bowden_synth::{effects, generate, Mode, Planted, Recipe, Synthetic};
+use bowden_synth::{effects, Mode, Planted, Recipe};
+use rig::Made;
 
 /// Family of an effect by its own name.
 fn family_of(name: &str) -> &'static str {
@@ -80,50 +83,17 @@ impl Arguments {
     }
 }
 
-/// A generated record on its grids.
-struct Made {
-    made: Synthetic,
-    data: Prepared,
-    /// Held-out error that the noise alone leaves.
-    floor: f64,
-}
-
-impl Made {
-    fn new(recipe: &Recipe, name: &str) -> Self {
-        let made = generate(recipe).unwrap();
-        let mut options = Options::default();
-        if name == "crosstalk" {
-            options.channels.push(("aux".to_owned(), "aux".to_owned()));
-        }
-        let record = parse(made.to_csv().as_bytes(), name, &options).unwrap();
-        let data = Prepared::new(&record, Preparation::default()).unwrap();
-        let mut clean = record;
-        clean.output.values.clone_from(&made.truth.output);
-        let preparation = Preparation {
-            cutoff: Some(data.cutoff),
-        };
-        let clean = Prepared::new(&clean, preparation).unwrap();
-        let pairs = data.target.iter().zip(&clean.target);
-        let noise: Vec<f64> = pairs.map(|(a, b)| a - b).collect();
-        Self {
-            floor: Segments::of(&data, &noise).held_out,
-            made,
-            data,
-        }
+/// What was planted and what was fitted, for a reader who sets `TRUTH`.
+fn print_truth(made: &Made, last: &Solution) {
+    let truth = &made.synthetic.truth;
+    for e in &truth.effects {
+        println!(
+            "truth {} on {:?}: gain {} shapes {:?}; base {:?}",
+            e.effect, e.channel, e.gain, e.shapes, truth.base
+        );
     }
-
-    /// What was planted and what was fitted, for a reader who sets `TRUTH`.
-    fn print_truth(&self, last: &Solution) {
-        let truth = &self.made.truth;
-        for e in &truth.effects {
-            println!(
-                "truth {} on {:?}: gain {} shapes {:?}; base {:?}",
-                e.effect, e.channel, e.gain, e.shapes, truth.base
-            );
-        }
-        for p in parameters(&self.data, last) {
-            println!("   {} = {:.5} {:?} {:?}", p.name, p.value, p.ci95, p.unit);
-        }
+    for p in made.parameters(last) {
+        println!("   {} = {:.5} {:?} {:?}", p.name, p.value, p.ci95, p.unit);
     }
 }
 
@@ -185,9 +155,9 @@ struct Totals {
 
 /// Closes one record and prints its line.
 fn close_one(recipe: &Recipe, name: &str, seed: u64, totals: &mut Totals) {
-    let record = Made::new(recipe, name);
-    let (data, floor) = (&record.data, record.floor);
-    let declared = structure(&["bouc-wen".to_owned()], data).unwrap();
+    let made = Made::new(recipe);
+    let (data, floor) = (&made.data, made.noise_floor());
+    let declared = made.declare(&["bouc-wen"]);
     let started = std::time::Instant::now();
     let ledger = close(data, &declared, |_| ()).unwrap();
     let seconds = started.elapsed().as_secs_f64();
@@ -198,9 +168,9 @@ fn close_one(recipe: &Recipe, name: &str, seed: u64, totals: &mut Totals) {
     totals.extra += found.extra;
     totals.at_floor += usize::from(ratio < 1.1);
     if std::env::var("TRUTH").is_ok() {
-        record.print_truth(ledger.last());
+        print_truth(&made, ledger.last());
     }
-    let base = &record.made.truth.base;
+    let base = &made.synthetic.truth.base;
     println!(
         "{:?} {name:22} {seed} {} {:7.2} -> {ratio:5.2} ({:?}, f_c {}, rho {:.3} sig {:.2} n {:.2}) {} | {} | {seconds:.2} s",
         recipe.mode,

@@ -1,4 +1,4 @@
-//! What a search has found: every round, every rejection, and what has no name.
+//! The result of a search: every round, every rejection, and the unmodelled curve.
 
 use crate::fit::{Segments, Solution};
 use crate::model::catalogue::Candidate;
@@ -16,7 +16,7 @@ pub enum Gate {
     Blocks,
     /// It made the stop-check segment worse.
     StopCheck,
-    /// It had been added, but what was added later does its work as well.
+    /// It was added, and later additions made it redundant.
     Superseded,
 }
 
@@ -37,9 +37,9 @@ impl Gate {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Grade {
-    /// Found again in at least half of the half-records, and nothing does as well in its place.
+    /// Found again in at least half of the half-records, and without a rival.
     Firm,
-    /// One of several effects that would explain this.
+    /// Recurs too seldom, or has rivals that explain the same as well.
     Weak,
 }
 
@@ -48,9 +48,9 @@ pub enum Grade {
 pub struct Round {
     /// The effect that was added.
     pub candidate: Candidate,
-    /// Exact sign-flip p-value of the scan; `None` in effect mode.
+    /// Exact sign-flip p-value; `None` if the blocks were too short for a test.
     pub p: Option<f64>,
-    /// Others that explain the same as well, once fitted: the data cannot tell.
+    /// Effects that explain the same as well once fitted: the record cannot tell them apart.
     pub rivals: Vec<Candidate>,
     /// Grade of the name.
     pub grade: Grade,
@@ -58,7 +58,7 @@ pub struct Round {
     pub explained: f64,
     /// Blocks of sixteen on which it helped.
     pub blocks_better: usize,
-    /// In how many of a hundred half-records a search finds it again.
+    /// Number of half-records, of a hundred, in which a search finds it again.
     pub recurs: usize,
     /// Errors before.
     pub before: Segments,
@@ -88,6 +88,15 @@ pub struct Rejection {
     pub p: Option<f64>,
 }
 
+/// Adds rejections of effects that the list does not have yet: of each the first one stands.
+pub(crate) fn reject(list: &mut Vec<Rejection>, those: impl IntoIterator<Item = Rejection>) {
+    for one in those {
+        if !list.iter().any(|r| r.candidate.is_like(&one.candidate)) {
+            list.push(one);
+        }
+    }
+}
+
 /// The whole ledger.
 #[derive(Debug, Clone)]
 pub struct Ledger {
@@ -95,29 +104,29 @@ pub struct Ledger {
     pub declared: Solution,
     /// What was added.
     pub rounds: Vec<Round>,
-    /// What was found after these and raises the error on blocks that are left out: it is no
-    /// part of the model.
+    /// Rounds after these that raise the error on left-out blocks: they are not part of the
+    /// delivered model.
     pub beyond: Vec<Round>,
-    /// What was turned down in the last scan of each round.
+    /// Candidates that were rejected.
     pub rejected: Vec<Rejection>,
-    /// What is there besides and has no name.
+    /// A further dependence that no effect of the catalogue explains.
     pub unknown: Option<Unknown>,
-    /// Whether the record had blocks enough for p-values, in the last scan and wherever
+    /// Whether the blocks were long enough for p-values, in the last linearisation and whenever
     /// an effect was added.
     pub regime: Regime,
     /// Correlation time of the last residual \[s\].
     pub correlation_time: f64,
-    /// Whether the output follows the integral of the input: then no effect is looked for.
+    /// Whether the output follows the integral of the input: then no effect is sought.
     pub integrates: bool,
-    /// The largest number of effects that was asked for, where that ended the search: more
-    /// may be missing, and nothing has looked for it. `None` where the search ended by itself.
+    /// The requested number of effects if it ended the search: further effects may be missing.
+    /// `None` if the search ended by itself.
     pub stopped_by_request: Option<usize>,
-    /// The time \[s\] that was asked for, where that ended the search.
+    /// The requested time \[s\] if it ended the search.
     pub stopped_by_budget: Option<f64>,
 }
 
 impl Ledger {
-    /// The ledger of a declared model before any effect is looked for.
+    /// The ledger of a declared model before the search.
     #[must_use]
     pub fn of(declared: Solution) -> Self {
         Self {
@@ -134,13 +143,13 @@ impl Ledger {
         }
     }
 
-    /// Whether a limit that was asked for ended the search.
+    /// Whether a requested limit ended the search.
     #[must_use]
     pub fn is_stopped(&self) -> bool {
         self.stopped_by_request.is_some() || self.stopped_by_budget.is_some()
     }
 
-    /// That the search was ended by request, in a sentence; `None` where it ended by itself.
+    /// A sentence on the limit that ended the search; `None` if it ended by itself.
     #[must_use]
     pub fn stopped_words(&self) -> Option<String> {
         if let Some(seconds) = self.stopped_by_budget {
@@ -157,7 +166,7 @@ impl Ledger {
         })
     }
 
-    /// The last accepted model, a table for what has no name included.
+    /// The last accepted model, including the table of an unmodelled curve.
     #[must_use]
     pub fn last(&self) -> &Solution {
         match &self.unknown {
@@ -166,23 +175,23 @@ impl Ledger {
         }
     }
 
-    /// The last accepted model of effects that have a name.
+    /// The last accepted model without an unmodelled curve.
     #[must_use]
     pub fn named(&self) -> &Solution {
         self.rounds.last().map_or(&self.declared, |r| &r.solution)
     }
 }
 
-/// A dependence that has no name.
+/// A dependence of the residual that no effect of the catalogue explains.
 #[derive(Debug, Clone)]
 pub struct Unknown {
-    /// On what the residual depends.
+    /// The variable that the residual depends on.
     pub variable: Variable,
-    /// Share of the squared error that the curve takes.
+    /// Share of the squared error that the curve removes.
     pub share: f64,
     /// Exact sign-flip p-value of the curve.
     pub p: f64,
-    /// What the best one or two names take, of what the curve takes.
+    /// Reduction of the SSE by the best one or two names over that by the curve.
     pub q: f64,
     /// Errors before.
     pub before: Segments,

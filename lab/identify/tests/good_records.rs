@@ -1,6 +1,9 @@
 //! Good records are read: in every spelling, cut, held, quantised, and measured by others.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+#[allow(dead_code)]
+mod shared;
+
 use bowden_lab::record::{parse, read, Mode, Options, Record};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -214,7 +217,7 @@ fn mapping(path: &Path) -> Option<Options> {
 
 #[test]
 fn every_measured_record_is_read() {
-    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
+    let data = shared::folder();
     let Ok(folders) = std::fs::read_dir(&data) else {
         println!(
             "skipped: the measured records are not at {}",

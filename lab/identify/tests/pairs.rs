@@ -1,106 +1,58 @@
 //! What a search finds on one record, on another record of the same rig: the goals of the names
 //! that carry over, on rigs that others measured.
 //!
-//! The records are not part of the project. `BOWDEN_SHARED_RECORDS` names their folder, else it
-//! is `../../../shared/data` seen from this package; a rig whose files are absent is skipped, and
-//! said to be. `--nocapture` prints the tables, which are those of the example `carry_over`.
+//! Where the records are stands in `shared`; a rig with a file that is absent is skipped.
+//! `--nocapture` prints the tables, which are those of the example `carry_over`.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 #[allow(dead_code)]
 #[path = "../examples/carry_over/pair.rs"]
 mod pair;
+#[allow(dead_code)]
+mod shared;
 
-use bowden_lab::facts::Asked;
 use bowden_lab::ledger::Grade;
-use bowden_lab::record::{Mode, Options};
 use pair::{known, Closed, Identity, Name, Rig, Share};
-use std::path::PathBuf;
+use shared::{Row, DAMPER, DAVINCI_03, DAVINCI_23, PIEZO_FULL, PIEZO_VARYING};
 use std::sync::LazyLock;
 
-/// Records of one rig, and how they are read.
-struct Row {
+/// Records of one rig, all read as its row says.
+struct Pair {
     name: &'static str,
-    folder: &'static str,
+    row: Row,
     files: &'static [&'static str],
-    mode: Mode,
-    columns: (&'static str, &'static str),
-    channels: &'static [(&'static str, &'static str)],
-    skip: f64,
-    cutoff: f64,
 }
 
 /// The damper at 0.5 A: another current is another damper.
-const ROWS: [Row; 3] = [
-    Row {
+const PAIRS: [Pair; 3] = [
+    Pair {
         name: "magnetorheological damper, 0.5 A",
-        folder: "mr_damper_utfsm",
+        row: DAMPER,
         files: &[
-            "sine_25mm0x25Hz0x5A.csv",
-            "sine_25mm0x5Hz0x5A.csv",
-            "sine_5mm3Hz0x5A.csv",
+            "mr_damper_utfsm/sine_25mm0x25Hz0x5A.csv",
+            "mr_damper_utfsm/sine_25mm0x5Hz0x5A.csv",
+            "mr_damper_utfsm/sine_5mm3Hz0x5A.csv",
         ],
-        mode: Mode::Displacement,
-        columns: ("displacement_mm", "force_N"),
-        channels: &[],
-        skip: 0.0,
-        cutoff: 20.0,
     },
-    Row {
+    Pair {
         name: "piezo stack",
-        folder: "piezo_stage",
-        files: &["sine_1Hz_full_range.csv", "sine_1Hz_varying_amplitude.csv"],
-        mode: Mode::Displacement,
-        columns: ("control_V", "displacement_um"),
-        channels: &[],
-        skip: 2.0,
-        cutoff: 40.0,
+        row: PIEZO_FULL,
+        files: &[PIEZO_FULL.file, PIEZO_VARYING.file],
     },
-    Row {
+    Pair {
         name: "da Vinci tool 4",
-        folder: "davinci_cable_tool",
-        files: &["tool4_l_4_03.csv", "tool4_l_4_23.csv"],
-        mode: Mode::Torque,
-        columns: ("drive_torque_Nm", "jaw_torque_Nm"),
-        channels: &[("phi_p", "drive_angle_rad"), ("phi_d", "jaw_angle_rad")],
-        skip: 2.5,
-        cutoff: 20.0,
+        row: DAVINCI_03,
+        files: &[DAVINCI_03.file, DAVINCI_23.file],
     },
 ];
 
-impl Row {
-    fn asked(&self) -> Asked {
-        let own = |(a, b): &(&str, &str)| ((*a).to_owned(), (*b).to_owned());
-        Asked {
-            options: Options {
-                mode: Some(self.mode),
-                time: Some("time_s".to_owned()),
-                input: Some(self.columns.0.to_owned()),
-                output: Some(self.columns.1.to_owned()),
-                channels: self.channels.iter().map(own).collect(),
-                skip: self.skip,
-                ..Options::default()
-            },
-            cutoff: Some(self.cutoff),
-            declare: vec!["bouc-wen".to_owned()],
-            ..Asked::default()
-        }
-    }
-
+impl Pair {
     /// The rig measured; `None` where a file is absent.
     fn rig(&self) -> Option<Rig> {
-        let folder = std::env::var_os("BOWDEN_SHARED_RECORDS").map_or_else(
-            || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")),
-            PathBuf::from,
-        );
-        let folder = folder.join(self.folder);
-        let asked = self.asked();
+        let asked = self.row.asked();
         let mut closed = Vec::new();
         for file in self.files {
-            let path = folder.join(file);
-            if !path.exists() {
-                println!("skipped: {} is not there", path.display());
-                return None;
-            }
+            let path = self.row.of_file(file).path()?;
             closed.push(Closed::new(&asked, &path).unwrap_or_else(|line| panic!("{line}")));
         }
         let rig = Rig::new(self.name, closed).unwrap_or_else(|line| panic!("{line}"));
@@ -110,7 +62,7 @@ impl Row {
 }
 
 /// Each record is closed once, for all tests.
-static RIGS: LazyLock<Vec<Rig>> = LazyLock::new(|| ROWS.iter().filter_map(Row::rig).collect());
+static RIGS: LazyLock<Vec<Rig>> = LazyLock::new(|| PAIRS.iter().filter_map(Pair::rig).collect());
 
 /// The error on the other record, with gain and offset refitted, over the own held-out error:
 /// the goal.

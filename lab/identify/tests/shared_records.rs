@@ -1,10 +1,11 @@
 //! Records that others measured: how far the loop comes, and what it names on the way.
 //!
-//! They are not part of the project. `BOWDEN_SHARED_RECORDS` names their folder, else it
-//! is `../../../shared/data` seen from this package; where it or a file is absent a test says so
-//! and passes. Figures are the NRMSE of the filtered output on the fit and held-out
-//! segments; how far to reach was set by a prototype of the method, plus 15 to 20 %.
+//! Where they are and how far each is to reach stands in `shared`. Figures are the NRMSE of the
+//! filtered output on the fit and held-out segments.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+#[allow(dead_code)]
+mod shared;
 
 use bowden::effect::Family;
 use bowden::model::Source;
@@ -15,50 +16,10 @@ use bowden_lab::fit::Segments;
 use bowden_lab::ledger::{Grade, Ledger, Round};
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
-use bowden_lab::record::{read, Mode, Options};
 use bowden_lab::search::{close, close_within};
-use std::path::PathBuf;
-
-/// A record and how it is read.
-struct Row {
-    file: &'static str,
-    mode: Mode,
-    columns: (&'static str, &'static str),
-    channels: &'static [(&'static str, &'static str)],
-    declare: &'static [&'static str],
-    skip: f64,
-    until: Option<f64>,
-    cutoff: f64,
-    rate: Option<f64>,
-    /// NRMSE to reach on the fit and held-out segments [%].
-    reach: (f64, f64),
-}
-
-const PLAIN: Row = Row {
-    file: "",
-    mode: Mode::Displacement,
-    columns: ("", ""),
-    channels: &[],
-    declare: &["bouc-wen"],
-    skip: 0.0,
-    until: None,
-    cutoff: 20.0,
-    rate: None,
-    reach: (0.0, 0.0),
-};
-
-const EMPS: Row = Row {
-    file: "emps/emps_estimation.csv",
-    columns: ("q_m", "force_N"),
-    ..PLAIN
-};
-
-const DAVINCI: Row = Row {
-    mode: Mode::Torque,
-    columns: ("drive_torque_Nm", "jaw_torque_Nm"),
-    channels: &[("phi_p", "drive_angle_rad"), ("phi_d", "jaw_angle_rad")],
-    skip: 2.5,
-    ..PLAIN
+use shared::{
+    Row, DAMPER, DAVINCI_03, DAVINCI_23, EMPS, EMPS_DECLARED, FATIGUE, PIEZO_FULL, PIEZO_VARYING,
+    PNEUMATIC, TRIBOMETER,
 };
 
 struct Closed {
@@ -67,47 +28,26 @@ struct Closed {
     done: FinalFit,
 }
 
-impl Row {
+impl Closed {
     /// Closes the loop and checks what is reached; `None` where the file is absent.
-    fn close(&self) -> Option<Closed> {
-        let folder = std::env::var_os("BOWDEN_SHARED_RECORDS").map_or_else(
-            || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")),
-            PathBuf::from,
-        );
-        let path = folder.join(self.file);
-        if !path.exists() {
-            println!("skipped: {} is not there", path.display());
-            return None;
-        }
-        let own = |(a, b): &(&str, &str)| ((*a).to_owned(), (*b).to_owned());
-        let options = Options {
-            mode: Some(self.mode),
-            time: Some("time_s".to_owned()),
-            input: Some(self.columns.0.to_owned()),
-            output: Some(self.columns.1.to_owned()),
-            channels: self.channels.iter().map(own).collect(),
-            skip: self.skip,
-            until: self.until,
-            rate: self.rate,
-        };
-        let record = read(&path, &options).unwrap_or_else(|line| panic!("{line}"));
+    fn new(row: &Row) -> Option<Self> {
+        let (path, asked) = (row.path()?, row.asked());
+        let record = asked.read(&path).unwrap_or_else(|line| panic!("{line}"));
         let grave: Vec<_> = record.defects.iter().filter(|d| d.grave).collect();
         assert!(grave.is_empty(), "{grave:?}");
-        let cutoff = Some(self.cutoff);
+        let cutoff = asked.cutoff;
         let data = Prepared::new(&record, Preparation { cutoff }).unwrap();
-        let declare: Vec<String> = self.declare.iter().map(|s| (*s).to_owned()).collect();
-        let ledger = close(&data, &structure(&declare, &data).unwrap(), |_| ()).unwrap();
+        let declared = structure(&asked.declare, &data).unwrap();
+        let ledger = close(&data, &declared, |_| ()).unwrap();
         let done = FinalFit::new(&data, &ledger);
-        let closed = Closed { data, ledger, done };
+        let closed = Self { data, ledger, done };
         closed.print();
         // What the loop ended with, and what is delivered.
-        closed.assert_reached(&closed.ledger.last().rmse, self.reach);
-        closed.assert_reached(&closed.done.rmse, self.reach);
+        closed.assert_reached(&closed.ledger.last().rmse, row.reach);
+        closed.assert_reached(&closed.done.rmse, row.reach);
         Some(closed)
     }
-}
 
-impl Closed {
     /// NRMSE [%] on the fit and held-out segments.
     fn percent(&self, rmse: &Segments) -> (f64, f64) {
         let share = rmse.normalised(&self.data, &self.data.target);
@@ -173,11 +113,9 @@ impl Closed {
 #[test]
 #[ignore = "slow: bash .ci/run measured-records"]
 fn emps_with_nothing_declared_finds_inertia_and_viscous_then_asymmetry_then_dry_friction() {
-    let row = Row {
-        reach: (5.0, 5.3),
-        ..EMPS
+    let Some(closed) = Closed::new(&EMPS) else {
+        return;
     };
-    let Some(closed) = row.close() else { return };
     let mut first = [closed.family(0), closed.family(1)];
     first.sort();
     assert_eq!(first, [Family::Viscous, Family::Inertia]);
@@ -192,12 +130,9 @@ fn emps_with_nothing_declared_finds_inertia_and_viscous_then_asymmetry_then_dry_
 #[test]
 #[ignore = "slow: bash .ci/run measured-records"]
 fn emps_with_its_published_model_declared_finds_asymmetry_first() {
-    let row = Row {
-        declare: &["inertia", "viscous", "coulomb", "offset"],
-        reach: (2.9, 3.0),
-        ..EMPS
+    let Some(closed) = Closed::new(&EMPS_DECLARED) else {
+        return;
     };
-    let Some(closed) = row.close() else { return };
     assert_eq!(closed.family(0), Family::Asymmetry);
     for (name, solution) in [
         ("declared", &closed.ledger.declared),
@@ -214,13 +149,9 @@ fn emps_with_its_published_model_declared_finds_asymmetry_first() {
 #[test]
 #[ignore = "slow: bash .ci/run measured-records"]
 fn mr_damper_finds_what_rises_with_speed_first() {
-    let row = Row {
-        file: "mr_damper_utfsm/sine_25mm0x25Hz0x5A.csv",
-        columns: ("displacement_mm", "force_N"),
-        reach: (7.3, 9.3),
-        ..PLAIN
+    let Some(closed) = Closed::new(&DAMPER) else {
+        return;
     };
-    let Some(closed) = row.close() else { return };
     // Four cycles of one sine: its speed is one function of its position and direction.
     closed.assert_first_is_one_of(&[Family::Viscous, Family::Drag, Family::Rate]);
 }
@@ -228,15 +159,9 @@ fn mr_damper_finds_what_rises_with_speed_first() {
 #[test]
 #[ignore = "slow: bash .ci/run measured-records"]
 fn piezo_stage_over_its_full_range_finds_the_bend_or_the_rate_first() {
-    let row = Row {
-        file: "piezo_stage/sine_1Hz_full_range.csv",
-        columns: ("control_V", "displacement_um"),
-        skip: 2.0,
-        cutoff: 40.0,
-        reach: (0.6, 0.9),
-        ..PLAIN
+    let Some(closed) = Closed::new(&PIEZO_FULL) else {
+        return;
     };
-    let Some(closed) = row.close() else { return };
     let first = closed.round(0).candidate.term.effect;
     assert!(
         first.name() == "stiffness-quadratic" || first.family() == Family::Rate,
@@ -248,32 +173,20 @@ fn piezo_stage_over_its_full_range_finds_the_bend_or_the_rate_first() {
 #[test]
 #[ignore = "slow: bash .ci/run measured-records"]
 fn piezo_stage_with_varying_amplitude_finds_something_late_first() {
-    let row = Row {
-        file: "piezo_stage/sine_1Hz_varying_amplitude.csv",
-        columns: ("control_V", "displacement_um"),
-        skip: 2.0,
-        cutoff: 40.0,
-        reach: (1.6, 2.4),
-        ..PLAIN
+    let Some(closed) = Closed::new(&PIEZO_VARYING) else {
+        return;
     };
-    let Some(closed) = row.close() else { return };
     closed.assert_first_is_one_of(&[Family::Delay, Family::Lag, Family::Viscous, Family::Creep]);
     // This one is to be reached after three effects.
-    closed.assert_reached(&closed.round(2).after, row.reach);
+    closed.assert_reached(&closed.round(2).after, PIEZO_VARYING.reach);
 }
 
 #[test]
 #[ignore = "slow: bash .ci/run measured-records"]
 fn pneumatic_cylinder_finds_something_viscous_first() {
-    let row = Row {
-        file: "pneumatic_cylinder/kdn_3bar.csv",
-        columns: ("position_mm", "force_N"),
-        skip: 8.0,
-        cutoff: 8.0,
-        reach: (6.1, 6.8),
-        ..PLAIN
+    let Some(closed) = Closed::new(&PNEUMATIC) else {
+        return;
     };
-    let Some(closed) = row.close() else { return };
     // What rises with speed: the damper itself, or what it is confounded with.
     closed.assert_first_is_one_of(&[Family::Viscous, Family::Drag, Family::Delay, Family::Lag]);
 }
@@ -281,16 +194,9 @@ fn pneumatic_cylinder_finds_something_viscous_first() {
 #[test]
 #[ignore = "slow: bash .ci/run measured-records"]
 fn fatigue_rig_finds_viscous_delay_or_lag_first_and_needs_no_hysteresis() {
-    let row = Row {
-        file: "faster_fatigue_rig/faster.csv",
-        columns: ("displacement_mm", "force_norm"),
-        cutoff: 25.0,
-        // Its time column is rounded.
-        rate: Some(128.0),
-        reach: (2.4, 2.2),
-        ..PLAIN
+    let Some(closed) = Closed::new(&FATIGUE) else {
+        return;
     };
-    let Some(closed) = row.close() else { return };
     closed.assert_first_is_one_of(&[Family::Viscous, Family::Delay, Family::Lag]);
     // Beside that one effect. Eight leave so little that the hysteresis takes a tenth of it.
     let declared = structure(&["bouc-wen".to_owned()], &closed.data).unwrap();
@@ -302,12 +208,9 @@ fn fatigue_rig_finds_viscous_delay_or_lag_first_and_needs_no_hysteresis() {
 #[test]
 #[ignore = "slow: bash .ci/run measured-records"]
 fn davinci_tool_4_23_finds_a_function_of_an_angle_first() {
-    let row = Row {
-        file: "davinci_cable_tool/tool4_l_4_23.csv",
-        reach: (13.0, 13.5),
-        ..DAVINCI
+    let Some(closed) = Closed::new(&DAVINCI_23) else {
+        return;
     };
-    let Some(closed) = row.close() else { return };
     let source = closed.round(0).candidate.term.source;
     assert!(matches!(source, Source::Channel(_)), "reads {source:?}");
 }
@@ -317,12 +220,9 @@ fn davinci_tool_4_23_finds_a_function_of_an_angle_first() {
 #[test]
 #[ignore = "slow: bash .ci/run measured-records"]
 fn davinci_tool_4_03_gives_weak_names_only_and_says_which_others_do_as_well() {
-    let row = Row {
-        file: "davinci_cable_tool/tool4_l_4_03.csv",
-        reach: (12.0, 15.0),
-        ..DAVINCI
+    let Some(closed) = Closed::new(&DAVINCI_03) else {
+        return;
     };
-    let Some(closed) = row.close() else { return };
     for round in &closed.ledger.rounds {
         assert_eq!(round.grade, Grade::Weak);
         assert!(!round.rivals.is_empty());
@@ -336,15 +236,9 @@ fn davinci_tool_4_03_gives_weak_names_only_and_says_which_others_do_as_well() {
 #[test]
 #[ignore = "slow: bash .ci/run measured-records"]
 fn tribometer_with_gaps_in_time_finds_asymmetry_then_stiffness() {
-    let row = Row {
-        file: "tribometer_friction/reciprocating_friction.csv",
-        columns: ("position_mm", "friction_N"),
-        skip: 20.0,
-        until: Some(209.0),
-        reach: (2.4, 3.8),
-        ..PLAIN
+    let Some(closed) = Closed::new(&TRIBOMETER) else {
+        return;
     };
-    let Some(closed) = row.close() else { return };
     assert_eq!(closed.family(0), Family::Asymmetry);
     assert_eq!(closed.family(1), Family::Stiffness);
 }

@@ -38,6 +38,14 @@ impl Planted {
             origin: None,
         }
     }
+
+    /// An effect of that gain, whatever the motion and the noise.
+    pub fn with_gain(effect: &str, gain: f64) -> Self {
+        Self {
+            gain: Some(gain),
+            ..Self::new(effect)
+        }
+    }
 }
 
 /// Parameters of the transmission, in the paper's form.
@@ -55,6 +63,28 @@ pub struct Base {
     pub sigma: f64,
     /// n \[-\].
     pub n: f64,
+}
+
+impl Base {
+    /// A cable in the paper's range, for torque mode.
+    pub const CABLE: Self = Self {
+        gain: 0.95,
+        kappa_eta: 4.0,
+        offset: 0.05,
+        rho: 0.3,
+        sigma: 1.2,
+        n: 1.6,
+    };
+
+    /// A spring with a loop, for displacement mode.
+    pub const SPRING: Self = Self {
+        gain: 2.0,
+        kappa_eta: 8.0,
+        offset: 0.3,
+        rho: 0.5,
+        sigma: 1.2,
+        n: 1.6,
+    };
 }
 
 /// What to generate; start from [`Recipe::new`].
@@ -123,6 +153,20 @@ impl Recipe {
             load: false,
             base: None,
             play: 0.0,
+        }
+    }
+
+    /// A record of one rig, [`Base::CABLE`] or [`Base::SPRING`]: the seed changes motion and
+    /// noise alone.
+    pub fn of_one_rig(mode: Mode, seed: u64) -> Self {
+        let base = match mode {
+            Mode::Torque => Base::CABLE,
+            Mode::Displacement => Base::SPRING,
+        };
+        Self {
+            base: Some(base),
+            seed,
+            ..Self::new(mode)
         }
     }
 

@@ -39,14 +39,14 @@ struct RecordPart<'a> {
     rate_hz: f64,
     mode: &'static str,
     cutoff_hz: f64,
-    /// Seconds at the start that do not count.
+    /// Seconds at the start that are excluded.
     left_out_s: f64,
     unit: Option<&'a str>,
-    /// Standard deviation of the filtered output on what counts.
+    /// Standard deviation of the filtered output on the rest.
     deviation: f64,
 }
 
-/// What the model's file says of the record that it came from.
+/// What the model file states about its own record.
 #[derive(Serialize)]
 struct From {
     nrmse: Option<Errors>,
@@ -65,7 +65,7 @@ struct DependsOn<'a> {
 /// The check as one line of JSON.
 ///
 /// # Errors
-/// Where a number cannot be written, which no check has.
+/// If a number cannot be written, which no check has.
 pub fn check_json(
     model: &str,
     path: &str,
@@ -125,8 +125,8 @@ macro_rules! line {
     };
 }
 
-/// The check for people, with ANSI styles that whoever prints it may strip. Its last line
-/// stands for itself.
+/// The check for people, with ANSI styles that the caller may strip. Its last line can be quoted
+/// alone.
 #[must_use]
 pub fn check_text(model: &str, path: &str, check: &CheckFacts) -> String {
     let (bold, dim) = (Style::new().bold(), Style::new().dimmed());

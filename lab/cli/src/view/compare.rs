@@ -1,4 +1,4 @@
-//! What `bowden compare` prints: tables, JSON, traces.
+//! Output of `bowden compare`: tables, JSON, traces.
 
 use super::compare_found;
 use super::compare_rows::{conditions, configuration, row};
@@ -29,7 +29,7 @@ fn spread(spread: Spread) -> String {
 }
 
 /// "–, ran away at 0.31 s", in place of errors that were summed over a part of the trial;
-/// `None` where no trial ran away.
+/// `None` if no trial ran away.
 fn ran_away(line: &Line, seeds: usize) -> Option<String> {
     let at = line.ran_away?;
     let share = match seeds {

@@ -1,4 +1,4 @@
-//! What `bowden compare --effect` prints: the loop closed through the controllers.
+//! Output of `bowden compare --effect`: the loop closed through the controllers.
 
 use super::compare_rows::{conditions, row};
 use bowden_trials::facts::{Found, Heading, Line, Outcome, OverSeeds, Pair};
@@ -13,7 +13,7 @@ fn error(line: &Line) -> String {
     }
 }
 
-/// How much less there is after than before.
+/// Relative reduction from before to after.
 fn change(pair: &Pair) -> String {
     let change = pair.change();
     change.map_or_else(

@@ -1,4 +1,4 @@
-//! What the two forms of `bowden compare` have in common.
+//! Rows that the two forms of `bowden compare` share.
 
 use bowden_trials::facts::{Heading, Line, Spread};
 use serde_json::{json, Value};
@@ -24,7 +24,7 @@ pub(super) fn conditions(heading: &Heading) -> Value {
 }
 
 pub(super) fn row(line: &Line) -> Value {
-    // Of a law that ran away the sums are over a part of a trial: no number says anything.
+    // The sums of a law that ran away cover a part of the trial only: no number is comparable.
     let told = line.diverged == 0;
     let number = |value: f64| told.then_some(value);
     let spread = |spread: Spread| json!({ "mean": number(spread.mean), "sd": number(spread.sd) });

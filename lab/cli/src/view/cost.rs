@@ -1,8 +1,8 @@
-//! What a run of `bowden close` cost, in one line for a terminal.
+//! Cost of a run of `bowden close`, in one line for a terminal.
 
 use bowden_lab::facts::CostFacts;
 
-/// Total and stages, for whoever has waited.
+/// Total time and the time of each stage.
 #[must_use]
 pub fn cost_line(cost: &CostFacts) -> String {
     let seconds = &cost.seconds;

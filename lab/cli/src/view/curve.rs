@@ -1,11 +1,11 @@
-//! What has no name: its curve, for programs and for people.
+//! The unmodelled curve, for programs and for people.
 
 use super::words::in_brackets;
 use bowden_lab::facts::{number, with_interval, Facts, Knot, Segments, UnknownFacts};
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// At most this many points are printed.
+/// Maximum number of printed points.
 const LINES: usize = 20;
 /// Length of the longest bar.
 const BAR: f64 = 24.0;
@@ -38,7 +38,7 @@ impl<'a> UnknownPart<'a> {
     }
 }
 
-/// The section of the ledger; nothing where there is no such curve.
+/// The section of the ledger; empty if there is no such curve.
 pub(super) fn text(facts: &Facts) -> Option<String> {
     let unknown = facts.unknown.as_ref()?;
     let knots = &unknown.curve;

@@ -1,4 +1,4 @@
-//! What is handed over to firmware: its errors there, and whether it is a feed-forward.
+//! The model for firmware: its errors there, and whether it is a feed-forward.
 
 use bowden_lab::facts::{three_digits, FeedForward, HandOverFacts, LeftOut, Segments};
 use serde::Serialize;
@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 /// The part of the JSON's `final` that is about the model of `--model-out`.
 #[derive(Serialize)]
 pub(super) struct HandOverPart<'a> {
-    /// Errors sample by sample with causal rates; `null` where nothing can be handed over.
+    /// Errors sample by sample with causal rates; `null` if nothing can be handed over.
     causal_nrmse: Option<Segments>,
     feed_forward: Cow<'a, FeedForward>,
     handed_over: Option<HandedOver<'a>>,
@@ -50,7 +50,7 @@ impl<'a> HandOverPart<'a> {
     }
 }
 
-/// A share in per cent, with three digits at the most.
+/// A share in per cent, with at most three digits.
 fn per_cent(share: f64) -> String {
     format!("{:.2} %", 100.0 * share)
 }

@@ -19,7 +19,7 @@ struct Report<'a> {
     records: Option<Vec<RecordPart<'a>>>,
     declared: ModelPart<'a>,
     rounds: Vec<RoundPart<'a>>,
-    /// Found after these, and not delivered.
+    /// Later rounds, which are not delivered.
     beyond: Vec<RoundPart<'a>>,
     r#final: FinalPart<'a>,
     rejected: Vec<RejectedPart<'a>>,
@@ -34,13 +34,13 @@ struct Report<'a> {
     integrates: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     worse_files: Option<&'a [Worse]>,
-    /// The largest number of effects that was asked for, where that ended the search.
+    /// The requested number of effects, if it ended the search.
     stopped_by_request: Option<usize>,
-    /// The time [s] that was asked for, where that ended the search.
+    /// The requested time [s], if it ended the search.
     stopped_by_budget: Option<f64>,
     verdict: &'static str,
     sentence: &'a str,
-    /// Absent where nobody has measured it.
+    /// Absent if it was not measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     cost: Option<&'a CostFacts>,
 }
@@ -68,7 +68,7 @@ struct ModelPart<'a> {
     by_file: ByFile<'a>,
 }
 
-/// Present where there are several records.
+/// Present if there are several records.
 #[derive(Serialize)]
 struct ByFile<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -110,7 +110,7 @@ struct RoundPart<'a> {
     model: Option<&'a RoundModel>,
 }
 
-/// In how many half-records the same search finds the effect again.
+/// Number of half-records in which the same search finds the effect again.
 #[derive(Serialize)]
 struct Support {
     recurs: usize,
@@ -260,10 +260,10 @@ impl<'a> From<&'a RejectedFacts> for RejectedPart<'a> {
     }
 }
 
-/// The facts, and what the run cost, as one line of JSON.
+/// The facts and the cost of the run as one line of JSON.
 ///
 /// # Errors
-/// Where a number is not finite, which no fitted model has.
+/// If a number is not finite, which no fitted model has.
 pub fn json(facts: &Facts, cost: Option<&CostFacts>) -> Result<String, serde_json::Error> {
     let several = facts.record.files.len() > 1;
     serde_json::to_string(&Report {

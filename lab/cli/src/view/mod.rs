@@ -1,4 +1,4 @@
-//! What a run is told as: JSON for programs, tables for people.
+//! Reports of a run: JSON for programs, tables for people.
 
 pub mod certificates;
 mod check;

@@ -5,7 +5,7 @@ use bowden_lab::facts::{number, Answer, PowerFacts, PowerRow, RecordFacts, SHARE
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// What was done, in one sentence.
+/// The method, in one sentence.
 const SIMULATED: &str = "each effect at the middle one of its trial shapes, added to the last model's prediction and its residual under circular shifts and changes of sign; every trial closed as a whole: the search with its refits and tests; found: its family named or among the rivals";
 
 #[derive(Serialize)]
@@ -101,7 +101,7 @@ fn part<'a>(record: &RecordFacts, row: &'a PowerRow) -> Part<'a> {
 /// The table as one line of JSON.
 ///
 /// # Errors
-/// Where a number is not finite, which no row has.
+/// If a number is not finite, which no row has.
 pub fn power_json(power: &PowerFacts) -> Result<String, serde_json::Error> {
     let record = &power.record;
     serde_json::to_string(&Whole {

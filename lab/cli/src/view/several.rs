@@ -1,9 +1,9 @@
-//! Several records: errors by file, and the gains that each has of its own.
+//! Several records: errors by file, and the gains of each file.
 
 use super::words::{estimate, table};
 use bowden_lab::facts::{number, Facts, FinalFacts, HeldOutOf, RecordFacts};
 
-/// How long the records are, in words.
+/// The lengths of the records, in words.
 pub(super) fn size(record: &RecordFacts) -> String {
     let rate = number(record.rate, Some(1e-3 * record.rate));
     match record.files.len() {
@@ -18,7 +18,7 @@ pub(super) fn size(record: &RecordFacts) -> String {
     }
 }
 
-/// How the records are split, in words.
+/// The split of the records, in words.
 pub(super) fn split(record: &RecordFacts) -> String {
     let trailing = "60 % to fit, 15 % to stop, 25 % held out";
     let mut files = record.files.iter();
@@ -76,7 +76,7 @@ pub(super) fn errors(facts: &Facts) -> String {
     out + "\n"
 }
 
-/// The gains that each file has of its own, as a table; empty where they are common.
+/// The gains of each file, as a table; empty if the files share them.
 pub(super) fn gains(last: &FinalFacts) -> String {
     if last.gains_by_file.is_empty() {
         return String::new();

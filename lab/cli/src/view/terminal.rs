@@ -1,4 +1,4 @@
-//! The ledger for people: what was read, what was found, errors before and after.
+//! The ledger for people: the record, the added effects, errors before and after.
 
 use super::curve;
 use super::hand_over;
@@ -12,10 +12,10 @@ use bowden_lab::facts::{
 };
 use std::fmt::Write as _;
 
-/// For what is read second.
+/// Style of secondary text.
 const DIM: Style = Style::new().dimmed();
 
-/// Stretches that are listed; the JSON has all.
+/// Maximum number of listed stretches; the JSON has all.
 const LISTED: usize = 3;
 
 /// "tau_o stuck …: lines 120–480, …".
@@ -60,7 +60,7 @@ macro_rules! line {
     };
 }
 
-/// The whole ledger as text, with ANSI styles that whoever prints it may strip.
+/// The whole ledger as text, with ANSI styles that the caller may strip.
 #[must_use]
 pub fn text(facts: &Facts, chosen_cutoff: bool) -> String {
     let mut out = head(facts, chosen_cutoff);
@@ -77,7 +77,7 @@ pub fn text(facts: &Facts, chosen_cutoff: bool) -> String {
     out
 }
 
-/// What was read, how it was filtered and split, what is wrong with it, what was declared.
+/// The record, its filter and split, its defects, and the declared model.
 fn head(facts: &Facts, chosen_cutoff: bool) -> String {
     let mut out = String::new();
     let bold = Style::new().bold();
@@ -118,7 +118,7 @@ fn head(facts: &Facts, chosen_cutoff: bool) -> String {
     out
 }
 
-/// That percentages of the two segments are of different things.
+/// A warning that percentages of the two segments are not comparable.
 fn unlike(facts: &Facts) -> Option<String> {
     if !facts.segments_differ {
         return None;
@@ -201,7 +201,7 @@ fn grade(grade: Grade) -> &'static str {
     }
 }
 
-/// How large each added effect is in the final model, and how it stood its tests.
+/// The size of each added effect in the final model, and its tests.
 fn names(facts: &Facts) -> String {
     if facts.rounds.is_empty() {
         return String::new();
@@ -247,10 +247,10 @@ fn coefficient(size: &Size) -> String {
     }
 }
 
-/// So many of what was turned down are listed.
+/// Maximum number of listed rejections.
 const REJECTED: usize = 6;
 
-/// What is said of a coefficient whose interval holds zero.
+/// The remark on a coefficient whose interval contains zero.
 const SIZE_UNKNOWN: &str = "acts, size unknown";
 
 fn holds_zero(parameter: &Parameter) -> bool {
@@ -259,7 +259,7 @@ fn holds_zero(parameter: &Parameter) -> bool {
         .is_some_and(|[low, high]| low <= 0.0 && high >= 0.0)
 }
 
-/// The words of the tables, a line each.
+/// The words of the tables, one line each.
 fn legend() -> String {
     let mut out = String::new();
     for line in LEGEND {
@@ -282,7 +282,7 @@ fn experiments(facts: &Facts) -> String {
     out
 }
 
-/// The final model, and what would identify the parameters that are not.
+/// The final model, and the experiments that would identify its unidentified parameters.
 fn model(last: &FinalFacts) -> String {
     let mut out = String::new();
     let mut final_parameters = table(&["final model", "value (95 %)"], 0..0);
@@ -297,7 +297,7 @@ fn model(last: &FinalFacts) -> String {
         final_parameters.add_row([title.clone(), value]);
     }
     line!(out, "{final_parameters}\n");
-    // What the states were before the record is no part of the model.
+    // Initial states belong to the record, not to the model.
     let of_the_model = |p: &Parameter| !p.name.starts_with("eta0") && !p.name.contains(".start");
     let refused = || {
         let own = all().filter(|(p, _)| of_the_model(p));
@@ -315,7 +315,7 @@ fn model(last: &FinalFacts) -> String {
     out
 }
 
-/// The error before and after, what was turned down or is not needed, and the verdict.
+/// The error before and after, rejected and unneeded effects, and the verdict.
 fn conclusion(facts: &Facts) -> String {
     let mut out = String::new();
     let (before, after) = (&facts.declared.nrmse, &facts.last.nrmse);

@@ -1,4 +1,4 @@
-//! The words of the ledger, for whoever meets them for the first time.
+//! Definitions of the words of the ledger.
 
 /// The legend under the ledger.
 pub const LEGEND: [&str; 7] = [
@@ -11,7 +11,7 @@ pub const LEGEND: [&str; 7] = [
     "rejected   tried and turned down, with the reason; unneeded: declared, but the data do as well without it",
 ];
 
-/// What `bowden help terms` prints.
+/// Output of `bowden help terms`.
 pub const TERMS: &str = "\
 The words of `bowden close`
 

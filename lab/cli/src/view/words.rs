@@ -3,7 +3,7 @@
 use bowden_lab::facts::{number, with_interval, Parameter};
 use comfy_table::{presets, CellAlignment, ContentArrangement, Table, TableComponent};
 
-/// "12.34 ± 0.05 N·m", or what is to be said instead.
+/// "12.34 ± 0.05 N·m", or the remark in its place.
 pub(super) fn estimate(parameter: &Parameter) -> String {
     let unit = match parameter.unit.as_deref() {
         Some("1") => String::new(),
@@ -42,7 +42,7 @@ pub(super) fn table(header: &[&str], right: std::ops::Range<usize>) -> Table {
     table
 }
 
-/// " [N·m]", or nothing where the record states no unit.
+/// " [N·m]"; empty if the record states no unit.
 pub(super) fn in_brackets(unit: Option<&str>) -> String {
     unit.map_or_else(String::new, |unit| format!(" [{unit}]"))
 }

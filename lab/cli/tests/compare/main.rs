@@ -4,16 +4,12 @@
 mod certificates;
 mod figures;
 mod forms;
+#[allow(dead_code)]
+#[path = "../shell/mod.rs"]
+mod shell;
 
 use serde_json::Value;
-use std::process::{Command, Output};
-
-fn bowden(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_bowden"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
+use shell::bowden;
 
 fn json(arguments: &[&str]) -> Value {
     let output = bowden(arguments);

@@ -1,6 +1,7 @@
 //! The error with the rates of firmware.
 
-use crate::rig::{record, said, Told};
+use crate::rig::{record, Told};
+use crate::shell::said;
 use bowden_cli::view::{json, text};
 use bowden_lab::export::hand_over::HandOver;
 use bowden_lab::facts::{Detail, Facts};

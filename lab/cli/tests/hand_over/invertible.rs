@@ -1,6 +1,7 @@
 //! The fit within what a compensator can invert.
 
-use crate::rig::{bowden, files, record, said, with, Told};
+use crate::rig::{files, record, with, Told};
+use crate::shell::{bowden, said};
 use bowden::control::{Compensator, CompensatorInput, CompensatorState};
 use bowden::effect::Motion;
 use bowden::model::{ModelState, Sample};

@@ -16,4 +16,7 @@ mod invertible;
 mod postcard_file;
 mod rig;
 mod rust_file;
+#[allow(dead_code)]
+#[path = "../shell/mod.rs"]
+mod shell;
 mod vector;

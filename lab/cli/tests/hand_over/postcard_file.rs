@@ -1,6 +1,6 @@
 //! The bytes that firmware reads, and their checksum.
 
-use crate::rig::said;
+use crate::shell::said;
 use bowden::model::Model;
 use bowden_lab::export::{postcard as bytes, ModelFile, ShapeFile, TermFile, TransmissionFile};
 

@@ -1,4 +1,4 @@
-//! Records, fits of a model that is told, and the program from outside.
+//! Records, and fits of a model that is told.
 
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::export::hand_over::HandOver;
@@ -9,7 +9,6 @@ use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options, Record};
 use bowden_synth::{generate, Planted, Recipe};
 use std::path::Path;
-use std::process::{Command, Output};
 
 /// A record, as a user's program reads it.
 pub fn record(recipe: &Recipe) -> Record {
@@ -50,21 +49,6 @@ impl Told {
         let (data, ledger) = (&self.data, &self.ledger);
         HandOver::new(&self.records, data, ledger, &self.done, invertible, |_| ()).unwrap()
     }
-}
-
-pub fn bowden(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_bowden"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
-
-/// What the program says on stdout; it must succeed.
-pub fn said(arguments: &[&str]) -> String {
-    let output = bowden(arguments);
-    let complaint = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(output.status.success(), "{arguments:?}: {complaint}");
-    String::from_utf8(output.stdout).unwrap()
 }
 
 /// Names of the files in a folder, sorted.

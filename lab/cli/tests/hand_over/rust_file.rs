@@ -2,7 +2,8 @@
 // Numbers near constants are what the lints of a firmware's build must not stumble over.
 #![allow(clippy::approx_constant)]
 
-use crate::rig::{files, said};
+use crate::rig::files;
+use crate::shell::said;
 use bowden::effect::{Effect, Range, CATALOGUE};
 use bowden_lab::export::{About, ModelFile, ShapeFile, Span, TermFile};
 use std::path::{Path, PathBuf};

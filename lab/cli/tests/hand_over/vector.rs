@@ -1,6 +1,7 @@
 //! The test vector beside each model.
 
-use crate::rig::{bowden, files, record, said};
+use crate::rig::{files, record};
+use crate::shell::{bowden, said};
 use bowden::effect::Motion;
 use bowden::model::{Model, ModelState, Sample};
 use bowden::Real;

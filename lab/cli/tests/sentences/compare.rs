@@ -1,6 +1,6 @@
 //! `bowden compare`: a law that ran away has no error, and the rig takes torque models only.
 
-use crate::files::bowden;
+use crate::shell::bowden;
 use serde_json::Value;
 
 fn written(text: &str) -> (tempfile::TempDir, String) {

@@ -1,7 +1,7 @@
-//! Records to be closed, and the program that closes them.
+//! Records to be closed.
 
+use crate::shell::bowden;
 use serde_json::Value;
-use std::process::{Command, Output};
 
 /// Rows of a record: time first.
 pub struct Rows {
@@ -128,13 +128,6 @@ impl Closed {
             assert!(told.contains(text), "{text:?} is not in: {told}");
         }
     }
-}
-
-pub fn bowden(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_bowden"))
-        .args(arguments)
-        .output()
-        .unwrap()
 }
 
 /// Pseudo-random, uniform in −1…1: the fraction of a large sine (an old trick of shaders).

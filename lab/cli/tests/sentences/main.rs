@@ -10,4 +10,7 @@ mod compare;
 mod files;
 mod no_model;
 mod reading;
+#[allow(dead_code)]
+#[path = "../shell/mod.rs"]
+mod shell;
 mod table;

@@ -1,6 +1,7 @@
 //! What is said before anything is fitted.
 
-use crate::files::{bowden, Rows, T};
+use crate::files::{Rows, T};
+use crate::shell::bowden;
 
 #[test]
 fn a_time_column_without_a_unit_and_with_long_steps_is_asked_about() {

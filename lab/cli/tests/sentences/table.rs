@@ -1,6 +1,7 @@
 //! The ledger's words and numbers.
 
-use crate::files::{bowden, Closed, Rows};
+use crate::files::{Closed, Rows};
+use crate::shell::bowden;
 
 #[test]
 fn each_word_of_the_tables_is_explained_under_them_and_in_the_help() {

@@ -4,3 +4,6 @@
 mod program;
 mod refused;
 mod rig;
+#[allow(dead_code)]
+#[path = "../shell/mod.rs"]
+mod shell;

@@ -1,15 +1,16 @@
 //! The program from outside.
 
-use crate::rig::{on, refused, said, with_gain, Folder};
+use crate::rig::Folder;
+use crate::shell::{refused, said};
 use bowden_lab::check::Given;
 use bowden_lab::export::ModelFile;
-use bowden_synth::{Mode, Recipe};
+use bowden_synth::{Mode, Planted, Recipe};
 use serde_json::Value;
 
 fn viscous(seed: u64) -> Recipe {
     Recipe {
-        effects: vec![with_gain("viscous", 0.02)],
-        ..on(Mode::Displacement, seed)
+        effects: vec![Planted::with_gain("viscous", 0.02)],
+        ..Recipe::of_one_rig(Mode::Displacement, seed)
     }
 }
 
@@ -113,10 +114,10 @@ fn the_json_of_close_has_the_model_after_each_round_and_rounds_writes_the_same()
     let folder = Folder::new();
     let recipe = Recipe {
         effects: vec![
-            with_gain("viscous", 0.02),
-            with_gain("stiffness-cubic", 0.01),
+            Planted::with_gain("viscous", 0.02),
+            Planted::with_gain("stiffness-cubic", 0.01),
         ],
-        ..on(Mode::Displacement, 76_004)
+        ..Recipe::of_one_rig(Mode::Displacement, 76_004)
     };
     let record = folder.record("r.csv", &recipe);
     let all = json(&["close", &record, "--json"]);

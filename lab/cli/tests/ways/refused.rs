@@ -1,13 +1,14 @@
 //! What `bowden check` does not take: one line, status 2.
 
-use crate::rig::{on, refused, said, Folder};
+use crate::rig::Folder;
+use crate::shell::{refused, said};
 use bowden_synth::{Mode, Planted, Recipe};
 
 fn model(folder: &Folder, mode: Mode, declare: &str) -> (String, String) {
     let recipe = Recipe {
         effects: vec![Planted::new("viscous")],
         seconds: 10.0,
-        ..on(mode, 75_000)
+        ..Recipe::of_one_rig(mode, 75_000)
     };
     let record = folder.record("own.csv", &recipe);
     let model = folder.path("model.toml");
@@ -90,7 +91,7 @@ fn a_record_that_does_not_fit_the_model_is_refused_with_the_reason() {
         "other.csv",
         &Recipe {
             seconds: 10.0,
-            ..on(Mode::Displacement, 1)
+            ..Recipe::of_one_rig(Mode::Displacement, 1)
         },
     );
     let line = refused(&["check", &model, &other]);

@@ -1,6 +1,7 @@
 //! The records whose cost is measured: generated ones of any length, and measured ones.
 
 use crate::program::Program;
+use crate::shared::Row;
 use std::path::{Path, PathBuf};
 
 /// A generated record, and how `close` is told to read it.
@@ -94,48 +95,6 @@ pub fn with_names(program: &Program, folder: &Path, names: usize) -> Result<Case
     })
 }
 
-/// A measured record: name, file, options of `close`.
-pub type Row = (&'static str, &'static str, &'static str);
-
-const DAMPER: &str = "--mode displacement --input displacement_mm --output force_N --cutoff 20";
-const PIEZO: &str =
-    "--mode displacement --input control_V --output displacement_um --cutoff 40 --skip 2";
-const DAVINCI: &str = "--mode torque --input drive_torque_Nm --output jaw_torque_Nm --channel phi_p=drive_angle_rad --channel phi_d=jaw_angle_rad --cutoff 20 --skip 2.5";
-
-/// The ten rows of `lab/README.md`.
-pub const ROWS: [Row; 10] = [
-    (
-        "emps plain",
-        "emps/emps_estimation.csv",
-        "--mode displacement --input q_m --output force_N --cutoff 20",
-    ),
-    (
-        "emps declared",
-        "emps/emps_estimation.csv",
-        "--mode displacement --input q_m --output force_N --cutoff 20 --declare inertia,viscous,coulomb,offset",
-    ),
-    ("mr damper", "mr_damper_utfsm/sine_25mm0x25Hz0x5A.csv", DAMPER),
-    ("piezo full range", "piezo_stage/sine_1Hz_full_range.csv", PIEZO),
-    ("piezo varying", "piezo_stage/sine_1Hz_varying_amplitude.csv", PIEZO),
-    (
-        "pneumatic kdn_3bar",
-        "pneumatic_cylinder/kdn_3bar.csv",
-        "--mode displacement --input position_mm --output force_N --cutoff 8 --skip 8",
-    ),
-    (
-        "faster",
-        "faster_fatigue_rig/faster.csv",
-        "--mode displacement --input displacement_mm --output force_norm --cutoff 25 --rate 128",
-    ),
-    ("davinci 4_23", "davinci_cable_tool/tool4_l_4_23.csv", DAVINCI),
-    ("davinci 4_03", "davinci_cable_tool/tool4_l_4_03.csv", DAVINCI),
-    (
-        "tribometer",
-        "tribometer_friction/reciprocating_friction.csv",
-        "--mode displacement --input position_mm --output friction_N --cutoff 20 --skip 20 --until 209",
-    ),
-];
-
 /// The folder that holds `.ci/run`, from which everything else is found.
 pub fn repository() -> PathBuf {
     let own = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -146,18 +105,10 @@ pub fn repository() -> PathBuf {
 
 /// The row as it is closed, where its file is there.
 pub fn measured(row: &Row) -> Option<Case> {
-    let folder = std::env::var_os("BOWDEN_SHARED_RECORDS")
-        .map_or_else(|| repository().join("../shared/data"), PathBuf::from);
-    let (label, file, options) = *row;
-    let path = folder.join(file);
-    if !path.exists() {
-        return None;
-    }
-    let mut arguments = vec![path.display().to_string()];
-    arguments.extend(words("--time time_s"));
-    arguments.extend(words(options));
+    let mut arguments = vec![row.path()?.display().to_string()];
+    arguments.extend(row.options());
     Some(Case {
-        label: label.to_owned(),
+        label: row.name.to_owned(),
         arguments,
     })
 }

@@ -18,14 +18,16 @@ mod limits;
 mod paper;
 mod peers;
 mod program;
+#[allow(dead_code)]
+#[path = "../../tests/shared/mod.rs"]
+mod shared;
 mod table;
 
-use cases::{
-    measured, of_length, repository, with_angles, with_names, Case, ANGLES, PLANTED, ROWS,
-};
+use cases::{measured, of_length, repository, with_angles, with_names, Case, ANGLES, PLANTED};
 use limits::limits;
 use peers::peers;
 use program::{Instrument, Outcome, Program};
+use shared::ROWS;
 use std::path::{Path, PathBuf};
 use table::{document, Measured};
 
@@ -114,12 +116,12 @@ fn measure(wanted: &Wanted, program: &Program, folder: &Path) -> Result<Measured
     let (mut rows, mut missing) = (Vec::new(), Vec::new());
     for row in &ROWS {
         match measured(row) {
-            _ if !wanted.wants(row.0) => missing.push(format!("{}: not asked for", row.0)),
-            None => missing.push(format!("{}: skipped, {} is not there", row.0, row.1)),
+            _ if !wanted.wants(row.name) => missing.push(format!("{}: not asked for", row.name)),
+            None => missing.push(format!("{}: skipped, {} is not there", row.name, row.file)),
             // Hours of other rows must not be lost with one.
             Some(case) => match run(program, "measured", &case) {
                 Ok(done) => rows.push(done),
-                Err(message) => missing.push(format!("{}: {message}", row.0)),
+                Err(message) => missing.push(format!("{}: {message}", row.name)),
             },
         }
     }

@@ -20,6 +20,9 @@
 mod coverage;
 mod criteria;
 mod record;
+#[allow(dead_code)]
+#[path = "../../tests/identification/rig.rs"]
+mod rig;
 
 use bowden::effect::Family;
 use bowden_synth::{effects, outsiders, Mode, Recipe};

@@ -1,16 +1,15 @@
 //! One planted record through the loop and through the two usual criteria.
 
 use crate::criteria::{self, Chosen};
+use crate::rig::Made;
 use bowden::effect::{Family, CATALOGUE};
 use bowden_lab::conclude::final_fit::FinalFit;
-use bowden_lab::fit::{fit, Segments};
+use bowden_lab::fit::fit;
 use bowden_lab::ledger::{Ledger, Round};
 use bowden_lab::model::catalogue::candidates;
 use bowden_lab::model::declared::structure;
-use bowden_lab::problem::{Preparation, Prepared};
-use bowden_lab::record::{parse, Options};
 use bowden_lab::search::close;
-use bowden_synth::{generate, Mode, Planted, Recipe, Synthetic};
+use bowden_synth::{Mode, Planted, Recipe};
 
 /// What one record gave.
 pub struct Outcome {
@@ -63,59 +62,31 @@ pub fn recipe(mode: Mode, planted: &[(&str, f64)], colour: f64, seed: u64) -> Re
     }
 }
 
-/// A generated record on its grids, and what its noise leaves of a perfect model.
-struct Made {
-    made: Synthetic,
-    data: Prepared,
-    /// Held-out error that the noise alone leaves.
-    floor: f64,
-}
-
-impl Made {
-    /// Generates, writes as CSV and reads, as a user would.
-    fn new(recipe: &Recipe) -> Self {
-        let made = generate(recipe).unwrap();
-        let mut options = Options::default();
-        if made.column("aux").is_some() {
-            options.channels.push(("aux".to_owned(), "aux".to_owned()));
-        }
-        let record = parse(made.to_csv().as_bytes(), "planted", &options).unwrap();
-        let data = Prepared::new(&record, Preparation::default()).unwrap();
-        let mut clean = record;
-        clean.output.values.clone_from(&made.truth.output);
-        let preparation = Preparation {
-            cutoff: Some(data.cutoff),
-        };
-        let clean = Prepared::new(&clean, preparation).unwrap();
-        let pairs = data.target.iter().zip(&clean.target);
-        let noise: Vec<f64> = pairs.map(|(measured, clean)| measured - clean).collect();
-        Self {
-            floor: Segments::of(&data, &noise).held_out,
-            made,
-            data,
-        }
-    }
-
-    /// The errors of a fit that is told of the planted effects, where they can be declared:
-    /// before and after the last fit, over the floor.
-    fn told(&self) -> Option<[f64; 2]> {
-        let mut list = vec!["bouc-wen".to_owned()];
-        list.extend(self.made.truth.effects.iter().map(|e| match e.channel {
-            Some(channel) => format!("{}@{channel}", e.effect),
-            None => e.effect.clone(),
-        }));
-        let told = structure(&list, &self.data).ok()?;
-        let told = fit(&self.data, &told, None, 0.0)?;
-        let done = FinalFit::of(&self.data, &told).rmse.held_out;
-        Some([told.rmse.held_out / self.floor, done / self.floor])
-    }
+/// The errors of a fit that is told of the planted effects, where they can be declared:
+/// before and after the last fit, over what the noise leaves.
+fn told(made: &Made, floor: f64) -> Option<[f64; 2]> {
+    let mut list = vec!["bouc-wen".to_owned()];
+    list.extend(
+        made.synthetic
+            .truth
+            .effects
+            .iter()
+            .map(|e| match e.channel {
+                Some(channel) => format!("{}@{channel}", e.effect),
+                None => e.effect.clone(),
+            }),
+    );
+    let told = structure(&list, &made.data).ok()?;
+    let told = fit(&made.data, &told, None, 0.0)?;
+    let done = FinalFit::of(&made.data, &told).rmse.held_out;
+    Some([told.rmse.held_out / floor, done / floor])
 }
 
 /// Generates a record and closes it, as a user would.
 pub fn run(recipe: &Recipe) -> Outcome {
     let made = Made::new(recipe);
-    let (data, floor) = (&made.data, made.floor);
-    let declared = structure(&["bouc-wen".to_owned()], data).unwrap();
+    let (data, floor) = (&made.data, made.noise_floor());
+    let declared = made.declare(&["bouc-wen"]);
     let ledger = close(data, &declared, |_| ()).unwrap();
     let tried = candidates(data, &ledger.declared.structure, &ledger.declared.residual);
     let library = criteria::Library::new(data, &ledger.declared, &tried);
@@ -135,7 +106,7 @@ pub fn run(recipe: &Recipe) -> Outcome {
     Outcome {
         reached,
         delivered,
-        told: made.told(),
+        told: told(&made, floor),
         columns: tried.len(),
         bic: library.bic(floor),
         err: library.err(floor),

@@ -13,6 +13,7 @@ use crate::record::Defect;
 use crate::score::blocks::Regime;
 use crate::score::explains::{deviations, explained, segments_differ, Explained};
 use crate::score::whiteness::is_white;
+use crate::search::policy::AT_FLOOR;
 use bowden::model::Source;
 
 /// What the run amounts to.
@@ -56,10 +57,6 @@ impl Verdict {
         }
     }
 }
-
-/// Error that counts as being at the noise floor, as a multiple of it: the floor is an
-/// estimate from the top of the band and assumes white noise.
-const AT_FLOOR: f64 = 1.2;
 
 /// A held-out error rises where it is more than this many times the one before: a
 /// difference of less than a twentieth does not show in two digits.

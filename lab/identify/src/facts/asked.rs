@@ -1,4 +1,4 @@
-//! How records are read, and what all questions to the search have in common.
+//! How records are read, and the options that all questions to the search share.
 
 use crate::ledger::Ledger;
 use crate::model::declared::structure;
@@ -11,15 +11,15 @@ use std::path::{Path, PathBuf};
 /// Columns, filter, declared model and length of the search.
 #[derive(Debug, Clone, Default)]
 pub struct Asked {
-    /// Which columns are read, and which part of the record.
+    /// Columns and the part of the record that are read.
     pub options: Options,
-    /// Cut-off of the one filter \[Hz\]; from the input's spectrum where it is not given.
+    /// Cut-off of the one filter \[Hz\]; if absent it follows from the input's spectrum.
     pub cutoff: Option<f64>,
-    /// The declared model; `bouc-wen` where it is empty.
+    /// The declared model; `bouc-wen` if the list is empty.
     pub declare: Vec<String>,
-    /// The largest number of effects that may be added.
+    /// Maximum number of effects that may be added.
     pub rounds: Option<usize>,
-    /// After this time \[s\] the search gives the best so far.
+    /// Time \[s\] after which the search returns the best model so far.
     pub budget: Option<f64>,
 }
 
@@ -43,8 +43,8 @@ impl Asked {
     /// Reads several records of one rig, in common units.
     ///
     /// # Errors
-    /// One line that names the file; also where a file is given twice or where two files do
-    /// not agree on what their columns are.
+    /// One line that names the file; also if a file is given twice or if two files disagree on
+    /// their columns.
     pub fn read_together(&self, paths: &[PathBuf]) -> Result<Vec<Record>, String> {
         for (index, path) in paths.iter().enumerate() {
             if paths[..index].contains(path) {
@@ -80,7 +80,7 @@ impl Asked {
         Ok((data, structure))
     }
 
-    /// Runs the search within what was asked for.
+    /// Runs the search within the requested limits.
     pub(super) fn search(
         &self,
         data: &Prepared,

@@ -13,22 +13,22 @@ use crate::problem::{HeldOut, Prepared};
 use crate::record::Record;
 use std::cell::Cell;
 
-/// What is asked of one record or of several.
+/// A question to one or several records.
 #[derive(Debug, Clone)]
 pub struct Close {
     /// Columns, filter, declared model and length of the search.
     pub asked: Asked,
     /// Whether each file has gains of its own.
     pub own_gains: bool,
-    /// Whether the model that is handed over is fitted within what can be inverted.
+    /// Whether the model that is handed over is fitted within the range that has an inverse.
     pub invertible: bool,
-    /// Whether the models are wanted as files.
+    /// Whether the models are requested as files.
     pub models: bool,
-    /// Whether the signals over time are wanted.
+    /// Whether the signals over time are requested.
     pub trace: bool,
-    /// How much is computed of each round.
+    /// Detail of each round.
     pub detail: Detail,
-    /// Started before the records were read.
+    /// The meter, started before the records were read.
     pub meter: Meter,
 }
 
@@ -37,12 +37,12 @@ pub struct Close {
 pub struct Closed {
     /// What was found.
     pub facts: Facts,
-    /// What is handed over: one model, or one for each file with gains of its own; empty where
-    /// it was not asked for.
+    /// The models that are handed over: one, or one for each file with gains of its own; empty if
+    /// none was requested.
     pub models: Vec<Handed>,
-    /// The signals over time as CSV, where that was asked for.
+    /// The signals over time as CSV, if requested.
     pub trace: Option<String>,
-    /// What the run cost.
+    /// Cost of the run.
     pub cost: CostFacts,
 }
 
@@ -68,7 +68,7 @@ impl Handed {
     /// The bytes of the model's file.
     ///
     /// # Errors
-    /// One sentence that says which part cannot be written.
+    /// One sentence that names the part that cannot be written.
     pub fn file(&self, form: Form) -> Result<Vec<u8>, String> {
         match form {
             Form::Toml => {
@@ -80,20 +80,20 @@ impl Handed {
         }
     }
 
-    /// Samples and what the model must answer to them, as CSV.
+    /// Samples and the expected outputs of the model, as CSV.
     ///
     /// # Errors
-    /// One sentence that says which part of the model the core refuses.
+    /// One sentence that names the part of the model that the core refuses.
     pub fn vector(&self) -> Result<&str, String> {
         self.vector.as_deref().map_err(Clone::clone)
     }
 }
 
-/// Closes the loop. `tell` is told what is being done.
+/// Closes the loop. `tell` receives one message a step.
 ///
 /// # Errors
-/// One line where the records cannot be prepared or the declared model cannot be fitted;
-/// where a model is asked for, also if nothing can be handed over.
+/// One line if the records cannot be prepared or the declared model cannot be fitted; if a
+/// model is requested, also if nothing can be handed over.
 pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Result<Closed, String> {
     let asked = &question.asked;
     let mut meter = question.meter;
@@ -132,7 +132,7 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
     tell("fitting the final model");
     let done = FinalFit::new(&data, &ledger);
     let hand = HandOver::new(records, &data, &ledger, &done, question.invertible, tell);
-    // What was found stands, whether firmware can have it or not.
+    // The result stands even if nothing can be handed over to firmware.
     let hand = match hand {
         Err(message) if question.invertible || question.models => {
             return Err(format!("{label}: {message}"));
@@ -157,8 +157,8 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
     })
 }
 
-/// With gains of its own a file says nothing of another one's: the end of each is held
-/// out then.
+/// A file with gains of its own says nothing about the gains of another, so that the end of
+/// each file is held out then.
 fn held_out(question: &Close, records: usize) -> HeldOut {
     match !question.own_gains && records > 2 {
         true => HeldOut::LastRecord,
@@ -176,11 +176,11 @@ fn handed(data: &Prepared, hand: &HandOver) -> Vec<Handed> {
         .collect()
 }
 
-/// Files of several configurations fitted as one: gains of their own for each leave less
-/// than this share of the declared model's error.
+/// Files are taken for several configurations if gains of their own reduce the error of the
+/// declared model below this share.
 const OTHER_CONFIGURATION: f64 = 0.5;
 
-/// What to try where the files do not seem to be of one configuration.
+/// A hint if the files do not seem to be of one configuration.
 fn hint(data: &Prepared, declared: &Solution) -> Option<String> {
     if !declared.structure.hysteresis {
         return None;

@@ -1,4 +1,4 @@
-//! What a run of `close` cost: counts, which repeat, and seconds, which do not.
+//! Cost of a run of `close`: counts, which are reproducible, and seconds, which are not.
 
 use crate::problem::cost::Counts;
 use serde::Serialize;

@@ -1,4 +1,4 @@
-//! What is handed over to firmware: its parts, its errors there, its inverse.
+//! The model for firmware: its parts, its errors there, its inverse.
 
 use super::model::effects;
 use crate::export::hand_over::HandOver;
@@ -14,19 +14,19 @@ pub struct HandOverFacts {
     pub effects: Vec<String>,
     /// Parts of the final model that are not in it.
     pub left_out: Vec<LeftOut>,
-    /// Whether it was to be fitted within what can be inverted.
+    /// Whether a fit within the range that has an inverse was requested.
     pub within_inverse: bool,
-    /// Whether that held a parameter on the bound of what can be inverted.
+    /// Whether that fit ended on the bound of this range.
     pub on_inverse_bound: bool,
-    /// Its errors, as shares of the output's standard deviation.
+    /// Its errors as shares of the output's standard deviation.
     pub nrmse: Segments,
-    /// The errors of the final model, as such shares.
+    /// The errors of the final model, likewise.
     pub as_fitted: Segments,
-    /// Its errors sample by sample with causal rates, as such shares.
+    /// Its errors sample by sample with causal rates, likewise.
     pub causal: Segments,
     /// Time constant of the causal rates \[s\].
     pub time_constant: f64,
-    /// Whether it can be a feed-forward.
+    /// Whether it can serve as a feed-forward.
     pub feed_forward: FeedForward,
 }
 

@@ -22,32 +22,31 @@ use crate::score::explains::{explained, segments_differ, Explained};
 pub struct Facts {
     /// The name of the record, or those of several.
     pub label: String,
-    /// What was read.
+    /// The record as it was read.
     pub record: RecordFacts,
     /// Independent stretches of the fit segment, at most [`BLOCKS`].
     pub blocks: usize,
     /// The declared model.
     pub declared: ModelFacts,
-    /// What was added, in order.
+    /// The added effects, in order.
     pub rounds: Vec<RoundFacts>,
-    /// What was found after these and is not delivered: it raises the error on half-records
-    /// that were left out.
+    /// Later rounds that are not delivered, since they raise the error on left-out half-records.
     pub beyond: Vec<RoundFacts>,
-    /// How many of the first rounds lower the held-out error before one raises it.
+    /// Number of first rounds that lower the held-out error before one raises it.
     pub falls_up_to: usize,
     /// The model that is delivered.
     pub last: FinalFacts,
-    /// What is handed over, or why nothing is.
+    /// The model that is handed over, or the reason why none is.
     pub hand_over: Result<HandOverFacts, String>,
-    /// What was turned down.
+    /// Rejected candidates.
     pub rejected: Vec<RejectedFacts>,
     /// Declared parts that the data do not need.
     pub unneeded: Vec<Unneeded>,
-    /// What has no name.
+    /// The dependence that no effect of the catalogue explains.
     pub unknown: Option<UnknownFacts>,
     /// Standard deviation of the filtered output on each segment.
     pub deviation: Segments,
-    /// Whether it differs so much that percentages of one segment say little of another.
+    /// Whether these differ so much that percentages on one segment say little about another.
     pub segments_differ: bool,
     /// Shares of the held-out output's variance.
     pub explains: Explained,
@@ -55,28 +54,28 @@ pub struct Facts {
     pub integrates: bool,
     /// Files on which the final model is worse than the declared one.
     pub worse: Vec<Worse>,
-    /// The largest number of effects that was asked for, where that ended the search.
+    /// The requested number of effects, if it ended the search.
     pub stopped_by_request: Option<usize>,
-    /// The time \[s\] that was asked for, where that ended the search.
+    /// The requested time \[s\], if it ended the search.
     pub stopped_by_budget: Option<f64>,
-    /// For how long the residual stays correlated \[s\], where that is too long for tests.
+    /// Correlation time of the residual \[s\], if it is too long for tests.
     pub correlated_for: Option<f64>,
-    /// What the run amounts to.
+    /// The verdict.
     pub verdict: Verdict,
     /// The verdict in a few sentences.
     pub sentence: String,
 }
 
-/// How much is computed.
+/// Detail of the facts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Detail {
-    /// All but the models of the single rounds.
+    /// Everything except the models of the single rounds.
     Ledger,
-    /// Also the model after each round, which takes a fit each.
+    /// Also the model after each round, at the cost of one fit each.
     EachRound,
 }
 
-/// A candidate that was turned down.
+/// A rejected candidate.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RejectedFacts {
     /// Its name for people.
@@ -87,11 +86,11 @@ pub struct RejectedFacts {
     pub effect: &'static str,
     /// The channel that it reads.
     pub channel: String,
-    /// Why.
+    /// The gate that rejected it.
     pub gate: Gate,
 }
 
-/// A dependence that has no name.
+/// A dependence that no effect of the catalogue explains.
 #[derive(Debug, Clone)]
 pub struct UnknownFacts {
     /// Name of the variable.
@@ -100,13 +99,13 @@ pub struct UnknownFacts {
     pub words: String,
     /// Its unit, where the record states it.
     pub unit: Option<String>,
-    /// The channel that it is made of.
+    /// The channel that it is computed from.
     pub channel: String,
-    /// Share of the squared error that the curve takes.
+    /// Share of the squared error that the curve removes.
     pub share: f64,
     /// Exact sign-flip p-value of the curve.
     pub p: f64,
-    /// What the best one or two names take, of what the curve takes.
+    /// Reduction of the SSE by the best one or two names over that by the curve.
     pub q: f64,
     /// The curve.
     pub curve: Vec<Knot>,
@@ -114,7 +113,7 @@ pub struct UnknownFacts {
     pub before: Segments,
     /// Rms errors after.
     pub after: Segments,
-    /// What is said of it.
+    /// The sentence on it.
     pub sentence: String,
 }
 

@@ -38,7 +38,7 @@ pub struct FinalFacts {
     pub parameters: Vec<Parameter>,
     /// The name of each parameter for people: two ripples differ by their order.
     pub titles: Vec<String>,
-    /// How many of the parameters, from the first on, are gains that one file has of its own.
+    /// Number of leading parameters that are gains of one file.
     pub own_gains: usize,
     /// Names of the gains that each file has of its own.
     pub gain_names: [&'static str; 3],

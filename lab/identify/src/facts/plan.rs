@@ -1,4 +1,4 @@
-//! Which motion to record next.
+//! The motion to record next.
 
 use super::asked::Asked;
 use crate::conclude::final_fit::FinalFit;
@@ -17,8 +17,8 @@ pub struct Planned {
     pub csv: String,
 }
 
-/// Plans the experiment that tells what a record cannot; `None` where none is needed, or none
-/// of the known motions would help.
+/// Plans an experiment that answers what a record leaves open; `None` if nothing is open or if
+/// none of the known motions would help.
 ///
 /// # Errors
 /// One line where the record cannot be closed.

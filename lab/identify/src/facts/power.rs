@@ -1,4 +1,4 @@
-//! How small an effect would have been found.
+//! The smallest effects that a search on a record would have found.
 
 use super::asked::Asked;
 use super::model::effects;
@@ -19,7 +19,7 @@ pub struct PowerFacts {
     pub model: Vec<String>,
     /// Trials of each amplitude.
     pub trials: usize,
-    /// Trials without an effect in which something was named.
+    /// Trials without a planted effect in which an effect was named.
     pub named_without: usize,
     /// By family, from the simplest on, then by name and channel.
     pub rows: Vec<PowerRow>,
@@ -40,7 +40,7 @@ pub struct PowerRow {
     pub shapes: Vec<ShapeFacts>,
     /// Unit of its gain, where the record states the units of its columns.
     pub gain_unit: Option<String>,
-    /// What came out.
+    /// The result.
     pub answer: Answer,
 }
 
@@ -55,12 +55,12 @@ pub struct ShapeFacts {
     pub unit: Option<String>,
 }
 
-/// Plants every effect that is asked for, and looks whether it is found.
+/// Plants every requested effect and counts how often a search finds it.
 ///
-/// `effects`: effects or families by name, all where it is empty.
+/// `effects`: names of effects or families; all if it is empty.
 ///
 /// # Errors
-/// One line where the record cannot be closed or an effect is not known.
+/// One line if the record cannot be closed or an effect is not known.
 pub fn power(
     record: &Record,
     asked: &Asked,

@@ -1,4 +1,4 @@
-//! What was read, and how it was filtered and split.
+//! The record as it was read, filtered and split.
 
 use crate::problem::{Piece, Prepared};
 use crate::record::{Defect, Mode};
@@ -32,7 +32,7 @@ pub struct RecordFacts {
     pub noise_floor: f64,
     /// Remarks on how the columns were read.
     pub notes: Vec<String>,
-    /// What is wrong with the measurement.
+    /// Defects of the measurement.
     pub defects: Vec<Defect>,
 }
 
@@ -45,11 +45,11 @@ pub struct FileFacts {
     pub samples: usize,
     /// Its own sampling rate \[Hz\].
     pub rate: f64,
-    /// What of it is held out.
+    /// The held-out part.
     pub held_out: HeldOutOf,
 }
 
-/// What of a file is held out.
+/// The held-out part of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum HeldOutOf {

@@ -1,4 +1,4 @@
-//! One round of the search: what it added, how that stood its tests, the model after it.
+//! One round of the search: the added effect, its tests, the model after it.
 
 use super::record::channel_name;
 use crate::conclude::final_fit::FinalFit;
@@ -25,19 +25,19 @@ pub struct RoundFacts {
     pub channel: String,
     /// How far the name can be trusted.
     pub grade: Grade,
-    /// In how many of [`HALVES`](super::HALVES) half-records it is found again.
+    /// Number of half-records, of [`HALVES`](super::HALVES), in which it is found again.
     pub recurs: usize,
-    /// How large it is in the final model.
+    /// Its size in the final model.
     pub size: Size,
-    /// Exact sign-flip p-value; `None` where there were too few blocks.
+    /// Exact sign-flip p-value; `None` if the blocks were too short for a test.
     pub p: Option<f64>,
     /// Share of the squared error on the fit segment that the round removed.
     pub explained: f64,
-    /// On how many of the [`BLOCKS`](super::BLOCKS) it helped.
+    /// Number of blocks, of [`BLOCKS`](super::BLOCKS), on which it lowers the error.
     pub blocks_better: usize,
     /// Effects that explain the same as well.
     pub rivals: Vec<RivalFacts>,
-    /// The motion that would tell them apart, where one is known.
+    /// The motion that would tell them apart, if one is known.
     pub experiment: Option<Experiment>,
     /// Rms errors before the round.
     pub before: Segments,
@@ -45,7 +45,7 @@ pub struct RoundFacts {
     pub after: Segments,
     /// Whether the round raises the held-out error.
     pub raises_held_out: bool,
-    /// The model after the round, where [`Detail::EachRound`](super::Detail) was asked for.
+    /// The model after the round, if [`Detail::EachRound`](super::Detail) was requested.
     pub fit: Option<RoundFit>,
 }
 
@@ -80,19 +80,19 @@ pub struct RoundFit {
     pub model: RoundModel,
 }
 
-/// The model that would be handed over if the rounds ended here: as the final one it is fitted
-/// once more on the fit and stop-check segments together.
+/// The model that would be handed over if the rounds ended here. Like the final model it is
+/// refitted on the fit and stop-check segments together.
 #[derive(Debug, Clone, Serialize)]
 pub struct RoundModel {
     /// The content of a model file.
     #[serde(skip_serializing_if = "Option::is_none")]
     model: Option<ModelFile>,
-    /// The same for each file, where each has gains of its own.
+    /// The same for each file, if each has gains of its own.
     #[serde(skip_serializing_if = "Option::is_none")]
     models: Option<Vec<ModelFile>>,
     /// Whether the parameters have seen the stop-check segment.
     refitted: bool,
-    /// Why the model still has what belongs to the record, if it has.
+    /// Why the model still contains effects that belong to the record, if it does.
     #[serde(skip_serializing_if = "Option::is_none")]
     not_refitted_without: Option<String>,
     /// Its errors, as shares of the output's standard deviation.

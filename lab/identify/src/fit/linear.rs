@@ -5,23 +5,23 @@ use crate::algebra::Span;
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
-/// Below this share of its norm a column is a sum of the others within rounding.
+/// A column whose residual norm is below this share of its norm depends on the others.
 const SUM_OF_OTHERS: f64 = 1e-9;
 
-/// Gains, and the basis that they leave.
+/// Gains, and the orthonormal basis of their columns.
 pub(super) struct Linear {
     pub(super) gains: Vec<f64>,
     pub(super) basis: DMatrix<f64>,
-    /// The bounds that the gains lie on.
+    /// The active bounds.
     pub(super) tied: Vec<Tie>,
 }
 
-/// Least squares on the fit segment with some gains kept from going negative, and others
+/// Least squares on the fit segment with some gains constrained to be non-negative and others
 /// within their ties.
 ///
-/// A bound that the gains violate becomes an equation, and the two columns of its gains
-/// one column. A bound that has become an equation stays one: with one record there is
-/// only one, so that this is the exact optimum.
+/// A violated bound becomes an equation, and the two columns of its gains become one column. A
+/// bound that has become an equation stays one: with one record there is only one bound, so
+/// that the result is the exact optimum.
 pub(super) fn solve_linear(
     rows: &[usize],
     columns: &[Arc<Vec<f64>>],
@@ -48,7 +48,7 @@ pub(super) fn solve_linear(
     }
 }
 
-/// Least squares with some gains kept from going negative.
+/// Least squares with some gains constrained to be non-negative.
 fn non_negative(
     rows: &[usize],
     columns: &[Arc<Vec<f64>>],

@@ -21,7 +21,8 @@ pub use solution::{Segments, Solution};
 use starts::starts;
 pub use starts::Known;
 
-/// Fits a structure: all starts for a while on a coarse grid, the best three to the end.
+/// Fits a structure: short searches from all starts on a coarse grid, then full searches from
+/// the best three.
 ///
 /// `from` is the optimum of the round before (its structure is a prefix of this one).
 /// `stage_gain` starts the gain of an output stage that is new.
@@ -35,7 +36,7 @@ pub fn fit(
     fit_from(data, structure, from.map(Known::of).as_ref(), stage_gain)
 }
 
-/// As [`fit`], from values that need not be those of a whole solution.
+/// As [`fit`], from start values of some of the parameters.
 #[must_use]
 pub fn fit_from(
     data: &Prepared,
@@ -79,7 +80,7 @@ pub fn fit_from(
     choose(settled)
 }
 
-/// Searches the optimum of a solution again, from where it is, on another split of its record.
+/// Searches the optimum again from a solution, on another split of its record.
 #[must_use]
 pub fn refit(data: &Prepared, from: &Solution) -> Option<Solution> {
     let structure = &from.structure;
@@ -89,8 +90,8 @@ pub fn refit(data: &Prepared, from: &Solution) -> Option<Solution> {
     settle(data, structure, &free, values)
 }
 
-/// One short search from the present optimum, on the coarse grid: the sum of squares
-/// there and the structure with its shapes refined.
+/// One short search from the present optimum on the coarse grid; returns the sum of squares and
+/// the structure with refined shapes.
 #[must_use]
 pub fn glance(
     data: &Prepared,
@@ -101,7 +102,7 @@ pub fn glance(
     glance_from(data, structure, &Known::of(from), stage_gain)
 }
 
-/// As [`glance`], from values that need not be those of a whole solution.
+/// As [`glance`], from start values of some of the parameters.
 #[must_use]
 pub fn glance_from(
     data: &Prepared,
@@ -111,7 +112,7 @@ pub fn glance_from(
 ) -> Option<(f64, Structure, f64)> {
     let free = structure.free(data);
     let starts = starts(data, structure, &free, Some(from), stage_gain);
-    // The present optimum may have bent the loop to stand in for what is missing.
+    // The present hysteresis may have adapted to the missing effect.
     let rough = starts
         .iter()
         .enumerate()

@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector, Dyn};
 use std::cell::Cell;
 use std::sync::Arc;
 
-/// Everything about one set of shapes.
+/// Prediction and derivatives at one set of shapes.
 pub(super) struct Evaluation {
     pub(super) raw: RawColumns,
     pub(super) columns: Vec<Arc<Vec<f64>>>,
@@ -63,7 +63,7 @@ pub(super) fn evaluate(
     })
 }
 
-/// The columns through the filter; those that cannot have moved are the last ones.
+/// The filtered columns; those that do not depend on the shapes are reused.
 fn filtered(data: &Prepared, raw: &RawColumns, last: Option<&Evaluation>) -> Vec<Arc<Vec<f64>>> {
     let kept = |k: usize| last.filter(|_| raw.fixed[k]).map(|l| &l.columns[k]);
     let moved = (0..raw.columns.len()).filter(|&k| kept(k).is_none());
@@ -97,7 +97,7 @@ impl Evaluation {
         Some(tangents)
     }
 
-    /// Adds to a tangent how a gain that is tied to kappa_eta moves with the shape.
+    /// Adds to a tangent the change of a gain that is tied to kappa_eta.
     fn add_tied(&self, tangent: &mut [f64], free: &[Free], values: &[f64], role: Role) {
         for tie in &self.linear.tied {
             let slope = -self.linear.gains[tie.hysteresis] * slope(free, values, role);
@@ -108,16 +108,16 @@ impl Evaluation {
     }
 }
 
-/// The reduced problem that Levenberg-Marquardt sees.
+/// The reduced problem for Levenberg-Marquardt.
 struct Reduced<'a> {
     data: &'a Prepared,
     structure: &'a Structure,
     free: &'a [Free],
     line: DVector<f64>,
     now: Option<Evaluation>,
-    /// Whether the search stands here, and did not only try the place.
+    /// Whether this point was accepted by the search, not only tried.
     stands: Cell<bool>,
-    /// Where the search stood before what it tries now: it returns there if that is worse.
+    /// The previous accepted point, to which the search returns if the trial is worse.
     back: Option<(DVector<f64>, Evaluation)>,
 }
 
@@ -203,15 +203,15 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Reduced<'_> {
     }
 }
 
-/// A search that gains less than this share of the squared error was the last.
+/// Least relative reduction of the squared error after which the search is repeated.
 const GAINED: f64 = 0.01;
-/// At most so many searches after the first.
+/// Maximum number of repetitions of a search.
 const AGAIN: usize = 6;
-/// How far out on the line a bounded parameter may start: beyond this the map is so flat
-/// that a search would take the parameter for one without influence.
+/// Limit of a start on the unbounded scale of a bounded parameter: beyond it the map is so flat
+/// that the parameter would seem to have no influence.
 const START: f64 = 5.0;
 
-/// Searches from one start with about `most` evaluations; the sum of squares and the
+/// Searches from one start with about `most` evaluations; returns the sum of squares and the
 /// values reached.
 pub(crate) fn descend(
     data: &Prepared,
@@ -239,8 +239,8 @@ pub(crate) fn descend(
     Some((sse, problem.values()))
 }
 
-/// Searches again from where the last search stopped until that gains nothing more: a
-/// search may stop because its trust region has shrunk, and not at an optimum.
+/// Repeats the search from its last point until nothing more is gained: a search may also stop
+/// because its trust region has shrunk.
 pub(crate) fn descend_fully(
     data: &Prepared,
     structure: &Structure,

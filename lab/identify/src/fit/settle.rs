@@ -1,4 +1,4 @@
-//! From the values that a search reached to a solution, and the choice among several.
+//! Assembles solutions from the values that searches reached, and chooses among them.
 
 use super::search::{evaluate, Evaluation};
 use super::{Segments, Solution};
@@ -7,7 +7,7 @@ use crate::model::structure::{Free, Structure};
 use crate::problem::Prepared;
 use std::sync::Arc;
 
-/// Assembles the solution at given values.
+/// Assembles the solution at the given values.
 pub(crate) fn settle(
     data: &Prepared,
     structure: &Structure,
@@ -59,8 +59,8 @@ pub(crate) fn settle(
     })
 }
 
-/// Among optima within 5 % the best on the stop-check; two shapes on bounds are refused
-/// while anything else is left.
+/// The best on the stop-check among the optima within 5 %. Optima with two shapes on bounds are
+/// refused unless there is no other.
 pub(super) fn choose(mut settled: Vec<Solution>) -> Option<Solution> {
     if settled.iter().any(|s| s.shapes_on_bound() < 2) {
         settled.retain(|s| s.shapes_on_bound() < 2);

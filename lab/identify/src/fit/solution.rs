@@ -100,7 +100,7 @@ impl Solution {
         self.rmse.fit * self.rmse.fit * data.split.fit.len() as f64
     }
 
-    /// The value of a role, where it is free.
+    /// The value of a role, if it is free.
     #[must_use]
     pub fn value(&self, role: Role) -> Option<f64> {
         self.free
@@ -130,8 +130,8 @@ impl Solution {
         self.gains[base + before]
     }
 
-    /// What a term that is not in the model would add to its output for a gain of one, on
-    /// the work grid; `None` where its channel is missing.
+    /// The contribution of a term that is not in the model, for a gain of one, on the work grid;
+    /// `None` if its channel is missing.
     #[must_use]
     pub fn adds(&self, data: &Prepared, term: &FitTerm) -> Option<Vec<f64>> {
         if term.effect.is_output_stage() {
@@ -144,7 +144,7 @@ impl Solution {
         effect_column(data, term, &self.eta)
     }
 
-    /// How many shapes that belong to the model stopped on a bound.
+    /// Number of shapes of the model that stopped on a bound.
     pub(crate) fn shapes_on_bound(&self) -> usize {
         self.free
             .iter()

@@ -1,11 +1,11 @@
-//! Where the searches begin.
+//! Starts of the searches.
 
 use super::Solution;
 use crate::model::structure::{Free, Range, Role, Structure};
 use crate::problem::Prepared;
 
-/// Where an earlier fit ended: the values of its free parameters. Those of terms that have gone
-/// since belong to no parameter any more.
+/// Values of the free parameters of an earlier fit. Values of terms that have been removed since
+/// belong to no parameter.
 #[derive(Debug, Clone)]
 pub struct Known(Vec<(Role, f64)>);
 
@@ -22,11 +22,11 @@ impl Known {
     }
 }
 
-/// The hysteresis state at the start is searched from inside its range: on the end of it
-/// the map is flat, and a search from there never gets away.
+/// Limit of the start of eta(0): at the end of its range the map is flat, and a search from
+/// there does not move.
 pub(crate) const INSIDE: f64 = 0.9;
 
-/// Eight deterministic starts, and the present optimum where there is one.
+/// Eight deterministic starts, and the present optimum if there is one.
 pub(super) fn starts(
     data: &Prepared,
     structure: &Structure,

@@ -12,10 +12,10 @@ use crate::model::structure::{Free, Role, Structure};
 use std::sync::Arc;
 
 /// Relative distance from the bound. Four numbers are rounded to `f32` and three products
-/// formed: 7 roundings of 2^-24 each, 4.2e-7 together, and the model still has its inverse.
+/// formed: 7 roundings of 2^-24 each, 4.2e-7 together, so the rounded model keeps its inverse.
 const MARGIN: f64 = 1e-6;
 
-/// Where gain and hysteresis are of opposite signs: `|gain| >= ratio·|hysteresis|`.
+/// The bound `|gain| >= ratio·|hysteresis|`, for gain and hysteresis of opposite signs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Tie {
     /// Index of the gain B or kappa_x among the linear gains.
@@ -33,7 +33,7 @@ impl Tie {
         gain * hysteresis <= 0.0 && self.ratio * hysteresis.abs() > gain.abs()
     }
 
-    /// The column of the hysteresis where the gain is `−ratio` times its own.
+    /// The common column of both if the gain is `−ratio` times that of the hysteresis.
     pub(super) fn merged(&self, columns: &[Arc<Vec<f64>>]) -> Vec<f64> {
         let (input, eta) = (&columns[self.gain], &columns[self.hysteresis]);
         let pairs = eta.iter().zip(input.iter());
@@ -41,8 +41,8 @@ impl Tie {
     }
 }
 
-/// The bounds of a structure, one for each record with gains of its own; none where the
-/// structure may be anything.
+/// The bounds of a structure, one for each record with gains of its own; none if the structure
+/// need not be invertible.
 pub(super) fn ties(structure: &Structure, free: &[Free], values: &[f64]) -> Vec<Tie> {
     let value = |role| free.iter().position(|f| f.role == role).map(|i| values[i]);
     let (Some(rho), Some(sigma), true) =

@@ -1,4 +1,4 @@
-//! The blocks, the exact test on their scores, and how long they have to be.
+//! The blocks of a record, their least length, and the exact sign-flip test on their scores.
 
 use crate::problem::Prepared;
 use std::ops::Range;
@@ -6,20 +6,20 @@ use std::ops::Range;
 /// Number of blocks.
 pub const BLOCKS: usize = 16;
 
-/// Whether the record has blocks enough for a test.
+/// Whether the blocks of a record are long enough for a test.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Regime {
     /// Sixteen blocks, each at least three correlation times long: p-values.
     Blocks,
-    /// Fewer: effects are accepted by size and repetition, the verdict is under-excited.
+    /// Shorter blocks: effects are accepted by size and repetition, the verdict is under-excited.
     Effect,
 }
 
 /// Sixteen blocks of equal path length over the rows of the fit segment.
 ///
-/// Each is a range of positions in `data.split.fit`. Of several records each gets as many
-/// blocks as are nearest to its share of the path, so that none straddles two of them;
-/// only a record with less than half a block's path shares one with its neighbour.
+/// Each block is a range of positions in `data.split.fit`. With several records the number of
+/// blocks of each is its share of the path, rounded, so that no block straddles two records;
+/// only a record with less than half a block's path shares a block with its neighbour.
 #[must_use]
 pub fn blocks(data: &Prepared) -> Vec<Range<usize>> {
     let path = path(data);
@@ -30,8 +30,8 @@ pub fn blocks(data: &Prepared) -> Vec<Range<usize>> {
     ranges
 }
 
-/// Path length at each row of the fit segment; what was gone where rows are left out does
-/// not count, or the block around it would be left with hardly any.
+/// Path length at each row of the fit segment. The path across rows that are left out does not
+/// count, since the block around them would have hardly any rows.
 fn path(data: &Prepared) -> Vec<f64> {
     let rows = &data.split.fit;
     let mut path = vec![0.0; rows.len()];
@@ -43,7 +43,7 @@ fn path(data: &Prepared) -> Vec<f64> {
     path
 }
 
-/// The fit rows in parts with a number of blocks each: a part a record where they allow.
+/// Divides the fit rows into parts with a number of blocks each: one part a record if possible.
 fn parts(data: &Prepared, path: &[f64]) -> Vec<(Range<usize>, usize)> {
     let rows = &data.split.fit;
     let (Some(first), Some(last)) = (path.first(), path.last()) else {
@@ -74,7 +74,7 @@ fn divide(path: &[f64], rows: Range<usize>, count: usize, ranges: &mut Vec<Range
     let mut from = rows.start;
     for block in 1..=count {
         let end = first + total * block as f64 / count as f64;
-        // Every block keeps a few rows, also where the input rests.
+        // Every block keeps a few rows, even while the input rests.
         let least = from + 2;
         let most = rows.end - 2 * (count - block);
         let mut to = if block == count {
@@ -91,7 +91,7 @@ fn divide(path: &[f64], rows: Range<usize>, count: usize, ranges: &mut Vec<Range
 }
 
 impl Regime {
-    /// Of a residual on the fit rows, with its correlation time in samples.
+    /// The regime of a residual on the fit rows, and its correlation time in samples.
     pub(crate) fn of(data: &Prepared, residual: &[f64]) -> (Self, f64) {
         let samples = correlation_samples(residual);
         let shortest = blocks(data).iter().map(ExactSizeIterator::len).min();
@@ -103,11 +103,12 @@ impl Regime {
     }
 }
 
-/// Exact sign-flip p-value of some scores on each block: the share of all sign patterns whose
-/// sum is at least as long as the real one.
+/// Exact sign-flip p-value of the score vectors of the blocks: the share of all sign patterns
+/// whose sum is at least as long as the observed one.
 ///
-/// 1 where a score is not finite. Each signed sum over all blocks is a sum over the first half
-/// of them plus a sum over the other half, so two short tables of signed sums give all patterns.
+/// The p-value is 1 if a score is not finite. Each signed sum over all blocks is a sum over the
+/// first half of them plus a sum over the other half, so two short tables of signed sums give
+/// all patterns.
 #[must_use]
 pub fn flips(scores: &[Vec<f64>]) -> f64 {
     let directions = scores.first().map_or(0, Vec::len);
@@ -147,7 +148,7 @@ pub fn flips(scores: &[Vec<f64>]) -> f64 {
     counted as f64 / patterns as f64
 }
 
-/// A number plus the scores of some blocks in one direction, with all patterns of signs.
+/// `start` plus the scores of some blocks in one direction, for all patterns of signs.
 fn signed_sums(start: f64, scores: &[Vec<f64>], direction: usize) -> Vec<f64> {
     let mut sums = vec![start];
     for own in scores {
@@ -161,13 +162,13 @@ fn signed_sums(start: f64, scores: &[Vec<f64>], direction: usize) -> Vec<f64> {
     sums
 }
 
-/// The same of one score on each block.
+/// The same test for one score a block.
 #[must_use]
 pub fn sign_flip_p(scores: &[f64; BLOCKS]) -> f64 {
     flips(&scores.map(|score| vec![score]))
 }
 
-/// Time after which the autocorrelation has fallen to 1/e, in samples.
+/// Lag at which the autocorrelation falls to 1/e, in samples.
 #[must_use]
 pub fn correlation_samples(residual: &[f64]) -> f64 {
     let n = residual.len();

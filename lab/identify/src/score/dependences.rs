@@ -1,4 +1,4 @@
-//! On which variables a residual depends, as free curves of ten hats tested by sign flips.
+//! The variables that a residual depends on: free curves of ten hats, tested by sign flips.
 
 use super::blocks::Regime;
 use super::hats::{is_phase, score, Scored, HATS};
@@ -7,36 +7,36 @@ use crate::fit::Solution;
 use crate::model::Variable;
 use crate::problem::Prepared;
 
-/// Level of the curve's test, divided among the variables.
+/// Level of the test, divided by the number of variables.
 const LEVEL: f64 = 0.01;
-/// A curve takes at least this share of the squared error.
+/// Least share of the squared error that a curve removes.
 const SHARE: f64 = 0.1;
-/// A curve comes into question if to first order it takes this share of what the best takes.
+/// Least reduction of the SSE to first order, as a share of the best curve's.
 const CLOSE: f64 = 0.7;
-/// At most this many curves are told.
+/// Maximum number of curves.
 const CURVES: usize = 3;
 
 /// A variable on which a residual depends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dependence {
-    /// Which.
+    /// The variable.
     pub variable: Variable,
-    /// Share of the squared error that a free curve of ten hats over it takes.
+    /// Share of the squared error that a free curve of ten hats over it removes.
     pub share: f64,
-    /// Exact sign-flip p-value of that curve; `None` where what it leaves is correlated for
+    /// Exact sign-flip p-value of that curve; `None` if the residual after it is correlated for
     /// too long to be tested on sixteen blocks.
     pub p: Option<f64>,
 }
 
-/// On what a residual depends beside what is held fixed, the strongest first: variables
-/// whose curve passes the test, and takes nearly as much as the best.
+/// The variables that a residual depends on jointly with the columns `held`, the strongest
+/// first: their curves pass the test and remove nearly as much as the best one.
 pub(crate) fn dependences(data: &Prepared, now: &Solution, held: &[Vec<f64>]) -> Vec<Dependence> {
     let all = Variable::all(data, now.structure.hysteresis);
     let held = Span::of(data, held.iter());
     let found = curves(data, now, &held, &all);
     found
         .into_iter()
-        .filter_map(|scored| {
+        .filter_map(|(scored, p)| {
             let mut span = held.clone();
             for column in scored.table.columns(data, &now.eta)? {
                 span.add(rows(data, &data.filtered(&column)));
@@ -46,14 +46,19 @@ pub(crate) fn dependences(data: &Prepared, now: &Solution, held: &[Vec<f64>]) ->
             Some(Dependence {
                 variable: scored.table.variable,
                 share: scored.share,
-                p: (regime == Regime::Blocks).then(|| scored.p(data)),
+                p: (regime == Regime::Blocks).then_some(p),
             })
         })
         .collect()
 }
 
-/// The curves that pass the test, the largest first.
-fn curves(data: &Prepared, now: &Solution, moved: &Span, variables: &[Variable]) -> Vec<Scored> {
+/// The curves that pass the test with their p-values, the largest first.
+fn curves(
+    data: &Prepared,
+    now: &Solution,
+    moved: &Span,
+    variables: &[Variable],
+) -> Vec<(Scored, f64)> {
     use rayon::prelude::*;
     if now.structure.table.is_some() {
         return Vec::new();
@@ -63,14 +68,18 @@ fn curves(data: &Prepared, now: &Solution, moved: &Span, variables: &[Variable])
         .par_iter()
         .map(|&variable| score(data, now, moved, variable, HATS))
         .collect();
-    let mut found: Vec<Scored> = scored
+    let mut found: Vec<(Scored, f64)> = scored
         .into_iter()
         .flatten()
-        .filter(|s| s.p(data) <= level && !is_phase(data, now, s.table.variable))
+        .map(|s| {
+            let p = s.p(data);
+            (s, p)
+        })
+        .filter(|(s, p)| *p <= level && !is_phase(data, now, s.table.variable))
         .collect();
-    found.sort_by(|a, b| b.share.total_cmp(&a.share));
-    let best = found.first().map_or(0.0, |s| s.share);
-    found.retain(|s| s.share >= CLOSE * best && s.share >= SHARE);
+    found.sort_by(|a, b| b.0.share.total_cmp(&a.0.share));
+    let best = found.first().map_or(0.0, |(s, _)| s.share);
+    found.retain(|(s, _)| s.share >= CLOSE * best && s.share >= SHARE);
     found.truncate(CURVES);
     found
 }

@@ -14,22 +14,22 @@ use bowden::model::Source;
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
-/// Standard deviations of the output on two segments that differ by more than this factor
-/// make a percentage on the one say little of the other.
+/// Ratio of the output's standard deviations on two segments above which a percentage on one
+/// says little about the other.
 pub const UNLIKE: f64 = 3.0;
 
 /// Shares of the output's variance, each in \[0, 1\].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Explained {
-    /// What a least-squares fit of the columns that read the input explains.
+    /// Share explained by a least-squares fit of the columns that read the input.
     pub input: f64,
-    /// What the columns that read other channels explain on top of that.
+    /// Further share explained by the columns that read other channels.
     pub channels: f64,
-    /// What terms take that are functions of time alone: tone, drift, pretension.
+    /// Share of the terms that are functions of time alone: tone, drift, pretension.
     pub time: f64,
 }
 
-/// What a linear column of a model reads.
+/// The signal that a linear column of a model reads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Reads {
     Input,
@@ -44,7 +44,7 @@ fn of_source(source: Source) -> Reads {
     }
 }
 
-/// What each linear column of a solution reads, in the order of its gains.
+/// The signal that each linear column of a solution reads, in the order of its gains.
 fn reads(solution: &Solution) -> Vec<Reads> {
     let structure = &solution.structure;
     let mut all = vec![Reads::Input; structure.base()];
@@ -112,8 +112,8 @@ pub fn segments_differ(data: &Prepared) -> bool {
     fit > UNLIKE * held_out || held_out > UNLIKE * fit
 }
 
-/// What explains the output on the held-out segment; where the output moves
-/// [`UNLIKE`] times less there than on the fit segment, on both together.
+/// The shares on the held-out segment; on both segments together if the output moves
+/// [`UNLIKE`] times less on the held-out segment than on the fit segment.
 #[must_use]
 pub fn explained(data: &Prepared, solution: &Solution) -> Explained {
     let (fit, held_out) = deviations(data);
@@ -152,13 +152,13 @@ pub fn explained(data: &Prepared, solution: &Solution) -> Explained {
     }
 }
 
-/// The input's integral leaves at most this share of what the input itself leaves.
+/// Largest SSE with the integral of the input, as a share of the SSE with the input itself.
 const INTEGRAL_LEAVES: f64 = 0.1;
-/// It leaves at most this share of what the input's rate leaves, and the fitted model:
-/// a loop that opens with the motion leads, an integral lags.
+/// Largest SSE with the integral, as a share of the SSE with the input's rate and of the SSE
+/// of the fitted model: a loop that opens with the motion leads, an integral lags.
 const RIVAL_LEAVES: f64 = 0.25;
 
-/// Whether the output follows the time integral of the input and not the input, as the
+/// Whether the output follows the time integral of the input instead of the input, as the
 /// angle of a motor follows its voltage.
 ///
 /// A regression on \[1, t, x, integral of x\] is compared with those on \[1, t, x\] and on
@@ -173,7 +173,7 @@ pub fn integrates(data: &Prepared, declared: &Solution) -> bool {
     };
     let mut integral = vec![0.0; data.work_len()];
     for piece in &data.pieces {
-        // About the middle of the range: what a constant adds is a line, which has a column.
+        // About the middle of the range: a constant adds a line in time, which has a column.
         let mut sum = 0.0;
         for i in piece.work.clone() {
             sum += (data.input.motion[i].position - data.input.middle) * data.dt;

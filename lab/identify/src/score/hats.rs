@@ -1,7 +1,7 @@
 //! A curve over one variable as a term of the model: ten hat functions.
 //!
-//! Of the ten directions only those are kept in which the rest of the model cannot move:
-//! a curve is told apart from a constant, or from the declared stiffness, by nothing.
+//! Only those of the ten directions are kept that the rest of the model does not span: no data
+//! separate a curve from a constant or from the declared stiffness.
 
 use super::blocks::{blocks, flips};
 use crate::algebra::{directions, whitening};
@@ -13,20 +13,20 @@ use nalgebra::{DMatrix, DVector};
 
 /// Hat functions of a curve that is tested.
 pub(crate) const HATS: usize = 10;
-/// A direction of which less than this is left beside the model is no part of the curve.
+/// A direction whose residual share after the model is below this is dropped.
 const APART: f64 = 0.01;
-/// Knots closer than this share of the range are one. Where strokes rest at their ends the
-/// quantiles crowd there, and a curve that bends within a few thousandths of the range says
-/// when the motion rests, not where.
+/// Knots closer than this share of the range are merged. If strokes rest at their ends, the
+/// quantiles crowd there, and a curve that bends within a few thousandths of the range encodes
+/// when the motion rests instead of a position.
 const CLOSE: f64 = 1e-2;
 
-/// What the residual of a model has of a variable, to first order.
+/// Regression of a residual on a curve over one variable, to first order.
 #[derive(Debug, Clone)]
 pub(crate) struct Scored {
     pub(crate) table: Table,
     /// Share of the squared error.
     pub(crate) share: f64,
-    /// Its directions, of unit norm off the model, and the residual there.
+    /// Its directions with unit norm after projection off the model, and the projected residual.
     units: Vec<DVector<f64>>,
     residual: DVector<f64>,
 }
@@ -43,7 +43,7 @@ impl Scored {
     }
 }
 
-/// Fits a curve over the variable to what a model leaves, off all that it can move.
+/// Fits a curve over the variable to the residual of a model, projected off the span `moved`.
 pub(crate) fn score(
     data: &Prepared,
     now: &Solution,
@@ -120,18 +120,19 @@ pub(crate) fn hats(
     })
 }
 
-/// Whether a variable that starts anew with each stroke says where in the stroke the
-/// motion is: then all strokes are alike, and it would stand for anything periodic.
+/// Whether a variable that starts again with each stroke encodes the phase of the stroke: then
+/// all strokes are alike, and a curve over it would imitate anything periodic.
 pub(crate) fn is_phase(data: &Prepared, now: &Solution, variable: Variable) -> bool {
     let share = phase_share(data, now, variable);
     variable.is_local() && share.is_none_or(|share| share > PHASE)
 }
 
-/// A curve of the variable that tells more than this of where the motion is, and how
-/// fast, tells the phase.
+/// A variable is a phase if curves over it explain more than this share of the directed
+/// position and of the speed.
 const PHASE: f64 = 0.8;
 
-/// The smaller of what a curve over it tells of the directed position and of the speed.
+/// Explained share of the directed position or of the speed by a curve over the variable,
+/// whichever is smaller.
 fn phase_share(data: &Prepared, now: &Solution, variable: Variable) -> Option<f64> {
     let hats = hats(data, now, variable, HATS)?;
     let mut span = Span::default();

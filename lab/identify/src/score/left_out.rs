@@ -1,4 +1,4 @@
-//! On how many blocks a model is better than another, with its gains fitted on the others.
+//! Comparison of two models on each block, with the gains fitted on the other blocks.
 
 use super::blocks::{blocks, Regime, BLOCKS};
 use crate::algebra::least_norm;
@@ -6,7 +6,7 @@ use crate::fit::Solution;
 use crate::problem::Prepared;
 use nalgebra::{DMatrix, DVector};
 
-/// On how many blocks left out the new model is better, and whether that is enough.
+/// Number of left-out blocks on which the new model is better, and whether that suffices.
 pub(crate) fn on_blocks(
     data: &Prepared,
     old: &Solution,
@@ -59,7 +59,7 @@ fn left_out(data: &Prepared, solution: &Solution) -> Vec<f64> {
             (x.tr_mul(&x), x.tr_mul(&y))
         })
         .collect();
-    // Gains move from their fitted values by what the residual asks for.
+    // The change of the gains is the regression of the residual on the columns.
     let mut losses = Vec::with_capacity(BLOCKS);
     for (out, block) in blocks.iter().enumerate() {
         let mut gram = DMatrix::zeros(m, m);

@@ -1,4 +1,4 @@
-//! What a residual says: blocks and their exact test, free curves, lines, whiteness, shares.
+//! Tests of a residual: blocks with their exact test, free curves, tones, whiteness, shares.
 
 pub mod blocks;
 pub mod dependences;

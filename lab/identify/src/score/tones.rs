@@ -1,9 +1,8 @@
 //! A tone: a line in the residual's spectrum, a function of nothing measured.
 //!
-//! A peak counts against the median of the bins around it, since
-//! a coloured residual has no common level (Fisher's g supposes one and fires on every
-//! record), and not where the input's own lines and their multiples lie: there a bent
-//! curve would show as well.
+//! A peak is compared with the median of the bins around it, since a coloured residual has no
+//! common level (Fisher's g supposes one and rejects on every record). Lines of the input and
+//! their multiples are excluded: a static non-linearity also produces lines there.
 
 use crate::model::structure::FitTerm;
 use crate::problem::spectrum::power_of_fit;
@@ -13,9 +12,9 @@ use bowden::model::Source;
 use rustfft::num_complex::Complex;
 use std::f64::consts::TAU;
 
-/// Level, divided among the bins.
+/// Level of the test, divided by the number of bins.
 const LEVEL: f64 = 0.01;
-/// Bins on either side that give the level of the noise.
+/// Bins on either side from which the noise level is taken.
 const AROUND: usize = 25;
 /// Above this share of the cut-off the filter itself shapes the spectrum.
 const HIGHEST: f64 = 0.95;
@@ -33,7 +32,7 @@ fn step(data: &Prepared) -> f64 {
     data.dt * data.stride as f64
 }
 
-/// The bin that stands out most, with its p-value, where one does.
+/// The bin with the most significant peak and its p-value, if one is significant.
 pub(crate) fn strongest(data: &Prepared, residual: &[f64]) -> Option<(f64, f64)> {
     let hann = |at: f64, n: f64| 0.5 - 0.5 * (TAU * at / n).cos();
     let power_of = |signal: &[f64]| power_of_fit(data, signal, hann);
@@ -72,20 +71,20 @@ pub(crate) fn strongest(data: &Prepared, residual: &[f64]) -> Option<(f64, f64)>
     (p <= LEVEL / free.len() as f64).then_some((bin as f64 / seconds, p))
 }
 
-/// Bins of the lines of a spectrum, to a part of a bin.
+/// Positions of the lines of a spectrum, to a fraction of a bin.
 fn lines(power: &[f64]) -> Vec<f64> {
     let peak = power.iter().copied().fold(0.0, f64::max);
     (1..power.len().saturating_sub(1))
         .filter(|&k| power[k] >= LINE * peak && power[k] >= power[k - 1] && power[k] > power[k + 1])
         .map(|k| {
-            // Through the logarithms a Hann line is a parabola, nearly.
+            // In logarithms the main lobe of a Hann window is nearly a parabola.
             let [a, b, c] = [power[k - 1], power[k], power[k + 1]].map(|p| p.max(1e-300).ln());
             k as f64 + 0.5 * (a - c) / (a - 2.0 * b + c)
         })
         .collect()
 }
 
-/// The tone near that frequency \[Hz\] that takes most.
+/// The tone near a frequency \[Hz\] that reduces the SSE most.
 pub(crate) fn term(data: &Prepared, residual: &[f64], frequency: f64) -> Option<FitTerm> {
     let fit = &data.split.fit;
     let seconds = (fit.last()? - fit.first()? + 1) as f64 * step(data);

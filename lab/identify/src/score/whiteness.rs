@@ -1,4 +1,4 @@
-//! Whether what is left is white noise behind the filter.
+//! Whether a residual is filtered white noise.
 
 use super::blocks::correlation_samples;
 use crate::fit::Solution;
@@ -6,18 +6,16 @@ use crate::problem::filter::{gain, ZeroPhase};
 use crate::problem::spectrum::power_of_fit;
 use crate::problem::Prepared;
 
-/// A residual whose correlation time is at most this many times the filter's own may be
-/// white noise behind the filter.
+/// Largest correlation time of filtered white noise, as a multiple of the filter's own.
 const WHITE: f64 = 1.5;
-/// Share of the cut-off up to which the spectrum is looked at: beyond, the filter's slope
-/// is most of it.
+/// Share of the cut-off up to which the spectrum is tested: beyond it the slope of the filter
+/// dominates.
 const HIGHEST: f64 = 0.9;
-/// The level at which Kolmogorov's distance, times the root of the count, is passed by
-/// chance once in a hundred times.
+/// Critical value of Kolmogorov's distance times the root of the count, at a level of 1 %.
 const KOLMOGOROV: f64 = 1.63;
 
-/// Whether the residual looks like white noise behind the filter: its correlation is no
-/// longer than the filter's own, and its spectrum in the band is level.
+/// Whether the residual is compatible with filtered white noise: its correlation time is that
+/// of the filter, and its spectrum in the band is level.
 pub(crate) fn is_white(data: &Prepared, solution: &Solution) -> bool {
     let fit = &data.split.fit;
     let rest: Vec<f64> = fit.iter().map(|&i| solution.residual[i]).collect();
@@ -25,7 +23,7 @@ pub(crate) fn is_white(data: &Prepared, solution: &Solution) -> bool {
         && is_level(&densities(data, &solution.residual))
 }
 
-/// Correlation time of white noise behind the filter, in estimation samples.
+/// Correlation time of filtered white noise, in estimation samples.
 fn white_correlation(data: &Prepared) -> f64 {
     let rate = 1.0 / data.dt;
     let reach = (8.0 * rate / data.cutoff).ceil() as usize;
@@ -55,8 +53,8 @@ fn densities(data: &Prepared, residual: &[f64]) -> Vec<f64> {
     .collect()
 }
 
-/// Bartlett's test of the cumulative periodogram (1955), at 1 %. It sees a single line as
-/// well, whose correlation decays as fast as that of noise.
+/// Bartlett's test of the cumulative periodogram (1955), at 1 %. It also detects a single line,
+/// which the correlation time does not show.
 fn is_level(densities: &[f64]) -> bool {
     let (sum, count) = (densities.iter().sum::<f64>(), densities.len() as f64);
     if sum <= 0.0 {

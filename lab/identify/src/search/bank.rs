@@ -1,8 +1,8 @@
-//! Columns of everything that may be missing, computed once and kept between rounds.
+//! Columns of all candidates, computed once and kept between rounds.
 //!
-//! A candidate of the catalogue is a column at a trial shape and, where that column gains
-//! anything, the slopes of the column in the candidate's own shapes: the linear step in them
-//! replaces a finer lattice. A curve over one variable is twenty hat functions.
+//! A candidate of the catalogue is one column at a trial shape. A candidate that reduces the
+//! SSE also has the slopes of that column in its own shapes: the linear step in them replaces
+//! a finer lattice. A curve over one variable is twenty hat functions.
 
 use super::gram::Grams;
 use crate::fit::projection::{rows, Span};
@@ -20,16 +20,16 @@ use rayon::prelude::*;
 use std::collections::HashSet;
 use std::sync::Arc;
 
-/// Hat functions of a curve in the Gram matrix: ten miss a bump of 0.08 of the range.
+/// Hat functions of a curve in the Gram matrix: ten miss a bump of width 0.08 of the range.
 pub(super) const HATS_IN_GRAM: usize = 20;
-/// Times of a step that are tried besides the catalogue's, at the peaks of its profile.
+/// Number of step times that are tried in addition to the catalogue's.
 const STEPS: usize = 4;
-/// Step of the difference quotients, on the line that a range is mapped to.
+/// Step of the difference quotients, on the unbounded scale that a range is mapped to.
 const DIFFERENCE: f64 = 1e-3;
-/// Beyond this the map of a range to the line is flat.
+/// Beyond this point of the unbounded scale the map to the range is flat.
 const FLAT: f64 = 5.0;
 
-/// What a member of a set is, whatever its shapes.
+/// Identity of a member of a set, independent of its shapes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Identity {
     /// An effect that reads a channel.
@@ -44,15 +44,15 @@ impl Identity {
     }
 }
 
-/// What a slope is a slope in.
+/// The parameter that a slope is the derivative in.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Own {
     Shape(usize),
     Origin,
 }
 
-/// The slope of a candidate's column in one of its own parameters, for a step of one on the
-/// line that the parameter's range is mapped to.
+/// Derivative of a candidate's column in one of its parameters, per unit of the unbounded
+/// scale that the range of the parameter is mapped to.
 #[derive(Debug, Clone)]
 pub(super) struct Slope {
     pub(super) own: Own,
@@ -60,27 +60,27 @@ pub(super) struct Slope {
     pub(super) column: Arc<Vec<f64>>,
 }
 
-/// A variable, and the filtered hat functions over it.
+/// A variable and the filtered hat functions over it.
 pub(super) type Curve = (Variable, Vec<Arc<Vec<f64>>>);
 
-/// Columns that depend neither on the hysteresis state nor on the output are kept.
+/// Keeps the columns that depend neither on the hysteresis state nor on the output.
 pub(super) struct Bank<'a> {
-    /// The whole record: what is tried, and over which ranges.
+    /// The whole record, which determines the candidates and the ranges of their shapes.
     pub(super) data: &'a Prepared,
-    /// As much of it as the fit sees: columns are of this.
+    /// The part of it that the fit sees; all columns are computed on it.
     pub(super) seen: &'a Prepared,
     variables: Vec<Variable>,
     values: Vec<(FitTerm, Arc<Vec<f64>>)>,
     slopes: Vec<(FitTerm, Vec<Slope>)>,
     curves: Vec<Curve>,
-    /// What was asked for since columns were kept last.
+    /// Candidates of the latest linearisation.
     asked: Vec<FitTerm>,
-    /// Columns of the former linearisation that are the same in the next one, with their
+    /// Columns of the latest linearisation that are the same in the next one, with their
     /// products.
     pub(super) products: (Vec<Arc<Vec<f64>>>, Grams),
 }
 
-/// The point on the line of a value, off the flat ends.
+/// A value on the unbounded scale of its range, clamped to where the map is not flat.
 pub(super) fn on_line(range: Range, value: f64) -> f64 {
     match range {
         Range::Free => value,
@@ -88,7 +88,7 @@ pub(super) fn on_line(range: Range, value: f64) -> f64 {
     }
 }
 
-/// Whether a column is the same for all models of this record.
+/// Whether the column of a term is the same for all models of this record.
 fn is_fixed(term: &FitTerm) -> bool {
     let effect = &term.effect;
     !effect.reads_eta() && !effect.is_input_stage() && !effect.is_output_stage()
@@ -116,8 +116,8 @@ impl<'a> Bank<'a> {
         }
     }
 
-    /// Every candidate at its trial shapes, with its column; the model on the whole record and
-    /// on what the fit sees.
+    /// Every candidate at its trial shapes with its column, for a model on the whole record
+    /// (`now`) and on the rows that the fit sees (`seen`).
     pub(super) fn names(
         &mut self,
         now: &Solution,
@@ -147,8 +147,8 @@ impl<'a> Bank<'a> {
         all
     }
 
-    /// Keeps the columns that are the same for all models, with their products. What was not
-    /// asked for is forgotten: lines and steps are of one residual.
+    /// Keeps the columns that are the same for all models, with their products. Candidates that
+    /// were not asked for are dropped: tones and steps belong to one residual.
     pub(super) fn keep(&mut self, columns: &[Arc<Vec<f64>>], grams: &Grams) {
         self.values.retain(|(t, _)| self.asked.contains(t));
         self.slopes.retain(|(t, _)| self.asked.contains(t));
@@ -169,7 +169,7 @@ impl<'a> Bank<'a> {
         self.products = (kept.collect(), grams.only(&places));
     }
 
-    /// The slopes of some candidates in their own shapes and origins.
+    /// The slopes of some candidates in their shapes and origins.
     pub(super) fn slopes(&mut self, now: &Solution, wanted: &[FitTerm]) -> Vec<Vec<Slope>> {
         let mut made: Vec<Vec<Slope>> = Vec::with_capacity(wanted.len());
         let mut anew: Vec<(usize, Own, Range)> = Vec::new();
@@ -197,7 +197,7 @@ impl<'a> Bank<'a> {
         made
     }
 
-    /// The hat functions over each variable that says more than the phase of the motion.
+    /// The hat functions over each variable, except those that only encode the phase of the motion.
     pub(super) fn curves(&mut self, now: &Solution) -> Vec<Curve> {
         let made: Vec<Option<Curve>> = self
             .variables
@@ -223,13 +223,13 @@ impl<'a> Bank<'a> {
     }
 }
 
-/// The free shapes and the origin of a candidate next to a model, with their ranges.
+/// Free shapes and origin of a candidate that is added to a model, with their ranges.
 fn parameters(data: &Prepared, now: &Solution, term: &FitTerm) -> Vec<(Own, Range)> {
     let mut structure = now.structure.clone();
     let last = structure.terms.push(*term);
     let free = structure.free(data).into_iter();
     free.filter_map(|f| match f.role {
-        // A step in time has no slope: the lattice of steps is refined instead.
+        // A step in time has no derivative: the lattice of step times is refined instead.
         Role::Shape { term: of, index } if of == last && !term.is_moment(index) => {
             Some((Own::Shape(index), f.range))
         }
@@ -239,8 +239,8 @@ fn parameters(data: &Prepared, now: &Solution, term: &FitTerm) -> Vec<(Own, Rang
     .collect()
 }
 
-/// Columns of the work grid through the filter, which takes several abreast; `None` where
-/// there is none or where it is not finite.
+/// Filters columns of the work grid, several at once; `None` for a column that is absent or
+/// not finite.
 fn filtered<T: Sync>(
     data: &Prepared,
     wanted: &[T],
@@ -260,7 +260,7 @@ fn filtered<T: Sync>(
     all.into_iter().flatten().collect()
 }
 
-/// A slope before the filter, as a difference quotient.
+/// A slope as a central difference, before the filter.
 fn slope(
     data: &Prepared,
     now: &Solution,
@@ -288,7 +288,7 @@ fn slope(
     Some(up)
 }
 
-/// The strongest line of the residual's spectrum.
+/// A tone at the strongest line of the residual's spectrum.
 fn tone(data: &Prepared, now: &Solution) -> Option<Candidate> {
     if data.pieces.len() > 1 {
         // A tone has no common phase in records that were taken one after the other.
@@ -299,9 +299,9 @@ fn tone(data: &Prepared, now: &Solution) -> Option<Candidate> {
     Some(term.into())
 }
 
-/// Steps in time at the peaks of what a step at each row would take of the residual.
+/// Steps in time at the maxima of the SSE reduction over all rows.
 ///
-/// The column of a step at row `k` is the sum of the unit vectors from `k` on, so its product
+/// The column of a step at row `k` is the sum of the unit vectors from `k` on, so its products
 /// with the residual and with the model's columns are cumulative sums.
 fn steps(data: &Prepared, now: &Solution, tried: &[Candidate]) -> Vec<Candidate> {
     let Some(like) = tried.iter().find(|c| c.family == Family::Pretension) else {

@@ -1,10 +1,10 @@
-//! How many names carry over to data that the fit has not seen, and which come again.
+//! Which names carry over to data that the fit has not seen.
 //!
 //! On measured records the residual is systematic: every part of a record repeats the same
-//! misfit, and no test within the record tells a name that will come again from one that
-//! will not. Two rules help. The round that is delivered is the one whose model errs least
-//! on blocks that were left out of its linear fit ([`delivered`]); and a name is told in how
-//! many of a hundred half-records a search finds it again (`recurrences`).
+//! misfit, so that no test within one record predicts whether a second record shows the same
+//! name. Two rules help. The delivered model is the round with the least error on blocks that
+//! were left out of its linear fit ([`delivered`]). And each name carries the number of
+//! half-records, out of a hundred, in which a search finds it again (`recurrences`).
 
 use super::bank::{on_line, Identity};
 use super::linear::Linear;
@@ -18,12 +18,12 @@ use rand::seq::SliceRandom;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-/// A slope that moves the output by less than this share of the residual is left out.
+/// A slope is left out if its squared norm is below this share of the residual's.
 const MOVES: f64 = 1e-6;
-/// The half-sets are drawn once and for all.
+/// Fixed seed: every record is divided into the same half-sets.
 const SEED: u64 = 1;
 
-/// Complementary halves of the blocks, in pairs: each block is in one of the two.
+/// Random half-sets of the blocks, in complementary pairs.
 fn halves(blocks: usize, count: usize) -> Vec<Vec<usize>> {
     let mut rng = ChaCha8Rng::seed_from_u64(SEED);
     let mut all = Vec::with_capacity(count);
@@ -37,7 +37,7 @@ fn halves(blocks: usize, count: usize) -> Vec<Vec<usize>> {
     all
 }
 
-/// Products of a model's own columns, slopes and residual, for each block.
+/// Products of a model's columns, slopes and residual on each block.
 struct Parts {
     /// The last column is the residual.
     grams: Vec<DMatrix<f64>>,
@@ -83,7 +83,7 @@ impl Parts {
         }
     }
 
-    /// Mean squared error on the other blocks of the linear fit on some.
+    /// Mean squared error on the remaining blocks after a linear fit on `fitted`.
     fn left_out(&self, fitted: &[usize]) -> Option<f64> {
         let m = self.slopes.len();
         let mut sum = DMatrix::zeros(m + 1, m + 1);
@@ -93,7 +93,7 @@ impl Parts {
             count += self.rows[block];
         }
         let mut normal = sum.view((0, 0), (m, m)).into_owned();
-        // A slope's step of one on the line is as likely as the residual is large.
+        // Ridge term of the slopes: a normal prior of unit variance on each step.
         let variance = sum[(m, m)] / f64::max(count, 1.0);
         for (j, _) in self.slopes.iter().enumerate().filter(|(_, is)| **is) {
             normal[(j, j)] += variance;
@@ -110,7 +110,7 @@ impl Parts {
     }
 }
 
-/// Mean ln error on the blocks left out, over [`policy::HALVES`] half-sets.
+/// Mean ln RMSE on the blocks left out, over [`policy::HALVES`] half-sets.
 #[must_use]
 pub fn left_out_error(data: &Prepared, solution: &Solution) -> f64 {
     let parts = Parts::new(data, solution);
@@ -125,7 +125,8 @@ pub fn left_out_error(data: &Prepared, solution: &Solution) -> f64 {
     }
 }
 
-/// Of models with more and more names, the index of the one with the least left-out error.
+/// Index of the model with the least left-out error on a path of models with more and more
+/// names.
 #[must_use]
 pub fn delivered(data: &Prepared, path: &[&Solution]) -> usize {
     use rayon::prelude::*;
@@ -134,8 +135,8 @@ pub fn delivered(data: &Prepared, path: &[&Solution]) -> usize {
     best.map_or(0, |(index, _)| index)
 }
 
-/// In how many of [`policy::RECURRENCES`] half-records each name is found again, by a search
-/// to first order from the declared and from the final model, the mean of both.
+/// Number of half-records, of [`policy::RECURRENCES`], in which each name is found again: the
+/// mean of two forward selections, one linearised at the declared and one at the final model.
 pub(super) fn recurrences(
     names: impl Iterator<Item = Identity>,
     from_declared: &[Vec<Identity>],
@@ -153,7 +154,7 @@ pub(super) fn recurrences(
 }
 
 impl Linear<'_> {
-    /// What a forward selection finds on each half of the blocks.
+    /// Result of a forward selection on each half-set of blocks.
     pub(super) fn found_on_halves(&self) -> Vec<Vec<Identity>> {
         use rayon::prelude::*;
         halves(self.grams.blocks(), policy::RECURRENCES)

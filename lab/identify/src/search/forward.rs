@@ -1,4 +1,4 @@
-//! Names that are added one by one, to first order, while the criterion falls.
+//! Forward selection to first order: names are added one at a time while the criterion falls.
 
 use super::bank::Identity;
 use super::gram::Swept;
@@ -7,13 +7,13 @@ use super::partial::Partial;
 use super::policy;
 
 impl Linear<'_> {
-    /// Names that are added one by one while the criterion falls, from a set on.
+    /// Forward selection from a set, up to `most` names; returns the added groups.
     pub(super) fn greedy(&self, kept: &Kept, added: &[usize], most: usize) -> Vec<usize> {
         let (target, _) = self.target_of(kept);
         self.completed(&self.without(kept), target, added, most)
     }
 
-    /// The same beside what a swept matrix has taken out.
+    /// Forward selection on a matrix from which the columns of a set are already swept.
     pub(super) fn completed(
         &self,
         swept: &Swept,
@@ -43,8 +43,8 @@ impl Linear<'_> {
         all
     }
 
-    /// What a forward selection among the candidates and the model's own names finds on some
-    /// blocks, beside the declared model.
+    /// Forward selection on some blocks, from the declared model, among the candidates and the
+    /// names of the present model.
     pub(super) fn found_on(&self, blocks: &[usize]) -> Vec<Identity> {
         let sought = &self.sought;
         let factors = sought.factors(|freedoms| self.prices.of_name(freedoms));

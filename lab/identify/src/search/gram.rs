@@ -1,10 +1,10 @@
 //! Least squares on Gram matrices, one for each block of the record.
 //!
-//! All columns that could matter, and the target, are multiplied with each other once. Any
-//! question about a subset of columns on a subset of blocks is then dense algebra on a few
-//! hundred numbers: the squared error of a set is a Schur complement, the reduction of it by
-//! one more column is a ratio of two entries of the swept matrix, and a sign-flip p-value
-//! needs the scores of the blocks only (Lehmann and Romano, 2005, section 15.2).
+//! All columns and the target are multiplied with each other once. Any question about a
+//! subset of columns on a subset of blocks is then dense algebra on a few hundred numbers: the
+//! squared error of a set is a Schur complement, its reduction by one more column is a ratio
+//! of entries of the swept matrix, and a sign-flip p-value needs the scores of the blocks only
+//! (Lehmann and Romano, 2005, section 15.2).
 
 use super::policy::EXCITED;
 use crate::algebra::directions;
@@ -13,13 +13,13 @@ use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// A pivot below this share of a column's squared norm: the column depends on the others.
+/// A column whose pivot is below this share of its squared norm depends on the others.
 pub(super) const DEPENDENT: f64 = 1e-9;
-/// The same for a slope beside a column, which only refines it.
+/// The same threshold for a slope, which only refines the column of its effect.
 const SLOPE: f64 = 1e-5;
-/// Groups of so many columns are solved without memory from the heap.
+/// Groups of at most this many columns are solved without a heap allocation.
 const SMALL: usize = 6;
-/// A direction with less than this of its squared norm left has no score of its own.
+/// A direction with a residual share below this of its squared norm has no score.
 const DIRECTION: f64 = 1e-4;
 
 /// Products of all columns with each other: in total and for each block.
@@ -154,7 +154,7 @@ impl Grams {
         self.scale[column].powi(2)
     }
 
-    /// The Gram matrix without what some columns explain, on the whole fit segment.
+    /// The Gram matrix swept by some columns, on the whole fit segment.
     #[must_use]
     pub fn without(&self, columns: &[usize]) -> Swept {
         let mut swept = Swept {
@@ -205,14 +205,14 @@ impl Grams {
     ///
     /// Under the null hypothesis the score vector of each block is as likely of either sign.
     /// The statistic is the squared length of the whitened sum of scores, over all `2^15`
-    /// patterns; 1 where the others leave nothing of the columns.
+    /// patterns. The p-value is 1 if the columns depend on the others.
     #[must_use]
     pub fn p_value(&self, own: &[usize], others: &[usize], target: usize) -> f64 {
         let index: Vec<usize> = [others, own, &[target]].concat();
         let (m, o, d) = (index.len(), others.len(), own.len());
         let mut small = self.compact(&index);
         let used = eliminate(&mut small, m, o);
-        // Each of the columns and the target, less what the others explain of it.
+        // Residuals of the columns and of the target after regression on the others.
         let mut residual = DMatrix::zeros(m, d + 1);
         for c in 0..=d {
             for i in (0..o).filter(|&i| used[i]) {
@@ -232,7 +232,7 @@ impl Grams {
     }
 }
 
-/// Scores along the directions that are left, each of unit variance.
+/// Scores along the independent directions, each of unit variance.
 fn whitened(scores: &[Vec<f64>], inner: DMatrix<f64>) -> Vec<Vec<f64>> {
     let directions = directions(inner, DIRECTION);
     let along = |s: &Vec<f64>, (size, direction): &(f64, DVector<f64>)| -> f64 {
@@ -246,8 +246,8 @@ fn whitened(scores: &[Vec<f64>], inner: DMatrix<f64>) -> Vec<Vec<f64>> {
 }
 
 /// Gauss-Jordan elimination of the first `pivots` rows and columns of a symmetric matrix of
-/// `m` rows: the coefficients of the rest on each, and the Schur complement. Which pivots
-/// were used.
+/// `m` rows: leaves the regression coefficients and the Schur complement in place. Returns
+/// which pivots were used.
 fn eliminate(a: &mut [f64], m: usize, pivots: usize) -> Vec<bool> {
     let mut used = vec![false; pivots];
     let mut row = vec![0.0; m];
@@ -273,7 +273,7 @@ fn eliminate(a: &mut [f64], m: usize, pivots: usize) -> Vec<bool> {
     used
 }
 
-/// A Gram matrix of what some columns leave of all others: their Schur complement.
+/// Gram matrix of the residuals of all columns after regression on some: a Schur complement.
 #[derive(Debug, Clone, Default)]
 pub struct Swept {
     size: usize,
@@ -295,7 +295,7 @@ impl Swept {
         self.entries[i * self.size + j]
     }
 
-    /// Takes more columns into the set.
+    /// Adds columns to the set.
     pub fn sweep(&mut self, columns: &[usize]) {
         let k = self.size;
         let mut row = vec![0.0; k];
@@ -319,14 +319,14 @@ impl Swept {
         }
     }
 
-    /// Whether enough of a column is left to determine its coefficient.
+    /// Whether the residual of a column is large enough to determine its coefficient.
     #[must_use]
     pub fn is_excited(&self, column: usize) -> bool {
         self.at(column, column) > EXCITED
     }
 
-    /// Reduction of the target's squared error by a group of columns together. The first is
-    /// the effect's own; without it the others, its slopes, count for nothing.
+    /// Reduction of the target's squared error by a group of columns jointly; 0 if the first
+    /// one, the effect's own, is not excited, since the others are only its slopes.
     #[must_use]
     pub fn gain(&self, group: &[usize], target: usize) -> f64 {
         match group.first() {
@@ -335,15 +335,15 @@ impl Swept {
         }
     }
 
-    /// The same where no column is above the others, as with a curve's.
+    /// The same for a group of columns of equal rank, such as those of a curve.
     #[must_use]
     pub fn gain_of_any(&self, group: &[usize], target: usize) -> f64 {
         let upper = |i: usize, j: usize| self.at(group[i], group[j]);
         gain(upper, |i| self.at(group[i], target), group.len())
     }
 
-    /// Reduction of the target's squared error by two columns together; `None` where they
-    /// are nearly one.
+    /// Reduction of the target's squared error by two columns jointly; `None` if they are
+    /// nearly collinear.
     #[must_use]
     pub fn gain_of_pair(&self, i: usize, j: usize, target: usize) -> Option<f64> {
         let (a, b, ab) = (self.at(i, i), self.at(j, j), self.at(i, j));

@@ -1,4 +1,4 @@
-//! A model and all that may be added to it, to first order: one Gram matrix.
+//! A model and all candidates to first order: one Gram matrix.
 
 use super::bank::{Bank, Identity, Slope};
 use super::gram::{Grams, Swept};
@@ -14,27 +14,27 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Most degrees of freedom with a quantile of their own.
+/// Maximum number of degrees of freedom with a tabulated quantile.
 const FREEDOMS: usize = 48;
-/// A candidate gets its slopes, and curves are looked at, from this share of the least
-/// reduction on: at a lattice shape a candidate takes 0.4 of what it takes at its own.
+/// Slopes of a candidate, and curves, are computed from this share of the least reduction on:
+/// at a lattice shape a candidate reaches 0.4 of its reduction at the fitted shape.
 const WORTH: f64 = 0.4;
-/// Candidates that get their slopes because they are among so many best pairs.
+/// Number of best pairs whose members may get their slopes.
 const PAIRED: usize = 24;
 
-/// What may be added in one piece.
+/// A candidate that is added as one piece.
 #[derive(Debug, Clone)]
 pub(super) enum Member {
     Name(Candidate),
     Curve(Variable),
 }
 
-/// Columns that come and go together.
+/// Columns that are added and removed together.
 #[derive(Debug, Clone)]
 pub(super) struct Group {
     pub(super) member: Member,
     pub(super) columns: Vec<usize>,
-    /// What `columns[1..]` of a name are slopes in.
+    /// For a name: the slopes in `columns[1..]`.
     pub(super) slopes: Vec<Slope>,
     pub(super) freedoms: usize,
 }
@@ -58,13 +58,13 @@ impl Group {
         }
     }
 
-    /// The same of any shape; two curves are alike over whatever variables.
+    /// Whether both have one identity, whatever their shapes; any two curves are alike.
     pub(super) fn is_like(&self, other: &Self) -> bool {
         self.identity() == other.identity() || (self.is_curve() && other.is_curve())
     }
 }
 
-/// Columns, each of them once.
+/// The columns, without repetition.
 #[derive(Default)]
 pub(super) struct Places {
     pub(super) all: Vec<Arc<Vec<f64>>>,
@@ -79,7 +79,7 @@ impl Places {
         Self { all, known }
     }
 
-    /// The index of a column, which is added where it is new.
+    /// The index of a column, which is added if it is new.
     fn place(&mut self, column: Arc<Vec<f64>>) -> usize {
         let next = self.all.len();
         let place = *self
@@ -93,26 +93,26 @@ impl Places {
     }
 }
 
-/// What is kept of a model: which terms, by index, and whether its curve.
+/// The part of a model that a move keeps.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Kept {
     pub(super) dropped: Vec<usize>,
     pub(super) table: bool,
 }
 
-/// What a set has to pay for its members.
+/// Prices of the members of a set in the criterion.
 pub(super) struct Prices {
     /// Least reduction of ln SSE, by degrees of freedom.
     by_freedoms: Vec<f64>,
-    /// ln of the factor that a curve without a name has to bring.
+    /// Least reduction of ln SSE by an unmodelled curve.
     pub(super) curve: f64,
     /// Level of one sign-flip test.
     pub(super) level: f64,
 }
 
 impl Prices {
-    /// The chi-square quantile over the independent values of the fit segment; without a
-    /// test, over one value every two correlation times.
+    /// The chi-square quantile divided by the number of independent values of the fit segment;
+    /// without a test that number is one value every two correlation times.
     fn new(level: f64, regime: Regime, (band, values): (f64, f64), curve: f64) -> Self {
         let (low, high) = policy::LEAST_UNTESTED;
         let of = |d: usize| {
@@ -143,25 +143,25 @@ impl Prices {
     }
 }
 
-/// One linearisation.
+/// One linearisation of a model.
 pub(super) struct Linear<'a> {
     pub(super) data: &'a Prepared,
-    /// As much of the record as the fit sees: all columns are of this.
+    /// The part of the record that the fit sees; all columns are computed on it.
     pub(super) seen: &'a Prepared,
     /// The model on `seen`.
     pub(super) now: Solution,
     pub(super) declared: usize,
     pub(super) grams: Grams,
-    /// What the declared part leaves.
+    /// The Gram matrix swept by the declared part.
     base: Swept,
-    /// What a forward selection chooses among.
+    /// The candidates of a forward selection.
     pub(super) sought: Sought,
     pub(super) groups: Vec<Group>,
-    /// Groups of one number have the same name, whatever their shapes.
+    /// A number for each group; groups of one name have the same number.
     pub(super) kinds: Vec<usize>,
     pub(super) prices: Prices,
     pub(super) regime: Regime,
-    /// Correlation time of what the best set leaves \[s\].
+    /// Correlation time of the residual of the best set \[s\].
     pub(super) correlation_time: f64,
     /// The declared part: gains and slopes.
     own: Vec<usize>,
@@ -171,7 +171,7 @@ pub(super) struct Linear<'a> {
     /// The column of each free parameter's slope.
     pub(super) free: Vec<usize>,
     target: usize,
-    /// The output as it would be without some stages, to first order.
+    /// Targets of sets without some of the stages, to first order.
     unstaged: Vec<(Vec<usize>, usize)>,
     pub(super) columns: Places,
 }
@@ -239,7 +239,7 @@ impl<'a> Linear<'a> {
         self.grams.extend(&self.columns.all, rows, &blocks);
     }
 
-    /// The model's own names, then the candidates.
+    /// The names of the model, then the candidates.
     fn choices(&self) -> Vec<Choice<'_>> {
         let names = self.declared..self.now.structure.terms.len();
         let own = names.map(|index| Choice {
@@ -259,7 +259,7 @@ impl<'a> Linear<'a> {
         own.chain(groups).collect()
     }
 
-    /// Adds the slopes of what gains anything, and the curves where anything does.
+    /// Adds the slopes of the candidates that reduce the SSE, and the curves if any does.
     fn refine(&mut self, bank: &mut Bank<'a>) {
         let all = self.everything();
         let swept = self.grams.without(&self.columns_of(&all));
@@ -281,7 +281,7 @@ impl<'a> Linear<'a> {
         }
         let any = wanted.iter().any(|w| *w);
         if self.now.structure.terms.len() > self.declared {
-            // A swap needs the candidates that gain nothing beside the present names.
+            // An exchange also needs candidates that gain nothing jointly with the present names.
             wanted.fill(true);
         }
         let chosen: Vec<usize> = (0..wanted.len()).filter(|&g| wanted[g]).collect();
@@ -315,8 +315,8 @@ impl<'a> Linear<'a> {
         self.multiply();
     }
 
-    /// Whether the blocks are long enough for a test, from what the best set of names leaves:
-    /// a model that lacks much leaves a long correlation, which is no lack of blocks.
+    /// Decides whether the blocks are long enough for a test, from the residual of the best set
+    /// of names: the residual of an incomplete model is correlated for longer than the noise.
     fn judge_blocks(&mut self, level: f64, (band, curve): (f64, f64)) {
         let all = self.everything();
         let mut columns = self.columns_of(&all);
@@ -343,7 +343,7 @@ impl<'a> Linear<'a> {
         self.prices = Prices::new(level, self.regime, (band, values), curve);
     }
 
-    /// The whole of the present model.
+    /// The whole present model.
     pub(super) fn everything(&self) -> Kept {
         Kept {
             dropped: Vec::new(),
@@ -369,7 +369,7 @@ impl<'a> Linear<'a> {
         columns
     }
 
-    /// The Gram matrix without what the kept columns explain.
+    /// The Gram matrix swept by the kept columns.
     pub(super) fn without(&self, kept: &Kept) -> Swept {
         let mut swept = self.base.clone();
         swept.sweep(&self.columns_of(kept)[self.own.len()..]);
@@ -397,7 +397,7 @@ impl<'a> Linear<'a> {
         self.grams.unit(self.target)
     }
 
-    /// What the kept names and the kept curve pay.
+    /// Total price of the kept names and the kept curve.
     pub(super) fn price_of(&self, kept: &Kept) -> f64 {
         let names = self.terms.iter().enumerate().skip(self.declared);
         let names: f64 = names
@@ -410,7 +410,7 @@ impl<'a> Linear<'a> {
         }
     }
 
-    /// What a group pays; a curve pays for the hats that it has at least once it is refitted.
+    /// Price of a group; that of a curve is for the smallest number of hats that a refit tries.
     pub(super) fn price(&self, group: usize) -> f64 {
         let own = &self.groups[group];
         match own.is_curve() {
@@ -419,7 +419,7 @@ impl<'a> Linear<'a> {
         }
     }
 
-    /// The members of a set: terms that are kept, the curve, and what is added.
+    /// The members of a set: the kept terms, the kept curve and the added groups.
     pub(super) fn identities(&self, kept: &Kept, added: &[usize]) -> Vec<Identity> {
         let terms = self.now.structure.terms.iter().enumerate();
         let mut all: Vec<Identity> = terms
@@ -434,7 +434,7 @@ impl<'a> Linear<'a> {
         all
     }
 
-    /// All pairs of candidates with what the two values take together.
+    /// All pairs of candidates with their joint gain, without slopes.
     pub(super) fn pairs(&self, swept: &Swept, target: usize) -> Vec<(f64, usize, usize)> {
         let usable: Vec<usize> = (0..self.groups.len())
             .filter(|&g| !self.groups[g].is_curve())
@@ -453,7 +453,7 @@ impl<'a> Linear<'a> {
     }
 }
 
-/// A number for each group, the same for those that are alike.
+/// A number for each group, the same for groups that are alike.
 fn kinds(groups: &[Group]) -> Vec<usize> {
     let mut first: Vec<&Group> = Vec::new();
     let mut number = |group| {

@@ -1,14 +1,15 @@
 //! Which effects are missing: one search over sets of effects.
 //!
-//! Everything that may be missing is a column, computed and filtered once (`bank`). The
-//! columns' products, one matrix for each of sixteen blocks (`gram`), answer every question
-//! but one without touching a sample again: the error of a set, what each effect and each
-//! pair would add to it, the exact sign-flip p-value of a member (`linear`, `moves`).
-//! A forward selection keeps up to date only what it asks for (`partial`, `sought`, `forward`).
-//! The one question that is left, the error with all shapes refitted, is asked of the three
-//! best moves of a round only (`refit`). What is accepted is linearised again (`run`),
-//! until no move lowers the criterion. Rounds, rivals and the curve of what has no name are
-//! read off the set that remains (`readoff`).
+//! Every candidate is a column, computed and filtered once (`bank`). The products of the
+//! columns, one matrix for each of sixteen blocks (`gram`), answer all questions but one
+//! without another pass over the samples: the squared error of a set, its reduction by each
+//! effect and each pair, the exact sign-flip p-value of a member (`linear`, `moves`). A
+//! forward selection updates only the entries that it reads (`partial`, `sought`, `forward`).
+//! The remaining question, the error with all shapes refitted, is asked for the three best
+//! moves of a round only (`refit`). `run` accepts or rejects the refitted move, linearises the
+//! accepted model again, and stops when no move lowers the criterion. `readoff` reads rounds,
+//! rivals and the unmodelled curve off the final set; `carries_over` decides how many names
+//! are delivered. Every threshold is in `policy`.
 
 mod bank;
 pub mod carries_over;
@@ -37,7 +38,7 @@ use refit::on;
 use run::Search;
 use std::time::Instant;
 
-/// Finds what a declared model lacks. `progress` is told what is being done.
+/// Finds the effects that a declared model lacks. `progress` receives one message a step.
 ///
 /// # Errors
 /// One sentence where the declared model cannot be fitted at all.
@@ -49,14 +50,14 @@ pub fn close(
     close_within(data, structure, MOST_NAMES, progress)
 }
 
-/// When a search ends although it might find more.
+/// Limits that end a search although more effects may be missing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
-    /// Most effects that are added, [`MOST_NAMES`] at most. With 0 the declared model is fitted
-    /// and nothing is looked for, no curve without a name either.
+    /// Maximum number of effects that are added, itself at most [`MOST_NAMES`]. With 0 the
+    /// declared model is fitted, and neither an effect nor an unmodelled curve is sought.
     pub names: usize,
-    /// After this time \[s\] no further model is tried. The answer then depends on how fast the
-    /// machine is.
+    /// Time \[s\] after which no further model is tried. The result then depends on the speed of
+    /// the machine.
     pub seconds: Option<f64>,
 }
 
@@ -107,7 +108,7 @@ pub fn close_within(
     Ok(ledger)
 }
 
-/// Whether the residual has blocks enough for a test, and its correlation time \[s\].
+/// Whether the blocks are long enough to test the residual, and its correlation time \[s\].
 fn independence(data: &Prepared, solution: &Solution) -> (Regime, f64) {
     let rows = data.split.fit.iter();
     let rest: Vec<f64> = rows.map(|&i| solution.residual[i]).collect();
@@ -115,9 +116,10 @@ fn independence(data: &Prepared, solution: &Solution) -> (Regime, f64) {
     (regime, samples * data.dt * data.stride as f64)
 }
 
-/// Whether the record has blocks enough to test what a model lacks, and the level of one test.
+/// Whether the blocks of the record are long enough for the tests of a search from this model,
+/// and the level of one test.
 ///
-/// No test where the model cannot be evaluated.
+/// [`Regime::Effect`] if the model cannot be evaluated.
 pub(crate) fn tests(data: &Prepared, solution: &Solution) -> (Regime, f64) {
     let declared = solution.structure.terms.len();
     let fine = data.for_search(false);

@@ -1,71 +1,71 @@
-//! The moves from one set to another, and what each promises.
+//! Moves from one set of effects to another, and the criterion that each promises.
 //!
-//! A move takes up to two names out, keeps or drops the curve, and puts up to two names in,
-//! or a curve, or as many names as the Gram matrix asks for. Pairs in one move are what lets
-//! two effects in that explain nothing one at a time. The criterion of all is the same:
+//! A move removes up to two names, keeps or removes the curve, and adds up to two names, or a
+//! curve, or a set of names completed by forward selection. Moves of pairs find two effects
+//! of which neither alone explains anything. All moves are compared by one criterion,
 //! `J = ln SSE + sum of prices` (see `Prices`).
 
 use super::bank::Identity;
 use super::gram::Swept;
 use super::linear::{Kept, Linear, Member};
 use super::policy;
-use crate::ledger::{Gate, Rejection};
+use crate::ledger::{reject, Gate, Rejection};
 use crate::model::catalogue::Candidate;
 use crate::model::Variable;
 use crate::score::blocks::Regime;
 
-/// Pairs of names whose slopes are looked at, of each set that is kept.
+/// Pairs of names that are evaluated with their slopes, for each kept set.
 const PAIRS: usize = 10;
-/// Moves that are looked at, of each set that is kept.
+/// Maximum number of moves from each kept set.
 const MOVES: usize = 40;
-/// Moves whose sign flips are counted in one round.
+/// Maximum number of moves whose sign-flip p-values are computed in one round.
 const TESTED: usize = 60;
-/// From so many on, another shape of names that failed is not tested again.
+/// After this many tests in a round, a set that fails is not tested again at other shapes.
 const OTHER_SHAPES: usize = 40;
-/// Moves per kept set that are completed by more names.
+/// Moves from each kept set that a forward selection completes.
 const COMPLETED: usize = 3;
 
-/// A move, with its promise.
+/// A move and its first-order criterion.
 #[derive(Debug, Clone)]
 pub(super) struct Move {
     pub(super) kept: Kept,
-    /// Groups that come in.
+    /// Groups that are added.
     pub(super) added: Vec<usize>,
     /// The criterion, to first order.
     pub(super) promise: f64,
-    /// The sign-flip p-value of each that comes in, given all others.
+    /// Sign-flip p-value of each added group, given all other members.
     pub(super) p: Vec<f64>,
 }
 
-/// What a round of moves gave.
+/// Result of one round of moves.
 pub(super) struct Proposed {
-    /// Those that pass the test, the best promise first.
+    /// Moves that pass the test, by ascending promised criterion.
     pub(super) moves: Vec<Move>,
-    /// Names that fail it.
+    /// Names that fail the test.
     pub(super) rejected: Vec<Rejection>,
-    /// Whether a move was left out only because it has more names than were asked for.
+    /// Whether a move was discarded only because it exceeds the requested number of names.
     pub(super) is_cut: bool,
 }
 
-/// What a search looks for, one after the other.
+/// Phases of a search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Phase {
     /// Any move that promises a lower criterion.
     Any,
-    /// Fewer names, whatever they promise: a name at a trial shape is a poor stand-in for what
-    /// it is once it is refitted, and two that are bent together may stand where one belongs.
+    /// Moves to fewer names, whatever they promise: the promise at a trial shape is poor before
+    /// a refit, and two names with bent shapes may imitate a single other one.
     Fewer,
-    /// Once names have come to an end, a curve at a lower price.
+    /// A curve at a lower price, once no further name is found.
     Curves,
 }
 
-/// Which moves are wanted.
+/// Which moves a round may propose.
 pub(super) struct Wanted<'a> {
-    /// Sets that were refitted before.
+    /// Sets that have already been refitted.
     pub(super) visited: &'a [Vec<Identity>],
-    /// Which kind of move is looked for.
+    /// Phase of the search.
     pub(super) phase: Phase,
-    /// Most names.
+    /// Maximum number of names.
     pub(super) most: usize,
     /// The criterion of the present model.
     pub(super) below: f64,
@@ -78,7 +78,7 @@ pub(super) fn is_same(a: &[Identity], b: &[Identity]) -> bool {
 }
 
 impl Linear<'_> {
-    /// The moves worth a refit.
+    /// The moves that are worth a refit.
     pub(super) fn propose(&self, wanted: &Wanted) -> Proposed {
         use rayon::prelude::*;
         let all: Vec<Vec<Move>> = self
@@ -124,8 +124,8 @@ impl Linear<'_> {
         }
     }
 
-    /// Three and more names over one variable: together they imitate any curve over it, so they
-    /// are compared with one.
+    /// Sets of three or more names over one variable. Together they imitate any curve over it,
+    /// so a move that replaces all of them by one curve is tried.
     fn crowds(&self) -> Vec<Vec<usize>> {
         let names = || self.declared..self.now.structure.terms.len();
         let over = |index: usize, variable: Variable| {
@@ -183,7 +183,7 @@ impl Linear<'_> {
         moves
     }
 
-    /// The best pairs, with their slopes; each two names once.
+    /// The best pairs of names, each pair at its best shapes, evaluated with slopes.
     fn best_pairs(&self, swept: &Swept, target: usize) -> Vec<(f64, usize, usize)> {
         let of = &self.kinds;
         let kinds = of.iter().max().map_or(0, |last| last + 1);
@@ -206,8 +206,8 @@ impl Linear<'_> {
         taken.into_iter().map(slopes).collect()
     }
 
-    /// Names may each be poor, by twos poor as well, and together explain what one curve
-    /// does: so the best sets of names are completed before a curve is compared with them.
+    /// Several names may explain a curve together although no one or two of them do. The best
+    /// moves are therefore completed by forward selection before a curve competes with them.
     fn add_completed(
         &self,
         (kept, swept): (&Kept, &Swept),
@@ -238,7 +238,7 @@ impl Linear<'_> {
         }
     }
 
-    /// Counts the sign flips of the best moves, each set of members once.
+    /// Tests the best moves by sign flips, each set of members once.
     fn tested(&self, all: Vec<Move>, wanted: &Wanted) -> Proposed {
         let mut seen: Vec<Vec<Identity>> = wanted.visited.to_vec();
         let mut proposed = Proposed {
@@ -254,7 +254,7 @@ impl Linear<'_> {
                 .filter(|m| matches!(m, Identity::Name(..)))
                 .count();
             let has_curve = one.added.iter().any(|&g| self.groups[g].is_curve());
-            // A curve would stand for the names that nobody asked for.
+            // A curve would imitate the names beyond the requested number.
             let is_full = wanted.most < policy::MOST_NAMES && names >= wanted.most + self.declared;
             if has_curve && is_full {
                 proposed.is_cut = true;
@@ -278,8 +278,8 @@ impl Linear<'_> {
                 break;
             }
             one.p = self.p_values(&one);
-            // Where the blocks are too short for a test, names go by size; a curve, which
-            // bends to anything, has to pass it all the same.
+            // Names need no test if the blocks are too short for one; a curve, which fits
+            // anything, always has to pass.
             let asked = |g: usize| self.regime == Regime::Blocks || self.groups[g].is_curve();
             let fails = |(&g, &p): (&usize, &f64)| asked(g) && p > self.prices.level;
             let failed = one.added.iter().zip(&one.p).position(fails);
@@ -287,7 +287,10 @@ impl Linear<'_> {
                 if tested > OTHER_SHAPES {
                     seen.push(members);
                 }
-                proposed.reject(self.groups[one.added[worst]].candidate(), one.p[worst]);
+                let candidate = self.groups[one.added[worst]].candidate();
+                let (gate, p) = (Gate::P, Some(one.p[worst]));
+                let failed = candidate.map(|candidate| Rejection { candidate, gate, p });
+                reject(&mut proposed.rejected, failed);
                 continue;
             }
             seen.push(members);
@@ -301,15 +304,15 @@ impl Linear<'_> {
         proposed
     }
 
-    /// Whether all that comes in is one stage. A stage bends every column, so its promise is the
-    /// poorest of all: the best one is refitted whatever else promises more.
+    /// Whether the move adds one stage and nothing else. A stage acts on every column, so its
+    /// first-order promise is the least accurate: the best stage is always refitted.
     pub(super) fn is_one_stage(&self, one: &Move) -> bool {
         let [only] = one.added[..] else { return false };
         let effect = self.groups[only].candidate().map(|c| c.term.effect);
         effect.is_some_and(|e| e.is_input_stage() || e.is_output_stage())
     }
 
-    /// Whether fewer names are left, and the curve as it is.
+    /// Whether the move reduces the number of names and leaves the curve as it is.
     pub(super) fn takes_names_out(&self, one: &Move) -> bool {
         let curves = one.added.iter().filter(|&&g| self.groups[g].is_curve());
         one.added.len() < one.kept.dropped.len()
@@ -329,22 +332,5 @@ impl Linear<'_> {
             self.grams.p_value(own, &others, target)
         };
         (0..one.added.len()).map(of).collect()
-    }
-}
-
-impl Proposed {
-    fn reject(&mut self, candidate: Option<Candidate>, p: f64) {
-        let Some(candidate) = candidate else { return };
-        if self
-            .rejected
-            .iter()
-            .all(|r| !r.candidate.is_like(&candidate))
-        {
-            self.rejected.push(Rejection {
-                candidate,
-                gate: Gate::P,
-                p: Some(p),
-            });
-        }
     }
 }

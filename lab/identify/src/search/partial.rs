@@ -1,14 +1,14 @@
-//! Forward selection asks a Gram matrix for few of its entries, so only those are kept.
+//! The few entries of a Gram matrix that a forward selection reads.
 //!
-//! A step of it needs the products within each group of columns and with the target: two
-//! thousand of a few hundred thousand. They are brought up to date as columns come in; of
-//! the rest, a row is computed when its column does.
+//! One step needs the products within each group of columns and those with the target: about
+//! two thousand of several hundred thousand entries. Only these are updated when a column is
+//! added; the row of a column is computed when that column is added.
 
 use super::gram::{gain, Grams, Swept, DEPENDENT};
 use super::policy::EXCITED;
 use std::ops::Range;
 
-/// The entries that a selection among some groups of columns asks for.
+/// Positions of the entries that a selection among groups of columns reads.
 #[derive(Debug, Clone, Default)]
 pub struct Entries {
     /// The columns of all groups, one after the other.
@@ -21,8 +21,8 @@ pub struct Entries {
 }
 
 impl Entries {
-    /// The entries of groups of columns; the first of a group is its own, the others are its
-    /// slopes.
+    /// Entries for some groups of columns. The first column of a group is the effect's own, the
+    /// others are its slopes.
     #[must_use]
     pub fn of<'a>(groups: impl IntoIterator<Item = &'a [usize]>) -> Self {
         let mut entries = Self::default();
@@ -45,15 +45,15 @@ impl Entries {
     }
 }
 
-/// Where entries come from.
+/// Source of the entries.
 enum Source<'a> {
     /// Some blocks, scaled up to the whole record.
     Blocks(&'a Grams, &'a [usize], f64),
-    /// What a set leaves on the whole fit segment.
+    /// A matrix swept by a set, on the whole fit segment.
     Swept(&'a Swept),
 }
 
-/// What a growing set of columns leaves of some groups of columns and of a target.
+/// Residual products of groups of columns and a target, given a growing set of columns.
 pub struct Partial<'a> {
     source: Source<'a>,
     entries: &'a Entries,
@@ -61,8 +61,8 @@ pub struct Partial<'a> {
     inner: Vec<f64>,
     with_target: Vec<f64>,
     rest: f64,
-    /// For each column of the set its products with what those before it leave of all
-    /// columns, over the root of its own.
+    /// One row for each column of the set: its residual products with all columns, given the
+    /// set before it, divided by its own residual norm.
     swept: Vec<Vec<f64>>,
 }
 
@@ -79,7 +79,7 @@ impl<'a> Partial<'a> {
         Self::new(Source::Blocks(grams, blocks, factor), entries, target)
     }
 
-    /// From what a set leaves on.
+    /// On a matrix that is swept by a set already.
     #[must_use]
     pub fn beside(swept: &'a Swept, entries: &'a Entries, target: usize) -> Self {
         Self::new(Source::Swept(swept), entries, target)
@@ -108,7 +108,7 @@ impl<'a> Partial<'a> {
         self.rest
     }
 
-    /// Takes more columns into the set.
+    /// Adds columns to the set.
     pub fn sweep(&mut self, columns: &[usize]) {
         for &s in columns {
             let mut row = self.source.row(s);

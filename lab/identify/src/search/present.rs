@@ -1,4 +1,4 @@
-//! The columns of the present model, and its output without its stages.
+//! Columns of the present model, and the target of each set without some of its stages.
 
 use super::bank::on_line;
 use crate::fit::Solution;
@@ -6,7 +6,7 @@ use crate::model::structure::Role;
 use crate::problem::Prepared;
 use std::sync::Arc;
 
-/// Columns of the present model, sorted by what they belong to.
+/// Columns of the present model, by the part of the model that they belong to.
 pub(super) struct Present {
     pub(super) columns: Vec<Arc<Vec<f64>>>,
     pub(super) own: Vec<usize>,
@@ -18,7 +18,7 @@ pub(super) struct Present {
 }
 
 impl Present {
-    /// The model's columns after those that are there.
+    /// Appends the model's columns to those of the bank.
     pub(super) fn new(mut columns: Vec<Arc<Vec<f64>>>, data: &Prepared, now: &Solution) -> Self {
         let first = columns.len();
         columns.extend(now.columns.iter().cloned().map(Arc::new));
@@ -60,8 +60,8 @@ impl Present {
         present
     }
 
-    /// A stage acts on all columns, so that no column is the stage's own: a set without it
-    /// has another target instead, the output plus the stage's value times its slope.
+    /// A stage acts on all columns, so it has no column of its own. A set without the stage has
+    /// another target instead: the output plus the stage's value times its slope.
     fn unstage(&mut self, data: &Prepared, now: &Solution) {
         let effect = |of: &Vec<f64>, i: usize| -> Vec<f64> {
             let pairs = of.iter().zip(&now.tangents[i]);

@@ -1,4 +1,4 @@
-//! From the set that a search ended with to a ledger: rounds, rivals, the curve.
+//! From the final set of a search to the ledger: rounds, rivals, the unmodelled curve.
 
 use super::bank::Identity;
 use super::carries_over::{delivered, recurrences};
@@ -11,8 +11,7 @@ use crate::fit::projection::Span;
 use crate::fit::search::descend;
 use crate::fit::settle::settle;
 use crate::fit::Solution;
-use crate::ledger::Unknown;
-use crate::ledger::{Grade, Ledger, Round};
+use crate::ledger::{reject, Grade, Ledger, Round, Unknown};
 use crate::model::catalogue::Candidate;
 use crate::model::structure::{Free, Structure};
 use crate::problem::Prepared;
@@ -20,15 +19,15 @@ use crate::score::blocks::Regime;
 use crate::score::left_out::on_blocks;
 use std::sync::Arc;
 
-/// Rivals of one name that are refitted at most.
+/// Maximum number of rivals of one name that are refitted.
 const RIVALS: usize = 8;
-/// A candidate is refitted as a rival from this part of the rule on, to first order.
+/// A candidate is refitted if it reaches this share of the rule for rivals to first order.
 const NEARLY: f64 = 0.95;
-/// Starts of a rival's refit: its trial shapes and the linear step.
+/// Starts of the refit of a rival: its trial shapes and the linear step.
 const STARTS: usize = 2;
 
 impl Search<'_> {
-    /// The ledger of what was found.
+    /// The ledger of the search.
     pub(super) fn ledger(mut self) -> Option<Ledger> {
         let standing = self.last()?;
         let rivals = self.rivals(&standing);
@@ -47,15 +46,7 @@ impl Search<'_> {
         self.rejected
             .retain(|r| !superseded.iter().any(|s| s.candidate.is_like(&r.candidate)));
         ledger.rejected = std::mem::take(&mut self.rejected);
-        for one in superseded {
-            if !ledger
-                .rejected
-                .iter()
-                .any(|r| r.candidate.is_like(&one.candidate))
-            {
-                ledger.rejected.push(one);
-            }
-        }
+        reject(&mut ledger.rejected, superseded);
         let mut before = Arc::clone(&self.declared);
         for (index, (solution, (rivals, recurs))) in path.iter().zip(weighed).enumerate() {
             let term = self.now.structure.terms[own + index];
@@ -104,7 +95,7 @@ impl Search<'_> {
         })
     }
 
-    /// The models with the first name, the first two, …
+    /// The model with the first name, with the first two, and so on.
     fn path(&self) -> Option<Vec<Arc<Solution>>> {
         let terms = &self.now.structure.terms;
         let own = self.declared.structure.terms.len();
@@ -115,10 +106,10 @@ impl Search<'_> {
                 let order = order_of(s, &wanted).filter(|_| s.structure.table.is_none())?;
                 arranged(self.data, s, &order)
             };
-            // The last search of a set is the best one.
+            // Of several fits of one set the last one is the best.
             let solution = match self.reached.iter().rev().find_map(known) {
                 Some(mut known) => {
-                    // A name that went out and came back has another identity in an earlier model.
+                    // A name that was removed and added again has another id in an earlier model.
                     let own = &mut known.structure.terms;
                     own.recognise(&mut known.free, terms);
                     known
@@ -130,7 +121,7 @@ impl Search<'_> {
         Some(path)
     }
 
-    /// The final model with its first terms only.
+    /// The final model reduced to its first terms, refitted.
     fn shortened(&self, terms: usize, last: &Solution) -> Option<Solution> {
         let mut structure: Structure = self.now.structure.clone();
         structure.terms.truncate(terms);
@@ -155,7 +146,7 @@ impl Search<'_> {
         settle(self.data, &structure, &free, values)
     }
 
-    /// For each name, what does as well in its place once it is refitted.
+    /// For each name, the candidates that do as well in its place once refitted.
     fn rivals(&self, standing: &Standing) -> Vec<Vec<Candidate>> {
         let own = self.declared.structure.terms.len();
         let linear = &standing.linear;
@@ -167,7 +158,7 @@ impl Search<'_> {
         let context = Context {
             linear,
             full,
-            // Real errors on the coarse grid over those to first order.
+            // Refitted squared errors on the coarse grid over those to first order.
             scale: standing.sse / full,
             moved: &standing.moved,
         };
@@ -219,7 +210,7 @@ impl Search<'_> {
     }
 }
 
-/// The terms of a solution by index, in a wanted order; `None` where it has others.
+/// Indices of the terms of a solution in the wanted order; `None` if the sets differ.
 fn order_of(solution: &Solution, wanted: &[Identity]) -> Option<Vec<usize>> {
     let terms = &solution.structure.terms;
     let mut order: Vec<usize> = Vec::new();
@@ -244,8 +235,8 @@ fn arranged(data: &Prepared, solution: &Solution, order: &[usize]) -> Option<Sol
 }
 
 impl Linear<'_> {
-    /// The terms by what they explain: the declared ones, then the name that alone leaves
-    /// least, the one that leaves least beside it, and so on.
+    /// Order of the terms: the declared ones, then at each step the name that leaves the least
+    /// squared error jointly with those before it.
     fn by_weight(&self) -> Vec<usize> {
         let all = self.now.structure.terms.len();
         let mut order: Vec<usize> = (0..self.declared).collect();
@@ -268,7 +259,7 @@ impl Linear<'_> {
     }
 }
 
-/// How far a name can be trusted.
+/// Grade of a name from its recurrence and its rivals.
 fn grade(recurs: usize, rivals: &[Candidate]) -> Grade {
     match 2 * recurs >= policy::RECURRENCES && rivals.is_empty() {
         true => Grade::Firm,
@@ -276,9 +267,9 @@ fn grade(recurs: usize, rivals: &[Candidate]) -> Grade {
     }
 }
 
-/// Leaves the rounds in the model that err least on blocks left out, and moves the others
-/// beyond them. Beside a curve all stay: the names were fitted beside it and say little without
-/// it, and half a record may not reach all of its hats.
+/// Keeps the rounds up to the one with the least left-out error, and moves the later ones to
+/// `beyond`. With a curve all rounds stay: the names were fitted jointly with it, and half a
+/// record may not cover all of its hat functions.
 fn deliver(data: &Prepared, ledger: &mut Ledger) {
     if ledger.unknown.is_some() {
         return;
@@ -300,8 +291,9 @@ struct Context<'a, 'b> {
 }
 
 impl Context<'_, '_> {
-    /// Candidates of another family or channel that to first order nearly meet the rule, or
-    /// met it when the name came in; the best of each identity. And the error without the name.
+    /// Candidates of another family or channel that to first order nearly meet the rule for
+    /// rivals, or met it when the name was added, the best of each identity; and the squared
+    /// error without the name.
     fn close(
         &self,
         kept: &Kept,
@@ -321,7 +313,7 @@ impl Context<'_, '_> {
                 continue;
             }
             let gain = unit * swept.gain(&group.columns, target);
-            // What it leaves at a trial shape says little of what it leaves at its own.
+            // The gain at a trial shape predicts the gain at the fitted shape only roughly.
             let nearly = gain >= NEARLY * policy::RIVAL_SHARE * (sse - self.full);
             let was = known.is_some_and(|e| e.siblings.iter().any(|s| s.is_like(&candidate)));
             if !nearly && !was {

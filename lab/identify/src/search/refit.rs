@@ -1,4 +1,4 @@
-//! The real error of a move: shapes searched from where the Gram matrix points.
+//! The squared error of a move with all shapes refitted, started from its linear prediction.
 
 use super::bank::{on_line, Own};
 use super::linear::{Kept, Linear, Member};
@@ -14,12 +14,13 @@ use crate::model::Variable;
 use crate::problem::Prepared;
 use crate::score::hats::{score, Scored};
 
-/// Hats of a refitted curve that are tried, and the evaluations of a rough and a fair search.
+/// Numbers of hat functions that are tried for a refitted curve.
 const HATS: [usize; 3] = [10, 20, 40];
+/// Evaluations and tolerance of a rough and of a fair search.
 pub(super) const ROUGH: (usize, f64) = (10, 1e-3);
 pub(super) const FAIR: (usize, f64) = (40, 1e-5);
-/// The hysteresis may have bent to stand in for what is missing: two starts away from it,
-/// in units of one over the input's reach for rho.
+/// Two further starts (rho in units of 1/reach of the input, sigma, n): the present hysteresis
+/// may have adapted to the missing effect.
 const HYSTERESES: [(f64, f64, f64); 2] = [(3.0, 0.6, 2.0), (25.0, 0.8, 1.5)];
 
 /// A move that was refitted on the coarse grid.
@@ -32,17 +33,17 @@ pub(super) struct Tried {
     pub(super) sse: f64,
 }
 
-/// What a search has reached: the squared error and the criterion.
+/// Squared error and criterion that a search has reached.
 pub(super) struct Priced {
     pub(super) sse: f64,
     pub(super) j: f64,
 }
 
 impl Tried {
-    /// Crowds after curves, curves after names, then the simplicity of all effects together.
+    /// Order of preference: names before curves, curves before crowds; then the simpler effects.
     pub(super) fn rank(&self) -> (bool, bool, usize) {
         let terms = &self.structure.terms;
-        // Each effect counts as much as the least simple one, so that fewer come first.
+        // The constant exceeds every rank, so that a smaller number of effects comes first.
         let sum = terms.iter().map(|t| simplicity(&t.effect).0 + 30).sum();
         let came_in = &terms[terms.len().saturating_sub(self.made.added.len())..];
         let has_curve = self.structure.table.is_some();
@@ -50,7 +51,7 @@ impl Tried {
     }
 }
 
-/// Whether three or more effects read one variable: so many names imitate any curve over it.
+/// Whether three or more effects read one variable: together they imitate any curve over it.
 fn is_crowd(terms: &[FitTerm]) -> bool {
     let read: Vec<Vec<Variable>> = terms
         .iter()
@@ -63,15 +64,15 @@ fn is_crowd(terms: &[FitTerm]) -> bool {
 /// The structure of a move and the starts of its search.
 struct Plan {
     structure: Structure,
-    /// The terms that come in, each with its group.
+    /// The added terms, each with its group.
     added: Vec<(TermId, usize)>,
-    /// Price of a curve that comes in.
+    /// Price of an added curve.
     curve: f64,
 }
 
 impl Linear<'_> {
-    /// Searches the shapes of a move on the coarse grid, from at most so many starts; `None`
-    /// where a rough search ends at a squared error from which nobody wants to go on.
+    /// Searches the shapes of a move on the coarse grid from at most `most` starts. `None` if no
+    /// start can be evaluated, or if the best rough search does not satisfy `wanted`.
     pub(super) fn refit(
         &self,
         (coarse, moved): (&Prepared, &Span),
@@ -150,7 +151,7 @@ impl Linear<'_> {
         })
     }
 
-    /// The curve beside what is kept, free to do what the names did that go out for it.
+    /// The curve that replaces the dropped names, fitted jointly with the kept columns.
     fn curve_instead(&self, kept: &Kept, variable: Variable) -> Option<(Scored, f64)> {
         let columns = self.columns_of(kept);
         let moved = Span::of(self.seen, columns.iter().map(|&c| &*self.columns.all[c]));
@@ -161,7 +162,7 @@ impl Linear<'_> {
         self.curve(&moved, &without, variable)
     }
 
-    /// The curve with the number of hats that promises most.
+    /// The curve with the number of hat functions that has the lowest criterion.
     fn curve(&self, moved: &Span, now: &Solution, variable: Variable) -> Option<(Scored, f64)> {
         let made = HATS.into_iter().filter_map(|count| {
             let scored = score(self.seen, now, moved, variable, count)?;
@@ -172,7 +173,7 @@ impl Linear<'_> {
         Some((best.1, best.2))
     }
 
-    /// The trial shapes, the linear step from them, and two other hystereses.
+    /// Starts: the trial shapes, the linear step from them, and two other hystereses.
     fn starts(&self, plan: &Plan, one: &Move, free: &[Free]) -> Vec<Vec<f64>> {
         let mut columns = self.columns_of(&one.kept);
         for &g in &one.added {
@@ -207,7 +208,7 @@ impl Linear<'_> {
         starts
     }
 
-    /// A parameter's value and its linear step on the line.
+    /// Value of a parameter, and its linear step on the unbounded scale of its range.
     fn known(&self, plan: &Plan, role: Role, gain: &dyn Fn(usize) -> f64) -> (f64, f64) {
         let present = |role: Role| {
             let i = self.now.free.iter().position(|f| f.role == role)?;
@@ -232,7 +233,7 @@ impl Linear<'_> {
     }
 }
 
-/// The same values with each of the other hystereses.
+/// The given values with each of [`HYSTERESES`] in place of their own.
 pub(super) fn other_hystereses<'a>(
     data: &'a Prepared,
     free: &'a [Free],
@@ -250,7 +251,7 @@ pub(super) fn other_hystereses<'a>(
     })
 }
 
-/// Where a parameter of a new term starts.
+/// Start of a parameter of an added term.
 fn start_of(term: &FitTerm, role: Role, gain: f64) -> f64 {
     match role {
         Role::Shape { index, .. } => term.effect.shape(index).unwrap_or(0.0),
@@ -260,14 +261,14 @@ fn start_of(term: &FitTerm, role: Role, gain: f64) -> f64 {
     }
 }
 
-/// The squared error of the present model on the coarse grid.
+/// Squared error of the present model on the coarse grid.
 pub(super) fn present(data: &Prepared, coarse: &Prepared, now: &Solution) -> f64 {
     let free = now.structure.free(data);
     let reached = descend(coarse, &now.structure, &free, &now.values, 10, 1e-4);
     reached.map_or(f64::INFINITY, |(sse, _)| sse)
 }
 
-/// The present model on as much of the record as the fit sees.
+/// The present model, evaluated on the rows that the fit sees.
 pub(super) fn on(seen: &Prepared, data: &Prepared, now: &Solution) -> Option<Solution> {
     let free = now.structure.free(data);
     settle(seen, &now.structure, &free, now.values.clone())

@@ -1,4 +1,4 @@
-//! The search: from one model to the next until no move lowers the criterion.
+//! The search loop: propose moves, refit the best ones, accept one, linearise again.
 
 use super::bank::{Bank, Identity};
 use super::linear::{Linear, Member};
@@ -9,7 +9,7 @@ use crate::fit::projection::Span;
 use crate::fit::search::descend;
 use crate::fit::settle::settle;
 use crate::fit::{fit, Solution};
-use crate::ledger::{Gate, Rejection};
+use crate::ledger::{reject, Gate, Rejection};
 use crate::model::catalogue::Candidate;
 use crate::problem::Prepared;
 use crate::score::blocks::Regime;
@@ -17,23 +17,23 @@ use crate::score::left_out::on_blocks;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// A criterion that falls by less has not fallen.
+/// Least decrease of the criterion that counts.
 const FALLEN: f64 = 1e-3;
-/// Models in a row, so that the search ends in any case.
+/// Maximum number of turns: the search ends in any case.
 const TURNS: usize = 40;
-/// Starts of a real refit: the trial shapes, the linear step, and two other hystereses. Where
-/// the last two are left out beside names, a damper's record ends with six names instead of
-/// four, and with 7.4 % held out instead of 6.1 %.
+/// Starts of a refit: the trial shapes, the linear step, and two other hystereses. Without
+/// the last two, once the model has names, a damper's record ends with six names instead of
+/// four and with 7.4 % held out instead of 6.1 %.
 const STARTS: usize = 4;
 
-/// What a search knows of a member that came in.
+/// What a search remembers of an added member.
 pub(super) struct Entry {
     pub(super) identity: Identity,
-    /// Exact sign-flip p-value; `None` where the blocks were too short for a test.
+    /// Exact sign-flip p-value; `None` if the blocks were too short for a test.
     pub(super) p: Option<f64>,
-    /// Names that did as well in its place when it came in.
+    /// Names that did as well in its place when it was added.
     pub(super) siblings: Vec<Candidate>,
-    /// Of a curve: what the best one or two names take of what it takes.
+    /// For a curve: reduction of the SSE by the best one or two names over that by the curve.
     pub(super) q: f64,
 }
 
@@ -45,32 +45,32 @@ pub(super) struct Search<'a> {
     pub(super) bank: Bank<'a>,
     pub(super) declared: Arc<Solution>,
     pub(super) now: Arc<Solution>,
-    /// Every model on the way.
+    /// Every accepted model.
     pub(super) reached: Vec<Arc<Solution>>,
     pub(super) entries: Vec<Entry>,
     pub(super) rejected: Vec<Rejection>,
-    /// Names that were in and went out again.
+    /// Names that were added and later removed.
     pub(super) superseded: Vec<Rejection>,
     pub(super) regime: Regime,
     pub(super) correlation_time: f64,
-    /// Whether more names than were asked for would have been looked at.
+    /// Whether moves beyond the requested number of names were discarded.
     pub(super) is_cut: bool,
     most: usize,
-    /// From when on, and for how long \[s\].
+    /// Start and length \[s\] of the time budget.
     budget: Option<(Instant, f64)>,
     visited: Vec<Vec<Identity>>,
     failures: usize,
     phase: Phase,
-    /// Whether the last model was searched from all starts.
+    /// Whether the final model has been fitted from all starts.
     is_last_anew: bool,
-    /// What a search finds on half-records, from the declared model on.
+    /// Result of a forward selection on each half-record, linearised at the declared model.
     pub(super) on_halves: Vec<Vec<Identity>>,
     linear: Option<Standing<'a>>,
 }
 
-/// The present model, to first order and in fact.
+/// The present model: its linearisation, and its refitted squared error.
 pub(super) struct Standing<'a> {
-    /// The model that this is of.
+    /// The model that is linearised.
     of: Arc<Solution>,
     pub(super) linear: Linear<'a>,
     pub(super) moved: Span,
@@ -110,7 +110,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Moves until nothing is gained, or the time since then is over; whether it was over.
+    /// Runs until no move is accepted or the time budget is spent; returns whether it was spent.
     pub(super) fn run(
         &mut self,
         budget: Option<(Instant, f64)>,
@@ -140,10 +140,10 @@ impl<'a> Search<'a> {
         false
     }
 
-    /// Where names leave more than noise, the last model is searched once from all starts: the
-    /// few of a move may have missed its optimum. Whether that has found a better one.
+    /// Fits the final model once more from all starts if its residual exceeds the noise: the few
+    /// starts of a move may have missed the optimum. Returns whether a better one was found.
     fn begun_anew(&mut self) -> bool {
-        let is_much = self.now.rmse.fit > policy::MUCH_LEFT * self.data.noise_floor;
+        let is_much = self.now.rmse.fit > policy::AT_FLOOR * self.data.noise_floor;
         if self.is_last_anew || !is_much || Arc::ptr_eq(&self.now, &self.declared) {
             return false;
         }
@@ -196,7 +196,7 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// One round of moves; whether another one is worth while.
+    /// One round of moves; returns whether the search goes on.
     fn turn(&mut self, standing: &Standing<'a>) -> bool {
         let linear = &standing.linear;
         (self.regime, self.correlation_time) = (linear.regime, linear.correlation_time);
@@ -213,7 +213,7 @@ impl<'a> Search<'a> {
             below: j - FALLEN,
         });
         self.is_cut |= proposed.is_cut;
-        self.reject(proposed.rejected);
+        reject(&mut self.rejected, proposed.rejected);
         if proposed.moves.is_empty() {
             return self.exhausted();
         }
@@ -222,7 +222,7 @@ impl<'a> Search<'a> {
             Some(true) => {
                 self.failures = 0;
                 self.phase = match self.phase {
-                    // What a curve does, names beside it need not do.
+                    // Names that the curve makes redundant are removed next.
                     Phase::Curves => Phase::Fewer,
                     Phase::Any | Phase::Fewer if self.now.structure.table.is_some() => self.phase,
                     Phase::Any | Phase::Fewer => Phase::Any,
@@ -236,13 +236,13 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Once no name is found any more, fewer are looked for, then curves at a lower price.
+    /// After the last name: first moves to fewer names, then curves at a lower price.
     fn exhausted(&mut self) -> bool {
         self.failures = 0;
         let names = self.now.structure.terms.len() - self.declared.structure.terms.len();
         if self.phase == Phase::Any && names > 1 {
             self.phase = Phase::Fewer;
-            // A smaller set that was refitted on the way is worth another look from here.
+            // Smaller sets that were refitted earlier may be tried again from this model.
             let all = self.now.structure.terms.len();
             self.visited.retain(|set| set.len() >= all);
             return true;
@@ -256,14 +256,14 @@ impl<'a> Search<'a> {
         true
     }
 
-    /// Real refits, the best promise first; what was promised less than another has reached
-    /// is not refitted. Those that lower the criterion, the best first.
+    /// Refits moves, the best promise first, and skips a move that promises less than another
+    /// has reached. Returns the moves that lower the criterion, the best first.
     fn refitted(&mut self, standing: &Standing<'a>, moves: &[Move], j: f64) -> Vec<Tried> {
         let linear = &standing.linear;
         let mut tried: Vec<Tried> = Vec::new();
         let (mut least, mut named) = (j, false);
         for one in moves {
-            // What a pair promises its members may do alone, from their own shapes.
+            // One member of a refitted pair may do alone what the pair promised.
             let is_part = |t: &Tried| {
                 t.made.kept == one.kept && one.added.iter().all(|g| t.made.added.contains(g))
             };
@@ -282,7 +282,7 @@ impl<'a> Search<'a> {
             let grids = (self.coarse, &standing.moved);
             let refit = linear.refit(grids, one, STARTS, |rough| rough.j < j + policy::HOPELESS);
             if let Some(real) = refit {
-                // A curve bounds no name: names are refitted before a curve may win.
+                // A curve sets no bound for names: names are refitted before a curve may win.
                 if real.structure.table.is_none() || linear.has_table() {
                     least = least.min(real.j);
                     named = true;
@@ -295,7 +295,7 @@ impl<'a> Search<'a> {
         tried
     }
 
-    /// Puts a refitted move through the gates; whether it is the present model now.
+    /// Puts a refitted move through the gates; returns whether it became the present model.
     fn accepted(&mut self, standing: &Standing<'a>, best: &Tried, tried: &[Tried]) -> bool {
         let linear = &standing.linear;
         let free = best.structure.free(self.data);
@@ -314,7 +314,7 @@ impl<'a> Search<'a> {
                     let candidate = linear.groups[g].candidate();
                     let p = Some(p);
                     let one = candidate.map(|candidate| Rejection { candidate, gate, p });
-                    self.reject(one);
+                    reject(&mut self.rejected, one);
                 }
                 return false;
             }
@@ -334,7 +334,7 @@ impl<'a> Search<'a> {
                 },
             });
         }
-        // What was turned down beside another model may pass beside this one.
+        // A name that was rejected jointly with another model may pass with this one.
         self.rejected.clear();
         self.is_cut = false;
         let dropped = best.made.kept.dropped.iter();
@@ -345,16 +345,7 @@ impl<'a> Search<'a> {
         true
     }
 
-    fn reject(&mut self, those: impl IntoIterator<Item = Rejection>) {
-        for one in those {
-            let known = |r: &Rejection| r.candidate.is_like(&one.candidate);
-            if !self.rejected.iter().any(known) {
-                self.rejected.push(one);
-            }
-        }
-    }
-
-    /// A term that goes out again for what comes in.
+    /// The rejection of a term that a move removes.
     fn out(&self, index: usize) -> Rejection {
         let term = self.now.structure.terms[index];
         Rejection {
@@ -364,13 +355,13 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// What is known of a member, as it came in last.
+    /// The latest entry of a member.
     pub(super) fn entry(&self, identity: Identity) -> Option<&Entry> {
         self.entries.iter().rev().find(|e| e.identity == identity)
     }
 }
 
-/// Of the sets within a hair of the best, with no more members that come in, the simplest.
+/// The simplest of the moves whose criterion equals the best one's and that add no more members.
 fn chosen(tried: &[Tried]) -> Option<&Tried> {
     let best = tried.first()?;
     let equal = |t: &&Tried| {
@@ -382,7 +373,7 @@ fn chosen(tried: &[Tried]) -> Option<&Tried> {
         .min_by(|a, b| a.rank().cmp(&b.rank()).then(a.j.total_cmp(&b.j)))
 }
 
-/// Names that were refitted in the place of one that came in, and did as well.
+/// Names that were refitted in place of an added one and did as well.
 fn siblings(standing: &Standing, best: &Tried, tried: &[Tried], own: usize) -> Vec<Candidate> {
     let linear = &standing.linear;
     let as_good = |t: &&Tried| {
@@ -400,7 +391,7 @@ fn siblings(standing: &Standing, best: &Tried, tried: &[Tried], own: usize) -> V
     tried.iter().filter(as_good).filter_map(instead).collect()
 }
 
-/// The stop-check, which no search has seen, and the blocks left out one at a time.
+/// Acceptance: the stop-check segment, which no search has seen, and the left-out blocks.
 fn gates(data: &Prepared, old: &Solution, new: &Solution, regime: Regime) -> Result<(), Gate> {
     let taken = 1.0 - (new.rmse.fit / old.rmse.fit).powi(2);
     let carried = 1.0 - (new.rmse.stop / old.rmse.stop).powi(2);

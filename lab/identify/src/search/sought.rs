@@ -1,26 +1,26 @@
-//! What a forward selection chooses among, and its choice.
+//! The candidates of a forward selection, and the choice of the best one.
 
 use super::bank::Identity;
 use super::partial::{Entries, Partial};
 
-/// One of those that a selection chooses among.
+/// One candidate of a forward selection.
 pub(super) struct Choice<'a> {
-    /// The candidate's group; `None` of a name of the model.
+    /// Its group; `None` for a name that the model already has.
     pub(super) group: Option<usize>,
     pub(super) identity: Identity,
     pub(super) columns: &'a [usize],
-    /// Number of columns that it pays for.
+    /// Number of columns in its price.
     pub(super) freedoms: usize,
 }
 
-/// What a forward selection chooses among: the model's own names, then the candidates.
+/// All candidates of a forward selection: the names of the model, then the catalogue's.
 #[derive(Default)]
 pub(super) struct Sought {
     pub(super) entries: Entries,
     pub(super) identities: Vec<Identity>,
-    /// Number of columns that each pays for.
+    /// Number of columns in the price of each.
     freedoms: Vec<usize>,
-    /// The candidate's group; `None` of a name of the model.
+    /// The group of each; `None` for a name that the model already has.
     pub(super) groups: Vec<Option<usize>>,
 }
 
@@ -34,7 +34,8 @@ impl Sought {
         }
     }
 
-    /// What lowers the criterion most, if anything does; `factors` are e to the prices.
+    /// The candidate that lowers the criterion most; `None` if none lowers it. `factors` are
+    /// exp(price).
     pub(super) fn best(
         &self,
         partial: &Partial,
@@ -50,7 +51,7 @@ impl Sought {
         (best.0 < 1.0).then_some(best.1)
     }
 
-    /// e to the price of each, from the price of so many columns.
+    /// exp(price) of each candidate, from the price as a function of the number of columns.
     pub(super) fn factors(&self, price: impl Fn(usize) -> f64) -> Vec<f64> {
         let factor = |&freedoms: &usize| price(freedoms).exp();
         self.freedoms.iter().map(factor).collect()

@@ -22,7 +22,7 @@ impl Made {
     pub fn new(recipe: &Recipe) -> Self {
         let synthetic = generate(recipe).unwrap();
         let mut options = Options::default();
-        if recipe.effects.iter().any(|e| e.effect == "crosstalk") {
+        if synthetic.column("aux").is_some() {
             options.channels.push(("aux".to_owned(), "aux".to_owned()));
         }
         let record = parse(synthetic.to_csv().as_bytes(), "made.csv", &options).unwrap();

@@ -1,20 +1,20 @@
 //! Records behind each other: nothing runs over from one into the next.
 
-use crate::rig::{on, Files, CABLE};
+use crate::rig::{on, Files};
 use bowden_lab::problem::{HeldOut, Preparation, Prepared};
 use bowden_lab::score::blocks::{blocks, BLOCKS};
-use bowden_synth::{Mode, Recipe};
+use bowden_synth::{Base, Mode, Recipe};
 
 fn three() -> Files {
     let short = Recipe {
         seconds: 12.0,
-        ..on(CABLE, Mode::Torque, 2)
+        ..on(Base::CABLE, Mode::Torque, 2)
     };
     let slow = Recipe {
         rate: 500.0,
-        ..on(CABLE, Mode::Torque, 3)
+        ..on(Base::CABLE, Mode::Torque, 3)
     };
-    Files::new(&[on(CABLE, Mode::Torque, 1), short, slow])
+    Files::new(&[on(Base::CABLE, Mode::Torque, 1), short, slow])
 }
 
 #[test]
@@ -100,7 +100,7 @@ fn the_search_sees_the_same_target_of_every_record() {
 
 #[test]
 fn rates_too_far_apart_are_refused_by_name() {
-    let fast = on(CABLE, Mode::Torque, 1);
+    let fast = on(Base::CABLE, Mode::Torque, 1);
     let slow = Recipe {
         rate: 50.0,
         ..fast.clone()

@@ -1,6 +1,6 @@
 //! What one model of several records finds, and what it leaves to each.
 
-use crate::rig::{added, closed, declared, on, with_gain, Files, CABLE};
+use crate::rig::{added, closed, declared, on, Files};
 use bowden::effect::Family;
 use bowden_lab::conclude::intervals::parameters;
 use bowden_lab::problem::{HeldOut, Preparation, Prepared};
@@ -13,11 +13,11 @@ fn bent(bias: f64, seed: u64) -> Recipe {
     let base = Base {
         gain: 2.0,
         rho: 1.2,
-        ..CABLE
+        ..Base::CABLE
     };
     let spring = Planted {
         origin: Some(0.0),
-        ..with_gain("stiffness-quadratic", 6e-4)
+        ..Planted::with_gain("stiffness-quadratic", 6e-4)
     };
     Recipe {
         bias,
@@ -46,17 +46,17 @@ fn a_bend_that_neither_file_shows_alone_is_found_in_both_together() {
 
 /// Two configurations: the conduit was bent more sharply for the second.
 const CONFIGURATIONS: [Base; 2] = [
-    CABLE,
+    Base::CABLE,
     Base {
         gain: 0.88,
         kappa_eta: 5.5,
         offset: 0.4,
-        ..CABLE
+        ..Base::CABLE
     },
 ];
 
 fn configurations() -> Files {
-    let viscous = with_gain("viscous", -0.8);
+    let viscous = Planted::with_gain("viscous", -0.8);
     let recipe = |base, seed| Recipe {
         effects: vec![viscous.clone()],
         ..on(base, Mode::Torque, seed)
@@ -100,7 +100,11 @@ fn with_gains_of_their_own_two_configurations_share_shapes_and_effects() {
             assert!(high - low < 0.1 * base.kappa_eta.min(1.0), "{found:?}");
         }
     }
-    for (name, truth) in [("rho", CABLE.rho), ("sigma", CABLE.sigma), ("n", CABLE.n)] {
+    for (name, truth) in [
+        ("rho", Base::CABLE.rho),
+        ("sigma", Base::CABLE.sigma),
+        ("n", Base::CABLE.n),
+    ] {
         let found = named(name);
         assert!((found.value / truth - 1.0).abs() < 0.05, "{found:?}");
     }
@@ -111,8 +115,8 @@ fn with_gains_of_their_own_two_configurations_share_shapes_and_effects() {
 fn a_file_that_the_fit_never_saw_is_predicted_down_to_its_noise() {
     let recipe = |seed, rate| Recipe {
         rate,
-        effects: vec![with_gain("viscous", -0.8)],
-        ..on(CABLE, Mode::Torque, seed)
+        effects: vec![Planted::with_gain("viscous", -0.8)],
+        ..on(Base::CABLE, Mode::Torque, seed)
     };
     let files = Files::new(&[recipe(21, 1000.0), recipe(22, 500.0), recipe(23, 1000.0)]);
     let data = files.joined(HeldOut::LastRecord);

@@ -5,3 +5,6 @@ mod grids;
 mod joint;
 mod measured;
 mod rig;
+#[allow(dead_code)]
+#[path = "../shared/mod.rs"]
+mod shared;

@@ -1,46 +1,26 @@
-//! Two records of one measured rig. They are not part of the project: where they are
-//! absent the test says so and passes, as in `shared_records.rs`.
+//! Two records of one measured rig; `shared` says where they are.
 
+use super::shared::DAMPER;
 use bowden_lab::conclude::intervals::parameters;
 use bowden_lab::fit::fit;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{HeldOut, Preparation, Prepared};
-use bowden_lab::record::{agree, read, Mode, Options, Record};
-use std::path::PathBuf;
+use bowden_lab::record::Record;
 
-fn records(files: &[&str]) -> Option<Vec<Record>> {
-    let folder = std::env::var_os("BOWDEN_SHARED_RECORDS").map_or_else(
-        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")),
-        PathBuf::from,
-    );
-    let options = Options {
-        mode: Some(Mode::Displacement),
-        time: Some("time_s".to_owned()),
-        input: Some("displacement_mm".to_owned()),
-        output: Some("force_N".to_owned()),
-        ..Options::default()
-    };
-    let mut all = Vec::new();
-    for file in files {
-        let path = folder.join("mr_damper_utfsm").join(file);
-        if !path.exists() {
-            println!("skipped: {} is not there", path.display());
-            return None;
-        }
-        all.push(read(&path, &options).unwrap_or_else(|line| panic!("{line}")));
-    }
-    agree(&mut all).unwrap();
-    Some(all)
+fn records(files: &[&'static str]) -> Option<Vec<Record>> {
+    let paths: Option<Vec<_>> = files.iter().map(|f| DAMPER.of_file(f).path()).collect();
+    let records = DAMPER.asked().read_together(&paths?);
+    Some(records.unwrap_or_else(|line| panic!("{line}")))
 }
 
 /// The current through the coil sets how much a damper grips: kappa_eta, and little else.
 #[test]
 fn a_damper_at_two_currents_has_one_loop_shape_and_two_kappa_eta() {
-    let files = ["sine_25mm0x25Hz0x5A.csv", "sine_25mm0x25Hz0A.csv"];
+    let files = [DAMPER.file, "mr_damper_utfsm/sine_25mm0x25Hz0A.csv"];
     let Some(records) = records(&files) else {
         return;
     };
-    let cutoff = Some(20.0);
+    let cutoff = Some(DAMPER.cutoff);
     let data = Prepared::joined(&records, Preparation { cutoff }, HeldOut::Trailing).unwrap();
     let mut declared = structure(&["bouc-wen".to_owned(), "viscous".to_owned()], &data).unwrap();
     let common = fit(&data, &declared, None, 0.0).unwrap();

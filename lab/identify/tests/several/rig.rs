@@ -6,32 +6,14 @@ use bowden_lab::model::structure::Structure;
 use bowden_lab::problem::{HeldOut, Preparation, Prepared};
 use bowden_lab::record::{parse, Options, Record};
 use bowden_lab::search::close;
-use bowden_synth::{generate, Base, Mode, Planted, Recipe};
+use bowden_synth::{generate, Base, Mode, Recipe};
 
-/// A transmission in the paper's range.
-pub const CABLE: Base = Base {
-    gain: 0.95,
-    kappa_eta: 4.0,
-    offset: 0.05,
-    rho: 0.3,
-    sigma: 1.2,
-    n: 1.6,
-};
-
-/// A record of that transmission; the seed changes motion and noise alone.
+/// A record of a transmission; the seed changes motion and noise alone.
 pub fn on(base: Base, mode: Mode, seed: u64) -> Recipe {
     Recipe {
         base: Some(base),
         seed,
         ..Recipe::new(mode)
-    }
-}
-
-/// An effect of that gain, whatever the motion.
-pub fn with_gain(effect: &str, gain: f64) -> Planted {
-    Planted {
-        gain: Some(gain),
-        ..Planted::new(effect)
     }
 }
 

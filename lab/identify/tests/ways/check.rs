@@ -1,12 +1,12 @@
 //! A model on records of its rig that it has not seen.
 
-use crate::rig::{check, nrmse, on, with_gain, Closed};
+use crate::rig::{check, nrmse, Closed};
 use bowden::model::Source;
 use bowden_lab::check::{Given, Seen, Verdict, HOLDS, NOISE};
 use bowden_lab::export::ShapeFile;
 use bowden_lab::facts::CheckFacts;
 use bowden_lab::model::Variable;
-use bowden_synth::{Base, Mode, Recipe};
+use bowden_synth::{Base, Mode, Planted, Recipe};
 use rayon::prelude::*;
 
 const MODES: [Mode; 2] = [Mode::Torque, Mode::Displacement];
@@ -17,8 +17,8 @@ fn viscous(mode: Mode) -> Recipe {
         Mode::Displacement => 0.01,
     };
     Recipe {
-        effects: vec![with_gain("viscous", gain)],
-        ..on(mode, 0)
+        effects: vec![Planted::with_gain("viscous", gain)],
+        ..Recipe::of_one_rig(mode, 0)
     }
 }
 
@@ -141,10 +141,10 @@ fn an_effect_that_came_after_the_model_makes_it_not_hold_and_its_variable_is_nam
             Variable::Position(Source::Input),
         ),
     ] {
-        let given = Closed::new(&on(mode, 71_102), &["bouc-wen"], 0).given();
+        let given = Closed::new(&Recipe::of_one_rig(mode, 71_102), &["bouc-wen"], 0).given();
         let next = Recipe {
-            effects: vec![with_gain(effect, gain)],
-            ..on(mode, 72_102)
+            effects: vec![Planted::with_gain(effect, gain)],
+            ..Recipe::of_one_rig(mode, 72_102)
         };
         let found = check(&given, &next);
         assert_eq!(found.verdict, Verdict::DoesNotHold, "{effect} {mode:?}");
@@ -220,7 +220,7 @@ fn without_a_held_out_error_only_noise_is_judged() {
         .sentence
         .contains("the sensor's noise"));
     let more = Recipe {
-        effects: vec![with_gain("viscous", 0.05)],
+        effects: vec![Planted::with_gain("viscous", 0.05)],
         ..next
     };
     let found = check(&given, &more);
@@ -310,7 +310,7 @@ fn the_check_of_a_models_own_record_gives_its_own_error_again() {
 fn an_output_stage_and_a_play_in_series_run_as_they_were_fitted() {
     let recipe = Recipe {
         play: 0.5,
-        ..on(Mode::Displacement, 71_109)
+        ..Recipe::of_one_rig(Mode::Displacement, 71_109)
     };
     let closed = Closed::new(&recipe, &["bouc-wen"], 2);
     let mut given = closed.given();
@@ -351,8 +351,8 @@ fn an_output_stage_and_a_play_in_series_run_as_they_were_fitted() {
     );
 
     let lag = Recipe {
-        effects: vec![bowden_synth::Planted::new("lag")],
-        ..on(Mode::Displacement, 71_110)
+        effects: vec![Planted::new("lag")],
+        ..Recipe::of_one_rig(Mode::Displacement, 71_110)
     };
     let closed = Closed::new(&lag, &["bouc-wen", "lag"], 0);
     let found = check(&closed.given(), &lag);
@@ -367,7 +367,7 @@ fn a_record_that_hardly_moves_cannot_tell() {
         amplitude: 1e-3,
         noise: 0.5,
         effects: Vec::new(),
-        ..on(Mode::Displacement, 72_111)
+        ..Recipe::of_one_rig(Mode::Displacement, 72_111)
     };
     let found = check(&given, &still);
     assert_eq!(found.verdict, Verdict::CannotTell);

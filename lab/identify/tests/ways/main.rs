@@ -5,4 +5,7 @@ mod check;
 mod measured;
 mod rig;
 mod rounds;
+#[allow(dead_code)]
+#[path = "../shared/mod.rs"]
+mod shared;
 mod trace;

@@ -1,110 +1,69 @@
-//! Models on the next record of a rig that others measured.
-//!
-//! `BOWDEN_SHARED_RECORDS` names the folder of the records, else it is `../../../shared/data`
-//! beside this crate; where it or a file is absent a test says so and passes.
+//! Models on the next record of a rig that others measured; `shared` says where it is.
 
+use super::shared::{Row, DAMPER, PIEZO_FULL, PIEZO_VARYING};
 use bowden_lab::check::{About, Check, Errors, Given, Verdict};
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::export::ModelFile;
 use bowden_lab::facts::CheckFacts;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
-use bowden_lab::record::{read, Mode, Options, Record};
+use bowden_lab::record::Record;
 use bowden_lab::search::close_within;
-use std::path::PathBuf;
 
-struct Rig {
-    folder: &'static str,
-    input: &'static str,
-    output: &'static str,
-    cutoff: f64,
-    skip: f64,
+fn record(row: Row, file: &'static str) -> Option<Record> {
+    let path = row.of_file(file).path()?;
+    let record = row.asked().read(&path);
+    Some(record.unwrap_or_else(|line| panic!("{line}")))
 }
 
-const DAMPER: Rig = Rig {
-    folder: "mr_damper_utfsm",
-    input: "displacement_mm",
-    output: "force_N",
-    cutoff: 20.0,
-    skip: 0.0,
-};
-
-const PIEZO: Rig = Rig {
-    folder: "piezo_stage",
-    input: "control_V",
-    output: "displacement_um",
-    cutoff: 40.0,
-    skip: 2.0,
-};
-
-impl Rig {
-    fn record(&self, file: &str) -> Option<Record> {
-        let folder = std::env::var_os("BOWDEN_SHARED_RECORDS").map_or_else(
-            || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")),
-            PathBuf::from,
-        );
-        let path = folder.join(self.folder).join(file);
-        if !path.exists() {
-            println!("skipped: {} is not there", path.display());
-            return None;
-        }
-        let options = Options {
-            mode: Some(Mode::Displacement),
-            time: Some("time_s".to_owned()),
-            input: Some(self.input.to_owned()),
-            output: Some(self.output.to_owned()),
-            skip: self.skip,
-            ..Options::default()
-        };
-        Some(read(&path, &options).unwrap_or_else(|line| panic!("{line}")))
-    }
-
-    /// The model of one file with those effects, on another one.
-    fn check(&self, own: &str, next: &str, effects: &[&str]) -> Option<Check> {
-        let (own, next) = (self.record(own)?, self.record(next)?);
-        let cutoff = Some(self.cutoff);
-        let data = Prepared::new(&own, Preparation { cutoff }).unwrap();
-        let names = ["bouc-wen"].iter().chain(effects);
-        let names: Vec<String> = names.map(|&name| name.to_owned()).collect();
-        let declared = structure(&names, &data).unwrap();
-        let ledger = close_within(&data, &declared, 0, |_| ()).unwrap();
-        let done = FinalFit::new(&data, &ledger);
-        let errors = done.rmse.normalised(&data, &data.target);
-        let given = Given {
-            file: ModelFile::new(&done.data, &done.solution),
-            left_out: Vec::new(),
-            about: About {
-                cutoff_hz: cutoff,
-                nrmse: Some(Errors {
-                    fit: Some(errors.fit),
-                    stop: Some(errors.stop),
-                    held_out: Some(errors.held_out),
-                }),
-                ..About::default()
-            },
-        };
-        let check = Check::new(next, &given, None).unwrap();
-        let percent = |rmse: f64| 100.0 * rmse / check.deviation;
-        println!(
-            "{effects:?}: own held out {:.2} %, here {:.2} %, with gain {:.3} and offset {:.2} {:.2} %: {}",
-            100.0 * errors.held_out,
-            percent(check.rmse),
-            check.line.gain.value,
-            check.line.offset.value,
-            percent(check.rmse_gain_offset),
-            CheckFacts::new(&check).sentence
-        );
-        Some(check)
-    }
+/// The model of one file with those effects, on another one.
+fn check(row: Row, own: &'static str, next: &'static str, effects: &[&str]) -> Option<Check> {
+    let (own, next) = (record(row, own)?, record(row, next)?);
+    let cutoff = Some(row.cutoff);
+    let data = Prepared::new(&own, Preparation { cutoff }).unwrap();
+    let names = ["bouc-wen"].iter().chain(effects);
+    let names: Vec<String> = names.map(|&name| name.to_owned()).collect();
+    let declared = structure(&names, &data).unwrap();
+    let ledger = close_within(&data, &declared, 0, |_| ()).unwrap();
+    let done = FinalFit::new(&data, &ledger);
+    let errors = done.rmse.normalised(&data, &data.target);
+    let given = Given {
+        file: ModelFile::new(&done.data, &done.solution),
+        left_out: Vec::new(),
+        about: About {
+            cutoff_hz: cutoff,
+            nrmse: Some(Errors {
+                fit: Some(errors.fit),
+                stop: Some(errors.stop),
+                held_out: Some(errors.held_out),
+            }),
+            ..About::default()
+        },
+    };
+    let check = Check::new(next, &given, None).unwrap();
+    let percent = |rmse: f64| 100.0 * rmse / check.deviation;
+    println!(
+        "{effects:?}: own held out {:.2} %, here {:.2} %, with gain {:.3} and offset {:.2} {:.2} %: {}",
+        100.0 * errors.held_out,
+        percent(check.rmse),
+        check.line.gain.value,
+        check.line.offset.value,
+        percent(check.rmse_gain_offset),
+        CheckFacts::new(&check).sentence
+    );
+    Some(check)
 }
 
 /// At twice the frequency the fluid is as it was: a model misses about what it missed at home.
 #[test]
 #[ignore = "slow: bash .ci/run conclusions"]
 fn the_dampers_model_holds_at_twice_the_frequency() {
-    let files = ("sine_25mm0x25Hz0x5A.csv", "sine_25mm0x5Hz0x5A.csv");
+    let files = (
+        "mr_damper_utfsm/sine_25mm0x25Hz0x5A.csv",
+        "mr_damper_utfsm/sine_25mm0x5Hz0x5A.csv",
+    );
     for effects in [&[][..], &["viscous"]] {
-        let Some(check) = DAMPER.check(files.0, files.1, effects) else {
+        let Some(check) = check(DAMPER, files.0, files.1, effects) else {
             return;
         };
         assert_eq!(check.verdict, Verdict::Holds, "{effects:?}");
@@ -115,8 +74,11 @@ fn the_dampers_model_holds_at_twice_the_frequency() {
 /// quarter of it, of the same shape within what the model misses at home.
 #[test]
 fn without_its_current_the_dampers_gain_has_moved_to_a_quarter() {
-    let files = ("sine_25mm0x25Hz0x5A.csv", "sine_25mm0x25Hz0A.csv");
-    let Some(check) = DAMPER.check(files.0, files.1, &["viscous"]) else {
+    let files = (
+        "mr_damper_utfsm/sine_25mm0x25Hz0x5A.csv",
+        "mr_damper_utfsm/sine_25mm0x25Hz0A.csv",
+    );
+    let Some(check) = check(DAMPER, files.0, files.1, &["viscous"]) else {
         return;
     };
     assert_eq!(check.verdict, Verdict::GainOrOffsetMoved);
@@ -128,9 +90,9 @@ fn without_its_current_the_dampers_gain_has_moved_to_a_quarter() {
 /// offset mends most of the error, and does not make it hold.
 #[test]
 fn the_piezos_model_of_the_full_range_does_not_hold_at_varying_amplitudes() {
-    let files = ("sine_1Hz_full_range.csv", "sine_1Hz_varying_amplitude.csv");
+    let files = (PIEZO_FULL.file, PIEZO_VARYING.file);
     for effects in [&[][..], &["stiffness-quadratic"]] {
-        let Some(check) = PIEZO.check(files.0, files.1, effects) else {
+        let Some(check) = check(PIEZO_FULL, files.0, files.1, effects) else {
             return;
         };
         assert_eq!(check.verdict, Verdict::DoesNotHold, "{effects:?}");

@@ -1,4 +1,4 @@
-//! One rig, recorded several times: the seed changes motion and noise, the rig stays.
+//! Records of one rig, closed and checked.
 
 use bowden_lab::check::{About, Check, Errors, Given};
 use bowden_lab::conclude::final_fit::FinalFit;
@@ -8,46 +8,7 @@ use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options, Record};
 use bowden_lab::search::close_within;
-use bowden_synth::{generate, Base, Mode, Planted, Recipe};
-
-/// A transmission in the paper's range.
-pub const CABLE: Base = Base {
-    gain: 0.95,
-    kappa_eta: 4.0,
-    offset: 0.05,
-    rho: 0.3,
-    sigma: 1.2,
-    n: 1.6,
-};
-
-/// The same for displacement mode.
-pub const SPRING: Base = Base {
-    gain: 2.0,
-    kappa_eta: 8.0,
-    offset: 0.3,
-    rho: 0.5,
-    sigma: 1.2,
-    n: 1.6,
-};
-
-pub fn on(mode: Mode, seed: u64) -> Recipe {
-    Recipe {
-        base: Some(match mode {
-            Mode::Torque => CABLE,
-            Mode::Displacement => SPRING,
-        }),
-        seed,
-        ..Recipe::new(mode)
-    }
-}
-
-/// An effect of that gain, whatever the motion.
-pub fn with_gain(effect: &str, gain: f64) -> Planted {
-    Planted {
-        gain: Some(gain),
-        ..Planted::new(effect)
-    }
-}
+use bowden_synth::{generate, Recipe};
 
 pub fn record(recipe: &Recipe) -> Record {
     let csv = generate(recipe).unwrap().to_csv();

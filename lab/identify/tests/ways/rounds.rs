@@ -1,6 +1,6 @@
 //! At most so many effects.
 
-use crate::rig::{on, with_gain, Closed};
+use crate::rig::Closed;
 use bowden_lab::conclude::verdict::{sentence, verdict, Verdict};
 use bowden_synth::{Mode, Planted, Recipe};
 
@@ -18,7 +18,7 @@ fn three() -> Recipe {
                 ..Planted::new("inertia")
             },
         ],
-        ..on(Mode::Displacement, 73_000)
+        ..Recipe::of_one_rig(Mode::Displacement, 73_000)
     }
 }
 
@@ -61,8 +61,8 @@ fn rounds_end_where_they_were_asked_to_and_the_sentence_says_so() {
 #[ignore = "slow: bash .ci/run conclusions"]
 fn a_search_that_ends_before_its_limit_has_not_been_stopped() {
     let recipe = Recipe {
-        effects: vec![with_gain("viscous", 0.02)],
-        ..on(Mode::Displacement, 73_001)
+        effects: vec![Planted::with_gain("viscous", 0.02)],
+        ..Recipe::of_one_rig(Mode::Displacement, 73_001)
     };
     let closed = Closed::new(&recipe, &["bouc-wen"], 5);
     assert_eq!(closed.ledger.rounds.len(), 1);
@@ -73,7 +73,11 @@ fn a_search_that_ends_before_its_limit_has_not_been_stopped() {
 
 #[test]
 fn a_declared_model_at_the_noise_is_explained_without_a_search_but_nothing_is_claimed() {
-    let closed = Closed::new(&on(Mode::Displacement, 73_002), &["bouc-wen"], 0);
+    let closed = Closed::new(
+        &Recipe::of_one_rig(Mode::Displacement, 73_002),
+        &["bouc-wen"],
+        0,
+    );
     assert_eq!(
         verdict(&closed.data, &closed.ledger, &closed.done),
         Verdict::Explained
@@ -89,7 +93,7 @@ fn a_declared_model_at_the_noise_is_explained_without_a_search_but_nothing_is_cl
 fn no_rounds_draw_no_curve_of_what_has_no_name() {
     let recipe = Recipe {
         effects: vec![Planted::new("bump-position")],
-        ..on(Mode::Displacement, 73_003)
+        ..Recipe::of_one_rig(Mode::Displacement, 73_003)
     };
     assert!(Closed::new(&recipe, &["bouc-wen"], 8)
         .ledger

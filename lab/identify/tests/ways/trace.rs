@@ -1,6 +1,6 @@
 //! The signals over time, and what each part adds.
 
-use crate::rig::{on, with_gain, Closed};
+use crate::rig::Closed;
 use bowden_lab::conclude::trace::trace;
 use bowden_synth::{Mode, Planted, Recipe};
 
@@ -88,10 +88,10 @@ fn traced(closed: &Closed) -> Read {
 fn the_trace_is_what_the_fit_sees_and_its_errors_are_those_of_the_report() {
     let recipe = Recipe {
         effects: vec![
-            with_gain("viscous", 0.02),
-            with_gain("stiffness-cubic", 0.01),
+            Planted::with_gain("viscous", 0.02),
+            Planted::with_gain("stiffness-cubic", 0.01),
         ],
-        ..on(Mode::Displacement, 74_000)
+        ..Recipe::of_one_rig(Mode::Displacement, 74_000)
     };
     let closed = Closed::new(&recipe, &["bouc-wen"], 8);
     let read = traced(&closed);
@@ -155,7 +155,7 @@ fn the_trace_is_what_the_fit_sees_and_its_errors_are_those_of_the_report() {
 fn the_shares_sum_to_the_final_model_with_an_output_stage_too() {
     let recipe = Recipe {
         effects: vec![Planted::new("lag")],
-        ..on(Mode::Displacement, 74_001)
+        ..Recipe::of_one_rig(Mode::Displacement, 74_001)
     };
     let closed = Closed::new(&recipe, &["bouc-wen", "lag"], 0);
     let read = traced(&closed);
@@ -171,7 +171,7 @@ fn the_shares_sum_to_the_final_model_with_an_output_stage_too() {
 fn the_shares_sum_to_the_final_model_with_a_table_and_in_torque_mode() {
     let recipe = Recipe {
         effects: vec![Planted::new("bump-position")],
-        ..on(Mode::Torque, 74_002)
+        ..Recipe::of_one_rig(Mode::Torque, 74_002)
     };
     let closed = Closed::new(&recipe, &["bouc-wen"], 8);
     assert!(closed.ledger.unknown.is_some());
@@ -185,7 +185,7 @@ fn the_shares_sum_to_the_final_model_with_a_table_and_in_torque_mode() {
 fn two_effects_of_one_name_have_two_columns() {
     let recipe = Recipe {
         effects: vec![Planted::new("viscous")],
-        ..on(Mode::Torque, 74_003)
+        ..Recipe::of_one_rig(Mode::Torque, 74_003)
     };
     let closed = Closed::new(&recipe, &["bouc-wen", "viscous@phi_p", "viscous@phi_d"], 0);
     let read = traced(&closed);

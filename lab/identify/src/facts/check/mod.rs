@@ -14,7 +14,7 @@ use std::path::Path;
 /// A model on a record that it has not seen.
 #[derive(Debug, Clone)]
 pub struct CheckFacts {
-    /// What was read.
+    /// The record as it was read.
     pub record: RecordFacts,
     /// Gain and offset of the prediction.
     pub line: Line,
@@ -24,29 +24,29 @@ pub struct CheckFacts {
     pub rmse: f64,
     /// Rms error with the fitted gain and offset.
     pub rmse_gain_offset: f64,
-    /// Rms error with what has moved corrected: the offset alone, where that suffices.
+    /// Rms error after the correction: of the offset alone if that suffices.
     pub rmse_corrected: f64,
     /// Mean of the error as it is.
     pub mean: f64,
-    /// Rms error up to which the model holds; `None` where nothing tells it.
+    /// Rms error up to which the model holds; `None` if nothing determines it.
     pub allowed: Option<f64>,
     /// The held-out error that the model came with, as a share of the standard deviation.
     pub reference: Option<f64>,
-    /// What the model's file says of its errors.
+    /// The errors that the model file states.
     pub came_with: Option<Errors>,
     /// The cut-off that the model's file states \[Hz\].
     pub own_cutoff: Option<f64>,
     /// The sampling rate that the model's file states \[Hz\].
     pub own_rate: Option<f64>,
-    /// Where this record goes beyond what the model has seen.
+    /// Ranges in which this record exceeds what the model has seen.
     pub outside: Vec<Outside>,
-    /// On what the residual depends, where the model does not hold.
+    /// The variables that the residual depends on, if the model does not hold.
     pub depends_on: Vec<DependsOn>,
-    /// Seconds at the start that do not count.
+    /// Seconds at the start that are excluded.
     pub left_out: f64,
-    /// Whether an offset alone is what has moved.
+    /// Whether only the offset has moved.
     pub offset_alone: bool,
-    /// Whether the output moves by little more than the noise.
+    /// Whether the output hardly exceeds the noise.
     pub quiet: bool,
     /// The verdict.
     pub verdict: Verdict,
@@ -61,11 +61,11 @@ pub struct DependsOn {
     pub variable: &'static str,
     /// The variable for people.
     pub words: String,
-    /// The channel that it is made of.
+    /// The channel that it is computed from.
     pub channel: String,
-    /// Share of the squared error that a free curve over it takes.
+    /// Share of the squared error that a free curve over it removes.
     pub share: f64,
-    /// Exact sign-flip p-value of that curve; `None` where it could not be tested.
+    /// Exact sign-flip p-value of that curve; `None` if it could not be tested.
     pub p: Option<f64>,
 }
 
@@ -76,23 +76,23 @@ pub struct ModelOfFile {
     mode: Mode,
 }
 
-/// What is asked of a model and a record.
+/// A question to a model and a record.
 #[derive(Debug, Clone)]
 pub struct CheckQuestion {
     /// The columns; the mode is the model's.
     pub asked: Asked,
-    /// Whether the signals over time are wanted.
+    /// Whether the signals over time are requested.
     pub trace: bool,
 }
 
 /// The answer.
 #[derive(Debug, Clone)]
 pub struct Checked {
-    /// Where the record was read.
+    /// Path of the record.
     pub label: String,
-    /// What came out.
+    /// The result.
     pub facts: CheckFacts,
-    /// The signals over time as CSV, where that was asked for.
+    /// The signals over time as CSV, if requested.
     pub trace: Option<String>,
 }
 
@@ -100,14 +100,14 @@ impl ModelOfFile {
     /// Reads the text of a model file.
     ///
     /// # Errors
-    /// One sentence that says what is wrong with it.
+    /// One sentence on the first error in it.
     pub fn parse(text: &str) -> Result<Self, String> {
         let given = Given::parse(text)?;
         let mode = given.mode()?;
         Ok(Self { given, mode })
     }
 
-    /// The mode that the model is of.
+    /// The mode of the model.
     #[must_use]
     pub fn mode(&self) -> Mode {
         self.mode

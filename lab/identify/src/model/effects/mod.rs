@@ -18,6 +18,9 @@ use crate::record::Mode;
 use bowden::effect::{Effect, Family, Info, Quantity, CATALOGUE};
 use bowden::model::Source;
 
+/// The motion that shows an asymmetry of any kind.
+const BOTH_DIRECTIONS: &str = "the same strokes in both directions, at several speeds";
+
 /// One effect.
 pub(crate) struct Entry {
     /// Its own name, as in the core's catalogue.

@@ -2,7 +2,8 @@
 
 use super::Scale::{Number, PerReach, Reach, Speed};
 use super::{
-    on, Bounds, Declared, Entry, FittedZero, On, Place, ToldBy, Trials, Zero, AS_IT_IS, PLAIN,
+    on, Bounds, Declared, Entry, FittedZero, On, Place, ToldBy, Trials, Zero, AS_IT_IS,
+    BOTH_DIRECTIONS, PLAIN,
 };
 use std::f64::consts::PI;
 
@@ -80,7 +81,7 @@ pub(super) const MOTION: &[Entry] = &[
         rank: 12,
         tried: &[on(Place::Motion, AS_IT_IS)],
         on: &[On::Read, On::Reversal],
-        shown_by: "the same strokes in both directions, at several speeds",
+        shown_by: BOTH_DIRECTIONS,
         ..PLAIN
     },
     Entry {
@@ -88,7 +89,7 @@ pub(super) const MOTION: &[Entry] = &[
         rank: 12,
         tried: &[on(Place::Motion, AS_IT_IS)],
         on: &[On::Read, On::Reversal],
-        shown_by: "the same strokes in both directions, at several speeds",
+        shown_by: BOTH_DIRECTIONS,
         ..PLAIN
     },
     Entry {

@@ -1,7 +1,10 @@
 //! Effects of the model as a whole, of time, of a temperature and of other channels.
 
 use super::Scale::{Middle, Number, Path, Stroke};
-use super::{on, Bounds, Declared, Entry, On, Place, Stage, ToldBy, Trials, Zero, AS_IT_IS, PLAIN};
+use super::{
+    on, Bounds, Declared, Entry, On, Place, Stage, ToldBy, Trials, Zero, AS_IT_IS, BOTH_DIRECTIONS,
+    PLAIN,
+};
 
 // Motions that show several effects.
 const FASTER: &str = "faster motion: several tones up to the cut-off";
@@ -55,7 +58,7 @@ pub(super) const WHOLE: &[Entry] = &[
         rank: 12,
         tried: &[on(Place::Whole, AS_IT_IS)],
         on: &[On::Read, On::Reversal],
-        shown_by: "the same strokes in both directions, at several speeds",
+        shown_by: BOTH_DIRECTIONS,
         ..PLAIN
     },
     Entry {
@@ -63,7 +66,7 @@ pub(super) const WHOLE: &[Entry] = &[
         rank: 12,
         tried: &[on(Place::Whole, AS_IT_IS)],
         on: &[On::Read, On::Reversal],
-        shown_by: "the same strokes in both directions, at several speeds",
+        shown_by: BOTH_DIRECTIONS,
         ..PLAIN
     },
     Entry {
