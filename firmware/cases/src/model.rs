@@ -99,6 +99,9 @@ impl Case for TwoEffects {
 pub struct EightEffects(Loaded<8>);
 
 impl Case for EightEffects {
+    /// The sine of a ripple needs 700 bytes where it reduces a large argument.
+    const STACK: usize = 2048;
+
     fn try_new() -> Result<Self, Error> {
         Loaded::try_new(eight()?).map(Self)
     }
