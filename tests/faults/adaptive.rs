@@ -32,7 +32,7 @@ fn a_state_of_a_wider_law_commands_no_more_than_the_limits_of_the_law_that_steps
 
 #[test]
 fn the_rate_of_the_error_bridges_bad_samples() {
-    // An error that rises by 2 N·m/s, with 50 samples lost: the rate after them is still 2.
+    // An error that rises by 2 N·m/s, with 15 samples lost: the rate after them is still 2.
     let settings = AdaptiveSettings {
         form: Form::Literal { time_constant: 0.0 },
         ..law(false, 100.0)

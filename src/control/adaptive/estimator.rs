@@ -81,7 +81,7 @@ impl<T: Real> Leakage<T> {
 ///
 /// ```
 /// use bowden::control::{Estimator, Leakage};
-/// // \[N·m·s/rad\]: between 0 and 6, from the bench's 2.7 on
+/// // Viscous friction [N·m·s/rad]: the bench found 2.7, and it stays between 0 and 6.
 /// let velocity = Estimator {
 ///     gain: 5e-4,
 ///     leakage: Leakage::Constant { rate: 0.01 },
