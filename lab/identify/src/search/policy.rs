@@ -110,7 +110,7 @@ pub const NOT_WORSE: f64 = 1.05;
 pub const HOPELESS: f64 = 0.5;
 
 /// Largest SSE after a rough search with which a rival is searched further, as a multiple of
-/// [`allowed_to_a_rival`].
+/// what is allowed to a rival.
 ///
 /// A choice, as [`HOPELESS`].
 pub const HOPELESS_RIVAL: f64 = 1.5;
