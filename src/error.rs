@@ -91,3 +91,55 @@ pub(crate) fn finite<T: crate::Real>(value: T, name: &'static str) -> Result<T, 
         Err(Error::NonFinite(name))
     }
 }
+
+/// Whether a number is finite. Of several, add them up first: one test for all.
+#[inline]
+pub(crate) fn is_usable<T: crate::Real>(sum: T) -> bool {
+    // A product of zero and an infinity is NaN.
+    sum * T::ZERO == T::ZERO
+}
+
+/// Returns the error of a number that is not finite from the function around it.
+///
+/// These three checks mean the same on a generic `T: Real` and, in a `const fn`, on `f32` and
+/// `f64`: so that a constructor at compile time has the checks of the one at run time.
+macro_rules! must_be_finite {
+    ($value:expr, $name:expr) => {
+        if !$value.is_finite() {
+            return Err(Error::NonFinite($name));
+        }
+    };
+}
+
+/// The same of a number that is not finite or not above zero.
+macro_rules! above_zero {
+    ($value:expr, $zero:expr, $name:expr) => {
+        crate::error::must_be_finite!($value, $name);
+        if $value <= $zero {
+            return Err(Error::OutOfRange($name));
+        }
+    };
+}
+
+/// The same of a number that is not finite or below zero.
+macro_rules! not_below_zero {
+    ($value:expr, $zero:expr, $name:expr) => {
+        crate::error::must_be_finite!($value, $name);
+        if $value < $zero {
+            return Err(Error::OutOfRange($name));
+        }
+    };
+}
+
+/// The same of two ends of a range, `"low"` and `"high"`.
+macro_rules! ordered {
+    ($low:expr, $high:expr) => {
+        crate::error::must_be_finite!($low, "low");
+        crate::error::must_be_finite!($high, "high");
+        if $low >= $high {
+            return Err(Error::Inadmissible("low < high"));
+        }
+    };
+}
+
+pub(crate) use {above_zero, must_be_finite, not_below_zero, ordered};

@@ -1,5 +1,6 @@
 //! What a command may be: a range and, if wanted, a slew rate.
 
+use crate::error::{above_zero, ordered};
 use crate::signal::clamp;
 use crate::{Error, Real};
 
@@ -34,39 +35,27 @@ pub struct Limits<T> {
     slew: Option<T>,
 }
 
-/// The checks of the range, for any float and for constants.
+/// The range after its checks, for any float and for constants.
 macro_rules! range {
-    ($low:ident, $high:ident) => {
-        if !$low.is_finite() {
-            Err(Error::NonFinite("low"))
-        } else if !$high.is_finite() {
-            Err(Error::NonFinite("high"))
-        } else if $low < $high {
-            Ok(Self {
-                low: $low,
-                high: $high,
-                slew: None,
-            })
-        } else {
-            Err(Error::Inadmissible("low < high"))
-        }
-    };
+    ($low:ident, $high:ident) => {{
+        ordered!($low, $high);
+        Ok(Self {
+            low: $low,
+            high: $high,
+            slew: None,
+        })
+    }};
 }
 
-/// The checks of the slew rate, likewise.
+/// A range with its slew rate after the checks, likewise.
 macro_rules! slewed {
-    ($range:ident, $slew:ident, $zero:expr) => {
-        if !$slew.is_finite() {
-            Err(Error::NonFinite("slew"))
-        } else if $slew <= $zero {
-            Err(Error::OutOfRange("slew"))
-        } else {
-            Ok(Self {
-                slew: Some($slew),
-                ..$range
-            })
-        }
-    };
+    ($range:ident, $slew:ident, $zero:expr) => {{
+        above_zero!($slew, $zero, "slew");
+        Ok(Self {
+            slew: Some($slew),
+            ..$range
+        })
+    }};
 }
 
 macro_rules! constant {

@@ -26,8 +26,9 @@ pub use settings::{AntiWindup, Damping, PidSettings};
 pub use signals::{PidInput, PidOutput, PidTerms};
 pub use state::PidState;
 
-use super::status::{fault_of_dt, first_fault, is_usable, Latch};
+use super::status::{fault_of_dt, first_fault, Latch};
 use super::{Fault, Output, Status};
+use crate::error::is_usable;
 use crate::signal::{clamp, Compensated, Derivative};
 use crate::{Error, Real};
 use state::Last;
@@ -230,10 +231,9 @@ impl<T: Real> Pid<T> {
         if let Some(fault) = first_fault(&[(output, Fault::Command)]).or_else(|| self.fault(at)) {
             return Err(fault);
         }
-        let limits = &self.settings.limits;
         let mut last = Last::of(at);
         let rest = self.rest(&last, T::ZERO);
-        let command = clamp(output, limits.low(), limits.high());
+        let command = self.settings.limits.confine(output);
         let integral = self.confine(command - rest);
         last.command = command;
         last.unlimited = rest + integral;

@@ -1,6 +1,6 @@
 //! What a step did: a good one, or a bad sample and what was commanded instead.
 
-use crate::signal::clamp;
+use crate::error::must_be_finite;
 use crate::{Error, Real};
 
 /// Which input of a step could not be used.
@@ -115,21 +115,19 @@ pub struct Fallback<T> {
 /// is then too many for ever.
 const WEIGHT: u32 = 4;
 
-/// The checks of a fallback, for any float and for constants.
+/// A fallback after its checks, for any float and for constants.
 macro_rules! fallback {
-    ($after:ident, $command:ident) => {
+    ($after:ident, $command:ident) => {{
         if $after == 0 {
-            Err(Error::OutOfRange("after"))
-        } else if !$command.is_finite() {
-            Err(Error::NonFinite("safe command"))
-        } else {
-            Ok(Self {
-                after: $after,
-                weight: WEIGHT,
-                command: Some($command),
-            })
+            return Err(Error::OutOfRange("after"));
         }
-    };
+        must_be_finite!($command, "safe command");
+        Ok(Self {
+            after: $after,
+            weight: WEIGHT,
+            command: Some($command),
+        })
+    }};
 }
 
 macro_rules! constant {
@@ -313,29 +311,10 @@ pub(crate) fn fault_of_dt<T: Real>(dt: T, longest: T) -> Option<Fault> {
     }
 }
 
-/// The time since the last good sample after one more bad one.
-///
-/// The highest float where the sample's own time is unknown: a signal that has moved since has
-/// no rate then.
-pub(crate) fn gap_after<T: Real>(gap: T, dt: T, longest: T) -> T {
-    match fault_of_dt(dt, longest) {
-        None => clamp(gap + dt, T::ZERO, T::HIGHEST),
-        Some(_) if dt == T::ZERO => gap,
-        Some(_) => T::HIGHEST,
-    }
-}
-
 /// The first of these numbers that is not finite.
 pub(crate) fn first_fault<T: Real>(numbers: &[(T, Fault)]) -> Option<Fault> {
     let bad = numbers.iter().find(|(number, _)| !number.is_finite());
     bad.map(|&(_, fault)| fault)
-}
-
-/// Whether a number is finite, without a branch where several are added up first.
-#[inline]
-pub(crate) fn is_usable<T: Real>(sum: T) -> bool {
-    // A product of zero and an infinity is NaN.
-    sum * T::ZERO == T::ZERO
 }
 
 /// What is read before it is checked.

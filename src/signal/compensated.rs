@@ -1,6 +1,7 @@
 //! A sum that keeps what rounding would drop.
 
 use super::clamp;
+use crate::error::is_usable;
 use crate::Real;
 
 /// A running sum with the part that the last addition lost to rounding.
@@ -56,8 +57,7 @@ impl<T: Real> Compensated<T> {
     #[inline]
     pub(crate) fn add(self, increment: T, low: T, high: T) -> Option<Self> {
         let sum = self.plus(increment);
-        // One test of both: a product of zero and an infinity is NaN.
-        if (sum.value + sum.carry) * T::ZERO != T::ZERO {
+        if !is_usable(sum.value + sum.carry) {
             return None;
         }
         let value = clamp(sum.value, low, high);

@@ -9,6 +9,7 @@
 mod clamp;
 mod compensated;
 mod derivative;
+mod gap;
 mod guard;
 mod motion;
 mod plausible;
@@ -20,6 +21,7 @@ pub use clamp::clamp;
 pub(crate) use compensated::two_sum;
 pub use compensated::Compensated;
 pub use derivative::{Derivative, DerivativeState};
+pub(crate) use gap::gap_after;
 pub use guard::{Guard, GuardState};
 pub use motion::Motion;
 pub use plausible::{Implausible, Plausible, PlausibleOutput, PlausibleState};

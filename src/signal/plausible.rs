@@ -1,5 +1,7 @@
 //! Whether a finite number can be true: its range, its rate, and whether it is stuck.
 
+use super::gap::gap_after;
+use crate::error::{above_zero, ordered};
 use crate::{Error, Real};
 
 /// What a sensor's sample can be: within a range, not faster than a rate, not frozen.
@@ -79,40 +81,28 @@ pub struct PlausibleState<T> {
     same: u32,
 }
 
-/// The checks of the range, for any float and for constants.
+/// The range after its checks, for any float and for constants.
 macro_rules! range {
-    ($low:ident, $high:ident) => {
-        if !$low.is_finite() {
-            Err(Error::NonFinite("low"))
-        } else if !$high.is_finite() {
-            Err(Error::NonFinite("high"))
-        } else if $low < $high {
-            Ok(Self {
-                low: $low,
-                high: $high,
-                rate: None,
-                stuck_after: 0,
-            })
-        } else {
-            Err(Error::Inadmissible("low < high"))
-        }
-    };
+    ($low:ident, $high:ident) => {{
+        ordered!($low, $high);
+        Ok(Self {
+            low: $low,
+            high: $high,
+            rate: None,
+            stuck_after: 0,
+        })
+    }};
 }
 
-/// The checks of the rate, likewise.
+/// A range with its rate after the checks, likewise.
 macro_rules! rated {
-    ($range:ident, $rate:ident, $zero:expr) => {
-        if !$rate.is_finite() {
-            Err(Error::NonFinite("rate"))
-        } else if $rate <= $zero {
-            Err(Error::OutOfRange("rate"))
-        } else {
-            Ok(Self {
-                rate: Some($rate),
-                ..$range
-            })
-        }
-    };
+    ($range:ident, $rate:ident, $zero:expr) => {{
+        above_zero!($rate, $zero, "rate");
+        Ok(Self {
+            rate: Some($rate),
+            ..$range
+        })
+    }};
 }
 
 macro_rules! constant {
@@ -185,7 +175,7 @@ impl<T: Real> Plausible<T> {
         dt: T,
         moves: bool,
     ) -> PlausibleOutput<T> {
-        let elapsed = state.elapsed(dt);
+        let elapsed = gap_after(state.gap, dt, T::HIGHEST);
         let fault = self.fault(state, sample, elapsed, moves);
         match fault {
             None => {
@@ -248,18 +238,6 @@ impl<T: Real> PlausibleState<T> {
     #[must_use]
     pub const fn last(&self) -> Option<T> {
         self.last
-    }
-
-    /// Time since the last plausible sample; the highest float where nobody knows it.
-    #[inline]
-    fn elapsed(&self, dt: T) -> T {
-        if dt >= T::ZERO && dt.is_finite() {
-            let sum = self.gap + dt;
-            if sum.is_finite() {
-                return sum;
-            }
-        }
-        T::HIGHEST
     }
 }
 

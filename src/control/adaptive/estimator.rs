@@ -202,46 +202,23 @@ impl<T: Real> Default for Estimator<T> {
 macro_rules! checks {
     ($estimator:expr, $names:expr, $T:ty) => {{
         let (it, names, zero) = (&$estimator, &$names, <$T as crate::Real>::ZERO);
-        if !it.low.is_finite() {
-            return Err(Error::NonFinite(names.low));
-        }
-        if !it.high.is_finite() {
-            return Err(Error::NonFinite(names.high));
-        }
-        if !it.prior.is_finite() {
-            return Err(Error::NonFinite(names.prior));
-        }
+        must_be_finite!(it.low, names.low);
+        must_be_finite!(it.high, names.high);
+        must_be_finite!(it.prior, names.prior);
         if it.low > it.high {
             return Err(Error::OutOfRange(names.low));
         }
-        if !it.initial.is_finite() {
-            return Err(Error::NonFinite(names.initial));
-        }
+        must_be_finite!(it.initial, names.initial);
         if it.initial < it.low || it.initial > it.high {
             return Err(Error::OutOfRange(names.initial));
         }
-        if !it.gain.is_finite() {
-            return Err(Error::NonFinite(names.gain));
-        }
-        if it.gain < zero {
-            return Err(Error::OutOfRange(names.gain));
-        }
+        not_below_zero!(it.gain, zero, names.gain);
         if it.gain > zero && it.low == it.high {
             return Err(Error::Inadmissible(names.fixed));
         }
-        if !it.leakage.rate().is_finite() {
-            return Err(Error::NonFinite(names.leakage));
-        }
-        if it.leakage.rate() < zero {
-            return Err(Error::OutOfRange(names.leakage));
-        }
+        not_below_zero!(it.leakage.rate(), zero, names.leakage);
         if let Leakage::Switching { bound, .. } = it.leakage {
-            if !bound.is_finite() {
-                return Err(Error::NonFinite(names.bound));
-            }
-            if bound <= zero {
-                return Err(Error::OutOfRange(names.bound));
-            }
+            above_zero!(bound, zero, names.bound);
         }
     }};
 }

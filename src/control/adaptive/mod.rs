@@ -36,8 +36,6 @@ pub use settings::{AdaptiveSettings, Form, Missing};
 pub use smooth_sign::SmoothSign;
 pub use state::{AdaptiveInput, AdaptiveOutput, AdaptiveState, AdaptiveTerms};
 
-#[cfg(kani)]
-use crate::signal::Compensated;
 use crate::{Error, Real};
 
 /// Robust adaptive torque control over `N` regressors, (17)-(26).
@@ -88,11 +86,10 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     }
 
     fn checked(settings: AdaptiveSettings<T, N>) -> Self {
-        let longest = match settings.largest_step() {
-            Some(largest) if largest < settings.longest_dt => largest,
-            _ => settings.longest_dt,
-        };
-        Self { settings, longest }
+        Self {
+            longest: settings.longest(),
+            settings,
+        }
     }
 
     /// The settings.

@@ -4,6 +4,7 @@ use super::estimator::{self, BETA, DELTA, THETA};
 use super::{Adaptive, Estimator, Leakage, SmoothSign};
 use crate::control::status::OUTSIDE;
 use crate::control::{Fallback, Limits};
+use crate::error::{above_zero, must_be_finite, not_below_zero};
 use crate::{Error, Real};
 
 /// How the error's rate enters the law: each form is for one kind of plant.
@@ -154,26 +155,32 @@ macro_rules! largest_step {
     }};
 }
 
-/// A number that is finite and above zero, or the error with its name.
-macro_rules! positive {
-    ($value:expr, $name:literal, $zero:ident) => {
-        if !$value.is_finite() {
-            return Err(Error::NonFinite($name));
+/// The longest step that a law accepts, likewise.
+macro_rules! longest {
+    ($settings:ident, $T:ty) => {{
+        let s = $settings;
+        match s.form {
+            Form::Lag { plant_gain, .. } => {
+                let largest: $T = largest_step!(s, plant_gain, $T);
+                if largest < s.longest_dt {
+                    largest
+                } else {
+                    s.longest_dt
+                }
+            }
+            Form::Literal { .. } => s.longest_dt,
         }
-        if $value <= $zero {
-            return Err(Error::OutOfRange($name));
-        }
-    };
+    }};
 }
 
 /// Every check of the settings, for any float and for constants.
 macro_rules! checks {
     ($settings:ident, $T:ty) => {{
         let (s, zero, one) = ($settings, <$T as Real>::ZERO, <$T as Real>::ONE);
-        positive!(s.gain, "gain", zero);
-        positive!(s.lambda, "lambda", zero);
-        positive!(s.epsilon, "epsilon", zero);
-        positive!(s.z_limit, "z_limit", zero);
+        above_zero!(s.gain, zero, "gain");
+        above_zero!(s.lambda, zero, "lambda");
+        above_zero!(s.epsilon, zero, "epsilon");
+        above_zero!(s.z_limit, zero, "z_limit");
         estimator::checks!(s.beta, BETA, $T);
         estimator::checks!(s.delta, DELTA, $T);
         // A `for` is not constant.
@@ -182,7 +189,7 @@ macro_rules! checks {
             estimator::checks!(s.theta[i], THETA, $T);
             i += 1;
         }
-        positive!(s.longest_dt, "longest_dt", zero);
+        above_zero!(s.longest_dt, zero, "longest_dt");
         if let Some(safe) = s.fallback.command() {
             if safe < s.limits.low() || safe > s.limits.high() {
                 return Err(Error::Inadmissible(OUTSIDE));
@@ -190,16 +197,11 @@ macro_rules! checks {
         }
         match s.form {
             Form::Literal { time_constant } => {
-                if !time_constant.is_finite() {
-                    return Err(Error::NonFinite("time_constant"));
-                }
-                if time_constant < zero {
-                    return Err(Error::OutOfRange("time_constant"));
-                }
+                not_below_zero!(time_constant, zero, "time_constant");
             }
             Form::Lag { step, plant_gain } => {
-                positive!(step, "step", zero);
-                positive!(plant_gain, "plant_gain", zero);
+                above_zero!(step, zero, "step");
+                above_zero!(plant_gain, zero, "plant_gain");
                 if s.beta.low <= zero {
                     return Err(Error::Inadmissible("lag form: beta.low > 0"));
                 }
@@ -238,18 +240,8 @@ macro_rules! constant {
                 if let Err(error) = settings.const_check() {
                     return Err(error);
                 }
-                let longest = match settings.form {
-                    Form::Literal { .. } => settings.longest_dt,
-                    Form::Lag { plant_gain, .. } => {
-                        let s = &settings;
-                        let largest: $float = largest_step!(s, plant_gain, $float);
-                        if largest < settings.longest_dt {
-                            largest
-                        } else {
-                            settings.longest_dt
-                        }
-                    }
-                };
+                let s = &settings;
+                let longest = longest!(s, $float);
                 Ok(Self { settings, longest })
             }
         }
@@ -316,6 +308,11 @@ impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
             return None;
         };
         Some(largest_step!(self, plant_gain, T))
+    }
+
+    /// The longest step that a law with these settings accepts \[s\].
+    pub(super) fn longest(&self) -> T {
+        longest!(self, T)
     }
 
     /// Everything that must hold.

@@ -1,9 +1,9 @@
 //! What goes into a step, what comes out, and what is kept between.
 
 use super::Adaptive;
-use crate::control::status::{gap_after, Held};
+use crate::control::status::Held;
 use crate::control::Status;
-use crate::signal::{Compensated, DerivativeState};
+use crate::signal::{gap_after, Compensated, DerivativeState};
 use crate::Real;
 
 /// One sample for an [`Adaptive`] law.

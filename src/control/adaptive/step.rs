@@ -2,8 +2,9 @@
 
 use super::{Adaptive, AdaptiveInput, AdaptiveOutput, AdaptiveState, AdaptiveTerms};
 use super::{Form, Missing};
-use crate::control::status::{fault_of_dt, first_fault, is_usable, Latch};
+use crate::control::status::{fault_of_dt, first_fault, Latch};
 use crate::control::{Fault, Output, Status};
+use crate::error::is_usable;
 use crate::signal::{Compensated, Derivative, DerivativeState};
 use crate::Real;
 
@@ -138,34 +139,38 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     #[inline(never)]
     fn exception(&self, state: &mut AdaptiveState<T, N>, input: &AdaptiveInput<T, N>) -> Output<T> {
         let fallback = &self.settings.fallback;
-        let status = match (state.held.latched(fallback), self.without_dropped(input)) {
-            (Some(safe), _) => safe,
-            (None, Err(fault)) => {
-                state.wait(input.dt, self.longest);
-                state.held.bad(fault, fallback)
-            }
-            (None, Ok((live, dropped))) => {
-                let frozen = self.settings.frozen || dropped.is_some();
-                let command = if state.held.is_closed() {
-                    self.advance(state, &live, frozen)
-                } else {
-                    self.close(state, &live, frozen)
-                };
-                match (command, dropped) {
-                    (Some(_), None) => Status::Good,
-                    (Some(_), Some(fault)) => Status::Degraded(fault),
-                    (None, _) => {
-                        state.wait(input.dt, self.longest);
-                        state.held.bad(Fault::Overflow, fallback)
-                    }
+        let status = match state.held.latched(fallback) {
+            Some(safe) => safe,
+            None => match self.live(state, input) {
+                Ok(None) => Status::Good,
+                Ok(Some(dropped)) => Status::Degraded(dropped),
+                Err(fault) => {
+                    state.wait(input.dt, self.longest);
+                    state.held.bad(fault, fallback)
                 }
-            }
+            },
         };
         Output {
             // A state may come from anywhere.
             command: self.settings.limits.confine(state.held.command),
             status,
         }
+    }
+
+    /// A sample without what may be dropped of it; the first fault that was dropped.
+    fn live(
+        &self,
+        state: &mut AdaptiveState<T, N>,
+        input: &AdaptiveInput<T, N>,
+    ) -> Result<Option<Fault>, Fault> {
+        let (live, dropped) = self.without_dropped(input)?;
+        let frozen = self.settings.frozen || dropped.is_some();
+        let command = if state.held.is_closed() {
+            self.advance(state, &live, frozen)
+        } else {
+            self.close(state, &live, frozen)
+        };
+        command.map(|_| dropped).ok_or(Fault::Overflow)
     }
 
     /// The first good sample after a safe command that was acknowledged.

@@ -3,6 +3,7 @@
 use super::Pid;
 use crate::control::status::OUTSIDE;
 use crate::control::{Fallback, Limits};
+use crate::error::{above_zero, must_be_finite, not_below_zero};
 use crate::{Error, Real};
 
 /// What the gain `k_d` multiplies.
@@ -167,61 +168,40 @@ fn any_dt<T: Real>() -> T {
     T::HIGHEST
 }
 
+/// A number within 0..=1, or the error with its name.
+macro_rules! share {
+    ($value:expr, $zero:expr, $one:expr, $name:expr) => {
+        not_below_zero!($value, $zero, $name);
+        if $value > $one {
+            return Err(Error::OutOfRange($name));
+        }
+    };
+}
+
 /// Every check of the settings, for any float and for constants.
 macro_rules! checks {
     ($settings:ident, $T:ty) => {{
         let (s, zero, one) = ($settings, <$T as Real>::ZERO, <$T as Real>::ONE);
-        if !s.k_p.is_finite() {
-            return Err(Error::NonFinite("k_p"));
-        }
-        if !s.k_i.is_finite() {
-            return Err(Error::NonFinite("k_i"));
-        }
-        if !s.k_d.is_finite() {
-            return Err(Error::NonFinite("k_d"));
-        }
+        must_be_finite!(s.k_p, "k_p");
+        must_be_finite!(s.k_i, "k_i");
+        must_be_finite!(s.k_d, "k_d");
         if (s.k_p > zero && s.k_i < zero) || (s.k_p < zero && s.k_i > zero) {
             return Err(Error::Inadmissible("k_p and k_i have the same sign"));
         }
         if let Damping::Rate { weight } = s.damping {
-            if !weight.is_finite() {
-                return Err(Error::NonFinite("derivative weight"));
-            }
-            if weight < zero || weight > one {
-                return Err(Error::OutOfRange("derivative weight"));
-            }
+            share!(weight, zero, one, "derivative weight");
             let above = s.k_p > zero || s.k_i > zero;
             let below = s.k_p < zero || s.k_i < zero;
             if (above && s.k_d < zero) || (below && s.k_d > zero) {
                 return Err(Error::Inadmissible("k_d has the sign of k_p and k_i"));
             }
         }
-        if !s.setpoint_weight.is_finite() {
-            return Err(Error::NonFinite("setpoint_weight"));
-        }
-        if s.setpoint_weight < zero || s.setpoint_weight > one {
-            return Err(Error::OutOfRange("setpoint_weight"));
-        }
-        if !s.derivative_time.is_finite() {
-            return Err(Error::NonFinite("derivative_time"));
-        }
-        if s.derivative_time < zero {
-            return Err(Error::OutOfRange("derivative_time"));
-        }
+        share!(s.setpoint_weight, zero, one, "setpoint_weight");
+        not_below_zero!(s.derivative_time, zero, "derivative_time");
         if let AntiWindup::BackCalculation { tracking_time } = s.anti_windup {
-            if !tracking_time.is_finite() {
-                return Err(Error::NonFinite("tracking_time"));
-            }
-            if tracking_time <= zero {
-                return Err(Error::OutOfRange("tracking_time"));
-            }
+            above_zero!(tracking_time, zero, "tracking_time");
         }
-        if !s.longest_dt.is_finite() {
-            return Err(Error::NonFinite("longest_dt"));
-        }
-        if s.longest_dt <= zero {
-            return Err(Error::OutOfRange("longest_dt"));
-        }
+        above_zero!(s.longest_dt, zero, "longest_dt");
         if let Some(safe) = s.fallback.command() {
             if safe < s.limits.low() || safe > s.limits.high() {
                 return Err(Error::Inadmissible(OUTSIDE));

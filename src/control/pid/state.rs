@@ -1,9 +1,9 @@
 //! What a [`Pid`] remembers between samples.
 
 use super::{Pid, PidInput};
-use crate::control::status::{gap_after, Held};
+use crate::control::status::Held;
 use crate::control::Status;
-use crate::signal::Compensated;
+use crate::signal::{gap_after, Compensated};
 use crate::Real;
 
 /// State of a [`Pid`]: the integral, the filtered rate, the last good sample.
