@@ -106,8 +106,11 @@ fn accuracy(_: &mut Criterion) {
             error(n, &leaps, 20_000, step),
         );
     };
-    row("step, one power, f64", general, |s, eta, dx| {
+    row("step that splits, f64", general, |s, eta, dx| {
         s.advance(eta, dx)
+    });
+    row("step in bounded time, f64", general, |s, eta, dx| {
+        s.advance_bounded(eta, dx)
     });
     row("four stages, f64", general, |s, eta, dx| {
         s.advance_four_stage(eta, dx)
@@ -124,8 +127,65 @@ fn accuracy(_: &mut Criterion) {
             error(general, &leaps32, 20_000, step),
         );
     };
-    row("step, one power, f32", |s, eta, dx| s.advance(eta, dx));
+    row("step in bounded time, f32", |s, eta, dx| s.advance(eta, dx));
+    row("step that splits, f32", |s, eta, dx| {
+        s.advance_split(eta, dx)
+    });
     row("Runge-Kutta 4, f32", runge_kutta);
+    jump_table();
+}
+
+/// Greatest and mean error of eta of one `f32` step over 4000 jumps, rho = 0.09582.
+fn jump_error(n: f64, sigma: f64, size: f64) -> (f64, f64) {
+    const JUMPS: usize = 4000;
+    let rho = 0.095_82;
+    let (Ok(exact), Ok(short)) = (
+        Shape::<f64>::try_new(rho, sigma, n),
+        Shape::<f32>::try_new(rho as f32, sigma as f32, n as f32),
+    ) else {
+        return (f64::NAN, f64::NAN);
+    };
+    let (mut state, mut last, mut eta) = (7_u64, 0.0, 0.0);
+    let (mut most, mut sum) = (0.0_f64, 0.0);
+    for _ in 0..JUMPS {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        let now = size * (2.0 * ((state >> 11) as f64 / (1_u64 << 53) as f64) - 1.0);
+        let step = short.advance(eta as f32, (now - last) as f32);
+        eta = (0..30).fold(eta, |eta, _| {
+            exact.advance_four_stage(eta, (now - last) / 30.0)
+        });
+        let here = (f64::from(step) - eta).abs();
+        most = most.max(here);
+        sum += here;
+        last = now;
+    }
+    (most, sum / JUMPS as f64)
+}
+
+/// What a jump costs the step in bounded time, by shape and size.
+fn jump_table() {
+    println!("error of eta in one f32 step: greatest (mean), jumps within");
+    println!(
+        "{:<26} {:>20} {:>20} {:>20}",
+        "", "0.3 N.m", "3 N.m", "16 N.m"
+    );
+    for n in [1.0, 1.5, 2.0, 3.871, 10.0] {
+        for sigma in [0.6, 3.0, 98.36] {
+            let cell = |size| {
+                let (most, mean) = jump_error(n, sigma, size);
+                format!("{most:.1e} ({mean:.1e})")
+            };
+            let name = format!("n = {n}, sigma = {sigma}");
+            println!(
+                "{name:<26} {:>20} {:>20} {:>20}",
+                cell(0.3),
+                cell(3.0),
+                cell(16.0)
+            );
+        }
+    }
 }
 
 fn time<T: Real>(c: &mut Criterion, name: &str, n: f64, step: impl Fn(&Shape<T>, T, T) -> T) {
@@ -141,11 +201,14 @@ fn time<T: Real>(c: &mut Criterion, name: &str, n: f64, step: impl Fn(&Shape<T>,
 }
 
 fn speed(c: &mut Criterion) {
-    time::<f64>(c, "step, one power, f64", 3.871, |s, eta, dx| {
+    time::<f64>(c, "step that splits, f64", 3.871, |s, eta, dx| {
         s.advance(eta, dx)
     });
-    time::<f32>(c, "step, one power, f32", 3.871, |s, eta, dx| {
+    time::<f32>(c, "step in bounded time, f32", 3.871, |s, eta, dx| {
         s.advance(eta, dx)
+    });
+    time::<f32>(c, "step that splits, f32", 3.871, |s, eta, dx| {
+        s.advance_split(eta, dx)
     });
     time::<f64>(c, "four stages, f64", 3.871, |s, eta, dx| {
         s.advance_four_stage(eta, dx)

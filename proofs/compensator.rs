@@ -21,9 +21,10 @@ fn any_blind_term<T: Real, const N: usize>(_: &Model<T, N>, _: &Sample<T>) -> Op
     kani::any::<bool>().then(kani::any)
 }
 
-/// Any root of the inverse, NaN included.
-fn any_root<T: Real>(_: &Inverse<T>, _: T, _: T, _: T, _: T, _: T) -> T {
-    T::of(kani::any())
+/// Any root of the inverse, NaN included, with an eta as the hysteresis' rows prove of a step.
+fn any_root<T: Real>(_: &Inverse<T>, _: T, _: T, _: T, _: T, _: T) -> (T, T) {
+    let eta = kani::any_where(|eta: &f64| eta.abs() <= 1.0);
+    (T::of(kani::any()), T::of(eta))
 }
 
 /// What the hysteresis' rows prove of a step, and no more.
@@ -54,6 +55,7 @@ fn compensator() -> Result<Compensator<f32, 1>, Error> {
 #[kani::stub(Model::first_blind_term, any_blind_term)]
 #[kani::stub(Inverse::solve, any_root)]
 #[kani::stub(Shape::advance, any_eta)]
+#[kani::stub(Shape::bounded, any_eta)]
 fn compensator_any_sample() {
     let compensator = compensator();
     kani::assume(compensator.is_ok());

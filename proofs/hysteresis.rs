@@ -1,4 +1,4 @@
-//! K3: the hysteresis stays within ±1 and never runs backward, whatever the power function.
+//! K3 of the step that splits its path: the hysteresis stays within ±1 and never runs backward, whatever the power function.
 //!
 //! A path is followed in parts. Each part is proved for any state and any path above zero, so
 //! that every pass of the loop over the parts keeps the state in its interval. Then follow
@@ -219,7 +219,7 @@ fn any_step<N: Number>(zeta: N, _: N, _: N, _: N) -> N {
     any_number(|next| not_before(zeta.value(), next) && next <= N::Float::of(1.0))
 }
 
-/// K3. The step of any accepted shape: eta ends within ±1, and a finite change of the input
+/// K3. The step that splits its path, of any accepted shape: eta ends within ±1, and a finite change of the input
 /// never moves it backward.
 ///
 /// Assumes: any eta but NaN (one beyond ±1 counts as ±1), any change; the general step as
@@ -228,12 +228,12 @@ fn any_step<N: Number>(zeta: N, _: N, _: N, _: N) -> N {
 #[kani::stub(follow, any_step)]
 #[kani::stub(closed::linear, any_closed_form)]
 #[kani::stub(closed::quadratic, any_closed_form)]
-fn eta_stays_within_1() {
+fn split_eta_stays_within_1() {
     let shape = Shape::<f32>::try_new(kani::any(), kani::any(), kani::any());
     kani::assume(shape.is_ok());
     if let Ok(shape) = shape {
         let (eta, change): (f32, f32) = (within(-1.0, 1.0), kani::any());
-        let next = shape.advance(eta, change);
+        let next = shape.advance_split(eta, change);
         kani::cover!(shape.n() == 2.0 && change < -1.0 && next < eta);
         kani::cover!(shape.n() > 2.0 && change > 1.0 && next > eta);
         let c = 2.0 * shape.sigma() - 1.0;
@@ -244,7 +244,9 @@ fn eta_stays_within_1() {
         assert!(change.is_finite() || next == eta);
         let outside = finite();
         assert!(
-            !change.is_finite() || change == 0.0 || shape.advance(outside, change).abs() <= 1.0
+            !change.is_finite()
+                || change == 0.0
+                || shape.advance_split(outside, change).abs() <= 1.0
         );
     }
 }

@@ -8,10 +8,76 @@ use core::fmt::{Debug, Display};
 use num_traits::float::FloatCore;
 use num_traits::NumAssign;
 
-mod sealed {
-    pub trait Sealed {}
-    impl Sealed for f32 {}
-    impl Sealed for f64 {}
+mod short;
+
+/// What the hysteresis needs of a float besides, no part of the interface.
+pub(crate) mod sealed {
+    use super::short;
+
+    pub trait Sealed: Sized {
+        /// Whether a step must be short (firmware) rather than exact for any jump (the lab).
+        const SHORT: bool;
+        fn log2(self) -> Self;
+        fn exp2(self) -> Self;
+        /// Base-2 logarithm by straight lines between the powers of 2.
+        fn coarse_log2(self) -> Self;
+        /// A power by the same straight lines.
+        fn coarse_power(self, exponent: Self) -> Self;
+        /// The power of 2 at a number above zero, or next below it.
+        fn binade(self) -> Self;
+    }
+
+    impl Sealed for f32 {
+        const SHORT: bool = true;
+        #[inline]
+        fn log2(self) -> Self {
+            short::log2(self)
+        }
+        #[inline]
+        fn exp2(self) -> Self {
+            short::exp2(self)
+        }
+        #[inline]
+        fn coarse_log2(self) -> Self {
+            short::coarse_log2(self)
+        }
+        #[inline]
+        fn coarse_power(self, exponent: Self) -> Self {
+            short::coarse_power(self, exponent)
+        }
+        #[inline]
+        fn binade(self) -> Self {
+            Self::from_bits(self.to_bits() & 0xff80_0000)
+        }
+    }
+
+    impl Sealed for f64 {
+        const SHORT: bool = false;
+        #[inline]
+        fn log2(self) -> Self {
+            libm::log2(self)
+        }
+        #[inline]
+        fn exp2(self) -> Self {
+            libm::exp2(self)
+        }
+        #[inline]
+        fn coarse_log2(self) -> Self {
+            (self.to_bits() as i64).wrapping_sub(ONE) as f64 / 4_503_599_627_370_496.0
+        }
+        #[inline]
+        fn coarse_power(self, exponent: Self) -> Self {
+            let log = (self.to_bits() as i64).wrapping_sub(ONE) as f64;
+            Self::from_bits(((exponent * log) as i64).wrapping_add(ONE) as u64)
+        }
+        #[inline]
+        fn binade(self) -> Self {
+            Self::from_bits(self.to_bits() & 0xfff0_0000_0000_0000)
+        }
+    }
+
+    /// The bits of 1.
+    const ONE: i64 = 0x3ff0_0000_0000_0000;
 }
 
 /// A float that the crate can compute with: `f32` or `f64`.

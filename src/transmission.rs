@@ -374,13 +374,13 @@ impl<T: Real> Inverse<T> {
             self.shape.step(state, input);
             return input;
         };
-        let input = self.solve(start, state.eta(), target, lowest, highest);
-        self.shape.step(state, input);
+        let (input, eta) = self.solve(start, state.eta(), target, lowest, highest);
+        state.arrive(input, eta);
         input
     }
 
-    /// Root of `gain·u + hysteresis·eta(u) - target`, which rises with `u`.
-    fn solve(&self, start: T, eta: T, target: T, lowest: T, highest: T) -> T {
+    /// Root of `gain·u + hysteresis·eta(u) - target`, which rises with `u`, and eta there.
+    fn solve(&self, start: T, eta: T, target: T, lowest: T, highest: T) -> (T, T) {
         let mut tolerance = target.abs() + (self.gain * start).abs() + self.hysteresis.abs();
         tolerance *= T::of(4.0) * T::epsilon();
         let error = self.gain * start + self.hysteresis * eta - target;
@@ -397,23 +397,33 @@ impl<T: Real> Inverse<T> {
         } else if error <= T::zero() && start > low {
             low = start;
         }
-        let (mut input, mut error, mut slope) = (start, error, self.slope(eta, direction));
-        let (mut best, mut best_error) = (start, error.abs());
+        let (mut input, mut error, mut there) = (start, error, eta);
+        let (mut best, mut best_error) = ((start, eta), error.abs());
+        // The whole curve bends one way, so that Newton's steps from one of its ends, the
+        // start or the other, do not pass the root.
+        let mut end = Some(if direction > T::zero() { high } else { low });
+        let mut is_halving = false;
         for _ in 0..MOST_EVALUATIONS {
             if best_error <= tolerance {
                 break;
             }
-            let newton = input - error / slope;
-            let middle = low + (high - low) * T::of(0.5);
-            let next = if newton > low && newton < high {
+            // Where Newton does not halve the error (a slope near zero): halve the bracket.
+            let newton = if is_halving {
+                low
+            } else {
+                input - error / self.slope(there, direction)
+            };
+            let is_inside = newton > low && newton < high;
+            let jump = if is_inside { None } else { end.take() };
+            let next = if is_inside {
                 newton
             } else {
-                middle
+                jump.unwrap_or(low + (high - low) * T::of(0.5))
             };
             if next == input {
                 break;
             }
-            let there = self.shape.advance(eta, next - start);
+            there = self.shape.advance(eta, next - start);
             let previous = error.abs();
             input = next;
             error = self.gain * input + self.hysteresis * there - target;
@@ -423,14 +433,10 @@ impl<T: Real> Inverse<T> {
                 low = input;
             }
             if error.abs() < best_error {
-                best = input;
+                best = (input, there);
                 best_error = error.abs();
             }
-            slope = self.slope(there, direction);
-            if error.abs() > previous * T::of(0.5) {
-                // Newton does not halve the error (a slope near zero): halve the bracket.
-                slope = T::zero();
-            }
+            is_halving = jump.is_none() && error.abs() > previous * T::of(0.5);
         }
         best
     }

@@ -1,4 +1,5 @@
-//! All 2³² arguments: what the proofs assume of libm, and the tanh that they cannot follow.
+//! All 2³² arguments: what the proofs assume of libm, the tanh that they cannot follow, and
+//! the error of the short logarithm and exponential.
 //!
 //! `cargo test --test exhaustive -- --ignored`, a minute a test on two cores.
 
@@ -8,6 +9,9 @@ mod contracts;
 #[allow(dead_code)]
 #[path = "../proofs/properties/signal.rs"]
 mod signal;
+
+#[path = "../src/real/short.rs"]
+mod short;
 
 use bowden::control::SmoothSign;
 use bowden::Real;
@@ -75,4 +79,48 @@ fn tanh_falls_where_it_is_known_to_fall() {
     // Of both signs: tanh is odd to the bit.
     let falls = |x: f32| x.is_finite() && Real::tanh(outwards(x)).abs() < Real::tanh(x).abs();
     assert_eq!(count(falls), 2 * 10_739);
+}
+
+#[test]
+#[ignore = "all 2^32 arguments: two minutes"]
+fn the_short_logarithm_is_as_exact_as_its_docs_say() {
+    let is_off = |x: f32| {
+        let exact = f64::from(x).log2();
+        x.is_normal() && x > 0.0 && (f64::from(short::log2(x)) - exact).abs() > 3.7e-7 * exact.abs()
+    };
+    assert_eq!(count(is_off), 0);
+}
+
+#[test]
+#[ignore = "all 2^32 arguments: two minutes"]
+fn the_short_exponential_is_as_exact_as_its_docs_say() {
+    let is_off = |y: f32| {
+        let exact = f64::from(y).exp2();
+        (-126.0..127.0).contains(&y) && (f64::from(short::exp2(y)) - exact).abs() > 2.9e-7 * exact
+    };
+    assert_eq!(count(is_off), 0);
+    // Below, it stays a number that no step notices; a power of nothing is 1 to the bit.
+    assert_eq!(
+        count(|y| y <= -126.0 && short::exp2(y) != short::exp2(-126.0)),
+        0
+    );
+    assert_eq!((short::exp2(0.0), short::log2(1.0)), (1.0, 0.0));
+}
+
+#[test]
+#[ignore = "all 2^32 arguments: two minutes"]
+fn the_coarse_functions_are_as_exact_as_their_docs_say() {
+    let is_off = |x: f32| {
+        let exact = f64::from(x).log2();
+        x.is_normal() && x > 0.0 && (f64::from(short::coarse_log2(x)) - exact).abs() > 0.0861
+    };
+    assert_eq!(count(is_off), 0);
+    for exponent in [0.0_f32, 0.5, 2.871, 30.0] {
+        let is_off = |x: f32| {
+            let exact = f64::from(x).powf(f64::from(exponent));
+            let coarse = f64::from(short::coarse_power(x, exponent));
+            x.is_normal() && x > 0.0 && x <= 1.0 && (coarse.max(0.0) - exact).abs() > 0.112
+        };
+        assert_eq!(count(is_off), 0, "{exponent}");
+    }
 }

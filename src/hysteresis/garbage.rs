@@ -3,12 +3,16 @@
 //! The bounds must not rest on the power function, and its count is the cost.
 
 use super::number::Number;
-use super::path::follow;
+use super::{bounded, path};
+use core::cell::Cell;
 use core::ops::{Add, Div, Mul, Neg, Sub};
-use core::sync::atomic::{AtomicU32, Ordering};
 
-/// Powers taken by honest numbers.
-static POWERS: AtomicU32 = AtomicU32::new(0);
+extern crate std;
+
+std::thread_local! {
+    /// Powers taken by honest numbers, in each test by itself.
+    static POWERS: Cell<u32> = const { Cell::new(0) };
+}
 
 /// A float whose exponential is counted, or returns what its argument's bits hash to.
 #[derive(Debug, Clone, Copy)]
@@ -63,9 +67,12 @@ impl<const LIES: bool> Number for Fake<LIES> {
     fn shift(self, by: f32) -> Self {
         Self(self.0 + by)
     }
+    fn abs(self) -> Self {
+        Self(self.0.abs())
+    }
     fn exp(self) -> Self {
         if !LIES {
-            POWERS.fetch_add(1, Ordering::Relaxed);
+            POWERS.set(POWERS.get() + 1);
             return Self(libm::expf(self.0));
         }
         let bits = self.0.to_bits().wrapping_mul(2_654_435_769);
@@ -84,6 +91,18 @@ impl<const LIES: bool> Number for Fake<LIES> {
     fn sqrt(self) -> Self {
         Self(libm::sqrtf(self.0))
     }
+    fn log2(self) -> Self {
+        Self(libm::log2f(self.0))
+    }
+    fn exp2(self) -> Self {
+        self.exp()
+    }
+    fn coarse_log2(self) -> Self {
+        Self(libm::log2f(self.0))
+    }
+    fn coarse_power(self, exponent: Self) -> Self {
+        Self(exponent.0 * libm::log2f(self.0)).exp()
+    }
 }
 
 #[test]
@@ -99,23 +118,29 @@ fn a_lying_power_function_cannot_push_the_state_out_or_back() {
         let p = libm::powf(10.0, 10.0 * uniform() - 8.0);
         let c = libm::powf(10.0, 8.0 * uniform() - 2.0);
         let n = 1.0 + 9.0 * uniform();
-        let next = follow::<Fake<true>>(Fake(zeta), Fake(p), Fake(c), Fake(n)).0;
-        assert!(
-            next >= zeta && next <= 1.0,
-            "{zeta} went to {next} over {p}, c {c}, n {n}"
-        );
+        for follow in [path::follow::<Fake<true>>, bounded::follow] {
+            let next = follow(Fake(zeta), Fake(p), Fake(c), Fake(n)).0;
+            assert!(
+                next >= zeta && next <= 1.0,
+                "{zeta} went to {next} over {p}, c {c}, n {n}"
+            );
+        }
     }
 }
 
+/// The step on numbers that count.
+type Step = fn(Fake<false>, Fake<false>, Fake<false>, Fake<false>) -> Fake<false>;
+
 /// Powers that the path from `zeta` takes.
-fn powers(zeta: f32, p: f32, sigma: f32, n: f32) -> u32 {
-    POWERS.store(0, Ordering::Relaxed);
-    let _ = follow::<Fake<false>>(Fake(zeta), Fake(p), Fake(2.0 * sigma - 1.0), Fake(n));
-    POWERS.load(Ordering::Relaxed)
+fn powers(follow: Step, zeta: f32, p: f32, sigma: f32, n: f32) -> u32 {
+    POWERS.set(0);
+    let _ = follow(Fake(zeta), Fake(p), Fake(2.0 * sigma - 1.0), Fake(n));
+    POWERS.get()
 }
 
 #[test]
 fn a_sample_takes_one_power_and_a_full_reversal_a_few_dozen() {
+    let powers = |zeta, p, sigma, n| powers(path::follow, zeta, p, sigma, n);
     assert_eq!(powers(0.5, 1e-3, 98.36, 3.871), 1);
     assert_eq!(powers(-0.5, 1e-3, 98.36, 3.871), 1);
     // From full saturation to full saturation, the jump that costs most.
@@ -123,4 +148,16 @@ fn a_sample_takes_one_power_and_a_full_reversal_a_few_dozen() {
     assert!(most(0.6).into_iter().all(|count| count <= 30));
     assert!(most(98.36).into_iter().all(|count| count <= 55));
     assert!(most(1e6).into_iter().all(|count| count <= 100));
+}
+
+#[test]
+fn in_bounded_time_any_path_takes_one_power_and_at_most_two_coarse_ones() {
+    for zeta in [-1.0, -0.9, -0.1, -1e-6, 0.0, 1e-6, 0.5, 1.0] {
+        for p in [0.0, 1e-6, 1e-2, 0.3, 1.0, 3.0, 39.0, f32::INFINITY] {
+            for (sigma, n) in [(0.5, 1.0), (0.6, 3.871), (98.36, 3.871), (1e9, 20.0)] {
+                let count = powers(bounded::follow, zeta, p, sigma, n);
+                assert!((1..=3).contains(&count), "{count} from {zeta} over {p}");
+            }
+        }
+    }
 }

@@ -3,6 +3,7 @@
 //! The step is written once. Run on plain floats it is the step; run on [`Dual`]
 //! it is the exact derivative of that very step, branch for branch.
 
+use crate::real::sealed::Sealed;
 use crate::Real;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -22,9 +23,16 @@ pub(super) trait Number:
     fn value(self) -> Self::Float;
     fn scale(self, by: Self::Float) -> Self;
     fn shift(self, by: Self::Float) -> Self;
+    fn abs(self) -> Self;
     fn exp(self) -> Self;
     fn ln(self) -> Self;
     fn sqrt(self) -> Self;
+    fn log2(self) -> Self;
+    fn exp2(self) -> Self;
+    /// Base-2 logarithm by straight lines between the powers of 2.
+    fn coarse_log2(self) -> Self;
+    /// A power by the same straight lines.
+    fn coarse_power(self, exponent: Self) -> Self;
 }
 
 impl<T: Real> Number for T {
@@ -46,6 +54,10 @@ impl<T: Real> Number for T {
         self + by
     }
     #[inline]
+    fn abs(self) -> T {
+        num_traits::float::FloatCore::abs(self)
+    }
+    #[inline]
     fn exp(self) -> T {
         Real::exp(self)
     }
@@ -56,6 +68,22 @@ impl<T: Real> Number for T {
     #[inline]
     fn sqrt(self) -> T {
         Real::sqrt(self)
+    }
+    #[inline]
+    fn log2(self) -> T {
+        Sealed::log2(self)
+    }
+    #[inline]
+    fn exp2(self) -> T {
+        Sealed::exp2(self)
+    }
+    #[inline]
+    fn coarse_log2(self) -> T {
+        Sealed::coarse_log2(self)
+    }
+    #[inline]
+    fn coarse_power(self, exponent: T) -> T {
+        Sealed::coarse_power(self, exponent)
     }
 }
 
@@ -155,6 +183,14 @@ impl<T: Real> Number for Dual<T> {
         }
     }
     #[inline]
+    fn abs(self) -> Self {
+        if self.value < T::zero() {
+            -self
+        } else {
+            self
+        }
+    }
+    #[inline]
     fn exp(self) -> Self {
         let value = Real::exp(self.value);
         self.chain(value, value)
@@ -167,5 +203,28 @@ impl<T: Real> Number for Dual<T> {
     fn sqrt(self) -> Self {
         let value = Real::sqrt(self.value);
         self.chain(value, T::of(0.5) / value)
+    }
+    #[inline]
+    fn log2(self) -> Self {
+        let slope = T::of(core::f64::consts::LOG2_E) / self.value;
+        self.chain(Sealed::log2(self.value), slope)
+    }
+    #[inline]
+    fn exp2(self) -> Self {
+        let value = Sealed::exp2(self.value);
+        self.chain(value, value * T::of(core::f64::consts::LN_2))
+    }
+    #[inline]
+    fn coarse_log2(self) -> Self {
+        let slope = T::one() / self.value.binade();
+        self.chain(Sealed::coarse_log2(self.value), slope)
+    }
+    #[inline]
+    fn coarse_power(self, exponent: Self) -> Self {
+        let value = Sealed::coarse_power(self.value, exponent.value);
+        // Along the straight line that holds each of the two.
+        let (from, to) = (self.value.binade(), value.binade());
+        let log = Sealed::coarse_log2(self.value);
+        self.join(exponent, value, to * exponent.value / from, to * log)
     }
 }

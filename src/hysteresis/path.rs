@@ -216,7 +216,7 @@ pub(super) fn shorter<N: Number>(p: N, rate: N, weight: N::Float, dual: impl Fn(
 
 /// The number where it is positive, else zero (NaN included).
 #[inline]
-fn positive<N: Number>(x: N) -> N {
+pub(super) fn positive<N: Number>(x: N) -> N {
     if x.value() > N::Float::zero() {
         x
     } else {

@@ -2,7 +2,7 @@
 
 use super::number::Dual;
 use super::state::{BoucWen, Sensitivity};
-use super::{closed, path, stages};
+use super::{bounded, closed, path, stages};
 use crate::error::finite;
 use crate::{Error, Real};
 
@@ -87,10 +87,43 @@ impl<T: Real> Shape<T> {
     ///
     /// `|eta| <= 1` holds afterwards whatever the increment. An `eta` outside
     /// [-1, 1] is clamped first; an increment that is not finite changes nothing.
-    /// Exact for `n = 1` and `n = 2`, otherwise of third order.
+    /// In `f32` it is [`advance_bounded`](Self::advance_bounded), in `f64`
+    /// [`advance_split`](Self::advance_split).
     #[inline]
     #[must_use]
     pub fn advance(&self, eta: T, input_change: T) -> T {
+        if T::SHORT {
+            self.advance_bounded(eta, input_change)
+        } else {
+            self.advance_split(eta, input_change)
+        }
+    }
+
+    /// The same increment in bounded time: at most two short powers, without libm.
+    #[inline]
+    #[must_use]
+    pub fn advance_bounded(&self, eta: T, input_change: T) -> T {
+        if !input_change.is_finite() || eta.is_nan() {
+            return eta;
+        }
+        self.bounded(crate::signal::clamp(eta, -T::one(), T::one()), input_change)
+    }
+
+    /// The same for an eta in \[-1, 1\], and a change that may be infinite.
+    #[inline]
+    fn bounded(&self, eta: T, input_change: T) -> T {
+        let one = T::one();
+        let direction = if input_change < T::zero() { -one } else { one };
+        let path = self.rho * input_change.abs();
+        direction * bounded::follow(direction * eta, path, self.c(), self.n)
+    }
+
+    /// The same increment, split where it is long, so that any jump is accurate.
+    ///
+    /// Exact for `n = 1` and `n = 2`, otherwise of third order.
+    #[inline]
+    #[must_use]
+    pub fn advance_split(&self, eta: T, input_change: T) -> T {
         self.along(eta, input_change, |zeta, p, c| {
             if self.n == T::one() {
                 closed::linear(zeta, p, c)
@@ -165,7 +198,11 @@ impl<T: Real> Shape<T> {
             value: self.n,
             by: [zero, zero, one, zero],
         };
-        let next = path::follow(zeta, p, c, n);
+        let next = if T::SHORT {
+            bounded::follow(zeta, p, c, n)
+        } else {
+            path::follow(zeta, p, c, n)
+        };
         let [d_rho, d_sigma, d_n, d_eta0] = next.by;
         Sensitivity {
             eta: direction * crate::signal::clamp(next.value, zeta.value, one),
@@ -183,7 +220,12 @@ impl<T: Real> Shape<T> {
     #[must_use]
     pub fn slope(&self, eta: T, direction: T) -> T {
         let zeta = if direction < T::zero() { -eta } else { eta };
-        let power = zeta.abs().pow(self.n);
+        let a = zeta.abs();
+        let power = if T::SHORT {
+            (self.n * a.log2()).exp2()
+        } else {
+            a.pow(self.n)
+        };
         let f = if zeta < T::zero() {
             T::one() + self.c() * power
         } else {
@@ -200,12 +242,17 @@ impl<T: Real> Shape<T> {
     pub fn step(&self, state: &mut BoucWen<T>, input: T) -> T {
         if input.is_finite() {
             if state.primed {
-                let change =
-                    crate::signal::clamp(input - state.input, T::min_value(), T::max_value());
-                state.eta = self.advance(state.eta, change);
+                let change = input - state.input;
+                state.eta = if T::SHORT {
+                    self.bounded(state.eta, change)
+                } else {
+                    let most = T::max_value();
+                    self.advance(state.eta, crate::signal::clamp(change, -most, most))
+                };
+            } else {
+                state.primed = true;
             }
             state.input = input;
-            state.primed = true;
         }
         state.eta
     }

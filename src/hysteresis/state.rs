@@ -63,6 +63,15 @@ impl<T: Real> BoucWen<T> {
         self.eta
     }
 
+    /// The state at another input, whose eta is known already.
+    #[inline]
+    pub(crate) fn arrive(&mut self, input: T, eta: T) {
+        if input.is_finite() {
+            self.eta = eta;
+            self.input = input;
+        }
+    }
+
     /// The last good input, `None` before the first sample.
     #[inline]
     #[must_use]

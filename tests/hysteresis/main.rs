@@ -3,6 +3,7 @@
 // Clippy's allowance covers the test functions, not what they share.
 #![allow(clippy::unwrap_used)]
 
+mod bounded;
 mod textbook;
 
 use approx::assert_abs_diff_eq;

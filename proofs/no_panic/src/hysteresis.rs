@@ -23,6 +23,14 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(hysteresis_shape_n, shape.n());
     never_panics!(hysteresis_shape_advance, shape.advance(any(), any()));
     never_panics!(
+        hysteresis_shape_advance_bounded,
+        shape.advance_bounded(any(), any())
+    );
+    never_panics!(
+        hysteresis_shape_advance_split,
+        shape.advance_split(any(), any())
+    );
+    never_panics!(
         hysteresis_shape_advance_four_stage,
         shape.advance_four_stage(any(), any())
     );

@@ -1,0 +1,165 @@
+//! The unconditional step in bounded time (derived in the module above).
+
+use super::number::Number;
+use crate::Real;
+use num_traits::{One, Zero};
+
+#[cfg(kani)]
+#[path = "../../proofs/bounded.rs"]
+mod proofs;
+
+/// Where `n·c·a^n` is above this, unloading is a power law rather than a straight line.
+const STEEP: f64 = 3.0;
+/// Beyond this `1/(1 + most)` is zero to rounding.
+const SATURATED: f64 = 1e30;
+
+/// `zeta` after the path `p >= 0`, for `zeta` in `[-1, 1]`, in one go.
+///
+/// `c = 2·sigma - 1`. Any `p`, infinite included, ends in `[zeta, 1]`.
+#[inline]
+pub(super) fn follow<N: Number>(zeta: N, p: N, c: N, n: N) -> N {
+    let a = zeta.abs();
+    // Of a = 0 it is some number, and not used.
+    let powered = (n.shift(-N::Float::one()) * a.log2()).exp2();
+    if zeta.value() > N::Float::zero() {
+        return load(zeta, p, powered, n);
+    }
+    match unload(a, p, powered, c, n) {
+        Ok(forward) => zeta + forward,
+        Err(left) => leave_zero(left, n),
+    }
+}
+
+/// The path above zero; `powered` is `zeta^(n-1)`.
+#[inline]
+pub(super) fn load<N: Number>(zeta: N, p: N, powered: N, n: N) -> N {
+    let one = N::Float::one();
+    let f = (-(zeta * powered)).shift(one);
+    if f.value() > N::Float::zero() {
+        let room = (-zeta).shift(one);
+        let rate = f / room;
+        approach(zeta, room, p * rate, n * powered / rate)
+    } else {
+        zeta
+    }
+}
+
+/// The path from zero: `p = zeta·(1 + zeta^n/(n + 1) + zeta^(2n)/(2n + 1) + …)` turned round.
+#[inline]
+pub(super) fn leave_zero<N: Number>(p: N, n: N) -> N {
+    let (of, one) = (N::Float::of, N::Float::one());
+    let bend = (n - n * n).shift(one) / n.scale(of(2.0)).shift(one);
+    let after = |h: N, powered: N| {
+        let y = powered / n.shift(one);
+        let below = y * (y * bend).shift(one);
+        if below.value() > N::Float::zero() {
+            h / below.shift(one)
+        } else {
+            h
+        }
+    };
+    if p.value() < one {
+        return after(p, p * p.coarse_power(n.shift(-one)));
+    }
+    let zeta = after(N::constant(one), N::constant(one));
+    // From here on at the rate of saturation.
+    approach(
+        zeta,
+        (-zeta).shift(one),
+        n * p.shift(-one),
+        N::constant(one),
+    )
+}
+
+/// `zeta + w·(1 - 1/(1 + m)²)`, `w = 1 - zeta`, with the `m` that agrees with the equation
+/// to third order in `r = p·f/w` but for `f''`; `turn` is `w·|f'|/f`.
+#[inline]
+fn approach<N: Number>(zeta: N, w: N, r: N, turn: N) -> N {
+    let (of, one) = (N::Float::of, N::Float::one());
+    // f is concave, so that only rounding exceeds 1; the coefficients stay above zero.
+    let turn = if turn.value() < one {
+        turn
+    } else {
+        N::constant(one)
+    };
+    let second = turn.scale(of(-0.25)).shift(of(0.375));
+    let third = (turn * turn.scale(of(1.0 / 12.0)).shift(of(-0.375))).shift(of(0.3125));
+    let m = r * (r * (second + r * third)).shift(of(0.5));
+    let most = m * m.shift(of(2.0));
+    if most.value() < of(SATURATED) {
+        zeta + w * (most / most.shift(one))
+    } else {
+        N::constant(one)
+    }
+}
+
+/// How far the path leads from `a` below zero towards it, or the path that is left at zero.
+#[inline]
+pub(super) fn unload<N: Number>(a: N, p: N, powered: N, c: N, n: N) -> Result<N, N> {
+    let (of, one) = (N::Float::of, N::Float::one());
+    let x = c * (a * powered);
+    let (f, nx) = (x.shift(one), n * x);
+    let is_steep = nx.value() > of(STEEP);
+    let (share, inverse) = if is_steep {
+        (steep_share(f, n), f)
+    } else {
+        flat_share(x, n)
+    };
+    let length = a * share;
+    if p.value() >= length.value() {
+        return Err(p - length);
+    }
+    let t = p / length;
+    let bend = f * share;
+    let first = bend.shift(-one);
+    let forward = if is_steep {
+        let k = n.shift(-one);
+        let second = (share * bend * (nx - f)).shift(one) - k * first * first;
+        let s = first * first * t / (first + second.scale(of(0.5)) * t);
+        a - a * ((-t).shift(one) * inverse_power(s, n))
+    } else {
+        let second = bend * (first - (share * nx).scale(of(0.5)));
+        let third = inverse - bend - second;
+        let curve = t * (second + t * third);
+        a * t * (bend + curve) / (t * (first + curve)).shift(one)
+    };
+    if forward.value() >= N::Float::zero() && forward.value() < a.value() {
+        Ok(forward)
+    } else {
+        Err(N::constant(N::Float::zero()))
+    }
+}
+
+/// `(1 + (n - 1)·s)^(-1/(n - 1))` to second order in `s`, within 0.1 for any.
+#[inline]
+fn inverse_power<N: Number>(s: N, n: N) -> N {
+    let (of, one) = (N::Float::of, N::Float::one());
+    let half = n.scale(of(0.5));
+    let above = half.shift(of(-0.9)).abs();
+    let first = above.shift(one);
+    let below = s * (first + s * (first - half));
+    (s * above).shift(one) / below.shift(one)
+}
+
+/// Path from `a` to zero over `a`, and its inverse: a convergent of the continued fraction of
+/// the integral of `1/(1 + x·s^n)` over `s` from 0 to 1, `x = c·a^n`.
+#[inline]
+fn flat_share<N: Number>(x: N, n: N) -> (N, N) {
+    let n1 = n.shift(N::Float::one());
+    let n2 = n1 + n;
+    let first = x / n1;
+    let third = n1 * n1 * x / (n2 + n);
+    let above = n2 + third + n * n * first;
+    let below = above + first * (n2 + third);
+    (above / below, below / above)
+}
+
+/// The same to 7 % where x is large: `f^(-1/n)` for `f = 1 + x`, times what it lacks.
+#[inline]
+fn steep_share<N: Number>(f: N, n: N) -> N {
+    let (of, one) = (N::Float::of, N::Float::one());
+    let log = f.coarse_log2().shift(-one);
+    let size = (n * n.shift(one)).scale(of(0.6));
+    let lacks = log / (size * log.shift(one) - log);
+    f.coarse_power(N::constant(-one) / n) * lacks.shift(one)
+}

@@ -1,0 +1,75 @@
+//! Base-2 logarithm and exponential for `f32`, short enough for a control loop.
+//!
+//! About 20 instructions each on a Cortex-M4F, a division among them, and no table. The
+//! hysteresis takes its powers by them: its bound |eta| <= 1 holds for any power function,
+//! and their error is that of a few roundings.
+//!
+//! | function | arguments | greatest error |
+//! |---|---|---|
+//! | [`log2`] | every normal number above zero | 3.7e-7 of the result |
+//! | [`exp2`] | -126 to 127 | 2.9e-7 of the result |
+//! | [`coarse_log2`] | every normal number above zero | 0.0861 |
+//! | [`coarse_power`] | 0 to 1 to the power of 0 to 30 | 0.112 |
+//!
+//! `cargo test --test exhaustive -- --ignored` checks the table at all arguments. Each
+//! function returns some float for any other argument.
+
+use core::f32::consts::LN_2;
+
+/// The bits of 1.
+const ONE: i32 = 0x3f80_0000;
+/// The bits of sqrt(1/2), the least mantissa: the logarithm has no jump at 1.
+const LEAST: i32 = 0x3f35_04f3;
+/// Bits of a mantissa.
+const MANTISSA: u32 = 23;
+/// 1.5·2²³: the sum with a number within ±2²² ends in the nearest integer.
+const ROUND: f32 = 12_582_912.0;
+
+/// Base-2 logarithm of a normal number above zero.
+///
+/// `x = 2^k·m`, `m` in `[sqrt(1/2), sqrt(2))`; `log2(m)` is the odd series of
+/// `(m - 1)/(m + 1)`, so that it is exact to rounding next to 1, too.
+#[inline]
+pub(super) fn log2(x: f32) -> f32 {
+    let bits = x.to_bits() as i32;
+    let exponent = bits.wrapping_sub(LEAST) >> MANTISSA;
+    let mantissa = f32::from_bits(bits.wrapping_sub(exponent << MANTISSA) as u32);
+    let s = (mantissa - 1.0) / (mantissa + 1.0);
+    let square = s * s;
+    let series = 2.885_390_4 + square * (0.961_588_9 + square * 0.595_759_6);
+    exponent as f32 + s * series
+}
+
+/// 2 to the power of `y`; below -126 as at -126.
+///
+/// The nearest integer goes into the exponent, the rest into a polynomial that is 1 at zero.
+#[inline]
+pub(super) fn exp2(y: f32) -> f32 {
+    let y = if y > -126.0 { y } else { -126.0 };
+    let rounded = y + ROUND;
+    let rest = y - (rounded - ROUND);
+    let series = 1.0
+        + rest
+            * (LN_2
+                + rest
+                    * (0.240_223_5
+                        + rest * (0.055_503_81 + rest * (0.009_666_368 + rest * 0.001_338_130_3))));
+    // The low bits of `rounded` are the integer; the others are shifted out.
+    let exponent = rounded.to_bits() << MANTISSA;
+    f32::from_bits(series.to_bits().wrapping_add(exponent))
+}
+
+/// Base-2 logarithm with straight lines between the powers of 2.
+#[inline]
+pub(super) fn coarse_log2(x: f32) -> f32 {
+    (x.to_bits() as i32).wrapping_sub(ONE) as f32 * (1.0 / 8_388_608.0)
+}
+
+/// `x` to the power of `exponent` by straight lines between the powers of 2; 1 where the
+/// exponent is 0, `x` to rounding where it is 1, and not above zero where it would be below
+/// 2^-127.
+#[inline]
+pub(super) fn coarse_power(x: f32, exponent: f32) -> f32 {
+    let log = (x.to_bits() as i32).wrapping_sub(ONE) as f32;
+    f32::from_bits(((exponent * log) as i32).wrapping_add(ONE) as u32)
+}
