@@ -19,15 +19,17 @@
 
 #[cfg(feature = "serde")]
 mod file;
+mod fixed;
 #[cfg(feature = "serde")]
 mod serial;
 
-use crate::effect::{saturate, Effect, EffectState, Motion, Situation};
+use crate::effect::{saturate, Effect, EffectState, Motion, Situation, Stage};
 use crate::error::finite;
 use crate::hysteresis::BoucWen;
 use crate::signal::Compensated;
 use crate::transmission::Transmission;
 use crate::{Error, Real};
+pub use fixed::{FixedModel, Terms};
 
 /// Which motion an effect reads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -68,12 +70,12 @@ pub enum Source {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
     feature = "serde",
-    serde(bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+    serde(bound(deserialize = "T: Real + serde::Deserialize<'de>, E: serde::Deserialize<'de>"))
 )]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Term<T> {
-    /// The regressor.
-    pub effect: Effect<T>,
+pub struct Term<T, E = Effect<T>> {
+    /// The regressor: any, or one with a type of its own (see [`FixedModel`]).
+    pub effect: E,
     /// What it reads.
     pub source: Source,
     /// Where its position counts from \[channel unit\]; 0 where a file leaves it out.
@@ -150,6 +152,25 @@ pub struct Model<T, const N: usize> {
     /// The first `len` count; the rest are [`padding`].
     terms: [Term<T>; N],
     len: usize,
+    stages: Stages,
+}
+
+/// Which stages the terms have beside the sum, so that a step need not look for others.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+struct Stages {
+    input: bool,
+    output: bool,
+}
+
+impl Stages {
+    fn of<T: Real>(terms: &[Term<T>]) -> Self {
+        let has = |stage| terms.iter().any(|term| term.effect.stage() == stage);
+        Self {
+            input: has(Stage::Input),
+            output: has(Stage::Output),
+        }
+    }
 }
 
 /// What stands in the places that are free: a term that adds nothing.
@@ -185,7 +206,18 @@ impl<T: Real, const N: usize> Model<T, N> {
             transmission,
             terms: own,
             len: terms.len(),
+            stages: Stages::of(terms),
         })
+    }
+
+    /// The same of terms that were checked, as many as there is room for.
+    fn full(transmission: Option<Transmission<T>>, terms: [Term<T>; N]) -> Self {
+        Self {
+            transmission,
+            terms,
+            len: N,
+            stages: Stages::of(&terms),
+        }
     }
 
     /// The transmission, where there is one.
@@ -216,6 +248,7 @@ impl<T: Real, const N: usize> Model<T, N> {
                 *term = padding();
             }
         }
+        kept.stages = Stages::of(kept.terms());
         kept
     }
 
@@ -308,16 +341,23 @@ impl<T: Real, const N: usize> Model<T, N> {
         state.tick(at.dt);
         let (mut output, eta) = match &self.transmission {
             Some(transmission) => {
-                let moved = self.staged_input(state, at);
+                let moved = if self.stages.input {
+                    self.staged_input(state, at)
+                } else {
+                    at.input.position
+                };
                 let force = transmission.step(&mut state.hysteresis, moved);
                 (saturate(force), state.hysteresis.eta())
             }
             None => (T::zero(), T::zero()),
         };
-        for stage in [false, true] {
+        for stage in [Stage::Sum, Stage::Output] {
+            if stage == Stage::Output && !self.stages.output {
+                break;
+            }
             let places = self.terms().iter().zip(&mut state.effects).enumerate();
             for (index, (term, memory)) in places {
-                if term.effect.is_output_stage() != stage || term.effect.is_input_stage() {
+                if term.effect.stage() != stage {
                     continue;
                 }
                 let Some(situation) = situation(term, at, state.time.value, eta) else {
@@ -350,7 +390,13 @@ impl<T: Real, const N: usize> Model<T, N> {
 }
 
 /// What one term sees of the sample, or nothing where its channel is missing.
-fn situation<T: Real>(term: &Term<T>, at: &Sample<T>, time: T, eta: T) -> Option<Situation<T>> {
+#[inline]
+fn situation<T: Real, E>(
+    term: &Term<T, E>,
+    at: &Sample<T>,
+    time: T,
+    eta: T,
+) -> Option<Situation<T>> {
     let mut motion = match term.source {
         Source::Input => at.input,
         Source::Channel(index) => *at.channels.get(usize::from(index))?,

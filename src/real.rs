@@ -8,6 +8,7 @@ use core::fmt::{Debug, Display};
 use num_traits::float::FloatCore;
 use num_traits::NumAssign;
 
+mod angle;
 mod short;
 
 /// What the hysteresis needs of a float besides, no part of the interface.
@@ -130,7 +131,7 @@ pub trait Real:
 
 macro_rules! real {
     ($float:ty, $exp:ident, $exp_m1:ident, $ln:ident, $ln_1p:ident, $pow:ident, $sqrt:ident,
-     $sin:ident, $cos:ident, $tan:ident, $atan:ident, $tanh:ident) => {
+     $sin:path, $cos:path, $tan:ident, $atan:ident, $tanh:ident) => {
         impl Real for $float {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -171,11 +172,11 @@ macro_rules! real {
             }
             #[inline]
             fn sin(self) -> Self {
-                libm::$sin(self)
+                $sin(self)
             }
             #[inline]
             fn cos(self) -> Self {
-                libm::$cos(self)
+                $cos(self)
             }
             #[inline]
             fn tan(self) -> Self {
@@ -193,5 +194,31 @@ macro_rules! real {
     };
 }
 
-real!(f32, expf, expm1f, logf, log1pf, powf, sqrtf, sinf, cosf, tanf, atanf, tanhf);
-real!(f64, exp, expm1, log, log1p, pow, sqrt, sin, cos, tan, atan, tanh);
+real!(
+    f32,
+    expf,
+    expm1f,
+    logf,
+    log1pf,
+    powf,
+    sqrtf,
+    angle::sin,
+    angle::cos,
+    tanf,
+    atanf,
+    tanhf
+);
+real!(
+    f64,
+    exp,
+    expm1,
+    log,
+    log1p,
+    pow,
+    sqrt,
+    libm::sin,
+    libm::cos,
+    tan,
+    atan,
+    tanh
+);

@@ -124,3 +124,19 @@ fn the_coarse_functions_are_as_exact_as_their_docs_say() {
         assert_eq!(count(is_off), 0, "{exponent}");
     }
 }
+
+#[test]
+#[ignore = "all 2^32 arguments: two minutes"]
+fn sine_and_cosine_of_an_f32_are_within_1_6_units_in_the_last_place() {
+    let is_off = |of: fn(f32) -> f32, exact: fn(f64) -> f64| {
+        move |x: f32| {
+            let exact = exact(f64::from(x));
+            // The distance of the two floats at the result.
+            let unit = f64::from(f32::EPSILON) * exact.abs().log2().floor().exp2();
+            x.is_finite() && (f64::from(of(x)) - exact).abs() > 1.6 * unit
+        }
+    };
+    assert_eq!(count(is_off(Real::sin, f64::sin)), 0);
+    assert_eq!(count(is_off(Real::cos, f64::cos)), 0);
+    assert_eq!(count(|x| !x.is_finite() && !Real::sin(x).is_nan()), 0);
+}

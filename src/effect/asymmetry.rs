@@ -11,11 +11,11 @@
 
 use super::info::{Info, Regressor};
 use super::Symmetry::Even;
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::{
+    AsymmetryDrag, AsymmetryEta, AsymmetryEtaSquared, AsymmetryViscous, Dimension, EffectState,
+    Family, Parity, Quantity, Situation,
+};
 use crate::Real;
-
-#[derive(Clone, Copy)]
-pub(super) struct AsymmetryViscous;
 
 impl<T: Real> Regressor<T> for AsymmetryViscous {
     const INFO: &'static Info = &Info {
@@ -33,9 +33,6 @@ impl<T: Real> Regressor<T> for AsymmetryViscous {
         at.motion.velocity.abs()
     }
 }
-
-#[derive(Clone, Copy)]
-pub(super) struct AsymmetryDrag;
 
 impl<T: Real> Regressor<T> for AsymmetryDrag {
     const INFO: &'static Info = &Info {
@@ -58,9 +55,6 @@ impl<T: Real> Regressor<T> for AsymmetryDrag {
     }
 }
 
-#[derive(Clone, Copy)]
-pub(super) struct AsymmetryEta;
-
 impl<T: Real> Regressor<T> for AsymmetryEta {
     const INFO: &'static Info = &Info {
         name: "asymmetry-eta",
@@ -77,9 +71,6 @@ impl<T: Real> Regressor<T> for AsymmetryEta {
         at.eta.abs()
     }
 }
-
-#[derive(Clone, Copy)]
-pub(super) struct AsymmetryEtaSquared;
 
 impl<T: Real> Regressor<T> for AsymmetryEtaSquared {
     const INFO: &'static Info = &Info {

@@ -9,7 +9,7 @@
 //! — a survey", *Automatica* 38(10), 2002; for the play, M. A. Krasnosel'skii,
 //! A. V. Pokrovskii, *Systems with Hysteresis*, 1989.
 
-use super::info::{Info, Regressor};
+use super::info::{Info, Regressor, Stage};
 use super::shaped::shaped;
 use super::Symmetry::{Even, Neither, Odd};
 use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
@@ -77,6 +77,7 @@ impl<T: Real> Regressor<T> for PlayInSeries<T> {
         formula: "play(x; r) − x, added to the input",
         ..*<Backlash<T> as Regressor<T>>::INFO
     };
+    const STAGE: Stage = Stage::Input;
 
     #[inline]
     fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {

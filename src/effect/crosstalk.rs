@@ -6,11 +6,8 @@
 
 use super::info::{Info, Regressor};
 use super::Symmetry::{Even, Odd};
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::{Crosstalk, Dimension, EffectState, Family, Parity, Quantity, Situation};
 use crate::Real;
-
-#[derive(Clone, Copy)]
-pub(super) struct Crosstalk;
 
 impl<T: Real> Regressor<T> for Crosstalk {
     const INFO: &'static Info = &Info {

@@ -8,11 +8,8 @@
 
 use super::info::{Info, Regressor};
 use super::Symmetry::{Neither, Odd};
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::{Delay, Dimension, EffectState, Family, Parity, Quantity, Situation};
 use crate::Real;
-
-#[derive(Clone, Copy)]
-pub(super) struct Delay;
 
 impl<T: Real> Regressor<T> for Delay {
     const INFO: &'static Info = &Info {

@@ -7,11 +7,10 @@
 
 use super::info::{Info, Regressor};
 use super::Symmetry::Odd;
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::{
+    Dimension, DragCubic, DragQuadratic, EffectState, Family, Parity, Quantity, Situation,
+};
 use crate::Real;
-
-#[derive(Clone, Copy)]
-pub(super) struct DragQuadratic;
 
 impl<T: Real> Regressor<T> for DragQuadratic {
     const INFO: &'static Info = &Info {
@@ -33,9 +32,6 @@ impl<T: Real> Regressor<T> for DragQuadratic {
         at.motion.velocity * at.motion.velocity.abs()
     }
 }
-
-#[derive(Clone, Copy)]
-pub(super) struct DragCubic;
 
 impl<T: Real> Regressor<T> for DragCubic {
     const INFO: &'static Info = &Info {

@@ -7,11 +7,8 @@
 
 use super::info::{Info, Regressor};
 use super::Symmetry::Even;
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::{Dimension, Drift, EffectState, Family, Parity, Quantity, Situation};
 use crate::Real;
-
-#[derive(Clone, Copy)]
-pub(super) struct Drift;
 
 impl<T: Real> Regressor<T> for Drift {
     const INFO: &'static Info = &Info {

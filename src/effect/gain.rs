@@ -6,11 +6,8 @@
 
 use super::info::{Info, Regressor};
 use super::Symmetry::{Even, Odd};
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::{Dimension, EffectState, Family, Gain, Parity, Quantity, Situation};
 use crate::Real;
-
-#[derive(Clone, Copy)]
-pub(super) struct Gain;
 
 impl<T: Real> Regressor<T> for Gain {
     const INFO: &'static Info = &Info {

@@ -7,11 +7,8 @@
 
 use super::info::{Info, Regressor};
 use super::Symmetry::{Even, Odd};
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::{Dimension, EffectState, Family, Inertia, Parity, Quantity, Situation};
 use crate::Real;
-
-#[derive(Clone, Copy)]
-pub(super) struct Inertia;
 
 impl<T: Real> Regressor<T> for Inertia {
     const INFO: &'static Info = &Info {

@@ -184,11 +184,49 @@ pub struct Info {
     pub memory: bool,
 }
 
-/// An effect: what it says of itself, and its regressor.
-pub(super) trait Regressor<T> {
+/// Where in a model an effect acts; no part of the interface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// Adds to the transmission's input.
+    Input,
+    /// Adds to the output.
+    Sum,
+    /// Reads the output of all before it, and adds to it.
+    Output,
+}
+
+impl Info {
+    /// Where an effect that reads this acts, input stages apart.
+    pub(super) const fn stage(&self) -> Stage {
+        let mut rest = self.reads;
+        while let [first, others @ ..] = rest {
+            if matches!(first, Quantity::Output) {
+                return Stage::Output;
+            }
+            rest = others;
+        }
+        Stage::Sum
+    }
+}
+
+/// One effect as a type of its own: what it says of itself, and its regressor.
+///
+/// For a [`FixedModel`](crate::model::FixedModel); [`Effect`](super::Effect) holds any of
+/// them. Only the effects of this crate are.
+pub trait Regressor<T>: sealed::Sealed + Copy + Into<super::Effect<T>> {
+    /// All that there is to know of the effect, shapes apart.
     const INFO: &'static Info;
+
+    #[doc(hidden)]
+    const STAGE: Stage = Self::INFO.stage();
 
     /// The regressor, where all that it reads is finite. It may overflow to an
     /// infinity, and be NaN where that means zero; memory must stay finite.
+    #[doc(hidden)]
     fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T;
+}
+
+pub(super) mod sealed {
+    /// Of the effects of this crate.
+    pub trait Sealed {}
 }

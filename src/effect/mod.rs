@@ -52,12 +52,13 @@ pub mod viscous;
 
 pub use crate::signal::Motion;
 pub use family::Family;
-pub use info::{Dimension, Info, Parity, Quantity, Range, ShapeInfo, Symmetry};
+pub use info::{Dimension, Info, Parity, Quantity, Range, Regressor, ShapeInfo, Symmetry};
 pub use situation::{EffectState, Situation};
 
 use crate::{Error, Real};
 pub(crate) use bounds::saturate;
-use info::Regressor;
+use info::sealed::Sealed;
+pub(crate) use info::Stage;
 use shaped::{Shaped, COUNT};
 
 /// The enum of all effects and the dispatch to each one's own file.
@@ -67,6 +68,32 @@ macro_rules! effects {
         shaped { $($shaped_module:ident: $($shaped:ident)+;)* }
     ) => {
         $($(pub use $shaped_module::$shaped;)+)*
+
+        $($(
+            #[doc = concat!("One effect as a type, without shapes; formula and source: [`", stringify!($module), "`].")]
+            #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+            #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+            #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+            pub struct $plain;
+
+            impl Sealed for $plain {}
+
+            impl<T> From<$plain> for Effect<T> {
+                fn from(_: $plain) -> Self {
+                    Self::$plain
+                }
+            }
+        )+)*
+
+        $($(
+            impl<T> Sealed for $shaped<T> {}
+
+            impl<T> From<$shaped<T>> for Effect<T> {
+                fn from(own: $shaped<T>) -> Self {
+                    Self::$shaped(own)
+                }
+            }
+        )+)*
 
         /// One effect, with its shapes.
         ///
@@ -98,7 +125,7 @@ macro_rules! effects {
         /// assert_eq!(with_memory.count(), 8);
         /// ```
         pub const CATALOGUE: &[&Info] = &[
-            $($(<$module::$plain as Regressor<f64>>::INFO,)+)*
+            $($(<$plain as Regressor<f64>>::INFO,)+)*
             $($(<$shaped_module::$shaped<f64> as Regressor<f64>>::INFO,)+)*
         ];
 
@@ -107,8 +134,16 @@ macro_rules! effects {
             #[must_use]
             pub fn info(&self) -> &'static Info {
                 match self {
-                    $($(Self::$plain => <$module::$plain as Regressor<T>>::INFO,)+)*
+                    $($(Self::$plain => <$plain as Regressor<T>>::INFO,)+)*
                     $($(Self::$shaped(_) => <$shaped_module::$shaped<T> as Regressor<T>>::INFO,)+)*
+                }
+            }
+
+            /// Where in a model it acts.
+            pub(crate) fn stage(&self) -> Stage {
+                match self {
+                    $($(Self::$plain => <$plain as Regressor<T>>::STAGE,)+)*
+                    $($(Self::$shaped(_) => <$shaped<T> as Regressor<T>>::STAGE,)+)*
                 }
             }
 
@@ -160,7 +195,7 @@ macro_rules! effects {
             pub fn try_from_name(name: &str, shapes: &[T]) -> Result<Self, Error> {
                 let plain = |effect| if shapes.is_empty() { Ok(effect) } else { Err(COUNT) };
                 match name {
-                    $($(name if name == <$module::$plain as Regressor<T>>::INFO.name => plain(Self::$plain),)+)*
+                    $($(name if name == <$plain as Regressor<T>>::INFO.name => plain(Self::$plain),)+)*
                     $($(name if name == <$shaped_module::$shaped<T> as Regressor<T>>::INFO.name => {
                         Shaped::try_from_shapes(shapes).map(Self::$shaped)
                     })+)*
@@ -178,7 +213,7 @@ macro_rules! effects {
             ) {
                 // Which effect it is, is asked once, not once a sample.
                 match self {
-                    $($(Self::$plain => record.for_each(|at| take(evaluate(&$module::$plain, state, &at))),)+)*
+                    $($(Self::$plain => record.for_each(|at| take(evaluate(&$plain, state, &at))),)+)*
                     $($(Self::$shaped(config) => record.for_each(|at| take(evaluate(config, state, &at))),)+)*
                 }
             }
@@ -190,7 +225,7 @@ macro_rules! effects {
             #[inline]
             pub fn regressor(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
                 match self {
-                    $($(Self::$plain => evaluate(&$module::$plain, state, at),)+)*
+                    $($(Self::$plain => evaluate(&$plain, state, at),)+)*
                     $($(Self::$shaped(config) => evaluate(config, state, at),)+)*
                 }
             }
@@ -289,7 +324,7 @@ impl<T: Real> Effect<T> {
     /// Whether it reads the sum of everything before it.
     #[must_use]
     pub fn is_output_stage(&self) -> bool {
-        self.info().reads.contains(&Quantity::Output)
+        self.stage() == Stage::Output
     }
 
     /// Whether it acts on the transmission's input instead of adding to the output.
@@ -298,7 +333,7 @@ impl<T: Real> Effect<T> {
     /// transmission it does nothing.
     #[must_use]
     pub fn is_input_stage(&self) -> bool {
-        matches!(self, Self::PlayInSeries(_))
+        self.stage() == Stage::Input
     }
 
     /// Whether it remembers earlier samples.

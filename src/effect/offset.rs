@@ -6,11 +6,8 @@
 
 use super::info::{Info, Regressor};
 use super::Symmetry::Even;
-use super::{Dimension, EffectState, Family, Parity, Situation};
+use super::{Dimension, EffectState, Family, Offset, Parity, Situation};
 use crate::Real;
-
-#[derive(Clone, Copy)]
-pub(super) struct Offset;
 
 impl<T: Real> Regressor<T> for Offset {
     const INFO: &'static Info = &Info {

@@ -9,7 +9,7 @@ use super::coulomb::sign;
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
 use super::Symmetry::{Even, Odd};
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::{Dimension, EffectState, Family, Parity, PositionHysteresis, Quantity, Situation};
 use crate::Real;
 
 shaped! {
@@ -43,9 +43,6 @@ impl<T: Real> Regressor<T> for PositionFriction<T> {
         at.motion.position * sign(at.motion.velocity, self.v_e)
     }
 }
-
-#[derive(Clone, Copy)]
-pub(super) struct PositionHysteresis;
 
 impl<T: Real> Regressor<T> for PositionHysteresis {
     const INFO: &'static Info = &Info {

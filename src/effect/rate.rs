@@ -8,11 +8,8 @@
 
 use super::info::{Info, Regressor};
 use super::Symmetry::{Even, Odd};
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::{Dimension, EffectState, Family, Parity, Quantity, Rate, RateSymmetric, Situation};
 use crate::Real;
-
-#[derive(Clone, Copy)]
-pub(super) struct Rate;
 
 impl<T: Real> Regressor<T> for Rate {
     const INFO: &'static Info = &Info {
@@ -30,9 +27,6 @@ impl<T: Real> Regressor<T> for Rate {
         at.eta * at.motion.velocity
     }
 }
-
-#[derive(Clone, Copy)]
-pub(super) struct RateSymmetric;
 
 impl<T: Real> Regressor<T> for RateSymmetric {
     const INFO: &'static Info = &Info {

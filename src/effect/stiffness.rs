@@ -10,11 +10,11 @@
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
 use super::Symmetry::{Even, Neither, Odd};
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::{
+    Dimension, EffectState, Family, Parity, Quantity, Situation, StiffnessCubic, StiffnessLinear,
+    StiffnessProgressive, StiffnessQuadratic,
+};
 use crate::Real;
-
-#[derive(Clone, Copy)]
-pub(super) struct StiffnessLinear;
 
 impl<T: Real> Regressor<T> for StiffnessLinear {
     const INFO: &'static Info = &Info {
@@ -32,9 +32,6 @@ impl<T: Real> Regressor<T> for StiffnessLinear {
         at.motion.position
     }
 }
-
-#[derive(Clone, Copy)]
-pub(super) struct StiffnessQuadratic;
 
 impl<T: Real> Regressor<T> for StiffnessQuadratic {
     const INFO: &'static Info = &Info {
@@ -56,9 +53,6 @@ impl<T: Real> Regressor<T> for StiffnessQuadratic {
     }
 }
 
-#[derive(Clone, Copy)]
-pub(super) struct StiffnessCubic;
-
 impl<T: Real> Regressor<T> for StiffnessCubic {
     const INFO: &'static Info = &Info {
         name: "stiffness-cubic",
@@ -78,9 +72,6 @@ impl<T: Real> Regressor<T> for StiffnessCubic {
         at.motion.position * at.motion.position * at.motion.position
     }
 }
-
-#[derive(Clone, Copy)]
-pub(super) struct StiffnessProgressive;
 
 impl<T: Real> Regressor<T> for StiffnessProgressive {
     const INFO: &'static Info = &Info {

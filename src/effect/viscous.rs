@@ -8,11 +8,8 @@
 
 use super::info::{Info, Regressor};
 use super::Symmetry::Odd;
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::{Dimension, EffectState, Family, Parity, Quantity, Situation, Viscous};
 use crate::Real;
-
-#[derive(Clone, Copy)]
-pub(super) struct Viscous;
 
 impl<T: Real> Regressor<T> for Viscous {
     const INFO: &'static Info = &Info {

@@ -1,0 +1,269 @@
+//! A model whose effects are known when the firmware is compiled.
+//!
+//! A [`Model`] holds any effect, so that the code of all of them is in the image. Here the
+//! effects are types: the image holds those that are named, each knows its place in the sum,
+//! and a sample costs what the effects cost. Both give the same numbers, to the bit.
+
+use super::{situation, Model, ModelState, Sample, Term};
+use crate::effect::{saturate, EffectState, Regressor, Situation, Stage};
+use crate::error::finite;
+use crate::transmission::Transmission;
+use crate::{Error, Real};
+
+/// A transmission plus the effects of a tuple of terms, each with a type of its own.
+///
+/// `N` is the number of terms, 1 to 16. It is stepped with the
+/// [`ModelState`] of a [`Model`] over as many terms, and treats samples as it does.
+///
+/// ```
+/// use bowden::effect::{Coulomb, Motion, Viscous};
+/// use bowden::model::{FixedModel, ModelState, Sample, Source, Term};
+///
+/// fn model() -> Result<FixedModel<f32, 2, (Term<f32, Viscous>, Term<f32, Coulomb<f32>>)>, bowden::Error> {
+///     let source = Source::Input;
+///     FixedModel::try_new(None, (
+///         Term { effect: Viscous, source, origin: 0.0, gain: 3.0 },
+///         Term { effect: Coulomb::try_new(0.01)?, source, origin: 0.0, gain: 0.5 },
+///     ))
+/// }
+///
+/// let (model, mut state) = (model()?, ModelState::new());
+/// let input = Motion { position: 0.0, velocity: 2.0, acceleration: 0.0 };
+/// let sample = Sample { dt: 0.001, input, load: 0.0, channels: &[] };
+/// assert_eq!(model.step(&mut state, &sample), 6.5);
+/// // The same numbers as of the model that holds any effect.
+/// assert_eq!(model.to_model().step(&mut ModelState::new(), &sample), 6.5);
+/// # Ok::<(), bowden::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct FixedModel<T, const N: usize, L> {
+    transmission: Option<Transmission<T>>,
+    terms: L,
+}
+
+impl<T: Real, const N: usize, L: Terms<T, N>> FixedModel<T, N, L> {
+    /// Checks the terms' origins and gains; all else was checked before.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] where an origin or a gain is not finite.
+    pub fn try_new(transmission: Option<Transmission<T>>, terms: L) -> Result<Self, Error> {
+        terms.check()?;
+        Ok(Self {
+            transmission,
+            terms,
+        })
+    }
+
+    /// The transmission, where there is one.
+    #[must_use]
+    pub fn transmission(&self) -> Option<&Transmission<T>> {
+        self.transmission.as_ref()
+    }
+
+    /// The effects with their gains.
+    #[must_use]
+    pub fn terms(&self) -> &L {
+        &self.terms
+    }
+
+    /// The same as a model that holds any effect, for a
+    /// [`Compensator`](crate::control::Compensator) or a file.
+    #[must_use]
+    pub fn to_model(&self) -> Model<T, N> {
+        Model::full(self.transmission, self.terms.any())
+    }
+
+    /// Whether the model can use this sample; if not, a step holds everything.
+    #[inline]
+    #[must_use]
+    pub fn accepts(&self, at: &Sample<T>) -> bool {
+        let input_is_read = self.transmission.is_some();
+        at.dt.is_finite()
+            && at.dt > T::zero()
+            && (!input_is_read || at.input.position.is_finite())
+            && self.terms.can_read(at)
+    }
+
+    /// Advances by one sample and returns the predicted output.
+    ///
+    /// A bad sample leaves the state and returns the last good output, 0 before
+    /// the first one.
+    #[inline]
+    pub fn step(&self, state: &mut ModelState<T, N>, at: &Sample<T>) -> T {
+        self.step_with(state, at, |_, _| {})
+    }
+
+    /// The same step, which also tells each term's share of the output, as
+    /// [`Model::step_with`] does.
+    #[inline]
+    pub fn step_with(
+        &self,
+        state: &mut ModelState<T, N>,
+        at: &Sample<T>,
+        mut share: impl FnMut(usize, T),
+    ) -> T {
+        if !self.accepts(at) {
+            return state.output;
+        }
+        state.tick(at.dt);
+        let mut sum = Sum {
+            at,
+            time: state.time.value,
+            eta: T::zero(),
+            output: T::zero(),
+        };
+        if let Some(transmission) = &self.transmission {
+            let moved = self.terms.moved(&mut state.effects, &sum);
+            sum.output = saturate(transmission.step(&mut state.hysteresis, moved));
+            sum.eta = state.hysteresis.eta();
+        }
+        for stage in [Stage::Sum, Stage::Output] {
+            self.terms
+                .add(&mut state.effects, stage, &mut sum, &mut share);
+        }
+        state.output = sum.output;
+        sum.output
+    }
+}
+
+/// What the terms of one sample add to.
+#[derive(Debug)]
+#[doc(hidden)]
+pub struct Sum<'a, 's, T> {
+    at: &'a Sample<'s, T>,
+    time: T,
+    eta: T,
+    output: T,
+}
+
+/// The terms of a [`FixedModel`]: a tuple of [`Term`], each with the type of its effect.
+///
+/// For tuples of 1 to 16 terms.
+pub trait Terms<T, const N: usize>: sealed::Sealed {
+    #[doc(hidden)]
+    fn check(&self) -> Result<(), Error>;
+    #[doc(hidden)]
+    fn any(&self) -> [Term<T>; N];
+    #[doc(hidden)]
+    fn can_read(&self, at: &Sample<T>) -> bool;
+    /// What the input stages make of the input.
+    #[doc(hidden)]
+    fn moved(&self, memories: &mut [EffectState<T>; N], sum: &Sum<T>) -> T;
+    /// Adds the terms of one stage, in their order.
+    #[doc(hidden)]
+    fn add(
+        &self,
+        memories: &mut [EffectState<T>; N],
+        stage: Stage,
+        sum: &mut Sum<T>,
+        share: &mut impl FnMut(usize, T),
+    );
+}
+
+mod sealed {
+    pub trait Sealed {}
+}
+
+impl<T: Real, E: Regressor<T>> Term<T, E> {
+    fn check(&self) -> Result<(), Error> {
+        finite(self.origin, "origin")?;
+        finite(self.gain, "gain").map(|_| ())
+    }
+
+    fn any(&self) -> Term<T> {
+        Term {
+            effect: self.effect.into(),
+            source: self.source,
+            origin: self.origin,
+            gain: self.gain,
+        }
+    }
+
+    #[inline]
+    fn can_read(&self, at: &Sample<T>) -> bool {
+        let there = situation(self, at, T::zero(), T::zero());
+        there.is_some_and(|there| there.is_usable(E::INFO.reads))
+    }
+
+    /// Gain times regressor, of a sample that was accepted; nothing at any other stage.
+    #[inline]
+    fn part(&self, memory: &mut EffectState<T>, stage: Stage, sum: &Sum<T>) -> Option<T> {
+        if E::STAGE != stage {
+            return None;
+        }
+        let there = situation(self, sum.at, sum.time, sum.eta)?;
+        let output = sum.output;
+        let value = self.effect.value(memory, &Situation { output, ..there });
+        Some(self.gain * saturate(value))
+    }
+}
+
+macro_rules! tuple {
+    ($n:literal: $($E:ident $i:tt),*) => {
+        impl<T, $($E),*> sealed::Sealed for ($(Term<T, $E>,)*) {}
+
+        impl<T: Real, $($E: Regressor<T>),*> Terms<T, $n> for ($(Term<T, $E>,)*) {
+            fn check(&self) -> Result<(), Error> {
+                $(self.$i.check()?;)*
+                Ok(())
+            }
+
+            fn any(&self) -> [Term<T>; $n] {
+                [$(self.$i.any()),*]
+            }
+
+            #[inline]
+            fn can_read(&self, at: &Sample<T>) -> bool {
+                $(self.$i.can_read(at) &&)* true
+            }
+
+            #[inline]
+            #[allow(non_snake_case)]
+            fn moved(&self, [$($E),*]: &mut [EffectState<T>; $n], sum: &Sum<T>) -> T {
+                let mut moved = sum.at.input.position;
+                $(
+                    if let Some(part) = self.$i.part($E, Stage::Input, sum) {
+                        moved = saturate(moved + part);
+                    }
+                )*
+                moved
+            }
+
+            #[inline]
+            #[allow(non_snake_case)]
+            fn add(
+                &self,
+                [$($E),*]: &mut [EffectState<T>; $n],
+                stage: Stage,
+                sum: &mut Sum<T>,
+                share: &mut impl FnMut(usize, T),
+            ) {
+                $(
+                    if let Some(part) = self.$i.part($E, stage, sum) {
+                        let part = saturate(part);
+                        sum.output = saturate(sum.output + part);
+                        share($i, part);
+                    }
+                )*
+            }
+        }
+    };
+}
+
+tuple!(1: A 0);
+tuple!(2: A 0, B 1);
+tuple!(3: A 0, B 1, C 2);
+tuple!(4: A 0, B 1, C 2, D 3);
+tuple!(5: A 0, B 1, C 2, D 3, E 4);
+tuple!(6: A 0, B 1, C 2, D 3, E 4, F 5);
+tuple!(7: A 0, B 1, C 2, D 3, E 4, F 5, G 6);
+tuple!(8: A 0, B 1, C 2, D 3, E 4, F 5, G 6, H 7);
+tuple!(9: A 0, B 1, C 2, D 3, E 4, F 5, G 6, H 7, I 8);
+tuple!(10: A 0, B 1, C 2, D 3, E 4, F 5, G 6, H 7, I 8, J 9);
+tuple!(11: A 0, B 1, C 2, D 3, E 4, F 5, G 6, H 7, I 8, J 9, K 10);
+tuple!(12: A 0, B 1, C 2, D 3, E 4, F 5, G 6, H 7, I 8, J 9, K 10, L 11);
+tuple!(13: A 0, B 1, C 2, D 3, E 4, F 5, G 6, H 7, I 8, J 9, K 10, L 11, M 12);
+tuple!(14: A 0, B 1, C 2, D 3, E 4, F 5, G 6, H 7, I 8, J 9, K 10, L 11, M 12, N 13);
+tuple!(15: A 0, B 1, C 2, D 3, E 4, F 5, G 6, H 7, I 8, J 9, K 10, L 11, M 12, N 13, O 14);
+tuple!(16: A 0, B 1, C 2, D 3, E 4, F 5, G 6, H 7, I 8, J 9, K 10, L 11, M 12, N 13, O 14, P 15);

@@ -1,0 +1,191 @@
+//! The model whose effects are types: the numbers of the model that holds any effect.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use bowden::effect::*;
+use bowden::hysteresis::Shape;
+use bowden::model::{FixedModel, Model, ModelState, Sample, Source, Term, Terms};
+use bowden::transmission::Transmission;
+use bowden::{Error, Real};
+use proptest::prelude::*;
+use std::collections::BTreeSet;
+
+fn cable<T: Real>() -> Option<Transmission<T>> {
+    let shape = Shape::try_new(T::of(0.6), T::of(2.0), T::of(1.5)).unwrap();
+    Transmission::torque(T::of(0.9), T::of(1.2), T::of(0.05), shape).ok()
+}
+
+/// A tuple of terms in turn on the input and on two channels, each from an origin of its own.
+macro_rules! terms {
+    ($($effect:expr),+ $(,)?) => {{
+        let mut place = 0_u8;
+        ($(
+            {
+                place += 1;
+                let source = match place % 3 {
+                    0 => Source::Input,
+                    channel => Source::Channel(channel - 1),
+                };
+                let (origin, gain) = (T::of(0.1 * f64::from(place)), T::of(1.3 - 0.2 * f64::from(place)));
+                Term { effect: $effect, source, origin, gain }
+            },
+        )+)
+    }};
+}
+
+/// The sum's effects without shapes, and an output stage before its turn.
+fn plain<T: Real>() -> impl Terms<T, 16> {
+    terms![
+        Offset,
+        Gain,
+        Viscous,
+        Delay,
+        DragQuadratic,
+        DragCubic,
+        AsymmetryViscous,
+        AsymmetryDrag,
+        AsymmetryEta,
+        AsymmetryEtaSquared,
+        Inertia,
+        StiffnessLinear,
+        StiffnessQuadratic,
+        StiffnessCubic,
+        StiffnessProgressive,
+        PositionHysteresis,
+    ]
+}
+
+/// With two output stages and an input stage among the others.
+fn staged<T: Real>() -> Result<impl Terms<T, 16>, Error> {
+    let one = T::of(0.7);
+    Ok(terms![
+        Lag::try_new(one)?,
+        Rate,
+        RateSymmetric,
+        PlayInSeries::try_new(one)?,
+        Drift,
+        Crosstalk,
+        Coulomb::try_new(one)?,
+        Stribeck::try_new(one, one)?,
+        LoadFriction::try_new(one)?,
+        Capstan::try_new(one, one)?,
+        DriveFriction::try_new(one)?,
+        BackDriveFriction::try_new(one)?,
+        Delay,
+        Hinge::try_new(one)?,
+        Gravity::try_new(one)?,
+        Ripple::try_new(one, one)?,
+    ])
+}
+
+/// With memories of their own.
+fn remembering<T: Real>() -> Result<impl Terms<T, 14>, Error> {
+    let one = T::of(0.7);
+    Ok(terms![
+        PositionFriction::try_new(one)?,
+        Backlash::try_new(one)?,
+        DeadZone::try_new(one)?,
+        Creep::try_new(one)?,
+        Presliding::try_new(one)?,
+        PreslidingDahl::try_new(one)?,
+        Degradation::try_new(one)?,
+        Pinching::try_new(one)?,
+        Pretension::try_new(one)?,
+        Temperature::try_new(one)?,
+        SaturationUpper::try_new(one)?,
+        SaturationLower::try_new(one)?,
+        Tone::try_new(one, one)?,
+        Viscous,
+    ])
+}
+
+type Row = [f64; 8];
+
+/// Steps both models over the rows, and asks them for the same bits.
+fn same<T: Real, const N: usize, L: Terms<T, N>>(terms: L, rows: &[Row], with: bool) {
+    let transmission = if with { cable() } else { None };
+    let fixed = FixedModel::try_new(transmission, terms).unwrap();
+    let any = fixed.to_model();
+    let (mut a, mut b) = (ModelState::new(), ModelState::new());
+    for row in rows {
+        let [dt, x, v, acceleration, y, w, load, z] = row.map(T::of);
+        let motion = |position, velocity| Motion {
+            position,
+            velocity,
+            acceleration,
+        };
+        let channels = [motion(y, w), motion(z, v)];
+        let at = Sample {
+            dt,
+            input: motion(x, v),
+            load,
+            channels: &channels,
+        };
+        assert_eq!(fixed.accepts(&at), any.accepts(&at));
+        let (mut own, mut others) = (vec![], vec![]);
+        let output = fixed.step_with(&mut a, &at, |index, share| own.push((index, share)));
+        let same = any.step_with(&mut b, &at, |index, share| others.push((index, share)));
+        assert_eq!((output, own, a), (same, others, b));
+        assert!(output.is_finite());
+    }
+}
+
+/// Any number, now and then one that is none or too large for arithmetic.
+fn number() -> impl Strategy<Value = f64> {
+    prop_oneof![20 => -2.0..2.0_f64, 1 => prop::num::f64::ANY]
+}
+
+fn row() -> impl Strategy<Value = Row> {
+    let dt = prop_oneof![20 => 0.001..0.02_f64, 1 => prop::num::f64::ANY];
+    (dt, prop::array::uniform7(number()))
+        .prop_map(|(dt, [a, b, c, d, e, f, g])| [dt, a, b, c, d, e, f, g])
+}
+
+proptest! {
+    #[test]
+    fn it_has_the_bits_of_the_model_that_holds_any_effect(
+        rows in prop::collection::vec(row(), 1..40),
+        with in any::<bool>(),
+    ) {
+        same::<f64, 16, _>(plain(), &rows, with);
+        same::<f64, 16, _>(staged().unwrap(), &rows, with);
+        same::<f64, 14, _>(remembering().unwrap(), &rows, with);
+        same::<f32, 16, _>(plain(), &rows, with);
+        same::<f32, 16, _>(staged().unwrap(), &rows, with);
+        same::<f32, 14, _>(remembering().unwrap(), &rows, with);
+    }
+}
+
+#[test]
+fn the_three_lists_above_hold_the_whole_catalogue() {
+    let names = |terms: &[Term<f64>]| -> Vec<&'static str> {
+        terms.iter().map(|term| term.effect.name()).collect()
+    };
+    let list = |model: &[Term<f64>]| names(model);
+    let mut all: BTreeSet<&str> = BTreeSet::new();
+    all.extend(list(fixed(plain::<f64>()).terms()));
+    all.extend(list(fixed(staged::<f64>().unwrap()).terms()));
+    all.extend(list(fixed(remembering::<f64>().unwrap()).terms()));
+    let catalogue: BTreeSet<&str> = CATALOGUE.iter().map(|info| info.name).collect();
+    assert_eq!(all, catalogue);
+}
+
+fn fixed<const N: usize, L: Terms<f64, N>>(terms: L) -> Model<f64, N> {
+    FixedModel::try_new(cable(), terms).unwrap().to_model()
+}
+
+#[test]
+fn what_is_not_finite_is_refused_by_its_name() {
+    let source = Source::Input;
+    let build = |origin, gain| {
+        let viscous = Term {
+            effect: Viscous,
+            source,
+            origin,
+            gain,
+        };
+        FixedModel::try_new(None, (viscous,)).map(|model| *model.terms())
+    };
+    assert!(build(0.0, 1.0).is_ok());
+    assert_eq!(build(f64::NAN, 1.0), Err(Error::NonFinite("origin")));
+    assert_eq!(build(0.0, f64::INFINITY), Err(Error::NonFinite("gain")));
+}
