@@ -389,6 +389,15 @@ impl<T: Real, const N: usize> Model<T, N> {
     }
 }
 
+/// The motion of a source, or nothing where its channel is missing.
+#[inline]
+fn motion<'a, T>(source: Source, at: &'a Sample<T>) -> Option<&'a Motion<T>> {
+    match source {
+        Source::Input => Some(&at.input),
+        Source::Channel(index) => at.channels.get(usize::from(index)),
+    }
+}
+
 /// What one term sees of the sample, or nothing where its channel is missing.
 #[inline]
 fn situation<T: Real, E>(
@@ -397,10 +406,7 @@ fn situation<T: Real, E>(
     time: T,
     eta: T,
 ) -> Option<Situation<T>> {
-    let mut motion = match term.source {
-        Source::Input => at.input,
-        Source::Channel(index) => *at.channels.get(usize::from(index))?,
-    };
+    let mut motion = *motion(term.source, at)?;
     // A difference that overflows is a far place; a bad position stays a bad one.
     if motion.position.is_finite() {
         motion.position = saturate(motion.position - term.origin);

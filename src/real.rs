@@ -20,6 +20,11 @@ pub(crate) mod sealed {
         const SHORT: bool;
         fn log2(self) -> Self;
         fn exp2(self) -> Self;
+        /// The functions of the effects: short where a step must be, else libm's. The base of
+        /// a power is zero or above, its exponent above zero.
+        fn short_exp(self) -> Self;
+        fn short_pow(self, exponent: Self) -> Self;
+        fn short_tanh(self) -> Self;
         /// Base-2 logarithm by straight lines between the powers of 2.
         fn coarse_log2(self) -> Self;
         /// A power by the same straight lines.
@@ -37,6 +42,18 @@ pub(crate) mod sealed {
         #[inline]
         fn exp2(self) -> Self {
             short::exp2(self)
+        }
+        #[inline]
+        fn short_exp(self) -> Self {
+            short::exp(self)
+        }
+        #[inline]
+        fn short_pow(self, exponent: Self) -> Self {
+            short::pow(self, exponent)
+        }
+        #[inline]
+        fn short_tanh(self) -> Self {
+            short::tanh(self)
         }
         #[inline]
         fn coarse_log2(self) -> Self {
@@ -61,6 +78,18 @@ pub(crate) mod sealed {
         #[inline]
         fn exp2(self) -> Self {
             libm::exp2(self)
+        }
+        #[inline]
+        fn short_exp(self) -> Self {
+            libm::exp(self)
+        }
+        #[inline]
+        fn short_pow(self, exponent: Self) -> Self {
+            libm::pow(self, exponent)
+        }
+        #[inline]
+        fn short_tanh(self) -> Self {
+            libm::tanh(self)
         }
         #[inline]
         fn coarse_log2(self) -> Self {

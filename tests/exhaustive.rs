@@ -140,3 +140,24 @@ fn sine_and_cosine_of_an_f32_are_within_1_6_units_in_the_last_place() {
     assert_eq!(count(is_off(Real::cos, f64::cos)), 0);
     assert_eq!(count(|x| !x.is_finite() && !Real::sin(x).is_nan()), 0);
 }
+
+#[test]
+#[ignore = "all 2^32 arguments: two minutes"]
+fn the_short_functions_of_the_effects_are_as_exact_as_their_docs_say() {
+    let is_off = |x: f32| {
+        let (wide, exact) = (f64::from(x), f64::from(x).exp());
+        let bound = (6e-8 * wide.abs() + 3e-7) * exact;
+        (-87.0..88.0).contains(&x) && (f64::from(short::exp(x)) - exact).abs() > bound
+    };
+    assert_eq!(count(is_off), 0);
+    let is_off = |x: f32| {
+        let exact = f64::from(x).tanh();
+        let error = (f64::from(short::tanh(x)) - exact).abs();
+        !x.is_nan() && error > 7e-7 * exact.abs()
+    };
+    assert_eq!(count(is_off), 0);
+    assert_eq!(count(|x| !x.is_nan() && short::tanh(x).abs() > 1.0), 0);
+    // A power of nothing, and one that is beyond all floats.
+    assert_eq!(short::pow(0.0, 0.2), 0.0);
+    assert!(short::pow(f32::MAX, 3.0) > 1e38);
+}

@@ -108,6 +108,9 @@ impl Status {
 pub struct Fallback<T> {
     after: u32,
     weight: u32,
+    /// `after·weight`: a bad sample is no time to multiply.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    most: u32,
     command: Option<T>,
 }
 
@@ -125,6 +128,7 @@ macro_rules! fallback {
         Ok(Self {
             after: $after,
             weight: WEIGHT,
+            most: $after.saturating_mul(WEIGHT),
             command: Some($command),
         })
     }};
@@ -169,7 +173,12 @@ impl<T: Real> Fallback<T> {
         if weight == 0 {
             return Err(Error::OutOfRange("weight"));
         }
-        Ok(Self { weight, ..self })
+        let most = self.after.saturating_mul(weight);
+        Ok(Self {
+            weight,
+            most,
+            ..self
+        })
     }
 
     /// Holds the last good command for ever: for a simulation, not for a machine.
@@ -178,6 +187,7 @@ impl<T: Real> Fallback<T> {
         Self {
             after: u32::MAX,
             weight: WEIGHT,
+            most: u32::MAX,
             command: None,
         }
     }
@@ -197,7 +207,7 @@ impl<T: Real> Fallback<T> {
     /// The score at which the safe command goes out: `after·weight`.
     #[must_use]
     pub const fn most(&self) -> u32 {
-        self.after.saturating_mul(self.weight)
+        self.most
     }
 
     /// The safe command \[command unit\], where there is one.

@@ -48,5 +48,5 @@ impl<T: Real> Regressor<T> for Coulomb<T> {
 /// sgn(v), smoothed: `tanh(v/v_e)`. All dry friction of the catalogue goes through it.
 #[inline]
 pub(super) fn sign<T: Real>(v: T, v_e: T) -> T {
-    (v / v_e).tanh()
+    (v / v_e).short_tanh()
 }

@@ -40,6 +40,6 @@ impl<T: Real> Regressor<T> for Pinching<T> {
     #[inline]
     fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
         let ratio = at.eta / self.w;
-        at.eta * (-(ratio * ratio)).exp()
+        at.eta * (-(ratio * ratio)).short_exp()
     }
 }

@@ -44,6 +44,6 @@ impl<T: Real> Regressor<T> for Stribeck<T> {
     #[inline]
     fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
         let ratio = at.motion.velocity / self.v_s;
-        (T::of(10.0) * ratio).tanh() * (-ratio.abs().pow(self.a)).exp()
+        (T::of(10.0) * ratio).short_tanh() * (-ratio.abs().short_pow(self.a)).short_exp()
     }
 }

@@ -4,8 +4,8 @@
 //! effects are types: the image holds those that are named, each knows its place in the sum,
 //! and a sample costs what the effects cost. Both give the same numbers, to the bit.
 
-use super::{situation, Model, ModelState, Sample, Term};
-use crate::effect::{saturate, EffectState, Regressor, Situation, Stage};
+use super::{motion, situation, Model, ModelState, Sample, Term};
+use crate::effect::{saturate, EffectState, Quantity, Regressor, Situation, Stage};
 use crate::error::finite;
 use crate::transmission::Transmission;
 use crate::{Error, Real};
@@ -78,11 +78,12 @@ impl<T: Real, const N: usize, L: Terms<T, N>> FixedModel<T, N, L> {
     #[inline]
     #[must_use]
     pub fn accepts(&self, at: &Sample<T>) -> bool {
-        let input_is_read = self.transmission.is_some();
-        at.dt.is_finite()
-            && at.dt > T::zero()
-            && (!input_is_read || at.input.position.is_finite())
-            && self.terms.can_read(at)
+        // Zero times what is read: NaN where one number is not finite.
+        let mut nothing = at.dt * T::ZERO + self.terms.nothing(at);
+        if self.transmission.is_some() {
+            nothing += at.input.position * T::ZERO;
+        }
+        nothing == T::ZERO && at.dt > T::ZERO
     }
 
     /// Advances by one sample and returns the predicted output.
@@ -146,7 +147,7 @@ pub trait Terms<T, const N: usize>: sealed::Sealed {
     #[doc(hidden)]
     fn any(&self) -> [Term<T>; N];
     #[doc(hidden)]
-    fn can_read(&self, at: &Sample<T>) -> bool;
+    fn nothing(&self, at: &Sample<T>) -> T;
     /// What the input stages make of the input.
     #[doc(hidden)]
     fn moved(&self, memories: &mut [EffectState<T>; N], sum: &Sum<T>) -> T;
@@ -180,10 +181,25 @@ impl<T: Real, E: Regressor<T>> Term<T, E> {
         }
     }
 
+    /// Zero times all that the term reads of the sample; NaN where its channel is missing.
     #[inline]
-    fn can_read(&self, at: &Sample<T>) -> bool {
-        let there = situation(self, at, T::zero(), T::zero());
-        there.is_some_and(|there| there.is_usable(E::INFO.reads))
+    fn nothing(&self, at: &Sample<T>) -> T {
+        let Some(motion) = motion(self.source, at) else {
+            return T::nan();
+        };
+        let read = |sum: T, quantity: &Quantity| {
+            sum + T::ZERO
+                * match quantity {
+                    Quantity::Position => motion.position,
+                    Quantity::Velocity => motion.velocity,
+                    Quantity::Acceleration => motion.acceleration,
+                    Quantity::Input => at.input.position,
+                    Quantity::Load => at.load,
+                    // The model's own, or checked for all.
+                    Quantity::Dt | Quantity::Time | Quantity::Eta | Quantity::Output => T::ZERO,
+                }
+        };
+        E::INFO.reads.iter().fold(T::ZERO, read)
     }
 
     /// Gain times regressor, of a sample that was accepted; nothing at any other stage.
@@ -214,8 +230,8 @@ macro_rules! tuple {
             }
 
             #[inline]
-            fn can_read(&self, at: &Sample<T>) -> bool {
-                $(self.$i.can_read(at) &&)* true
+            fn nothing(&self, at: &Sample<T>) -> T {
+                T::ZERO $(+ self.$i.nothing(at))*
             }
 
             #[inline]

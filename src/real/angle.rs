@@ -88,7 +88,7 @@ fn reduce(x: f32) -> (u32, f32) {
     // The 31 leading bits of the rest, times pi/4: one rounding.
     let zeros = rest.unsigned_abs().leading_zeros();
     let leading = (rest << (zeros.saturating_sub(1) & 63)) >> 32;
-    let product = (leading * QUARTER) >> 32;
+    let product = ((leading * QUARTER) >> 32) as i32;
     let scale = f32::from_bits((BIAS + 1 - 30).wrapping_sub(zeros.saturating_sub(1)) << MANTISSA);
     let angle = product as f32 * scale;
     if x < 0.0 {

@@ -10,11 +10,13 @@
 //! | [`exp2`] | -126 to 127 | 2.9e-7 of the result |
 //! | [`coarse_log2`] | every normal number above zero | 0.0861 |
 //! | [`coarse_power`] | 0 to 1 to the power of 0 to 30 | 0.112 |
+//! | [`exp`] | -87 to 88 | 6e-8·abs(x) + 3e-7 of the result |
+//! | [`tanh`] | all | 7e-7 of the result |
 //!
 //! `cargo test --test exhaustive -- --ignored` checks the table at all arguments. Each
 //! function returns some float for any other argument.
 
-use core::f32::consts::LN_2;
+use core::f32::consts::{LN_2, LOG2_E};
 
 /// The bits of 1.
 const ONE: i32 = 0x3f80_0000;
@@ -57,6 +59,37 @@ pub(super) fn exp2(y: f32) -> f32 {
     // The low bits of `rounded` are the integer; the others are shifted out.
     let exponent = rounded.to_bits() << MANTISSA;
     f32::from_bits(series.to_bits().wrapping_add(exponent))
+}
+
+/// e to the power of `x`; above 88 as at 88, of NaN as below -87.
+#[inline]
+pub(super) fn exp(x: f32) -> f32 {
+    let x = if x < 88.0 { x } else { 88.0 };
+    exp2(x * LOG2_E)
+}
+
+/// A number, zero or above, to a power above zero.
+#[inline]
+pub(super) fn pow(x: f32, exponent: f32) -> f32 {
+    if x > 0.0 {
+        let y = exponent * log2(x);
+        exp2(if y < 127.0 { y } else { 127.0 })
+    } else {
+        0.0
+    }
+}
+
+/// Hyperbolic tangent: its series below 0.3, else from the exponential.
+#[inline]
+pub(super) fn tanh(x: f32) -> f32 {
+    let size = f32::from_bits(x.to_bits() & 0x7fff_ffff);
+    if size < 0.3 {
+        let square = x * x;
+        let series = square * (0.133_333_33 + square * (-0.053_968_254 + square * 0.021_869_488));
+        return x + x * square * (series - 0.333_333_33);
+    }
+    let value = 1.0 - 2.0 / (exp(2.0 * size) + 1.0);
+    f32::from_bits(value.to_bits() | (x.to_bits() & 0x8000_0000))
 }
 
 /// Base-2 logarithm with straight lines between the powers of 2.

@@ -134,5 +134,6 @@ cases! {
     "compensator": model::Compensated;
     "model-2": model::TwoEffects;
     "model-8": model::EightEffects;
+    "model-8-loaded": model::EightLoaded;
     "closed-loop": closed_loop::ClosedLoop;
 }

@@ -1,14 +1,16 @@
-//! Models that are loaded: any effect of the catalogue may be in them.
+//! Models: of effects that are types, as an export writes them, and one that is loaded, in
+//! which any effect of the catalogue may be.
 
 use crate::cable::{transmission, INVERTIBLE};
 use crate::{Case, Output, Sample};
 use bowden::control::{Compensator, CompensatorInput, CompensatorState};
-use bowden::effect::{Backlash, Coulomb, Effect, Gravity, Motion, Ripple, Stribeck};
-use bowden::model::{Model, ModelState, Sample as Measured, Source, Term};
+use bowden::effect::{Backlash, Coulomb, Gravity, Inertia, Motion, Ripple};
+use bowden::effect::{StiffnessCubic, Stribeck, Viscous};
+use bowden::model::{FixedModel, Model, ModelState, Sample as Measured, Source, Term};
 use bowden::Error;
 use core::hint::black_box;
 
-fn term(effect: Effect<f32>, gain: f32) -> Term<f32> {
+fn term<E>(effect: E, gain: f32) -> Term<f32, E> {
     Term {
         effect,
         source: Source::Channel(0),
@@ -17,27 +19,40 @@ fn term(effect: Effect<f32>, gain: f32) -> Term<f32> {
     }
 }
 
+type Of<E> = Term<f32, E>;
+
+type Two = (Of<Viscous>, Of<Coulomb<f32>>);
+
 /// Viscous and Coulomb friction of the pulley.
-fn two() -> Result<[Term<f32>; 2], Error> {
-    Ok([
-        term(Effect::Viscous, -0.4),
-        term(Effect::Coulomb(Coulomb::try_new(0.05)?), -0.8),
-    ])
+fn two() -> Result<FixedModel<f32, 2, Two>, Error> {
+    let terms = (term(Viscous, -0.4), term(Coulomb::try_new(0.05)?, -0.8));
+    FixedModel::try_new(Some(transmission(INVERTIBLE)?), black_box(terms))
 }
 
+type Eight = (
+    Of<Viscous>,
+    Of<Coulomb<f32>>,
+    Of<Stribeck<f32>>,
+    Of<Inertia>,
+    Of<StiffnessCubic>,
+    Of<Gravity<f32>>,
+    Of<Ripple<f32>>,
+    Of<Backlash<f32>>,
+);
+
 /// What a bench may find on one joint, one effect with memory among them.
-fn eight() -> Result<[Term<f32>; 8], Error> {
-    let [viscous, coulomb] = two()?;
-    Ok([
-        viscous,
-        coulomb,
-        term(Effect::Stribeck(Stribeck::try_new(0.05, 0.2)?), -0.3),
-        term(Effect::Inertia, -0.02),
-        term(Effect::StiffnessCubic, 1.5),
-        term(Effect::Gravity(Gravity::try_new(0.1)?), 0.6),
-        term(Effect::Ripple(Ripple::try_new(6.0, 0.3)?), 0.1),
-        term(Effect::Backlash(Backlash::try_new(0.02)?), 0.5),
-    ])
+fn eight() -> Result<FixedModel<f32, 8, Eight>, Error> {
+    let terms = (
+        term(Viscous, -0.4),
+        term(Coulomb::try_new(0.05)?, -0.8),
+        term(Stribeck::try_new(0.05, 0.2)?, -0.3),
+        term(Inertia, -0.02),
+        term(StiffnessCubic, 1.5),
+        term(Gravity::try_new(0.1)?, 0.6),
+        term(Ripple::try_new(6.0, 0.3)?, 0.1),
+        term(Backlash::try_new(0.02)?, 0.5),
+    );
+    FixedModel::try_new(Some(transmission(INVERTIBLE)?), black_box(terms))
 }
 
 fn pulley(at: &Sample) -> [Motion<f32>; 1] {
@@ -48,68 +63,59 @@ fn pulley(at: &Sample) -> [Motion<f32>; 1] {
     }]
 }
 
-/// A model of at most `N` terms on the paper's first set, at sigma = 0.6.
-#[derive(Debug)]
-struct Loaded<const N: usize> {
-    model: Model<f32, N>,
-    state: ModelState<f32, N>,
-}
-
-impl<const N: usize> Loaded<N> {
-    fn try_new(terms: [Term<f32>; N]) -> Result<Self, Error> {
-        Ok(Self {
-            model: Model::try_new(Some(transmission(INVERTIBLE)?), &black_box(terms))?,
-            state: ModelState::new(),
-        })
-    }
-
-    #[inline]
-    fn step(&mut self, at: &Sample) -> Output {
-        let input = Motion {
-            position: at.input,
-            ..Motion::default()
-        };
-        let sample = Measured {
-            dt: at.dt,
-            input,
-            load: at.input,
-            channels: &pulley(at),
-        };
-        Output::of(self.model.step(&mut self.state, &sample))
+fn measured<'a>(at: &Sample, channels: &'a [Motion<f32>; 1]) -> Measured<'a, f32> {
+    let input = Motion {
+        position: at.input,
+        ..Motion::default()
+    };
+    Measured {
+        dt: at.dt,
+        input,
+        load: at.input,
+        channels,
     }
 }
 
-/// A model with two effects; the value is tau_o.
-#[derive(Debug)]
-pub struct TwoEffects(Loaded<2>);
+/// A model on the paper's first set at sigma = 0.6; the value is tau_o.
+macro_rules! case {
+    ($(#[$doc:meta])* $name:ident, $n:literal: $model:ty = $build:expr;) => {
+        $(#[$doc])*
+        #[derive(Debug)]
+        pub struct $name {
+            model: $model,
+            state: ModelState<f32, $n>,
+        }
 
-impl Case for TwoEffects {
-    fn try_new() -> Result<Self, Error> {
-        Loaded::try_new(two()?).map(Self)
-    }
+        impl Case for $name {
+            fn try_new() -> Result<Self, Error> {
+                Ok(Self {
+                    model: $build,
+                    state: ModelState::new(),
+                })
+            }
 
-    #[inline]
-    fn step(&mut self, at: &Sample) -> Output {
-        self.0.step(at)
-    }
+            #[inline]
+            fn step(&mut self, at: &Sample) -> Output {
+                let channels = pulley(at);
+                Output::of(self.model.step(&mut self.state, &measured(at, &channels)))
+            }
+        }
+    };
 }
 
-/// A model with eight effects; the value is tau_o.
-#[derive(Debug)]
-pub struct EightEffects(Loaded<8>);
+case! {
+    /// A model with two effects.
+    TwoEffects, 2: FixedModel<f32, 2, Two> = two()?;
+}
 
-impl Case for EightEffects {
-    /// The sine of a ripple needs 700 bytes where it reduces a large argument.
-    const STACK: usize = 2048;
+case! {
+    /// A model with eight effects.
+    EightEffects, 8: FixedModel<f32, 8, Eight> = eight()?;
+}
 
-    fn try_new() -> Result<Self, Error> {
-        Loaded::try_new(eight()?).map(Self)
-    }
-
-    #[inline]
-    fn step(&mut self, at: &Sample) -> Output {
-        self.0.step(at)
-    }
+case! {
+    /// The same model, loaded: the image does not know which effects are in it.
+    EightLoaded, 8: Model<f32, 8> = black_box(eight()?.to_model());
 }
 
 /// The model of two effects turned round; the value is tau_i.
@@ -121,7 +127,7 @@ pub struct Compensated {
 
 impl Case for Compensated {
     fn try_new() -> Result<Self, Error> {
-        let model = Model::try_new(Some(transmission(INVERTIBLE)?), &black_box(two()?))?;
+        let model = black_box(two()?.to_model());
         Ok(Self {
             compensator: Compensator::try_new(&model)?,
             state: CompensatorState::new(),
