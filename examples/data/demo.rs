@@ -1,4 +1,4 @@
-//! Identified by bowden 0.1.0 from (embedded: bowden generate --mode torque --effect viscous --seed 7).
+//! Identified by bowden 0.2.0 from (embedded: bowden generate --mode torque --effect viscous --seed 7).
 //!
 //! Input [N·m], output [N·m], torque mode.
 //! Channels, in the order of `Sample::channels`: 0 phi_p [rad], 1 phi_d [rad].
@@ -16,29 +16,43 @@
 //! Made for a feed-forward: `Compensator::try_new(&model()?)?.with_ranges(&ranges())?`.
 
 use bowden::control::BenchRange;
-use bowden::effect::{Effect, Motion};
+use bowden::effect::Motion;
+use bowden::effect::Viscous;
 use bowden::hysteresis::Shape;
-use bowden::model::{Model, Source, Term};
+use bowden::model::{FixedModel, Model, Source, Term};
 use bowden::transmission::Transmission;
 
 /// Time constant of `bowden::signal::Rates` for the rates of every source [s].
 #[allow(dead_code)]
 pub const RATES_TIME_CONSTANT: f32 = 0.008376576;
 
-/// The identified model.
+/// The terms of the model, each with the type of its effect.
+#[allow(dead_code)]
+pub type Terms = (Term<f32, Viscous>,);
+
+/// The identified model as one that holds any effect: for a `Compensator`, or a file.
+///
+/// # Errors
+/// None with the numbers below.
+#[allow(dead_code)]
+pub fn model() -> Result<Model<f32, 1>, bowden::Error> {
+    Ok(fixed_model()?.to_model())
+}
+
+/// The identified model; firmware that steps it links the effects that it names, no others.
 ///
 /// # Errors
 /// None with the numbers below.
 #[allow(dead_code, clippy::approx_constant)]
-pub fn model() -> Result<Model<f32, 1>, bowden::Error> {
+pub fn fixed_model() -> Result<FixedModel<f32, 1, Terms>, bowden::Error> {
     // rho [1/(N·m)], sigma [1], n [1]
     let shape = Shape::try_new(0.5462775, 0.5010001, 1.001)?;
     // B [1], kappa_eta [N·m], T0 [N·m]
     let transmission = Transmission::torque(0.9513806, 1.738092, -0.004557163, shape)?;
-    let terms = [
+    let terms = (
         // viscous@phi_p: v
         Term {
-            effect: Effect::Viscous,
+            effect: Viscous,
             // phi_p
             source: Source::Channel(0),
             // [rad]
@@ -46,8 +60,8 @@ pub fn model() -> Result<Model<f32, 1>, bowden::Error> {
             // [N·m·s/rad]
             gain: -0.7287999,
         },
-    ];
-    Model::try_new(Some(transmission), &terms)
+    );
+    FixedModel::try_new(Some(transmission), terms)
 }
 
 /// What the fit has seen of each source that the model reads, for `Compensator::with_ranges`.

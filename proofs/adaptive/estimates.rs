@@ -110,7 +110,7 @@ fn any_two_sum<T: Real>(a: T, b: T) -> (T, T) {
 fn leaked(prior: f32, before: &Compensated<f32>) -> Compensated<f32> {
     let estimator = Estimator {
         prior,
-        ..Estimator::<f32>::fixed(0.0)
+        ..Estimator::<f32>::free(0.0)
     };
     let after = estimator.update(*before, 1.0 / 1024.0, 0.0);
     assert!(after.is_some_and(|after| is_rounded(&after)));

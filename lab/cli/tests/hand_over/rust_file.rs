@@ -146,6 +146,25 @@ fn model_rs_compiles_without_warnings_for_every_effect_and_is_that_model() {
 }
 
 #[test]
+fn a_model_of_more_terms_than_a_fixed_one_holds_is_written_as_one_of_any_effect() {
+    let most = 16;
+    for terms in [most, most + 1] {
+        let mut file = of_effect(&Effect::Viscous, true);
+        let coulomb = of_effect(&Effect::try_from_name("coulomb", &[0.3]).unwrap(), true);
+        file.terms.extend(vec![coulomb.terms[0].clone(); terms - 1]);
+        let text = file.rust().unwrap();
+        assert_eq!(text.contains("FixedModel"), terms == most);
+        let program = module("a", &text)
+            + "fn main() { println!(\"{:?}\", a::model().map(|m| m.terms().to_vec())); }";
+        let folder = tempfile::tempdir().unwrap();
+        let model = file.model_in::<f32, 17>().unwrap();
+        assert_eq!(model.terms().len(), terms);
+        let expected = format!("Ok({:?})\n", model.terms());
+        assert_eq!(compiled_and_run(&program, folder.path()), expected);
+    }
+}
+
+#[test]
 fn a_model_of_nothing_but_a_transmission_compiles_too() {
     let mut file = of_effect(&Effect::Viscous, true);
     file.terms.clear();
@@ -239,7 +258,8 @@ fn model_rs_says_what_its_numbers_mean_and_holds_no_path() {
         "rho [1/(N·m)]",
         "B [1], kappa_eta [N·m], T0 [N·m]",
         "coulomb@phi_p: tanh(v/v_e); v_e [rad/s]",
-        "Effect::Coulomb(Coulomb::try_new(",
+        "pub fn fixed_model() -> Result<FixedModel<f32, 1, Terms>, bowden::Error> {",
+        "effect: Coulomb::try_new(",
         "// [N·m]",
         "phi_p: position [rad], velocity [rad/s], acceleration [rad/s²]",
         "RATES_TIME_CONSTANT: f32 = ",

@@ -1,7 +1,7 @@
 //! The model as a Rust file for firmware, in single precision.
 
 use super::{About, ModelFile, Span, TermFile};
-use bowden::effect::{Effect, Family};
+use bowden::effect::Effect;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
@@ -14,6 +14,12 @@ macro_rules! line {
         let _ = writeln!($out, $($text)+);
     }};
 }
+
+/// As many terms as a [`FixedModel`](bowden::model::FixedModel) holds.
+const MOST_FIXED: usize = 16;
+
+/// As wide as rustfmt lets a line be.
+const LINE: usize = 100;
 
 /// A number as firmware has it: the shortest text that reads back to the same `f32`.
 fn number(value: f64) -> String {
@@ -69,7 +75,7 @@ fn per_cent(share: f64) -> String {
 }
 
 impl ModelFile {
-    /// As a Rust file that builds the model in firmware: `model()`, `ranges()` for
+    /// As a Rust file that builds the model in firmware: `fixed_model()`, `model()`, `ranges()` for
     /// `Compensator::with_ranges`, and the time constant for `Rates`.
     ///
     /// # Errors
@@ -151,36 +157,34 @@ impl ModelFile {
         if has_ranges {
             all.insert("bowden::control::BenchRange".to_owned());
         }
+        let fixed = self.is_fixed();
         for term in &self.terms {
-            let effect = term.effect()?;
-            if !term.shapes.is_empty() {
-                all.insert(format!(
-                    "bowden::effect::{}::{}",
-                    module(effect.family()),
-                    variant(effect.name())
-                ));
-            }
+            all.insert(format!(
+                "bowden::effect::{}",
+                variant(term.effect()?.name())
+            ));
         }
-        let list = |names: &[(&str, bool)]| -> Option<String> {
-            let used: Vec<&str> = names.iter().filter(|(_, u)| *u).map(|(n, _)| *n).collect();
-            match &used[..] {
-                [] => None,
-                [one] => Some((*one).to_owned()),
-                several => Some(format!("{{{}}}", several.join(", "))),
+        let mut add = |used: bool, name: &str| {
+            if used {
+                all.insert(format!("bowden::{name}"));
             }
         };
-        let has_terms = !self.terms.is_empty();
-        if let Some(names) = list(&[("Effect", has_terms), ("Motion", has_ranges)]) {
-            all.insert(format!("bowden::effect::{names}"));
+        add(has_ranges, "effect::Motion");
+        add(!self.terms.is_empty() && !fixed, "effect::Effect");
+        let has_source = !self.terms.is_empty() || has_ranges;
+        let parts = [
+            ("FixedModel", fixed),
+            ("Model", true),
+            ("Source", has_source),
+            ("Term", !self.terms.is_empty()),
+        ];
+        let used: Vec<&str> = parts.iter().filter(|(_, u)| *u).map(|(n, _)| *n).collect();
+        match &used[..] {
+            [one] => add(true, &format!("model::{one}")),
+            several => add(true, &format!("model::{{{}}}", several.join(", "))),
         }
-        let source = has_terms || has_ranges;
-        if let Some(names) = list(&[("Model", true), ("Source", source), ("Term", has_terms)]) {
-            all.insert(format!("bowden::model::{names}"));
-        }
-        if self.transmission.is_some() {
-            all.insert("bowden::hysteresis::Shape".to_owned());
-            all.insert("bowden::transmission::Transmission".to_owned());
-        }
+        add(self.transmission.is_some(), "hysteresis::Shape");
+        add(self.transmission.is_some(), "transmission::Transmission");
         let mut all: Vec<String> = all.into_iter().collect();
         // As rustfmt has them: modules before types before lists.
         all.sort_by_cached_key(|name| {
@@ -193,18 +197,84 @@ impl ModelFile {
         Ok(())
     }
 
+    /// Whether the effects are types: as many as a [`FixedModel`](bowden::model::FixedModel) holds.
+    fn is_fixed(&self) -> bool {
+        (1..=MOST_FIXED).contains(&self.terms.len())
+    }
+
+    /// The types of the terms, and the function that builds any model from the fixed one.
+    fn fixed_types(&self, out: &mut String) -> Result<(), String> {
+        let terms = self.terms.len();
+        line!(
+            out,
+            "/// The terms of the model, each with the type of its effect."
+        );
+        line!(out, "#[allow(dead_code)]");
+        let mut types = Vec::with_capacity(terms);
+        for term in &self.terms {
+            let own = variant(term.effect()?.name());
+            types.push(match term.shapes.is_empty() {
+                true => format!("Term<f32, {own}>"),
+                false => format!("Term<f32, {own}<f32>>"),
+            });
+        }
+        // As rustfmt has it: on one line where it fits; a tuple of one ends in a comma.
+        let last = if terms == 1 { "," } else { "" };
+        let line = format!("pub type Terms = ({}{last});", types.join(", "));
+        if line.len() <= LINE {
+            line!(out, "{line}");
+        } else {
+            line!(out, "pub type Terms = (");
+            for one in types {
+                line!(out, "    {one},");
+            }
+            line!(out, ");");
+        }
+        line!(out);
+        line!(
+            out,
+            "/// The identified model as one that holds any effect: for a `Compensator`, or a file."
+        );
+        line!(out, "///");
+        line!(out, "/// # Errors");
+        line!(out, "/// None with the numbers below.");
+        line!(out, "#[allow(dead_code)]");
+        line!(
+            out,
+            "pub fn model() -> Result<Model<f32, {terms}>, bowden::Error> {{"
+        );
+        line!(out, "    Ok(fixed_model()?.to_model())");
+        line!(out, "}}");
+        line!(out);
+        Ok(())
+    }
+
     fn function(&self, about: &About, out: &mut String) -> Result<(), String> {
-        line!(out, "/// The identified model.");
+        if self.is_fixed() {
+            self.fixed_types(out)?;
+            line!(
+                out,
+                "/// The identified model; firmware that steps it links the effects that it names, no others."
+            );
+        } else {
+            line!(out, "/// The identified model.");
+        }
         line!(out, "///");
         line!(out, "/// # Errors");
         line!(out, "/// None with the numbers below.");
         // A fitted number that is near pi is not pi.
         line!(out, "#[allow(dead_code, clippy::approx_constant)]");
-        line!(
-            out,
-            "pub fn model() -> Result<Model<f32, {}>, bowden::Error> {{",
-            self.terms.len()
-        );
+        let terms = self.terms.len();
+        match self.is_fixed() {
+            true => line!(
+                out,
+                "pub fn fixed_model() -> Result<FixedModel<f32, {terms}, Terms>, bowden::Error> {{"
+            ),
+            false => line!(
+                out,
+                "pub fn model() -> Result<Model<f32, {terms}>, bowden::Error> {{"
+            ),
+        }
         if let Some(t) = &self.transmission {
             line!(out, "    // rho [{}], sigma [1], n [1]", about.unit("rho"));
             line!(
@@ -238,15 +308,23 @@ impl ModelFile {
             Some(_) => "Some(transmission)",
             None => "None",
         };
+        let (open, close, build) = match self.is_fixed() {
+            true => (
+                "(",
+                ")",
+                format!("FixedModel::try_new({transmission}, terms)"),
+            ),
+            false => ("[", "]", format!("Model::try_new({transmission}, &terms)")),
+        };
         if self.terms.is_empty() {
             line!(out, "    Model::try_new({transmission}, &[])");
         } else {
-            line!(out, "    let terms = [");
+            line!(out, "    let terms = {open}");
             for term in &self.terms {
                 self.term(term, about, out)?;
             }
-            line!(out, "    ];");
-            line!(out, "    Model::try_new({transmission}, &terms)");
+            line!(out, "    {close};");
+            line!(out, "    {build}");
         }
         line!(out, "}}");
         Ok(())
@@ -271,13 +349,14 @@ impl ModelFile {
         line!(out, "        // {name}: {}{with}", effect.formula());
         line!(out, "        Term {{");
         let values: Vec<String> = term.shapes.iter().map(|s| number(s.value)).collect();
-        match values.is_empty() {
-            true => line!(out, "            effect: Effect::{own},"),
-            false => line!(
-                out,
-                "            effect: Effect::{own}({own}::try_new({})?),",
-                values.join(", ")
-            ),
+        let built = match values.is_empty() {
+            true => own.clone(),
+            false => format!("{own}::try_new({})?", values.join(", ")),
+        };
+        match (self.is_fixed(), values.is_empty()) {
+            (true, _) => line!(out, "            effect: {built},"),
+            (false, true) => line!(out, "            effect: Effect::{own},"),
+            (false, false) => line!(out, "            effect: Effect::{own}({built}),"),
         }
         let source = self.source(&term.source);
         line!(out, "            // {}", term.source);
@@ -355,11 +434,6 @@ impl TermFile {
         Effect::try_from_name(&self.effect, &shapes)
             .map_err(|e| format!("term {}: {e}", self.effect))
     }
-}
-
-/// The module of the core that has a family's effects.
-fn module(family: Family) -> String {
-    family.name().replace('-', "_")
 }
 
 /// The name of an effect in the core: `drag-quadratic` is `DragQuadratic`.
