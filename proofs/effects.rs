@@ -62,6 +62,8 @@ fn any_sample<R: Regressor<f32>>(effect: Result<R, Error>) {
 /// An effect that reads everything and whose formula gives any float.
 struct Anything;
 
+impl Sealed for Anything {}
+
 impl Regressor<f32> for Anything {
     const INFO: &'static Info = &Info {
         reads: &[
@@ -75,7 +77,7 @@ impl Regressor<f32> for Anything {
             Quantity::Eta,
             Quantity::Output,
         ],
-        ..*<offset::Offset as Regressor<f32>>::INFO
+        ..*<Offset as Regressor<f32>>::INFO
     };
 
     fn value(&self, _: &mut EffectState<f32>, _: &Situation<f32>) -> f32 {
@@ -137,7 +139,7 @@ fn lag_effect_is_finite() {
 #[kani::proof]
 #[kani::unwind(10)]
 fn delay_is_finite() {
-    any_sample(Ok(delay::Delay));
+    any_sample(Ok(Delay));
 }
 
 /// What `sum_is_finite` proves of a step of the sum, and no more.

@@ -213,7 +213,7 @@ impl Info {
 ///
 /// For a [`FixedModel`](crate::model::FixedModel); [`Effect`](super::Effect) holds any of
 /// them. Only the effects of this crate are.
-pub trait Regressor<T>: sealed::Sealed + Copy + Into<super::Effect<T>> {
+pub trait Regressor<T>: sealed::Sealed {
     /// All that there is to know of the effect, shapes apart.
     const INFO: &'static Info;
 

@@ -5,7 +5,7 @@
 //! and a sample costs what the effects cost. Both give the same numbers, to the bit.
 
 use super::{motion, situation, Model, ModelState, Sample, Term};
-use crate::effect::{saturate, EffectState, Quantity, Regressor, Situation, Stage};
+use crate::effect::{saturate, Effect, EffectState, Quantity, Regressor, Situation, Stage};
 use crate::error::finite;
 use crate::transmission::Transmission;
 use crate::{Error, Real};
@@ -166,7 +166,7 @@ mod sealed {
     pub trait Sealed {}
 }
 
-impl<T: Real, E: Regressor<T>> Term<T, E> {
+impl<T: Real, E: Regressor<T> + Copy + Into<Effect<T>>> Term<T, E> {
     fn check(&self) -> Result<(), Error> {
         finite(self.origin, "origin")?;
         finite(self.gain, "gain").map(|_| ())
@@ -219,7 +219,7 @@ macro_rules! tuple {
     ($n:literal: $($E:ident $i:tt),*) => {
         impl<T, $($E),*> sealed::Sealed for ($(Term<T, $E>,)*) {}
 
-        impl<T: Real, $($E: Regressor<T>),*> Terms<T, $n> for ($(Term<T, $E>,)*) {
+        impl<T: Real, $($E: Regressor<T> + Copy + Into<Effect<T>>),*> Terms<T, $n> for ($(Term<T, $E>,)*) {
             fn check(&self) -> Result<(), Error> {
                 $(self.$i.check()?;)*
                 Ok(())
