@@ -128,7 +128,8 @@ fn the_short_exponential_is_as_exact_as_its_docs_say() {
 fn the_coarse_functions_are_as_exact_as_their_docs_say() {
     let bound = |_, _| 0.0861;
     assert_eq!(off(is_logarithms, short::coarse_log2, f64::log2, bound), 0);
-    let is_share = |x: f32| is_logarithms(x) && x <= 1.0;
+    // Every eighth: the exact power is slow.
+    let is_share = |x: f32| x.to_bits() % 8 == 5 && is_logarithms(x) && x <= 1.0;
     for exponent in [0.0_f32, 0.5, 2.871, 30.0] {
         let of = |x| short::coarse_power(x, exponent).max(0.0);
         let exact = |x: f64| x.powf(f64::from(exponent));
@@ -140,7 +141,7 @@ fn the_coarse_functions_are_as_exact_as_their_docs_say() {
 #[ignore = "all 2^32 arguments: a minute"]
 fn the_short_functions_of_the_effects_are_as_exact_as_their_docs_say() {
     let is_meant = |x: f32| (-87.0..88.0).contains(&x);
-    let bound = |x: f64, exact| (6e-8 * x.abs() + 3e-7) * exact;
+    let bound = |x: f64, exact| (8e-8 * x.abs() + 3e-7) * exact;
     assert_eq!(off(is_meant, short::exp, f64::exp, bound), 0);
     // Odd to the bit: half of the arguments are enough.
     let positive = |x: f32| x >= 0.0;
@@ -149,7 +150,7 @@ fn the_short_functions_of_the_effects_are_as_exact_as_their_docs_say() {
         0
     );
     let below_ten = |x: f32| positive(x) && x < 10.0;
-    let bound = |_, exact| 7e-7 * exact;
+    let bound = |_, exact| 4e-7 * exact;
     assert_eq!(off(below_ten, short::tanh, f64::tanh, bound), 0);
     assert_eq!(count(|x| x >= 10.0 && short::tanh(x) != 1.0), 0);
     assert_eq!(count(|x| positive(x) && short::tanh(x) > 1.0), 0);
@@ -161,10 +162,11 @@ fn the_short_functions_of_the_effects_are_as_exact_as_their_docs_say() {
 #[test]
 #[ignore = "all 2^32 arguments: a minute"]
 fn sine_and_cosine_of_an_f32_are_within_1_6_units_in_the_last_place() {
+    // All up to 1e4, and a sixteenth of those beyond, where the exact ones are slow.
+    let is_meant = |x: f32| x.is_finite() && x >= 0.0 && (x < 1e4 || x.to_bits() % 16 == 3);
     // Odd and even to the bit: half of the arguments are enough.
     let is_odd = |x: f32| Real::sin(-x) == -Real::sin(x) && Real::cos(-x) == Real::cos(x);
-    assert_eq!(count(|x| x.is_finite() && x >= 0.0 && !is_odd(x)), 0);
-    let is_meant = |x: f32| x.is_finite() && x >= 0.0;
+    assert_eq!(count(|x| is_meant(x) && !is_odd(x)), 0);
     // The distance of the floats at the result: 2^-23 times the power of 2 next below it.
     let bound = |_, exact: f64| {
         let power = f64::from_bits(exact.to_bits() & 0x7ff0_0000_0000_0000);
