@@ -30,12 +30,12 @@ pub fn all<T: Real>() -> Option<()> {
         control_status_try_new,
         Fallback::<T>::try_new(black_box(3), any())
     );
-    never_panics!(
-        control_status_hold_for_ever,
-        Fallback::<T>::hold_for_ever()
-    );
+    never_panics!(control_status_hold_for_ever, Fallback::<T>::hold_for_ever());
     let fallback = black_box(Fallback::<T>::hold_for_ever());
-    never_panics!(control_status_with_weight, fallback.with_weight(black_box(3)));
+    never_panics!(
+        control_status_with_weight,
+        fallback.with_weight(black_box(3))
+    );
     never_panics!(control_status_weight, fallback.weight());
     never_panics!(control_status_most, fallback.most());
     never_panics!(control_status_after, fallback.after());
@@ -45,7 +45,10 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(control_status_fault, status.fault());
     never_panics!(control_status_is_live, status.is_live());
     let at = LoopSample::new(any(), any(), any());
-    never_panics!(control_controller_new, LoopSample::<T>::new(any(), any(), any()));
+    never_panics!(
+        control_controller_new,
+        LoopSample::<T>::new(any(), any(), any())
+    );
     let pi = black_box(Pid::<T>::paper_pi());
     let mut state = black_box(PidState::new());
     never_panics!(
@@ -66,7 +69,10 @@ pub fn all<T: Real>() -> Option<()> {
 /// The constructors of constants, which are functions too.
 fn constants() {
     let (low, high) = (any::<f32>(), any::<f32>());
-    never_panics!(control_limits_const_new, Limits::<f32>::const_new(low, high));
+    never_panics!(
+        control_limits_const_new,
+        Limits::<f32>::const_new(low, high)
+    );
     let limits = black_box(Limits::<f32>::unlimited());
     never_panics!(control_limits_const_with_slew, limits.const_with_slew(low));
     never_panics!(

@@ -3,8 +3,8 @@
 use crate::effect::motion;
 use crate::transmission::transmission;
 use crate::{any, never_panics};
-use bowden::effect::{Effect, Motion};
-use bowden::model::{Model, ModelState, Sample, Source, Term};
+use bowden::effect::{Backlash, Coulomb, Effect, Lag, Motion, PlayInSeries, Ripple, Stribeck};
+use bowden::model::{FixedModel, Model, ModelState, Sample, Source, Term};
 use bowden::Real;
 use std::hint::black_box;
 
@@ -53,8 +53,47 @@ pub fn all<T: Real>() -> Option<()> {
             black_box((term, share));
         })
     });
+    fixed(&sample)?;
     never_panics!(model_eta, state.eta());
     never_panics!(model_time, state.time());
     never_panics!(model_output, state.output());
+    Some(())
+}
+
+/// A model whose effects are types, of each stage and of each kind of function.
+fn fixed<T: Real>(sample: &Sample<T>) -> Option<()> {
+    fn of<T: Real, E>(effect: E) -> Term<T, E> {
+        black_box(Term {
+            effect,
+            source: Source::Channel(black_box(0)),
+            origin: any(),
+            gain: any(),
+        })
+    }
+    let terms = (
+        of(Coulomb::try_new(any()).ok()?),
+        of(Lag::try_new(any()).ok()?),
+        of(PlayInSeries::try_new(any()).ok()?),
+        of(Ripple::try_new(any(), any()).ok()?),
+        of(Stribeck::try_new(any(), any()).ok()?),
+        of(Backlash::try_new(any()).ok()?),
+    );
+    let transmission = black_box(Some(transmission::<T>()?));
+    never_panics!(
+        model_fixed_try_new,
+        FixedModel::try_new(transmission, black_box(terms))
+    );
+    let model = black_box(FixedModel::try_new(transmission, terms).ok()?);
+    let mut state = black_box(ModelState::new());
+    never_panics!(model_fixed_transmission, model.transmission());
+    never_panics!(model_fixed_terms, model.terms());
+    never_panics!(model_fixed_to_model, model.to_model());
+    never_panics!(model_fixed_accepts, model.accepts(sample));
+    never_panics!(model_fixed_step, model.step(&mut state, sample));
+    never_panics!(model_fixed_step_with, {
+        model.step_with(&mut state, sample, |term, share| {
+            black_box((term, share));
+        })
+    });
     Some(())
 }
