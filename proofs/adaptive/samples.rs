@@ -77,7 +77,7 @@ fn any_sample<const N: usize>(form: Form<f32>, smooth_sign: SmoothSign) {
 /// Assumes: nothing of gains, sample or valid state; the update of an estimate as proved by
 /// estimate_in_its_box, the limits as by slew_limit_any_rate, any virtual command.
 #[kani::proof]
-#[kani::unwind(3)]
+#[kani::unwind(5)]
 #[kani::stub(libm::tanhf, stubs::tanhf)]
 #[kani::stub(Estimator::update, any_update)]
 #[kani::stub(Adaptive::virtual_command, any_virtual_command)]
@@ -94,7 +94,7 @@ fn lag_any_sample() {
 /// K1. Literal form, two regressors: where the error's rate is not finite, the virtual
 /// command is not either, and the step refuses the sample.
 #[kani::proof]
-#[kani::unwind(3)]
+#[kani::unwind(5)]
 fn a_bad_rate_shows() {
     let time_constant = kani::any();
     let law = law::<2>(Form::Literal { time_constant }, SmoothSign::Clamp);
@@ -116,7 +116,7 @@ fn a_bad_rate_shows() {
 /// estimate as proved by estimate_in_its_box, the limits as by slew_limit_any_rate, the
 /// virtual command as by a_bad_rate_shows.
 #[kani::proof]
-#[kani::unwind(3)]
+#[kani::unwind(5)]
 #[kani::stub(libm::tanhf, stubs::tanhf)]
 #[kani::stub(Derivative::step, any_rate)]
 #[kani::stub(Estimator::update, any_update)]
@@ -154,7 +154,7 @@ fn from_any_state(form: Form<f32>) {
 /// Assumes: nothing of gains, sample or state; the limits as by slew_limit_any_rate, any
 /// virtual command, any sum of an estimate.
 #[kani::proof]
-#[kani::unwind(3)]
+#[kani::unwind(5)]
 #[kani::stub(libm::tanhf, stubs::tanhf)]
 #[kani::stub(Estimator::update, any_sum)]
 #[kani::stub(Adaptive::virtual_command, any_virtual_command)]
@@ -171,7 +171,7 @@ fn lag_from_any_state() {
 ///
 /// Assumes: as lag_from_any_state; any filtered rate, any z for the one that a return searches.
 #[kani::proof]
-#[kani::unwind(3)]
+#[kani::unwind(5)]
 #[kani::stub(libm::tanhf, stubs::tanhf)]
 #[kani::stub(Derivative::step, any_rate)]
 #[kani::stub(Estimator::update, any_sum)]

@@ -159,10 +159,10 @@ impl ModelFile {
         }
         let fixed = self.is_fixed();
         for term in &self.terms {
-            all.insert(format!(
-                "bowden::effect::{}",
-                variant(term.effect()?.name())
-            ));
+            if fixed || !term.shapes.is_empty() {
+                let own = variant(term.effect()?.name());
+                all.insert(format!("bowden::effect::{own}"));
+            }
         }
         let mut add = |used: bool, name: &str| {
             if used {
