@@ -1,4 +1,5 @@
-//! Measures what `bowden close` costs and writes `benches/README.md`.
+//! Measures what `bowden close` costs and writes it into `benches/README.md`, between the marks
+//! that the page has for it.
 //!
 //! ```text
 //! cargo run --release -p bowden-lab --example bench_report              everything
@@ -151,6 +152,14 @@ fn paper_alone(words: &[String]) -> Result<(), String> {
     Ok(())
 }
 
+/// The page with a text where its marks are, if it has them.
+fn between_marks(page: &str, text: &str) -> Option<String> {
+    let (open, close) = ("<!-- close -->\n", "<!-- end of close -->");
+    let (before, rest) = page.split_once(open)?;
+    let (_, after) = rest.split_once(close)?;
+    Some(format!("{before}{open}{text}{close}{after}"))
+}
+
 fn report(wanted: &Wanted) -> Result<(), String> {
     let program = Program {
         path: wanted.program.clone().map_or_else(program::build, Ok)?,
@@ -159,6 +168,8 @@ fn report(wanted: &Wanted) -> Result<(), String> {
     let folder = tempfile::tempdir().map_err(|e| e.to_string())?;
     let measured = measure(wanted, &program, folder.path())?;
     let text = document(&measured, &limits(&measured), program.instrument);
+    let page = std::fs::read_to_string(&wanted.out).unwrap_or_default();
+    let text = between_marks(&page, &text).unwrap_or(text);
     std::fs::write(&wanted.out, text).map_err(|e| format!("{}: {e}", wanted.out.display()))?;
     eprintln!("{} is written", wanted.out.display());
     Ok(())
