@@ -22,14 +22,14 @@ mod file;
 mod fixed;
 #[cfg(feature = "serde")]
 mod serial;
+mod state;
 
-use crate::effect::{saturate, Effect, EffectState, Motion, Situation, Stage};
+use crate::effect::{saturate, Effect, Motion, Situation, Stage};
 use crate::error::finite;
-use crate::hysteresis::BoucWen;
-use crate::signal::Compensated;
 use crate::transmission::Transmission;
 use crate::{Error, Real};
 pub use fixed::{FixedModel, Terms};
+pub use state::ModelState;
 
 /// Which motion an effect reads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -421,85 +421,4 @@ fn situation<T: Real, E>(
         eta,
         output: T::zero(),
     })
-}
-
-/// What a [`Model`] remembers between samples.
-///
-/// ```
-/// use bowden::model::ModelState;
-/// let fresh = ModelState::<f32, 4>::new();
-/// assert_eq!((fresh.eta(), fresh.time(), fresh.output()), (0.0, 0.0, 0.0));
-/// assert!(ModelState::<f32, 4>::with_eta(1.5).is_err());
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct ModelState<T, const N: usize> {
-    hysteresis: BoucWen<T>,
-    effects: [EffectState<T>; N],
-    started: bool,
-    /// Compensated: dt is far below it.
-    time: Compensated<T>,
-    output: T,
-}
-
-impl<T: Real, const N: usize> ModelState<T, N> {
-    /// A state that has seen no sample.
-    #[must_use]
-    pub fn new() -> Self {
-        Self::from_hysteresis(BoucWen::new())
-    }
-
-    /// The same, with the hysteresis state as it was found at the start.
-    ///
-    /// # Errors
-    /// As [`BoucWen::with_eta`], where `eta` is not finite or beyond ±1.
-    pub fn with_eta(eta: T) -> Result<Self, Error> {
-        BoucWen::with_eta(eta).map(Self::from_hysteresis)
-    }
-
-    fn from_hysteresis(hysteresis: BoucWen<T>) -> Self {
-        Self {
-            hysteresis,
-            effects: [EffectState::new(); N],
-            started: false,
-            time: Compensated::new(T::zero()),
-            output: T::zero(),
-        }
-    }
-
-    /// The hysteresis state, within ±1.
-    #[must_use]
-    pub fn eta(&self) -> T {
-        self.hysteresis.eta()
-    }
-
-    /// Time since the first good sample \[s\]; bad ones do not count.
-    #[must_use]
-    pub fn time(&self) -> T {
-        self.time.value
-    }
-
-    /// The last good output, 0 before the first one.
-    #[must_use]
-    pub fn output(&self) -> T {
-        self.output
-    }
-
-    /// Adds dt, compensated: at 1 kHz a plain `f32` clock would stop after hours.
-    fn tick(&mut self, dt: T) {
-        if !self.started {
-            self.started = true;
-            return;
-        }
-        let time = self.time.plus(dt);
-        if time.value.is_finite() && time.carry.is_finite() {
-            self.time = time;
-        }
-    }
-}
-
-impl<T: Real, const N: usize> Default for ModelState<T, N> {
-    fn default() -> Self {
-        Self::new()
-    }
 }

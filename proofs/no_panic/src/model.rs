@@ -36,8 +36,8 @@ pub fn all<T: Real>() -> Option<()> {
     let model = model::<T>()?;
     never_panics!(model_transmission, model.transmission());
     never_panics!(model_terms, model.terms());
-    never_panics!(model_new, ModelState::<T, 2>::new());
-    never_panics!(model_with_eta, ModelState::<T, 2>::with_eta(any()));
+    never_panics!(model_state_new, ModelState::<T, 2>::new());
+    never_panics!(model_state_with_eta, ModelState::<T, 2>::with_eta(any()));
     let mut state = black_box(ModelState::new());
     let channels: [Motion<T>; 2] = [motion(), motion()];
     let sample = Sample {
@@ -54,9 +54,9 @@ pub fn all<T: Real>() -> Option<()> {
         })
     });
     fixed(&sample)?;
-    never_panics!(model_eta, state.eta());
-    never_panics!(model_time, state.time());
-    never_panics!(model_output, state.output());
+    never_panics!(model_state_eta, state.eta());
+    never_panics!(model_state_time, state.time());
+    never_panics!(model_state_output, state.output());
     Some(())
 }
 
