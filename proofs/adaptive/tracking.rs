@@ -58,7 +58,7 @@ fn slow_tracking_box_of_the_law() {
 /// Assumes: h·lambda = 0.008, beta_hat = 1, a command before within ±1000, any virtual
 /// command. (A claim about one step.)
 #[kani::proof]
-#[kani::unwind(2)]
+#[kani::unwind(5)]
 #[kani::stub(Adaptive::virtual_command, any_virtual_command)]
 fn lag_between() {
     let law = paper();
