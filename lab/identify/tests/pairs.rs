@@ -99,33 +99,24 @@ fn a_model_errs_on_the_other_record_at_most_2_5_times_as_much_as_held_out_at_hom
     }
 }
 
-/// Where all that was found has a name the rounds are chosen by the error on half-records, and
-/// the goal of one in twenty is met. Beside a curve without a name all are delivered: with these
-/// it is one in ten.
 #[test]
 #[ignore = "slow: bash .ci/run measured-records"]
-fn at_most_one_in_twenty_of_the_rounds_that_were_chosen_raises_the_held_out_error() {
-    let chosen = over_all("rounds that raise, where chosen", Rig::raising_where_chosen);
-    let all = over_all("rounds that raise", Rig::raising);
-    let (Some(chosen), Some(all)) = (chosen, all) else {
-        return;
-    };
-    assert!(20 * chosen.count <= chosen.of, "{chosen}");
-    assert!(10 * all.count <= all.of, "{all}");
+fn at_most_one_in_twenty_of_the_delivered_rounds_raises_the_held_out_error() {
+    let raising = over_all("rounds that raise", Rig::raising);
+    let Some(raising) = raising else { return };
+    assert!(20 * raising.count <= raising.of, "{raising}");
 }
 
 /// A firm name agrees where the other record names it too, or has it as a rival of one of its
 /// names, firm or weak; a name is a family and the channel that it reads. Each pair counts from
 /// both sides: (known of A + known of B) over (firm of A + firm of B).
-///
-/// The goal is 70 %. Reached are 11 of 16, 69 %: one name more would meet it.
 #[test]
 #[ignore = "slow: bash .ci/run measured-records"]
-fn eleven_of_sixteen_firm_names_are_known_to_the_other_record() {
+fn seven_of_ten_firm_names_are_known_to_the_other_record() {
     let known = over_all("firm names that are known", Rig::agreement);
     let Some(known) = known else { return };
     assert!(known.of > 0, "no firm name at all");
-    assert!(16 * known.count >= 11 * known.of, "{known}");
+    assert!(10 * known.count >= 7 * known.of, "{known}");
 }
 
 fn name(family: &'static str, grade: Grade, rivals: &[&'static str]) -> Name {

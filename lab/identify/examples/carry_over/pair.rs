@@ -262,13 +262,6 @@ impl Rig {
         self.closed.iter().map(Closed::raising).sum()
     }
 
-    /// The same of the records in which all that was found has a name. Beside a curve without a
-    /// name every round is delivered, so that nothing is chosen there.
-    pub fn raising_where_chosen(&self) -> Share {
-        let named = self.closed.iter().filter(|c| c.unknown.is_none());
-        named.map(Closed::raising).sum()
-    }
-
     /// Both tables in Markdown: what each record names, and how each model does on the others.
     pub fn print(&self) {
         println!("\n{}", self.name);
@@ -309,10 +302,9 @@ impl Rig {
             );
         }
         println!(
-            "\nfirm names that the other record knows: {}; delivered rounds that raise the held-out error: {} (where no curve without a name was found: {})",
+            "\nfirm names that the other record knows: {}; delivered rounds that raise the held-out error: {}",
             self.agreement(),
-            self.raising(),
-            self.raising_where_chosen()
+            self.raising()
         );
     }
 }

@@ -168,6 +168,23 @@ pub fn sign_flip_p(scores: &[f64; BLOCKS]) -> f64 {
     flips(&scores.map(|score| vec![score]))
 }
 
+/// Exact one-sided sign-flip p-value of scores: the share of all sign patterns whose sum is at
+/// least the observed one. 1 if a score is not finite.
+#[must_use]
+pub fn sign_flip_p_above(scores: &[f64]) -> f64 {
+    let real: f64 = scores.iter().sum();
+    let size: f64 = scores.iter().map(|score| score.abs()).sum();
+    if !size.is_finite() || scores.len() > BLOCKS {
+        return 1.0;
+    }
+    let scores: Vec<Vec<f64>> = scores.iter().map(|&score| vec![score]).collect();
+    let sums = signed_sums(0.0, &scores, 0);
+    // Equal up to the rounding of a sum of sixteen numbers.
+    let threshold = real - 1e-9 * size;
+    let counted = sums.iter().filter(|sum| **sum >= threshold).count();
+    counted as f64 / sums.len() as f64
+}
+
 /// Lag at which the autocorrelation falls to 1/e, in samples.
 #[must_use]
 pub fn correlation_samples(residual: &[f64]) -> f64 {

@@ -2,9 +2,10 @@
 //!
 //! On measured records the residual is systematic: every part of a record repeats the same
 //! misfit, so that no test within one record predicts whether a second record shows the same
-//! name. Two rules help. The delivered model is the round with the least error on blocks that
-//! were left out of its linear fit ([`delivered`]). And each name carries the number of
-//! half-records, out of a hundred, in which a search finds it again (`recurrences`).
+//! name. Two rules help. The delivered model is the simplest one whose error on blocks that were
+//! left out of its linear fit is not worse than the least of all ([`delivered`]). And each name
+//! carries the number of half-records, out of a hundred, in which a search finds it again
+//! (`recurrences`).
 
 use super::bank::{on_line, Identity};
 use super::linear::Linear;
@@ -12,7 +13,7 @@ use super::policy;
 use crate::algebra::least_norm;
 use crate::fit::Solution;
 use crate::problem::Prepared;
-use crate::score::blocks::blocks;
+use crate::score::blocks::{blocks, sign_flip_p_above};
 use nalgebra::{DMatrix, DVector};
 use rand::seq::SliceRandom;
 use rand::SeedableRng;
@@ -42,22 +43,27 @@ struct Parts {
     /// The last column is the residual.
     grams: Vec<DMatrix<f64>>,
     rows: Vec<f64>,
-    /// Which columns are slopes.
-    slopes: Vec<bool>,
+    /// Precision of the prior of each column's change, in units of the residual's variance.
+    precision: Vec<f64>,
 }
 
 impl Parts {
     fn new(data: &Prepared, solution: &Solution) -> Self {
         let rows = &data.split.fit;
         let mut columns: Vec<Vec<f64>> = Vec::new();
-        let mut slopes = Vec::new();
+        let mut precision = Vec::new();
         let squares = |c: &[f64]| rows.iter().map(|&i| c[i] * c[i]).sum::<f64>();
         let residual = squares(&solution.residual);
-        for column in &solution.columns {
+        let of_curve = of_curve(solution, &squares);
+        for (index, column) in solution.columns.iter().enumerate() {
             let size = squares(column).sqrt();
             if size > 0.0 {
                 columns.push(column.iter().map(|v| v / size).collect());
-                slopes.push(false);
+                precision.push(if index < of_curve.first {
+                    0.0
+                } else {
+                    of_curve.precision
+                });
             }
         }
         let free = solution.free.iter().zip(&solution.values);
@@ -66,7 +72,8 @@ impl Parts {
             let column: Vec<f64> = tangent.iter().map(|t| t * slope).collect();
             if squares(&column) > MOVES * residual {
                 columns.push(column);
-                slopes.push(true);
+                // A normal prior of unit variance on each step.
+                precision.push(1.0);
             }
         }
         columns.push(solution.residual.clone());
@@ -79,13 +86,13 @@ impl Parts {
         Self {
             grams: blocks.iter().map(gram).collect(),
             rows: blocks.iter().map(|b| b.len() as f64).collect(),
-            slopes,
+            precision,
         }
     }
 
-    /// Mean squared error on the remaining blocks after a linear fit on `fitted`.
-    fn left_out(&self, fitted: &[usize]) -> Option<f64> {
-        let m = self.slopes.len();
+    /// Squared error on each block that is not in `fitted`, after a linear fit on `fitted`.
+    fn left_out(&self, fitted: &[usize]) -> Option<Vec<(usize, f64)>> {
+        let m = self.precision.len();
         let mut sum = DMatrix::zeros(m + 1, m + 1);
         let mut count = 0.0;
         for &block in fitted {
@@ -93,46 +100,111 @@ impl Parts {
             count += self.rows[block];
         }
         let mut normal = sum.view((0, 0), (m, m)).into_owned();
-        // Ridge term of the slopes: a normal prior of unit variance on each step.
         let variance = sum[(m, m)] / f64::max(count, 1.0);
-        for (j, _) in self.slopes.iter().enumerate().filter(|(_, is)| **is) {
-            normal[(j, j)] += variance;
+        for (j, precision) in self.precision.iter().enumerate() {
+            normal[(j, j)] += precision * variance;
         }
         let right = sum.column(m).rows(0, m).into_owned();
         let change = least_norm(normal, &right, 1e-10)?;
         let weights = DVector::from_fn(m + 1, |j, _| if j < m { -change[j] } else { 1.0 });
-        let (mut squares, mut rows) = (0.0, 0.0);
-        for block in (0..self.grams.len()).filter(|b| !fitted.contains(b)) {
-            squares += weights.dot(&(&self.grams[block] * &weights));
-            rows += self.rows[block];
-        }
-        Some(squares / f64::max(rows, 1.0))
+        let others = (0..self.grams.len()).filter(|b| !fitted.contains(b));
+        Some(
+            others
+                .map(|b| (b, weights.dot(&(&self.grams[b] * &weights))))
+                .collect(),
+        )
     }
 }
 
-/// Mean ln RMSE on the blocks left out, over [`policy::HALVES`] half-sets.
-#[must_use]
-pub fn left_out_error(data: &Prepared, solution: &Solution) -> f64 {
-    let parts = Parts::new(data, solution);
-    let errors: Vec<f64> = halves(parts.grams.len(), policy::HALVES)
+/// The columns of a curve: the first of them, and the precision of its changes.
+///
+/// Half a record may hardly cover some of the hat functions. Their gains change by as much as
+/// the curve's gains are large, by a normal prior.
+struct OfCurve {
+    first: usize,
+    precision: f64,
+}
+
+fn of_curve(solution: &Solution, squares: &dyn Fn(&[f64]) -> f64) -> OfCurve {
+    let hats = solution
+        .structure
+        .table
+        .as_ref()
+        .map_or(0, |t| t.shapes.len());
+    let first = solution.columns.len() - hats;
+    let own = solution.columns[first..]
         .iter()
-        .filter_map(|half| parts.left_out(half))
-        .map(|error| 0.5 * error.max(1e-300).ln())
-        .collect();
-    match errors.is_empty() {
-        true => f64::INFINITY,
-        false => errors.iter().sum::<f64>() / errors.len() as f64,
+        .zip(&solution.gains[first..]);
+    let sizes: f64 = own
+        .map(|(column, gain)| gain * gain * squares(column))
+        .sum();
+    OfCurve {
+        first,
+        precision: hats as f64 / sizes.max(f64::MIN_POSITIVE),
     }
 }
 
-/// Index of the model with the least left-out error on a path of models with more and more
-/// names.
+/// How a model errs on blocks that were left out of its linear fit, over [`policy::HALVES`]
+/// half-sets.
+struct LeftOut {
+    /// Mean ln RMSE over all left-out blocks of a half-set.
+    error: f64,
+    /// Mean square on each block, over the half-sets that leave it out.
+    on_blocks: Vec<f64>,
+}
+
+impl LeftOut {
+    fn of(data: &Prepared, solution: &Solution) -> Self {
+        let parts = Parts::new(data, solution);
+        let mut on_blocks = vec![0.0; parts.grams.len()];
+        let (mut error, mut count) = (0.0, 0.0);
+        for half in halves(parts.grams.len(), policy::HALVES) {
+            let Some(errors) = parts.left_out(&half) else {
+                continue;
+            };
+            let (mut squares, mut rows) = (0.0, 0.0);
+            for (block, square) in errors {
+                on_blocks[block] += square / parts.rows[block].max(1.0);
+                squares += square;
+                rows += parts.rows[block];
+            }
+            error += 0.5 * (squares / f64::max(rows, 1.0)).max(1e-300).ln();
+            count += 1.0;
+        }
+        Self {
+            error: if count > 0.0 {
+                error / count
+            } else {
+                f64::INFINITY
+            },
+            on_blocks,
+        }
+    }
+
+    /// Whether the errors on blocks are not larger than those of `other`, or by no more than
+    /// chance: the exact one-sided sign-flip test of their ratios.
+    fn is_as_good_as(&self, other: &Self) -> bool {
+        let pairs = self.on_blocks.iter().zip(&other.on_blocks);
+        let ratios: Vec<f64> = pairs
+            .map(|(own, other)| (own.max(1e-300) / other.max(1e-300)).ln())
+            .collect();
+        sign_flip_p_above(&ratios) > policy::SHORTER
+    }
+}
+
+/// Index of the model to deliver, of models in the order in which they are preferred: the first
+/// one that errs on left-out blocks as little as the best, or more by no more than chance.
 #[must_use]
-pub fn delivered(data: &Prepared, path: &[&Solution]) -> usize {
+pub fn delivered(data: &Prepared, models: &[&Solution]) -> usize {
     use rayon::prelude::*;
-    let errors: Vec<f64> = path.par_iter().map(|s| left_out_error(data, s)).collect();
-    let best = errors.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1));
-    best.map_or(0, |(index, _)| index)
+    let errors: Vec<LeftOut> = models.par_iter().map(|s| LeftOut::of(data, s)).collect();
+    let best = errors.iter().min_by(|a, b| a.error.total_cmp(&b.error));
+    best.map_or(0, |best| {
+        let first = errors.iter().position(|one| {
+            std::ptr::eq(one, best) || (one.error.is_finite() && one.is_as_good_as(best))
+        });
+        first.unwrap_or(0)
+    })
 }
 
 /// Number of half-records, of [`policy::RECURRENCES`], in which each name is found again: the
@@ -161,5 +233,31 @@ impl Linear<'_> {
             .into_par_iter()
             .map(|half| self.found_on(&half))
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn on_blocks(error: impl Fn(usize) -> f64) -> LeftOut {
+        let on_blocks = (0..16).map(error).collect();
+        let error = 0.0;
+        LeftOut { error, on_blocks }
+    }
+
+    #[test]
+    fn a_model_is_worse_only_where_chance_does_not_explain_its_blocks() {
+        let best = on_blocks(|_| 1.0);
+        // A little worse on every block: not by chance.
+        assert!(!on_blocks(|_| 1.01).is_as_good_as(&best));
+        // Ten times worse on one block, equal on the others: half of all patterns.
+        let one = on_blocks(|block| if block == 3 { 10.0 } else { 1.0 });
+        assert!(one.is_as_good_as(&best));
+        // Worse on 11 blocks of 16 and better on 5 by as much: 10.5 % of all patterns.
+        let of = |worse: usize| on_blocks(move |block| if block < worse { 1.5 } else { 1.0 / 1.5 });
+        assert!(of(11).is_as_good_as(&best));
+        // On 12 of 16: 3.8 %.
+        assert!(!of(12).is_as_good_as(&best));
     }
 }

@@ -14,6 +14,7 @@ use crate::fit::Solution;
 use crate::ledger::{reject, Grade, Ledger, Round, Unknown};
 use crate::model::catalogue::Candidate;
 use crate::model::structure::{Free, Structure};
+use crate::model::Table;
 use crate::problem::Prepared;
 use crate::score::blocks::Regime;
 use crate::score::left_out::on_blocks;
@@ -72,13 +73,59 @@ impl Search<'_> {
             before = Arc::clone(solution);
         }
         ledger.unknown = self.unknown(&before);
-        deliver(self.data, &mut ledger);
+        self.deliver(&mut ledger)?;
         let rounds = ledger.rounds.iter().chain(&ledger.beyond);
         let found: Vec<Candidate> = rounds.map(|r| r.candidate).collect();
         ledger
             .rejected
             .retain(|r| !found.iter().any(|own| own.is_like(&r.candidate)));
         Some(ledger)
+    }
+
+    /// Delivers the model that errs least on left-out blocks, or a simpler one that does as well:
+    /// models without the curve are simpler than those with it, and of each kind those with
+    /// fewer names. Later rounds go to `beyond`.
+    fn deliver(&self, ledger: &mut Ledger) -> Option<()> {
+        let count = ledger.rounds.len();
+        let curved = match &ledger.unknown {
+            None => Vec::new(),
+            Some(unknown) => self.beside_the_curve(ledger, unknown)?,
+        };
+        let rounds = ledger.rounds.iter().map(|r| &r.solution);
+        let named = std::iter::once(&ledger.declared).chain(rounds);
+        let models: Vec<&Solution> = named.chain(&curved).collect();
+        let best = delivered(self.data, &models);
+        let names = best % (count + 1);
+        ledger.beyond = ledger.rounds.split_off(names);
+        let with_curve = curved.into_iter().nth(names).filter(|_| best > count);
+        let before = ledger.named().clone();
+        let unknown = ledger.unknown.take();
+        ledger.unknown = unknown.zip(with_curve).map(|(unknown, solution)| Unknown {
+            share: 1.0 - solution.sse(self.data) / before.sse(self.data),
+            before: before.rmse,
+            after: solution.rmse,
+            solution,
+            ..unknown
+        });
+        Some(())
+    }
+
+    /// The model with the curve and no name, with the first name, and so on, refitted.
+    fn beside_the_curve(&self, ledger: &Ledger, unknown: &Unknown) -> Option<Vec<Solution>> {
+        let own = self.declared.structure.terms.len();
+        let mut models = Vec::new();
+        let named =
+            std::iter::once(&ledger.declared).chain(ledger.rounds.iter().map(|r| &r.solution));
+        for (count, named) in named.enumerate() {
+            models.push(match count == ledger.rounds.len() {
+                true => unknown.solution.clone(),
+                false => {
+                    let table = self.now.structure.table.clone();
+                    self.shortened(own + count, named, table)?
+                }
+            });
+        }
+        Some(models)
     }
 
     fn unknown(&self, named: &Solution) -> Option<Unknown> {
@@ -114,18 +161,18 @@ impl Search<'_> {
                     own.recognise(&mut known.free, terms);
                     known
                 }
-                None => self.shortened(count, path.last().unwrap_or(&self.declared))?,
+                None => self.shortened(count, path.last().unwrap_or(&self.declared), None)?,
             };
             path.push(Arc::new(solution));
         }
         Some(path)
     }
 
-    /// The final model reduced to its first terms, refitted.
-    fn shortened(&self, terms: usize, last: &Solution) -> Option<Solution> {
+    /// The final model reduced to its first terms and the given curve, refitted.
+    fn shortened(&self, terms: usize, last: &Solution, table: Option<Table>) -> Option<Solution> {
         let mut structure: Structure = self.now.structure.clone();
         structure.terms.truncate(terms);
-        structure.table = None;
+        structure.table = table;
         let free = structure.free(self.data);
         let of = |first: &Solution, second: &Solution| -> Vec<f64> {
             let value = |f: &Free| first.value(f.role).or(second.value(f.role));
@@ -264,21 +311,6 @@ fn grade(recurs: usize, rivals: &[Candidate]) -> Grade {
     match 2 * recurs >= policy::RECURRENCES && rivals.is_empty() {
         true => Grade::Firm,
         false => Grade::Weak,
-    }
-}
-
-/// Keeps the rounds up to the one with the least left-out error, and moves the later ones to
-/// `beyond`. With a curve all rounds stay: the names were fitted jointly with it, and half a
-/// record may not cover all of its hat functions.
-fn deliver(data: &Prepared, ledger: &mut Ledger) {
-    if ledger.unknown.is_some() {
-        return;
-    }
-    let rounds = ledger.rounds.iter().map(|r| &r.solution);
-    let path: Vec<&Solution> = std::iter::once(&ledger.declared).chain(rounds).collect();
-    let best = delivered(data, &path);
-    if best < ledger.rounds.len() {
-        ledger.beyond = ledger.rounds.split_off(best);
     }
 }
 

@@ -1,7 +1,7 @@
 //! The algebra of the search against direct computation on the samples.
 #![allow(clippy::unwrap_used)]
 
-use bowden_lab::score::blocks::{flips, sign_flip_p, BLOCKS};
+use bowden_lab::score::blocks::{flips, sign_flip_p, sign_flip_p_above, BLOCKS};
 use bowden_lab::search::gram::Grams;
 use bowden_lab::search::partial::{Entries, Partial};
 use nalgebra::{DMatrix, DVector};
@@ -274,4 +274,19 @@ fn a_p_value_is_the_share_of_all_patterns_of_signs_that_are_as_long() {
             "a score that is not a number is no evidence"
         );
     }
+}
+
+#[test]
+fn the_one_sided_sign_flip_test_counts_the_patterns_with_as_large_a_sum() {
+    // Of equal scores only the observed pattern reaches their sum, and all reach its negative.
+    assert_eq!(sign_flip_p_above(&[0.3; BLOCKS]), 0.5_f64.powi(16));
+    assert_eq!(sign_flip_p_above(&[-0.3; BLOCKS]), 1.0);
+    // Of 1 and 2 the sums are 3, 1, -1, -3.
+    assert_eq!(sign_flip_p_above(&[1.0, 2.0]), 0.25);
+    assert_eq!(sign_flip_p_above(&[-1.0, 2.0]), 0.5);
+    // Fifteen equal scores against one as large: 17 patterns have at most one minus.
+    let mut scores = [1.0; BLOCKS];
+    scores[7] = -1.0;
+    assert_eq!(sign_flip_p_above(&scores), 17.0 / 65536.0);
+    assert_eq!(sign_flip_p_above(&[f64::NAN, 1.0]), 1.0);
 }
