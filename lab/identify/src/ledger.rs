@@ -104,8 +104,8 @@ pub struct Ledger {
     pub declared: Solution,
     /// What was added.
     pub rounds: Vec<Round>,
-    /// Rounds after these that raise the error on left-out blocks: they are not part of the
-    /// delivered model.
+    /// Rounds after these, without which the model does as well on left-out blocks: they are not
+    /// part of the delivered model.
     pub beyond: Vec<Round>,
     /// Candidates that were rejected.
     pub rejected: Vec<Rejection>,

@@ -176,7 +176,7 @@ fn errors(facts: &Facts) -> String {
     if !facts.beyond.is_empty() {
         line!(
             out,
-            "(n) found, and not delivered: with it the model errs more on half-records that it was not fitted to"
+            "(n) found, and not delivered: on half-records that it was not fitted to, the model does as well without it"
         );
     }
     let fell = facts.falls_up_to;

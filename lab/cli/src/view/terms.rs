@@ -31,8 +31,8 @@ grade         firm: the name recurs in at least 50 of 100 half-records, and noth
               of the name. The size of the effect is its coefficient.
 recurs        In how many of 100 random halves of the sixteen blocks the same search names this
               effect again.
-(n)           A round in brackets was found and is not delivered: with it the model errs more on
-              blocks that were left out of its fit. Its model is in --json, under beyond.
+(n)           A round in brackets was found and is not delivered: on blocks that were left out of
+              its fit the model does as well without it. Its model is in --json, under beyond.
 coefficient   The effect's gain in the final model with its 95 % interval, from leaving out each
               of sixteen blocks. \"acts, size unknown\": the interval holds zero, since other
               terms can stand in for this one.

@@ -30,7 +30,8 @@ pub struct Facts {
     pub declared: ModelFacts,
     /// The added effects, in order.
     pub rounds: Vec<RoundFacts>,
-    /// Later rounds that are not delivered, since they raise the error on left-out half-records.
+    /// Later rounds that are not delivered: on left-out half-records the model does as well without
+    /// them.
     pub beyond: Vec<RoundFacts>,
     /// Number of first rounds that lower the held-out error before one raises it.
     pub falls_up_to: usize,

@@ -149,7 +149,8 @@ fn of_curve(solution: &Solution, squares: &dyn Fn(&[f64]) -> f64) -> OfCurve {
 struct LeftOut {
     /// Mean ln RMSE over all left-out blocks of a half-set.
     error: f64,
-    /// Mean square on each block, over the half-sets that leave it out.
+    /// Mean ln of the squared error on each block, over the half-sets that leave it out. As the
+    /// mean of the error itself would not, it withstands a half-set that determines a gain badly.
     on_blocks: Vec<f64>,
 }
 
@@ -157,6 +158,7 @@ impl LeftOut {
     fn of(data: &Prepared, solution: &Solution) -> Self {
         let parts = Parts::new(data, solution);
         let mut on_blocks = vec![0.0; parts.grams.len()];
+        let mut times = vec![0.0; parts.grams.len()];
         let (mut error, mut count) = (0.0, 0.0);
         for half in halves(parts.grams.len(), policy::HALVES) {
             let Some(errors) = parts.left_out(&half) else {
@@ -164,12 +166,16 @@ impl LeftOut {
             };
             let (mut squares, mut rows) = (0.0, 0.0);
             for (block, square) in errors {
-                on_blocks[block] += square / parts.rows[block].max(1.0);
+                on_blocks[block] += square.max(1e-300).ln();
+                times[block] += 1.0;
                 squares += square;
                 rows += parts.rows[block];
             }
             error += 0.5 * (squares / f64::max(rows, 1.0)).max(1e-300).ln();
             count += 1.0;
+        }
+        for (sum, times) in on_blocks.iter_mut().zip(&times) {
+            *sum /= f64::max(*times, 1.0);
         }
         Self {
             error: if count > 0.0 {
@@ -185,9 +191,7 @@ impl LeftOut {
     /// chance: the exact one-sided sign-flip test of their ratios.
     fn is_as_good_as(&self, other: &Self) -> bool {
         let pairs = self.on_blocks.iter().zip(&other.on_blocks);
-        let ratios: Vec<f64> = pairs
-            .map(|(own, other)| (own.max(1e-300) / other.max(1e-300)).ln())
-            .collect();
+        let ratios: Vec<f64> = pairs.map(|(own, other)| own - other).collect();
         sign_flip_p_above(&ratios) > policy::SHORTER
     }
 }
@@ -241,7 +245,7 @@ mod tests {
     use super::*;
 
     fn on_blocks(error: impl Fn(usize) -> f64) -> LeftOut {
-        let on_blocks = (0..16).map(error).collect();
+        let on_blocks = (0..16).map(|block| error(block).ln()).collect();
         let error = 0.0;
         LeftOut { error, on_blocks }
     }
