@@ -379,3 +379,40 @@ fn the_generator_shares_no_code_with_the_model() {
     }
     assert!(files > 10);
 }
+
+/// Only an effect on the finished output needs the steps between the samples; the others are the
+/// same to the bit where these are kept and where they are not.
+#[test]
+fn an_effect_is_the_same_beside_a_delay_and_alone() {
+    let planted = |names: &[&str]| Recipe {
+        effects: names.iter().map(|name| Planted::new(name)).collect(),
+        ..short(Mode::Torque)
+    };
+    for name in ["viscous", "backlash", "creep"] {
+        let alone = generate(&planted(&[name])).unwrap();
+        let beside = generate(&planted(&[name, "delay"])).unwrap();
+        let of = |made: &bowden_synth::Synthetic| made.truth.effects[0].contribution.clone();
+        assert_eq!(of(&alone), of(&beside), "{name}");
+        assert_eq!(alone.truth.eta, beside.truth.eta);
+        assert_ne!(alone.truth.output, beside.truth.output);
+    }
+}
+
+#[test]
+#[ignore = "slow: bash .ci/run identification"]
+fn a_record_of_a_million_samples_is_made() {
+    let long = Recipe {
+        seconds: 1000.0,
+        rate: 1000.0,
+        ..short(Mode::Torque)
+    };
+    let made = generate(&long).unwrap();
+    assert!(made.columns.iter().all(|c| c.values.len() == 1_000_000));
+    let with_a_lag = Recipe {
+        seconds: 2000.0,
+        effects: vec![Planted::new("lag")],
+        ..long
+    };
+    let line = generate(&with_a_lag).unwrap_err().to_string();
+    assert!(line.contains("too many with a delay or a lag"), "{line}");
+}

@@ -15,7 +15,7 @@ pub(super) struct Running {
     regressor: Option<Regressor>,
     sign: f64,
     mean: f64,
-    /// The regressor on the fine grid.
+    /// The regressor, where the grid keeps it.
     pub(super) fine: Vec<f64>,
 }
 
@@ -87,14 +87,17 @@ impl Running {
         self.channel == Some(channel) || (load && reads_load(&self.truth.effect))
     }
 
-    pub(super) fn step(&mut self, moment: &Moment) {
+    pub(super) fn step(&mut self, moment: &Moment, is_kept: bool) {
         if let Some(regressor) = &mut self.regressor {
             let mut motion = self
                 .channel
                 .map(|channel| channel.of(moment))
                 .unwrap_or_default();
             motion.x -= self.mean;
-            self.fine.push((regressor.step)(moment, motion));
+            let value = (regressor.step)(moment, motion);
+            if is_kept {
+                self.fine.push(value);
+            }
         }
     }
 

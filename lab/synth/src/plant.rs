@@ -14,8 +14,10 @@ const BEFORE: f64 = 2.0;
 /// Fewest fine steps a sample, and the longest fine step \[s\].
 const SUBSTEPS: f64 = 20.0;
 const LONGEST_STEP: f64 = 1e-4;
-/// Most fine steps in all: some hundred megabytes.
-const MOST_STEPS: f64 = 2e7;
+/// Most fine steps in all where they are kept, some hundred megabytes, and where only the samples
+/// are: ten million samples at 1 kHz, some gigabytes.
+const MOST_STEPS_KEPT: f64 = 2.1e7;
+const MOST_STEPS: f64 = 2.1e8;
 /// Stands for the noise as measure of strength where there is none.
 const STRENGTH_UNIT: f64 = 0.05;
 
@@ -44,7 +46,7 @@ pub fn generate(recipe: &Recipe) -> Result<Synthetic, RecipeError> {
         )?);
     }
 
-    let grid = grid(recipe)?;
+    let grid = grid(recipe, running.iter().any(Running::is_stage))?;
     let run = integrate(&rig, &base, recipe, &grid, &mut running);
     let mut output = run.output;
     let unit = if recipe.noise > 0.0 {
@@ -57,9 +59,8 @@ pub fn generate(recipe: &Recipe) -> Result<Synthetic, RecipeError> {
         .zip(&recipe.effects)
         .filter(|(effect, _)| !effect.is_stage())
     {
-        let sampled = grid.sampled(&effect.fine);
-        effect.scale(&sampled, planted.strength * unit, planted.gain)?;
         let fine = std::mem::take(&mut effect.fine);
+        effect.scale(&grid.sampled(&fine), planted.strength * unit, planted.gain)?;
         output
             .iter_mut()
             .zip(fine)
@@ -73,7 +74,7 @@ pub fn generate(recipe: &Recipe) -> Result<Synthetic, RecipeError> {
         let wanted = planted.strength * unit;
         let (time, change) = stage::apply(&effect.truth.effect, &output, &grid, wanted)?;
         effect.truth.gain = time;
-        effect.truth.contribution = grid.sampled(&change);
+        effect.truth.contribution = grid.sampled(&change).into_owned();
         effect.truth.rms = spread(&effect.truth.contribution);
         output
             .iter_mut()
@@ -81,7 +82,7 @@ pub fn generate(recipe: &Recipe) -> Result<Synthetic, RecipeError> {
             .for_each(|(sum, value)| *sum += value);
     }
 
-    let clean = grid.sampled(&output);
+    let clean = grid.sampled(&output).into_owned();
     let errors: Vec<f64> = noise(&mut stream(2), recipe.colour, grid.samples)
         .iter()
         .map(|e| recipe.noise * e)
@@ -103,15 +104,26 @@ pub fn generate(recipe: &Recipe) -> Result<Synthetic, RecipeError> {
     Ok(Synthetic { columns, truth })
 }
 
-fn grid(recipe: &Recipe) -> Result<Grid, RecipeError> {
+/// `keeps_all`: an effect on the finished output needs all of its fine steps.
+fn grid(recipe: &Recipe, keeps_all: bool) -> Result<Grid, RecipeError> {
     let samples = (recipe.seconds * recipe.rate).round();
     let every = SUBSTEPS.max((1.0 / (recipe.rate * LONGEST_STEP)).ceil());
     let h = 1.0 / (recipe.rate * every);
     let first = (BEFORE / h).ceil();
-    if first + samples * every > MOST_STEPS {
+    let most = if keeps_all {
+        MOST_STEPS_KEPT
+    } else {
+        MOST_STEPS
+    };
+    if first + samples * every > most {
         return refuse(format!(
-            "{samples} samples at {} Hz are too many",
-            recipe.rate
+            "{samples} samples at {} Hz are too many{}",
+            recipe.rate,
+            if keeps_all {
+                " with a delay or a lag"
+            } else {
+                ""
+            }
         ));
     }
     Ok(Grid {
@@ -119,19 +131,20 @@ fn grid(recipe: &Recipe) -> Result<Grid, RecipeError> {
         first: first as usize,
         every: every as usize,
         samples: samples as usize,
+        keeps_all,
     })
 }
 
 struct Run {
     /// The moments that are sampled.
     moments: Vec<Moment>,
-    /// Output of the transmission alone, on the fine grid.
+    /// Output of the transmission alone, where the grid keeps it.
     output: Vec<f64>,
 }
 
 fn integrate(rig: &Rig, base: &Base, recipe: &Recipe, grid: &Grid, running: &mut [Running]) -> Run {
     let steps = grid.first + (grid.samples - 1) * grid.every + 1;
-    let (mut output, mut moments) = (Vec::with_capacity(steps), Vec::with_capacity(grid.samples));
+    let (mut output, mut moments) = (Vec::new(), Vec::with_capacity(grid.samples));
     let mut eta = 0.0;
     let mut rate = 0.0;
     let mut follower = rig.at(-(grid.first as f64) * grid.h, grid.h).input.x;
@@ -152,12 +165,18 @@ fn integrate(rig: &Rig, base: &Base, recipe: &Recipe, grid: &Grid, running: &mut
         rate = moment.input.v;
         moment.eta = eta;
         let (u, loop_part) = (follower, base.kappa_eta * eta);
-        output.push(match recipe.mode {
-            Mode::Torque => base.gain * u - loop_part - base.offset,
-            Mode::Displacement => base.gain * u + loop_part + base.offset,
-        });
-        running.iter_mut().for_each(|effect| effect.step(&moment));
-        if i >= grid.first && (i - grid.first).is_multiple_of(grid.every) {
+        let is_sample = grid.is_sample(i);
+        let is_kept = is_sample || grid.keeps_all;
+        if is_kept {
+            output.push(match recipe.mode {
+                Mode::Torque => base.gain * u - loop_part - base.offset,
+                Mode::Displacement => base.gain * u + loop_part + base.offset,
+            });
+        }
+        for effect in running.iter_mut() {
+            effect.step(&moment, is_kept);
+        }
+        if is_sample {
             moments.push(moment);
         }
     }

@@ -202,8 +202,8 @@ impl Recipe {
         if self.bias.is_nan() || self.bias.abs() > 1e6 {
             return refuse(format!("bias {}: a finite number was expected", self.bias));
         }
-        if !(10.0..=1e6).contains(&(self.seconds * self.rate)) {
-            return refuse("seconds times rate: 10 to 1000000 samples were expected".to_owned());
+        if !(10.0..=1e7).contains(&(self.seconds * self.rate)) {
+            return refuse("seconds times rate: 10 to 10000000 samples were expected".to_owned());
         }
         if let Some(planted) = self
             .effects

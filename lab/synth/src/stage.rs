@@ -2,6 +2,7 @@
 
 use super::recipe::{refuse, RecipeError};
 use super::sensor::spread;
+use std::borrow::Cow;
 
 /// Longest delay or lag that is tried \[s\].
 const LONGEST: f64 = 0.5;
@@ -12,16 +13,22 @@ pub(super) struct Grid {
     pub(super) first: usize,
     pub(super) every: usize,
     pub(super) samples: usize,
+    /// Whether signals hold all points of the grid, or only the samples.
+    pub(super) keeps_all: bool,
 }
 
 impl Grid {
-    pub(super) fn sampled(&self, fine: &[f64]) -> Vec<f64> {
-        fine.iter()
-            .skip(self.first)
-            .step_by(self.every)
-            .take(self.samples)
-            .copied()
-            .collect()
+    pub(super) fn is_sample(&self, index: usize) -> bool {
+        index >= self.first && (index - self.first).is_multiple_of(self.every)
+    }
+
+    /// The samples of a signal.
+    pub(super) fn sampled<'a>(&self, kept: &'a [f64]) -> Cow<'a, [f64]> {
+        if !self.keeps_all {
+            return Cow::Borrowed(kept);
+        }
+        let samples = kept.iter().skip(self.first).step_by(self.every);
+        samples.take(self.samples).copied().collect()
     }
 }
 
