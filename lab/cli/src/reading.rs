@@ -28,7 +28,8 @@ pub struct Columns {
     /// Column of the output; `tau_o` or `f` where it is not given.
     #[arg(long, value_name = "COL")]
     pub output: Option<String>,
-    /// A further channel: phi_p, phi_d (angles), temperature, load, or any other name.
+    /// A further channel: phi_p, phi_d (angles), temperature, load, or any other name; COL may
+    /// be A-B or A+B of two columns.
     #[arg(long, value_name = "NAME=COL")]
     pub channel: Vec<String>,
     /// Leave out the first seconds.
@@ -43,6 +44,13 @@ pub struct Columns {
     /// Take time from the row number, at this rate.
     #[arg(long, value_name = "HZ")]
     pub rate: Option<f64>,
+    /// Line of the column names, from 1; found by itself where it is not given.
+    #[arg(long, value_name = "N")]
+    pub header_line: Option<usize>,
+    /// Leave out rows with an empty cell, a NaN or a time stamp that repeats: each becomes a
+    /// gap. Without it such a record is refused.
+    #[arg(long)]
+    pub drop_bad: bool,
 }
 
 #[derive(Args, Default)]
@@ -94,6 +102,8 @@ impl Columns {
             skip: self.skip.unwrap_or(0.0),
             until: self.until,
             rate: self.rate,
+            header_line: self.header_line,
+            drop_bad: self.drop_bad,
         };
         Ok(Asked {
             options,

@@ -22,6 +22,7 @@ fn record(time: Vec<f64>, f: impl Fn(f64) -> f64) -> Record {
         channels: Vec::new(),
         notes: Vec::new(),
         defects: Vec::new(),
+        dropped: 0,
         time,
     }
 }

@@ -2,6 +2,9 @@
 
 use super::{Column, Mode, Record, RecordError};
 
+/// One pound-force \[N\], exactly: 0.45359237 kg under 9.80665 m/s².
+const POUND: f64 = 4.448_221_615_260_5;
+
 /// Units of one kind, each with its size in the first one.
 const SIZES: [&[(&str, f64)]; 7] = [
     &[
@@ -11,6 +14,8 @@ const SIZES: [&[(&str, f64)]; 7] = [
         ("µm", 1e-6),
         ("um", 1e-6),
         ("nm", 1e-9),
+        ("in", 0.0254),
+        ("ft", 0.3048),
     ],
     &[
         ("rad", 1.0),
@@ -18,7 +23,15 @@ const SIZES: [&[(&str, f64)]; 7] = [
         ("deg", std::f64::consts::PI / 180.0),
         ("°", std::f64::consts::PI / 180.0),
     ],
-    &[("N", 1.0), ("kN", 1e3), ("mN", 1e-3), ("µN", 1e-6)],
+    &[
+        ("N", 1.0),
+        ("kN", 1e3),
+        ("MN", 1e6),
+        ("mN", 1e-3),
+        ("µN", 1e-6),
+        ("lbf", POUND),
+        ("kip", 1e3 * POUND),
+    ],
     &[
         ("N·m", 1.0),
         ("Nm", 1.0),
@@ -26,14 +39,25 @@ const SIZES: [&[(&str, f64)]; 7] = [
         ("mN·m", 1e-3),
         ("mNm", 1e-3),
         ("kN·m", 1e3),
+        ("kNm", 1e3),
+        ("N·cm", 1e-2),
+        ("Ncm", 1e-2),
+        ("lbf·in", 0.0254 * POUND),
+        ("lbf·ft", 0.3048 * POUND),
     ],
     &[("V", 1.0), ("mV", 1e-3)],
     &[("A", 1.0), ("mA", 1e-3)],
-    &[("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("bar", 1e5)],
+    &[
+        ("Pa", 1.0),
+        ("kPa", 1e3),
+        ("MPa", 1e6),
+        ("bar", 1e5),
+        ("psi", POUND / (0.0254 * 0.0254)),
+    ],
 ];
 
 /// By what a value is to be multiplied to go from one unit to the other.
-fn factor(from: &str, to: &str) -> Option<f64> {
+pub(super) fn factor(from: &str, to: &str) -> Option<f64> {
     let size = |kind: &[(&str, f64)], unit: &str| {
         let named = kind.iter().find(|(name, _)| *name == unit);
         named.map(|(_, size)| *size)
@@ -163,6 +187,8 @@ mod tests {
         // One rounding of the quotient.
         assert!((factor("mm", "µm").unwrap() / 1000.0 - 1.0).abs() < 1e-15);
         assert!((factor("deg", "rad").unwrap() * 180.0 / std::f64::consts::PI - 1.0).abs() < 1e-15);
+        assert!((factor("kip", "kN").unwrap() / 4.448_221_615_260_5 - 1.0).abs() < 1e-15);
+        assert!((factor("in", "mm").unwrap() / 25.4 - 1.0).abs() < 1e-15);
         assert_eq!(factor("mm", "N"), None);
         assert_eq!(factor("K", "°C"), None);
     }

@@ -13,6 +13,18 @@ pub struct RecordError {
     line: Option<usize>,
     column: Option<String>,
     message: String,
+    bad: Option<Bad>,
+}
+
+/// What makes a row one that `--drop-bad` leaves out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Bad {
+    /// A cell without a value.
+    Empty,
+    /// A NaN.
+    NotANumber,
+    /// The time stamp of the row before.
+    Repeated,
 }
 
 impl RecordError {
@@ -22,12 +34,14 @@ impl RecordError {
             line: None,
             column: None,
             message: message.into(),
+            bad: None,
         }
     }
 
+    /// A refusal at a line of the file; 0 where it is not of one line.
     pub(super) fn at(line: usize, message: impl Into<String>) -> Self {
         Self {
-            line: Some(line),
+            line: (line > 0).then_some(line),
             ..Self::new(message)
         }
     }
@@ -39,6 +53,18 @@ impl RecordError {
         }
     }
 
+    pub(super) fn from(self, bad: Bad) -> Self {
+        Self {
+            bad: Some(bad),
+            ..self
+        }
+    }
+
+    /// What `--drop-bad` would make of it.
+    pub(super) fn bad(&self) -> Option<Bad> {
+        self.bad
+    }
+
     pub(super) fn in_file(self, file: &str) -> Self {
         Self {
             file: file.to_owned(),
@@ -46,7 +72,7 @@ impl RecordError {
         }
     }
 
-    /// Line in the file, from 1.
+    /// Line in the file, from 1; of a binary file the row.
     pub fn line(&self) -> Option<usize> {
         self.line
     }

@@ -1,13 +1,15 @@
 //! Bytes from a path, without filling the memory from an endless one.
 
+use super::encoding;
 use super::error::RecordError;
+use super::kind::{self, Kind};
 use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 /// Largest file that is read [bytes]: about ten hours of six columns at 1 kHz.
-const LIMIT: u64 = 1 << 31;
-/// A binary file is recognised within these first bytes and not read further.
+pub(super) const LIMIT: u64 = 1 << 31;
+/// A file that is not read is recognised within these first bytes and not taken in further.
 const PROBE: u64 = 1 << 16;
 
 pub(super) fn load(path: &Path, label: &str) -> Result<Vec<u8>, RecordError> {
@@ -30,7 +32,8 @@ pub(super) fn load(path: &Path, label: &str) -> Result<Vec<u8>, RecordError> {
         .take(PROBE)
         .read_to_end(&mut bytes)
         .map_err(failed)?;
-    if !bytes.contains(&0) {
+    let kind = kind::of(&bytes).map_err(|error| error.in_file(label))?;
+    if kind != Kind::Text || !bytes.contains(&0) || encoding::is_wide(&bytes) {
         (&mut file)
             .take(LIMIT)
             .read_to_end(&mut bytes)

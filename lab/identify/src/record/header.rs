@@ -1,4 +1,4 @@
-//! The first line: which columns there are.
+//! Which columns there are, and which of them a name means.
 
 use super::error::{shown, RecordError, NAME_LENGTH};
 use super::text::Rows;
@@ -20,17 +20,63 @@ pub(super) struct Named {
 }
 
 pub(super) struct Header {
+    /// Its line in the file; 0 where the file has no lines.
     pub(super) line: usize,
     pub(super) columns: Vec<Named>,
 }
 
 impl Header {
-    /// Index of the column of that name, given with or without its unit.
+    /// Index of the column of that name, given with or without its unit; in other letters
+    /// (`X` for `x`) where only one column has them.
     pub(super) fn find(&self, name: &str) -> Option<usize> {
         let name = name.trim();
-        self.columns.iter().position(|column| {
+        let exact = self.columns.iter().position(|column| {
             !column.name.is_empty() && (column.name == name || column.cell == name)
+        });
+        // `force_n` is not `force_N`: capitals make another unit.
+        let key = |name: &str| match units::ending(name) {
+            Some((stem, unit)) => (stem.to_lowercase(), Some(unit)),
+            None => (name.to_lowercase(), None),
+        };
+        exact.or_else(|| {
+            let wanted = key(name);
+            self.only(|column| key(&column.name) == wanted)
         })
+    }
+
+    /// Index of the column of a usual name (`t`, `x`), which may have its unit in its name
+    /// (`x_mm`).
+    pub(super) fn find_usual(&self, name: &str) -> Option<usize> {
+        self.find(name).or_else(|| {
+            let stem = |column: &Named| {
+                units::ending(&column.name).is_some_and(|(stem, _)| stem.to_lowercase() == name)
+            };
+            self.only(stem)
+        })
+    }
+
+    /// The only column of that kind.
+    fn only(&self, is: impl Fn(&Named) -> bool) -> Option<usize> {
+        let named = |column: &&Named| !column.name.is_empty();
+        let all = self.columns.iter();
+        let mut alike = all.enumerate().filter(|(_, c)| named(c) && is(c));
+        let (index, _) = alike.next()?;
+        alike.next().is_none().then_some(index)
+    }
+
+    /// The columns of a file that has no text, each with its whole name.
+    pub(super) fn of(columns: Vec<(String, Option<String>, String)>) -> Result<Self, RecordError> {
+        let named = |(name, unit, cell): (String, Option<String>, String)| {
+            let (stem, own) = units::split(&name);
+            Named {
+                unit: unit.or(own),
+                name: stem.to_owned(),
+                cell,
+            }
+        };
+        let columns: Vec<Named> = columns.into_iter().map(named).collect();
+        twice(&columns, 0)?;
+        Ok(Self { line: 0, columns })
     }
 
     /// At most three names that are much like one that does not exist, for a message.
@@ -72,10 +118,12 @@ impl Header {
     }
 }
 
-pub(super) fn read(text: &str) -> Result<(Header, Rows<'_>), RecordError> {
+/// The first row as names of columns.
+pub(super) fn read(rows: &mut Rows<'_>) -> Result<Header, RecordError> {
+    let (text, before) = rows.rest();
     let refuse = |what: &str| {
         let message = format!("the {what}, a header with column names was expected");
-        Err(RecordError::at(1, message))
+        Err(RecordError::at(before + 1, message))
     };
     if text
         .lines()
@@ -84,14 +132,19 @@ pub(super) fn read(text: &str) -> Result<(Header, Rows<'_>), RecordError> {
     {
         return refuse("line has no names");
     }
-    let mut rows = Rows::new(text);
     let Some(row) = rows.read()? else {
         return refuse("file is blank");
     };
     let line = row.line;
     let columns: Vec<Named> = row
         .cells()
-        .map(|cell| {
+        .enumerate()
+        .map(|(index, cell)| {
+            // `# t,x,f`: the mark of a comment is no part of the first name.
+            let cell = match index {
+                0 => cell.trim_start_matches(['#', '%']).trim_start(),
+                _ => cell,
+            };
             let (name, unit) = units::split(cell);
             Named {
                 name: name.to_owned(),
@@ -111,7 +164,7 @@ pub(super) fn read(text: &str) -> Result<(Header, Rows<'_>), RecordError> {
         return refuse("line holds numbers");
     }
     twice(&columns, line)?;
-    Ok((Header { line, columns }, rows))
+    Ok(Header { line, columns })
 }
 
 fn twice(columns: &[Named], line: usize) -> Result<(), RecordError> {

@@ -1,4 +1,4 @@
-//! Reads a measured record: CSV in, checked columns out.
+//! Reads a measured record: CSV, `.mat` or Parquet in, checked columns out.
 //!
 //! A record is a time axis, the transmission's input and output, and optional
 //! channels beside them. Nothing is repaired in silence: what the reader did
@@ -25,13 +25,23 @@
 mod agree;
 mod checks;
 mod clipping;
+mod clock_time;
 mod defects;
+mod encoding;
 mod error;
 mod file;
+mod gzip;
 mod header;
+mod kind;
+mod layout;
+mod mat;
 mod number;
+mod parquet_file;
 mod roles;
 mod rows;
+mod series;
+mod sheet;
+mod source;
 mod text;
 mod time;
 mod units;
@@ -41,6 +51,10 @@ pub(crate) use agree::to_unit;
 pub use defects::{Defect, DefectKind};
 pub use error::RecordError;
 
+use header::Header;
+use kind::Kind;
+use roles::Roles;
+use source::Source;
 use std::path::Path;
 
 /// What drives the transmission, and what is measured at its end.
@@ -80,7 +94,8 @@ pub struct Options {
     pub input: Option<String>,
     /// Column of the output, `tau_o` or `f` where it is `None`.
     pub output: Option<String>,
-    /// Channels beside the default ones, as (name of the channel, column).
+    /// Channels beside the default ones, as (name of the channel, column); `A-B` and `A+B` are
+    /// the difference and the sum of two columns.
     pub channels: Vec<(String, String)>,
     /// Seconds to leave out at the start, counted from the first time stamp.
     pub skip: f64,
@@ -88,6 +103,11 @@ pub struct Options {
     pub until: Option<f64>,
     /// Sampling rate \[Hz\]; the time column is then not read.
     pub rate: Option<f64>,
+    /// Line of the column names, from 1; found where it is `None`.
+    pub header_line: Option<usize>,
+    /// Leave out rows with an empty cell, a NaN or the time stamp of the row before, instead of
+    /// refusing the record.
+    pub drop_bad: bool,
 }
 
 /// One measured quantity.
@@ -120,6 +140,8 @@ pub struct Record {
     pub notes: Vec<String>,
     /// What is wrong with the measurement itself.
     pub defects: Vec<Defect>,
+    /// Rows that were left out as asked ([`Options::drop_bad`]).
+    pub dropped: usize,
 }
 
 impl Record {
@@ -163,13 +185,50 @@ pub fn parse(bytes: &[u8], label: &str, options: &Options) -> Result<Record, Rec
 
 fn parse_lines(bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
     checks::options(options)?;
-    let text = text::decode(bytes)?;
-    let (header, mut rows) = header::read(&text)?;
-    let roles = roles::assign(&header, options)?;
-    let table = rows::read(&mut rows, &header, &roles, options)?;
-    checks::record(&table, &header, &roles)?;
+    match kind::of(bytes)? {
+        Kind::Gzip => {
+            let unpacked = gzip::unpack(bytes)?;
+            let mut record = unpacked_as(kind::of(&unpacked)?, &unpacked, options)?;
+            record.notes.insert(0, "unpacked from gzip".to_owned());
+            Ok(record)
+        }
+        kind => unpacked_as(kind, bytes, options),
+    }
+}
 
-    let mut table = table;
+fn unpacked_as(kind: Kind, bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
+    match kind {
+        Kind::Text => text_record(bytes, options),
+        Kind::Mat => sheet::record(sheet::of_mat(bytes)?, options),
+        Kind::Parquet => sheet::record(sheet::of_parquet(bytes)?, options),
+        Kind::Gzip => Err(RecordError::new(
+            "is compressed by gzip twice; unpack it once",
+        )),
+    }
+}
+
+fn text_record(bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
+    let decoded = encoding::decode(bytes)?;
+    let table = layout::find(&decoded.text, options)?;
+    let mut notes: Vec<String> = decoded.note.into_iter().collect();
+    notes.extend(table.notes);
+    let rows = Source::Text(table.rows);
+    let mut record = record(&table.header, table.roles, rows, options)?;
+    notes.append(&mut record.notes);
+    record.notes = notes;
+    Ok(record)
+}
+
+/// The record from its rows.
+fn record(
+    header: &Header,
+    roles: Roles,
+    mut rows: Source<'_>,
+    options: &Options,
+) -> Result<Record, RecordError> {
+    let mut table = rows::read(&mut rows, header, &roles, options)?;
+    checks::record(&table, header, &roles)?;
+
     let mut values = std::mem::take(&mut table.values).into_iter();
     let mut column = |name: &str, index: usize| Column {
         name: name.to_owned(),
@@ -182,11 +241,15 @@ fn parse_lines(bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
     let channels: Vec<Column> = roles
         .channels
         .iter()
-        .map(|(name, index)| column(name, *index))
+        .map(|(name, series)| column(name, series.first()))
         .collect();
     let defects = defects::find(&defects::Measured {
         table: &table,
-        clock: roles.time.map(name),
+        // Rows that are left out leave a gap in time taken from the row number too.
+        clock: roles
+            .time
+            .map(name)
+            .or((table.dropped > 0).then_some("row number")),
         columns: [&input, &output].into_iter().chain(&channels).collect(),
     });
     let mut notes = roles.notes;
@@ -200,5 +263,6 @@ fn parse_lines(bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
         channels,
         notes,
         defects,
+        dropped: table.dropped,
     })
 }

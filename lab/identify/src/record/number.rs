@@ -1,39 +1,185 @@
 //! One cell, one number.
 
-use super::error::{shown, RecordError};
+use super::error::{shown, Bad, RecordError};
+use std::cell::Cell;
 
 /// Beyond this a product of two values, or its square, would overflow.
 pub(super) const LARGEST: f64 = 1e150;
 
 const CELL_LENGTH: usize = 24;
 
-/// The number in a cell.
-pub(super) fn read(cell: &str, line: usize, column: &str) -> Result<f64, RecordError> {
+/// The sign between the integer and the decimals.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Sign {
+    Point,
+    Comma,
+}
+
+/// How a file writes its numbers: with a point or with a comma, never with both.
+///
+/// The first cell that has either decides. A comma can stand in a number only where it does
+/// not separate cells. A file that mixes both is refused at the first cell of the other kind.
+pub(super) struct Notation {
+    comma_possible: bool,
+    sign: Cell<Option<Sign>>,
+    /// The line that decided.
+    decided: Cell<usize>,
+}
+
+impl Notation {
+    pub(super) fn new(separator: u8) -> Self {
+        Self {
+            comma_possible: separator != b',',
+            sign: Cell::new(None),
+            decided: Cell::new(0),
+        }
+    }
+
+    /// Whether the numbers have turned out to have a decimal comma.
+    pub(super) fn is_comma(&self) -> bool {
+        self.sign.get() == Some(Sign::Comma)
+    }
+
+    /// The number in a cell.
+    pub(super) fn read(&self, cell: &str, line: usize, column: &str) -> Result<f64, RecordError> {
+        let parsed = match self.sign.get() {
+            Some(Sign::Point) => cell.parse::<f64>().ok(),
+            Some(Sign::Comma) if cell.contains('.') => {
+                return self.mixed(cell, line, column);
+            }
+            Some(Sign::Comma) => with_comma(cell),
+            None => self.decide(cell, line),
+        };
+        if let Some(value) = parsed.filter(|value| value.abs() <= LARGEST) {
+            return Ok(value);
+        }
+        refuse(cell, parsed, line, column)
+    }
+
+    fn decide(&self, cell: &str, line: usize) -> Option<f64> {
+        let (sign, value) = match (cell.contains('.'), cell.contains(',')) {
+            (false, true) if self.comma_possible => (Sign::Comma, with_comma(cell)?),
+            (true, false) => (Sign::Point, cell.parse().ok()?),
+            _ => return cell.parse().ok(),
+        };
+        self.sign.set(Some(sign));
+        self.decided.set(line);
+        Some(value)
+    }
+
+    fn mixed(&self, cell: &str, line: usize, column: &str) -> Result<f64, RecordError> {
+        let text = shown(cell, CELL_LENGTH);
+        let message = match cell.parse::<f64>() {
+            Ok(_) => format!(
+                "`{text}` has a decimal point, a decimal comma was expected as in line {}",
+                self.decided.get()
+            ),
+            Err(_) => format!("`{text}` is not a number"),
+        };
+        Err(RecordError::at(line, message).on(column))
+    }
+}
+
+/// A number with at most one comma, as its decimal sign.
+fn with_comma(cell: &str) -> Option<f64> {
+    match cell.contains(',') {
+        true => cell.replacen(',', ".", 1).parse().ok(),
+        false => cell.parse().ok(),
+    }
+}
+
+/// Why a cell is no measured number.
+fn refuse(cell: &str, parsed: Option<f64>, line: usize, column: &str) -> Result<f64, RecordError> {
     let refuse = |message: String| Err(RecordError::at(line, message).on(column));
     if cell.is_empty() {
-        return refuse("the cell is empty, a number was expected".to_owned());
-    }
-    let number = cell.parse::<f64>();
-    if let Some(value) = number.iter().find(|value| value.abs() <= LARGEST) {
-        return Ok(*value);
+        let message = "the cell is empty, a number was expected; --drop-bad leaves such rows out";
+        return Err(RecordError::at(line, message).on(column).from(Bad::Empty));
     }
     let text = shown(cell, CELL_LENGTH);
-    match number {
-        Ok(value) if value.is_finite() => refuse(format!(
-            "`{text}` is larger than {LARGEST:e}, a measured value was expected"
-        )),
-        Ok(_) => refuse(format!(
-            "`{text}` is not finite, a finite number was expected"
-        )),
-        Err(_) if cell.replacen(',', ".", 1).parse::<f64>().is_ok() => refuse(format!(
+    match parsed {
+        Some(value) if value.is_nan() => Err(RecordError::at(line, not_finite(&text))
+            .on(column)
+            .from(Bad::NotANumber)),
+        Some(value) => measured(value, &text, line, column),
+        None if cell.replacen(',', ".", 1).parse::<f64>().is_ok() => refuse(format!(
             "`{text}` has a decimal comma, a decimal point was expected"
         )),
-        Err(_) => refuse(format!("`{text}` is not a number")),
+        None => refuse(format!("`{text}` is not a number")),
     }
+}
+
+fn not_finite(text: &str) -> String {
+    format!("`{text}` is not finite, a finite number was expected; --drop-bad leaves such rows out")
+}
+
+fn measured(value: f64, text: &str, line: usize, column: &str) -> Result<f64, RecordError> {
+    let message = match value {
+        value if value.abs() <= LARGEST => return Ok(value),
+        value if value.is_finite() => {
+            format!("`{text}` is larger than {LARGEST:e}, a measured value was expected")
+        }
+        _ => format!("`{text}` is not finite, a finite number was expected"),
+    };
+    Err(RecordError::at(line, message).on(column))
+}
+
+/// A value that was stored as a number; `None` where the file has none.
+pub(super) fn stored(value: Option<f64>, row: usize, column: &str) -> Result<f64, RecordError> {
+    match value {
+        None => refuse("", None, row, column),
+        Some(value) if value.is_nan() => refuse("NaN", Some(value), row, column),
+        Some(value) => measured(value, &value.to_string(), row, column),
+    }
+}
+
+/// Whether a cell holds a number of either notation, or what stands for none (`NaN`).
+pub(super) fn is_data(cell: &str, separator: u8) -> bool {
+    cell.parse::<f64>().is_ok() || (separator != b',' && with_comma(cell).is_some())
 }
 
 /// Whether a cell of the header is a number rather than a name.
 pub(super) fn is_number(cell: &str) -> bool {
-    cell.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c))
-        && cell.parse::<f64>().is_ok()
+    cell.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) && is_data(cell, b';')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all(separator: u8, cells: &[&str]) -> Result<Vec<f64>, String> {
+        let notation = Notation::new(separator);
+        let read = |(i, cell): (usize, &&str)| notation.read(cell, i + 2, "x");
+        let all: Result<Vec<_>, _> = cells.iter().enumerate().map(read).collect();
+        all.map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn the_first_decimal_sign_decides_and_the_other_is_refused() {
+        assert_eq!(
+            all(b';', &["0", "-1,5", "2", "1,5e-3"]),
+            Ok(vec![0.0, -1.5, 2.0, 1.5e-3])
+        );
+        assert_eq!(all(b'\t', &[",5", "1,"]), Ok(vec![0.5, 1.0]));
+        assert_eq!(
+            all(b';', &["0", "1,5", "1.5"]).unwrap_err(),
+            ":4: column `x`: `1.5` has a decimal point, a decimal comma was expected as in line 3"
+        );
+        assert_eq!(
+            all(b';', &["0.5", "1,5"]).unwrap_err(),
+            ":3: column `x`: `1,5` has a decimal comma, a decimal point was expected"
+        );
+        // In quotes, of a file whose cells commas separate: thousands or decimals, who knows.
+        assert_eq!(
+            all(b',', &["1,5"]).unwrap_err(),
+            ":2: column `x`: `1,5` has a decimal comma, a decimal point was expected"
+        );
+    }
+
+    #[test]
+    fn thousands_are_not_taken_for_decimals() {
+        for cells in [&["1.234,5"][..], &["1,234,567"], &["0,5", "1.234,5"]] {
+            let line = all(b';', cells).unwrap_err();
+            assert!(line.contains("is not a number"), "{line}");
+        }
+    }
 }

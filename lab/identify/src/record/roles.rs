@@ -2,7 +2,8 @@
 
 use super::error::{shown, RecordError, NAME_LENGTH};
 use super::header::Header;
-use super::{Mode, Options};
+use super::series::{self, Series};
+use super::{units, Mode, Options};
 
 /// Indices into the header's columns.
 pub(super) struct Roles {
@@ -11,16 +12,22 @@ pub(super) struct Roles {
     pub(super) time: Option<usize>,
     pub(super) input: usize,
     pub(super) output: usize,
-    pub(super) channels: Vec<(String, usize)>,
+    pub(super) channels: Vec<(String, Series)>,
     pub(super) notes: Vec<String>,
 }
 
 impl Roles {
-    /// The columns to be read, in the order input, output, channels.
-    pub(super) fn read(&self) -> impl Iterator<Item = usize> + '_ {
+    /// What is read, in the order input, output, channels.
+    pub(super) fn series(&self) -> impl Iterator<Item = Series> + '_ {
         [self.input, self.output]
             .into_iter()
-            .chain(self.channels.iter().map(|(_, index)| *index))
+            .map(Series::Column)
+            .chain(self.channels.iter().map(|(_, series)| *series))
+    }
+
+    /// The columns that are read, but for the time.
+    pub(super) fn read(&self) -> impl Iterator<Item = usize> + '_ {
+        self.series().flat_map(Series::columns)
     }
 }
 
@@ -49,25 +56,17 @@ pub(super) fn assign(header: &Header, options: &Options) -> Result<Roles, Record
     let (input, output) = ends(mode);
     let time = match options.rate {
         Some(_) => None,
-        None => {
-            let name = options.time.as_deref().unwrap_or("t");
-            Some(find(
-                header,
-                name,
-                "--time COL names another one, --rate HZ takes time from the row number",
-            )?)
-        }
+        None => Some(time(header, options)?),
     };
-    let input = find(
-        header,
-        options.input.as_deref().unwrap_or(input),
-        "--input COL names another one",
-    )?;
-    let output = find(
-        header,
-        options.output.as_deref().unwrap_or(output),
-        "--output COL names another one",
-    )?;
+    let end = |given: &Option<String>, usual: &str, hint: &str| match given {
+        Some(name) => find(header, name, hint),
+        None => match header.find_usual(usual) {
+            Some(index) => Ok(index),
+            None => find(header, usual, hint),
+        },
+    };
+    let input = end(&options.input, input, "--input COL names another one")?;
+    let output = end(&options.output, output, "--output COL names another one")?;
     let refuse = |index: usize, message: String| {
         Err(RecordError::at(header.line, message).on(&header.columns[index].name))
     };
@@ -81,10 +80,11 @@ pub(super) fn assign(header: &Header, options: &Options) -> Result<Roles, Record
         );
     }
     let channels = channels(header, options, mode)?;
-    if let Some((name, index)) = channels.iter().find(|(_, index)| *index == output) {
+    let explains = |series: &Series| series.columns().any(|index| index == output);
+    if let Some((name, _)) = channels.iter().find(|(_, series)| explains(series)) {
         let name = shown(name, NAME_LENGTH);
         return refuse(
-            *index,
+            output,
             format!("is the output, it cannot explain itself as channel `{name}`"),
         );
     }
@@ -100,6 +100,24 @@ pub(super) fn assign(header: &Header, options: &Options) -> Result<Roles, Record
     Ok(roles)
 }
 
+/// The column of the time. `T` without a unit may as well be a temperature.
+fn time(header: &Header, options: &Options) -> Result<usize, RecordError> {
+    let hint = "--time COL names another one, --rate HZ takes time from the row number";
+    let usual = |index: &usize| {
+        let column = &header.columns[*index];
+        let unit = column.unit.as_deref();
+        column.name == "t"
+            || unit.is_some_and(|unit| unit.contains(':') || units::seconds(Some(unit)).is_some())
+    };
+    match &options.time {
+        Some(name) => find(header, name, hint),
+        None => match header.find_usual("t").filter(usual) {
+            Some(index) => Ok(index),
+            None => Err(missing(header, "t", hint)),
+        },
+    }
+}
+
 fn mode(header: &Header, options: &Options) -> Result<Mode, RecordError> {
     if let Some(mode) = options.mode {
         return Ok(mode);
@@ -108,7 +126,14 @@ fn mode(header: &Header, options: &Options) -> Result<Mode, RecordError> {
         let message = format!("{message}; state --mode torque or --mode displacement");
         Err(RecordError::at(header.line, message))
     };
-    let has = |name: &str| header.find(name).is_some();
+    // A name as it is first: `X` beside `tau_i` and `tau_o` makes no second mode.
+    let exact = ["tau_i", "tau_o", "x", "f"]
+        .iter()
+        .any(|name| header.columns.iter().any(|column| column.name == *name));
+    let has = |name: &str| match exact {
+        true => header.columns.iter().any(|column| column.name == name),
+        false => header.find_usual(name).is_some(),
+    };
     let (mut torque, mut displacement) = (false, false);
     let mapped: Vec<&str> = options
         .input
@@ -147,24 +172,26 @@ fn mode(header: &Header, options: &Options) -> Result<Mode, RecordError> {
     }
 }
 
-fn find(header: &Header, name: &str, hint: &str) -> Result<usize, RecordError> {
-    header.find(name).ok_or_else(|| {
-        let near = header.nearest(name);
-        let meant = match near.is_empty() {
-            true => String::new(),
-            false => format!(" (nearest: {})", near.join(", ")),
-        };
-        let message = format!("no such column among {}{meant}; {hint}", header.list());
-        RecordError::at(header.line, message).on(name)
-    })
+pub(super) fn find(header: &Header, name: &str, hint: &str) -> Result<usize, RecordError> {
+    header.find(name).ok_or_else(|| missing(header, name, hint))
+}
+
+fn missing(header: &Header, name: &str, hint: &str) -> RecordError {
+    let near = header.nearest(name);
+    let meant = match near.is_empty() {
+        true => String::new(),
+        false => format!(" (nearest: {})", near.join(", ")),
+    };
+    let message = format!("no such column among {}{meant}; {hint}", header.list());
+    RecordError::at(header.line, message).on(name)
 }
 
 fn channels(
     header: &Header,
     options: &Options,
     mode: Mode,
-) -> Result<Vec<(String, usize)>, RecordError> {
-    let mut channels: Vec<(String, usize)> = Vec::new();
+) -> Result<Vec<(String, Series)>, RecordError> {
+    let mut channels: Vec<(String, Series)> = Vec::new();
     for (name, column) in &options.channels {
         let shown = shown(name, NAME_LENGTH);
         let (input, output) = ends(mode);
@@ -179,22 +206,20 @@ fn channels(
                 "--channel NAME=COL: channel `{shown}` is given twice"
             )));
         }
-        channels.push((
-            name.clone(),
-            find(header, column, "--channel NAME=COL names another one")?,
-        ));
+        channels.push((name.clone(), series::parse(header, options, column)?));
     }
     for name in default_channels(mode) {
         let given = channels.iter().any(|(other, _)| other == name);
-        if let (false, Some(index)) = (given, header.find(name)) {
+        if let (false, Some(index)) = (given, header.find_usual(name)) {
             // A column that the user gave another part is not a channel as well.
             let free = ![&options.time, &options.input, &options.output]
                 .iter()
                 .any(|option| {
                     option.as_deref().and_then(|other| header.find(other)) == Some(index)
                 });
-            let free = free && !channels.iter().any(|(_, other)| *other == index);
-            channels.extend(free.then(|| ((*name).to_owned(), index)));
+            let own = Series::Column(index);
+            let free = free && !channels.iter().any(|(_, other)| *other == own);
+            channels.extend(free.then(|| ((*name).to_owned(), own)));
         }
     }
     Ok(channels)

@@ -1,94 +1,235 @@
 //! The rows below the header.
 
-use super::error::RecordError;
+use super::error::{Bad, RecordError};
 use super::header::Header;
+use super::layout::passed_over;
 use super::roles::Roles;
-use super::text::Rows;
-use super::time::Clock;
-use super::{number, Options, MIN_SAMPLES};
+use super::source::{Row, Source};
+use super::time::{Clock, Stamp};
+use super::{Options, MIN_SAMPLES};
 
 /// The numbers that were kept, and where they stood.
 pub(super) struct Table {
     /// Time \[s\] since the first sample that was kept.
     pub(super) time: Vec<f64>,
-    /// One column a role, in the order of [`Roles::read`].
+    /// One column a role, in the order of [`Roles::series`].
     pub(super) values: Vec<Vec<f64>>,
     /// Line of each sample.
     pub(super) lines: Vec<usize>,
+    /// Rows that were left out because of what they hold.
+    pub(super) dropped: usize,
     pub(super) notes: Vec<String>,
+}
+
+/// Rows that `--drop-bad` has left out, by what was wrong.
+#[derive(Default)]
+struct Dropped {
+    empty: usize,
+    not_numbers: usize,
+    repeated: usize,
+}
+
+impl Dropped {
+    fn count(&mut self, bad: Bad) {
+        match bad {
+            Bad::Empty => self.empty += 1,
+            Bad::NotANumber => self.not_numbers += 1,
+            Bad::Repeated => self.repeated += 1,
+        }
+    }
+
+    fn all(&self) -> usize {
+        self.empty + self.not_numbers + self.repeated
+    }
+
+    /// "3 rows left out (2 with an empty cell, 1 with NaN)".
+    fn note(&self) -> Option<String> {
+        let kinds = [
+            (self.empty, "with an empty cell"),
+            (self.not_numbers, "with NaN"),
+            (self.repeated, "with the time stamp of the row before"),
+        ];
+        let some = kinds.iter().filter(|(count, _)| *count > 0);
+        let list: Vec<String> = some
+            .map(|(count, what)| format!("{count} {what}"))
+            .collect();
+        let rows = if self.all() == 1 { "row" } else { "rows" };
+        (self.all() > 0).then(|| {
+            format!(
+                "--drop-bad has left out {} {rows}: {}",
+                self.all(),
+                list.join(", ")
+            )
+        })
+    }
+}
+
+/// What one row holds.
+enum Sample {
+    At(f64),
+    Cut,
+    Bad(Bad),
+}
+
+/// What is read of a row: by series, the column, and what is added to it.
+struct Reader<'a> {
+    header: &'a Header,
+    series: Vec<(usize, Option<(usize, f64)>)>,
+    drop_bad: bool,
+    /// Rows of several lines.
+    carried: usize,
+}
+
+impl Reader<'_> {
+    /// The time of a row, its values in `into`.
+    fn read(
+        &mut self,
+        row: &Row<'_>,
+        clock: &mut Clock,
+        into: &mut Vec<f64>,
+    ) -> Result<Sample, RecordError> {
+        self.fits(row)?;
+        match self.numbers(row, clock, into) {
+            Err(error) => match error.bad().filter(|_| self.drop_bad) {
+                Some(bad) => Ok(Sample::Bad(bad)),
+                None => Err(error),
+            },
+            sample => sample,
+        }
+    }
+
+    fn numbers(
+        &self,
+        row: &Row<'_>,
+        clock: &mut Clock,
+        into: &mut Vec<f64>,
+    ) -> Result<Sample, RecordError> {
+        let t = match clock.stamp(row)? {
+            Stamp::Kept(t) => t,
+            Stamp::Cut => return Ok(Sample::Cut),
+            Stamp::Repeats => return Ok(Sample::Bad(Bad::Repeated)),
+        };
+        into.clear();
+        let number = |index: usize| row.number(index, &self.header.columns[index].name);
+        for (column, added) in &self.series {
+            let mut value = number(*column)?;
+            if let Some((second, factor)) = added {
+                value += factor * number(*second)?;
+            }
+            into.push(value);
+        }
+        Ok(Sample::At(t))
+    }
+
+    /// Whether the row has the cells of the header: what is missing has no name, and what is
+    /// more is empty.
+    fn fits(&mut self, row: &Row<'_>) -> Result<(), RecordError> {
+        let Row::Text(row) = row else {
+            return Ok(());
+        };
+        let columns = &self.header.columns;
+        self.carried += usize::from(row.last > row.line);
+        if row.len() == columns.len()
+            || (columns.iter().skip(row.len()).all(|c| c.name.is_empty())
+                && row.cells().skip(columns.len()).all(str::is_empty))
+        {
+            return Ok(());
+        }
+        let mut message = format!("{} cells, the header has {}", row.len(), columns.len());
+        if row.last > row.line {
+            message += &format!("; a quote carries the row on to line {}", row.last);
+        }
+        Err(RecordError::at(row.line, message))
+    }
 }
 
 /// Reads the rows; values in rows that are cut away are not looked at.
 pub(super) fn read(
-    rows: &mut Rows<'_>,
+    rows: &mut Source<'_>,
     header: &Header,
     roles: &Roles,
     options: &Options,
 ) -> Result<Table, RecordError> {
-    let columns: Vec<usize> = roles.read().collect();
+    let series = roles
+        .series()
+        .map(|series| Ok((series.first(), series.second(header)?)))
+        .collect::<Result<Vec<_>, RecordError>>()?;
     let mut clock = Clock::new(header, roles.time, options)?;
-    let mut values = vec![Vec::new(); columns.len()];
-    let (mut time, mut numbers) = (Vec::new(), Vec::new());
-    // Rows of several lines.
-    let mut carried = 0;
-    while let Some(row) = rows.read()? {
-        let line = row.line;
-        if row.len() != header.columns.len() {
-            let mut message = format!(
-                "{} cells, the header has {}",
-                row.len(),
-                header.columns.len()
-            );
-            if row.last > line {
-                message += &format!("; a quote carries the row on to line {}", row.last);
-            }
-            return Err(RecordError::at(line, message));
-        }
-        carried += usize::from(row.last > line);
-        let Some(t) = clock.stamp(&row)? else {
-            continue;
+    let mut values = vec![Vec::new(); series.len()];
+    let mut reader = Reader {
+        header,
+        series,
+        drop_bad: options.drop_bad,
+        carried: 0,
+    };
+    let (mut time, mut lines, mut sample) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut dropped, mut below) = (Dropped::default(), None);
+    loop {
+        let read = match rows.read() {
+            Ok(None) => break,
+            Ok(Some(row)) => reader.read(&row, &mut clock, &mut sample),
+            Err(error) => Err(error),
         };
-        time.push(t);
-        numbers.push(line);
-        for (values, index) in values.iter_mut().zip(&columns) {
-            values.push(number::read(
-                row.cell(*index),
-                line,
-                &header.columns[*index].name,
-            )?);
+        match read {
+            Ok(Sample::Cut) => {}
+            Ok(Sample::Bad(bad)) => dropped.count(bad),
+            Ok(Sample::At(t)) => {
+                time.push(t);
+                lines.push(rows.line());
+                for (values, value) in values.iter_mut().zip(&sample) {
+                    values.push(*value);
+                }
+            }
+            Err(error) => {
+                let used: Vec<usize> = roles.time.into_iter().chain(roles.read()).collect();
+                let text = rows.text_below(&used).filter(|_| clock.rows() > 0);
+                let text = text.ok_or(error)?;
+                let first = rows.line();
+                below = Some(passed_over(first, first + text - 1, "below the table"));
+                break;
+            }
         }
     }
     clock.finish(header)?;
-    if time.len() < MIN_SAMPLES {
-        let (all, left) = (clock.rows(), time.len());
-        let samples = if left == 1 { "sample" } else { "samples" };
-        let cut = if left < all {
-            format!(" of {all} are left after cutting")
-        } else {
-            String::new()
-        };
-        let message =
-            format!("too short: {left} {samples}{cut}, at least {MIN_SAMPLES} are needed");
-        return Err(RecordError::at(rows.line(), message));
-    }
-    let mut notes = clock.notes(&time);
+    long_enough(time.len(), &clock, dropped.all(), rows.line())?;
+    let mut notes: Vec<String> = rows.note().into_iter().collect();
+    notes.extend(clock.notes(&time));
     let start = time.first().copied().unwrap_or_default();
     time.iter_mut().for_each(|t| *t -= start);
     if let Some(unit) = roles
         .time
         .and_then(|index| header.columns[index].unit.as_deref())
+        .filter(|unit| !unit.contains(':'))
     {
         notes.extend((unit != "s").then(|| format!("time converted from {unit} to s")));
     }
-    match carried {
+    match reader.carried {
         0 => {}
         1 => notes.push("1 row goes over several lines, in quotes".to_owned()),
-        _ => notes.push(format!("{carried} rows go over several lines, in quotes")),
+        carried => notes.push(format!("{carried} rows go over several lines, in quotes")),
     }
+    notes.extend(below);
+    notes.extend(dropped.note());
     Ok(Table {
         time,
         values,
-        lines: numbers,
+        lines,
+        dropped: dropped.all(),
         notes,
     })
+}
+
+fn long_enough(left: usize, clock: &Clock, dropped: usize, line: usize) -> Result<(), RecordError> {
+    if left >= MIN_SAMPLES {
+        return Ok(());
+    }
+    let all = clock.rows();
+    let samples = if left == 1 { "sample" } else { "samples" };
+    let cut = match (left < all, dropped > 0) {
+        (true, true) => format!(" of {all} are left after cutting and --drop-bad"),
+        (true, false) => format!(" of {all} are left after cutting"),
+        _ => String::new(),
+    };
+    let message = format!("too short: {left} {samples}{cut}, at least {MIN_SAMPLES} are needed");
+    Err(RecordError::at(line, message))
 }

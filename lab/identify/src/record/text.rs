@@ -1,8 +1,8 @@
-//! From bytes to text, and from text to rows of cells.
+//! From text to rows of cells.
 
 use super::error::{shown, RecordError};
+use super::number::Notation;
 use csv::{Reader, ReaderBuilder, StringRecord, Terminator};
-use std::borrow::Cow;
 use std::io::{Chain, Read, Take};
 
 /// A longer line [bytes] is refused: no record has thousands of columns.
@@ -13,46 +13,6 @@ const ROW_LIMIT: usize = 2 * LINE_LIMIT;
 const AHEAD: usize = 1 << 13;
 const _: () = assert!(ROW_LIMIT > LINE_LIMIT + 2 * AHEAD);
 
-/// The text of a record, from behind its byte-order mark to its last row;
-/// every line ends with `\n`, be it behind a `\r`.
-pub(super) fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, RecordError> {
-    if bytes.is_empty() {
-        return Err(RecordError::at(
-            1,
-            "the file is empty, a header with column names was expected",
-        ));
-    }
-    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
-        return Err(RecordError::at(1, "the text is UTF-16, UTF-8 was expected"));
-    }
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let line_of = |offset: usize| {
-        1 + bytes[..offset]
-            .iter()
-            .filter(|byte| **byte == b'\n')
-            .count()
-    };
-    if let Some(offset) = bytes.iter().position(|byte| *byte == 0) {
-        let message = format!("byte {offset} is NUL: a binary file, CSV text was expected");
-        return Err(RecordError::at(line_of(offset), message));
-    }
-    let text = std::str::from_utf8(bytes).map_err(|error| {
-        let offset = error.valid_up_to();
-        let byte = bytes.get(offset).copied().unwrap_or_default();
-        let message = format!("byte {offset} (0x{byte:02X}) is not UTF-8; save the file as UTF-8");
-        RecordError::at(line_of(offset), message)
-    })?;
-    let lone_returns = text.contains('\r') && !text.contains('\n');
-    let text = text
-        .trim_start_matches('\u{feff}')
-        .trim_end_matches(['\n', '\r', ' ']);
-    Ok(if lone_returns {
-        text.replace('\r', "\n").into()
-    } else {
-        text.into()
-    })
-}
-
 /// Behind the text: the end of its last line, and one byte that only a cell
 /// with an open quote reaches.
 const END: &[u8] = b"\n\n";
@@ -62,12 +22,19 @@ pub(super) struct Rows<'a> {
     text: &'a str,
     reader: Reader<Take<Chain<&'a [u8], &'static [u8]>>>,
     cells: StringRecord,
+    separator: u8,
+    notation: Notation,
+    /// Lines of the file before this text.
+    before: usize,
     line: usize,
+    /// Where the row that was read last begins \[bytes\].
+    start: usize,
 }
 
 /// One row: a line, or several if a quoted cell holds line ends.
 pub(super) struct Row<'a> {
     cells: &'a StringRecord,
+    notation: &'a Notation,
     /// The line on which it begins, from 1.
     pub(super) line: usize,
     /// The line on which it ends.
@@ -75,11 +42,12 @@ pub(super) struct Row<'a> {
 }
 
 impl<'a> Rows<'a> {
+    /// The rows of a text whose header is the first line.
     pub(super) fn new(text: &'a str) -> Self {
         Self::separated_by(separator(text), text)
     }
 
-    fn separated_by(separator: u8, text: &'a str) -> Self {
+    pub(super) fn separated_by(separator: u8, text: &'a str) -> Self {
         let reader = ReaderBuilder::new()
             .delimiter(separator)
             .has_headers(false)
@@ -92,8 +60,41 @@ impl<'a> Rows<'a> {
             text,
             reader,
             cells: StringRecord::new(),
+            separator,
+            notation: Notation::new(separator),
+            before: 0,
             line: 0,
+            start: 0,
         }
+    }
+
+    /// The same rows, numbered behind that many lines of the file.
+    pub(super) fn after(self, before: usize) -> Self {
+        Self { before, ..self }
+    }
+
+    pub(super) fn separator(&self) -> u8 {
+        self.separator
+    }
+
+    /// How the numbers are written.
+    pub(super) fn notation(&self) -> &Notation {
+        &self.notation
+    }
+
+    /// The text from the row on that was read last.
+    pub(super) fn from_here(&self) -> &'a str {
+        self.text.get(self.start..).unwrap_or_default()
+    }
+
+    /// The text behind the row that was read last, and the lines of the file before it.
+    pub(super) fn rest(&self) -> (&'a str, usize) {
+        let position = self.reader.position();
+        let rest = self.text.get(position.byte() as usize..);
+        (
+            rest.unwrap_or_default(),
+            self.before + position.line() as usize - 1,
+        )
     }
 
     /// Line of the row that was read last.
@@ -107,7 +108,8 @@ impl<'a> Rows<'a> {
         let Some(rest) = self.text.get(start..).filter(|rest| !rest.is_empty()) else {
             return Ok(None);
         };
-        self.line = self.reader.position().line() as usize;
+        self.start = start;
+        self.line = self.before + self.reader.position().line() as usize;
         self.reader.get_mut().set_limit(ROW_LIMIT as u64);
         let outcome = self.reader.read_record(&mut self.cells);
         let length = self.reader.position().byte() as usize - start;
@@ -136,7 +138,8 @@ impl<'a> Rows<'a> {
             Ok(_) => Ok(Some(Row {
                 cells: &self.cells,
                 line: self.line,
-                last: self.reader.position().line() as usize - 1,
+                last: self.before + self.reader.position().line() as usize - 1,
+                notation: &self.notation,
             })),
             Err(error) => refuse(shown(&error.to_string(), LINE_LIMIT)),
         }
@@ -156,6 +159,11 @@ impl<'a> Row<'a> {
         cell.strip_prefix('"')
             .and_then(|inner| inner.strip_suffix('"'))
             .map_or(cell, str::trim)
+    }
+
+    /// The number in a cell.
+    pub(super) fn number(&self, index: usize, column: &str) -> Result<f64, RecordError> {
+        self.notation.read(self.cell(index), self.line, column)
     }
 
     pub(super) fn cells(&self) -> impl Iterator<Item = &'a str> + '_ {
@@ -180,10 +188,11 @@ fn separator(text: &str) -> u8 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::encoding::decode;
     use super::*;
 
     fn rows(text: &str) -> Vec<Vec<String>> {
-        let text = decode(text.as_bytes()).unwrap();
+        let text = decode(text.as_bytes()).unwrap().text;
         let mut rows = Rows::new(&text);
         let mut all = Vec::new();
         while let Some(row) = rows.read().unwrap() {
@@ -224,7 +233,7 @@ mod tests {
     fn a_row_counts_from_its_first_line_whatever_ends_it() {
         for end in ["\n", "\r\n", "\r"] {
             let text = ["a,b", "1,\"2", "3\"", "4,5", "\"6\",\"7\""].join(end);
-            let text = decode(text.as_bytes()).unwrap();
+            let text = decode(text.as_bytes()).unwrap().text;
             let mut rows = Rows::new(&text);
             let mut lines = Vec::new();
             while let Some(row) = rows.read().unwrap() {

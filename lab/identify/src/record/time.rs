@@ -1,20 +1,34 @@
 //! The time axis: strictly increasing seconds, or a row number over a rate.
 
-use super::error::{shown, RecordError, NAME_LENGTH};
+use super::error::{shown, Bad, RecordError, NAME_LENGTH};
 use super::header::Header;
-use super::text::Row;
-use super::{number, units, Options};
+use super::source::Row;
+use super::{clock_time, units, Options};
 
 /// Turns rows into seconds since the first row, and cuts.
 pub(super) struct Clock {
     source: Source,
     skip: f64,
     until: f64,
+    drop_bad: bool,
     rows: usize,
-    first: f64,
+    cut: usize,
+    /// The first good stamp.
+    first: Option<f64>,
     last: f64,
+    of_day: bool,
     repeated: usize,
     first_repeat: Option<(usize, String)>,
+}
+
+/// What becomes of a row by its time.
+pub(super) enum Stamp {
+    /// Time \[s\] since the first row.
+    Kept(f64),
+    /// Before `--skip` or behind `--until`.
+    Cut,
+    /// The stamp repeats, and such rows are left out.
+    Repeats,
 }
 
 /// A median step without a unit from which on milliseconds are suspected \[s\]: two
@@ -41,7 +55,8 @@ impl Clock {
             None => Source::Rate(options.rate.unwrap_or(1.0)),
             Some(index) => {
                 let column = &header.columns[index];
-                let unit = column.unit.as_deref();
+                // `[hh:mm:ss]` says how the stamp is written.
+                let unit = column.unit.as_deref().filter(|unit| !unit.contains(':'));
                 let scale = units::seconds(unit).ok_or_else(|| {
                     let unit = shown(unit.unwrap_or_default(), NAME_LENGTH);
                     let message = format!(
@@ -62,45 +77,72 @@ impl Clock {
             source,
             skip: options.skip,
             until,
+            drop_bad: options.drop_bad,
             rows: 0,
-            first: 0.0,
+            cut: 0,
+            first: None,
             last: 0.0,
+            of_day: false,
             repeated: 0,
             first_repeat: None,
         })
     }
 
-    /// Time of the next row \[s\] since the first one; `None` where it is cut.
-    pub(super) fn stamp(&mut self, row: &Row<'_>) -> Result<Option<f64>, RecordError> {
+    /// Time of the next row.
+    pub(super) fn stamp(&mut self, row: &Row<'_>) -> Result<Stamp, RecordError> {
+        let stamp = self.place(row);
+        let is_row = stamp.as_ref().map_or_else(|e| e.bad().is_some(), |_| true);
+        self.rows += usize::from(is_row);
+        stamp
+    }
+
+    fn place(&mut self, row: &Row<'_>) -> Result<Stamp, RecordError> {
         let t = match &self.source {
             Source::Rate(rate) => self.rows as f64 / rate,
             Source::Column {
                 index, name, scale, ..
             } => {
-                let (cell, line) = (row.cell(*index), row.line);
-                let stamp = number::read(cell, line, name)? * scale;
-                if self.rows == 0 {
-                    self.first = stamp;
-                }
-                let t = stamp - self.first;
+                let (index, line) = (*index, row.line());
+                let stamp = match of_day(row, index, self.of_day, self.first.is_none())
+                    .map_err(|error| error.on(name))?
+                {
+                    Some(stamp) => {
+                        self.of_day = true;
+                        stamp
+                    }
+                    None => row.number(index, name)? * scale,
+                };
+                let fresh = self.first.is_none();
+                let first = *self.first.get_or_insert(stamp);
+                let t = stamp - first;
                 if t < self.last {
                     let message = format!(
                         "time runs backwards, from {} to {stamp} s",
-                        self.first + self.last
+                        first + self.last
                     );
                     return Err(RecordError::at(line, message).on(name));
                 }
-                if self.rows > 0 && t <= self.last {
+                if !fresh && t <= self.last {
+                    if self.drop_bad && self.is_kept(t) {
+                        return Ok(Stamp::Repeats);
+                    }
                     self.repeated += 1;
-                    self.first_repeat
-                        .get_or_insert_with(|| (line, cell.to_owned()));
+                    let cell = || (line, row.shown(index));
+                    self.first_repeat.get_or_insert_with(cell);
                 }
                 t
             }
         };
-        self.rows += 1;
         self.last = t;
-        Ok((t >= self.skip && t <= self.until).then_some(t))
+        if self.is_kept(t) {
+            return Ok(Stamp::Kept(t));
+        }
+        self.cut += 1;
+        Ok(Stamp::Cut)
+    }
+
+    fn is_kept(&self, t: f64) -> bool {
+        t >= self.skip && t <= self.until
     }
 
     /// Rows seen, those that were cut included.
@@ -114,25 +156,31 @@ impl Clock {
         else {
             return Ok(());
         };
+        if self.drop_bad {
+            return Ok(());
+        }
         let name = &header.columns[*index].name;
         let cell = shown(cell, 24);
         let message = if self.repeated * 100 >= self.rows && self.last > 0.0 {
             let rate = (self.rows - 1) as f64 / self.last;
             format!(
                 "time stands still at {cell}, as at {} of {} rows: the stamps are rounded; \
-                 --rate HZ takes time from the row number (about {rate:.1} Hz)",
+                 --rate HZ takes time from the row number (about {rate:.1} Hz), --drop-bad leaves such rows out",
                 self.repeated, self.rows
             )
         } else {
-            format!("time stands still at {cell}; --rate HZ takes time from the row number")
+            format!("time stands still at {cell}; --rate HZ takes time from the row number, --drop-bad leaves such rows out")
         };
-        Err(RecordError::at(*line, message).on(name))
+        Err(RecordError::at(*line, message).on(name).from(Bad::Repeated))
     }
 
     pub(super) fn notes(&self, kept: &[f64]) -> Vec<String> {
         let mut notes = Vec::new();
         if let Source::Rate(rate) = self.source {
             notes.push(format!("time taken from the row number at {rate} Hz"));
+        }
+        if self.of_day {
+            notes.push("time stamps are times of day".to_owned());
         }
         let step = median_step(kept);
         if let Source::Column {
@@ -141,21 +189,37 @@ impl Clock {
             ..
         } = &self.source
         {
-            if step >= LONG_STEP {
+            if !self.of_day && step >= LONG_STEP {
                 let name = shown(name, NAME_LENGTH);
                 notes.push(format!(
                     "column `{name}` states no unit and was read as seconds; its median step is {step} s: is that ms? Then call it `{name} [ms]`"
                 ));
             }
         }
-        if kept.len() < self.rows {
-            notes.push(format!(
-                "{} of {} samples cut away",
-                self.rows - kept.len(),
-                self.rows
-            ));
+        if self.cut > 0 {
+            notes.push(format!("{} of {} samples cut away", self.cut, self.rows));
         }
         notes
+    }
+}
+
+/// The time of day in a cell, if the first one has one; then all must have one.
+fn of_day(row: &Row<'_>, index: usize, all: bool, first: bool) -> Result<Option<f64>, RecordError> {
+    if !(all || first) {
+        return Ok(None);
+    }
+    let Some(cell) = row.text(index) else {
+        return Ok(None);
+    };
+    match clock_time::seconds(cell) {
+        None if all && !cell.is_empty() => {
+            let message = format!(
+                "`{}` is not a time of day as in the rows above",
+                shown(cell, 24)
+            );
+            Err(RecordError::at(row.line(), message))
+        }
+        stamp => Ok(stamp),
     }
 }
 

@@ -1,12 +1,14 @@
 //! Units as headers state them.
 
 /// Endings such as `_mm` in `position_mm`, and the unit that they stand for.
-const SUFFIXES: [(&str, &str); 27] = [
+const SUFFIXES: [(&str, &str); 39] = [
     ("nm", "nm"),
     ("um", "µm"),
     ("mm", "mm"),
     ("cm", "cm"),
     ("m", "m"),
+    ("ft", "ft"),
+    ("in", "in"),
     ("mrad", "mrad"),
     ("rad", "rad"),
     ("deg", "deg"),
@@ -14,12 +16,20 @@ const SUFFIXES: [(&str, &str); 27] = [
     ("mN", "mN"),
     ("N", "N"),
     ("kN", "kN"),
+    ("MN", "MN"),
+    ("lbf", "lbf"),
+    ("kip", "kip"),
     ("mNm", "mN·m"),
+    ("Ncm", "N·cm"),
     ("Nm", "N·m"),
+    ("kNm", "kN·m"),
+    ("lbfin", "lbf·in"),
+    ("lbfft", "lbf·ft"),
     ("mV", "mV"),
     ("V", "V"),
     ("mA", "mA"),
     ("A", "A"),
+    ("ns", "ns"),
     ("us", "µs"),
     ("ms", "ms"),
     ("s", "s"),
@@ -27,11 +37,69 @@ const SUFFIXES: [(&str, &str); 27] = [
     ("kPa", "kPa"),
     ("MPa", "MPa"),
     ("bar", "bar"),
+    ("psi", "psi"),
     ("degC", "°C"),
     ("K", "K"),
+    ("uA", "µA"),
 ];
 
-/// Splits `name [unit]`, or reads the unit from an ending such as `_mm`.
+/// Other spellings of units, in brackets or in a row of units, beside those of [`SUFFIXES`].
+const SPELLINGS: [&str; 32] = [
+    "N*m", "N m", "Nmm", "mNm", "kN·m", "N/m", "N/mm", "°", "°C", "C", "degC", "°F", "deg/s",
+    "°/s", "rad/s", "rad/s²", "1/min", "rpm", "Hz", "kHz", "m/s", "mm/s", "m/s²", "kg", "g", "%",
+    "1", "-", "–", "sec", "min", "W",
+];
+
+/// Whether a text is a unit that the reader knows.
+pub(super) fn is_unit(text: &str) -> bool {
+    SPELLINGS.contains(&text)
+        || SUFFIXES
+            .iter()
+            .any(|(suffix, unit)| *suffix == text || *unit == text)
+        || seconds(Some(text)).is_some()
+}
+
+/// The unit in a cell of a row of units, where it is one that the reader knows; brackets may
+/// stand round it.
+pub(super) fn alone(cell: &str) -> Option<&str> {
+    let inner = [('[', ']'), ('(', ')')].iter().find_map(|(open, close)| {
+        let inner = cell.strip_prefix(*open)?.strip_suffix(*close)?;
+        Some(inner.trim())
+    });
+    Some(inner.unwrap_or(cell)).filter(|unit| is_unit(unit))
+}
+
+/// Names of lengths, of which `_in` is the unit; `torque_in` is an input.
+const LENGTHS: [&str; 8] = [
+    "displacement",
+    "position",
+    "stroke",
+    "travel",
+    "deflection",
+    "elongation",
+    "stretch",
+    "length",
+];
+
+/// Splits the ending such as `_mm` off a name, with the unit that it stands for.
+pub(super) fn ending(name: &str) -> Option<(&str, &'static str)> {
+    // `velocity_mm_per_s` ends in a denominator, which is not its unit.
+    let (stem, ending) = name
+        .rsplit_once('_')
+        .filter(|(stem, _)| !stem.ends_with("_per"))?;
+    if ending == "in" {
+        let stem = stem.to_lowercase();
+        let is_length = |length: &&str| stem.contains(*length);
+        if !(LENGTHS.iter().any(is_length) || ["x", "y", "z", "d", "u"].contains(&stem.as_str())) {
+            return None;
+        }
+    }
+    let known = SUFFIXES.iter().find(|(suffix, _)| *suffix == ending);
+    known.map(|(_, unit)| (stem, *unit))
+}
+
+/// Splits `name [unit]`, or reads the unit from an ending such as `_mm`. A unit that the
+/// reader knows may stand as `name (unit)` or `name / unit` too.
 pub(super) fn split(cell: &str) -> (&str, Option<String>) {
     if let Some((name, unit)) = cell
         .strip_suffix(']')
@@ -42,12 +110,17 @@ pub(super) fn split(cell: &str) -> (&str, Option<String>) {
             return (name, (!unit.is_empty()).then(|| unit.to_owned()));
         }
     }
-    // `velocity_mm_per_s` ends in a denominator, which is not its unit.
-    let ending = cell
-        .rsplit_once('_')
-        .filter(|(name, _)| !name.ends_with("_per"));
-    let unit = ending.and_then(|(_, ending)| SUFFIXES.iter().find(|(suffix, _)| *suffix == ending));
-    (cell, unit.map(|(_, unit)| (*unit).to_owned()))
+    let round = cell
+        .strip_suffix(')')
+        .and_then(|cell| cell.rsplit_once('('))
+        .or_else(|| cell.rsplit_once(" / "));
+    if let Some((name, unit)) = round {
+        let (name, unit) = (name.trim(), unit.trim());
+        if !name.is_empty() && is_unit(unit) {
+            return (name, Some(unit.to_owned()));
+        }
+    }
+    (cell, ending(cell).map(|(_, unit)| unit.to_owned()))
 }
 
 /// Seconds in one unit of time, if it is one that the reader knows.
@@ -75,6 +148,11 @@ mod tests {
             split("jaw_torque_Nm"),
             ("jaw_torque_Nm", Some("N·m".to_owned()))
         );
+        assert_eq!(split("Weg (mm)"), ("Weg", Some("mm".to_owned())));
+        assert_eq!(split("Kraft / N"), ("Kraft", Some("N".to_owned())));
+        assert_eq!(unit("force_kip").as_deref(), Some("kip"));
+        assert_eq!(unit("displacement_in").as_deref(), Some("in"));
+        assert_eq!(unit("x_mm").as_deref(), Some("mm"));
         assert_eq!(unit("velocity_mm_per_s"), None);
         for plain in [
             "t",
@@ -85,6 +163,8 @@ mod tests {
             "force_norm",
             "[mm]",
             "x []",
+            "torque_in",
+            "x (raw)",
         ] {
             assert_eq!(unit(plain), None, "{plain}");
         }

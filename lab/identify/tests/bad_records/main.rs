@@ -1,6 +1,7 @@
 //! Every bad record gets one clear line, and no bytes at all make the reader panic.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod forms;
 mod signals;
 
 use bowden_lab::record::{parse, read, Mode, Options, Record};
@@ -124,11 +125,19 @@ fn a_file_that_is_not_text_is_refused() {
     );
     refused(
         b"t,x,f\n0,1\xb5,2\n",
-        "r.csv:2: byte 9 (0xB5) is not UTF-8; save the file as UTF-8",
+        "r.csv:2: column `x`: `1µ` is not a number",
     );
     refused(
-        b"\xff\xfet\x00,\x00",
-        "r.csv:1: the text is UTF-16, UTF-8 was expected",
+        [b"\xc2\xb5,x,f\n0,1\xb5,2\n".as_slice()].concat(),
+        "r.csv:2: byte 10 (0xB5) is not UTF-8, but characters before it are; save the file as UTF-8",
+    );
+    refused(
+        b"t,x,f\n0,1\xb5\x02,2\n",
+        "r.csv:2: byte 10 (0x02) is no character of UTF-8 nor of Windows-1252; save the file as UTF-8",
+    );
+    refused(
+        b"\xff\xfet\0,\0x\0,\0f\0\n\x000\0,\0a\0,\x001\0",
+        "r.csv:2: column `x`: `a` is not a number",
     );
 }
 
@@ -248,9 +257,16 @@ fn a_cell_that_is_no_measured_number_is_shown() {
         let line = format!("r.csv:57: column `x`: {message}");
         refused(with_line(57, &format!("0.55,{cell},3")), &line);
     };
-    refuses("", "the cell is empty, a number was expected");
+    let drop = "--drop-bad leaves such rows out";
+    refuses(
+        "",
+        &format!("the cell is empty, a number was expected; {drop}"),
+    );
     refuses("abc", "`abc` is not a number");
-    refuses("NaN", "`NaN` is not finite, a finite number was expected");
+    refuses(
+        "NaN",
+        &format!("`NaN` is not finite, a finite number was expected; {drop}"),
+    );
     refuses("-inf", "`-inf` is not finite, a finite number was expected");
     refuses(
         "1e999",
@@ -267,7 +283,7 @@ fn a_cell_that_is_no_measured_number_is_shown() {
     );
     refused(
         with_line(9, "0.07,1,"),
-        "r.csv:9: column `f`: the cell is empty, a number was expected",
+        &format!("r.csv:9: column `f`: the cell is empty, a number was expected; {drop}"),
     );
     refused(
         with_line(9, "x,1,2"),

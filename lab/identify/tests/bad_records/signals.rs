@@ -11,13 +11,14 @@ fn time_that_does_not_run_forward_is_refused() {
     refused(
         with_line(57, "0.54,1,2"),
         "r.csv:57: column `t`: time stands still at 0.54; \
-         --rate HZ takes time from the row number",
+         --rate HZ takes time from the row number, --drop-bad leaves such rows out",
     );
     let rounded = with_time("t,x,f", |i| format!("{:.2}", i as f64 / 128.0));
     refused(
         &rounded,
         "r.csv:5: column `t`: time stands still at 0.02, as at 87 of 400 rows: \
-         the stamps are rounded; --rate HZ takes time from the row number (about 127.9 Hz)",
+         the stamps are rounded; --rate HZ takes time from the row number (about 127.9 Hz), \
+         --drop-bad leaves such rows out",
     );
     let options = Options {
         rate: Some(128.0),

@@ -183,6 +183,7 @@ impl Row {
                 skip: self.skip,
                 until: self.until,
                 rate: self.rate,
+                ..Options::default()
             },
             cutoff: Some(self.cutoff),
             declare: self.declare.iter().map(|&name| name.to_owned()).collect(),

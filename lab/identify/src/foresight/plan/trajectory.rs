@@ -319,6 +319,7 @@ impl Trajectory {
             channels: signals.collect(),
             notes: Vec::new(),
             defects: Vec::new(),
+            dropped: 0,
         };
         let cutoff = Some(data.cutoff);
         Prepared::new(&record, Preparation { cutoff }).ok()

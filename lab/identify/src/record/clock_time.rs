@@ -1,0 +1,109 @@
+//! Times of day and dates as time stamps: `14:03:21.250`, `2026-03-01T14:03:21.250`.
+
+/// Days from the year 0 to a day near the year 2000, from which seconds are counted: so a
+/// double has 0.1 µs left.
+const EPOCH: i64 = 730_000;
+
+/// Seconds of a stamp, from midnight or, with a date, from a day that is the same for all;
+/// `None` where it is none. Years come first or, with points, last: `1/2/2026` is two different days.
+pub(super) fn seconds(cell: &str) -> Option<f64> {
+    let (date, time) = match cell.find([' ', 'T']) {
+        Some(at) => (Some(&cell[..at]), cell[at + 1..].trim_start()),
+        None => (None, cell),
+    };
+    let days = match date {
+        Some(date) => days(date)?,
+        None => 0,
+    };
+    Some(days as f64 * 86_400.0 + of_day(time.strip_suffix('Z').unwrap_or(time))?)
+}
+
+/// `HH:MM:SS`, with decimals behind a point or a comma.
+fn of_day(time: &str) -> Option<f64> {
+    let mut parts = time.split(':');
+    let (hours, minutes, seconds) = (parts.next()?, parts.next()?, parts.next()?);
+    let whole = |text: &str, below: u32| {
+        let digits = (1..=2).contains(&text.len()) && text.bytes().all(|b| b.is_ascii_digit());
+        text.parse().ok().filter(|n: &u32| digits && *n < below)
+    };
+    let (integer, decimals) = seconds.split_once(['.', ',']).unwrap_or((seconds, "0"));
+    let in_range = whole(integer, 61)?;
+    if parts.next().is_some()
+        || decimals.is_empty()
+        || !decimals.bytes().all(|b| b.is_ascii_digit())
+    {
+        return None;
+    }
+    let minutes = 60 * whole(hours, 24)? + whole(minutes, 60)?;
+    let seconds: f64 = format!("{in_range}.{decimals}").parse().ok()?;
+    Some(f64::from(60 * minutes) + seconds)
+}
+
+/// Days of a date in the Gregorian calendar.
+fn days(date: &str) -> Option<i64> {
+    let parts = |separator: char| -> Option<[i64; 3]> {
+        let parts: Vec<i64> = date
+            .split(separator)
+            .map(|part| {
+                let digits = part.len() <= 4 && part.bytes().all(|b| b.is_ascii_digit());
+                part.parse().ok().filter(|_| digits)
+            })
+            .collect::<Option<_>>()?;
+        parts.try_into().ok()
+    };
+    let [year, month, day] = match (parts('-'), parts('.')) {
+        (Some(date), _) => date,
+        (_, Some([day, month, year])) => [year, month, day],
+        _ => return None,
+    };
+    if !(1000..=9999).contains(&year) || !(1..=12).contains(&month) || !(1..=31).contains(&day) {
+        return None;
+    }
+    // March is the first month of the year here, so that a leap day is its last one.
+    let (year, month) = match month {
+        1 | 2 => (year - 1, month + 9),
+        _ => (year, month - 3),
+    };
+    Some(365 * year + year / 4 - year / 100 + year / 400 + (153 * month + 2) / 5 + day - EPOCH)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stamps_count_in_seconds_over_midnights_and_leap_days() {
+        let apart = |a: &str, b: &str| seconds(b).unwrap() - seconds(a).unwrap();
+        assert_eq!(seconds("00:01:02"), Some(62.0));
+        assert_eq!(seconds("1:00:00,5"), Some(3600.5));
+        assert_eq!(
+            apart("2024-02-28T23:59:59", "2024-03-01 00:00:00Z"),
+            86_401.0
+        );
+        assert_eq!(apart("31.12.2025 23:59:59,5", "1.1.2026 00:00:00"), 0.5);
+        assert_eq!(
+            apart("2023-12-31 12:00:00", "2024-12-31 12:00:00"),
+            366.0 * 86_400.0
+        );
+    }
+
+    #[test]
+    fn what_could_be_two_days_or_no_time_is_none() {
+        for cell in [
+            "1/2/2026 10:00:00",
+            "12:00",
+            "25:00:00",
+            "10:60:00",
+            "10:00:61",
+            "10:00:00.",
+            "1:2:3:4",
+            "+1:00:00",
+            "2026-13-01 00:00:00",
+            "1,5",
+            "",
+            ":",
+        ] {
+            assert_eq!(seconds(cell), None, "{cell}");
+        }
+    }
+}

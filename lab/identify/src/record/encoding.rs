@@ -1,0 +1,211 @@
+//! From bytes to text: UTF-8, UTF-16 or Windows-1252, with or without a byte-order mark.
+//!
+//! UTF-8 and UTF-16 prove themselves: bytes of another encoding are almost never valid in
+//! them. Windows-1252 (which contains Latin-1) is what remains: it is assumed only where no
+//! character of the file is UTF-8 beyond ASCII, and never with control codes.
+
+use super::error::RecordError;
+use encoding_rs::{Encoding, UTF_16BE, UTF_16LE, WINDOWS_1252};
+use std::borrow::Cow;
+
+/// UTF-16 without a mark is recognised in this many bytes.
+const PROBE: usize = 1 << 10;
+
+/// The text of a record, from behind its byte-order mark to its last row; every line ends with
+/// `\n`, be it behind a `\r`.
+pub(super) struct Decoded<'a> {
+    pub(super) text: Cow<'a, str>,
+    /// Which encoding it was, unless UTF-8.
+    pub(super) note: Option<String>,
+}
+
+pub(super) fn decode(bytes: &[u8]) -> Result<Decoded<'_>, RecordError> {
+    if bytes.is_empty() {
+        return Err(RecordError::at(
+            1,
+            "the file is empty, a header with column names was expected",
+        ));
+    }
+    let (text, note) = match wide(bytes) {
+        Some((own, mark)) => (utf_16(&bytes[mark..], own)?, Some(own.name())),
+        None => narrow(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes))?,
+    };
+    Ok(Decoded {
+        text: lines(text),
+        note: note.map(|name| format!("the text is {name}")),
+    })
+}
+
+/// Whether the bytes are UTF-16.
+pub(super) fn is_wide(bytes: &[u8]) -> bool {
+    wide(bytes).is_some()
+}
+
+/// Which UTF-16 it is, and the length of its mark.
+fn wide(bytes: &[u8]) -> Option<(&'static Encoding, usize)> {
+    let marked = Encoding::for_bom(bytes).filter(|(own, _)| [UTF_16LE, UTF_16BE].contains(own));
+    marked.or_else(|| unmarked(bytes).map(|own| (own, 0)))
+}
+
+/// UTF-16 of a text that is mostly ASCII: every other byte is NUL.
+fn unmarked(bytes: &[u8]) -> Option<&'static Encoding> {
+    let head = &bytes[..bytes.len().min(PROBE) & !1];
+    let nul = |side: usize| {
+        head.iter()
+            .skip(side)
+            .step_by(2)
+            .filter(|b| **b == 0)
+            .count()
+    };
+    let pairs = head.len() / 2;
+    match (nul(0), nul(1)) {
+        _ if pairs < 4 => None,
+        (0, high) if 10 * high >= 9 * pairs => Some(UTF_16LE),
+        (high, 0) if 10 * high >= 9 * pairs => Some(UTF_16BE),
+        _ => None,
+    }
+}
+
+fn utf_16<'a>(bytes: &'a [u8], own: &'static Encoding) -> Result<Cow<'a, str>, RecordError> {
+    let (text, damaged) = own.decode_without_bom_handling(bytes);
+    let line_of = |text: &str| 1 + text.matches('\n').count();
+    if damaged {
+        let before = text.split('\u{fffd}').next().unwrap_or_default();
+        let message = format!(
+            "a character is not valid {}: the file is damaged",
+            own.name()
+        );
+        return Err(RecordError::at(line_of(before), message));
+    }
+    match text.find('\0') {
+        Some(at) => Err(RecordError::at(
+            line_of(&text[..at]),
+            "a character is NUL: a binary file, CSV text was expected",
+        )),
+        None => Ok(text),
+    }
+}
+
+/// UTF-8, or else Windows-1252.
+fn narrow(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<&'static str>), RecordError> {
+    let line_of = |offset: usize| {
+        1 + bytes[..offset]
+            .iter()
+            .filter(|byte| **byte == b'\n')
+            .count()
+    };
+    if let Some(offset) = bytes.iter().position(|byte| *byte == 0) {
+        let message = format!("byte {offset} is NUL: a binary file, CSV text was expected");
+        return Err(RecordError::at(line_of(offset), message));
+    }
+    let error = match std::str::from_utf8(bytes) {
+        Ok(text) => return Ok((Cow::Borrowed(text), None)),
+        Err(error) => error,
+    };
+    let offset = error.valid_up_to();
+    let byte = bytes.get(offset).copied().unwrap_or_default();
+    let refuse = |at: usize, message: String| Err(RecordError::at(line_of(at), message));
+    if !bytes[..offset].is_ascii() {
+        return refuse(
+            offset,
+            format!("byte {offset} (0x{byte:02X}) is not UTF-8, but characters before it are; save the file as UTF-8"),
+        );
+    }
+    let control = |byte: &u8| matches!(byte, 0x01..=0x08 | 0x0e..=0x1f | 0x7f | 0x81 | 0x8d | 0x8f | 0x90 | 0x9d);
+    if let Some(at) = bytes.iter().position(|byte| control(byte)) {
+        return refuse(
+            at,
+            format!(
+                "byte {at} (0x{:02X}) is no character of UTF-8 nor of Windows-1252; save the file as UTF-8",
+                bytes[at]
+            ),
+        );
+    }
+    let (text, _) = WINDOWS_1252.decode_without_bom_handling(bytes);
+    Ok((text, Some("Windows-1252 (Latin-1)")))
+}
+
+/// Ends every line with `\n`; rows of separators alone, which spreadsheets leave at the end,
+/// are no rows.
+fn lines(text: Cow<'_, str>) -> Cow<'_, str> {
+    let cut = |text: &str| -> (usize, usize) {
+        let start = text.len() - text.trim_start_matches('\u{feff}').len();
+        let mut end = text.trim_end_matches(['\n', '\r', ' ']).len();
+        while let Some(last) = text[..end].rfind(['\n', '\r']) {
+            if text[last..end].trim_matches([';', ',', '\t', ' ', '\r', '\n']) != "" {
+                break;
+            }
+            end = text[..last].trim_end_matches(['\n', '\r', ' ']).len();
+        }
+        (start.min(end), end)
+    };
+    let lone_returns = text.contains('\r') && !text.contains('\n');
+    let (start, end) = cut(&text);
+    match text {
+        Cow::Borrowed(text) if !lone_returns => Cow::Borrowed(&text[start..end]),
+        text if lone_returns => Cow::Owned(text[start..end].replace('\r', "\n")),
+        text => Cow::Owned(text[start..end].to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn said(bytes: &[u8]) -> (String, Option<String>) {
+        let decoded = decode(bytes).unwrap();
+        (decoded.text.into_owned(), decoded.note)
+    }
+
+    fn utf_16(text: &str, order: fn(u16) -> [u8; 2]) -> Vec<u8> {
+        text.encode_utf16().flat_map(order).collect()
+    }
+
+    #[test]
+    fn the_encoding_is_recognised_with_and_without_a_mark() {
+        let text = "t;Weg [µm];Kraft ü\n0;1;2";
+        let own = |note: &str| (text.to_owned(), Some(format!("the text is {note}")));
+        assert_eq!(said(text.as_bytes()), (text.to_owned(), None));
+        assert_eq!(
+            said(&[b"\xef\xbb\xbf", text.as_bytes()].concat()),
+            (text.to_owned(), None)
+        );
+        for mark in ["", "\u{feff}"] {
+            let marked = format!("{mark}{text}");
+            assert_eq!(said(&utf_16(&marked, u16::to_le_bytes)), own("UTF-16LE"));
+            assert_eq!(said(&utf_16(&marked, u16::to_be_bytes)), own("UTF-16BE"));
+        }
+        let latin: Vec<u8> = text.chars().map(|c| c as u8).collect();
+        assert_eq!(said(&latin), own("Windows-1252 (Latin-1)"));
+    }
+
+    #[test]
+    fn what_is_no_text_is_not_guessed() {
+        let line = |bytes: &[u8]| decode(bytes).err().unwrap().to_string();
+        assert!(line(
+            "µ\n1"
+                .as_bytes()
+                .iter()
+                .chain(b"\xb5")
+                .copied()
+                .collect::<Vec<_>>()
+                .as_slice()
+        )
+        .contains(":2: byte 4 (0xB5) is not UTF-8, but characters before it are"));
+        assert!(line(b"a\n\xb5\x02").contains(":2: byte 3 (0x02) is no character"));
+        assert!(line(b"a\n\x81").contains(":2: byte 2 (0x81) is no character"));
+        // A surrogate without its other half.
+        assert!(
+            line(b"\xff\xfea\0\n\0\x00\xd8b\0").contains(":2: a character is not valid UTF-16LE")
+        );
+        assert!(line(b"\xff\xfea\0\n\0\0\0b\0").contains(":2: a character is NUL"));
+    }
+
+    #[test]
+    fn rows_of_separators_alone_are_cut_from_the_end() {
+        assert_eq!(said(b"a;b\n1;2\n;;\n;\n").0, "a;b\n1;2");
+        assert_eq!(said(b"a;b\r\n1;\r\n;;\r\n").0, "a;b\r\n1;");
+        assert_eq!(said(b",,\n").0, ",,");
+        assert_eq!(said(b"a,b\r1,2\r,,\r").0, "a,b\n1,2");
+    }
+}

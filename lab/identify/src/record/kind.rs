@@ -1,0 +1,173 @@
+//! What a file is by its first bytes, whatever its name.
+
+use super::error::RecordError;
+
+/// The forms that are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Text,
+    Gzip,
+    Mat,
+    Parquet,
+}
+
+/// Forms that are not read: their first bytes, their name, and what to do instead.
+const OTHERS: [(&[u8], &str, &str); 16] = [
+    (
+        b"PK\x03\x04",
+        "an Excel workbook (.xlsx) or another zip archive",
+        SHEET,
+    ),
+    (
+        b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1",
+        "an old Excel workbook (.xls)",
+        SHEET,
+    ),
+    (b"%PDF", "a PDF", "export the values as CSV"),
+    (b"TDSm", "a LabVIEW TDMS file", "export it as CSV or .mat"),
+    (
+        b"\x28\xb5\x2f\xfd",
+        "compressed by zstd",
+        "unpack it with `zstd -d`, or use gzip",
+    ),
+    (b"\x89HDF\r\n\x1a\n", "an HDF5 file", HDF5),
+    (
+        b"BZh",
+        "compressed by bzip2",
+        "unpack it with `bunzip2`, or use gzip",
+    ),
+    (
+        b"\xfd7zXZ\0",
+        "compressed by xz",
+        "unpack it with `unxz`, or use gzip",
+    ),
+    (
+        b"\x04\x22\x4d\x18",
+        "compressed by lz4",
+        "unpack it with `lz4 -d`, or use gzip",
+    ),
+    (b"7z\xbc\xaf\x27\x1c", "a 7z archive", "unpack it"),
+    (b"Rar!", "a rar archive", "unpack it"),
+    (b"MDF     ", "an ASAM MDF file", "export it as CSV or .mat"),
+    (b"ARROW1", "an Arrow file", "save it as Parquet"),
+    (
+        b"\x93NUMPY",
+        "a NumPy array",
+        "save it as CSV or .mat with names of columns",
+    ),
+    (
+        b"SQLite format 3\0",
+        "an SQLite database",
+        "export the values as CSV",
+    ),
+    (
+        b"{\\rtf",
+        "a text processor's file",
+        "export the values as CSV",
+    ),
+];
+
+const SHEET: &str = "save the sheet as CSV";
+const HDF5: &str = "save it as CSV, Parquet or .mat v5";
+/// What MATLAB is asked for instead of its other forms.
+const V7: &str = "save it in MATLAB with `save -v7`";
+
+/// Where an HDF5 file with a header of MATLAB begins.
+const BEHIND_HEADER: usize = 512;
+
+/// The form of a file.
+///
+/// # Errors
+/// One sentence that names a form that is not read, and what to do instead.
+pub(super) fn of(bytes: &[u8]) -> Result<Kind, RecordError> {
+    let refuse = |what: &str, instead: &str| {
+        let message = format!("is {what}, which is not read; {instead}");
+        Err(RecordError::new(message))
+    };
+    if bytes.starts_with(b"\x1f\x8b") {
+        return Ok(Kind::Gzip);
+    }
+    // A column may be called `PAR1`; a file of Parquet goes on with a number.
+    let number = |b: &u8| b.is_ascii_control() && !b.is_ascii_whitespace();
+    if bytes.starts_with(b"PAR1") && bytes.get(4).is_none_or(number) {
+        return Ok(Kind::Parquet);
+    }
+    if bytes.starts_with(b"PARE") {
+        return refuse("an encrypted Parquet file", "save it without encryption");
+    }
+    let behind = bytes.get(BEHIND_HEADER..).unwrap_or_default();
+    if bytes.starts_with(b"MATLAB 7.3 MAT-file") || behind.starts_with(b"\x89HDF\r\n\x1a\n") {
+        return refuse("a MATLAB file of version 7.3 (HDF5)", V7);
+    }
+    // The version and the order of its bytes, behind a text that anyone may have written.
+    if matches!(bytes.get(124..128), Some(b"\x00\x01IM" | b"\x01\x00MI")) {
+        return Ok(Kind::Mat);
+    }
+    if is_mat_4(bytes) {
+        return refuse("a MATLAB file of version 4", V7);
+    }
+    match OTHERS.iter().find(|(magic, ..)| bytes.starts_with(magic)) {
+        Some((_, what, instead)) => refuse(what, instead),
+        None => Ok(Kind::Text),
+    }
+}
+
+/// Version 4 has no mark: a header of five numbers and a name that ends with NUL.
+fn is_mat_4(bytes: &[u8]) -> bool {
+    let number = |index: usize, of: fn([u8; 4]) -> u32| -> Option<u32> {
+        let own = bytes.get(4 * index..4 * index + 4)?;
+        own.try_into().ok().map(of)
+    };
+    [u32::from_le_bytes as fn([u8; 4]) -> u32, u32::from_be_bytes]
+        .into_iter()
+        .any(|of| {
+            let header: Option<Vec<u32>> = (0..5).map(|index| number(index, of)).collect();
+            let Some([kind, rows, columns, complex, length]) = header.as_deref() else {
+                return false;
+            };
+            let digits = [kind / 1000, kind / 100 % 10, kind / 10 % 10, kind % 10];
+            let name = bytes.get(20..20 + (*length).min(64) as usize);
+            digits[0] <= 4
+                && digits[1] == 0
+                && digits[2] <= 5
+                && digits[3] <= 2
+                && *rows > 0
+                && *columns > 0
+                && *complex <= 1
+                && (2..=64).contains(length)
+                && name
+                    .and_then(<[u8]>::split_last)
+                    .is_some_and(|(end, name)| {
+                        *end == 0 && name.iter().all(|b| b.is_ascii_alphanumeric() || *b == b'_')
+                    })
+        })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_other_form_is_named_with_what_to_do_instead() {
+        for (magic, what, instead) in OTHERS {
+            let line = of(magic).unwrap_err().to_string();
+            assert_eq!(line, format!(": is {what}, which is not read; {instead}"));
+        }
+        let line = |bytes: &[u8]| of(bytes).unwrap_err().to_string();
+        let v7_3 = [b"MATLAB 7.3 MAT-file, Platform".as_slice(), &[b' '; 483]].concat();
+        assert!(line(&v7_3).contains("version 7.3 (HDF5)"));
+        assert!(
+            line(&[&[b' '; 512], b"\x89HDF\r\n\x1a\n".as_slice()].concat()).contains("save -v7")
+        );
+        let v4 = b"\0\0\0\0\x02\0\0\0\x01\0\0\0\0\0\0\0\x02\0\0\0x\0";
+        assert!(line(v4).contains("version 4"));
+        assert!(line(b"PARE").contains("encrypted"));
+    }
+
+    #[test]
+    fn text_is_text() {
+        for text in ["t,x,f\n", "", "P", "0,1", "BZ", "7zip,x", "PAR1,PAR2\n"] {
+            assert_eq!(of(text.as_bytes()).unwrap(), Kind::Text, "{text}");
+        }
+    }
+}

@@ -1,0 +1,265 @@
+//! Where in a text the table stands: preamble, names, units, values.
+//!
+//! A file whose first line names the columns that are asked for is read as it is. Else its
+//! head is searched for rows of numbers, and the rows above them for those names: what stands
+//! before is a preamble, what stands between names and numbers a row of units. Nothing else
+//! is guessed; if the names are nowhere, the first line is refused as a header.
+
+use super::error::RecordError;
+use super::header::{self, Header};
+use super::number::is_data;
+use super::roles::{self, Roles};
+use super::text::Rows;
+use super::{clock_time, units, Options};
+
+/// Lines in which the table is looked for.
+const HEAD: usize = 1000;
+/// No more than so many bytes of them.
+const HEAD_BYTES: usize = 1 << 20;
+/// So many rows of numbers in a row, or all that there are, make a table.
+const TABLE: usize = 3;
+/// The names stand at most so many rows above the numbers.
+const ABOVE: usize = 8;
+
+/// A table whose columns have their parts; the rows are those below names and units.
+pub(super) struct Table<'a> {
+    pub(super) header: Header,
+    pub(super) roles: Roles,
+    pub(super) rows: Rows<'a>,
+    pub(super) notes: Vec<String>,
+}
+
+/// Finds the table that has the columns which the options ask for.
+pub(super) fn find<'a>(text: &'a str, options: &Options) -> Result<Table<'a>, RecordError> {
+    if let Some(line) = options.header_line {
+        let (start, before) = start_of(text, line)?;
+        return named(Rows::new(&text[start..]).after(before), options);
+    }
+    named(Rows::new(text), options).or_else(|error| match below(text, options) {
+        Some(found) => found,
+        None => Err(error),
+    })
+}
+
+/// Where a line of the text begins, and how many lines are before it.
+fn start_of(text: &str, line: usize) -> Result<(usize, usize), RecordError> {
+    let refuse =
+        |message: String| Err(RecordError::new(format!("--header-line {line}: {message}")));
+    let Some(before) = line.checked_sub(1) else {
+        return refuse("lines count from 1".to_owned());
+    };
+    if before == 0 {
+        return Ok((0, 0));
+    }
+    let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+    match ends.map(|(at, _)| at + 1).nth(before - 1) {
+        Some(start) => Ok((start, before)),
+        None => refuse(format!("the text has {} lines", text.lines().count())),
+    }
+}
+
+/// A table whose first row is the header.
+fn named<'a>(mut rows: Rows<'a>, options: &Options) -> Result<Table<'a>, RecordError> {
+    let header = header::read(&mut rows)?;
+    let roles = roles::assign(&header, options)?;
+    let separator = rows.separator();
+    let (rest, before) = rows.rest();
+    let (first, behind) = rest.split_once('\n').unwrap_or((rest, ""));
+    let mut table = Table {
+        header,
+        roles,
+        rows,
+        notes: Vec::new(),
+    };
+    if units_row(&mut table, &cells(first, separator)) {
+        table.notes.push(format!("units from line {}", before + 1));
+        table.rows = Rows::separated_by(separator, behind).after(before + 1);
+    }
+    Ok(table)
+}
+
+/// Takes the units from a row of them: no cell is a number, and each under a column that is
+/// read is a known unit or empty.
+fn units_row(table: &mut Table<'_>, cells: &[&str]) -> bool {
+    let Table { header, roles, .. } = table;
+    let mut used = roles.read().chain(roles.time);
+    let cell = |index: usize| cells.get(index).copied().unwrap_or_default();
+    let known = |index: usize| cell(index).is_empty() || units::alone(cell(index)).is_some();
+    let is_unit = |index: usize| units::alone(cell(index)).is_some();
+    if cells
+        .iter()
+        .any(|cell| cell.parse::<f64>().is_ok() && *cell != "1")
+        || !used.all(known)
+        || !(0..cells.len()).any(|index| is_unit(index) && cell(index) != "1")
+    {
+        return false;
+    }
+    for (column, cell) in header.columns.iter_mut().zip(cells) {
+        if let Some(unit) = units::alone(cell).filter(|unit| !["-", "–", "1"].contains(unit)) {
+            column.unit = Some(unit.to_owned());
+        }
+    }
+    true
+}
+
+/// A line as cells: where it is a number that counts, quotes need no second look.
+fn cells(line: &str, separator: u8) -> Vec<&str> {
+    let cells = line.split(char::from(separator)).map(str::trim);
+    let open = |cell: &str| -> Option<usize> {
+        let inner = cell.strip_prefix('"')?.strip_suffix('"')?;
+        Some(inner.len())
+    };
+    cells
+        .map(|cell| match open(cell) {
+            Some(length) => cell[1..=length].trim(),
+            None => cell,
+        })
+        .collect()
+}
+
+/// The head of a text as the numbers and names of its lines.
+struct Head<'a> {
+    separator: u8,
+    lines: Vec<(usize, Vec<&'a str>)>,
+}
+
+impl<'a> Head<'a> {
+    fn new(text: &'a str, separator: u8) -> Self {
+        let mut start = 0;
+        let lines = text.split_inclusive('\n').take(HEAD).map_while(|line| {
+            let at = start;
+            start += line.len();
+            (start <= HEAD_BYTES).then(|| (at, cells(line, separator)))
+        });
+        Self {
+            separator,
+            lines: lines.collect(),
+        }
+    }
+
+    fn is_blank(&self, line: usize) -> bool {
+        self.lines[line].1.iter().all(|cell| cell.is_empty())
+    }
+
+    fn is_units(&self, line: usize) -> bool {
+        let mut cells = self.lines[line].1.iter().filter(|cell| !cell.is_empty());
+        cells.all(|cell| units::alone(cell).is_some())
+    }
+
+    /// Whether a line is a row of at least two numbers.
+    fn is_row(&self, line: usize) -> bool {
+        let cells = self.lines[line].1.iter().filter(|cell| !cell.is_empty());
+        let number =
+            |cell: &&&str| is_data(cell, self.separator) || clock_time::seconds(cell).is_some();
+        let numbers = cells.clone().filter(number).count();
+        numbers >= 2 && 2 * numbers >= cells.count()
+    }
+
+    /// The lines on which a table of numbers begins.
+    fn tables(&self) -> impl Iterator<Item = usize> + '_ {
+        let row = |line: usize, width: usize| {
+            self.lines
+                .get(line)
+                .is_none_or(|(_, cells)| cells.len() == width && self.is_row(line))
+        };
+        let starts = move |line: &usize| {
+            let width = self.lines[*line].1.len();
+            self.is_row(*line)
+                && (*line..line + TABLE).all(|next| row(next, width))
+                && !(*line > 0 && row(line - 1, width))
+        };
+        (1..self.lines.len()).filter(starts)
+    }
+}
+
+/// The first table below the first line whose names are those that are asked for; else why the
+/// names above the first table are not.
+fn below<'a>(text: &'a str, options: &Options) -> Option<Result<Table<'a>, RecordError>> {
+    // Of the row just above the first table, units apart: it was meant to have the names.
+    let mut refused: Option<Option<RecordError>> = None;
+    for separator in [b'\t', b';', b','] {
+        let head = Head::new(text, separator);
+        for first in head.tables() {
+            for names in (first.saturating_sub(ABOVE)..first).rev() {
+                if head.is_blank(names) {
+                    continue;
+                }
+                let own = Rows::separated_by(separator, &text[head.lines[names].0..]);
+                match names_above(own.after(names), &head, (names, first), options) {
+                    Ok(mut table) => {
+                        let rows = &text[head.lines[first].0..];
+                        table.rows = Rows::separated_by(separator, rows).after(first);
+                        return Some(Ok(table));
+                    }
+                    Err(_) if head.is_units(names) => {}
+                    Err(error) => {
+                        refused.get_or_insert((names > 0).then_some(error));
+                    }
+                }
+            }
+        }
+    }
+    refused.flatten().map(Err)
+}
+
+/// A table by its line of names and its first line of numbers.
+fn names_above<'a>(
+    mut rows: Rows<'a>,
+    head: &Head<'_>,
+    (names, first): (usize, usize),
+    options: &Options,
+) -> Result<Table<'a>, RecordError> {
+    let header = header::read(&mut rows)?;
+    let roles = roles::assign(&header, options)?;
+    let mut table = Table {
+        header,
+        roles,
+        rows,
+        notes: Vec::new(),
+    };
+    if names > 0 {
+        table.notes.push(passed_over(1, names, "above the names"));
+    }
+    let (mut units, mut others) = (None, Vec::new());
+    for between in names + 1..first {
+        match units.is_none() && units_row(&mut table, &head.lines[between].1) {
+            true => units = Some(between + 1),
+            false => others.push((between + 1).to_string()),
+        }
+    }
+    table
+        .notes
+        .extend(units.map(|line| format!("units from line {line}")));
+    if !others.is_empty() {
+        let lines = if others.len() == 1 { "line" } else { "lines" };
+        let list = others.join(", ");
+        let note = format!("{lines} {list} between names and values passed over");
+        table.notes.push(note);
+    }
+    Ok(table)
+}
+
+/// "lines 2–7 above the names passed over".
+pub(super) fn passed_over(from: usize, to: usize, place: &str) -> String {
+    match from == to {
+        true => format!("line {from} {place} passed over"),
+        false => format!("lines {from}–{to} {place} passed over"),
+    }
+}
+
+/// Whether only text follows: no line is a row of the table, and each one that is not blank
+/// has letters and no number where a row has its first one.
+pub(super) fn only_text(rest: &str, separator: u8, used: &[usize]) -> bool {
+    let text = |line: &str| {
+        let cells = cells(line, separator);
+        let cell = |index: &usize| cells.get(*index).copied().unwrap_or_default();
+        let number = |cell: &str| is_data(cell, separator) || clock_time::seconds(cell).is_some();
+        let numbers = used.iter().filter(|index| number(cell(index))).count();
+        cells.iter().all(|cell| cell.is_empty())
+            || (numbers < 2
+                && !used.first().is_some_and(|index| number(cell(index)))
+                && !number(cells.first().copied().unwrap_or_default())
+                && line.contains(char::is_alphabetic))
+    };
+    rest.split('\n').all(text)
+}

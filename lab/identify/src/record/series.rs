@@ -1,0 +1,118 @@
+//! What a series of a record is read from: a column, or the sum or difference of two.
+
+use super::agree::factor;
+use super::error::{shown, RecordError, NAME_LENGTH};
+use super::header::Header;
+use super::roles::find;
+use super::Options;
+
+const HINT: &str = "--channel NAME=COL names another one";
+
+/// A series of the record.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Series {
+    Column(usize),
+    Sum {
+        first: usize,
+        second: usize,
+        /// 1, or −1 for a difference.
+        sign: f64,
+    },
+}
+
+impl Series {
+    /// The columns that it reads.
+    pub(super) fn columns(self) -> impl Iterator<Item = usize> {
+        let (first, second) = match self {
+            Self::Column(index) => (index, None),
+            Self::Sum { first, second, .. } => (first, Some(second)),
+        };
+        [Some(first), second].into_iter().flatten()
+    }
+
+    /// The column whose name and unit it has.
+    pub(super) fn first(self) -> usize {
+        match self {
+            Self::Column(first) | Self::Sum { first, .. } => first,
+        }
+    }
+
+    /// By what the second column is to be multiplied, its unit being brought to the first's.
+    pub(super) fn second(self, header: &Header) -> Result<Option<(usize, f64)>, RecordError> {
+        let Self::Sum {
+            first,
+            second,
+            sign,
+        } = self
+        else {
+            return Ok(None);
+        };
+        let (a, b) = (&header.columns[first], &header.columns[second]);
+        let size = match (&a.unit, &b.unit) {
+            (a, b) if a == b => Some(1.0),
+            (Some(a), Some(b)) => factor(b, a),
+            _ => None,
+        };
+        let unit = |unit: &Option<String>| match unit {
+            Some(unit) => format!("unit {}", shown(unit, NAME_LENGTH)),
+            None => "no unit".to_owned(),
+        };
+        match size {
+            Some(size) => Ok(Some((second, sign * size))),
+            None => Err(RecordError::at(
+                header.line,
+                format!(
+                    "has {}; {} was expected, as `{}` has, to add or subtract them",
+                    unit(&b.unit),
+                    unit(&a.unit),
+                    shown(&a.name, NAME_LENGTH)
+                ),
+            )
+            .on(&b.name)),
+        }
+    }
+}
+
+/// The column of that name, or `A-B` or `A+B` of two columns or of channels that other options
+/// name.
+pub(super) fn parse(header: &Header, options: &Options, text: &str) -> Result<Series, RecordError> {
+    if let Some(index) = header.find(text) {
+        return Ok(Series::Column(index));
+    }
+    let named = |name: &str| options.channels.iter().find(|(own, _)| own == name);
+    let column = |name: &str| match named(name) {
+        Some((_, column)) => header.find(column),
+        None => header.find(name),
+    };
+    let splits: Vec<(&str, f64, &str)> = text
+        .match_indices(['+', '-'])
+        .map(|(at, sign)| {
+            let sign = if sign == "-" { -1.0 } else { 1.0 };
+            (text[..at].trim(), sign, text[at + 1..].trim())
+        })
+        .filter(|(a, _, b)| !a.is_empty() && !b.is_empty())
+        .collect();
+    let sums: Vec<Series> = splits
+        .iter()
+        .filter_map(|(a, sign, b)| {
+            let (first, second) = (column(a)?, column(b)?);
+            Some(Series::Sum {
+                first,
+                second,
+                sign: *sign,
+            })
+        })
+        .collect();
+    match (sums.as_slice(), splits.as_slice()) {
+        ([one], _) => Ok(*one),
+        ([], [(a, _, b)]) => {
+            let missing = if column(a).is_none() { a } else { b };
+            find(header, missing, HINT).map(Series::Column)
+        }
+        ([], _) => find(header, text, HINT).map(Series::Column),
+        _ => Err(RecordError::new(format!(
+            "--channel NAME={}: can be read as several sums of two columns",
+            shown(text, NAME_LENGTH)
+        ))),
+    }
+}

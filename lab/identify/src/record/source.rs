@@ -1,0 +1,112 @@
+//! Rows of numbers, whatever the file is.
+
+use super::error::RecordError;
+use super::layout::only_text;
+use super::number;
+use super::text;
+
+/// The rows below the names, one after the other.
+pub(super) enum Source<'a> {
+    Text(text::Rows<'a>),
+    Sheet(Sheet),
+}
+
+/// The columns of a file that is no text; those that are not read stay empty.
+pub(super) struct Sheet {
+    pub(super) columns: Vec<Vec<Option<f64>>>,
+    pub(super) rows: usize,
+    /// Rows that were given out.
+    pub(super) done: usize,
+}
+
+/// One row.
+pub(super) enum Row<'a> {
+    Text(text::Row<'a>),
+    Sheet {
+        columns: &'a [Vec<Option<f64>>],
+        row: usize,
+    },
+}
+
+impl Source<'_> {
+    pub(super) fn read(&mut self) -> Result<Option<Row<'_>>, RecordError> {
+        match self {
+            Self::Text(rows) => Ok(rows.read()?.map(Row::Text)),
+            Self::Sheet(sheet) => {
+                let row = sheet.done;
+                sheet.done += usize::from(row < sheet.rows);
+                let columns = sheet.columns.as_slice();
+                Ok((row < sheet.rows).then_some(Row::Sheet { columns, row }))
+            }
+        }
+    }
+
+    /// The line of the row that was read last.
+    pub(super) fn line(&self) -> usize {
+        match self {
+            Self::Text(rows) => rows.line(),
+            Self::Sheet(sheet) => sheet.done,
+        }
+    }
+
+    /// How many lines of text alone there are from the last row on; `None` where a row of
+    /// numbers is among them.
+    pub(super) fn text_below(&self, used: &[usize]) -> Option<usize> {
+        let Self::Text(rows) = self else {
+            return None;
+        };
+        let rest = rows.from_here();
+        only_text(rest, rows.separator(), used).then(|| rest.split('\n').count())
+    }
+
+    /// What is to be said of how numbers are written.
+    pub(super) fn note(&self) -> Option<String> {
+        match self {
+            Self::Text(rows) if rows.notation().is_comma() => {
+                Some("numbers have a decimal comma".to_owned())
+            }
+            _ => None,
+        }
+    }
+}
+
+impl Row<'_> {
+    /// Its line, from 1; of a file without lines the number of the row.
+    pub(super) fn line(&self) -> usize {
+        match self {
+            Self::Text(row) => row.line,
+            Self::Sheet { row, .. } => row + 1,
+        }
+    }
+
+    /// The number in a column of that name.
+    pub(super) fn number(&self, index: usize, name: &str) -> Result<f64, RecordError> {
+        match self {
+            Self::Text(row) => row.number(index, name),
+            Self::Sheet { row, .. } => number::stored(self.stored(index), row + 1, name),
+        }
+    }
+
+    fn stored(&self, index: usize) -> Option<f64> {
+        match self {
+            Self::Text(_) => None,
+            Self::Sheet { columns, row } => columns.get(index)?.get(*row).copied().flatten(),
+        }
+    }
+
+    /// The cell as text, where the file is one.
+    pub(super) fn text(&self, index: usize) -> Option<&str> {
+        match self {
+            Self::Text(row) => Some(row.cell(index)),
+            Self::Sheet { .. } => None,
+        }
+    }
+
+    /// The cell for a message.
+    pub(super) fn shown(&self, index: usize) -> String {
+        match (self.text(index), self.stored(index)) {
+            (Some(text), _) => text.to_owned(),
+            (None, value) => value.map_or_else(String::new, |value| value.to_string()),
+        }
+    }
+}

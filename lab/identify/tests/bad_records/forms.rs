@@ -1,0 +1,332 @@
+//! Text as other programs write it: what is read, and what would be a guess.
+
+use super::{accepted, csv, refusal, refused, rows};
+use bowden_lab::record::{parse, Options, Record};
+
+/// The plain record with other separators and a decimal comma.
+fn comma(text: &str, separator: &str) -> String {
+    text.replace(',', separator).replace('.', ",")
+}
+
+fn same(bytes: impl AsRef<[u8]>, options: &Options, notes: &[&str]) -> Record {
+    let plain = accepted(csv("t,x,f", &rows()));
+    let record = parse(bytes.as_ref(), "r.csv", options).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(record.time, plain.time);
+    assert_eq!(record.input.values, plain.input.values);
+    assert_eq!(record.output.values, plain.output.values);
+    assert_eq!(record.notes, notes);
+    record
+}
+
+fn read(bytes: impl AsRef<[u8]>, notes: &[&str]) -> Record {
+    same(bytes, &Options::default(), notes)
+}
+
+#[test]
+fn a_decimal_comma_is_read_behind_semicolons_and_tabs() {
+    let plain = csv("t,x,f", &rows());
+    let note = "numbers have a decimal comma";
+    read(comma(&plain, ";"), &[note]);
+    read(comma(&plain, "\t"), &[note]);
+    // Integers say nothing of the sign.
+    read(plain.replace(',', ";").replace("0.00;", "0;"), &[]);
+    // Behind commas a comma separates.
+    refused(comma(&plain, ","), "r.csv:2: 6 cells, the header has 3");
+    refused(
+        comma(&plain, ";").replace("0,20;", "0.20;"),
+        "r.csv:22: column `t`: `0.20` has a decimal point, a decimal comma was expected as in line 2",
+    );
+    refused(
+        plain.replace(',', ";").replace("0.20;", "0,20;"),
+        "r.csv:22: column `t`: `0,20` has a decimal comma, a decimal point was expected",
+    );
+    let thousands = comma(&plain, ";").replace("0,20;", "1.000,20;");
+    refused(
+        thousands,
+        "r.csv:22: column `t`: `1.000,20` is not a number",
+    );
+}
+
+#[test]
+fn a_preamble_and_a_row_of_units_are_found() {
+    let values = rows().join("\n");
+    let preamble = "Prüfstand;3\nDatum;01.02.2026\nKanäle;3\n\nWeg x;Kraft f;Kommentar\n";
+    let german = |head: &str| format!("{head}{}\n", comma(&values, ";"));
+    let commas = "numbers have a decimal comma";
+    let record = read(
+        german(&format!("{preamble}t;x;f\ns;mm;N\n")),
+        &[
+            "lines 1–5 above the names passed over",
+            "units from line 7",
+            commas,
+        ],
+    );
+    assert_eq!(record.input.unit.as_deref(), Some("mm"));
+    assert_eq!(record.output.unit.as_deref(), Some("N"));
+    // A wider preamble than the table, names in brackets, a line between names and units.
+    read(
+        german("sep=;\na;b;c;d;e\n1;2\nt [s];x;f\nclock;pot;cell\n[s];(mm);[N]\n"),
+        &[
+            "lines 1–3 above the names passed over",
+            "units from line 6",
+            "line 5 between names and values passed over",
+            commas,
+        ],
+    );
+    read(format!("t,x,f\ns,mm,N\n{values}\n"), &["units from line 2"]);
+    read(format!("# t,x,f\n{values}\n"), &[]);
+    // What is not a unit is not taken for one.
+    refused(
+        format!("t,x,f\ns,mm,wide\n{values}\n"),
+        "r.csv:2: column `t`: `s` is not a number",
+    );
+}
+
+#[test]
+fn labelled_rows_of_a_trace_export_are_read() {
+    // Names, further rows and units, each with its label in the first column.
+    let values: Vec<_> = rows()
+        .iter()
+        .map(|row| format!(";{}", comma(row, ";")))
+        .collect();
+    let head = "type;experiment\ndate;01.02.2026 10:00\n\npath;a/t;a/x;a/f\nname;t;x;f\ntype;axis;signal;signal\nunit;s;mm;N\ntrace_values";
+    let record = read(
+        format!("{head}{}\n", values.join("\n")),
+        &[
+            "lines 1–4 above the names passed over",
+            "units from line 7",
+            "line 6 between names and values passed over",
+            "columns not read: `name`",
+            "numbers have a decimal comma",
+        ],
+    );
+    assert_eq!(record.input.unit.as_deref(), Some("mm"));
+}
+
+#[test]
+fn the_line_of_the_names_can_be_given() {
+    let text = format!("x,t,f\nold,old,old\nt,x,f\n{}", rows().join("\n"));
+    let at = |line: usize| Options {
+        header_line: Some(line),
+        ..Options::default()
+    };
+    same(&text, &at(3), &[]);
+    assert_eq!(
+        refusal(&text, &at(2)),
+        "r.csv:2: column `old`: named twice, as columns 1 and 2"
+    );
+    assert_eq!(
+        refusal(&text, &at(0)),
+        "r.csv: --header-line 0: lines count from 1"
+    );
+    assert_eq!(
+        refusal(&text, &at(404)),
+        "r.csv: --header-line 404: the text has 403 lines"
+    );
+    assert_eq!(
+        refusal(&text, &at(9)),
+        "r.csv:9: the line holds numbers, a header with column names was expected"
+    );
+}
+
+#[test]
+fn a_preamble_without_the_names_is_refused_at_the_line_that_should_have_them() {
+    refused(
+        format!("rig,3\nwhen,now\nt,x,force\n{}", rows().join("\n")),
+        "r.csv:3: column `f`: no such column among `t`, `x`, `force`; \
+         --output COL names another one",
+    );
+}
+
+#[test]
+fn text_below_and_empty_cells_beside_the_table_are_passed_over() {
+    let plain = csv("t,x,f", &rows());
+    let note = |lines: &str| format!("{lines} below the table passed over");
+    read(
+        format!("{plain}\nEnd of record\n"),
+        &[&note("lines 402–403")],
+    );
+    read(
+        format!("{plain}Samples,400,\nMean,,\n"),
+        &[&note("lines 402–403")],
+    );
+    let wide: Vec<_> = rows().iter().map(|row| format!("{row},,")).collect();
+    read(csv("t,x,f", &wide), &[]);
+    read(
+        csv("t,x,f,,", &wide),
+        &["columns not read: number 4 (without a name), number 5 (without a name)"],
+    );
+    read(
+        csv("t,x,f,,", &rows()),
+        &["columns not read: number 4 (without a name), number 5 (without a name)"],
+    );
+    read(format!("{plain},,\n,,\n"), &[]);
+    // A row that was cut short, a spoilt one, and values behind the text are no text.
+    refused(
+        format!("{plain}4.00,1\n"),
+        "r.csv:402: 2 cells, the header has 3",
+    );
+    refused(
+        format!("{plain}4.00,a,b\n"),
+        "r.csv:402: column `x`: `a` is not a number",
+    );
+    refused(
+        format!("{plain}End\n4.00,1,2\n"),
+        "r.csv:402: 1 cells, the header has 3",
+    );
+    refused(
+        format!("{plain}NaN,NaN,NaN\n"),
+        "r.csv:402: column `t`: `NaN` is not finite, a finite number was expected; \
+         --drop-bad leaves such rows out",
+    );
+}
+
+#[test]
+fn names_are_found_in_other_letters_and_with_their_units() {
+    let units = |header: &str| {
+        let record = read(csv(header, &rows()), &[]);
+        (record.input.unit, record.output.unit)
+    };
+    let of = |a: &str, b: &str| (Some(a.to_owned()), Some(b.to_owned()));
+    assert_eq!(units("t,X,F"), (None, None));
+    assert_eq!(units("t_s,x_mm,F_kip"), of("mm", "kip"));
+    assert_eq!(units("T [s],x_in,f (lbf)"), of("in", "lbf"));
+    assert_eq!(units("t,x / mm,f / kN"), of("mm", "kN"));
+    // Two that could be meant, or a temperature, are none.
+    refused(
+        csv("t,X_mm,x_m,f", &rows().iter().map(|r| format!("{r},1")).collect::<Vec<_>>()),
+        "r.csv:1: column `x`: no such column among `t`, `X_mm`, `x_m`, `f` (nearest: `x_m`, `X_mm`); \
+         --input COL names another one",
+    );
+    let line = refusal(csv("T,x,f", &rows()), &Options::default());
+    assert!(
+        line.starts_with("r.csv:1: column `t`: no such column"),
+        "{line}"
+    );
+}
+
+#[test]
+fn times_of_day_are_time_stamps() {
+    let stamped = |stamp: &dyn Fn(usize) -> String| super::with_time("t,x,f", stamp);
+    let plain = accepted(csv("t,x,f", &rows()));
+    let day = |i: usize| format!("23:59:{:02}.{:03}", 50 + i / 100, 10 * (i % 100));
+    for date in ["", "2026-02-28T", "28.02.2026 "] {
+        let record = accepted(stamped(&|i| format!("{date}{}", day(i))));
+        assert_eq!(record.notes, ["time stamps are times of day"]);
+        let apart = record
+            .time
+            .iter()
+            .zip(&plain.time)
+            .map(|(a, b)| (a - b).abs());
+        // Seconds of decades leave 1e-7 s of the 53 bits.
+        assert!(apart.fold(0.0, f64::max) < 3e-7, "{date}");
+    }
+    refused(
+        stamped(&|i| if i == 7 { "7".to_owned() } else { day(i) }),
+        "r.csv:9: column `t`: `7` is not a time of day as in the rows above",
+    );
+    let line = refusal(
+        stamped(&|i| day(i).replace("23:59:51", "00:00:01")),
+        &Options::default(),
+    );
+    assert!(line.contains("time runs backwards"), "{line}");
+}
+
+#[test]
+fn bad_rows_are_left_out_where_that_is_asked_for() {
+    let drop = Options {
+        drop_bad: true,
+        ..Options::default()
+    };
+    let mut spoilt = rows();
+    spoilt[20] = "0.20,,1".to_owned();
+    spoilt[21] = "0.21,NaN,1".to_owned();
+    spoilt[30] = "0.29,1,1".to_owned();
+    spoilt[40] = ",1,1".to_owned();
+    let text = csv("t,x,f", &spoilt);
+    let record = parse(text.as_bytes(), "r.csv", &drop).unwrap();
+    assert_eq!((record.samples(), record.dropped), (396, 4));
+    assert_eq!(
+        record.notes,
+        ["--drop-bad has left out 4 rows: 2 with an empty cell, 1 with NaN, 1 with the time stamp of the row before"]
+    );
+    assert!(!record.time.contains(&0.20) && record.time.contains(&0.22));
+    // Each is a gap, from a time column and from the row number.
+    let gaps = |options: &Options| {
+        let record = parse(text.as_bytes(), "r.csv", options).unwrap();
+        let own = record.defects.iter().find(|d| d.kind.name() == "gap");
+        own.map(|d| (d.channel.clone(), d.ranges.clone()))
+    };
+    let lines = vec![[21, 24], [31, 33], [41, 43]];
+    assert_eq!(gaps(&drop), Some(("t".to_owned(), lines)));
+    let rate = Options {
+        rate: Some(100.0),
+        ..drop.clone()
+    };
+    assert_eq!(gaps(&rate), Some(("row number".to_owned(), vec![[21, 24]])));
+    // Without it the first one is named.
+    refused(
+        &text,
+        "r.csv:22: column `x`: the cell is empty, a number was expected; --drop-bad leaves such rows out",
+    );
+    spoilt = rows();
+    spoilt[30] = "0.29,1,1".to_owned();
+    refused(
+        csv("t,x,f", &spoilt),
+        "r.csv:32: column `t`: time stands still at 0.29; --rate HZ takes time from the row number, \
+         --drop-bad leaves such rows out",
+    );
+    // Words and infinities stay refused, and what is left has to be enough.
+    spoilt[30] = "0.30,inf,1".to_owned();
+    assert_eq!(
+        refusal(csv("t,x,f", &spoilt), &drop),
+        "r.csv:32: column `x`: `inf` is not finite, a finite number was expected"
+    );
+    let empty: Vec<_> = rows().iter().map(|_| "0,,".to_owned()).collect();
+    assert_eq!(
+        refusal(csv("t,x,f", &empty), &drop),
+        "r.csv:401: too short: 0 samples of 400 are left after cutting and --drop-bad, at least 200 are needed"
+    );
+}
+
+#[test]
+fn a_channel_is_the_difference_or_the_sum_of_two() {
+    let rows: Vec<_> = rows().iter().map(|row| format!("{row},1.5,250")).collect();
+    let text = csv("t,tau_i,tau_o,a [rad],b [mrad]", &rows);
+    let of = |channels: &[(&str, &str)]| {
+        let options = Options {
+            channels: channels
+                .iter()
+                .map(|(name, column)| ((*name).to_owned(), (*column).to_owned()))
+                .collect(),
+            ..Options::default()
+        };
+        parse(text.as_bytes(), "r.csv", &options).map_err(|e| e.to_string())
+    };
+    let record = of(&[("stretch", "a-b"), ("phi_p", "a"), ("sum", "phi_p + b")]).unwrap();
+    let first = |name: &str| record.channel(name).map(|c| (c.values[0], c.unit.clone()));
+    let rad = Some("rad".to_owned());
+    // A milliradian is not a binary fraction.
+    let (stretch, sum) = (first("stretch").unwrap(), first("sum").unwrap());
+    assert!((stretch.0 - 1.25).abs() < 1e-12 && (sum.0 - 1.75).abs() < 1e-12);
+    assert_eq!((stretch.1, sum.1), (rad.clone(), rad));
+    let line = |column: &str| of(&[("stretch", column)]).unwrap_err();
+    assert_eq!(
+        line("a-t"),
+        "r.csv:1: column `t`: has no unit; unit rad was expected, as `a` has, to add or subtract them"
+    );
+    assert_eq!(
+        line("tau_i-tau_o"),
+        "r.csv:1: column `tau_o`: is the output, it cannot explain itself as channel `stretch`"
+    );
+    assert!(line("a-c").starts_with("r.csv:1: column `c`: no such column"));
+    assert!(line("q-a").starts_with("r.csv:1: column `q`: no such column"));
+    // A column of that very name comes first.
+    let text = text.replace("a [rad],b [mrad]", "a-b,b");
+    let options = Options {
+        channels: vec![("stretch".into(), "a-b".into())],
+        ..Options::default()
+    };
+    let record = parse(text.as_bytes(), "r.csv", &options).unwrap();
+    assert_eq!(record.channel("stretch").unwrap().values[0], 1.5);
+}
