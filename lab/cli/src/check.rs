@@ -1,6 +1,6 @@
 //! `bowden check`: does a model still hold on the next record?
 
-use super::reading::{Columns, ModeName};
+use super::reading::{file, Columns, ModeName};
 use super::Failure;
 use crate::view::{check_json, check_text};
 use bowden_lab::facts::{check, CheckQuestion, ModelOfFile};
@@ -15,8 +15,8 @@ pub struct Check {
     /// The model, a file of `close --model-out`.
     #[arg(value_name = "MODEL.toml")]
     model: PathBuf,
-    /// A record of the same rig that the model has not seen, as CSV with a header.
-    #[arg(value_name = "RECORD.csv")]
+    /// A record of the same rig that the model has not seen: CSV, .mat (v5) or Parquet.
+    #[arg(value_name = "RECORD")]
     record: PathBuf,
     #[command(flatten)]
     columns: Columns,
@@ -30,7 +30,8 @@ pub struct Check {
 }
 
 impl Check {
-    pub fn run(self) -> Result<(), Failure> {
+    pub fn run(mut self) -> Result<(), Failure> {
+        self.record = file(&self.record)?;
         let of_model = |message: String| format!("{}: {message}", self.model.display());
         let asked = self.columns.asked()?;
         let given = ModelOfFile::parse(&load(&self.model)?).map_err(of_model)?;

@@ -1,6 +1,6 @@
 //! `bowden close`: the main job.
 
-use super::reading::{progress, telling, Reading};
+use super::reading::{files, progress, telling, Reading};
 use super::Failure;
 use crate::view::{cost_line, json, text};
 use bowden_lab::facts::{close, Asked, Close as Question, Detail, Form, Handed, Meter, Record};
@@ -20,8 +20,9 @@ enum PerFile {
 
 #[derive(Args, Default)]
 pub struct Close {
-    /// CSV files with a header, several of one rig for one joint model; the embedded
-    /// record where none is given. Of three or more the last is held out as a whole.
+    /// Records: CSV, .mat (v5), Parquet, each also in gzip; several of one rig for one joint
+    /// model, or a pattern such as 'runs/*.csv'; the embedded record where none is given. Of
+    /// three or more the last is held out as a whole.
     #[arg(value_name = "RECORD")]
     records: Vec<PathBuf>,
     #[command(flatten)]
@@ -50,7 +51,8 @@ pub struct Close {
 }
 
 impl Close {
-    pub fn run(self) -> Result<(), Failure> {
+    pub fn run(mut self) -> Result<(), Failure> {
+        self.records = files(&self.records)?;
         let asked = self.reading.asked()?;
         if self.per_file.is_some() && self.records.len() < 2 {
             return Err("--per-file gains: more than one file was expected".to_owned());

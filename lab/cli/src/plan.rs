@@ -1,6 +1,6 @@
 //! `bowden plan`: the experiment that would tell what this record cannot.
 
-use super::reading::{progress, telling, Reading};
+use super::reading::{file, progress, telling, Reading};
 use super::Failure;
 use bowden_lab::facts::plan;
 use clap::Args;
@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub struct Plan {
-    /// A CSV file with a header.
+    /// A record: CSV, .mat (v5) or Parquet.
     record: PathBuf,
     #[command(flatten)]
     reading: Reading,
@@ -22,7 +22,7 @@ impl Plan {
         let asked = self.reading.asked()?;
         let bar = progress();
         bar.set_message("reading");
-        let record = asked.read(&self.record)?;
+        let record = asked.read(&file(&self.record)?)?;
         let planned = plan(&record, &asked, &telling(&bar))?;
         bar.finish_and_clear();
         let Some(planned) = planned else {

@@ -1,6 +1,6 @@
 //! `bowden power`: what would have been found on this record.
 
-use super::reading::{progress, telling, Reading};
+use super::reading::{file, progress, telling, Reading};
 use super::Failure;
 use crate::view::{power_json, power_text};
 use bowden_lab::facts::{power, PowerQuestion, TRIALS, TRIALS_RANGE};
@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub struct Power {
-    /// A CSV file with a header.
+    /// A record: CSV, .mat (v5) or Parquet.
     record: PathBuf,
     #[command(flatten)]
     reading: Reading,
@@ -37,7 +37,7 @@ impl Power {
         let asked = self.reading.asked()?;
         let bar = progress();
         bar.set_message("reading");
-        let record = asked.read(&self.record)?;
+        let record = asked.read(&file(&self.record)?)?;
         let question = PowerQuestion {
             effects: self.effects,
             trials: self.trials,

@@ -3,8 +3,10 @@
 use super::Failure;
 use bowden_lab::facts::{Asked, Mode, Options, MOST_NAMES};
 use clap::{Args, ValueEnum};
+use glob::{glob_with, MatchOptions};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal as _;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -132,6 +134,49 @@ impl Reading {
             budget: self.budget,
             ..self.columns.asked()?
         })
+    }
+}
+
+/// The files of arguments that may be patterns (`runs/*.csv`), where the shell has not put
+/// files in their place: those of a pattern by name. A file of that very name comes first.
+pub fn files(arguments: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+    let mut files = Vec::new();
+    for argument in arguments {
+        let text = argument.to_string_lossy();
+        if !text.contains(['*', '?', '[']) || argument.exists() {
+            files.push(argument.clone());
+            continue;
+        }
+        // As in a shell: `*` stays in its folder and shows no hidden files.
+        let shell = MatchOptions {
+            case_sensitive: true,
+            require_literal_separator: true,
+            require_literal_leading_dot: true,
+        };
+        let found = glob_with(&text, shell)
+            .map_err(|e| format!("{text}: is no pattern: {}", e.msg))?
+            .collect::<Result<Vec<_>, _>>()
+            .map_err(|e| format!("{}: {}", e.path().display(), e.error()))?;
+        let mut found: Vec<PathBuf> = found.into_iter().filter(|path| path.is_file()).collect();
+        if found.is_empty() {
+            return Err(format!("{text}: no file has such a name"));
+        }
+        found.sort();
+        files.extend(found);
+    }
+    Ok(files)
+}
+
+/// The one file of an argument that may be a pattern.
+pub fn file(argument: &Path) -> Result<PathBuf, Failure> {
+    let files = files(&[argument.to_owned()])?;
+    match <[PathBuf; 1]>::try_from(files) {
+        Ok([one]) => Ok(one),
+        Err(several) => Err(format!(
+            "{}: {} files have such a name, one was expected",
+            argument.display(),
+            several.len()
+        )),
     }
 }
 

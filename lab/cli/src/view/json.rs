@@ -24,6 +24,8 @@ struct Report<'a> {
     r#final: FinalPart<'a>,
     rejected: Vec<RejectedPart<'a>>,
     defects: &'a [Defect],
+    /// Remarks on how the record was read.
+    notes: &'a [String],
     unneeded: &'a [Unneeded],
     unknown: Option<UnknownPart<'a>>,
     noise_floor: f64,
@@ -49,6 +51,8 @@ struct Report<'a> {
 struct RecordPart<'a> {
     path: &'a str,
     samples: usize,
+    /// Rows that `--drop-bad` has left out.
+    dropped: usize,
     rate_hz: f64,
     mode: &'static str,
     cutoff_hz: f64,
@@ -143,12 +147,13 @@ impl<'a> RecordPart<'a> {
     fn new(
         facts: &'a Facts,
         path: &'a str,
-        (samples, rate_hz): (usize, f64),
+        (samples, dropped, rate_hz): (usize, usize, f64),
         held_out: Option<HeldOutOf>,
     ) -> Self {
         Self {
             path,
             samples,
+            dropped,
             rate_hz,
             mode: facts.record.mode.name(),
             cutoff_hz: facts.record.cutoff,
@@ -158,14 +163,22 @@ impl<'a> RecordPart<'a> {
     }
 
     fn of_all(facts: &'a Facts) -> Self {
-        let size = (facts.record.samples, facts.record.rate);
+        let dropped = facts.record.files.iter().map(|f| f.dropped).sum();
+        let size = (facts.record.samples, dropped, facts.record.rate);
         Self::new(facts, &facts.label, size, None)
     }
 
     fn of_each(facts: &'a Facts) -> Vec<Self> {
         let files = facts.record.files.iter();
         files
-            .map(|f| Self::new(facts, &f.path, (f.samples, f.rate), Some(f.held_out)))
+            .map(|f| {
+                Self::new(
+                    facts,
+                    &f.path,
+                    (f.samples, f.dropped, f.rate),
+                    Some(f.held_out),
+                )
+            })
             .collect()
     }
 }
@@ -276,6 +289,7 @@ pub fn json(facts: &Facts, cost: Option<&CostFacts>) -> Result<String, serde_jso
         r#final: FinalPart::new(&facts.last, HandOverPart::new(&facts.hand_over)),
         rejected: facts.rejected.iter().map(RejectedPart::from).collect(),
         defects: &facts.record.defects,
+        notes: &facts.record.notes,
         unneeded: &facts.unneeded,
         unknown: facts.unknown.as_ref().map(UnknownPart::new),
         noise_floor: facts.record.noise_floor,

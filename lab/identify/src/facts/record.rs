@@ -43,6 +43,8 @@ pub struct FileFacts {
     pub path: String,
     /// Its samples.
     pub samples: usize,
+    /// Rows that were left out because of what they hold, as asked.
+    pub dropped: usize,
     /// Its own sampling rate \[Hz\].
     pub rate: f64,
     /// The held-out part.
@@ -98,6 +100,7 @@ fn file(data: &Prepared, piece: &Piece) -> FileFacts {
     FileFacts {
         path: piece.path.clone(),
         samples: piece.samples,
+        dropped: piece.dropped,
         rate: piece.rate,
         held_out: match (piece.fitted, whole) {
             (false, _) => HeldOutOf::Whole,

@@ -314,6 +314,7 @@ impl Collected {
         self.pieces.push(Piece {
             path: record.path.clone(),
             samples: record.time.len(),
+            dropped: record.dropped,
             rate: nine_digits(rate),
             work: work..end,
             rows: row..row + placed.raw.len(),

@@ -125,6 +125,8 @@ pub struct Piece {
     pub path: String,
     /// Samples after cutting.
     pub samples: usize,
+    /// Rows that were left out because of what they hold.
+    pub dropped: usize,
     /// Its own rate \[Hz\], after making time uniform.
     pub rate: f64,
     /// Its samples on the work grid.

@@ -1,0 +1,208 @@
+//! Every form of one record gives the same answer.
+
+use crate::record::{csv, foreign, german, gzip, latin_1, rows, utf_16, values, Folder, NAMES};
+use crate::shell::{said, without_seconds};
+use bowden_lab::facts::{Asked, Options, Record};
+use std::path::Path;
+
+/// The JSON of `close` but for seconds, path and notes, and the notes.
+fn closed(path: &str, options: &[&str]) -> (String, String) {
+    let json = said(&[&["close", path, "--json"], options].concat());
+    let json = without_seconds(json.as_bytes()).replace(&format!("{path:?}"), "PATH");
+    let (before, rest) = json.split_once("\"notes\":[").unwrap();
+    let (notes, after) = rest.split_once(']').unwrap();
+    (format!("{before}{after}"), notes.to_owned())
+}
+
+#[test]
+fn every_form_gives_the_same_answer_to_the_byte() {
+    let folder = Folder::new();
+    let plain = closed(&folder.file("plain.csv", csv()), &[]);
+    assert!(plain.0.contains("\"verdict\":") && plain.1.is_empty());
+    let packed = gzip(csv().as_bytes());
+    for (path, note) in [
+        (folder.file("excel.csv", latin_1(&german())), "Windows-1252"),
+        (folder.file("excel.txt", utf_16(&german())), "UTF-16LE"),
+        (
+            folder.file("utf_8.csv", format!("\u{feff}{}", german())),
+            "decimal comma",
+        ),
+        (folder.file("utf_16.csv", utf_16(&csv())), "UTF-16LE"),
+        (folder.file("packed.csv.gz", packed), "unpacked from gzip"),
+        (foreign("vectors.mat").display().to_string(), ""),
+        (foreign("snappy.parquet").display().to_string(), ""),
+        (
+            folder.file(
+                "vectors.mat.gz",
+                gzip(&std::fs::read(foreign("vectors.mat")).unwrap()),
+            ),
+            "unpacked from gzip",
+        ),
+    ] {
+        let (answer, notes) = closed(&path, &[]);
+        assert!(answer == plain.0, "{path}: {answer}\n{}", plain.0);
+        assert!(notes.contains(note), "{path}: {notes}");
+    }
+}
+
+#[test]
+fn a_spreadsheet_says_what_was_done_to_it() {
+    let folder = Folder::new();
+    let path = folder.file("excel.csv", latin_1(&german()));
+    let text = said(&["close", &path, "--rounds", "0"]);
+    for note in [
+        "the text is Windows-1252 (Latin-1)",
+        "lines 1–4 above the names passed over",
+        "units from line 6",
+        "numbers have a decimal comma",
+        "columns not read: `Öltemperatur`, `Prüfer`",
+        "lines 2567–2569 below the table passed over",
+    ] {
+        assert!(text.contains(note), "{note} is not in\n{text}");
+    }
+}
+
+#[test]
+fn rows_that_are_left_out_are_counted_in_the_ledger_and_in_the_json() {
+    let folder = Folder::new();
+    let mut lines: Vec<String> = csv().lines().map(str::to_owned).collect();
+    lines[700] = format!("{},NaN,1,1", 699.0 / 256.0);
+    lines[800] = format!("{},,1,1", 799.0 / 256.0);
+    lines[900] = lines[899].clone();
+    let path = folder.file("bad.csv", lines.join("\n"));
+    let text = said(&["close", &path, "--drop-bad", "--rounds", "0"]);
+    let note = "--drop-bad has left out 3 rows: 1 with an empty cell, 1 with NaN, 1 with the time stamp of the row before";
+    assert!(text.contains(note), "{text}");
+    let json = said(&["close", &path, "--drop-bad", "--rounds", "0", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["record"]["dropped"], 3);
+    assert_eq!(json["record"]["samples"], 2557);
+    assert_eq!(json["notes"][0], note);
+    assert_eq!(json["defects"][0]["kind"], "gap");
+}
+
+fn read(path: &Path, options: Options) -> Record {
+    let asked = Asked {
+        options,
+        ..Asked::default()
+    };
+    asked.read(path).unwrap()
+}
+
+#[test]
+fn each_shape_of_a_mat_file_and_each_compression_of_parquet_holds_the_same_columns() {
+    let own = &rows()[..240];
+    let column = |index: usize| own.iter().map(|row| row[index]).collect::<Vec<_>>();
+    for name in [
+        "structure.mat",
+        "cells.mat",
+        "letters.mat",
+        "trace.mat",
+        "none.parquet",
+        "gzip.parquet",
+        "lz4.parquet",
+    ] {
+        let record = read(&foreign(name), Options::default());
+        assert_eq!(record.time, column(0), "{name}");
+        assert_eq!(record.input.values, column(1), "{name}");
+        assert_eq!(record.output.values, column(2), "{name}");
+        assert_eq!(record.channel("load").unwrap().values, column(3), "{name}");
+        assert_eq!(record.output.unit.as_deref(), Some("N"), "{name}");
+    }
+    // Columns of a matrix without names, as MATLAB writes them.
+    let at = |index: usize| Some(format!("data(:,{index})"));
+    let options = Options {
+        mode: Some(bowden_lab::facts::Mode::Displacement),
+        time: at(1),
+        input: at(2),
+        output: at(3),
+        ..Options::default()
+    };
+    let record = read(&foreign("nameless.mat"), options);
+    assert_eq!(record.output.values, column(2));
+    // A field by its whole name.
+    let options = Options {
+        output: Some("run.f_N".into()),
+        channels: vec![("count".into(), "count".into())],
+        mode: Some(bowden_lab::facts::Mode::Displacement),
+        input: Some("x_mm".into()),
+        ..Options::default()
+    };
+    let record = read(&foreign("structure.mat"), options);
+    assert_eq!(record.output.values, column(2));
+    assert_eq!(record.channel("count").unwrap().values[239], 239.0);
+    // Points in time in µs, single precision, unsigned integers.
+    let record = read(&foreign("stamps.parquet"), Options::default());
+    let apart = record
+        .time
+        .iter()
+        .zip(column(0))
+        .map(|(a, b)| (a - b).abs());
+    // The file rounds to whole microseconds.
+    assert!(apart.fold(0.0, f64::max) <= 1e-6);
+    assert_eq!(record.input.values, column(1));
+    assert_eq!(record.channel("load").unwrap().values[239], 239.0);
+    // Nulls are empty cells.
+    let options = Options {
+        drop_bad: true,
+        ..Options::default()
+    };
+    let record = read(&foreign("null.parquet"), options);
+    assert_eq!((record.samples(), record.dropped), (239, 1));
+}
+
+#[test]
+fn a_pattern_stands_for_its_files_by_name() {
+    let folder = Folder::new();
+    for name in ["b.csv", "a.csv", "c.txt"] {
+        folder.file(name, csv());
+    }
+    let json = said(&["close", &folder.path("*.csv"), "--rounds", "0", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let path = |index: usize| json["records"][index]["path"].as_str().unwrap().to_owned();
+    assert_eq!(path(0), folder.path("a.csv"));
+    assert_eq!(path(1), folder.path("b.csv"));
+    assert!(json["records"][2].is_null());
+    // A file that has the very name is no pattern.
+    let own = folder.file("run[1].csv", csv());
+    said(&["close", &own, "--rounds", "0"]);
+}
+
+#[test]
+fn every_command_that_reads_a_record_reads_every_form_with_the_same_options() {
+    let folder = Folder::new();
+    let model = folder.path("model.toml");
+    let preamble = format!("a,b,c,d\n{}\n{}", NAMES.join(","), values(&rows(), ","));
+    let mut bad: Vec<String> = preamble
+        .lines()
+        .map(|line| line.replace("load_N", "load_in_mm"))
+        .collect();
+    bad[898] = "3.5,,1,1".to_owned();
+    let path = folder.file("r.csv.gz", gzip(bad.join("\n").as_bytes()));
+    let options = [
+        "--header-line",
+        "2",
+        "--drop-bad",
+        "--channel",
+        "stretch=x_mm-load_in_mm",
+    ];
+    let close = ["close", &path, "--rounds", "0", "--model-out", &model];
+    let text = said(&[&close[..], &options].concat());
+    assert!(text.contains("with stretch"), "{text}");
+    for command in [
+        &["check", &model, &path][..],
+        &["plan", &path, "--rounds", "0"],
+        &[
+            "power",
+            &path,
+            "--rounds",
+            "0",
+            "--trials",
+            "5",
+            "--effects",
+            "viscous",
+        ],
+    ] {
+        said(&[command, &options].concat());
+    }
+}
