@@ -7,8 +7,10 @@ The order of the numbers is that in which src/*.rs asks for them; what a byte me
 in src/numbers.rs. From here the fuzzer finds the rest.
 """
 
+import gzip
 import pathlib
 import struct
+import zlib
 
 
 def x(value):
@@ -65,7 +67,87 @@ def inverse():
     return b"\x00" + CABLE + numbers(*(r for r, _ in SAMPLES))
 
 
+# Records: the first byte is the options, see src/record.rs.
+ROWS = [(k / 64, (k * 7 % 32) / 8, (k * 5 % 32) / 4) for k in range(24)]
+
+
+def rows(separator=","):
+    return "".join(separator.join(map(str, row)) + "\n" for row in ROWS)
+
+
+def german():
+    text = "Prüfstand;3\n\nt;x;f;Öl °C\ns;mm;N;°C\n" + rows(";").replace(".", ",")
+    return text + ";;;\nEnde\n"
+
+
+def times_of_day():
+    return "t,x,f\n" + "".join(f"2026-03-01T23:59:{30 + t:06.3f}Z,{x},{f}\n" for t, x, f in ROWS)
+
+
+def bad_rows():
+    return "t,x,f,load\n" + rows().replace("\n", ",1\n") + "1,,1,1\n1,NaN,1,1\n1,1,1,1\n"
+
+
+def element(kind, data):
+    if len(data) <= 4:
+        return struct.pack("<HH", kind, len(data)) + data.ljust(4, b"\0")
+    return struct.pack("<II", kind, len(data)) + data + bytes(-len(data) % 8)
+
+
+def matrix(name, kind, dims, data):
+    flags = element(6, struct.pack("<II", kind, 0))
+    return element(14, flags + element(5, struct.pack("<II", *dims)) + element(1, name) + data)
+
+
+def doubles(name, values):
+    return matrix(name, 6, (len(values), 1), element(9, struct.pack(f"<{len(values)}d", *values)))
+
+
+def mat(*elements):
+    return b"MATLAB 5.0 MAT-file".ljust(124) + b"\0\1IM" + b"".join(elements)
+
+
+def columns(name=lambda n: n):
+    return [doubles(name(n), v) for n, v in zip([b"t", b"x", b"f"], zip(*ROWS))]
+
+
+def structure():
+    names = element(5, struct.pack("<I", 2)) + element(1, b"t\0x\0f\0")
+    return matrix(b"run", 2, (1, 1), names + b"".join(columns(lambda n: b"")))
+
+
+def named_matrix():
+    values = [v for column in zip(*ROWS) for v in column]
+    data = matrix(b"d", 6, (24, 3), element(2, bytes(int(v * 8) % 256 for v in values)))
+    texts = [matrix(b"", 4, (1, 1), element(16, n)) for n in (b"t", b"x", b"f")]
+    return mat(data, matrix(b"n", 1, (1, 3), b"".join(texts)))
+
+
+def packed(data):
+    return struct.pack("<II", 15, len(data)) + data
+
+
+RECORDS = {
+    "german_latin_1": b"\0" + german().encode("cp1252"),
+    "german_utf_16": b"\0" + german().encode("utf-16"),
+    "german_utf_16_be": b"\0" + german().encode("utf-16-be"),
+    "times_of_day": b"\0" + times_of_day().encode(),
+    "bad_rows": b"\x03" + bad_rows().encode(),
+    "difference": b"\x13" + bad_rows().encode(),
+    "header_line": b"\x07a,b\n" + bad_rows().encode(),
+    "gzip": b"\0" + gzip.compress(german().encode(), mtime=0),
+    "mat_vectors": b"\0" + mat(*columns()),
+    "mat_compressed": b"\0" + mat(*(packed(zlib.compress(c)) for c in columns())),
+    "mat_structure": b"\0" + mat(structure()),
+    "mat_matrix": b"\0" + named_matrix(),
+}
+
 here = pathlib.Path(__file__).parent
+for name, seed in RECORDS.items():
+    (here / "record" / name).write_bytes(seed)
+# As another writer writes it.
+parquet = here / "../../lab/cli/tests/reading/files/tiny.parquet"
+(here / "record" / "parquet").write_bytes(b"\0" + parquet.read_bytes())
 for make in (pid, adaptive, compensator, hysteresis, model, inverse):
     (here / make.__name__ / "start").write_bytes(make())
 (here / "model" / "play_in_series").write_bytes(play_in_series())

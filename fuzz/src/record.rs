@@ -26,14 +26,16 @@ pub fn check(data: &[u8]) {
         time: (choice & 4 != 0).then(|| "t".to_owned()),
         input: (choice & 8 != 0).then(|| "x".to_owned()),
         output: (choice & 8 != 0).then(|| "f".to_owned()),
-        channels: if choice & 16 != 0 {
-            vec![("load".to_owned(), "load".to_owned())]
-        } else {
-            Vec::new()
+        channels: match choice & 19 {
+            19 => vec![("stretch".to_owned(), "load-x".to_owned())],
+            own if own & 16 != 0 => vec![("load".to_owned(), "load".to_owned())],
+            _ => Vec::new(),
         },
         rate: (choice & 32 != 0).then_some(1000.0),
         until: (choice & 64 != 0).then_some(0.25),
-        ..Options::default()
+        skip: 0.0,
+        header_line: (choice & 7 == 7).then_some(2),
+        drop_bad: choice & 3 == 3,
     };
     match parse(&bytes, FILE, &options) {
         Ok(record) => {

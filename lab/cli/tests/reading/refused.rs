@@ -2,6 +2,7 @@
 
 use crate::record::{csv, foreign, gzip, Folder};
 use crate::shell::refused;
+use bowden_lab::facts::Asked;
 
 /// The line behind the file's name.
 fn line(path: &str, options: &[&str]) -> String {
@@ -56,6 +57,39 @@ fn a_damaged_file_is_refused() {
         let path = folder.file(name, &bytes[..bytes.len() / 2]);
         let line = line(&path, &[]);
         assert!(line.contains("damaged: "), "{name}: {line}");
+    }
+}
+
+#[test]
+fn no_damage_to_a_foreign_file_does_more_than_a_refusal() {
+    let asked = Asked::default();
+    let mut seed = 1_u64;
+    let mut draw = |below: usize| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (seed >> 33) as usize % below
+    };
+    for name in [
+        "structure.mat",
+        "cells.mat",
+        "trace.mat",
+        "gzip.parquet",
+        "null.parquet",
+    ] {
+        let whole = std::fs::read(foreign(name)).unwrap();
+        for _ in 0..200 {
+            let mut bytes = whole.clone();
+            for _ in 0..=draw(3) {
+                let at = draw(bytes.len());
+                bytes[at] = draw(256) as u8;
+            }
+            if draw(4) == 0 {
+                bytes.truncate(draw(bytes.len()));
+            }
+            if let Err(line) = asked.read_text(&bytes, name) {
+                assert!(line.starts_with(&format!("{name}:")), "{line}");
+                assert!(!line.contains(char::is_control), "{line}");
+            }
+        }
     }
 }
 

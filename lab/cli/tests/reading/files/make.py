@@ -83,4 +83,7 @@ stamps = pa.array((1_770_000_000_000_000 + t * 1e6).astype(np.int64), pa.timesta
 single = pa.array(x.astype(np.float32))
 table = pa.table([stamps, single, f, np.arange(240, dtype=np.uint32)], ["t", "x", "f", "load"])
 pq.write_table(table, FOLDER / "stamps.parquet", compression="gzip")
+# A seed of the fuzz target.
+few = pa.table([t[:9], nulls[95:104], f[:9].astype(np.float32)], ["t", "x", "f"])
+pq.write_table(few, FOLDER / "tiny.parquet", write_statistics=False, store_schema=False)
 pq.write_table(pa.table([["a", "b"]], ["who"]), FOLDER / "words.parquet")
