@@ -99,6 +99,7 @@ const LAYOUT: &[(&str, &[&str])] = &[
             "final",
             "rejected",
             "defects",
+            "notes",
             "unneeded",
             "unknown",
             "noise_floor",
@@ -115,7 +116,15 @@ const LAYOUT: &[(&str, &[&str])] = &[
     ),
     (
         "/record",
-        &["path", "samples", "rate_hz", "mode", "cutoff_hz", "blocks"],
+        &[
+            "path",
+            "samples",
+            "dropped",
+            "rate_hz",
+            "mode",
+            "cutoff_hz",
+            "blocks",
+        ],
     ),
     (
         "/declared",
