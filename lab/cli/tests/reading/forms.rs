@@ -200,7 +200,7 @@ fn every_command_that_reads_a_record_reads_every_form_with_the_same_options() {
             "--trials",
             "5",
             "--effects",
-            "viscous",
+            "offset",
         ],
     ] {
         said(&[command, &options].concat());
