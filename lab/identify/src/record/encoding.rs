@@ -112,7 +112,7 @@ fn narrow(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<&'static str>), RecordEr
         );
     }
     let control = |byte: &u8| matches!(byte, 0x01..=0x08 | 0x0e..=0x1f | 0x7f | 0x81 | 0x8d | 0x8f | 0x90 | 0x9d);
-    if let Some(at) = bytes.iter().position(|byte| control(byte)) {
+    if let Some(at) = bytes.iter().position(control) {
         return refuse(
             at,
             format!(
@@ -132,7 +132,8 @@ fn lines(text: Cow<'_, str>) -> Cow<'_, str> {
         let start = text.len() - text.trim_start_matches('\u{feff}').len();
         let mut end = text.trim_end_matches(['\n', '\r', ' ']).len();
         while let Some(last) = text[..end].rfind(['\n', '\r']) {
-            if text[last..end].trim_matches([';', ',', '\t', ' ', '\r', '\n']) != "" {
+            let separators = [';', ',', '\t', ' ', '\r', '\n'];
+            if !text[last..end].trim_matches(separators).is_empty() {
                 break;
             }
             end = text[..last].trim_end_matches(['\n', '\r', ' ']).len();

@@ -212,7 +212,7 @@ fn text_record(bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
     let table = layout::find(&decoded.text, options)?;
     let mut notes: Vec<String> = decoded.note.into_iter().collect();
     notes.extend(table.notes);
-    let rows = Source::Text(table.rows);
+    let rows = Source::Text(Box::new(table.rows));
     let mut record = record(&table.header, table.roles, rows, options)?;
     notes.append(&mut record.notes);
     record.notes = notes;

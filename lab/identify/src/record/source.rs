@@ -7,7 +7,7 @@ use super::text;
 
 /// The rows below the names, one after the other.
 pub(super) enum Source<'a> {
-    Text(text::Rows<'a>),
+    Text(Box<text::Rows<'a>>),
     Sheet(Sheet),
 }
 
@@ -55,7 +55,7 @@ impl Source<'_> {
         let Self::Text(rows) = self else {
             return None;
         };
-        let rest = rows.from_here();
+        let rest = rows.here();
         only_text(rest, rows.separator(), used).then(|| rest.split('\n').count())
     }
 

@@ -83,7 +83,7 @@ impl<'a> Rows<'a> {
     }
 
     /// The text from the row on that was read last.
-    pub(super) fn from_here(&self) -> &'a str {
+    pub(super) fn here(&self) -> &'a str {
         self.text.get(self.start..).unwrap_or_default()
     }
 
