@@ -167,6 +167,22 @@ pub(super) fn read(rows: &mut Rows<'_>) -> Result<Header, RecordError> {
     Ok(Header { line, columns })
 }
 
+/// Index of the column of that name, or the refusal that lists those that exist.
+pub(super) fn require(header: &Header, name: &str, hint: &str) -> Result<usize, RecordError> {
+    header.find(name).ok_or_else(|| missing(header, name, hint))
+}
+
+/// The refusal of a name that no column has.
+pub(super) fn missing(header: &Header, name: &str, hint: &str) -> RecordError {
+    let near = header.nearest(name);
+    let meant = match near.is_empty() {
+        true => String::new(),
+        false => format!(" (nearest: {})", near.join(", ")),
+    };
+    let message = format!("no such column among {}{meant}; {hint}", header.list());
+    RecordError::at(header.line, message).on(name)
+}
+
 fn twice(columns: &[Named], line: usize) -> Result<(), RecordError> {
     let mut seen = std::collections::HashMap::new();
     for (index, column) in columns

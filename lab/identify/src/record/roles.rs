@@ -1,7 +1,7 @@
 //! Which column plays which part.
 
 use super::error::{shown, RecordError, NAME_LENGTH};
-use super::header::Header;
+use super::header::{missing, require, Header};
 use super::series::{self, Series};
 use super::{units, Mode, Options};
 
@@ -49,7 +49,7 @@ pub(super) fn assign(header: &Header, options: &Options) -> Result<Roles, Record
     // A name that is not there says more than a mode that does not follow from it.
     for (name, option) in [(&options.input, "--input"), (&options.output, "--output")] {
         if let Some(name) = name {
-            find(header, name, &format!("{option} COL names another one"))?;
+            require(header, name, &format!("{option} COL names another one"))?;
         }
     }
     let mode = mode(header, options)?;
@@ -59,10 +59,10 @@ pub(super) fn assign(header: &Header, options: &Options) -> Result<Roles, Record
         None => Some(time(header, options)?),
     };
     let end = |given: &Option<String>, usual: &str, hint: &str| match given {
-        Some(name) => find(header, name, hint),
+        Some(name) => require(header, name, hint),
         None => match header.find_usual(usual) {
             Some(index) => Ok(index),
-            None => find(header, usual, hint),
+            None => require(header, usual, hint),
         },
     };
     let input = end(&options.input, input, "--input COL names another one")?;
@@ -110,7 +110,7 @@ fn time(header: &Header, options: &Options) -> Result<usize, RecordError> {
             || unit.is_some_and(|unit| unit.contains(':') || units::seconds(Some(unit)).is_some())
     };
     match &options.time {
-        Some(name) => find(header, name, hint),
+        Some(name) => require(header, name, hint),
         None => match header.find_usual("t").filter(usual) {
             Some(index) => Ok(index),
             None => Err(missing(header, "t", hint)),
@@ -170,20 +170,6 @@ fn mode(header: &Header, options: &Options) -> Result<Mode, RecordError> {
             Err(RecordError::at(header.line, message))
         }
     }
-}
-
-pub(super) fn find(header: &Header, name: &str, hint: &str) -> Result<usize, RecordError> {
-    header.find(name).ok_or_else(|| missing(header, name, hint))
-}
-
-fn missing(header: &Header, name: &str, hint: &str) -> RecordError {
-    let near = header.nearest(name);
-    let meant = match near.is_empty() {
-        true => String::new(),
-        false => format!(" (nearest: {})", near.join(", ")),
-    };
-    let message = format!("no such column among {}{meant}; {hint}", header.list());
-    RecordError::at(header.line, message).on(name)
 }
 
 fn channels(

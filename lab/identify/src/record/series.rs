@@ -2,8 +2,7 @@
 
 use super::agree::factor;
 use super::error::{shown, RecordError, NAME_LENGTH};
-use super::header::Header;
-use super::roles::find;
+use super::header::{require, Header};
 use super::Options;
 
 const HINT: &str = "--channel NAME=COL names another one";
@@ -107,9 +106,9 @@ pub(super) fn parse(header: &Header, options: &Options, text: &str) -> Result<Se
         ([one], _) => Ok(*one),
         ([], [(a, _, b)]) => {
             let missing = if column(a).is_none() { a } else { b };
-            find(header, missing, HINT).map(Series::Column)
+            require(header, missing, HINT).map(Series::Column)
         }
-        ([], _) => find(header, text, HINT).map(Series::Column),
+        ([], _) => require(header, text, HINT).map(Series::Column),
         _ => Err(RecordError::new(format!(
             "--channel NAME={}: can be read as several sums of two columns",
             shown(text, NAME_LENGTH)
