@@ -1,9 +1,11 @@
 //! `bowden check`: does a model still hold on the next record?
 
+use super::drawing::{provenance, Drawing};
 use super::reading::{file, Columns, ModeName};
 use super::Failure;
 use crate::view::{check_json, check_text};
-use bowden_lab::facts::{check, CheckQuestion, ModelOfFile};
+use bowden_lab::facts::{check, CheckQuestion, ModelOfFile, Source};
+use bowden_page::Check as Page;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -27,6 +29,8 @@ pub struct Check {
     /// offset, what each leaves, and what each part of the model adds.
     #[arg(long, value_name = "FILE.csv")]
     trace: Option<PathBuf>,
+    #[command(flatten)]
+    drawing: Drawing,
 }
 
 impl Check {
@@ -42,13 +46,19 @@ impl Check {
                 given.mode().name()
             )));
         }
+        let read: [&Path; 2] = [&self.model, &self.record];
         if let Some(path) = &self.trace {
-            let read: [&Path; 2] = [&self.model, &self.record];
             super::writable("--trace", path, &read)?;
         }
+        self.drawing.check(&read, &[self.trace.as_deref()])?;
         let question = CheckQuestion {
             asked,
             trace: self.trace.is_some(),
+            figures: self.drawing.is_wanted(),
+        };
+        let sources = match self.drawing.is_page() {
+            true => read.map(Source::of_file).into_iter().collect::<Result<_, _>>()?,
+            false => Vec::new(),
         };
         let checked = check(&given, &self.record, &question)?;
         if let (Some(path), Some(trace)) = (&self.trace, &checked.trace) {
@@ -56,6 +66,16 @@ impl Check {
         }
         let model = self.model.display().to_string();
         let (label, facts) = (&checked.label, &checked.facts);
+        if let Some(figures) = &checked.figures {
+            let page = Page {
+                model: &model,
+                record: label,
+                facts,
+                figures,
+            };
+            let from = provenance(sources);
+            self.drawing.write(figures, || page.page(&from))?;
+        }
         let report = match self.json {
             true => check_json(&model, label, facts).map_err(|e| e.to_string())?,
             false => check_text(&model, label, facts),

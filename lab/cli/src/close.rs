@@ -1,9 +1,14 @@
 //! `bowden close`: the main job.
 
-use super::reading::{files, progress, telling, Reading};
+use super::drawing::{provenance, Drawing};
+use super::progress::{progress, telling};
+use super::reading::{files, Reading};
 use super::Failure;
-use crate::view::{cost_line, json, text};
-use bowden_lab::facts::{close, Asked, Close as Question, Detail, Form, Handed, Meter, Record};
+use crate::view::{cost_line, json, loop_text, terminal_width, text};
+use bowden_lab::facts::{
+    close, Asked, Close as Question, Detail, Form, Handed, Meter, Record, Source,
+};
+use bowden_page::Close as Page;
 use bowden_synth::stored_csv;
 use clap::{Args, ValueEnum};
 use std::io::IsTerminal as _;
@@ -11,6 +16,9 @@ use std::path::{Path, PathBuf};
 
 /// Name of the embedded record: the command that writes the same one to a file.
 const EMBEDDED: &str = "(embedded: bowden generate --mode torque --effect viscous --seed 7)";
+
+/// Least width of a terminal in which the loop is drawn.
+const WIDE: u16 = 80;
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum PerFile {
@@ -43,6 +51,8 @@ pub struct Close {
     /// residual, and what each part of the final model adds.
     #[arg(long, value_name = "FILE.csv")]
     trace: Option<PathBuf>,
+    #[command(flatten)]
+    drawing: Drawing,
     /// Fit the model that is written within what a feed-forward can invert: sigma up to
     /// B/(2·kappa_eta·rho), no delay, no lag, no play in series. What was found and the
     /// verdict stay as they are.
@@ -62,13 +72,20 @@ impl Close {
         let bar = progress();
         bar.set_message("reading");
         let records = self.read(&asked)?;
+        let sources = match self.drawing.is_page() {
+            true => self.sources()?,
+            false => Vec::new(),
+        };
         let chosen_cutoff = asked.cutoff.is_some();
+        let wide = terminal_width().is_some_and(|width| width >= WIDE);
+        let draws_loop = !self.json && wide && std::io::stdout().is_terminal();
         let question = Question {
             asked,
             own_gains: self.per_file.is_some(),
             invertible: self.invertible,
             models: self.model_out.is_some(),
             trace: self.trace.is_some(),
+            figures: self.drawing.is_wanted() || draws_loop,
             detail: match self.json {
                 true => Detail::EachRound,
                 false => Detail::Ledger,
@@ -82,13 +99,26 @@ impl Close {
         if let (Some(path), Some(trace)) = (&self.trace, &closed.trace) {
             super::write_whole(path, trace.as_bytes())?;
         }
+        if let Some(figures) = &closed.figures {
+            let page = Page {
+                facts: &closed.facts,
+                figures,
+                models: &closed.models,
+            };
+            let from = || provenance(sources);
+            self.drawing.write(figures, || page.page(&from()))?;
+        }
         let report = match self.json {
             true => json(&closed.facts, Some(&closed.cost)).map_err(|e| e.to_string())?,
             false => text(&closed.facts, chosen_cutoff),
         };
         bar.finish_and_clear();
+        let drawn = closed.figures.as_ref().filter(|_| draws_loop);
+        if let Some(drawn) = drawn.and_then(|figures| loop_text(&figures.signals)) {
+            super::say(&drawn)?;
+        }
         super::say(report.trim_end())?;
-        // For whoever has watched the spinner; a file or a pipe gets the report alone.
+        // For whoever has watched the bar; a file or a pipe gets the report alone.
         if !self.json && std::io::stderr().is_terminal() {
             anstream::eprintln!("{}", cost_line(&closed.cost));
         }
@@ -109,7 +139,16 @@ impl Close {
         if let Some(path) = &self.trace {
             super::writable("--trace", path, &read)?;
         }
-        Ok(())
+        let others = [self.model_out.as_deref(), self.trace.as_deref()];
+        self.drawing.check(&read, &others)
+    }
+
+    /// What is read, with its hash.
+    fn sources(&self) -> Result<Vec<Source>, Failure> {
+        match self.records.is_empty() {
+            true => Ok(vec![Source::of_bytes(EMBEDDED, stored_csv().as_bytes())]),
+            false => self.records.iter().map(|p| Source::of_file(p)).collect(),
+        }
     }
 
     fn read(&self, asked: &Asked) -> Result<Vec<Record>, Failure> {

@@ -1,16 +1,18 @@
 //! The program `bowden`: its subcommands, one file each, and its views.
 //!
 //! A subcommand asks one question of [`bowden_lab::facts`] or [`bowden_trials::facts`] and
-//! hands the answer to a [`view`]. No fit runs and no figure is computed in this package.
+//! hands the answer to a [`view`] or to `bowden_page`. No fit runs and no figure is computed in this package.
 
 mod certify;
 mod check;
 mod close;
 mod compare;
+mod drawing;
 mod generate;
 mod help;
 mod plan;
 mod power;
+mod progress;
 mod reading;
 pub mod view;
 

@@ -1,6 +1,7 @@
 //! `bowden plan`: the experiment that would tell what this record cannot.
 
-use super::reading::{file, progress, telling, Reading};
+use super::progress::{progress, telling};
+use super::reading::{file, Reading};
 use super::Failure;
 use bowden_lab::facts::plan;
 use clap::Args;

@@ -1,6 +1,7 @@
 //! `bowden power`: what would have been found on this record.
 
-use super::reading::{file, progress, telling, Reading};
+use super::progress::{progress, telling};
+use super::reading::{file, Reading};
 use super::Failure;
 use crate::view::{power_json, power_text};
 use bowden_lab::facts::{power, PowerQuestion, TRIALS, TRIALS_RANGE};

@@ -4,10 +4,7 @@ use super::Failure;
 use bowden_lab::facts::{Asked, Mode, Options, MOST_NAMES};
 use clap::{Args, ValueEnum};
 use glob::{glob_with, MatchOptions};
-use indicatif::{ProgressBar, ProgressStyle};
-use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 #[derive(Clone, Copy, ValueEnum)]
 pub enum ModeName {
@@ -178,22 +175,4 @@ pub fn file(argument: &Path) -> Result<PathBuf, Failure> {
             several.len()
         )),
     }
-}
-
-/// Tells the spinner what is being done.
-pub fn telling(bar: &ProgressBar) -> impl Fn(&str) + Sync + '_ {
-    |what| bar.set_message(what.to_owned())
-}
-
-/// A spinner on a terminal, nothing elsewhere.
-pub fn progress() -> ProgressBar {
-    if !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::new_spinner();
-    if let Ok(style) = ProgressStyle::with_template("{spinner} {elapsed} {msg}") {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(Duration::from_millis(100));
-    bar
 }

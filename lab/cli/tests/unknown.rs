@@ -24,6 +24,7 @@ fn bump() -> Facts {
         invertible: false,
         models: false,
         trace: false,
+        figures: false,
         detail: Detail::EachRound,
         meter: Meter::start(),
     };

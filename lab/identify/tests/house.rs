@@ -24,9 +24,13 @@ const FLOORS: [&str; 13] = [
 ];
 
 /// What each package names of ours in its manifest, tests apart.
-const DEPENDENCIES: [(&str, &[&str]); 5] = [
-    ("cli", &["bowden-lab", "bowden-synth", "bowden-trials"]),
+const DEPENDENCIES: [(&str, &[&str]); 6] = [
+    (
+        "cli",
+        &["bowden-lab", "bowden-page", "bowden-synth", "bowden-trials"],
+    ),
     ("identify", &["bowden"]),
+    ("page", &["bowden-lab", "bowden-trials"]),
     ("rig", &["bowden"]),
     ("synth", &[]),
     ("trials", &["bowden", "bowden-lab", "bowden-rig"]),
@@ -212,9 +216,9 @@ fn named(crate_name: &str, own: &[String], text: &str) -> Vec<Vec<String>> {
 }
 
 #[test]
-fn the_program_shows_facts_and_computes_nothing() {
+fn the_program_and_its_pages_show_facts_and_compute_nothing() {
     let mut seen = 0;
-    for (own, text) in sources("cli") {
+    for (own, text) in sources("cli").into_iter().chain(sources("page")) {
         for crate_name in ["bowden_lab", "bowden_trials"] {
             for path in named(crate_name, &own, &text) {
                 seen += 1;

@@ -1,5 +1,6 @@
 //! Reports of a run: JSON for programs, tables for people.
 
+mod braille;
 pub mod certificates;
 mod check;
 pub mod compare;
@@ -15,8 +16,10 @@ mod terminal;
 pub mod terms;
 mod words;
 
+pub use braille::loop_text;
 pub use check::{check_json, check_text};
 pub use cost::cost_line;
 pub use json::json;
 pub use power::{power_json, power_text};
 pub use terminal::text;
+pub use words::terminal_width;

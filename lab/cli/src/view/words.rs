@@ -42,6 +42,12 @@ pub(super) fn table(header: &[&str], right: std::ops::Range<usize>) -> Table {
     table
 }
 
+/// Width of the terminal on stdout; `None` if it is none.
+#[must_use]
+pub fn terminal_width() -> Option<u16> {
+    Table::new().width()
+}
+
 /// " [N·m]"; empty if the record states no unit.
 pub(super) fn in_brackets(unit: Option<&str>) -> String {
     unit.map_or_else(String::new, |unit| format!(" [{unit}]"))

@@ -52,7 +52,7 @@ impl Line {
     }
 
     /// What it makes of a prediction.
-    pub(super) fn of(&self, prediction: &[f64]) -> Vec<f64> {
+    pub(crate) fn of(&self, prediction: &[f64]) -> Vec<f64> {
         let line = |p: &f64| self.gain.value * p + self.offset.value;
         prediction.iter().map(line).collect()
     }

@@ -6,6 +6,7 @@ mod excitation;
 pub mod final_fit;
 pub mod intervals;
 mod shares;
+pub mod signals;
 pub mod trace;
 pub mod unneeded;
 pub mod verdict;

@@ -13,10 +13,14 @@ use crate::ledger::Ledger;
 use crate::problem::Prepared;
 
 /// A column of numbers on the estimation grid.
-pub(crate) struct Column {
-    name: String,
-    unit: Option<String>,
-    values: Vec<f64>,
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Its name.
+    pub name: String,
+    /// Its unit, where the record states one.
+    pub unit: Option<String>,
+    /// One value for each sample.
+    pub values: Vec<f64>,
 }
 
 impl Column {

@@ -2,6 +2,7 @@
 
 use super::asked::Asked;
 use super::cost::{CostFacts, Meter, Stage};
+use super::figures::Figures;
 use super::ledger::{Detail, Facts};
 use crate::conclude::final_fit::FinalFit;
 use crate::conclude::trace::trace;
@@ -26,6 +27,8 @@ pub struct Close {
     pub models: bool,
     /// Whether the signals over time are requested.
     pub trace: bool,
+    /// Whether what a page draws is requested: [`Figures`], and the models if there are any.
+    pub figures: bool,
     /// Detail of each round.
     pub detail: Detail,
     /// The meter, started before the records were read.
@@ -38,10 +41,12 @@ pub struct Closed {
     /// What was found.
     pub facts: Facts,
     /// The models that are handed over: one, or one for each file with gains of its own; empty if
-    /// none was requested.
+    /// neither models nor figures were requested, or if there is none.
     pub models: Vec<Handed>,
     /// The signals over time as CSV, if requested.
     pub trace: Option<String>,
+    /// What a page draws, if requested.
+    pub figures: Option<Figures>,
     /// Cost of the run.
     pub cost: CostFacts,
 }
@@ -140,11 +145,15 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
         hand => hand,
     };
     let models = match &hand {
-        Ok(hand) if question.models => handed(&data, hand),
+        Ok(hand) if question.models || question.figures => handed(&data, hand),
         _ => Vec::new(),
     };
     let trace = match question.trace {
         true => Some(trace(&data, &ledger, &done)?),
+        false => None,
+    };
+    let figures = match question.figures {
+        true => Some(Figures::of_close(&data, &ledger, &done)?),
         false => None,
     };
     tell("looking for declared parts that are not needed");
@@ -153,6 +162,7 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
         facts: Facts::new(&label, &data, &ledger, &done, hand, question.detail),
         models,
         trace,
+        figures,
         cost: meter.read(),
     })
 }

@@ -8,6 +8,7 @@ mod asked;
 mod check;
 mod close;
 mod cost;
+mod figures;
 mod hand_over;
 mod ledger;
 mod model;
@@ -16,11 +17,13 @@ mod plan;
 mod power;
 mod record;
 mod round;
+mod source;
 
 pub use asked::Asked;
 pub use check::{check, CheckFacts, CheckQuestion, Checked, DependsOn, ModelOfFile};
 pub use close::{close, Close, Closed, Form, Handed};
 pub use cost::{CostFacts, Meter, StageSeconds};
+pub use figures::{BlockScores, Dependence, Figures};
 pub use hand_over::HandOverFacts;
 pub use ledger::{Detail, Facts, RejectedFacts, UnknownFacts};
 pub use model::{FinalFacts, GainsOfFile, ModelFacts};
@@ -29,12 +32,15 @@ pub use plan::{plan, Planned};
 pub use power::{power, PowerFacts, PowerRow, ShapeFacts};
 pub use record::{FileFacts, HeldOutOf, RecordFacts};
 pub use round::{RivalFacts, RoundFacts, RoundFit, RoundModel, Size};
+pub use source::Source;
 
 // The plain data of lower rooms that facts are made of.
 pub use crate::check::{Errors, Fitted, Line, Outside, Verdict as CheckVerdict, HOLDS, NOISE};
 pub use crate::conclude::by_file::{FileErrors, Worse};
 pub use crate::conclude::curve::Knot;
 pub use crate::conclude::intervals::{Parameter, Refusal};
+pub use crate::conclude::signals::{File, Part, Segment, Signals, Worst};
+pub use crate::conclude::trace::Column;
 pub use crate::conclude::unneeded::Unneeded;
 pub use crate::conclude::verdict::{percent, Verdict};
 pub use crate::export::invertible::{three_digits, FeedForward, Nearest};
@@ -45,6 +51,9 @@ pub use crate::foresight::power::{Answer, Question as PowerQuestion, SHARE, TRIA
 pub use crate::ledger::{Gate, Grade};
 pub use crate::problem::cost::Counts;
 pub use crate::record::{Defect, Mode, Options, Record};
+pub use crate::score::autocorrelation::Autocorrelation;
+pub use crate::score::binned::{Bin, Mean};
 pub use crate::score::blocks::BLOCKS;
+pub use crate::score::density::Spectrum;
 pub use crate::score::explains::Explained;
 pub use crate::search::{MOST_NAMES, RECURRENCES as HALVES};

@@ -6,7 +6,7 @@ use crate::conclude::intervals::{parameters, term_name, term_title, Parameter};
 use crate::conclude::verdict::raises;
 use crate::export::hand_over::handed_over;
 use crate::export::ModelFile;
-use crate::fit::Segments;
+use crate::fit::{Segments, Solution};
 use crate::foresight::plan::{separate, Experiment};
 use crate::ledger::{Grade, Ledger, Round};
 use crate::problem::Prepared;
@@ -115,6 +115,12 @@ impl RoundModel {
             nrmse: Segments::of(data, &handed.residual).normalised(data, &data.target),
         }
     }
+}
+
+/// The fitted model after each round, those that are not delivered after the others.
+pub(super) fn rounds_in_order(ledger: &Ledger) -> impl Iterator<Item = &Solution> {
+    let rounds = ledger.rounds.iter().chain(&ledger.beyond);
+    rounds.map(|round| &round.solution)
 }
 
 /// The models of all rounds, those that are not delivered after the others.

@@ -1,6 +1,9 @@
 //! Tests of a residual: blocks with their exact test, free curves, tones, whiteness, shares.
 
+pub mod autocorrelation;
+pub mod binned;
 pub mod blocks;
+pub mod density;
 pub mod dependences;
 pub mod explains;
 pub(crate) mod hats;

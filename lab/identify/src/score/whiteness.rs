@@ -25,13 +25,17 @@ pub(crate) fn is_white(data: &Prepared, solution: &Solution) -> bool {
 
 /// Correlation time of filtered white noise, in estimation samples.
 fn white_correlation(data: &Prepared) -> f64 {
+    // The autocorrelation of filtered white noise is that of the impulse response.
+    correlation_samples(&impulse_response(data)) / data.stride as f64
+}
+
+/// The filter's answer to one sample on the work grid.
+pub(super) fn impulse_response(data: &Prepared) -> Vec<f64> {
     let rate = 1.0 / data.dt;
     let reach = (8.0 * rate / data.cutoff).ceil() as usize;
     let mut impulse = vec![0.0; 2 * reach + 1];
     impulse[reach] = 1.0;
-    let response = ZeroPhase::new(data.cutoff, rate).apply(&impulse);
-    // The autocorrelation of filtered white noise is that of the impulse response.
-    correlation_samples(&response) / data.stride as f64
+    ZeroPhase::new(data.cutoff, rate).apply(&impulse)
 }
 
 /// Power at each frequency of the fit segment below the cut-off, with the filter's own

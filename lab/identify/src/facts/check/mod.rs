@@ -3,6 +3,7 @@
 mod sentence;
 
 use super::asked::Asked;
+use super::figures::Figures;
 use super::record::{channel_name, RecordFacts};
 use crate::check::{Check, Errors, Given, Line, Outside, Verdict};
 use crate::problem::Prepared;
@@ -83,6 +84,8 @@ pub struct CheckQuestion {
     pub asked: Asked,
     /// Whether the signals over time are requested.
     pub trace: bool,
+    /// Whether what a page draws is requested.
+    pub figures: bool,
 }
 
 /// The answer.
@@ -94,6 +97,8 @@ pub struct Checked {
     pub facts: CheckFacts,
     /// The signals over time as CSV, if requested.
     pub trace: Option<String>,
+    /// What a page draws, if requested.
+    pub figures: Option<Figures>,
 }
 
 impl ModelOfFile {
@@ -134,6 +139,10 @@ pub fn check(
     Ok(Checked {
         trace: match question.trace {
             true => Some(check.trace()?),
+            false => None,
+        },
+        figures: match question.figures {
+            true => Some(Figures::of_check(&check)?),
             false => None,
         },
         facts: CheckFacts::new(&check),

@@ -1,0 +1,124 @@
+//! What `close` and `check` draw: a page, or one figure.
+
+use super::Failure;
+use bowden_lab::facts::{Figures, Source};
+use bowden_page::{figure, Figure, Provenance};
+use clap::{Args, ValueEnum};
+use std::path::{Path, PathBuf};
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+pub enum FigureName {
+    /// The output over the input: measured and both models.
+    Loop,
+    /// What both models leave of the output, over time.
+    Residual,
+    /// The output over time: measured and both models.
+    Trace,
+    /// The size of each part of the model.
+    Shares,
+}
+
+#[derive(Args, Default)]
+pub struct Drawing {
+    /// Write what was found as one HTML page that loads nothing: the sentence, signals, loop,
+    /// residuals with intervals, tables, parameters, and how it was obtained.
+    #[arg(long, value_name = "FILE.html")]
+    report: Option<PathBuf>,
+    /// Write one figure as SVG; which one says --figure.
+    #[arg(long, value_name = "FILE.svg")]
+    plot: Option<PathBuf>,
+    /// The figure of --plot; the loop where it is not given.
+    #[arg(long, value_enum, requires = "plot", value_name = "FIGURE")]
+    figure: Option<FigureName>,
+}
+
+impl FigureName {
+    fn figure(self) -> Figure {
+        match self {
+            Self::Loop => Figure::Loop,
+            Self::Residual => Figure::Residual,
+            Self::Trace => Figure::Trace,
+            Self::Shares => Figure::Shares,
+        }
+    }
+}
+
+impl Drawing {
+    /// Whether anything is drawn.
+    pub fn is_wanted(&self) -> bool {
+        self.report.is_some() || self.plot.is_some()
+    }
+
+    /// Whether the page is wanted, which needs to know its sources.
+    pub fn is_page(&self) -> bool {
+        self.report.is_some()
+    }
+
+    /// Whether both files can be written, before anything is read.
+    pub fn check(&self, read: &[&Path], written: &[Option<&Path>]) -> Result<(), Failure> {
+        let report = self.report.as_deref();
+        for (option, path) in [("--report", report), ("--plot", self.plot.as_deref())] {
+            let Some(path) = path else { continue };
+            super::writable(option, path, read)?;
+            let before = (option == "--plot").then_some(report);
+            let mut others = written.iter().copied().chain(before).flatten();
+            if others.any(|other| other == path) {
+                return Err(format!(
+                    "{option} {}: another option writes this file, too",
+                    path.display()
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the page and the figure, or neither.
+    pub fn write(&self, figures: &Figures, page: impl FnOnce() -> String) -> Result<(), Failure> {
+        let mut files = Vec::new();
+        if let Some(path) = &self.report {
+            files.push((path.clone(), page().into_bytes()));
+        }
+        if let Some(path) = &self.plot {
+            let which = self.figure.map_or(Figure::Loop, FigureName::figure);
+            files.push((path.clone(), figure(figures, which).into_bytes()));
+        }
+        super::write_together(&files)
+    }
+}
+
+/// How a page was obtained: this program's command line and what it has read.
+pub fn provenance(sources: Vec<Source>) -> Provenance {
+    let mut command = "bowden".to_owned();
+    for argument in std::env::args_os().skip(1) {
+        command.push(' ');
+        command.push_str(&quoted(&argument.to_string_lossy()));
+    }
+    Provenance {
+        command,
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        sources,
+    }
+}
+
+/// An argument as a shell takes it back.
+fn quoted(argument: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_=.,:/@+%".contains(c);
+    match !argument.is_empty() && argument.chars().all(plain) {
+        true => argument.to_owned(),
+        false => format!("'{}'", argument.replace('\'', "'\\''")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quoted;
+
+    #[test]
+    fn arguments_are_quoted_where_a_shell_would_part_or_read_them() {
+        assert_eq!(quoted("--channel=phi_p=motor"), "--channel=phi_p=motor");
+        assert_eq!(quoted("a record.csv"), "'a record.csv'");
+        assert_eq!(quoted("it's"), "'it'\\''s'");
+        assert_eq!(quoted(""), "''");
+        assert_eq!(quoted("$HOME"), "'$HOME'");
+    }
+}

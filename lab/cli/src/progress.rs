@@ -1,0 +1,106 @@
+//! The progress bar on stderr: what is being done, its share of the whole, and a forecast.
+//!
+//! Nobody knows beforehand how many turns a search takes. The share of a message is the one that
+//! it has on the records of `examples/data`, and each further turn of the search is given a third
+//! of what is left of the search's own part: the bar never runs backwards and never waits at its
+//! end.
+
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::IsTerminal as _;
+use std::time::Duration;
+
+/// Length of the bar in its own steps.
+const STEPS: u64 = 1000;
+/// Where the search begins and ends.
+const SEARCH: [f64; 2] = [0.08, 0.80];
+
+/// Share of the work that is done when a step begins.
+fn share(step: &str) -> Option<f64> {
+    if let Some(rest) = step.strip_prefix("looking for what is missing, turn ") {
+        let turn: i32 = rest.split(',').next()?.parse().ok()?;
+        let [from, to] = SEARCH;
+        return Some(from + (to - from) * (1.0 - (2.0_f64 / 3.0).powi(turn - 1)));
+    }
+    if let Some(rest) = step.strip_prefix("planting: ") {
+        let mut numbers = rest.split(' ').filter_map(|word| word.parse::<f64>().ok());
+        return Some(numbers.next()? / numbers.next()?).filter(|share| share.is_finite());
+    }
+    Some(match step {
+        "reading" => 0.0,
+        "fitting the declared model" => 0.03,
+        "looking for what would do as well" => SEARCH[1],
+        "trying each file with gains of its own" => 0.86,
+        "fitting the final model" => 0.88,
+        "looking for effects that can be inverted" => 0.90,
+        "fitting what is handed over" => 0.93,
+        "looking for declared parts that are not needed" => 0.96,
+        _ => return None,
+    })
+}
+
+/// Tells the bar what is being done.
+pub fn telling(bar: &ProgressBar) -> impl Fn(&str) + Sync + '_ {
+    |what| {
+        bar.set_message(what.to_owned());
+        if let Some(share) = share(what) {
+            let at = (share.clamp(0.0, 1.0) * STEPS as f64) as u64;
+            bar.set_position(at.max(bar.position()));
+        }
+    }
+}
+
+/// A bar on a terminal, nothing elsewhere.
+pub fn progress() -> ProgressBar {
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(STEPS);
+    // Without colours, whatever the terminal: NO_COLOR has nothing to take away.
+    let template = "{elapsed} {bar:24} {percent} %, about {eta} left: {msg}";
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style.progress_chars("━╸─"));
+    }
+    bar.enable_steady_tick(Duration::from_millis(100));
+    bar
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_step_is_further_than_the_one_before_and_none_is_at_the_end() {
+        let turn = |k| format!("looking for what is missing, turn {k}, found so far: 2");
+        let mut steps = vec!["reading".to_owned(), "fitting the declared model".to_owned()];
+        steps.extend((1..30).map(turn));
+        steps.extend(
+            [
+                "looking for what would do as well",
+                "trying each file with gains of its own",
+                "fitting the final model",
+                "looking for effects that can be inverted",
+                "fitting what is handed over",
+                "looking for declared parts that are not needed",
+            ]
+            .map(str::to_owned),
+        );
+        let shares: Vec<f64> = steps.iter().map(|step| share(step).unwrap()).collect();
+        assert!(shares.windows(2).all(|w| w[0] < w[1]), "{shares:?}");
+        assert!(shares.iter().all(|s| (0.0..1.0).contains(s)));
+        assert_eq!(share("planting: 3 of 12 effects"), Some(0.25));
+        assert_eq!(share("planting: 0 of 0 effects"), None);
+        assert_eq!(share("something else"), None);
+    }
+
+    #[test]
+    fn a_step_that_is_not_known_leaves_the_bar_where_it_is() {
+        let bar = ProgressBar::hidden();
+        bar.set_length(STEPS);
+        let tell = telling(&bar);
+        tell("fitting the final model");
+        tell("something else");
+        tell("reading");
+        assert_eq!(bar.position(), 880);
+    }
+}

@@ -1,0 +1,170 @@
+//! The signals of a run on the estimation grid, as plain data: what a figure draws.
+
+use super::trace::{input, parts, Column};
+use crate::fit::Solution;
+use crate::problem::Prepared;
+use std::ops::Range;
+
+/// The segment that a sample belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Segment {
+    /// At an end or in a blind stretch: used by nothing.
+    Dropped,
+    /// Fitted; in a check, all that counts.
+    Fit,
+    /// The stop-check.
+    Stop,
+    /// Held out.
+    HeldOut,
+}
+
+/// One file on the common grid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct File {
+    /// Where it was read.
+    pub path: String,
+    /// Its samples.
+    pub rows: Range<usize>,
+    /// The sample at which the last model errs most.
+    pub worst: Option<Worst>,
+}
+
+/// The sample at which a model errs most.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Worst {
+    /// The sample.
+    pub row: usize,
+    /// Measured minus predicted there.
+    pub error: f64,
+    /// The samples around it: two periods of the input's highest tone to either side.
+    pub around: Range<usize>,
+}
+
+/// What one part of the last model adds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// The part over time.
+    pub signal: Column,
+    /// Its standard deviation over all samples that count, as a share of the output's.
+    pub share: f64,
+}
+
+/// All signals of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Signals {
+    /// The files, in their order.
+    pub files: Vec<File>,
+    /// Step of the grid \[s\].
+    pub step: f64,
+    /// The segment of each sample.
+    pub segments: Vec<Segment>,
+    /// The input through the filter.
+    pub input: Column,
+    /// The output through the filter.
+    pub measured: Column,
+    /// What the models predict: the declared one and the final one, or the model as it is and
+    /// with gain and offset.
+    pub models: [Column; 2],
+    /// What each leaves of the output.
+    pub residuals: [Vec<f64>; 2],
+    /// The parts of the model that [`parts`](super::trace) writes.
+    pub parts: Vec<Part>,
+}
+
+impl Signals {
+    /// The signals of two models on a record; `whole` is the one whose parts are given.
+    ///
+    /// # Errors
+    /// One sentence if the parts of the model cannot be computed.
+    pub fn of(
+        data: &Prepared,
+        models: [(&str, &[f64]); 2],
+        whole: &Solution,
+    ) -> Result<Self, String> {
+        let unit = data.output_unit.as_deref();
+        let mut segments = vec![Segment::Dropped; data.target.len()];
+        for (segment, rows) in [
+            (Segment::Fit, &data.split.fit),
+            (Segment::Stop, &data.split.stop),
+            (Segment::HeldOut, &data.split.held_out),
+        ] {
+            rows.iter().for_each(|&row| segments[row] = segment);
+        }
+        let residual = |prediction: &[f64]| -> Vec<f64> {
+            let pairs = data.target.iter().zip(prediction);
+            pairs.map(|(y, p)| y - p).collect()
+        };
+        let residuals = models.map(|(_, prediction)| residual(prediction));
+        let deviation = deviation(&segments, &data.target);
+        let part = |signal: Column| Part {
+            share: self::deviation(&segments, &signal.values) / deviation,
+            signal,
+        };
+        let last = &residuals[1];
+        let files = data.pieces.iter().map(|piece| File {
+            path: piece.path.clone(),
+            rows: piece.rows.clone(),
+            worst: worst(data, &segments, last, &piece.rows),
+        });
+        Ok(Self {
+            files: files.collect(),
+            step: data.stride as f64 * data.dt,
+            input: Column {
+                name: data.input.name.clone(),
+                ..input(data)
+            },
+            measured: Column::new(data.output_name.clone(), unit, data.target.clone()),
+            models: models.map(|(name, values)| Column::new(name, unit, values.to_vec())),
+            parts: parts(data, whole)?.into_iter().map(part).collect(),
+            residuals,
+            segments,
+        })
+    }
+
+    /// The samples that count, in ascending order.
+    #[must_use]
+    pub fn counting(&self) -> Vec<usize> {
+        let all = 0..self.segments.len();
+        all.filter(|&row| self.segments[row] != Segment::Dropped)
+            .collect()
+    }
+
+    /// Time of a sample since the start of its file \[s\].
+    #[must_use]
+    pub fn time(&self, row: usize) -> f64 {
+        let file = self.files.iter().find(|file| file.rows.contains(&row));
+        (row - file.map_or(0, |file| file.rows.start)) as f64 * self.step
+    }
+}
+
+/// Standard deviation over the samples that count.
+fn deviation(segments: &[Segment], signal: &[f64]) -> f64 {
+    let own = || {
+        let pairs = segments.iter().zip(signal);
+        pairs.filter(|(s, _)| **s != Segment::Dropped).map(|(_, v)| *v)
+    };
+    let n = own().count().max(1) as f64;
+    let mean = own().sum::<f64>() / n;
+    (own().map(|v| (v - mean).powi(2)).sum::<f64>() / n).sqrt()
+}
+
+/// Where a residual is largest, on the held-out samples of a file or, if it has none, on all.
+fn worst(
+    data: &Prepared,
+    segments: &[Segment],
+    residual: &[f64],
+    rows: &Range<usize>,
+) -> Option<Worst> {
+    let of = |wanted: &dyn Fn(Segment) -> bool| {
+        let own = rows.clone().filter(|&row| wanted(segments[row]));
+        own.max_by(|&a, &b| residual[a].abs().total_cmp(&residual[b].abs()))
+    };
+    let row = of(&|s| s == Segment::HeldOut).or_else(|| of(&|s| s != Segment::Dropped))?;
+    // The default cut-off is eight times the input's highest tone.
+    let reach = (16.0 / (data.cutoff * data.dt * data.stride as f64)).ceil() as usize;
+    Some(Worst {
+        row,
+        error: residual[row],
+        around: row.saturating_sub(reach).max(rows.start)..(row + reach + 1).min(rows.end),
+    })
+}

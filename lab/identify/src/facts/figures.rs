@@ -1,0 +1,135 @@
+//! What a page draws beyond the ledger: signals, and what the residuals say.
+
+use super::round::rounds_in_order;
+use crate::check::Check;
+use crate::conclude::final_fit::FinalFit;
+use crate::conclude::signals::Signals;
+use crate::fit::Solution;
+use crate::ledger::Ledger;
+use crate::model::Variable;
+use crate::problem::Prepared;
+use crate::score::autocorrelation::Autocorrelation;
+use crate::score::binned::{binned, Bin};
+use crate::score::blocks::{blocks, BLOCKS};
+use crate::score::density::Spectrum;
+
+/// Maximum number of bins over a variable.
+const BINS: usize = 20;
+
+/// Everything that a page draws of a run; residuals come in pairs, before and after.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figures {
+    /// The signals over time.
+    pub signals: Signals,
+    /// The residuals over each variable that is measured or follows from what is measured.
+    pub over: Vec<Dependence>,
+    /// The residuals' autocorrelation over all samples that count.
+    pub autocorrelation: Autocorrelation,
+    /// The residuals' spectra on the fit segment.
+    pub spectrum: Spectrum,
+    /// What each round did on each block of the fit segment, those not delivered last.
+    pub blocks: Vec<BlockScores>,
+}
+
+/// Residuals over a variable.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dependence {
+    /// The variable in words.
+    pub words: String,
+    /// Its unit, where the record states it.
+    pub unit: Option<String>,
+    /// Bins in ascending order; the means of each are those before and after.
+    pub bins: Vec<Bin>,
+}
+
+/// What a round did on each block.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BlockScores {
+    /// Share of the block's squared error that the round removed; negative if it added to it.
+    pub removed: [f64; BLOCKS],
+}
+
+impl Figures {
+    /// What a page draws of a closed record.
+    ///
+    /// # Errors
+    /// One sentence if the parts of the final model cannot be computed.
+    pub fn of_close(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Result<Self, String> {
+        let (first, last) = (&ledger.declared, &done.solution);
+        let models = [
+            ("declared", first.prediction.as_slice()),
+            ("final", last.prediction.as_slice()),
+        ];
+        let mut figures = Self::new(data, models, last)?;
+        let mut before = first;
+        for after in rounds_in_order(ledger) {
+            figures.blocks.push(BlockScores {
+                removed: removed(data, before, after),
+            });
+            before = after;
+        }
+        Ok(figures)
+    }
+
+    /// What a page draws of a check.
+    ///
+    /// # Errors
+    /// One sentence if the parts of the model cannot be computed.
+    pub fn of_check(check: &Check) -> Result<Self, String> {
+        let moved = check.line.of(&check.model.prediction);
+        let models = [
+            ("model", check.model.prediction.as_slice()),
+            ("with gain and offset", moved.as_slice()),
+        ];
+        Self::new(&check.data, models, &check.model)
+    }
+
+    fn new(
+        data: &Prepared,
+        models: [(&str, &[f64]); 2],
+        whole: &Solution,
+    ) -> Result<Self, String> {
+        let signals = Signals::of(data, models, whole)?;
+        let rows = signals.counting();
+        let residuals = signals.residuals.each_ref().map(Vec::as_slice);
+        Ok(Self {
+            over: over(data, whole, &rows, residuals),
+            autocorrelation: Autocorrelation::of(data, &rows, &residuals),
+            spectrum: Spectrum::of(data, &residuals),
+            blocks: Vec::new(),
+            signals,
+        })
+    }
+}
+
+/// The residuals over all variables of the record.
+fn over(
+    data: &Prepared,
+    solution: &Solution,
+    rows: &[usize],
+    residuals: [&[f64]; 2],
+) -> Vec<Dependence> {
+    let residuals = residuals.map(|r| rows.iter().map(|&i| r[i]).collect::<Vec<f64>>());
+    let all = Variable::all(data, solution.structure.hysteresis);
+    let of = |variable: Variable| {
+        let values = variable.values(data, &solution.eta)?;
+        let values: Vec<f64> = rows.iter().map(|&i| values[i * data.stride]).collect();
+        Some(Dependence {
+            words: variable.words(data),
+            unit: variable.unit(data),
+            bins: binned(&values, &residuals, BINS),
+        })
+    };
+    all.into_iter().filter_map(of).collect()
+}
+
+/// Share of each block's squared error that the second model removes.
+fn removed(data: &Prepared, before: &Solution, after: &Solution) -> [f64; BLOCKS] {
+    let mut shares = [0.0; BLOCKS];
+    for (share, block) in shares.iter_mut().zip(blocks(data)) {
+        let rows = &data.split.fit[block];
+        let sse = |s: &Solution| rows.iter().map(|&i| s.residual[i].powi(2)).sum::<f64>();
+        *share = 1.0 - sse(after) / sse(before).max(f64::MIN_POSITIVE);
+    }
+    shares
+}

@@ -1,0 +1,210 @@
+//! The ledger: errors round by round, names, parts, and what was turned down.
+
+use super::signals::shares;
+use crate::chart::scale::Scale;
+use crate::chart::{Axis, Chart};
+use crate::document::{data, share_bar, table};
+use crate::words::{in_brackets, unit, value};
+use bowden_lab::facts::{
+    number, percent, Facts, Figures, Grade, Parameter, RoundFacts, Segments, Size, BLOCKS, HALVES,
+};
+use maud::{html, Markup};
+
+/// The remark on a coefficient whose interval contains zero.
+const SIZE_UNKNOWN: &str = "acts, size unknown";
+
+fn grade(grade: Grade) -> &'static str {
+    match grade {
+        Grade::Firm => "firm",
+        Grade::Weak => "weak",
+    }
+}
+
+/// The cells fit, stop, held out, and held out in noise floors.
+fn errors(facts: &Facts, rmse: &Segments) -> Markup {
+    let cell = |v: f64| data(v, &number(v, Some(0.05 * v)));
+    let floors = facts.record.floors(rmse.held_out);
+    html! {
+        td class="number" { (cell(rmse.fit)) }
+        td class="number" { (cell(rmse.stop)) }
+        td class="number" { (cell(rmse.held_out)) }
+        td class="number" { (floors.map_or_else(|| "–".to_owned(), |f| format!("{f:.1}"))) }
+    }
+}
+
+fn label(text: &str, facts: &Facts, rmse: &Segments) -> Markup {
+    html! { tr { th scope="row" { (text) } td {} td {} (errors(facts, rmse)) } }
+}
+
+fn round(k: usize, round: &RoundFacts, facts: &Facts) -> Markup {
+    let beyond = k >= facts.rounds.len();
+    let number = if beyond { format!("({})", k + 1) } else { format!("+{}", k + 1) };
+    html! { tr class=[beyond.then_some("beyond")] {
+        th scope="row" { (number) " " (round.title) @if round.raises_held_out { " ↑" } }
+        td { (grade(round.grade)) }
+        td class="number" {
+            (share_bar(round.explained))
+            (data(round.explained, &format!("{:.1} %", 100.0 * round.explained)))
+        }
+        (errors(facts, &round.after))
+    } }
+}
+
+fn all(facts: &Facts) -> impl Iterator<Item = (usize, &RoundFacts)> {
+    facts.rounds.iter().chain(&facts.beyond).enumerate()
+}
+
+/// The section on rounds, names and parts.
+pub(super) fn section(facts: &Facts, figures: &Figures) -> Markup {
+    let unit = facts.record.unit.as_deref();
+    let mut rows = vec![label("as declared", facts, &facts.declared.rmse)];
+    rows.extend(all(facts).map(|(k, one)| round(k, one, facts)));
+    if facts.last.refitted {
+        rows.push(label("refit on fit + stop", facts, &facts.last.rmse));
+    }
+    let caption = format!("Errors{}: root mean square of the filtered output's residual", in_brackets(unit));
+    let head = ["", "grade", "explains", "fit", "stop", "held out", "× floor"];
+    html! {
+        p { "Declared: " (facts.declared.effects.join(", ")) "." }
+        (table(&caption, &head, 2..7, &rows))
+        p class="note" {
+            "Explains: share of the squared error on the fit segment that the round removes. × floor: held-out error in multiples of the sensor's noise. Grade: how far the name can be trusted, not how large the effect is."
+            @if !facts.beyond.is_empty() { " In brackets: found, and not delivered." }
+            @if facts.rounds.iter().any(|r| r.raises_held_out) { " ↑: the round raises the held-out error." }
+        }
+        (names(facts))
+        (parts(figures))
+        (shares(&figures.signals, "shares").caption("The parts sum to the final model; opposite ones may each be larger than the whole.").figure())
+        (turned_down(facts))
+    }
+}
+
+fn names(facts: &Facts) -> Markup {
+    if facts.rounds.is_empty() {
+        return html! { p { "No effect was added." } };
+    }
+    let row = |round: &RoundFacts| {
+        let (size, own) = match &round.size {
+            Size::Gain(gain) if holds_zero(gain) => (html! { (SIZE_UNKNOWN) }, unit(gain)),
+            Size::Gain(gain) => (data(gain.value, &value(gain)), unit(gain)),
+            Size::Width(width) => (html! { "r = " (data(width.value, &value(width))) }, unit(width)),
+            Size::Gone => (html! { "–" }, String::new()),
+        };
+        html! { tr {
+            th scope="row" { (round.title) }
+            td class="number" { (size) }
+            td { (own) }
+            td { (grade(round.grade)) }
+            td class="number" { @if let Some(p) = round.p { (data(p, &format!("{p:.1e}"))) } @else { "–" } }
+            td class="number" { (round.recurs) " of " (HALVES) }
+            td class="number" { (round.blocks_better) " of " (BLOCKS) }
+        } }
+    };
+    let rows: Vec<Markup> = facts.rounds.iter().map(row).collect();
+    let head = ["effect", "coefficient (95 %)", "unit", "grade", "p", "recurs", "blocks better"];
+    html! {
+        (table("What was added, in the final model", &head, 1..2, &rows))
+        p class="note" {
+            "p: how often chance alone would do as well. Recurs: half-records in which the same search finds the effect again. Blocks better: stretches on which the effect helps."
+        }
+    }
+}
+
+fn holds_zero(parameter: &Parameter) -> bool {
+    parameter.ci95.is_some_and(|[low, high]| low <= 0.0 && high >= 0.0)
+}
+
+/// The parts of the final model with their size.
+pub(crate) fn parts(figures: &Figures) -> Markup {
+    let parts = &figures.signals.parts;
+    let largest = parts.iter().map(|p| p.share).fold(f64::MIN_POSITIVE, f64::max);
+    let rows: Vec<Markup> = parts
+        .iter()
+        .map(|part| html! { tr {
+            th scope="row" { (part.signal.name) }
+            td { (share_bar(part.share / largest)) (data(part.share, &percent(part.share))) }
+        } })
+        .collect();
+    table(
+        "What each part of the model adds: its standard deviation as a share of the output's",
+        &["part", "share"],
+        2..2,
+        &rows,
+    )
+}
+
+fn turned_down(facts: &Facts) -> Markup {
+    html! {
+        @if !facts.unneeded.is_empty() {
+            h3 { "Declared and not needed" }
+            ul { @for part in &facts.unneeded {
+                li { (part.effect) ": held out " (number(part.held_out_without, Some(0.01 * part.held_out_without)))
+                    " without it, " (number(facts.last.rmse.held_out, Some(0.01 * facts.last.rmse.held_out))) " with it" }
+            } }
+        }
+        @if !facts.rejected.is_empty() {
+            h3 { "Tried and turned down" }
+            ul { @for one in &facts.rejected { li { (one.title) ": " (one.gate.words()) } } }
+        }
+    }
+}
+
+/// What each round did on each block, and its rivals.
+pub(super) fn blocks(facts: &Facts, figures: &Figures) -> Markup {
+    html! {
+        @if figures.blocks.is_empty() {
+            p { "No effect was added, so there is nothing to compare block by block." }
+        } @else {
+            p {
+                "The fit segment in " (BLOCKS) " blocks of equal path. A bar is the share of the block's squared error "
+                "that the name removes; below zero it adds to it. An effect that is real helps almost everywhere."
+            }
+        }
+        div class="grid-of" {
+            @for ((k, round), scores) in all(facts).zip(&figures.blocks) {
+                (block_chart(k, round, &scores.removed).figure())
+            }
+        }
+        @for round in facts.rounds.iter().filter(|r| !r.rivals.is_empty()) {
+            p {
+                b { (round.title) } " cannot be told from "
+                @for (k, rival) in round.rivals.iter().enumerate() { @if k > 0 { ", " } b { (rival.title) } }
+                " on this record."
+                @if let Some(experiment) = &round.experiment { " To separate them: " (experiment.trajectory) }
+            }
+        }
+        @if !facts.rounds.is_empty() && facts.rounds.iter().all(|r| r.rivals.is_empty()) {
+            p { "No other effect of the catalogue does as well as any of these." }
+        }
+    }
+}
+
+fn block_chart(k: usize, round: &RoundFacts, removed: &[f64; BLOCKS]) -> Chart {
+    // A block that a round spoils would take up the axis.
+    let shown = removed.map(|share| 100.0 * share.max(-1.0));
+    let x = Axis {
+        label: "block".to_owned(),
+        scale: Scale::exactly(0.4, BLOCKS as f64 + 0.6),
+    };
+    let y = Axis {
+        label: "squared error removed [%]".to_owned(),
+        scale: Scale::linear(shown.into_iter().chain([0.0, 100.0])),
+    };
+    let better = removed.iter().filter(|s| **s > 0.0).count();
+    let description = format!("{} removes squared error on {better} of {BLOCKS} blocks.", round.title);
+    let rivals: Vec<&str> = round.rivals.iter().map(|r| r.title.as_str()).collect();
+    let caption = match rivals.is_empty() {
+        true => format!("{better} of {BLOCKS}; no rival"),
+        false => format!("{better} of {BLOCKS}; rivals: {}", rivals.join(", ")),
+    };
+    let points: Vec<[f64; 2]> = shown
+        .iter()
+        .enumerate()
+        .map(|(block, share)| [(block + 1) as f64, *share])
+        .collect();
+    Chart::new(&format!("blocks-{k}"), &round.title, &description, x, y)
+        .low()
+        .bars("bar", 0.7, &points)
+        .level("zero", 0.0)
+        .caption(&caption)
+}

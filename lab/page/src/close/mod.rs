@@ -1,0 +1,132 @@
+//! The page of `bowden close`: its sections in the order in which a reader asks.
+
+mod ledger;
+mod model;
+mod residual;
+mod signals;
+
+use crate::document::{data, page, Opening, Provenance, Section};
+use bowden_lab::facts::{percent, Facts, Figures, Handed, Verdict};
+use maud::{html, Markup};
+
+pub(crate) use ledger::parts;
+pub(crate) use residual::{noise_of, over_all};
+pub(crate) use signals::{
+    hysteresis_loop, loops_of_files, of_files, residual_over_time, shares, trace,
+};
+
+/// What the page shows.
+#[derive(Debug, Clone, Copy)]
+pub struct Close<'a> {
+    /// The ledger.
+    pub facts: &'a Facts,
+    /// Signals and what the residuals say.
+    pub figures: &'a Figures,
+    /// The models that can be handed over; empty if there is none.
+    pub models: &'a [Handed],
+}
+
+impl Close<'_> {
+    /// The page.
+    #[must_use]
+    pub fn page(&self, from: &Provenance) -> String {
+        let (facts, figures) = (self.facts, self.figures);
+        let mut sections = vec![
+            Section {
+                id: "signals",
+                title: "Measured, declared, final",
+                body: signals::section(facts, figures),
+            },
+            Section {
+                id: "loop",
+                title: "Hysteresis loop",
+                body: signals::loops(facts, figures),
+            },
+            Section {
+                id: "residual",
+                title: "What is left, over each variable",
+                body: residual::over_variables(facts, figures),
+            },
+            Section {
+                id: "ledger",
+                title: "Ledger",
+                body: ledger::section(facts, figures),
+            },
+            Section {
+                id: "blocks",
+                title: "Names and their rivals, block by block",
+                body: ledger::blocks(facts, figures),
+            },
+            Section {
+                id: "noise",
+                title: "Is the rest noise?",
+                body: residual::noise(facts, figures),
+            },
+        ];
+        if let Some(unknown) = &facts.unknown {
+            sections.push(Section {
+                id: "unknown",
+                title: "The unknown",
+                body: residual::unknown(facts, unknown),
+            });
+        }
+        sections.push(Section {
+            id: "parameters",
+            title: "Parameters",
+            body: model::section(facts, self.models),
+        });
+        let opening = Opening {
+            title: format!("bowden close: {}", facts.label),
+            verdict: Some((facts.verdict.name(), colour(facts.verdict))),
+            sentence: facts.sentence.clone(),
+            body: numbers(facts),
+        };
+        page(&opening, &sections, from)
+    }
+}
+
+fn colour(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Explained => "good",
+        Verdict::ExplainedColoured
+        | Verdict::Unknown
+        | Verdict::Confounded
+        | Verdict::Stopped
+        | Verdict::UnderExcited => "mid",
+        Verdict::NoModel | Verdict::DoesNotCarryOver | Verdict::DataDefect => "bad",
+    }
+}
+
+/// The error before and after.
+fn numbers(facts: &Facts) -> Markup {
+    let (before, after) = (&facts.declared.nrmse, &facts.last.nrmse);
+    let floors = facts.record.floors(facts.last.rmse.held_out);
+    let pair = |before: f64, after: f64| {
+        html! {
+            span class="was" { (data(before, &percent(before))) }
+            " → "
+            span class="is" { (data(after, &percent(after))) }
+        }
+    };
+    html! {
+        dl class="numbers" {
+            div id="held-out" {
+                dt { "Error on data that nothing has seen" }
+                dd { (pair(before.held_out, after.held_out)) }
+            }
+            div id="fitted" {
+                dt { "Error on the fitted data" }
+                dd { (pair(before.fit, after.fit)) }
+            }
+            @if let Some(floors) = floors {
+                div {
+                    dt { "What is left, in noise floors" }
+                    dd { (format!("{floors:.1}")) }
+                }
+            }
+        }
+        p class="note" {
+            "Declared model → final model. Errors are root mean squares of the filtered output's residual, as a share of that output's standard deviation."
+        }
+    }
+}
