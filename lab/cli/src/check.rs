@@ -57,7 +57,10 @@ impl Check {
             figures: self.drawing.is_wanted(),
         };
         let sources = match self.drawing.is_page() {
-            true => read.map(Source::of_file).into_iter().collect::<Result<_, _>>()?,
+            true => read
+                .map(Source::of_file)
+                .into_iter()
+                .collect::<Result<_, _>>()?,
             false => Vec::new(),
         };
         let checked = check(&given, &self.record, &question)?;

@@ -1,10 +1,13 @@
 //! `bowden compare`: controllers on the simulated rig.
 
+use super::drawing::provenance;
 use super::Failure;
 use crate::view::compare::{json, text, trace};
+use bowden_lab::facts::Source;
+use bowden_page::Compare as Page;
 use bowden_trials::facts::{compare, Question};
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub struct Compare {
@@ -31,6 +34,10 @@ pub struct Compare {
     /// Reference, torques, command and estimates over time of the first trial, as CSV.
     #[arg(long, value_name = "FILE.csv")]
     trace: Option<PathBuf>,
+    /// Write the comparison as one HTML page that loads nothing: tables, and reference, torques,
+    /// errors and estimates over time, with the conduit at rest and moved.
+    #[arg(long, value_name = "FILE.html")]
+    report: Option<PathBuf>,
     /// Print one JSON object on stdout instead of tables.
     #[arg(long)]
     json: bool,
@@ -39,15 +46,42 @@ pub struct Compare {
 impl Compare {
     pub fn run(self) -> Result<(), Failure> {
         self.check()?;
-        let compared = compare(&Question {
+        let read: Vec<&Path> = self.model.as_deref().into_iter().collect();
+        if let Some(path) = &self.report {
+            super::writable("--report", path, &read)?;
+        }
+        let sources: Vec<Source> = match self.report {
+            Some(_) => read
+                .into_iter()
+                .map(Source::of_file)
+                .collect::<Result<_, _>>()?,
+            None => Vec::new(),
+        };
+        let question = Question {
             setup: self.model.as_deref(),
             noise: self.noise,
             varying: self.varying,
             seconds: self.seconds,
             seeds: self.seeds,
             effect: self.effect.as_deref(),
-            traced: self.trace.is_some(),
-        })?;
+            traced: self.trace.is_some() || self.report.is_some(),
+        };
+        let compared = compare(&question)?;
+        if let Some(path) = &self.report {
+            let mut both = vec![compared.clone()];
+            // The paper has each law with the conduit at rest (Figure 7) and moved (Figure 8).
+            if self.effect.is_none() {
+                let varying = !compared.heading.varying;
+                let other = compare(&Question {
+                    varying,
+                    ..question
+                })?;
+                // A setup may move the conduit by itself.
+                both.extend((other.heading.varying == varying).then_some(other));
+            }
+            let page = Page { compared: &both };
+            super::write_whole(path, page.page(&provenance(sources)).as_bytes())?;
+        }
         if let Some(path) = &self.trace {
             super::write_whole(path, trace(&compared.traced()).as_bytes())?;
         }

@@ -72,7 +72,10 @@ mod tests {
     #[test]
     fn each_step_is_further_than_the_one_before_and_none_is_at_the_end() {
         let turn = |k| format!("looking for what is missing, turn {k}, found so far: 2");
-        let mut steps = vec!["reading".to_owned(), "fitting the declared model".to_owned()];
+        let mut steps = vec![
+            "reading".to_owned(),
+            "fitting the declared model".to_owned(),
+        ];
         steps.extend((1..30).map(turn));
         steps.extend(
             [

@@ -103,7 +103,10 @@ fn errors(facts: &CheckFacts) -> Markup {
         "with gain {} and offset {}{}",
         with_interval(line.gain.value, line.gain.ci95),
         with_interval(line.offset.value, line.offset.ci95),
-        record.unit.as_deref().map_or_else(String::new, |u| format!(" {u}"))
+        record
+            .unit
+            .as_deref()
+            .map_or_else(String::new, |u| format!(" {u}"))
     );
     let rows = [
         row("as it is".to_owned(), facts.rmse),

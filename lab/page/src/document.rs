@@ -43,7 +43,12 @@ pub(crate) fn data(value: f64, shown: &str) -> Markup {
 }
 
 /// A table in a region that scrolls by itself and by the keyboard.
-pub(crate) fn table(label: &str, head: &[&str], numbers: std::ops::Range<usize>, rows: &[Markup]) -> Markup {
+pub(crate) fn table(
+    label: &str,
+    head: &[&str],
+    numbers: std::ops::Range<usize>,
+    rows: &[Markup],
+) -> Markup {
     html! {
         div class="wide" role="region" aria-label=(label) tabindex="0" {
             table {
@@ -115,11 +120,13 @@ fn origin(from: &Provenance) -> Markup {
     let rows: Vec<Markup> = from
         .sources
         .iter()
-        .map(|source| html! { tr {
-            th scope="row" { (source.path) }
-            td class="number" { (source.bytes) }
-            td { code { (source.sha256) } }
-        } })
+        .map(|source| {
+            html! { tr {
+                th scope="row" { (source.path) }
+                td class="number" { (source.bytes) }
+                td { code { (source.sha256) } }
+            } }
+        })
         .collect();
     html! {
         section id="origin" aria-labelledby="origin-head" {

@@ -9,11 +9,13 @@
 mod chart;
 mod check;
 mod close;
+mod compare;
 mod document;
 mod words;
 
 pub use check::Check;
 pub use close::Close;
+pub use compare::Compare;
 pub use document::Provenance;
 
 use bowden_lab::facts::Figures;

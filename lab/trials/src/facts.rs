@@ -249,6 +249,15 @@ fn over_seeds(outcomes: &[Outcome]) -> Vec<OverSeeds> {
 }
 
 impl Compared {
+    /// What came out, in a sentence or two.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        match &self.results {
+            Results::Lineup(lineup) => best(&lineup.lines),
+            Results::Found(found) => first_gain(found),
+        }
+    }
+
     /// The lines whose first trial was traced: those of the first seed, named after what was
     /// fed forward where the loop was closed through the controllers.
     #[must_use]
@@ -271,4 +280,49 @@ impl Compared {
         });
         lines.collect()
     }
+}
+
+/// Who follows the reference best, and how far off a PI is.
+fn best(lines: &[Line]) -> String {
+    let good = lines
+        .iter()
+        .filter_map(|line| Some((line, line.mean_error()?)));
+    let Some((best, error)) = good.min_by(|a, b| a.1.total_cmp(&b.1)) else {
+        return "Every controller ran away.".to_owned();
+    };
+    let mut text = format!(
+        "Of {} controllers {} follows the reference best: its true error is {error:.4} N·m rms",
+        lines.len(),
+        best.controller
+    );
+    let pi = lines.iter().find(|line| line.controller == "pi");
+    if let Some(pi) = pi.and_then(Line::mean_error).filter(|pi| *pi > error) {
+        text.push_str(&format!(", that of the PI {pi:.4} N·m"));
+    }
+    text + "."
+}
+
+/// What the bench has found on the first seed, and what that gained the first controller.
+fn first_gain(found: &Found) -> String {
+    let Some(outcome) = found.outcomes.first() else {
+        return "No trial was run.".to_owned();
+    };
+    let names = match outcome.identified.names.is_empty() {
+        true => "nothing".to_owned(),
+        false => outcome.identified.names.join(", "),
+    };
+    let mut text = format!(
+        "The rig had {} that nobody declared; the bench found {names}.",
+        found.effect.name
+    );
+    let errors = outcome.pairs.first().and_then(|pair| {
+        let (before, after) = (pair.declared.mean_error()?, pair.found.mean_error()?);
+        Some((&pair.controller, before, after))
+    });
+    if let Some((controller, before, after)) = errors {
+        text.push_str(&format!(
+            " Fed forward, it takes the true error of {controller} from {before:.4} to {after:.4} N·m rms."
+        ));
+    }
+    text
 }

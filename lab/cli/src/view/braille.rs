@@ -101,7 +101,10 @@ mod tests {
         // The upper right dot is the eighth of its character's right column, the lower left is 7.
         assert_eq!(lines[1].chars().count(), SIZE[0] + 1);
         let last = lines[SIZE[1]].trim_start();
-        assert!(last.chars().next().is_some_and(|c| (c as u32 - 0x2800) & 0x40 != 0));
+        assert!(last
+            .chars()
+            .next()
+            .is_some_and(|c| (c as u32 - 0x2800) & 0x40 != 0));
         let dots: u32 = text
             .chars()
             .filter(|c| ('\u{2800}'..='\u{28ff}').contains(c))
@@ -115,6 +118,9 @@ mod tests {
     fn what_does_not_move_is_not_drawn() {
         assert_eq!(loop_text(&signals(vec![1.0; 9], vec![2.0; 9])), None);
         assert_eq!(loop_text(&signals(Vec::new(), Vec::new())), None);
-        assert_eq!(loop_text(&signals(vec![f64::NAN; 3], vec![1.0, 2.0, 3.0])), None);
+        assert_eq!(
+            loop_text(&signals(vec![f64::NAN; 3], vec![1.0, 2.0, 3.0])),
+            None
+        );
     }
 }

@@ -25,7 +25,7 @@ pub struct File {
     pub path: String,
     /// Its samples.
     pub rows: Range<usize>,
-    /// The sample at which the last model errs most.
+    /// The sample at which a model errs most.
     pub worst: Option<Worst>,
 }
 
@@ -34,9 +34,9 @@ pub struct File {
 pub struct Worst {
     /// The sample.
     pub row: usize,
-    /// Measured minus predicted there.
-    pub error: f64,
-    /// The samples around it: two periods of the input's highest tone to either side.
+    /// Measured minus predicted there, by each model.
+    pub errors: [f64; 2],
+    /// The samples around it: one period of the input's highest tone to either side.
     pub around: Range<usize>,
 }
 
@@ -100,11 +100,10 @@ impl Signals {
             share: self::deviation(&segments, &signal.values) / deviation,
             signal,
         };
-        let last = &residuals[1];
         let files = data.pieces.iter().map(|piece| File {
             path: piece.path.clone(),
             rows: piece.rows.clone(),
-            worst: worst(data, &segments, last, &piece.rows),
+            worst: worst(data, &segments, &residuals, &piece.rows),
         });
         Ok(Self {
             files: files.collect(),
@@ -141,7 +140,9 @@ impl Signals {
 fn deviation(segments: &[Segment], signal: &[f64]) -> f64 {
     let own = || {
         let pairs = segments.iter().zip(signal);
-        pairs.filter(|(s, _)| **s != Segment::Dropped).map(|(_, v)| *v)
+        pairs
+            .filter(|(s, _)| **s != Segment::Dropped)
+            .map(|(_, v)| *v)
     };
     let n = own().count().max(1) as f64;
     let mean = own().sum::<f64>() / n;
@@ -152,19 +153,20 @@ fn deviation(segments: &[Segment], signal: &[f64]) -> f64 {
 fn worst(
     data: &Prepared,
     segments: &[Segment],
-    residual: &[f64],
+    residuals: &[Vec<f64>; 2],
     rows: &Range<usize>,
 ) -> Option<Worst> {
+    let error = |row: usize| residuals[0][row].abs().max(residuals[1][row].abs());
     let of = |wanted: &dyn Fn(Segment) -> bool| {
         let own = rows.clone().filter(|&row| wanted(segments[row]));
-        own.max_by(|&a, &b| residual[a].abs().total_cmp(&residual[b].abs()))
+        own.max_by(|&a, &b| error(a).total_cmp(&error(b)))
     };
     let row = of(&|s| s == Segment::HeldOut).or_else(|| of(&|s| s != Segment::Dropped))?;
     // The default cut-off is eight times the input's highest tone.
-    let reach = (16.0 / (data.cutoff * data.dt * data.stride as f64)).ceil() as usize;
+    let reach = (8.0 / (data.cutoff * data.dt * data.stride as f64)).ceil() as usize;
     Some(Worst {
         row,
-        error: residual[row],
+        errors: residuals.each_ref().map(|r| r[row]),
         around: row.saturating_sub(reach).max(rows.start)..(row + reach + 1).min(rows.end),
     })
 }

@@ -84,11 +84,7 @@ impl Figures {
         Self::new(&check.data, models, &check.model)
     }
 
-    fn new(
-        data: &Prepared,
-        models: [(&str, &[f64]); 2],
-        whole: &Solution,
-    ) -> Result<Self, String> {
+    fn new(data: &Prepared, models: [(&str, &[f64]); 2], whole: &Solution) -> Result<Self, String> {
         let signals = Signals::of(data, models, whole)?;
         let rows = signals.counting();
         let residuals = signals.residuals.each_ref().map(Vec::as_slice);

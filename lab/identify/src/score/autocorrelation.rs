@@ -170,8 +170,13 @@ mod tests {
             let half = bartlett(&[1.0], LAGS);
             let band = Autocorrelation {
                 step: 1.0,
-                white: (0..=LAGS).map(|lag| f64::from(u8::from(lag == 0))).collect(),
-                half_width: half.iter().map(|v| QUANTILE * (v / n as f64).sqrt()).collect(),
+                white: (0..=LAGS)
+                    .map(|lag| f64::from(u8::from(lag == 0)))
+                    .collect(),
+                half_width: half
+                    .iter()
+                    .map(|v| QUANTILE * (v / n as f64).sqrt())
+                    .collect(),
                 residuals: Vec::new(),
             };
             outside += band.outside(&r) / 100.0;

@@ -136,7 +136,11 @@ mod tests {
     fn the_density_of_white_noise_is_twice_its_variance_times_the_step() {
         let data = record();
         let mut rng = ChaCha8Rng::seed_from_u64(2);
-        let noise: Vec<f64> = data.target.iter().map(|_| rng.random_range(-1.0..1.0)).collect();
+        let noise: Vec<f64> = data
+            .target
+            .iter()
+            .map(|_| rng.random_range(-1.0..1.0))
+            .collect();
         let density = density(&data, &noise);
         let mean = density[2..].iter().sum::<f64>() / (density.len() - 2) as f64;
         let expected = 2.0 / 3.0 * data.dt * data.stride as f64;
@@ -164,8 +168,12 @@ mod tests {
         let rest: Vec<f64> = data.target.iter().zip(rest).map(|(y, p)| y - p).collect();
         let spectrum = Spectrum::of(&data, &[&rest]);
         let inner = spectrum.frequency.iter().zip(&spectrum.residuals[0]);
-        let inner = inner.zip(&spectrum.floor).filter(|((f, _), _)| (1.0..9.0).contains(*f));
-        let (sums, count) = inner.fold((0.0, 0.0), |(s, n), ((_, r), f)| (s + (r / f).ln(), n + 1.0));
+        let inner = inner
+            .zip(&spectrum.floor)
+            .filter(|((f, _), _)| (1.0..9.0).contains(*f));
+        let (sums, count) = inner.fold((0.0, 0.0), |(s, n), ((_, r), f)| {
+            (s + (r / f).ln(), n + 1.0)
+        });
         let ratio = f64::exp(sums / count);
         // The floor is an estimate from the record's end of the spectrum.
         assert!((0.8..1.25).contains(&ratio), "{ratio}");

@@ -54,7 +54,11 @@ pub struct Chart {
 fn short(value: f64) -> String {
     let text = format!("{value:.1}");
     let text = text.strip_suffix(".0").map_or(text.clone(), str::to_owned);
-    if text == "-0" { "0".to_owned() } else { text }
+    if text == "-0" {
+        "0".to_owned()
+    } else {
+        text
+    }
 }
 
 /// A share of the area in per cent.
@@ -113,7 +117,12 @@ impl Chart {
                 path.push(if k == 0 { 'M' } else { 'L' });
                 // Beyond the area only the direction counts.
                 let y = (1.0 - y).clamp(-5.0, 6.0);
-                let _ = write!(path, "{} {}", short(AREA[0] * x.clamp(-5.0, 6.0)), short(AREA[1] * y));
+                let _ = write!(
+                    path,
+                    "{} {}",
+                    short(AREA[0] * x.clamp(-5.0, 6.0)),
+                    short(AREA[1] * y)
+                );
             }
             if closed {
                 path.push('Z');
@@ -132,9 +141,19 @@ impl Chart {
     /// A line through points with ascending x; of very many the extremes are kept.
     #[must_use]
     pub fn line(self, class: &str, points: impl IntoIterator<Item = [f64; 2]>) -> Self {
-        let points: Vec<[f64; 2]> = points.into_iter().filter_map(|p| self.place(p)).collect();
-        let line = thin::columns(&points, COLUMNS);
-        self.path(class, &[line], false)
+        self.lines(class, &[points.into_iter().collect()])
+    }
+
+    /// A line in several runs, one behind the other.
+    #[must_use]
+    pub fn lines(self, class: &str, runs: &[Vec<[f64; 2]>]) -> Self {
+        let columns = if self.is_low { COLUMNS / 2 } else { COLUMNS };
+        let run = |points: &Vec<[f64; 2]>| {
+            let points: Vec<[f64; 2]> = points.iter().filter_map(|p| self.place(*p)).collect();
+            thin::columns(&points, columns)
+        };
+        let lines: Vec<Vec<[f64; 2]>> = runs.iter().map(run).collect();
+        self.path(class, &lines, false)
     }
 
     /// A curve through points in any order; what repeats is drawn once.
@@ -298,15 +317,20 @@ impl Chart {
     #[must_use]
     pub fn file(&self) -> String {
         let id = &self.id;
-        let mut x = 70.0;
+        let (mut x, mut y) = (70.0, 46.0);
         let mut keys = Vec::new();
         for (class, label) in &self.keys {
+            let length = 54.0 + 7.5 * label.chars().count() as f64;
+            if x + length > 940.0 {
+                (x, y) = (70.0, y + 17.0);
+            }
             keys.push(html! {
-                line class=(class) x1=(x) x2=(x + 24.0) y1="46" y2="46" {}
-                text class="key" x=(x + 30.0) y="50" { (label) }
+                line class=(class) x1=(x) x2=(x + 24.0) y1=(y) y2=(y) {}
+                text class="key" x=(x + 30.0) y=(y + 4.0) { (label) }
             });
-            x += 54.0 + 7.5 * label.chars().count() as f64;
+            x += length;
         }
+        let below = y + 40.0;
         let drawn = html! {
             svg xmlns="http://www.w3.org/2000/svg" role="img" viewBox="0 0 960 520" width="960" height="520"
                 aria-labelledby={ (id) "-title " (id) "-desc" } {
@@ -316,9 +340,12 @@ impl Chart {
                 rect class="ground" width="960" height="520" {}
                 text class="title" x="22" y="26" { (self.title) }
                 @for key in &keys { (key) }
-                svg x="70" y="86" width="860" height="380" overflow="visible" { (self.inside()) }
+                svg x="70" y=(below) width="860" height=(466.0 - below) overflow="visible" { (self.inside()) }
             }
         };
-        format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{}\n", drawn.into_string())
+        format!(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{}\n",
+            drawn.into_string()
+        )
     }
 }

@@ -6,6 +6,7 @@ pub struct Scale {
     low: f64,
     high: f64,
     logarithmic: bool,
+    whole: bool,
 }
 
 /// A tick: its share of the axis and its label.
@@ -30,6 +31,18 @@ impl Scale {
             low: low - margin,
             high: high + margin,
             logarithmic: false,
+            whole: false,
+        }
+    }
+
+    /// A linear axis over the numbers from one to the last one, with whole ticks.
+    #[must_use]
+    pub fn counting(last: usize) -> Self {
+        Self {
+            low: 0.4,
+            high: last.max(1) as f64 + 0.6,
+            logarithmic: false,
+            whole: true,
         }
     }
 
@@ -41,6 +54,7 @@ impl Scale {
                 low,
                 high,
                 logarithmic: false,
+                whole: false,
             },
             false => Self::linear([low, high]),
         }
@@ -56,6 +70,7 @@ impl Scale {
             low: low - margin,
             high: high + margin,
             logarithmic: true,
+            whole: false,
         }
     }
 
@@ -81,7 +96,8 @@ impl Scale {
         if self.logarithmic {
             return self.few();
         }
-        let raw = span / about.max(1) as f64;
+        let least = if self.whole { 1.0 } else { 0.0 };
+        let raw = (span / about.max(1) as f64).max(least);
         let unit = 10.0_f64.powf(raw.log10().floor());
         let steps = [1.0, 2.0, 5.0, 10.0];
         let step = unit * steps.into_iter().find(|s| s * unit >= raw).unwrap_or(10.0);
@@ -161,13 +177,20 @@ mod tests {
         assert_eq!(labels(scale, 4), ["−1.0", "−0.5", "0", "0.5", "1.0"]);
         let at: Vec<f64> = scale.ticks(4).iter().map(|t| t.at).collect();
         assert_eq!(at, [0.0, 0.25, 0.5, 0.75, 1.0]);
-        assert_eq!(labels(Scale::exactly(0.0, 61.0), 4), ["0", "20", "40", "60"]);
+        assert_eq!(labels(Scale::counting(3), 8), ["1", "2", "3"]);
+        assert_eq!(
+            labels(Scale::exactly(0.0, 61.0), 4),
+            ["0", "20", "40", "60"]
+        );
         assert_eq!(labels(Scale::exactly(2e-6, 4e-6), 2)[0], "2e−6");
         assert_eq!(
             labels(Scale::logarithmic([0.1, 100.0]), 4),
             ["0.1", "1", "10", "100"]
         );
-        assert_eq!(labels(Scale::logarithmic([1.0, 6.0]), 4), ["1.0", "2.0", "5.0"]);
+        assert_eq!(
+            labels(Scale::logarithmic([1.0, 6.0]), 4),
+            ["1.0", "2.0", "5.0"]
+        );
     }
 
     #[test]

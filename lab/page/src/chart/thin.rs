@@ -85,7 +85,10 @@ mod tests {
         assert!(thin.len() <= 1802, "{}", thin.len());
         assert!(thin.contains(&points[123_456]) && thin.contains(&points[654_321]));
         assert!(thin.windows(2).all(|w| w[0][0] <= w[1][0]));
-        assert_eq!((thin[0], *thin.last().unwrap()), (points[0], points[999_999]));
+        assert_eq!(
+            (thin[0], *thin.last().unwrap()),
+            (points[0], points[999_999])
+        );
         assert_eq!(columns(&points[..50], 900), points[..50]);
     }
 
@@ -102,7 +105,12 @@ mod tests {
         assert!(count(50) <= count(1) + 20, "{} {}", count(50), count(1));
         // Whatever fills the plane is bounded.
         let wild: Vec<[f64; 2]> = (0..300_000)
-            .map(|i| [(f64::from(i) * 0.618_034).fract(), (f64::from(i) * 0.414_214).fract()])
+            .map(|i| {
+                [
+                    (f64::from(i) * 0.618_034).fract(),
+                    (f64::from(i) * 0.414_214).fract(),
+                ]
+            })
             .collect();
         assert!(cells(&wild, 4000).iter().map(Vec::len).sum::<usize>() <= 4000);
     }

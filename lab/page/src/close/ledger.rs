@@ -1,6 +1,5 @@
 //! The ledger: errors round by round, names, parts, and what was turned down.
 
-use super::signals::shares;
 use crate::chart::scale::Scale;
 use crate::chart::{Axis, Chart};
 use crate::document::{data, share_bar, table};
@@ -38,7 +37,11 @@ fn label(text: &str, facts: &Facts, rmse: &Segments) -> Markup {
 
 fn round(k: usize, round: &RoundFacts, facts: &Facts) -> Markup {
     let beyond = k >= facts.rounds.len();
-    let number = if beyond { format!("({})", k + 1) } else { format!("+{}", k + 1) };
+    let number = if beyond {
+        format!("({})", k + 1)
+    } else {
+        format!("+{}", k + 1)
+    };
     html! { tr class=[beyond.then_some("beyond")] {
         th scope="row" { (number) " " (round.title) @if round.raises_held_out { " ↑" } }
         td { (grade(round.grade)) }
@@ -62,8 +65,13 @@ pub(super) fn section(facts: &Facts, figures: &Figures) -> Markup {
     if facts.last.refitted {
         rows.push(label("refit on fit + stop", facts, &facts.last.rmse));
     }
-    let caption = format!("Errors{}: root mean square of the filtered output's residual", in_brackets(unit));
-    let head = ["", "grade", "explains", "fit", "stop", "held out", "× floor"];
+    let caption = format!(
+        "Errors{}: root mean square of the filtered output's residual",
+        in_brackets(unit)
+    );
+    let head = [
+        "", "grade", "explains", "fit", "stop", "held out", "× floor",
+    ];
     html! {
         p { "Declared: " (facts.declared.effects.join(", ")) "." }
         (table(&caption, &head, 2..7, &rows))
@@ -74,7 +82,7 @@ pub(super) fn section(facts: &Facts, figures: &Figures) -> Markup {
         }
         (names(facts))
         (parts(figures))
-        (shares(&figures.signals, "shares").caption("The parts sum to the final model; opposite ones may each be larger than the whole.").figure())
+        p class="note" { "The parts sum to the final model; opposite ones may each be larger than the whole." }
         (turned_down(facts))
     }
 }
@@ -87,7 +95,10 @@ fn names(facts: &Facts) -> Markup {
         let (size, own) = match &round.size {
             Size::Gain(gain) if holds_zero(gain) => (html! { (SIZE_UNKNOWN) }, unit(gain)),
             Size::Gain(gain) => (data(gain.value, &value(gain)), unit(gain)),
-            Size::Width(width) => (html! { "r = " (data(width.value, &value(width))) }, unit(width)),
+            Size::Width(width) => (
+                html! { "r = " (data(width.value, &value(width))) },
+                unit(width),
+            ),
             Size::Gone => (html! { "–" }, String::new()),
         };
         html! { tr {
@@ -101,7 +112,15 @@ fn names(facts: &Facts) -> Markup {
         } }
     };
     let rows: Vec<Markup> = facts.rounds.iter().map(row).collect();
-    let head = ["effect", "coefficient (95 %)", "unit", "grade", "p", "recurs", "blocks better"];
+    let head = [
+        "effect",
+        "coefficient (95 %)",
+        "unit",
+        "grade",
+        "p",
+        "recurs",
+        "blocks better",
+    ];
     html! {
         (table("What was added, in the final model", &head, 1..2, &rows))
         p class="note" {
@@ -111,19 +130,26 @@ fn names(facts: &Facts) -> Markup {
 }
 
 fn holds_zero(parameter: &Parameter) -> bool {
-    parameter.ci95.is_some_and(|[low, high]| low <= 0.0 && high >= 0.0)
+    parameter
+        .ci95
+        .is_some_and(|[low, high]| low <= 0.0 && high >= 0.0)
 }
 
 /// The parts of the final model with their size.
 pub(crate) fn parts(figures: &Figures) -> Markup {
     let parts = &figures.signals.parts;
-    let largest = parts.iter().map(|p| p.share).fold(f64::MIN_POSITIVE, f64::max);
+    let largest = parts
+        .iter()
+        .map(|p| p.share)
+        .fold(f64::MIN_POSITIVE, f64::max);
     let rows: Vec<Markup> = parts
         .iter()
-        .map(|part| html! { tr {
-            th scope="row" { (part.signal.name) }
-            td { (share_bar(part.share / largest)) (data(part.share, &percent(part.share))) }
-        } })
+        .map(|part| {
+            html! { tr {
+                th scope="row" { (part.signal.name) }
+                td { (share_bar(part.share / largest)) (data(part.share, &percent(part.share))) }
+            } }
+        })
         .collect();
     table(
         "What each part of the model adds: its standard deviation as a share of the output's",
@@ -184,14 +210,17 @@ fn block_chart(k: usize, round: &RoundFacts, removed: &[f64; BLOCKS]) -> Chart {
     let shown = removed.map(|share| 100.0 * share.max(-1.0));
     let x = Axis {
         label: "block".to_owned(),
-        scale: Scale::exactly(0.4, BLOCKS as f64 + 0.6),
+        scale: Scale::counting(BLOCKS),
     };
     let y = Axis {
         label: "squared error removed [%]".to_owned(),
         scale: Scale::linear(shown.into_iter().chain([0.0, 100.0])),
     };
     let better = removed.iter().filter(|s| **s > 0.0).count();
-    let description = format!("{} removes squared error on {better} of {BLOCKS} blocks.", round.title);
+    let description = format!(
+        "{} removes squared error on {better} of {BLOCKS} blocks.",
+        round.title
+    );
     let rivals: Vec<&str> = round.rivals.iter().map(|r| r.title.as_str()).collect();
     let caption = match rivals.is_empty() {
         true => format!("{better} of {BLOCKS}; no rival"),

@@ -19,7 +19,9 @@ pub(super) fn section(facts: &Facts, models: &[Handed]) -> Markup {
     };
     let rows: Vec<Markup> = last.parameters.iter().zip(&last.titles).map(row).collect();
     let texts = models.iter().map(|model| {
-        let text = model.file(Form::Toml).map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+        let text = model
+            .file(Form::Toml)
+            .map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
         text.unwrap_or_else(|because| format!("# {because}"))
     });
     let texts: Vec<String> = texts.collect();

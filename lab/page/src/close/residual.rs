@@ -38,9 +38,12 @@ fn over_one(one: &Dependence, k: usize, y: &Axis) -> Chart {
         scale: Scale::linear(one.bins.iter().map(|b| b.at)),
     };
     let ((before, all), (after, _)) = (off_zero(&one.bins, 0), off_zero(&one.bins, 1));
-    let caption = format!("{before} → {after} of {all} bins off zero");
+    let caption = match all {
+        0 => "means alone: each bin is one stretch of time".to_owned(),
+        _ => format!("{before} → {after} of {all} bins off zero"),
+    };
     let description = format!(
-        "Mean residual in bins over {}: {caption} at 95 %, before → after.",
+        "Mean residual in bins over {}, before → after at 95 %: {caption}.",
         one.words
     );
     Chart::new(&format!("over-{k}"), &one.words, &description, x, y.clone())
@@ -121,9 +124,15 @@ fn autocorrelation(figures: &Figures) -> Chart {
     };
     let lines = of.white.iter().zip(&of.half_width).enumerate();
     let band = lines.map(|(lag, (w, h))| [at(lag), w - h, w + h]);
-    let mut chart = Chart::new("autocorrelation", "Autocorrelation of the residual", &description, x, y)
-        .band("band", band)
-        .level("zero", 0.0);
+    let mut chart = Chart::new(
+        "autocorrelation",
+        "Autocorrelation of the residual",
+        &description,
+        x,
+        y,
+    )
+    .band("band", band)
+    .level("zero", 0.0);
     for (class, residual) in ["before", "final"].into_iter().zip(&of.residuals) {
         let points = residual.iter().enumerate();
         chart = chart.line(class, points.map(|(lag, r)| [at(lag), *r]));
@@ -132,7 +141,10 @@ fn autocorrelation(figures: &Figures) -> Chart {
         .key("before", &first.name)
         .key("final", &last.name)
         .key("band", "noise, 95 %")
-        .caption(&format!("Lags outside of the band: {}.", outside.join(" → ")))
+        .caption(&format!(
+            "Lags outside of the band: {}.",
+            outside.join(" → ")
+        ))
 }
 
 fn spectrum(figures: &Figures, unit: Option<&str>, cutoff: f64) -> Chart {
@@ -144,7 +156,12 @@ fn spectrum(figures: &Figures, unit: Option<&str>, cutoff: f64) -> Chart {
         let own = pairs.filter(|(f, _)| **f <= 1.1 * cutoff).map(|(_, v)| *v);
         own.collect::<Vec<f64>>()
     };
-    let seen: Vec<f64> = of.residuals.iter().chain([&of.floor]).flat_map(|v| inside(v)).collect();
+    let seen: Vec<f64> = of
+        .residuals
+        .iter()
+        .chain([&of.floor])
+        .flat_map(|v| inside(v))
+        .collect();
     let x = Axis {
         label: "frequency [Hz]".to_owned(),
         scale: Scale::logarithmic(of.frequency.iter().copied()),
@@ -198,12 +215,18 @@ pub(super) fn unknown(facts: &Facts, unknown: &UnknownFacts) -> Markup {
         let [low, high] = k.ci95?;
         Some([k.at, low, high])
     });
-    let chart = Chart::new("unknown-curve", "The unknown as a curve", &description, x, y)
-        .level("zero", 0.0)
-        .band("interval", band)
-        .line("final", knots.iter().map(|k| [k.at, k.value]))
-        .key("final", "curve")
-        .key("interval", "95 %");
+    let chart = Chart::new(
+        "unknown-curve",
+        "The unknown as a curve",
+        &description,
+        x,
+        y,
+    )
+    .level("zero", 0.0)
+    .band("interval", band)
+    .line("final", knots.iter().map(|k| [k.at, k.value]))
+    .key("final", "curve")
+    .key("interval", "95 %");
     html! {
         p {
             (unknown.sentence) " A free curve of it takes " (format!("{:.1}", 100.0 * unknown.share))

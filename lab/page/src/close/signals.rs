@@ -49,6 +49,17 @@ fn over_time<'a>(
     rows.map(move |row| [(row - start) as f64 * signals.step, values[row]])
 }
 
+/// The runs of samples that count.
+fn counting(signals: &Signals, file: &File) -> Vec<Range<usize>> {
+    let rows = file.rows.clone();
+    let rows: Vec<usize> = rows
+        .filter(|&r| signals.segments[r] != Segment::Dropped)
+        .collect();
+    let runs = rows.chunk_by(|a, b| a + 1 == *b);
+    runs.filter_map(|run| Some(*run.first()?..*run.last()? + 1))
+        .collect()
+}
+
 fn time_axis(signals: &Signals, file: &File, rows: &Range<usize>) -> Axis {
     let at = |row: usize| (row - file.rows.start) as f64 * signals.step;
     Axis {
@@ -104,21 +115,25 @@ pub(crate) fn trace(signals: &Signals, file: &File, id: &str) -> Chart {
 /// Both residuals over time.
 pub(crate) fn residual_over_time(signals: &Signals, file: &File, id: &str) -> Chart {
     let [first, last] = &signals.models;
-    let [before, after] = signals.residuals.each_ref().map(|r| &r[file.rows.clone()]);
     let unit = signals.measured.unit.as_deref();
-    let counting = file.rows.clone().filter(|&row| signals.segments[row] != Segment::Dropped);
-    let seen = counting.flat_map(|row| [signals.residuals[0][row], signals.residuals[1][row]]);
+    let seen = counting(signals, file).into_iter().flatten();
+    let seen = seen.flat_map(|row| [signals.residuals[0][row], signals.residuals[1][row]]);
     let y = Axis {
         label: quantity("residual", unit),
         scale: Scale::linear(seen),
     };
-    let largest = |r: &[f64]| r.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let largest = |of: usize| {
+        let rows = counting(signals, file).into_iter().flatten();
+        rows.fold(0.0_f64, |most, row| {
+            most.max(signals.residuals[of][row].abs())
+        })
+    };
     let description = format!(
         "What the {} and the {} model leave of the output over time; the largest values are {} and {}{}.",
         first.name,
         last.name,
-        number(largest(before), None),
-        number(largest(after), None),
+        number(largest(0), None),
+        number(largest(1), None),
         unit.map_or_else(String::new, |u| format!(" {u}"))
     );
     let chart = Chart::new(
@@ -129,12 +144,14 @@ pub(crate) fn residual_over_time(signals: &Signals, file: &File, id: &str) -> Ch
         y,
     );
     let points = |of: usize| {
-        over_time(signals, file, file.rows.clone(), &signals.residuals[of]).collect::<Vec<_>>()
+        let runs = counting(signals, file).into_iter();
+        let run = |rows| over_time(signals, file, rows, &signals.residuals[of]).collect();
+        runs.map(run).collect::<Vec<Vec<[f64; 2]>>>()
     };
     let mut chart = with_segments(chart, signals, file)
         .level("zero", 0.0)
-        .line("before", points(0))
-        .line("final", points(1))
+        .lines("before", &points(0))
+        .lines("final", &points(1))
         .key("before", &first.name)
         .key("final", &last.name);
     if let Some(worst) = &file.worst {
@@ -147,19 +164,20 @@ fn zoom(signals: &Signals, file: &File, id: &str) -> Option<Chart> {
     let worst = file.worst.as_ref()?;
     let unit = signals.measured.unit.as_deref();
     let at = number(signals.time(worst.row), Some(0.1));
-    let error = format!(
-        "{}{}",
-        number(worst.error, Some(0.05 * worst.error.abs())),
-        unit.map_or_else(String::new, |u| format!(" {u}"))
-    );
+    let [before, after] = worst
+        .errors
+        .map(|e| number(e, Some(0.05 * e.abs())).replace('-', "−"));
     let segment = match signals.segments[worst.row] {
         Segment::HeldOut => "held-out data",
         _ => "the record",
     };
     let title = "The worst spot";
+    let [first, last] = &signals.models;
     let description = format!(
-        "The {} model errs most at {at} s, by {error}, on {segment}.",
-        signals.models[1].name
+        "On {segment} a model errs most at {at} s: {} by {before}, {} by {after}{}.",
+        first.name,
+        last.name,
+        unit.map_or_else(String::new, |u| format!(" {u}"))
     );
     let chart = Chart::new(
         id,
@@ -255,7 +273,7 @@ pub(crate) fn shares(signals: &Signals, id: &str) -> Chart {
     let top = points.iter().map(|p| p[1]).chain([0.0, 1.0]);
     let x = Axis {
         label: "part".to_owned(),
-        scale: Scale::exactly(0.3, points.len() as f64 + 0.7),
+        scale: Scale::counting(points.len()),
     };
     let y = Axis {
         label: "share of the output's standard deviation [%]".to_owned(),
@@ -269,7 +287,9 @@ pub(crate) fn shares(signals: &Signals, id: &str) -> Chart {
     let chart = Chart::new(id, "What each part adds", &description, x, y)
         .bars("bar", 0.6, &points)
         .level("zero", 0.0);
-    names.iter().fold(chart, |chart, name| chart.key("bar", name))
+    names
+        .iter()
+        .fold(chart, |chart, name| chart.key("bar", name))
 }
 
 fn file_head(signals: &Signals, file: &File) -> Markup {
@@ -314,8 +334,8 @@ pub(crate) fn of_files(signals: &Signals) -> Markup {
 pub(super) fn loops(facts: &Facts, figures: &Figures) -> Markup {
     html! {
         p {
-            "A transmission without friction would be a line. The width of the loop is what "
-            "friction takes" (in_brackets(facts.record.unit.as_deref())) ", to and fro."
+            "Without hysteresis the output would be a function of the input, and the loop a line. Its width is what friction takes, to and fro"
+            (in_brackets(facts.record.unit.as_deref())) ". On the right: what the models leave of it."
         }
         (loops_of_files(&figures.signals))
     }

@@ -1,0 +1,56 @@
+//! The page of `check`.
+
+use crate::shell::said;
+use crate::{assert_sound, elements, example, parsed, sections, text, Folder};
+
+fn page(folder: &Folder, record: &str) -> (String, serde_json::Value) {
+    let (model, out) = (folder.path("model.toml"), folder.path("check.html"));
+    said(&["close", &example("straight.csv"), "--model-out", &model]);
+    let plot = folder.path("check.svg");
+    let printed = said(&[
+        "check",
+        &model,
+        &example(record),
+        "--json",
+        "--report",
+        &out,
+        "--plot",
+        &plot,
+        "--figure",
+        "trace",
+    ]);
+    assert!(folder.read("check.svg").contains("with gain and offset"));
+    (
+        folder.read("check.html"),
+        serde_json::from_str(&printed).unwrap(),
+    )
+}
+
+#[test]
+fn a_model_that_holds_and_one_that_does_not_have_a_page_with_the_sentence_first() {
+    let folder = Folder::new();
+    for record in ["straight_later.csv", "bent.csv"] {
+        let (page, report) = page(&folder, record);
+        assert_sound(&page);
+        let document = parsed(&page);
+        let main = elements(document.root(), "main").next().unwrap();
+        let lead = elements(main, "p").next().unwrap();
+        assert_eq!(text(lead), report["sentence"].as_str().unwrap());
+        let found = sections(&document);
+        for wanted in [
+            "verdict", "errors", "signals", "loop", "residual", "noise", "parts", "origin",
+        ] {
+            assert!(found.contains(&wanted.to_owned()), "{wanted}: {found:?}");
+        }
+        let shown: Vec<&str> = elements(document.root(), "data")
+            .map(|d| d.attribute("value").unwrap())
+            .collect();
+        let rmse = report["rmse"].as_f64().unwrap().to_string();
+        assert!(shown.contains(&rmse.as_str()), "{rmse}: {shown:?}");
+        // Both files that were read, with their hashes.
+        let origin = document
+            .descendants()
+            .find(|n| n.attribute("id") == Some("origin"));
+        assert_eq!(elements(origin.unwrap(), "tr").count(), 3);
+    }
+}

@@ -1,0 +1,61 @@
+//! The page of `compare`.
+
+use crate::shell::said;
+use crate::{assert_sound, elements, parsed, sections, text, Folder};
+
+#[test]
+fn the_page_has_each_controller_with_the_conduit_at_rest_and_moved() {
+    let folder = Folder::new();
+    let out = folder.path("compare.html");
+    let arguments = [
+        "compare",
+        "--seconds",
+        "8",
+        "--seeds",
+        "1",
+        "--noise",
+        "0.02",
+        "--json",
+    ];
+    let printed = said(&[arguments.as_slice(), &["--report", &out]].concat());
+    assert_eq!(
+        printed,
+        said(&arguments),
+        "the page changes what is printed"
+    );
+    let report: serde_json::Value = serde_json::from_str(&printed).unwrap();
+    let page = folder.read("compare.html");
+    assert_sound(&page);
+    let document = parsed(&page);
+    let wanted = [
+        "verdict",
+        "errors",
+        "tracking",
+        "transient",
+        "estimates",
+        "origin",
+    ];
+    assert_eq!(sections(&document), wanted);
+    let heads: Vec<String> = elements(document.root(), "h4").map(text).collect();
+    let shown: Vec<&str> = elements(document.root(), "data")
+        .map(|d| d.attribute("value").unwrap())
+        .collect();
+    for row in report["rows"].as_array().unwrap() {
+        let name = row["controller"].as_str().unwrap();
+        assert_eq!(heads.iter().filter(|h| *h == name).count(), 2, "{name}");
+        let error = row["rmse_true"]["mean"].as_f64().unwrap().to_string();
+        assert!(shown.contains(&error.as_str()), "{name}");
+    }
+    let titles: Vec<String> = elements(document.root(), "title").map(text).collect();
+    for name in ["beta_hat", "delta_hat", "theta_hat_1"] {
+        assert_eq!(titles.iter().filter(|t| *t == name).count(), 2, "{name}");
+    }
+    let lead = elements(elements(document.root(), "main").next().unwrap(), "p")
+        .next()
+        .unwrap();
+    assert!(
+        text(lead).contains("follows the reference best"),
+        "{}",
+        text(lead)
+    );
+}

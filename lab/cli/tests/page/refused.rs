@@ -1,0 +1,74 @@
+//! What cannot be drawn is refused before anything is read.
+
+use crate::shell::{bowden, refused, said};
+use crate::{example, Folder};
+
+#[test]
+fn a_page_that_cannot_be_written_is_refused_before_the_record_is_read() {
+    let folder = Folder::new();
+    // A record that does not exist would be complained of first if it were read first.
+    let missing = folder.path("later.csv");
+    let model = folder.path("model.toml");
+    said(&[
+        "close",
+        &example("straight.csv"),
+        "--rounds",
+        "0",
+        "--model-out",
+        &model,
+    ]);
+    let before = folder.names();
+    for option in ["--report", "--plot"] {
+        for place in ["no-such-folder/page.html", "."] {
+            let path = folder.path(place);
+            for command in [vec!["close", &missing], vec!["check", &model, &missing]] {
+                let line = refused(&[command.as_slice(), &[option, &path]].concat());
+                assert!(line.contains(option), "{line}");
+            }
+        }
+        let line = refused(&["check", &model, &missing, option, &model]);
+        assert!(line.contains("would overwrite"), "{line}");
+    }
+    let nowhere = folder.path("no-such-folder/page.html");
+    let line = refused(&[
+        "compare",
+        "--seconds",
+        "3600",
+        "--seeds",
+        "1000",
+        "--report",
+        &nowhere,
+    ]);
+    assert!(line.contains("--report"), "{line}");
+    let same = folder.path("same.html");
+    for other in ["--plot", "--trace"] {
+        let line = refused(&["close", &missing, "--report", &same, other, &same]);
+        assert!(line.contains("another option writes this file"), "{line}");
+    }
+    assert_eq!(folder.names(), before);
+}
+
+#[test]
+fn a_bad_record_leaves_the_page_that_was_there() {
+    let folder = Folder::new();
+    let (bad, page) = (folder.path("bad.csv"), folder.path("page.html"));
+    std::fs::write(&bad, "t,x,f\n0,0,0\n0.1,zero,1\n").unwrap();
+    std::fs::write(&page, "before").unwrap();
+    refused(&["close", &bad, "--report", &page]);
+    assert_eq!(folder.read("page.html"), "before");
+    assert_eq!(folder.names(), ["bad.csv", "page.html"]);
+}
+
+#[test]
+fn an_unknown_figure_and_a_figure_without_a_file_are_bad_use() {
+    let record = example("straight.csv");
+    let out = Folder::new().path("f.svg");
+    for arguments in [
+        vec!["close", &record, "--plot", &out, "--figure", "pie"],
+        vec!["close", &record, "--figure", "loop"],
+    ] {
+        let output = bowden(&arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(output.stdout.is_empty());
+    }
+}
