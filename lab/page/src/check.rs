@@ -34,12 +34,12 @@ impl Check<'_> {
             section("loop", "Hysteresis loop", loops_of_files(&figures.signals)),
             section(
                 "residual",
-                "What is left, over each variable",
+                "Residual over each variable",
                 over_all(figures, unit),
             ),
             section(
                 "noise",
-                "Is the rest noise?",
+                "Is the residual noise?",
                 noise_of(figures, unit, facts.record.cutoff),
             ),
             section("parts", "What each part adds", parts(figures)),

@@ -20,6 +20,7 @@ fn run(browser: &PathBuf, folder: &Folder, page: &str, width: u32) -> (String, S
             "--headless",
             "--no-sandbox",
             "--disable-gpu",
+            "--hide-scrollbars",
             "--enable-logging=stderr",
             "--v=0",
         ])

@@ -100,7 +100,11 @@ impl Scale {
         let raw = (span / about.max(1) as f64).max(least);
         let unit = 10.0_f64.powf(raw.log10().floor());
         let steps = [1.0, 2.0, 5.0, 10.0];
-        let step = unit * steps.into_iter().find(|s| s * unit >= raw).unwrap_or(10.0);
+        let step = unit
+            * steps
+                .into_iter()
+                .find(|s| s * unit >= 0.7 * raw)
+                .unwrap_or(10.0);
         self.multiples(step, |v| round(v, step))
     }
 

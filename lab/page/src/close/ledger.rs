@@ -92,20 +92,18 @@ fn names(facts: &Facts) -> Markup {
         return html! { p { "No effect was added." } };
     }
     let row = |round: &RoundFacts| {
-        let (size, own) = match &round.size {
-            Size::Gain(gain) if holds_zero(gain) => (html! { (SIZE_UNKNOWN) }, unit(gain)),
-            Size::Gain(gain) => (data(gain.value, &value(gain)), unit(gain)),
-            Size::Width(width) => (
-                html! { "r = " (data(width.value, &value(width))) },
-                unit(width),
-            ),
-            Size::Gone => (html! { "–" }, String::new()),
+        let size = match &round.size {
+            Size::Gain(gain) if holds_zero(gain) => html! { (SIZE_UNKNOWN) },
+            Size::Gain(gain) => html! { (data(gain.value, &value(gain))) " " (unit(gain)) },
+            Size::Width(width) => {
+                html! { "r = " (data(width.value, &value(width))) " " (unit(width)) }
+            }
+            Size::Gone => html! { "–" },
         };
         html! { tr {
             th scope="row" { (round.title) }
-            td class="number" { (size) }
-            td { (own) }
             td { (grade(round.grade)) }
+            td class="number" { (size) }
             td class="number" { @if let Some(p) = round.p { (data(p, &format!("{p:.1e}"))) } @else { "–" } }
             td class="number" { (round.recurs) " of " (HALVES) }
             td class="number" { (round.blocks_better) " of " (BLOCKS) }
@@ -114,15 +112,14 @@ fn names(facts: &Facts) -> Markup {
     let rows: Vec<Markup> = facts.rounds.iter().map(row).collect();
     let head = [
         "effect",
-        "coefficient (95 %)",
-        "unit",
         "grade",
+        "coefficient (95 %)",
         "p",
         "recurs",
         "blocks better",
     ];
     html! {
-        (table("What was added, in the final model", &head, 1..2, &rows))
+        (table("What was added, in the final model", &head, 2..6, &rows))
         p class="note" {
             "p: how often chance alone would do as well. Recurs: half-records in which the same search finds the effect again. Blocks better: stretches on which the effect helps."
         }

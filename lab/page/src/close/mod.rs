@@ -44,7 +44,7 @@ impl Close<'_> {
             },
             Section {
                 id: "residual",
-                title: "What is left, over each variable",
+                title: "Residual over each variable",
                 body: residual::over_variables(facts, figures),
             },
             Section {
@@ -59,7 +59,7 @@ impl Close<'_> {
             },
             Section {
                 id: "noise",
-                title: "Is the rest noise?",
+                title: "Is the residual noise?",
                 body: residual::noise(facts, figures),
             },
         ];
@@ -120,7 +120,7 @@ fn numbers(facts: &Facts) -> Markup {
             }
             @if let Some(floors) = floors {
                 div {
-                    dt { "What is left, in noise floors" }
+                    dt { "Final held-out error, in noise floors" }
                     dd { (format!("{floors:.1}")) }
                 }
             }

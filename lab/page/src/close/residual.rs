@@ -65,7 +65,7 @@ pub(crate) fn over_all(figures: &Figures, unit: Option<&str>) -> Markup {
         p {
             "Mean residual in bins of equally many samples, with 95 % intervals that allow for correlation in time. "
             "Open: " (first.name) "; filled: " (last.name)
-            ". A curve that is left is an effect that the model lacks; with 95 % about one bin in twenty is off zero by chance."
+            ". A curve of the filled dots is an effect that the model lacks; with 95 % about one bin in twenty is off zero by chance."
         }
         div class="grid-of" {
             @for (k, one) in figures.over.iter().enumerate() { (over_one(one, k, &y).figure()) }

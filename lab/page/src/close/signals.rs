@@ -227,7 +227,7 @@ pub(crate) fn hysteresis_loop(signals: &Signals, file: &File, id: &str) -> Chart
         .key("final", &last.name)
 }
 
-/// What is left of the output over the input.
+/// Both residuals over the input.
 fn residual_loop(signals: &Signals, file: &File, id: &str) -> Chart {
     let rows = || {
         let own = file.rows.clone();
@@ -247,10 +247,10 @@ fn residual_loop(signals: &Signals, file: &File, id: &str) -> Chart {
         points.collect::<Vec<_>>()
     };
     let description = format!(
-        "The residuals of the {} and the {} model over the input {}. A loop that is left here is hysteresis or delay that the model lacks.",
+        "The residuals of the {} and the {} model over the input {}. A loop here is hysteresis or delay that the model lacks.",
         first.name, last.name, signals.input.name
     );
-    Chart::new(id, "What is left, over input", &description, x, y)
+    Chart::new(id, "Residual over input", &description, x, y)
         .level("zero", 0.0)
         .curve("before", of(&signals.residuals[0]))
         .curve("final", of(&signals.residuals[1]))
@@ -335,7 +335,7 @@ pub(super) fn loops(facts: &Facts, figures: &Figures) -> Markup {
     html! {
         p {
             "Without hysteresis the output would be a function of the input, and the loop a line. Its width is what friction takes, to and fro"
-            (in_brackets(facts.record.unit.as_deref())) ". On the right: what the models leave of it."
+            (in_brackets(facts.record.unit.as_deref())) ". On the right: the residuals over the same input."
         }
         (loops_of_files(&figures.signals))
     }
