@@ -18,6 +18,8 @@ use std::fmt::Write as _;
 
 /// Columns of pixels, each of which keeps its extremes.
 const COLUMNS: usize = 900;
+/// The same of a figure among many, which is a third as wide.
+const FEW_COLUMNS: usize = 260;
 /// Most points of a curve that is no function of its x.
 const POINTS: usize = 4000;
 /// The area in which paths are drawn.
@@ -147,7 +149,10 @@ impl Chart {
     /// A line in several runs, one behind the other.
     #[must_use]
     pub fn lines(self, class: &str, runs: &[Vec<[f64; 2]>]) -> Self {
-        let columns = if self.is_low { COLUMNS / 2 } else { COLUMNS };
+        let columns = match self.is_low {
+            true => FEW_COLUMNS,
+            false => COLUMNS,
+        };
         let run = |points: &Vec<[f64; 2]>| {
             let points: Vec<[f64; 2]> = points.iter().filter_map(|p| self.place(*p)).collect();
             thin::columns(&points, columns)
