@@ -10,7 +10,7 @@ fn the_page_has_each_controller_with_the_conduit_at_rest_and_moved() {
     let arguments = [
         "compare",
         "--seconds",
-        "8",
+        "20",
         "--seeds",
         "1",
         "--noise",

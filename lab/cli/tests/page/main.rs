@@ -132,6 +132,9 @@ fn assert_drawn(document: &Document<'_>) {
             assert!(numbers
                 .clone()
                 .all(|w| w.parse::<f64>().unwrap().is_finite()));
+            // Every other number is an x: nothing is drawn beside the axis.
+            let mut across = numbers.step_by(2).map(|w| w.parse::<f64>().unwrap());
+            assert!(across.all(|x| (-1.0..=1001.0).contains(&x)), "{d}");
             marks += 1;
         }
         marks += elements(figure, "circle").count();

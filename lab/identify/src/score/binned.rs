@@ -125,7 +125,7 @@ mod tests {
     #[test]
     fn equal_values_are_in_one_bin() {
         let values: Vec<f64> = (0..900).map(|i| f64::from(i % 3)).collect();
-        let bins = binned(&values, &[values.clone()], 20);
+        let bins = binned(&values, std::slice::from_ref(&values), 20);
         let of: Vec<(f64, usize)> = bins.iter().map(|b| (b.at, b.count)).collect();
         assert_eq!(of, [(0.0, 300), (1.0, 300), (2.0, 300)]);
         assert!(binned(&[], &[Vec::new()], 20).is_empty());

@@ -140,7 +140,8 @@ impl Chart {
         self
     }
 
-    /// A line through points with ascending x; of very many the extremes are kept.
+    /// A line through points with ascending x, as far as the axis goes; of very many the extremes
+    /// are kept.
     #[must_use]
     pub fn line(self, class: &str, points: impl IntoIterator<Item = [f64; 2]>) -> Self {
         self.lines(class, &[points.into_iter().collect()])
@@ -154,7 +155,9 @@ impl Chart {
             false => COLUMNS,
         };
         let run = |points: &Vec<[f64; 2]>| {
-            let points: Vec<[f64; 2]> = points.iter().filter_map(|p| self.place(*p)).collect();
+            let places = points.iter().filter_map(|p| self.place(*p));
+            let inside = places.filter(|[x, _]| (-1e-9..=1.0 + 1e-9).contains(x));
+            let points: Vec<[f64; 2]> = inside.collect();
             thin::columns(&points, columns)
         };
         let lines: Vec<Vec<[f64; 2]>> = runs.iter().map(run).collect();
