@@ -102,9 +102,13 @@ impl<'a> Part<'a> {
 
     fn head(&self) -> String {
         let heading = &self.compared.heading;
+        let trials = match heading.seeds {
+            1 => "1 trial".to_owned(),
+            several => format!("{several} trials"),
+        };
         format!(
-            "Configuration {}, noise {} N·m rms, {} trials of {} s",
-            self.configuration, heading.noise, heading.seeds, heading.seconds
+            "Configuration {}, noise {} N·m rms, {} of {} s",
+            self.configuration, heading.noise, trials, heading.seconds
         )
     }
 

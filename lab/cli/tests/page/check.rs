@@ -47,6 +47,12 @@ fn a_model_that_holds_and_one_that_does_not_have_a_page_with_the_sentence_first(
         let mut shown = elements(document.root(), "data")
             .map(|d| d.attribute("value").unwrap().parse().unwrap());
         assert!(shown.any(is_it), "{rmse}");
+        let names: Vec<String> = elements(document.root(), "text")
+            .filter(|t| t.attribute("class") == Some("name"))
+            .map(text)
+            .collect();
+        assert!(names.iter().any(|n| n == "checked"), "{names:?}");
+        assert!(!names.iter().any(|n| n == "fit"), "{names:?}");
         // Both files that were read, with their hashes.
         let origin = document
             .descendants()

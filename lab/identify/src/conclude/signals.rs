@@ -10,12 +10,14 @@ use std::ops::Range;
 pub enum Segment {
     /// At an end or in a blind stretch: used by nothing.
     Dropped,
-    /// Fitted; in a check, all that counts.
+    /// Fitted.
     Fit,
     /// The stop-check.
     Stop,
     /// Held out.
     HeldOut,
+    /// In a check, all that counts.
+    Checked,
 }
 
 /// One file on the common grid.
@@ -83,8 +85,12 @@ impl Signals {
     ) -> Result<Self, String> {
         let unit = data.output_unit.as_deref();
         let mut segments = vec![Segment::Dropped; data.target.len()];
+        let first = match data.split.stop.is_empty() && data.split.held_out.is_empty() {
+            true => Segment::Checked,
+            false => Segment::Fit,
+        };
         for (segment, rows) in [
-            (Segment::Fit, &data.split.fit),
+            (first, &data.split.fit),
             (Segment::Stop, &data.split.stop),
             (Segment::HeldOut, &data.split.held_out),
         ] {

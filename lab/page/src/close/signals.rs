@@ -29,6 +29,7 @@ fn with_segments(mut chart: Chart, signals: &Signals, file: &File) -> Chart {
             Segment::Fit => ("fit", "fit"),
             Segment::Stop => ("stop", "stop"),
             Segment::HeldOut => ("held", "held out"),
+            Segment::Checked => ("held", "checked"),
             Segment::Dropped => continue,
         };
         let label = if named.contains(&segment) { "" } else { name };
