@@ -148,7 +148,9 @@ fn reasons(facts: &CheckFacts) -> Markup {
         @for one in &facts.depends_on {
             p {
                 "The residual depends on " (one.words) ": a curve of it takes "
-                (format!("{:.0}", 100.0 * one.share)) " % of the squared error."
+                (format!("{:.0}", 100.0 * one.share)) " % of the squared error ("
+                @if let Some(p) = one.p { "p " (format!("{p:.1e}")) } @else { "not tested: correlated for too long" }
+                ")."
             }
         }
         @for one in &facts.outside {
