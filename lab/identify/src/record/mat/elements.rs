@@ -288,3 +288,45 @@ fn numbers(element: &Element<'_>, order: Order) -> Result<Vec<f64>, Damage> {
         kind => return Err(damaged(&format!("numbers of type {kind}"))),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn element(kind: u32, data: &[u8]) -> Vec<u8> {
+        let mut own = [kind.to_be_bytes(), (data.len() as u32).to_be_bytes()].concat();
+        own.extend(data);
+        own.resize(own.len().next_multiple_of(8), 0);
+        own
+    }
+
+    fn words(words: &[u32]) -> Vec<u8> {
+        words.iter().flat_map(|word| word.to_be_bytes()).collect()
+    }
+
+    #[test]
+    fn big_endian_bytes_and_numbers_stored_small_are_read() {
+        let matrix = |count: u32| {
+            let parts = [
+                element(6, &words(&[6, 0])),
+                element(5, &words(&[1, count])),
+                // A small element: the length stands in the upper half of the first word.
+                words(&[0x0001_0001, 0x7800_0000]),
+                element(4, &[0, 7, 1, 0, 255, 255]),
+            ];
+            let mut file = vec![b' '; 124];
+            file.extend(b"\x01\x00MI");
+            file.extend(element(14, &parts.concat()));
+            file
+        };
+        let value = Value::Numbers {
+            dims: vec![1, 3],
+            values: vec![7.0, 256.0, 65_535.0],
+        };
+        assert_eq!(variables(&matrix(3)), Ok(vec![("x".to_owned(), value)]));
+        assert_eq!(
+            variables(&matrix(4)).unwrap_err(),
+            "the file is damaged: `x` has 3 values for 4 places"
+        );
+    }
+}
