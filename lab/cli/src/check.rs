@@ -87,7 +87,7 @@ impl Check {
     }
 }
 
-fn load(path: &Path) -> Result<String, Failure> {
+pub fn load(path: &Path) -> Result<String, Failure> {
     let failed = |message: &dyn std::fmt::Display| format!("{}: {message}", path.display());
     let size = std::fs::metadata(path).map_err(|e| failed(&e))?.len();
     if size > LARGEST {

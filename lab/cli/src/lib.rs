@@ -7,6 +7,7 @@ mod certify;
 mod check;
 mod close;
 mod compare;
+mod design;
 mod drawing;
 mod generate;
 mod help;
@@ -40,6 +41,8 @@ enum Command {
     Close(close::Close),
     /// Try a model on the next record of the same rig: does it still hold?
     Check(check::Check),
+    /// Derive gains, limits and slew rate from an identified model.
+    Design(design::Design),
     /// Try controllers on the simulated rig: errors, effort, and what can be promised.
     Compare(compare::Compare),
     /// Print what can be promised of the tracking error, and what that rests on.
@@ -65,6 +68,7 @@ pub fn run() -> Result<(), Failure> {
         None => close::Close::default().run(),
         Some(Command::Close(close)) => close.run(),
         Some(Command::Check(check)) => check.run(),
+        Some(Command::Design(design)) => design.run(),
         Some(Command::Compare(compare)) => compare.run(),
         Some(Command::Certify(certify)) => certify.run(),
         Some(Command::Power(power)) => power.run(),

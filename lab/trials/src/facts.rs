@@ -12,10 +12,16 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 pub use super::certificates::Promise;
+pub use super::design::{
+    design, rust as design_rust, AdaptiveDesign, Designed, PidDesign, Question as DesignQuestion,
+};
 pub use super::found::{Outcome, Pair};
 pub use super::table::{Line, Spread};
 pub use super::trial::Row;
 pub use super::undeclared::Undeclared;
+
+/// Gain, leakage and box of one estimate of the adaptive law.
+pub type Estimate = bowden::control::Estimator<f64>;
 
 /// Noise with which the gain of a found effect can be seen \[N·m rms\].
 const QUIET: f64 = 0.02;

@@ -3,13 +3,16 @@
 //! [`lineup`] says who runs, [`trial`] runs one of them, [`table`] puts seeds together.
 //! [`found`] closes the loop through the controller: an undeclared effect is switched on
 //! in the rig, the lab's own path identifies it from the rig's bench record ([`mod@bench`]),
-//! and what was found becomes a feed-forward ([`feed`]) or a regressor.
+//! and what was found becomes a feed-forward ([`feed`]) or a regressor. [`mod@design`] goes
+//! from an identified model to gains, which are a file of their own ([`gains`]).
 
 pub mod bench;
 pub mod certificates;
+pub mod design;
 pub mod facts;
 pub mod feed;
 pub mod found;
+pub mod gains;
 pub mod lineup;
 pub mod setup;
 pub mod table;

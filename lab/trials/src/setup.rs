@@ -48,6 +48,7 @@
 //!
 //! A file that is such a model by itself is read as one.
 
+use super::gains::message;
 use bowden::control::{AdaptiveSettings, Damping, Estimator, Form, Leakage, PidSettings};
 use bowden_lab::export::ModelFile;
 use bowden_rig::RigConfig;
@@ -262,27 +263,4 @@ impl Setup {
         super::lineup::Laws::new(self).map_err(|(what, e)| refused(what, e))?;
         Ok(())
     }
-}
-
-/// file:line:column: what is wrong, in one line.
-fn message(error: &toml::de::Error, text: &str, label: &str) -> String {
-    let what = error.message().replace('\n', " ");
-    match error.span() {
-        None => format!("{label}: {what}"),
-        Some(span) => {
-            let before = text.get(..span.start).unwrap_or(text);
-            let line = before.matches('\n').count() + 1;
-            let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
-            let key = key_at(text, span.start).map_or_else(String::new, |k| format!("`{k}`: "));
-            format!("{label}:{line}:{column}: {key}{what}")
-        }
-    }
-}
-
-/// The key of the line on which an error stands.
-fn key_at(text: &str, at: usize) -> Option<&str> {
-    let start = text.get(..at)?.rfind('\n').map_or(0, |i| i + 1);
-    let line = text.get(start..)?.lines().next()?.trim();
-    let key = line.split_once('=').map_or(line, |(key, _)| key).trim();
-    (!key.is_empty()).then_some(key)
 }

@@ -1,7 +1,7 @@
 //! What a model's numbers mean and what they are worth.
 
 use super::ModelFile;
-use crate::conclude::intervals::{gain_unit, parameters, shape_unit, term_name};
+use crate::conclude::intervals::{gain_unit, parameters, shape_unit, term_name, Parameter};
 use crate::fit::{Segments, Solution};
 use crate::model::units::Unit;
 use crate::problem::{Channel, Prepared};
@@ -40,6 +40,9 @@ pub struct About {
     pub not_identified: Vec<NotIdentified>,
     /// The unit of each parameter and of each source, by name.
     pub units: BTreeMap<String, String>,
+    /// 95 % intervals of the parameters that the record determines, by their names in the file.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub intervals: BTreeMap<String, [f64; 2]>,
     /// What the fit has seen of each source, by name.
     pub ranges: BTreeMap<String, Span>,
 }
@@ -116,7 +119,9 @@ impl About {
     /// What a record says of a solution; what else there is to say is the caller's.
     #[must_use]
     pub fn new(data: &Prepared, solution: &Solution) -> Self {
-        let parameters = parameters(data, solution).into_iter();
+        let parameters = parameters(data, solution);
+        let intervals = intervals(&parameters);
+        let parameters = parameters.into_iter();
         // What the states were before the record is no part of the model.
         let of_the_model = |name: &str| !name.starts_with("eta0") && !name.contains(".start");
         let refused = parameters
@@ -133,6 +138,7 @@ impl About {
             rate_hz: data.rate,
             not_identified: refused.collect(),
             units: units(data, solution),
+            intervals,
             ranges: read(solution)
                 .filter_map(|source| {
                     let channel = data.channel(source)?;
@@ -184,6 +190,21 @@ fn file_name(path: &str) -> String {
         Some(name) if !path.starts_with('(') => name.to_string_lossy().into_owned(),
         _ => path.to_owned(),
     }
+}
+
+/// The 95 % intervals under the names of a model file.
+fn intervals(parameters: &[Parameter]) -> BTreeMap<String, [f64; 2]> {
+    let named = |parameter: &Parameter| {
+        let name = match parameter.name.as_str() {
+            "B" | "kappa_x" => "gain",
+            "T0" => "offset",
+            other => other,
+        };
+        let of_the_model = !name.starts_with("eta0") && !name.contains(".start");
+        let interval = parameter.ci95.filter(|_| of_the_model)?;
+        Some((name.to_owned(), interval))
+    };
+    parameters.iter().filter_map(named).collect()
 }
 
 /// The sources that the model reads: the input always.

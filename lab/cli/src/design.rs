@@ -1,0 +1,86 @@
+//! `bowden design`: an identified model in, gains out.
+
+use super::Failure;
+use crate::view::design::{json, text};
+use bowden_trials::facts::{design, design_rust, DesignQuestion};
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+#[derive(Args)]
+pub struct Design {
+    /// The model, a file of `close --model-out` in torque mode.
+    #[arg(value_name = "MODEL.toml")]
+    model: PathBuf,
+    /// Samples of the controller a second [Hz].
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    rate: f64,
+    /// From the command to its measured torque [s]: transport, computation, and the time
+    /// constants of drive, sensor and joint; half a sample of hold is added.
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    delay: f64,
+    /// Noise of the measured torque [N·m rms]: how fast a command must be allowed to move.
+    #[arg(
+        long,
+        value_name = "N·m",
+        default_value_t = 0.0,
+        allow_negative_numbers = true
+    )]
+    noise: f64,
+    /// Proximal torque of one command unit [N·m].
+    #[arg(
+        long,
+        value_name = "N·m",
+        default_value_t = 1.0,
+        allow_negative_numbers = true
+    )]
+    drive_gain: f64,
+    /// Write the gains: .toml for `compare --gains` and for firmware with serde, .rs for
+    /// firmware.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Print one JSON object on stdout instead of text.
+    #[arg(long)]
+    json: bool,
+}
+
+impl Design {
+    pub fn run(self) -> Result<(), Failure> {
+        let rust = self.out.as_deref().map(is_rust).transpose()?;
+        if let Some(path) = &self.out {
+            super::writable("--out", path, &[&self.model])?;
+        }
+        let question = DesignQuestion {
+            rate: self.rate,
+            delay: self.delay,
+            noise: self.noise,
+            drive_gain: self.drive_gain,
+        };
+        question.check()?;
+        let label = self.model.display().to_string();
+        let designed = design(&super::check::load(&self.model)?, &label, &question)?;
+        if let (Some(path), Some(rust)) = (&self.out, rust) {
+            let written = match rust {
+                true => design_rust(&designed),
+                false => designed.gains.toml().map_err(|e| e.to_string())?,
+            };
+            super::write_whole(path, written.as_bytes())?;
+        }
+        let report = match self.json {
+            true => json(&designed).map_err(|e| e.to_string())?,
+            false => text(&designed),
+        };
+        super::say(report.trim_end())
+    }
+}
+
+/// Whether a file of gains is one for a compiler.
+fn is_rust(path: &Path) -> Result<bool, Failure> {
+    match path.extension().and_then(|e| e.to_str()) {
+        Some("rs") => Ok(true),
+        Some("toml") => Ok(false),
+        _ => Err(format!(
+            "--out {}: a name that ends in .toml or .rs was expected",
+            path.display()
+        )),
+    }
+}

@@ -1,0 +1,233 @@
+//! Gains of the adaptive law in lag form that its constructor and its certificate admit.
+//!
+//! On a static plant the lag form is an integral: with z = s/(p + lambda) and
+//! s = (p + lambda)/p·e its command is `lambda·beta_hat·(k + delta_hat/epsilon)/p·e` near zero.
+//! So `h·lambda·g⁺·(k + delta_max/epsilon)` is the integral gain of one sample, which must
+//! not exceed one (the constructor), and here has the margins of PI: the greatest that PI
+//! without a proportional term may have behind one sample of delay. lambda is a fiftieth of
+//! that bandwidth, as in Table 2, and k and delta_max/epsilon have one half each.
+
+use super::linear::Gains;
+use super::pi::greatest_integral;
+use super::plant::Plant;
+use bowden::bound::{Interval, PeakSampled, Plant as Known};
+use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Fallback, Form, Limits};
+use serde::Serialize;
+
+/// Half-width of a box where the model file has no interval, as a share of the value.
+const UNKNOWN: f64 = 0.1;
+
+/// What the drive's gain is known to, as a share.
+const DRIVE: f64 = 0.02;
+
+/// An estimate crosses its box in this many time constants of the loop, at abs(s) = epsilon.
+const CROSSING: f64 = 100.0;
+
+/// The law, or why there is none.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct AdaptiveDesign {
+    /// Step of the law \[s\]: the shortest multiple of the sample that is no less than the delay.
+    pub step: f64,
+    /// The law is called on every so-many-th sample.
+    pub every: usize,
+    /// Whether the plant's delay fits into one sample at the stated rate, which the lag form
+    /// asks for; if not, the law runs at `step`.
+    pub at_the_rate: bool,
+    /// h·lambda·g⁺·(k + delta_max/epsilon), at most one.
+    pub loop_gain: f64,
+    /// The settings; `None` where no gains are admissible.
+    pub settings: Option<AdaptiveSettings<f64, 0>>,
+    /// Why there are no admissible gains.
+    pub refused: Option<String>,
+    /// The sampled peak certificate: abs(e) stays below \[N·m\].
+    pub certificate: Option<f64>,
+    /// Why there is no certificate.
+    pub uncertified: Option<String>,
+    /// Names of the parameters whose box is ±10 %, since the model file has no interval.
+    pub assumed: Vec<String>,
+}
+
+/// What the loop around the law is like.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Around {
+    pub(super) rate: f64,
+    pub(super) delay: f64,
+    pub(super) drive_gain: f64,
+    pub(super) limits: Limits<f64>,
+    pub(super) fallback: Fallback<f64>,
+    /// Greatest rate of the reference \[N·m/s\], where there is one.
+    pub(super) reference_rate: Option<f64>,
+}
+
+/// The interval of a parameter; whether it was assumed.
+fn interval(plant: &Plant, name: &str, value: f64) -> (Interval<f64>, bool) {
+    match plant.about.intervals.get(name) {
+        Some(&[low, high]) if low <= value && value <= high => (Interval { low, high }, false),
+        _ => {
+            let (low, high) = (value * (1.0 - UNKNOWN), value * (1.0 + UNKNOWN));
+            (Interval::between(low, high), true)
+        }
+    }
+}
+
+/// The boxes of the truth: alpha, Delta, the rate of D, and what was assumed.
+struct Boxes {
+    alpha: Interval<f64>,
+    delta: f64,
+    assumed: Vec<String>,
+}
+
+impl Boxes {
+    fn of(plant: &Plant, drive_gain: f64) -> Self {
+        let cable = &plant.cable;
+        let mut assumed = Vec::new();
+        let mut of = |name: &str, value: f64| {
+            let (interval, guessed) = interval(plant, name, value);
+            if guessed && value != 0.0 {
+                assumed.push(name.to_owned());
+            }
+            interval
+        };
+        let gain = of("gain", cable.gain());
+        let kappa_eta = of("kappa_eta", cable.kappa_eta());
+        let offset = of("offset", cable.offset());
+        Self {
+            alpha: Interval {
+                low: gain.low * drive_gain * (1.0 - DRIVE),
+                high: gain.high * drive_gain * (1.0 + DRIVE),
+            },
+            delta: kappa_eta.magnitude() + offset.magnitude() + plant.effects,
+            assumed,
+        }
+    }
+}
+
+/// The law for a plant.
+pub(super) fn design(plant: &Plant, around: &Around) -> AdaptiveDesign {
+    let every = (around.delay * around.rate - 1e-9).ceil().max(1.0);
+    let step = every / around.rate;
+    let boxes = Boxes::of(plant, around.drive_gain);
+    let mut found = AdaptiveDesign {
+        step,
+        every: every as usize,
+        at_the_rate: every <= 1.0,
+        loop_gain: greatest_integral(Gains::default(), 1),
+        settings: None,
+        refused: None,
+        certificate: None,
+        uncertified: None,
+        assumed: boxes.assumed.clone(),
+    };
+    match settings(plant, around, &boxes, &found) {
+        Ok(settings) => {
+            match certificate(plant, around, &boxes, settings) {
+                Ok((value, settings)) => {
+                    found.certificate = Some(value);
+                    found.settings = Some(settings);
+                }
+                Err(why) => {
+                    found.uncertified = Some(why);
+                    found.settings = Some(settings);
+                }
+            }
+        }
+        Err(why) => found.refused = Some(why),
+    }
+    found
+}
+
+fn settings(
+    plant: &Plant,
+    around: &Around,
+    boxes: &Boxes,
+    found: &AdaptiveDesign,
+) -> Result<AdaptiveSettings<f64, 0>, String> {
+    let (h, bandwidth) = (found.step, found.loop_gain / found.step);
+    let Boxes { alpha, delta, .. } = *boxes;
+    if alpha.low <= 0.0 {
+        return Err(format!(
+            "the interval of B reaches {:.4}: the law needs a gain above zero",
+            alpha.low / around.drive_gain
+        ));
+    }
+    let beta = Interval { low: 1.0 / alpha.high, high: 1.0 / alpha.low };
+    let plant_gain = alpha.high.max(plant.slopes.magnitude() * around.drive_gain * (1.0 + DRIVE));
+    let g = plant_gain * beta.high;
+    // From k > 1/lambda² with k = bandwidth/(2·lambda·g), twice over.
+    let lambda = (bandwidth / 50.0).max(4.0 * g / bandwidth);
+    if h * lambda > 1.0 {
+        return Err(format!(
+            "k > 1/lambda² and h·lambda <= 1 exclude each other at a step of {h} s: a delay below {:.3} s is needed",
+            (0.25 * found.loop_gain / g).sqrt()
+        ));
+    }
+    let k = bandwidth / (2.0 * lambda * g);
+    let epsilon = delta / k;
+    let time = CROSSING / bandwidth;
+    let leakage = 0.1 / time;
+    let [low, high] = plant.output();
+    let torque = low.abs().max(high.abs()).max(f64::MIN_POSITIVE);
+    let initial = 1.0 / (plant.cable.gain() * around.drive_gain);
+    let drive = time * lambda * epsilon;
+    let lag = Form::Lag { step: h, plant_gain };
+    let settings = AdaptiveSettings {
+        beta: Estimator {
+            prior: initial,
+            ..Estimator::fixed(initial)
+                .within(beta.low, beta.high)
+                .adapting((beta.high - beta.low) / (drive * torque), leakage)
+        },
+        delta: Estimator::fixed(0.0).within(0.0, delta).adapting(delta / drive, leakage),
+        // As far as the integral of PI can go.
+        z_limit: torque.max(1.0) / lambda,
+        ..AdaptiveSettings::new(lag, k, lambda, epsilon, around.limits, h, around.fallback)
+    };
+    let longest_dt = settings.largest_step().unwrap_or(h).max(h);
+    let settings = AdaptiveSettings { longest_dt, ..settings };
+    Adaptive::try_new(settings).map_err(|e| e.to_string())?;
+    Ok(settings)
+}
+
+/// The sampled peak certificate, with an accumulated error that may be as large as it needs.
+fn certificate(
+    plant: &Plant,
+    around: &Around,
+    boxes: &Boxes,
+    settings: AdaptiveSettings<f64, 0>,
+) -> Result<(f64, AdaptiveSettings<f64, 0>), String> {
+    let super::Slopes { least, greatest } = plant.slopes;
+    let Some(reference_rate) = around.reference_rate.filter(|_| least > 0.0) else {
+        return Err(format!(
+            "the least slope of the output is {least:.4}: the rate of the hysteresis has no bound"
+        ));
+    };
+    let [low, high] = plant.output();
+    let reference = low.abs().max(high.abs());
+    let cutoff = plant.about.cutoff_hz;
+    if plant.effects > 0.0 && !(cutoff.is_finite() && cutoff > 0.0) {
+        return Err("no about.cutoff_hz: the rate of the effects has no bound".to_owned());
+    }
+    // Bernstein: what is band-limited to f and stays below M has a rate below 2·pi·f·M.
+    let effects = match plant.effects > 0.0 {
+        true => std::f64::consts::TAU * cutoff * plant.effects,
+        false => 0.0,
+    };
+    let known = Known::<f64, 0> {
+        alpha: boxes.alpha,
+        delta_rate: (greatest - least) / least * reference_rate + effects,
+        reference,
+        reference_rate,
+        ..Known::new(1.0, boxes.delta)
+    };
+    let free = AdaptiveSettings { z_limit: f64::MAX, ..settings };
+    let law = Adaptive::try_new(free).map_err(|e| e.to_string())?;
+    let peak = PeakSampled::try_new(&law, &known).map_err(|e| e.to_string())?;
+    if peak.bound > reference {
+        return Err(format!(
+            "the certificate is vacuous: {:.3} N·m, more than the greatest output {reference:.3} N·m",
+            peak.bound
+        ));
+    }
+    let z_limit = settings.z_limit.max(1.01 * peak.s / settings.lambda);
+    Ok((peak.bound, AdaptiveSettings { z_limit, ..settings }))
+}

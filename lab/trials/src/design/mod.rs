@@ -1,0 +1,403 @@
+//! From an identified model to gains: what `bowden design` answers.
+//!
+//! The plant is the transmission of the model, whose output moves with the command by a slope
+//! within [`Slopes`], behind a delay. Inertias, springs and dampings are not in the model:
+//! what they add belongs to the delay that is given, a lag of T counting as a delay of T.
+//!
+//! ```
+//! use bowden_trials::design::{design, Question};
+//! let model = r#"
+//! schema = "bowden.model/1"
+//! mode = "torque"
+//! channels = []
+//! [transmission]
+//! gain = 0.95
+//! kappa_eta = 2.0
+//! offset = 0.05
+//! rho = 0.2
+//! sigma = 0.6
+//! n = 1.5
+//! [about.ranges.input]
+//! position = [-12.0, 16.0]
+//! velocity = [-40.0, 40.0]
+//! acceleration = [-170.0, 170.0]
+//! "#;
+//! let asked = Question { rate: 1000.0, delay: 0.004, noise: 0.02, drive_gain: 1.0 };
+//! let designed = design(model, "model.toml", &asked)?;
+//! assert!((designed.slopes.least - 0.47).abs() < 1e-12);
+//! assert!(designed.pi.margins.gain >= 2.0 && designed.pi.margins.phase >= 45.0);
+//! # Ok::<(), String>(())
+//! ```
+
+mod adaptive;
+mod linear;
+mod pi;
+mod plant;
+mod rust;
+
+pub use adaptive::AdaptiveDesign;
+pub use linear::Margins;
+pub use pi::{Asked, ASKED};
+pub use plant::Slopes;
+pub use rust::rust;
+
+use crate::gains::{message, DesignedFor, GainsFile, SCHEMA};
+use adaptive::Around;
+use bowden::control::{Damping, Fallback, Limits, Pid, PidSettings};
+use bowden_lab::export::ModelFile;
+use linear::Gains;
+use plant::Plant;
+use serde::Serialize;
+
+/// What is asked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Question {
+    /// Samples a second \[Hz\].
+    pub rate: f64,
+    /// From the command to its measured torque \[s\].
+    pub delay: f64,
+    /// Noise of the measured torque \[N·m rms\].
+    pub noise: f64,
+    /// Proximal torque of one command unit \[N·m/command unit\].
+    pub drive_gain: f64,
+}
+
+/// Most samples of delay: a slower rate has the same loop.
+const MOST_DELAY: f64 = 1000.0;
+
+/// The largest change between two samples of white noise, in its rms values.
+const PEAK_OF_NOISE: f64 = 6.0;
+
+/// The derivative is worth its noise if the integral gain grows by this factor.
+const WORTH: f64 = 1.1;
+
+/// Gain margin that a loop must keep whose every step is the longest one.
+const LONG_MARGIN: f64 = 1.4;
+
+/// PI or PID, with what it gives.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PidDesign {
+    /// Proportional gain \[command unit/(N·m)\].
+    pub k_p: f64,
+    /// Integral gain \[command unit/(N·m·s)\].
+    pub k_i: f64,
+    /// Gain of the derivative \[command unit·s/(N·m)\].
+    pub k_d: f64,
+    /// Time constant of the derivative's filter \[s\].
+    pub derivative_time: f64,
+    /// Margins at the loop's slope.
+    pub margins: Margins,
+    /// Overshoot of a step of the reference, as a share of it.
+    pub overshoot: f64,
+    /// After which time such a step stays within 2 % \[s\].
+    pub settled: Option<f64>,
+}
+
+/// Which gains alone would be admissible.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Admissible {
+    /// `k_p` is below this, whatever `k_i` is \[command unit/(N·m)\].
+    pub k_p: f64,
+    /// `k_i` is at most this with the designed `k_p` \[command unit/(N·m·s)\].
+    pub k_i: f64,
+    /// `k_i` is at most this without `k_p` \[command unit/(N·m·s)\].
+    pub k_i_alone: f64,
+}
+
+/// Whether a derivative helps.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Derivative {
+    /// Whether the integral gain grows by a tenth or more.
+    pub helps: bool,
+    /// Integral gain of PID over that of PI.
+    pub integral_gain: f64,
+    /// The best PID.
+    pub pid: PidDesign,
+}
+
+/// Advice that does not follow from the margins.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Bounds {
+    /// Least command \[command unit\]: what the record has covered.
+    pub low: f64,
+    /// Greatest command \[command unit\].
+    pub high: f64,
+    /// Least slew rate that cuts no noise, `2·k_p·noise·rate` \[command unit/s\].
+    pub slew_of_noise: f64,
+    /// Greatest rate that the record has covered \[command unit/s\].
+    pub slew_of_record: f64,
+    /// The greater of both.
+    pub slew: f64,
+    /// Greatest rate of a reference that needs no faster input than the record's \[N·m/s\];
+    /// `None` where the least slope is not above zero.
+    pub reference_rate: Option<f64>,
+    /// Outputs that the covered inputs reach \[N·m\].
+    pub output: [f64; 2],
+    /// Longest `dt` \[s\].
+    pub longest_dt: f64,
+    /// The safe command goes out after this many bad samples in a row.
+    pub fallback_after: u32,
+    /// The safe command \[command unit\].
+    pub fallback_command: f64,
+}
+
+/// The answer.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Designed {
+    /// Least and greatest slope of the output in the proximal torque.
+    pub slopes: Slopes,
+    /// Magnitude of the slope for which the gains are designed: the greatest one.
+    pub design_slope: f64,
+    /// The delay with that of the model \[s\].
+    pub delay: f64,
+    /// Samples after which a command is first measured.
+    pub delay_samples: usize,
+    /// What was asked of the margins.
+    pub asked: Asked,
+    /// PI.
+    pub pi: PidDesign,
+    /// Which gains alone would be admissible.
+    pub admissible: Admissible,
+    /// Whether a derivative helps.
+    pub derivative: Derivative,
+    /// Limits, slew rate, longest `dt`, fallback.
+    pub bounds: Bounds,
+    /// The adaptive law.
+    pub adaptive: AdaptiveDesign,
+    /// What the reader must know.
+    pub notes: Vec<String>,
+    /// The same as a file.
+    #[serde(skip)]
+    pub gains: GainsFile,
+}
+
+impl Question {
+    /// Refuses what is no rate, delay, noise or gain.
+    ///
+    /// # Errors
+    /// One line with the option.
+    pub fn check(&self) -> Result<(), String> {
+        for (value, option, unit, above) in [
+            (self.rate, "--rate", "Hz", true),
+            (self.delay, "--delay", "s", false),
+            (self.noise, "--noise", "N·m rms", false),
+            (self.drive_gain, "--drive-gain", "N·m/command unit", true),
+        ] {
+            if !(value.is_finite() && value >= 0.0 && (value > 0.0 || !above)) {
+                let from = if above { "above zero" } else { "from zero up" };
+                return Err(format!("{option} {value}: a number {from} was expected [{unit}]"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Samples after which a command is first measured: it is out right after its sample, and a
+/// torque that arrives with a sample is seen with the next one. This is the delay and half a
+/// sample of hold in the mean, and never less than the delay.
+fn samples(delay: f64, step: f64) -> usize {
+    (delay / step + 1e-9).floor() as usize + 1
+}
+
+/// The gains of a model file's text; `label` stands for its name.
+///
+/// # Errors
+/// One line: the option, or file, line and column, and what was expected.
+pub fn design(text: &str, label: &str, asked: &Question) -> Result<Designed, String> {
+    asked.check()?;
+    let file = read(text, label)?;
+    let plant = Plant::new(&file).map_err(|e| format!("{label}: {e}"))?;
+    let h = 1.0 / asked.rate;
+    let delay = asked.delay + plant.own_delay;
+    if delay * asked.rate > MOST_DELAY {
+        return Err(format!(
+            "--rate {}: the delay of {delay} s is more than {MOST_DELAY} samples; a lower rate was expected",
+            asked.rate
+        ));
+    }
+    let count = samples(delay, h);
+    let slope = plant.slopes.magnitude();
+    let unit = Units { gain: slope * asked.drive_gain, h };
+    let pi = pi::pi(count);
+    let pid = pi::pid(count);
+    let derivative = Derivative {
+        helps: pid.gains.k_i >= WORTH * pi.gains.k_i,
+        integral_gain: pid.gains.k_i / pi.gains.k_i,
+        pid: unit.pid(&pid),
+    };
+    let mut used = pi.gains;
+    if derivative.helps {
+        used.k_p += pid.gains.k_d / (pid.gains.tau + 1.0);
+    }
+    let longest_dt = longest_step(pi.gains, delay, h);
+    let bounds = bounds(&plant, asked, unit, used, (delay, longest_dt))?;
+    let told = |e: bowden::Error| format!("{label}: {e}");
+    let limits = Limits::try_new(bounds.low, bounds.high)
+        .and_then(|range| range.with_slew(bounds.slew))
+        .map_err(told)?;
+    let fallback =
+        Fallback::try_new(bounds.fallback_after, bounds.fallback_command).map_err(told)?;
+    let admissible = Admissible {
+        k_p: pi::greatest_proportional() / unit.gain,
+        k_i: pi.gains.k_i / (unit.gain * h),
+        k_i_alone: pi::greatest_integral(Gains::default(), count) / (unit.gain * h),
+    };
+    let around = Around {
+        rate: asked.rate,
+        delay,
+        drive_gain: asked.drive_gain,
+        limits,
+        fallback,
+        reference_rate: bounds.reference_rate,
+    };
+    let adaptive = adaptive::design(&plant, &around);
+    let settings = |own: &PidDesign| PidSettings {
+        k_d: own.k_d,
+        derivative_time: own.derivative_time,
+        damping: Damping::on_measurement(),
+        ..PidSettings::new(own.k_p, own.k_i, limits, longest_dt, fallback)
+    };
+    let pi = unit.pid(&pi);
+    let gains = GainsFile {
+        schema: SCHEMA.to_owned(),
+        design: DesignedFor {
+            by: format!("bowden {}", env!("CARGO_PKG_VERSION")),
+            model: std::path::Path::new(label)
+                .file_name()
+                .map_or_else(|| label.to_owned(), |n| n.to_string_lossy().into_owned()),
+            rate: asked.rate,
+            delay: asked.delay,
+            drive_gain: asked.drive_gain,
+            noise: asked.noise,
+        },
+        pi: settings(&pi),
+        pid: derivative.helps.then(|| settings(&derivative.pid)),
+        adaptive: adaptive.settings,
+    };
+    for pid in std::iter::once(gains.pi).chain(gains.pid) {
+        Pid::try_new(pid).map_err(told)?;
+    }
+    Ok(Designed {
+        slopes: plant.slopes,
+        design_slope: slope,
+        delay,
+        delay_samples: count,
+        asked: ASKED,
+        pi,
+        admissible,
+        derivative,
+        bounds,
+        notes: notes(&plant, &adaptive),
+        adaptive,
+        gains,
+    })
+}
+
+/// A model file, with the place where it is wrong.
+fn read(text: &str, label: &str) -> Result<ModelFile, String> {
+    if text.trim().is_empty() {
+        return Err(format!(
+            "{label}: is empty; a model of `bowden close --model-out` was expected"
+        ));
+    }
+    let file: ModelFile = toml::from_str(text).map_err(|e| message(&e, text, label))?;
+    if file.schema != "bowden.model/1" {
+        return Err(format!(
+            "{label}: schema {:?}: \"bowden.model/1\" was expected",
+            file.schema
+        ));
+    }
+    Ok(file)
+}
+
+/// The units of the plant and of the sample.
+#[derive(Debug, Clone, Copy)]
+struct Units {
+    /// Slope of the measured torque in the command \[N·m/command unit\].
+    gain: f64,
+    h: f64,
+}
+
+impl Units {
+    fn pid(&self, found: &pi::Found) -> PidDesign {
+        let (own, Self { gain, h }) = (found.gains, *self);
+        PidDesign {
+            k_p: own.k_p / gain,
+            k_i: own.k_i / (gain * h),
+            k_d: own.k_d * h / gain,
+            derivative_time: if own.k_d == 0.0 { 0.0 } else { own.tau * h },
+            margins: found.margins,
+            overshoot: found.response.overshoot,
+            settled: found.response.settled.map(|k| k as f64 * h),
+        }
+    }
+}
+
+/// The longest step at which the loop would keep a margin, of 1.5 to 5 samples \[s\].
+fn longest_step(gains: Gains, delay: f64, h: f64) -> f64 {
+    let mut longest = 1.5;
+    for ratio in [2.0, 3.0, 4.0, 5.0] {
+        let own = linear::margins(gains.at_step(ratio), samples(delay, ratio * h));
+        if own.gain < LONG_MARGIN {
+            break;
+        }
+        longest = ratio;
+    }
+    longest * h
+}
+
+fn bounds(
+    plant: &Plant,
+    asked: &Question,
+    unit: Units,
+    used: Gains,
+    (delay, longest_dt): (f64, f64),
+) -> Result<Bounds, String> {
+    let [low, high] = plant.input.map(|torque| torque / asked.drive_gain);
+    let proportional = (used.k_p + used.k_i) / unit.gain;
+    let slew_of_noise = 2.0 * proportional * PEAK_OF_NOISE * asked.noise * asked.rate;
+    let slew_of_record = plant.greatest_rate() / asked.drive_gain;
+    let least = plant.slopes.least;
+    let after = (0.02_f64.max(2.0 * delay) * asked.rate).ceil().clamp(2.0, 1e6);
+    Ok(Bounds {
+        low,
+        high,
+        slew_of_noise,
+        slew_of_record,
+        slew: slew_of_noise.max(slew_of_record),
+        reference_rate: (least > 0.0).then(|| least * plant.greatest_rate()),
+        output: plant.output(),
+        longest_dt,
+        fallback_after: after as u32,
+        fallback_command: 0.0_f64.clamp(low, high),
+    })
+}
+
+fn notes(plant: &Plant, adaptive: &AdaptiveDesign) -> Vec<String> {
+    let mut notes = Vec::new();
+    let least = plant.slopes.least;
+    if least <= 0.0 {
+        notes.push(format!(
+            "the least slope is {least:.4}: after a reversal the output turns back while the input goes on, and no margin covers that; `bowden close --invertible` fits a model without it"
+        ));
+    }
+    if plant.own_delay > 0.0 {
+        notes.push(format!(
+            "the model's own delay and lag, {} s, are added to --delay",
+            plant.own_delay
+        ));
+    }
+    if !plant.left_out.is_empty() {
+        notes.push(format!(
+            "the slopes leave out what else reads the input: {}",
+            plant.left_out.join(", ")
+        ));
+    }
+    if !adaptive.assumed.is_empty() {
+        notes.push(format!(
+            "the model file has no interval of {}: 10 % was assumed",
+            adaptive.assumed.join(", ")
+        ));
+    }
+    notes
+}

@@ -1,0 +1,133 @@
+//! Gains of PI and PID for a static plant behind a delay, within stated margins.
+//!
+//! Of all pairs that keep the margins the one with the greatest integral gain is taken: a
+//! static plant follows a ramp with the error `rate/(k_i·slope)`, and a disturbance is gone
+//! after `1/(k_i·slope)`. Source: K. J. Åström, T. Hägglund, *Advanced PID Control*, 2006,
+//! 6.8 and 7.3 (maximise the integral gain subject to robustness).
+
+use super::linear::{margins, response, Gains, Margins, Response};
+
+/// What is asked of the loop where the plant is steepest.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Asked {
+    /// Least gain margin.
+    pub gain_margin: f64,
+    /// Least phase margin \[deg\].
+    pub phase_margin: f64,
+    /// Greatest overshoot of a step of the reference, as a share of it.
+    pub overshoot: f64,
+    /// The real part of the open loop stays above this.
+    pub least_real: f64,
+}
+
+/// What [`bowden design`](super::design) asks for.
+pub const ASKED: Asked = Asked {
+    gain_margin: 2.0,
+    phase_margin: 45.0,
+    overshoot: 0.05,
+    least_real: -1.0,
+};
+
+/// Longest delay that the search sees \[samples\]; a longer one has the same gains but for
+/// the unit of time.
+const LONGEST: usize = 48;
+
+/// Gains with what they give where the plant is steepest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Found {
+    pub(super) gains: Gains,
+    pub(super) margins: Margins,
+    pub(super) response: Response,
+}
+
+fn admissible(gains: Gains, delay: usize) -> bool {
+    let own = margins(gains, delay);
+    own.gain >= ASKED.gain_margin
+        && own.phase >= ASKED.phase_margin
+        && own.least_real > ASKED.least_real
+        && response(gains, delay, 1.0).overshoot <= ASKED.overshoot
+}
+
+/// The greatest value up to `high` that is admitted, of those that are admitted from zero on.
+fn greatest(high: f64, admitted: impl Fn(f64) -> bool) -> f64 {
+    let (mut low, mut high) = (0.0, high);
+    for _ in 0..30 {
+        let middle = 0.5 * (low + high);
+        if admitted(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low
+}
+
+/// The greatest integral gain beside the other gains.
+pub(super) fn greatest_integral(rest: Gains, delay: usize) -> f64 {
+    greatest(2.0, |k_i| admissible(Gains { k_i, ..rest }, delay))
+}
+
+/// The greatest proportional gain without an integral: the gain margin alone bounds it.
+pub(super) fn greatest_proportional() -> f64 {
+    1.0 / ASKED.gain_margin
+}
+
+fn best(candidates: impl Iterator<Item = Gains>, delay: usize) -> Gains {
+    let mut best = Gains::default();
+    for rest in candidates {
+        let k_i = greatest_integral(rest, delay);
+        if k_i > best.k_i {
+            best = Gains { k_i, ..rest };
+        }
+    }
+    best
+}
+
+/// From the delay of the search to the real one, and down until the margins are kept.
+fn scaled(gains: Gains, from: usize, to: usize) -> Gains {
+    let ratio = to as f64 / from as f64;
+    let mut gains = Gains {
+        k_p: gains.k_p,
+        k_i: gains.k_i / ratio,
+        k_d: gains.k_d * ratio,
+        tau: gains.tau * ratio,
+    };
+    while !admissible(gains, to) && gains.k_i > 1e-12 {
+        gains = gains.times(0.99);
+    }
+    gains
+}
+
+/// PI behind `delay` samples.
+pub(super) fn pi(delay: usize) -> Found {
+    let seen = delay.min(LONGEST);
+    let grid = (0..=24).map(|k| Gains {
+        k_p: greatest_proportional() * f64::from(k) / 25.0,
+        ..Gains::default()
+    });
+    found(scaled(best(grid, seen), seen, delay), delay)
+}
+
+/// PID behind `delay` samples, its filter half as long as the delay.
+pub(super) fn pid(delay: usize) -> Found {
+    let seen = delay.min(LONGEST / 2);
+    let tau = (0.5 * seen as f64).max(1.0);
+    let grid = (0..=8).flat_map(|p| {
+        (1..=6).map(move |d| Gains {
+            k_p: greatest_proportional() * f64::from(p) / 9.0,
+            // At high frequencies the term has the gain k_d/tau.
+            k_d: 0.08 * f64::from(d) * tau,
+            tau,
+            ..Gains::default()
+        })
+    });
+    found(scaled(best(grid, seen), seen, delay), delay)
+}
+
+fn found(gains: Gains, delay: usize) -> Found {
+    Found {
+        gains,
+        margins: margins(gains, delay),
+        response: response(gains, delay, 1.0),
+    }
+}

@@ -1,0 +1,191 @@
+//! What a model file says of the plant of a loop: slopes, ranges, intervals.
+
+use bowden::transmission::{Mode, Transmission};
+use bowden_lab::export::{About, ModelFile, TermFile};
+use serde::Serialize;
+
+/// Least and greatest slope of the output in the input.
+///
+/// With zeta = eta in the direction of the motion, `d zeta/dp = 1 - zeta^n` while it loads and
+/// `1 + (2·sigma - 1)·abs(zeta)^n` while it unloads, where `p` is rho times the path. With
+/// abs(zeta) <= 1 and 2·sigma >= 1 the slope of eta in the input lies in
+/// `0..=rho·max(1, 2·sigma)`, so in torque mode (5)-(7) that of the output lies between
+/// `B` and `B - kappa_eta·rho·max(1, 2·sigma)`. Both ends are reached: where the loop is
+/// saturated, before and after a reversal.
+///
+/// ```
+/// use bowden::hysteresis::Shape;
+/// use bowden::transmission::Transmission;
+/// use bowden_trials::design::Slopes;
+/// let cable = Transmission::torque(1.0, 2.0, 0.0, Shape::try_new(0.1, 1.5, 2.0)?)?;
+/// let slopes = Slopes::of(&cable);
+/// assert!((slopes.least - 0.4).abs() < 1e-12 && slopes.greatest == 1.0);
+/// # Ok::<(), bowden::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Slopes {
+    /// Least slope.
+    pub least: f64,
+    /// Greatest slope.
+    pub greatest: f64,
+}
+
+impl Slopes {
+    /// Of a transmission.
+    #[must_use]
+    pub fn of(cable: &Transmission<f64>) -> Self {
+        let shape = cable.shape();
+        let steepest = shape.rho() * (2.0 * shape.sigma()).max(1.0);
+        let against = match cable.mode() {
+            Mode::Torque => -cable.kappa_eta(),
+            Mode::Displacement => cable.kappa_eta(),
+        };
+        let other = cable.gain() + against * steepest;
+        Self {
+            least: cable.gain().min(other),
+            greatest: cable.gain().max(other),
+        }
+    }
+
+    /// The greatest magnitude of the slope: that of the loop's gain.
+    #[must_use]
+    pub fn magnitude(&self) -> f64 {
+        self.greatest.max(-self.least)
+    }
+}
+
+/// A torque model as the plant of a loop.
+#[derive(Debug, Clone)]
+pub(super) struct Plant {
+    pub(super) cable: Transmission<f64>,
+    pub(super) slopes: Slopes,
+    /// Delays and lags of the model \[s\]: a lag counts as a delay, which is never less.
+    pub(super) own_delay: f64,
+    /// Range of the input \[N·m\] and of its rate \[N·m/s\] that the record has covered.
+    pub(super) input: [f64; 2],
+    pub(super) input_rate: [f64; 2],
+    /// Greatest magnitude of the effects' sum within the ranges \[N·m\], and their names.
+    pub(super) effects: f64,
+    /// Terms that the slopes leave out, since they read the input.
+    pub(super) left_out: Vec<String>,
+    /// 95 % intervals by name, as the file has them.
+    pub(super) about: About,
+}
+
+impl Plant {
+    /// From a file; `Err` is one sentence without the file's name.
+    pub(super) fn new(file: &ModelFile) -> Result<Self, String> {
+        if file.mode != "torque" {
+            return Err(format!(
+                "mode {:?}: a torque model was expected, since the loop commands a torque",
+                file.mode
+            ));
+        }
+        let model = file.model::<{ bowden_lab::export::MOST_TERMS }>()?;
+        let Some(cable) = model.transmission().copied() else {
+            return Err("no table `transmission`: a model with one was expected".to_owned());
+        };
+        let about = file.about.clone().ok_or(
+            "no table `about`: the limits come from `about.ranges`, which `bowden close --model-out` writes",
+        )?;
+        let seen = about.ranges.get("input").ok_or(
+            "no table `about.ranges.input`: the limits come from it; `bowden close --model-out` writes it",
+        )?;
+        let (input, input_rate) = (seen.position, seen.velocity);
+        for (range, name) in [(input, "position"), (input_rate, "velocity")] {
+            if !(range[0].is_finite() && range[1].is_finite() && range[0] < range[1]) {
+                return Err(format!(
+                    "about.ranges.input.{name}: two numbers, the lower one first, were expected"
+                ));
+            }
+        }
+        let mut plant = Self {
+            slopes: Slopes::of(&cable),
+            cable,
+            own_delay: 0.0,
+            input,
+            input_rate,
+            effects: 0.0,
+            left_out: Vec::new(),
+            about,
+        };
+        for term in &file.terms {
+            plant.add(term)?;
+        }
+        if plant.slopes.greatest <= 0.0 {
+            return Err(format!(
+                "the output never rises with the input (greatest slope {:.4}): turn the sign of one of them",
+                plant.slopes.greatest
+            ));
+        }
+        Ok(plant)
+    }
+
+    /// What a term adds to the delay, to the slope or to the disturbance.
+    fn add(&mut self, term: &TermFile) -> Result<(), String> {
+        let name = match term.source.as_str() {
+            "input" => term.effect.clone(),
+            channel => format!("{}@{channel}", term.effect),
+        };
+        match term.effect.as_str() {
+            "delay" => self.own_delay += term.gain.max(0.0),
+            "lag" => self.own_delay += term.shapes.first().map_or(0.0, |s| s.value).max(0.0),
+            "gain" if term.source == "input" => {
+                self.slopes.least += term.gain;
+                self.slopes.greatest += term.gain;
+            }
+            _ if term.source == "input" => self.left_out.push(name),
+            _ => self.effects += self.largest(term)?,
+        }
+        Ok(())
+    }
+
+    /// The greatest share of a term over the corners and the middle of what the record covered.
+    fn largest(&self, term: &TermFile) -> Result<f64, String> {
+        use bowden::effect::{EffectState, Motion, Situation};
+        let Some(span) = self.about.ranges.get(&term.source) else {
+            return Err(format!(
+                "no table `about.ranges.{}`, which the term {} reads",
+                term.source, term.effect
+            ));
+        };
+        let shapes: Vec<f64> = term.shapes.iter().map(|shape| shape.value).collect();
+        let effect = bowden::effect::Effect::try_from_name(&term.effect, &shapes)
+            .map_err(|e| format!("terms: {}: {e}", term.effect))?;
+        const GRID: usize = 8;
+        let along = |[low, high]: [f64; 2], k: usize| low + (high - low) * k as f64 / GRID as f64;
+        let mut most = 0.0_f64;
+        for (i, j) in (0..=GRID).flat_map(|i| (0..=GRID).map(move |j| (i, j))) {
+            for (k, load) in [(0, self.input[0]), (GRID, self.input[1])] {
+                let motion = Motion {
+                    position: along(span.position, i) - term.origin,
+                    velocity: along(span.velocity, j),
+                    acceleration: along(span.acceleration, k),
+                };
+                let at = Situation {
+                    dt: 0.0,
+                    motion,
+                    input: Motion { position: load, ..Motion::default() },
+                    load,
+                    ..Situation::default()
+                };
+                let share = term.gain * effect.regressor(&mut EffectState::new(), &at);
+                if share.is_finite() {
+                    most = most.max(share.abs());
+                }
+            }
+        }
+        Ok(most)
+    }
+
+    /// Output that the saturated hysteresis reaches from the covered input \[N·m\].
+    pub(super) fn output(&self) -> [f64; 2] {
+        let [low, high] = self.input;
+        [self.cable.output(low, -1.0), self.cable.output(high, 1.0)]
+    }
+
+    /// Greatest rate of the input in the record \[N·m/s\].
+    pub(super) fn greatest_rate(&self) -> f64 {
+        self.input_rate[1].max(-self.input_rate[0])
+    }
+}

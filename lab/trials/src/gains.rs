@@ -1,0 +1,165 @@
+//! Gains as a file, schema `bowden.gains/1`: what `bowden design` writes and `compare` reads.
+//!
+//! One table a controller, with the names of the core's fields, so that firmware with the
+//! feature `serde` reads a table as it stands into `PidSettings` or `AdaptiveSettings`.
+
+use bowden::control::{Adaptive, AdaptiveSettings, Pid, PidSettings};
+use serde::{Deserialize, Serialize};
+
+/// The schema.
+pub const SCHEMA: &str = "bowden.gains/1";
+
+/// The whole file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GainsFile {
+    /// [`SCHEMA`].
+    pub schema: String,
+    /// What the gains were designed for.
+    pub design: DesignedFor,
+    /// PI.
+    pub pi: PidSettings<f64>,
+    /// PID, where the derivative helps.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pid: Option<PidSettings<f64>>,
+    /// The adaptive law in lag form without regressors, where gains are admissible.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub adaptive: Option<AdaptiveSettings<f64, 0>>,
+}
+
+/// What gains were designed for.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DesignedFor {
+    /// The program and its version.
+    pub by: String,
+    /// The model's file, without folders.
+    pub model: String,
+    /// Samples a second \[Hz\].
+    pub rate: f64,
+    /// From the command to its measured torque \[s\].
+    pub delay: f64,
+    /// Proximal torque of one command unit \[N·m/command unit\].
+    pub drive_gain: f64,
+    /// Noise of the measured torque \[N·m rms\].
+    pub noise: f64,
+}
+
+impl GainsFile {
+    /// Reads a text; `label` stands for the file's name.
+    ///
+    /// # Errors
+    /// One line with file, line, column and key.
+    pub fn parse(text: &str, label: &str) -> Result<Self, String> {
+        let gains: Self = toml::from_str(text).map_err(|e| message(&e, text, label))?;
+        if gains.schema != SCHEMA {
+            return Err(at(
+                text,
+                label,
+                "",
+                "schema",
+                &format!("schema {:?}: {SCHEMA:?} was expected", gains.schema),
+            ));
+        }
+        let d = &gains.design;
+        for (value, name, above) in [
+            (d.rate, "rate", true),
+            (d.delay, "delay", false),
+            (d.drive_gain, "drive_gain", true),
+            (d.noise, "noise", false),
+        ] {
+            if !(value.is_finite() && value >= 0.0 && (value > 0.0 || !above)) {
+                let what = if above { "above zero" } else { "from zero up" };
+                let line = format!("[design]: {name} {value}: a finite number {what} was expected");
+                return Err(at(text, label, "design", name, &line));
+            }
+        }
+        let refused = |table: &str, error: bowden::Error| {
+            let name = error.about().split(['.', ' ']).next().unwrap_or("");
+            at(text, label, table, name, &format!("[{table}]: {error}"))
+        };
+        Pid::try_new(gains.pi).map_err(|e| refused("pi", e))?;
+        if let Some(pid) = gains.pid {
+            Pid::try_new(pid).map_err(|e| refused("pid", e))?;
+        }
+        if let Some(law) = gains.adaptive {
+            Adaptive::try_new(law).map_err(|e| refused("adaptive", e))?;
+        }
+        Ok(gains)
+    }
+
+    /// As TOML.
+    ///
+    /// # Errors
+    /// Where a number cannot be written.
+    pub fn toml(&self) -> Result<String, toml::ser::Error> {
+        let d = &self.design;
+        Ok(format!(
+            "# Designed by {} for {} at {} Hz behind {} s\n{}",
+            d.by,
+            d.model,
+            d.rate,
+            d.delay,
+            toml::to_string(self)?
+        ))
+    }
+
+    /// Samples of `design.rate` in one step of the adaptive law: 1 where it runs at that rate.
+    #[must_use]
+    pub fn adaptive_every(&self) -> usize {
+        let step = self.adaptive.map(|law| law.form);
+        match step {
+            Some(bowden::control::Form::Lag { step, .. }) => {
+                (step * self.design.rate).round().max(1.0) as usize
+            }
+            _ => 1,
+        }
+    }
+}
+
+/// file:line:column of a key of a table, or of the table, before a line.
+fn at(text: &str, label: &str, table: &str, key: &str, line: &str) -> String {
+    let mut inside = table.is_empty();
+    let mut place = None;
+    for (number, row) in text.lines().enumerate() {
+        let trimmed = row.trim();
+        if let Some(name) = trimmed.strip_prefix('[').and_then(|r| r.split(']').next()) {
+            inside = name == table || name.strip_prefix(table).is_some_and(|r| r.starts_with('.'));
+            if name == table {
+                place = Some((number + 1, 1));
+            }
+        }
+        let own = trimmed.split('=').next().unwrap_or("").trim();
+        if inside && !key.is_empty() && own == key {
+            let column = row.chars().take_while(|c| c.is_whitespace()).count() + 1;
+            return format!("{label}:{}:{column}: {line}", number + 1);
+        }
+    }
+    match place {
+        Some((number, column)) => format!("{label}:{number}:{column}: {line}"),
+        None => format!("{label}: {line}"),
+    }
+}
+
+/// file:line:column: what is wrong, in one line.
+pub(crate) fn message(error: &toml::de::Error, text: &str, label: &str) -> String {
+    let what = error.message().replace('\n', " ");
+    match error.span() {
+        None => format!("{label}: {what}"),
+        Some(span) => {
+            let before = text.get(..span.start).unwrap_or(text);
+            let line = before.matches('\n').count() + 1;
+            let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
+            let key = key_at(text, span.start).map_or_else(String::new, |k| format!("`{k}`: "));
+            format!("{label}:{line}:{column}: {key}{what}")
+        }
+    }
+}
+
+/// The key of the line on which an error stands.
+fn key_at(text: &str, at: usize) -> Option<&str> {
+    let start = text.get(..at)?.rfind('\n').map_or(0, |i| i + 1);
+    let line = text.get(start..)?.lines().next()?.trim();
+    let key = line.split_once('=').map_or(line, |(key, _)| key).trim();
+    (!key.is_empty()).then_some(key)
+}
