@@ -5,7 +5,7 @@ use super::Failure;
 use crate::view::compare::{json, text, trace};
 use bowden_lab::facts::Source;
 use bowden_page::Compare as Page;
-use bowden_trials::facts::{compare, Question};
+use bowden_trials::facts::{compare, Question, RigChanges};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -28,9 +28,17 @@ pub struct Compare {
     /// NAME, NAME:STRENGTH or NAME@CHANNEL:STRENGTH, strength in N·m rms.
     #[arg(long, value_name = "NAME[@CHANNEL][:STRENGTH]")]
     effect: Option<String>,
-    /// Gains, rig and the model that is fed forward; also a file of `close --model-out`.
-    #[arg(long, visible_alias = "gains", value_name = "FILE.toml")]
+    /// A file of `close --model-out`: the rig has its transmission and effects, the reference
+    /// stays within what its record has covered, and it is fed forward. Or gains, rig and
+    /// model in one file.
+    #[arg(long, value_name = "MODEL.toml")]
     model: Option<PathBuf>,
+    /// Gains of `bowden design`, with the model that they are for in --model; or gains, rig
+    /// and model in one file.
+    #[arg(long, value_name = "GAINS.toml")]
+    gains: Option<PathBuf>,
+    #[command(flatten)]
+    rig: RigOptions,
     /// Reference, torques, command and estimates over time of the first trial, as CSV.
     #[arg(long, value_name = "FILE.csv")]
     trace: Option<PathBuf>,
@@ -43,10 +51,59 @@ pub struct Compare {
     json: bool,
 }
 
+/// Numbers of the rig.
+#[derive(Args)]
+struct RigOptions {
+    /// Motor torque of one command unit [N·m]; 0.6 where not given.
+    #[arg(long, value_name = "N·m", allow_negative_numbers = true)]
+    drive_gain: Option<f64>,
+    /// Inertia of motor and proximal pulley [kg·m²]; 0.2 where not given.
+    #[arg(long, value_name = "KG·M²", allow_negative_numbers = true)]
+    inertia: Option<f64>,
+    /// Viscous friction of motor and proximal pulley [N·m·s/rad]; 2.7 where not given.
+    #[arg(long, value_name = "N·m·s", allow_negative_numbers = true)]
+    damping: Option<f64>,
+    /// Inertia of the joint [kg·m²]; 0.004 where not given.
+    #[arg(long, value_name = "KG·M²", allow_negative_numbers = true)]
+    joint_inertia: Option<f64>,
+    /// Damping of the joint [N·m·s/rad]; 0.5 where not given.
+    #[arg(long, value_name = "N·m·s", allow_negative_numbers = true)]
+    joint_damping: Option<f64>,
+    /// Spring that the joint works against [N·m/rad]; 150 where not given.
+    #[arg(long, value_name = "N·m", allow_negative_numbers = true)]
+    spring: Option<f64>,
+    /// Samples between a command and the drive, 0 to 8; 1 where not given.
+    #[arg(long, value_name = "SAMPLES")]
+    delay: Option<u8>,
+    /// Time constant of the drive [s]; 0.0005 where not given.
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    drive_lag: Option<f64>,
+    /// Time constant of the torque sensors [s]; 0.001 where not given.
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    sensor_lag: Option<f64>,
+}
+
+impl RigOptions {
+    fn changes(&self) -> RigChanges {
+        RigChanges {
+            drive_gain: self.drive_gain,
+            motor_inertia: self.inertia,
+            motor_damping: self.damping,
+            joint_inertia: self.joint_inertia,
+            joint_damping: self.joint_damping,
+            load_stiffness: self.spring,
+            drive_lag: self.drive_lag,
+            sensor_lag: self.sensor_lag,
+            delay: self.delay,
+        }
+    }
+}
+
 impl Compare {
     pub fn run(self) -> Result<(), Failure> {
         self.check()?;
-        let read: Vec<&Path> = self.model.as_deref().into_iter().collect();
+        let given = [self.model.as_deref(), self.gains.as_deref()];
+        let read: Vec<&Path> = given.into_iter().flatten().collect();
         if let Some(path) = &self.report {
             super::writable("--report", path, &read)?;
         }
@@ -59,6 +116,8 @@ impl Compare {
         };
         let question = Question {
             setup: self.model.as_deref(),
+            gains: self.gains.as_deref(),
+            rig: self.rig.changes(),
             noise: self.noise,
             varying: self.varying,
             seconds: self.seconds,

@@ -51,6 +51,31 @@ impl<T: Real> Reference<T> {
         Self { ramp, ..self }
     }
 
+    /// The same, moved and stretched to stay between two values \[N·m\].
+    ///
+    /// Numbers that are not finite, or not in order, change nothing.
+    ///
+    /// ```
+    /// use bowden_rig::Reference;
+    /// let small = Reference::<f64>::paper().between(-4.0, 9.0);
+    /// assert!((small.at(0.0) - 2.5).abs() < 1e-12 && (small.maximum() - 9.0).abs() < 1e-12);
+    /// ```
+    #[must_use]
+    pub fn between(&self, low: T, high: T) -> Self {
+        let half = T::of(0.5) * (high - low);
+        let own = self.maximum() - self.mean;
+        let (mean, factor) = (low + half, half / own);
+        if !(half > T::zero() && mean.is_finite() && factor.is_finite()) {
+            return *self;
+        }
+        let tones = self.tones.map(|(amplitude, w)| (factor * amplitude, w));
+        Self {
+            mean,
+            tones,
+            ..*self
+        }
+    }
+
     /// The greatest value \[N·m\].
     #[must_use]
     pub fn maximum(&self) -> T {

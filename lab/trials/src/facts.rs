@@ -2,10 +2,13 @@
 
 use super::certificates::named;
 use super::found::outcome;
+use super::gains::GainsFile;
 use super::lineup::{declared_feed, lineup};
+use super::own_rig;
 use super::setup::Setup;
 use super::table::run_all;
 use super::trial::{Conditions, TRANSIENT};
+use bowden::model::Term;
 use bowden_rig::{Drift, Reference};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -16,6 +19,7 @@ pub use super::design::{
     design, rust as design_rust, AdaptiveDesign, Designed, PidDesign, Question as DesignQuestion,
 };
 pub use super::found::{Outcome, Pair};
+pub use super::own_rig::RigChanges;
 pub use super::table::{Line, Spread};
 pub use super::trial::Row;
 pub use super::undeclared::Undeclared;
@@ -33,8 +37,13 @@ const FROM: f64 = 5.0;
 /// What is asked.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Question<'a> {
-    /// Gains, rig and model; the paper's and the reference rig's where not given.
+    /// A model, whose transmission the rig then has, or gains, rig and model in one file; the
+    /// paper's and the reference rig's where not given.
     pub setup: Option<&'a Path>,
+    /// Gains of `bowden design`, or a file as of `setup`.
+    pub gains: Option<&'a Path>,
+    /// Other numbers of the rig.
+    pub rig: RigChanges,
     /// White noise of the torque sensors \[N·m rms\], where another than the setup's.
     pub noise: Option<f64>,
     /// Whether the conduit is moved.
@@ -66,6 +75,14 @@ pub struct Heading {
     pub seeds: usize,
     /// In what `--model` had to be changed to be fed forward, if in anything.
     pub fed_with: Option<String>,
+    /// The model whose transmission the rig has, without folders; `None` of the reference rig's.
+    pub model: Option<String>,
+    /// The gains of `bowden design` that run, without folders; `None` of the paper's.
+    pub gains: Option<String>,
+    /// The rig's numbers that were given one by one.
+    pub rig: RigChanges,
+    /// Between which values the reference moves \[N·m\], where it is not the paper's.
+    pub reference: Option<[f64; 2]>,
 }
 
 /// The answer.
@@ -140,12 +157,21 @@ pub fn paper(controller: &str, varying: bool) -> Option<[f64; 2]> {
 /// # Errors
 /// One line where the setup cannot be read, a law is refused, or the bench finds no model.
 pub fn compare(question: &Question<'_>) -> Result<Compared, String> {
-    let setup = setup(question)?;
+    let (mut setup, gains) = inputs(question)?;
     let effect = question.effect.map(Undeclared::parse).transpose()?;
+    if effect.is_some() && (setup.is_model || gains.is_some()) {
+        return Err(
+            "--effect: is hidden in the reference rig and found with the paper's gains; it goes with neither a model nor the gains of `bowden design`"
+                .to_owned(),
+        );
+    }
+    let own = own(&mut setup, question)?;
+    setup.rig = question.rig.apply(setup.rig)?;
+    let range = own.as_ref().and_then(|own| own.reference);
     let conditions = Conditions {
         rig: setup.rig,
-        undeclared: Vec::new(),
-        reference: Reference::paper(),
+        undeclared: own.as_ref().map_or_else(Vec::new, |own| own.effects.clone()),
+        reference: range.map_or_else(Reference::paper, own_rig::scaled),
         seconds: question.seconds,
         from: FROM,
     };
@@ -160,12 +186,81 @@ pub fn compare(question: &Question<'_>) -> Result<Compared, String> {
             None => declared_feed(&setup)?.changed_words().map(str::to_owned),
             Some(_) => None,
         },
+        model: own.as_ref().and(question.setup).map(file_name),
+        gains: gains.as_ref().and(question.gains).map(file_name),
+        rig: question.rig,
+        reference: range,
     };
     let results = match effect {
-        None => Results::Lineup(declared(&setup, &conditions, question)?),
+        None => Results::Lineup(declared(&setup, gains.as_ref(), &conditions, question)?),
         Some(effect) => Results::Found(found(&setup, effect, &conditions, question)?),
     };
     Ok(Compared { heading, results })
+}
+
+/// What the rig has of the user's own model.
+struct Own {
+    effects: Vec<Term<f64>>,
+    reference: Option<[f64; 2]>,
+}
+
+/// Gives the rig the transmission of the model, where a model by itself was given.
+fn own(setup: &mut Setup, question: &Question<'_>) -> Result<Option<Own>, String> {
+    let (Some(file), Some(path), true) = (&setup.model, question.setup, setup.is_model) else {
+        return Ok(None);
+    };
+    let told = |e: String| format!("{}: {e}", path.display());
+    let cable = own_rig::transmission(file).map_err(told)?;
+    let own = Own {
+        effects: own_rig::effects(file).map_err(told)?,
+        reference: own_rig::reference(file, &cable),
+    };
+    setup.rig = own_rig::with_transmission(&setup.rig, &cable);
+    Ok(Some(own))
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().map_or_else(
+        || path.display().to_string(),
+        |n| n.to_string_lossy().into_owned(),
+    )
+}
+
+/// The setup, and the gains of `bowden design` where there are some.
+fn inputs(question: &Question<'_>) -> Result<(Setup, Option<GainsFile>), String> {
+    let Some(path) = question.gains else {
+        return Ok((setup(question, question.setup)?, None));
+    };
+    let label = path.display().to_string();
+    let text = std::fs::read_to_string(path).map_err(|e| format!("{label}: {e}"))?;
+    let schema = toml::from_str::<toml::Table>(&text)
+        .ok()
+        .and_then(|table| Some(table.get("schema")?.as_str()?.to_owned()));
+    match schema.as_deref() {
+        Some("bowden.model/1") if question.setup.is_some() => Err(format!(
+            "{label}: is a model; gains of `bowden design` were expected beside --model"
+        )),
+        Some("bowden.model/1") | None => {
+            let mut gains = setup(question, Some(path))?;
+            if let Some(model) = question.setup {
+                let given = setup(question, Some(model))?;
+                if !given.is_model {
+                    return Err(format!(
+                        "{}: a model of `bowden close --model-out` was expected beside --gains",
+                        model.display()
+                    ));
+                }
+                (gains.model, gains.is_model) = (given.model, true);
+            } else {
+                gains.is_model = false;
+            }
+            Ok((gains, None))
+        }
+        Some(_) => {
+            let gains = GainsFile::parse(&text, &label)?;
+            Ok((setup(question, question.setup)?, Some(gains)))
+        }
+    }
 }
 
 /// The certificates of a setup.
@@ -183,10 +278,10 @@ fn read(path: Option<&Path>) -> Result<Setup, String> {
     }
 }
 
-fn setup(question: &Question<'_>) -> Result<Setup, String> {
-    let mut setup = read(question.setup)?;
+fn setup(question: &Question<'_>, path: Option<&Path>) -> Result<Setup, String> {
+    let mut setup = read(path)?;
     // Through the paper's gains the experiment's noise hides what is gained.
-    let quiet = question.effect.is_some() && question.setup.is_none();
+    let quiet = question.effect.is_some() && path.is_none();
     if let Some(noise) = question.noise.or(quiet.then_some(QUIET)) {
         if !(noise.is_finite() && noise >= 0.0) {
             return Err(format!("--noise {noise}: zero or more N·m was expected"));
@@ -202,14 +297,24 @@ fn setup(question: &Question<'_>) -> Result<Setup, String> {
 
 fn declared(
     setup: &Setup,
+    gains: Option<&GainsFile>,
     conditions: &Conditions,
     question: &Question<'_>,
 ) -> Result<Lineup, String> {
     let seeds: Vec<u64> = (1..=question.seeds).collect();
-    let lines = run_all(&lineup(setup)?, conditions, &seeds, question.traced)?;
+    let controllers = match gains {
+        Some(gains) => own_rig::designed(setup, gains)?,
+        None => lineup(setup)?,
+    };
+    let lines = run_all(&controllers, conditions, &seeds, question.traced)?;
+    // The certificates are of the paper's gains, reference and rig.
+    let certificates = match gains.is_some() || setup.is_model {
+        true => BTreeMap::new(),
+        false => named(setup)?,
+    };
     Ok(Lineup {
         lines,
-        certificates: named(setup)?,
+        certificates,
     })
 }
 

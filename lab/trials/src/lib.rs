@@ -14,6 +14,7 @@ pub mod feed;
 pub mod found;
 pub mod gains;
 pub mod lineup;
+pub mod own_rig;
 pub mod setup;
 pub mod table;
 pub mod trial;

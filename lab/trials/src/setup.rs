@@ -46,7 +46,8 @@
 //! n = 3.871
 //! ```
 //!
-//! A file that is such a model by itself is read as one.
+//! A file that is such a model by itself is read as one; `bowden compare --model` then gives
+//! the rig its transmission and its effects ([`own_rig`](super::own_rig)).
 
 use super::gains::message;
 use bowden::control::{AdaptiveSettings, Damping, Estimator, Form, Leakage, PidSettings};
@@ -73,6 +74,9 @@ pub struct Setup {
     pub adaptive: AdaptiveGains,
     /// The model that is fed forward; the rig's own transmission where there is none.
     pub model: Option<ModelFile>,
+    /// Whether the file was a model by itself: then the rig has its transmission.
+    #[serde(skip)]
+    pub is_model: bool,
 }
 
 /// Gains of PI, PID or PIV; what is left out is the paper's.
@@ -232,6 +236,7 @@ impl Setup {
         let setup = if table.contains_key("schema") {
             Self {
                 model: Some(toml::from_str(text).map_err(failed)?),
+                is_model: true,
                 ..Self::default()
             }
         } else {

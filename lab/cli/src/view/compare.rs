@@ -41,19 +41,75 @@ fn ran_away(line: &Line, seeds: usize) -> Option<String> {
 
 fn lineup_text(heading: &Heading, lineup: &Lineup) -> String {
     let mut out = format!(
-        "bowden compare: {} trials of {} s on the reference rig, noise {} N·m rms, configuration {}\n\n",
+        "bowden compare: {} trials of {} s on the reference rig{}, noise {} N·m rms, configuration {}\n\n",
         heading.seeds,
         heading.seconds,
+        match &heading.model {
+            Some(model) => format!(" with the transmission of {model}"),
+            None => String::new(),
+        },
         heading.noise,
         configuration(heading)
     );
+    out += &own(heading);
     if let Some(changed) = &heading.fed_with {
         let _ = writeln!(
             out,
             "The model has no inverse as it is: fed forward with {changed}.\n"
         );
     }
-    out + &steady(heading, lineup) + &transient(heading, &lineup.lines) + NOTES
+    let notes = match is_paper(heading) {
+        true => NOTES,
+        false => OWN_NOTES,
+    };
+    out + &steady(heading, lineup) + &transient(heading, &lineup.lines) + notes
+}
+
+/// Whether the rig, the gains and the reference are those of the paper's experiment.
+fn is_paper(heading: &Heading) -> bool {
+    heading.model.is_none() && heading.gains.is_none()
+}
+
+/// What is the user's own: gains, reference, numbers of the rig.
+fn own(heading: &Heading) -> String {
+    let mut out = String::new();
+    if let Some(gains) = &heading.gains {
+        let _ = writeln!(out, "Gains: those of {gains}.");
+    }
+    if let Some([low, high]) = heading.reference {
+        let _ = writeln!(
+            out,
+            "Reference: the paper's between {low:.2} and {high:.2} N·m, within what the model's record has covered."
+        );
+    }
+    let rig = &heading.rig;
+    let given = [
+        ("drive gain", rig.drive_gain, "N·m/unit"),
+        ("inertia", rig.motor_inertia, "kg·m²"),
+        ("damping", rig.motor_damping, "N·m·s/rad"),
+        ("joint inertia", rig.joint_inertia, "kg·m²"),
+        ("joint damping", rig.joint_damping, "N·m·s/rad"),
+        ("spring", rig.load_stiffness, "N·m/rad"),
+        ("drive lag", rig.drive_lag, "s"),
+        ("sensor lag", rig.sensor_lag, "s"),
+        ("delay", rig.delay.map(f64::from), "samples"),
+    ];
+    let given: Vec<String> = given
+        .iter()
+        .filter_map(|(name, value, unit)| Some(format!("{name} {} {unit}", (*value)?)))
+        .collect();
+    if !given.is_empty() {
+        let _ = writeln!(out, "Rig: {}.", given.join(", "));
+    }
+    if !out.is_empty() {
+        out.push('\n');
+    }
+    out
+}
+
+/// The row of Table 3, where the trial is of its rig and gains.
+fn paper_row(heading: &Heading, line: &Line) -> Option<[f64; 2]> {
+    paper(&line.controller, heading.varying).filter(|_| is_paper(heading))
 }
 
 fn steady(heading: &Heading, lineup: &Lineup) -> String {
@@ -78,7 +134,7 @@ fn steady(heading: &Heading, lineup: &Lineup) -> String {
             let _ = writeln!(out, "{:<22} {when}", line.controller);
             continue;
         }
-        let paper = paper(&line.controller, heading.varying);
+        let paper = paper_row(heading, line);
         let paper = paper.map(|[mean, sd]| format!("{mean:.4} ± {sd:.4}"));
         let own = lineup.certificates.get(&line.controller);
         let _ = writeln!(
@@ -130,6 +186,13 @@ feed-forward knows the rig's own transmission, or the --model. A certificate bou
 idealised plant without sensor noise: `bowden certify` lists what each assumes.
 ";
 
+const OWN_NOTES: &str = "
+Inertias, spring, damping, lags and delay of the rig are those of the reference rig unless they
+are given; the transmission and the effects are the model's, so the feed-forward knows the rig
+exactly. Gains of `bowden design` are for a plant that answers after the stated delay: a joint
+that swings is slower.
+";
+
 fn lineup_json(heading: &Heading, lineup: &Lineup) -> String {
     let rows = lineup.lines.iter().map(|line| {
         let mut row = row(line);
@@ -137,7 +200,7 @@ fn lineup_json(heading: &Heading, lineup: &Lineup) -> String {
             Some(c) if c.value.is_some() => json!({ "kind": c.kind, "value": c.value }),
             _ => Value::Null,
         };
-        row["paper"] = match paper(&line.controller, heading.varying) {
+        row["paper"] = match paper_row(heading, line) {
             Some([mean, sd]) => json!({ "mean": mean, "sd": sd }),
             None => Value::Null,
         };

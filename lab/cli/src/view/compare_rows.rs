@@ -20,6 +20,10 @@ pub(super) fn conditions(heading: &Heading) -> Value {
         "transient": heading.transient,
         "seeds": heading.seeds,
         "fed_with": heading.fed_with,
+        "model": heading.model,
+        "gains": heading.gains,
+        "rig": heading.rig,
+        "reference": heading.reference,
     })
 }
 

@@ -40,8 +40,11 @@ pub fn text(designed: &Designed) -> String {
     row(
         "delay",
         format!(
-            "a command is measured {} samples later, hold included",
-            designed.delay_samples
+            "a command is measured {} later, hold included",
+            match designed.delay_samples {
+                1 => "one sample".to_owned(),
+                count => format!("{count} samples"),
+            }
         ),
     );
     let asked = &designed.asked;
@@ -141,7 +144,7 @@ fn bounds(designed: &Designed, row: &mut impl FnMut(&str, String)) {
     );
     let rate = match b.reference_rate {
         Some(rate) => format!("up to {} N·m/s", short(rate)),
-        None => "no rate is sure to be followed: the least slope is not above zero".to_owned(),
+        None => "no rate is sure to be followed: the least slope is near zero or below".to_owned(),
     };
     row(
         "reference",

@@ -2,13 +2,11 @@
 //!
 //! On a static plant the lag form is an integral: with z = s/(p + lambda) and
 //! s = (p + lambda)/p·e its command is `lambda·beta_hat·(k + delta_hat/epsilon)/p·e` near zero.
-//! So `h·lambda·g⁺·(k + delta_max/epsilon)` is the integral gain of one sample, which must
-//! not exceed one (the constructor), and here has the margins of PI: the greatest that PI
-//! without a proportional term may have behind one sample of delay. lambda is a fiftieth of
-//! that bandwidth, as in Table 2, and k and delta_max/epsilon have one half each.
+//! So `h·lambda·g⁺·(k + delta_max/epsilon)` is the integral gain of one sample: behind one
+//! sample of delay the loop is unstable above two, and the constructor admits one. Here it is
+//! one half, a gain margin of four. lambda is a fiftieth of that bandwidth, about what Table 2
+//! has, and k and delta_max/epsilon have one half of the gain each.
 
-use super::linear::Gains;
-use super::pi::greatest_integral;
 use super::plant::Plant;
 use bowden::bound::{Interval, PeakSampled, Plant as Known};
 use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Fallback, Form, Limits};
@@ -20,13 +18,16 @@ const UNKNOWN: f64 = 0.1;
 /// What the drive's gain is known to, as a share.
 const DRIVE: f64 = 0.02;
 
+/// h·lambda·g⁺·(k + delta_max/epsilon): half of what the constructor admits.
+const LOOP_GAIN: f64 = 0.5;
+
 /// An estimate crosses its box in this many time constants of the loop, at abs(s) = epsilon.
 const CROSSING: f64 = 100.0;
 
 /// The law, or why there is none.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct AdaptiveDesign {
-    /// Step of the law \[s\]: the shortest multiple of the sample that is no less than the delay.
+    /// Step of the law \[s\]: the shortest multiple of the sample that is longer than the delay.
     pub step: f64,
     /// The law is called on every so-many-th sample.
     pub every: usize,
@@ -104,14 +105,14 @@ impl Boxes {
 
 /// The law for a plant.
 pub(super) fn design(plant: &Plant, around: &Around) -> AdaptiveDesign {
-    let every = (around.delay * around.rate - 1e-9).ceil().max(1.0);
+    let every = super::samples(around.delay, 1.0 / around.rate) as f64;
     let step = every / around.rate;
     let boxes = Boxes::of(plant, around.drive_gain);
     let mut found = AdaptiveDesign {
         step,
         every: every as usize,
         at_the_rate: every <= 1.0,
-        loop_gain: greatest_integral(Gains::default(), 1),
+        loop_gain: LOOP_GAIN,
         settings: None,
         refused: None,
         certificate: None,
@@ -196,9 +197,9 @@ fn certificate(
     settings: AdaptiveSettings<f64, 0>,
 ) -> Result<(f64, AdaptiveSettings<f64, 0>), String> {
     let super::Slopes { least, greatest } = plant.slopes;
-    let Some(reference_rate) = around.reference_rate.filter(|_| least > 0.0) else {
+    let Some(reference_rate) = around.reference_rate else {
         return Err(format!(
-            "the least slope of the output is {least:.4}: the rate of the hysteresis has no bound"
+            "the least slope of the output is {least:.4}: the rate of the hysteresis has no useful bound"
         ));
     };
     let [low, high] = plant.output();

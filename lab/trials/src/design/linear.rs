@@ -145,7 +145,8 @@ pub(super) struct Response {
 pub(super) fn response(gains: Gains, delay: usize, gain: f64) -> Response {
     let length = 60 * (delay + 1);
     let mut commands = Vec::with_capacity(length);
-    let (mut integral, mut rate, mut last) = (0.0, 0.0, None);
+    // The derivative is of the output alone: a step of the reference does not kick it.
+    let (mut integral, mut rate, mut last) = (0.0, 0.0, 0.0);
     let mut found = Response {
         overshoot: 0.0,
         settled: None,
@@ -160,9 +161,8 @@ pub(super) fn response(gains: Gains, delay: usize, gain: f64) -> Response {
             found.settled = Some(k);
         }
         integral += gains.k_i * error;
-        let change = error - last.unwrap_or(error);
-        rate += (change - rate) / (gains.tau + 1.0);
-        last = Some(error);
+        rate += (last - y - rate) / (gains.tau + 1.0);
+        last = y;
         commands.push(gains.k_p * error + integral + gains.k_d * rate);
         if !error.is_finite() {
             break;

@@ -129,7 +129,7 @@ pub struct Bounds {
     /// The greater of both.
     pub slew: f64,
     /// Greatest rate of a reference that needs no faster input than the record's \[N·m/s\];
-    /// `None` where the least slope is not above zero.
+    /// `None` where the least slope is below a hundredth of the greatest.
     pub reference_rate: Option<f64>,
     /// Outputs that the covered inputs reach \[N·m\].
     pub output: [f64; 2],
@@ -251,11 +251,17 @@ pub fn design(text: &str, label: &str, asked: &Question) -> Result<Designed, Str
         reference_rate: bounds.reference_rate,
     };
     let adaptive = adaptive::design(&plant, &around);
-    let settings = |own: &PidDesign| PidSettings {
-        k_d: own.k_d,
-        derivative_time: own.derivative_time,
-        damping: Damping::on_measurement(),
-        ..PidSettings::new(own.k_p, own.k_i, limits, longest_dt, fallback)
+    let settings = |own: &PidDesign| {
+        let plain = PidSettings::new(own.k_p, own.k_i, limits, longest_dt, fallback);
+        match own.k_d == 0.0 {
+            true => plain,
+            false => PidSettings {
+                k_d: own.k_d,
+                derivative_time: own.derivative_time,
+                damping: Damping::on_measurement(),
+                ..plain
+            },
+        }
     };
     let pi = unit.pid(&pi);
     let gains = GainsFile {
@@ -357,7 +363,6 @@ fn bounds(
     let proportional = (used.k_p + used.k_i) / unit.gain;
     let slew_of_noise = 2.0 * proportional * PEAK_OF_NOISE * asked.noise * asked.rate;
     let slew_of_record = plant.greatest_rate() / asked.drive_gain;
-    let least = plant.slopes.least;
     let after = (0.02_f64.max(2.0 * delay) * asked.rate).ceil().clamp(2.0, 1e6);
     Ok(Bounds {
         low,
@@ -365,7 +370,7 @@ fn bounds(
         slew_of_noise,
         slew_of_record,
         slew: slew_of_noise.max(slew_of_record),
-        reference_rate: (least > 0.0).then(|| least * plant.greatest_rate()),
+        reference_rate: plant.slopes.rising().map(|least| least * plant.greatest_rate()),
         output: plant.output(),
         longest_dt,
         fallback_after: after as u32,
@@ -376,7 +381,7 @@ fn bounds(
 fn notes(plant: &Plant, adaptive: &AdaptiveDesign) -> Vec<String> {
     let mut notes = Vec::new();
     let least = plant.slopes.least;
-    if least <= 0.0 {
+    if least < 0.0 {
         notes.push(format!(
             "the least slope is {least:.4}: after a reversal the output turns back while the input goes on, and no margin covers that; `bowden close --invertible` fits a model without it"
         ));

@@ -101,7 +101,7 @@ fn scaled(gains: Gains, from: usize, to: usize) -> Gains {
 /// PI behind `delay` samples.
 pub(super) fn pi(delay: usize) -> Found {
     let seen = delay.min(LONGEST);
-    let grid = (0..=24).map(|k| Gains {
+    let grid = (1..=24).map(|k| Gains {
         k_p: greatest_proportional() * f64::from(k) / 25.0,
         ..Gains::default()
     });
@@ -112,7 +112,7 @@ pub(super) fn pi(delay: usize) -> Found {
 pub(super) fn pid(delay: usize) -> Found {
     let seen = delay.min(LONGEST / 2);
     let tau = (0.5 * seen as f64).max(1.0);
-    let grid = (0..=8).flat_map(|p| {
+    let grid = (1..=8).flat_map(|p| {
         (1..=6).map(move |d| Gains {
             k_p: greatest_proportional() * f64::from(p) / 9.0,
             // At high frequencies the term has the gain k_d/tau.

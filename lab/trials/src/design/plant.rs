@@ -47,6 +47,13 @@ impl Slopes {
         }
     }
 
+    /// The least slope, where it is above a hundredth of the greatest: below that a model is
+    /// on the bound of what has an inverse, and rates divided by its slope mean nothing.
+    #[must_use]
+    pub fn rising(&self) -> Option<f64> {
+        (self.least > 0.01 * self.greatest).then_some(self.least)
+    }
+
     /// The greatest magnitude of the slope: that of the loop's gain.
     #[must_use]
     pub fn magnitude(&self) -> f64 {

@@ -88,59 +88,69 @@ fn head(designed: &Designed) -> String {
     out
 }
 
+/// An item: on one line where it fits, as rustfmt has it.
+fn item(what: &str, value: &str, out: &mut String) {
+    let short = format!("{what} = {value};");
+    if short.chars().count() <= 100 {
+        line!(out, "{short}");
+    } else {
+        line!(out, "{what} =");
+        line!(out, "    {value};");
+    }
+}
+
 fn bounds(designed: &Designed, out: &mut String) {
     let b = &designed.bounds;
     line!(out, "/// Samples a second [Hz].");
     line!(out, "#[allow(dead_code)]");
-    line!(out, "pub const RATE: f32 = {};", number(designed.gains.design.rate));
+    let rate = number(designed.gains.design.rate);
+    item("pub const RATE: f32", &rate, out);
     line!(out);
-    line!(out, "/// Range [command unit] that the record has covered, and slew rate [command unit/s].");
-    line!(out, "pub const LIMITS: Limits<f32> = constant!(constant!(Limits::<f32>::const_new(");
-    line!(out, "    {},", number(b.low));
-    line!(out, "    {}", number(b.high));
-    line!(out, "))");
-    line!(out, ".const_with_slew({}));", number(b.slew));
+    line!(out, "/// What the record has covered [command unit].");
+    let (low, high) = (number(b.low), number(b.high));
+    let range = format!("constant!(Limits::<f32>::const_new({low}, {high}))");
+    item("const RANGE: Limits<f32>", &range, out);
     line!(out);
+    line!(out, "/// The range with the slew rate [command unit/s].");
+    let slewed = format!("constant!(RANGE.const_with_slew({}))", number(b.slew));
+    item("pub const LIMITS: Limits<f32>", &slewed, out);
+    line!(out);
+    let after = b.fallback_after;
     line!(
         out,
-        "/// The safe command [command unit] after {} bad samples in a row.",
-        b.fallback_after
+        "/// The safe command [command unit], after {after} bad samples in a row."
     );
-    line!(out, "pub const FALLBACK: Fallback<f32> =");
-    line!(
-        out,
-        "    constant!(Fallback::<f32>::const_new({}, {}));",
-        b.fallback_after,
-        number(b.fallback_command)
-    );
+    let safe = number(b.fallback_command);
+    let fallback = format!("constant!(Fallback::<f32>::const_new({after}, {safe}))");
+    item("pub const FALLBACK: Fallback<f32>", &fallback, out);
     line!(out);
     line!(out, "/// A longer `dt` is a bad sample [s].");
-    line!(out, "pub const LONGEST_DT: f32 = {};", number(b.longest_dt));
+    item("pub const LONGEST_DT: f32", &number(b.longest_dt), out);
 }
 
 fn settings(name: &str, own: &PidSettings<f64>, out: &mut String) {
+    let (k_p, k_i) = (number(own.k_p), number(own.k_i));
+    let plain = format!("PidSettings::new({k_p}, {k_i}, LIMITS, LONGEST_DT, FALLBACK)");
     line!(out);
-    line!(
-        out,
-        "/// {name}: k_p [command unit/(N·m)] and k_i [command unit/(N·m·s)] first."
-    );
-    line!(out, "#[allow(dead_code)]");
-    line!(
-        out,
-        "pub static {name}: Pid<f32> = constant!(Pid::<f32>::const_new(PidSettings {{"
-    );
-    if own.k_d != 0.0 {
+    let unit = "[command unit/(N·m)] and k_i [command unit/(N·m·s)]";
+    line!(out, "/// {name}: k_p {unit} first.");
+    let what = format!("const {name}_SETTINGS: PidSettings<f32>");
+    if own.k_d == 0.0 {
+        item(&what, &plain, out);
+    } else {
+        line!(out, "{what} = PidSettings {{");
         line!(out, "    k_d: {},", number(own.k_d));
         line!(out, "    derivative_time: {},", number(own.derivative_time));
         line!(out, "    damping: Damping::on_measurement(),");
+        line!(out, "    ..{plain}");
+        line!(out, "}};");
     }
-    line!(
-        out,
-        "    ..PidSettings::new({}, {}, LIMITS, LONGEST_DT, FALLBACK)",
-        number(own.k_p),
-        number(own.k_i)
-    );
-    line!(out, "}}));");
+    line!(out);
+    line!(out, "/// {name}, checked.");
+    line!(out, "#[allow(dead_code)]");
+    let what = format!("pub static {name}: Pid<f32>");
+    let checked = format!("constant!(Pid::<f32>::const_new({name}_SETTINGS))");
+    item(&what, &checked, out);
 }
 
 fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
@@ -148,52 +158,76 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
         return;
     };
     line!(out);
-    line!(out, "/// Adaptive law, lag form, without regressors; beta_hat and delta_hat adapt.");
+    line!(
+        out,
+        "/// Step [s] and greatest gain of the plant [N·m/command unit]."
+    );
+    line!(out, "const LAG: Form<f32> = Form::Lag {{");
+    line!(out, "    step: {},", number(step));
+    line!(out, "    plant_gain: {},", number(plant_gain));
+    line!(out, "}};");
+    estimator("BETA", "beta_hat [command unit/(N·m)]", &own.beta, out);
+    estimator("DELTA", "delta_hat [N·m]", &own.delta, out);
+    line!(out);
+    line!(
+        out,
+        "/// k, lambda [1/s] and epsilon [N·m] behind the form, the longest step [s] last but one."
+    );
+    line!(
+        out,
+        "const ADAPTIVE_SETTINGS: AdaptiveSettings<f32, 0> = AdaptiveSettings {{"
+    );
+    line!(out, "    beta: BETA,");
+    line!(out, "    delta: DELTA,");
+    line!(out, "    z_limit: {},", number(own.z_limit));
+    let three = [own.gain, own.lambda, own.epsilon].map(number);
+    let longest = number(own.longest_dt);
+    let list = ["LAG", &three[0], &three[1], &three[2], "LIMITS", &longest, "FALLBACK"];
+    let list = list.join(", ");
+    if list.len() <= 60 {
+        line!(out, "    ..AdaptiveSettings::new({list})");
+    } else {
+        line!(out, "    ..AdaptiveSettings::new(");
+        for value in list.split(", ") {
+            line!(out, "        {value},");
+        }
+        line!(out, "    )");
+    }
+    line!(out, "}};");
+    line!(out);
+    line!(out, "/// The adaptive law in lag form without regressors, checked.");
     line!(out, "///");
     match every {
         1 => line!(out, "/// Call it once a sample."),
-        _ => line!(out, "/// Call it on every {every}th sample: it needs a plant that answers within its step."),
+        _ => line!(
+            out,
+            "/// Call it on every {every}th sample: the plant must answer within its step."
+        ),
     }
     line!(out, "#[allow(dead_code)]");
-    line!(
+    item(
+        "pub static ADAPTIVE: Adaptive<f32, 0>",
+        "constant!(Adaptive::<f32, 0>::const_new(ADAPTIVE_SETTINGS))",
         out,
-        "pub static ADAPTIVE: Adaptive<f32, 0> = constant!(Adaptive::<f32, 0>::const_new(AdaptiveSettings {{"
     );
-    estimator("beta", &own.beta, out);
-    estimator("delta", &own.delta, out);
-    line!(out, "    z_limit: {},", number(own.z_limit));
-    line!(out, "    ..AdaptiveSettings::new(");
-    line!(
-        out,
-        "        Form::Lag {{ step: {}, plant_gain: {} }},",
-        number(step),
-        number(plant_gain)
-    );
-    for value in [own.gain, own.lambda, own.epsilon] {
-        line!(out, "        {},", number(value));
-    }
-    line!(out, "        LIMITS,");
-    line!(out, "        {},", number(own.longest_dt));
-    line!(out, "        FALLBACK,");
-    line!(out, "    )");
-    line!(out, "}}));");
 }
 
-fn estimator(name: &str, own: &Estimator<f64>, out: &mut String) {
-    line!(out, "    {name}: Estimator {{");
-    line!(out, "        prior: {},", number(own.prior));
-    line!(out, "        ..Estimator::fixed({})", number(own.initial));
-    line!(
-        out,
-        "            .within({}, {})",
-        number(own.low),
-        number(own.high)
-    );
-    line!(
-        out,
-        "            .adapting({}, {})",
-        number(own.gain),
-        number(own.leakage.rate())
-    );
-    line!(out, "    }},");
+fn estimator(name: &str, what: &str, own: &Estimator<f64>, out: &mut String) {
+    line!(out);
+    line!(out, "/// Estimate {what}: start, box, gain, leakage [1/s].");
+    line!(out, "const {name}: Estimator<f32> = Estimator {{");
+    line!(out, "    prior: {},", number(own.prior));
+    let start = format!("..Estimator::fixed({})", number(own.initial));
+    let within = format!(".within({}, {})", number(own.low), number(own.high));
+    let (gain, leakage) = (number(own.gain), number(own.leakage.rate()));
+    let adapting = format!(".adapting({gain}, {leakage})");
+    // rustfmt keeps a chain of up to 60 characters on one line.
+    if start.len() - 2 + within.len() + adapting.len() <= 60 {
+        line!(out, "    {start}{within}{adapting}");
+    } else {
+        line!(out, "    {start}");
+        line!(out, "        {within}");
+        line!(out, "        {adapting}");
+    }
+    line!(out, "}};");
 }

@@ -1,0 +1,210 @@
+//! The simulated rig around a user's own model, and the controllers that were designed for it.
+
+use super::feed::FeedForward;
+use super::gains::GainsFile;
+use super::lineup::declared_feed;
+use super::setup::Setup;
+use super::trial::{Controller, Law, MOST_UNDECLARED};
+use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Missing, Pid};
+use bowden::model::{Source, Term};
+use bowden::transmission::Transmission;
+use bowden_lab::export::{ModelFile, MOST_TERMS};
+use bowden_rig::{Reference, Rig, RigConfig};
+
+/// Numbers of the rig that are given one by one; what is not given stays.
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
+pub struct RigChanges {
+    /// Motor torque of one command unit \[N·m/unit\].
+    pub drive_gain: Option<f64>,
+    /// Inertia of motor and proximal pulley \[kg·m²\].
+    pub motor_inertia: Option<f64>,
+    /// Viscous friction of the same \[N·m·s/rad\].
+    pub motor_damping: Option<f64>,
+    /// Inertia of the distal pulley \[kg·m²\].
+    pub joint_inertia: Option<f64>,
+    /// Damping of the distal pulley \[N·m·s/rad\].
+    pub joint_damping: Option<f64>,
+    /// Springs that the joint works against \[N·m/rad\].
+    pub load_stiffness: Option<f64>,
+    /// Time constant of the current loop \[s\].
+    pub drive_lag: Option<f64>,
+    /// Time constant of the torque sensors \[s\].
+    pub sensor_lag: Option<f64>,
+    /// Samples between a command and the drive.
+    pub delay: Option<u8>,
+}
+
+/// How often the sub-step is halved so that it resolves a light rig.
+const MOST_HALVINGS: u32 = 6;
+
+impl RigChanges {
+    /// The rig with these numbers; a sub-step that is too long for them becomes shorter.
+    ///
+    /// # Errors
+    /// One line with the number that the rig refuses.
+    pub fn apply(&self, rig: RigConfig<f64>) -> Result<RigConfig<f64>, String> {
+        let mut rig = RigConfig {
+            drive_gain: self.drive_gain.unwrap_or(rig.drive_gain),
+            motor_inertia: self.motor_inertia.unwrap_or(rig.motor_inertia),
+            motor_damping: self.motor_damping.unwrap_or(rig.motor_damping),
+            joint_inertia: self.joint_inertia.unwrap_or(rig.joint_inertia),
+            joint_damping: self.joint_damping.unwrap_or(rig.joint_damping),
+            load_stiffness: self.load_stiffness.unwrap_or(rig.load_stiffness),
+            drive_lag: self.drive_lag.unwrap_or(rig.drive_lag),
+            sensor_lag: self.sensor_lag.unwrap_or(rig.sensor_lag),
+            delay: self.delay.unwrap_or(rig.delay),
+            ..rig
+        };
+        if !(rig.drive_gain > 0.0 && rig.drive_gain.is_finite()) {
+            return Err(format!(
+                "the rig: drive_gain {}: a number above zero was expected",
+                rig.drive_gain
+            ));
+        }
+        let none: [Term<f64>; 0] = [];
+        for _ in 0..MOST_HALVINGS {
+            match Rig::<f64, 0>::try_new(rig, &none) {
+                Err(bowden::Error::Inadmissible(_)) => rig.sub_step *= 0.5,
+                _ => break,
+            }
+        }
+        match Rig::<f64, 0>::try_new(rig, &none) {
+            Ok(_) => Ok(rig),
+            Err(e) => Err(format!("the rig: {e}")),
+        }
+    }
+}
+
+/// The rig with the transmission of a model.
+#[must_use]
+pub fn with_transmission(rig: &RigConfig<f64>, cable: &Transmission<f64>) -> RigConfig<f64> {
+    let shape = cable.shape();
+    RigConfig {
+        b: cable.gain(),
+        kappa_eta: cable.kappa_eta(),
+        t0: cable.offset(),
+        rho: shape.rho(),
+        sigma: shape.sigma(),
+        n: shape.n(),
+        ..*rig
+    }
+}
+
+/// The transmission of a model file.
+///
+/// # Errors
+/// One sentence where there is none.
+pub fn transmission(file: &ModelFile) -> Result<Transmission<f64>, String> {
+    let model = file.model::<MOST_TERMS>()?;
+    let cable = model.transmission().copied();
+    cable.ok_or_else(|| "no table `transmission`: a model with one was expected".to_owned())
+}
+
+/// The effects of a model as the rig has them: its pulleys are the channels `phi_p` and `phi_d`.
+///
+/// # Errors
+/// One sentence where the rig has no such channel, or holds fewer effects.
+pub fn effects(file: &ModelFile) -> Result<Vec<Term<f64>>, String> {
+    let model = file.model::<MOST_TERMS>()?;
+    let terms = model.terms().iter().map(|term| {
+        let source = match term.source {
+            Source::Input => Source::Input,
+            Source::Channel(index) => match file.channels.get(usize::from(index)) {
+                Some(name) if name == "phi_p" => Source::Channel(0),
+                Some(name) if name == "phi_d" => Source::Channel(1),
+                other => {
+                    let name = other.map_or("?", String::as_str);
+                    let own = term.effect.name();
+                    return Err(format!(
+                        "the term {own}@{name}: the rig has the channels phi_p and phi_d"
+                    ));
+                }
+            },
+        };
+        Ok(Term { source, ..*term })
+    });
+    let terms: Vec<Term<f64>> = terms.collect::<Result<_, String>>()?;
+    match terms.len() > MOST_UNDECLARED {
+        true => Err(format!(
+            "{} terms: the rig holds at most {MOST_UNDECLARED}",
+            terms.len()
+        )),
+        false => Ok(terms),
+    }
+}
+
+/// Share of what the record of the model has covered that the reference uses.
+const SHARE: f64 = 0.8;
+
+/// The paper's reference, within what the record of a model has covered \[N·m\]; `None` where
+/// the file does not say.
+#[must_use]
+pub fn reference(file: &ModelFile, cable: &Transmission<f64>) -> Option<[f64; 2]> {
+    let [low, high] = file.about.as_ref()?.ranges.get("input")?.position;
+    let (low, high) = (cable.output(low, -1.0), cable.output(high, 1.0));
+    let (middle, half) = (0.5 * (low + high), 0.5 * SHARE * (high - low));
+    let usable = half > 0.0 && half.is_finite() && middle.is_finite();
+    usable.then_some([middle - half, middle + half])
+}
+
+/// The paper's reference between these \[N·m\].
+#[must_use]
+pub fn scaled([low, high]: [f64; 2]) -> Reference<f64> {
+    Reference::paper().between(low, high)
+}
+
+/// The controllers of a gains file, and PI with the model turned round in front of it.
+///
+/// # Errors
+/// One sentence where a law is refused or the model cannot be turned round.
+pub fn designed(setup: &Setup, gains: &GainsFile) -> Result<Vec<Controller>, String> {
+    let rate = gains.design.rate;
+    let plain = |name: &str, law: Law, rate: f64| Controller {
+        name: name.to_owned(),
+        law,
+        rate,
+        feed: None,
+        own_share: 0.0,
+        regressor: None,
+    };
+    let pid = |name: &'static str, settings| {
+        let law = Pid::try_new(settings).map_err(|e| format!("[{name}]: {e}"))?;
+        Ok::<_, String>(Law::Pid(law))
+    };
+    let pi = pid("pi", gains.pi)?;
+    let mut all = vec![plain("pi", pi, rate)];
+    if let Some(settings) = gains.pid {
+        all.push(plain("pid", pid("pid", settings)?, rate));
+    }
+    if let Some(settings) = gains.adaptive {
+        let law = Adaptive::try_new(padded(&settings)).map_err(|e| format!("[adaptive]: {e}"))?;
+        let rate = rate / gains.adaptive_every() as f64;
+        all.push(plain("adaptive", Law::Adaptive(law), rate));
+    }
+    let feed: FeedForward = declared_feed(setup)?;
+    all.push(Controller {
+        feed: Some(feed),
+        ..plain("pi-feed-forward", pi, rate)
+    });
+    Ok(all)
+}
+
+/// The law without regressors as one over three that it does not use.
+fn padded(own: &AdaptiveSettings<f64, 0>) -> AdaptiveSettings<f64, 3> {
+    AdaptiveSettings {
+        form: own.form,
+        gain: own.gain,
+        lambda: own.lambda,
+        epsilon: own.epsilon,
+        smooth_sign: own.smooth_sign,
+        beta: own.beta,
+        delta: own.delta,
+        theta: [Estimator::fixed(0.0); 3],
+        z_limit: own.z_limit,
+        frozen: own.frozen,
+        missing: [Missing::Drop; 3],
+        limits: own.limits,
+        longest_dt: own.longest_dt,
+        fallback: own.fallback,
+    }
+}
