@@ -172,6 +172,7 @@ pub fn outcome(
                 law: (kind.law)(setup, &laws, prior).map_err(refused)?,
                 rate: kind.rate,
                 feed: None,
+                every: 1,
                 own_share: 0.0,
                 regressor: None,
             })

@@ -89,6 +89,7 @@ pub fn lineup(setup: &Setup) -> Result<Vec<Controller>, String> {
         law,
         rate: RATE,
         feed: None,
+        every: 1,
         own_share: 0.0,
         regressor: None,
     };

@@ -164,6 +164,7 @@ pub fn designed(setup: &Setup, gains: &GainsFile) -> Result<Vec<Controller>, Str
         law,
         rate,
         feed: None,
+        every: 1,
         own_share: 0.0,
         regressor: None,
     };
@@ -178,8 +179,10 @@ pub fn designed(setup: &Setup, gains: &GainsFile) -> Result<Vec<Controller>, Str
     }
     if let Some(settings) = gains.adaptive {
         let law = Adaptive::try_new(padded(&settings)).map_err(|e| format!("[adaptive]: {e}"))?;
-        let rate = rate / gains.adaptive_every() as f64;
-        all.push(plain("adaptive", Law::Adaptive(law), rate));
+        all.push(Controller {
+            every: gains.adaptive_every(),
+            ..plain("adaptive", Law::Adaptive(law), rate)
+        });
     }
     let feed: FeedForward = declared_feed(setup)?;
     all.push(Controller {

@@ -34,6 +34,8 @@ pub struct Controller {
     pub law: Law,
     /// Steps a second \[Hz\].
     pub rate: f64,
+    /// On every so-many-th step the law is called; between them its command stays.
+    pub every: usize,
     /// Added to its command.
     pub feed: Option<FeedForward>,
     /// Command that the law itself gives for a torque \[units/(N·m)\]: the adaptive law
@@ -205,6 +207,8 @@ pub fn run(
     let mut running = Running::new(&controller.law);
     let (mut feed, mut regressor) = (controller.feed.clone(), controller.regressor.clone());
     let dt = 1.0 / controller.rate;
+    let own_dt = dt * controller.every.max(1) as f64;
+    let (mut command, mut estimates) = (0.0, None);
     let steps = (conditions.seconds * controller.rate).round() as usize;
     let (mut steady, mut transient) = (Sums::default(), Sums::default());
     let mut trial = Trial::default();
@@ -220,14 +224,16 @@ pub fn run(
         let found = regressor.as_mut().map_or(0.0, |found| {
             found.step(&conditions.reference, t, dt).effects
         });
-        let (command, estimates) = running.step(&Reading {
-            now: &now,
-            dt,
-            reference,
-            next_reference: conditions.reference.at(t + dt),
-            feed_forward,
-            found,
-        });
+        if step % controller.every.max(1) == 0 {
+            (command, estimates) = running.step(&Reading {
+                now: &now,
+                dt: own_dt,
+                reference,
+                next_reference: conditions.reference.at(t + own_dt),
+                feed_forward,
+                found,
+            });
+        }
         if traced {
             trial.trace.push(Row {
                 time: t,

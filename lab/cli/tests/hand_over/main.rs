@@ -11,6 +11,8 @@
 
 mod causal;
 mod clockwork;
+#[path = "../compiler/mod.rs"]
+mod compiler;
 mod examples;
 mod invertible;
 mod postcard_file;

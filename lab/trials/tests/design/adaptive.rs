@@ -1,0 +1,106 @@
+//! The adaptive law in lag form: admitted, certified, and within its certificate.
+
+use super::{cable, design, designed, model, rising, ASKED};
+use bowden::control::{Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Form, Limits};
+use bowden::hysteresis::BoucWen;
+use bowden_rig::{Noise, Reference};
+use bowden_trials::design::Question;
+
+#[test]
+fn its_gains_are_half_of_what_the_constructor_admits() {
+    let mut dice = Noise::new(8);
+    for delay in [0.0, 0.0004, 0.003] {
+        for _ in 0..20 {
+            let asked = Question { delay, drive_gain: 0.6, ..ASKED };
+            let own = designed(rising(&mut dice), &asked).adaptive;
+            let settings = own.settings.expect("admissible");
+            assert!(Adaptive::try_new(settings).is_ok());
+            let step = settings.largest_step().unwrap();
+            assert!((own.step / step - 0.5).abs() < 1e-9, "{own:?}");
+            // A step is longer than the delay: the plant answers within one sample.
+            assert!(own.step > delay && own.every as f64 / asked.rate == own.step);
+            assert_eq!(own.at_the_rate, own.every == 1);
+            assert!(settings.epsilon >= settings.delta.high / 40.0);
+            let twice = AdaptiveSettings { gain: 4.0 * settings.gain, ..settings };
+            assert!(Adaptive::try_new(twice).is_err());
+        }
+    }
+}
+
+#[test]
+fn the_error_on_a_plant_that_answers_within_the_step_stays_within_the_certificate() {
+    let mut dice = Noise::new(9);
+    let mut certified = 0;
+    for _ in 0..12 {
+        let numbers = rising(&mut dice);
+        let own = designed(numbers, &Question { delay: 0.0, ..ASKED });
+        let law = own.adaptive.settings.unwrap();
+        let Some(bound) = own.adaptive.certificate else {
+            continue;
+        };
+        certified += 1;
+        // The certificate holds where no limit is met.
+        let free = AdaptiveSettings { limits: Limits::unlimited(), ..law };
+        let law = Adaptive::try_new(free).unwrap();
+        let mut state = AdaptiveState::new(&law);
+        let (cable, mut cable_state) = (cable(numbers), BoucWen::new());
+        let rate = own.bounds.reference_rate.unwrap();
+        let [low, high] = own.bounds.output;
+        let reference = Reference::paper().between(0.6 * low, 0.6 * high);
+        // So slow that its rate is what the certificate allows.
+        let pace = rate / (0.3 * (high - low) * 2.2);
+        let (mut u, mut worst) = (0.0, 0.0_f64);
+        for k in 0..20_000 {
+            let t = 1e-3 * f64::from(k);
+            let at = |t: f64| reference.at(pace * t);
+            let y = cable.step(&mut cable_state, u);
+            let input = AdaptiveInput {
+                next_reference: at(t + 1e-3),
+                ..AdaptiveInput::new(1e-3, at(t), y, [])
+            };
+            u = law.step(&mut state, &input).command;
+            if t > 2.0 {
+                worst = worst.max((y - at(t)).abs());
+            }
+        }
+        assert!(worst <= bound, "{numbers:?}: {worst} > {bound}");
+    }
+    assert!(certified > 6, "{certified}");
+}
+
+#[test]
+fn the_boxes_are_the_intervals_of_the_model_and_what_is_assumed_is_said() {
+    let numbers = [0.9, 2.0, 0.05, 0.2, 0.6, 2.0];
+    let plain = designed(numbers, &ASKED);
+    assert_eq!(plain.adaptive.assumed, ["gain", "kappa_eta", "offset"]);
+    assert!(plain.notes.iter().any(|n| n.contains("10 % was assumed")));
+    let text = model(numbers, "")
+        + "[about.intervals]\ngain = [0.88, 0.92]\nkappa_eta = [1.9, 2.1]\noffset = [0.0, 0.1]\n";
+    let told = design(&text, "m.toml", &ASKED).unwrap();
+    assert!(told.adaptive.assumed.is_empty());
+    let law = told.adaptive.settings.unwrap();
+    // The drive's gain is known to 2 %.
+    assert!((law.beta.low - 1.0 / (0.92 * 1.02)).abs() < 1e-12);
+    assert!((law.beta.high - 1.0 / (0.88 * 0.98)).abs() < 1e-12);
+    assert!((law.delta.high - 2.2).abs() < 1e-12);
+    let Form::Lag { plant_gain, .. } = law.form else { panic!() };
+    assert!((plant_gain - 0.92 * 1.02).abs() < 1e-12);
+}
+
+#[test]
+fn where_no_gain_is_admissible_it_says_why() {
+    let numbers = [0.9, 2.0, 0.05, 0.2, 0.6, 2.0];
+    let slow = designed(numbers, &Question { rate: 2.0, delay: 0.4, ..ASKED });
+    assert!(slow.adaptive.settings.is_none() && slow.gains.adaptive.is_none());
+    let why = slow.adaptive.refused.unwrap();
+    assert!(why.contains("h·lambda <= 1 exclude each other"), "{why}");
+    let text = model(numbers, "") + "[about.intervals]\ngain = [-0.1, 1.9]\n";
+    let open = design(&text, "m.toml", &ASKED).unwrap().adaptive;
+    assert!(open.refused.unwrap().contains("B reaches -0.1"));
+    // A cable that turns back has gains and no certificate.
+    let back = designed([0.9, 2.0, 0.05, 0.4, 3.0, 1.0], &ASKED);
+    assert!(back.slopes.least < 0.0 && back.adaptive.settings.is_some());
+    assert!(back.adaptive.uncertified.unwrap().contains("least slope"));
+    assert!(back.bounds.reference_rate.is_none());
+    assert!(back.notes.iter().any(|n| n.contains("turns back")));
+}
