@@ -170,7 +170,9 @@ pub fn compare(question: &Question<'_>) -> Result<Compared, String> {
     let range = own.as_ref().and_then(|own| own.reference);
     let conditions = Conditions {
         rig: setup.rig,
-        undeclared: own.as_ref().map_or_else(Vec::new, |own| own.effects.clone()),
+        undeclared: own
+            .as_ref()
+            .map_or_else(Vec::new, |own| own.effects.clone()),
         reference: range.map_or_else(Reference::paper, own_rig::scaled),
         seconds: question.seconds,
         from: FROM,

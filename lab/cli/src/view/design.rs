@@ -78,7 +78,9 @@ pub fn text(designed: &Designed) -> String {
         }
         false => row(
             "derivative",
-            format!("leave it out: it would change k_i by {percent:.0} %, and it passes the noise on"),
+            format!(
+                "leave it out: it would change k_i by {percent:.0} %, and it passes the noise on"
+            ),
         ),
     }
     bounds(designed, &mut row);
@@ -131,7 +133,11 @@ fn bounds(designed: &Designed, row: &mut impl FnMut(&str, String)) {
     let b = &designed.bounds;
     row(
         "limits",
-        format!("{} to {} units, what the record has covered", short(b.low), short(b.high)),
+        format!(
+            "{} to {} units, what the record has covered",
+            short(b.low),
+            short(b.high)
+        ),
     );
     row(
         "slew",
@@ -148,7 +154,11 @@ fn bounds(designed: &Designed, row: &mut impl FnMut(&str, String)) {
     };
     row(
         "reference",
-        format!("{rate}; within {} to {} N·m", short(b.output[0]), short(b.output[1])),
+        format!(
+            "{rate}; within {} to {} N·m",
+            short(b.output[0]),
+            short(b.output[1])
+        ),
     );
     row(
         "longest dt",
@@ -205,7 +215,10 @@ fn adaptive(own: &AdaptiveDesign, row: &mut impl FnMut(&str, String)) {
     row(
         "",
         match (own.certificate, &own.uncertified) {
-            (Some(bound), _) => format!("certificate (peak-sampled): |e| <= {} N·m on a plant that answers within the step", short(bound)),
+            (Some(bound), _) => format!(
+                "certificate (peak-sampled): |e| <= {} N·m on a plant that answers within the step",
+                short(bound)
+            ),
             (None, why) => format!("no certificate: {}", why.as_deref().unwrap_or("none")),
         },
     );

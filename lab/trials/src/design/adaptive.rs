@@ -73,6 +73,7 @@ fn interval(plant: &Plant, name: &str, value: f64) -> (Interval<f64>, bool) {
 
 /// The boxes of the truth: alpha, Delta, the rate of D, and what was assumed.
 struct Boxes {
+    gain: Interval<f64>,
     alpha: Interval<f64>,
     delta: f64,
     assumed: Vec<String>,
@@ -93,6 +94,7 @@ impl Boxes {
         let kappa_eta = of("kappa_eta", cable.kappa_eta());
         let offset = of("offset", cable.offset());
         Self {
+            gain,
             alpha: Interval {
                 low: gain.low * drive_gain * (1.0 - DRIVE),
                 high: gain.high * drive_gain * (1.0 + DRIVE),
@@ -120,18 +122,16 @@ pub(super) fn design(plant: &Plant, around: &Around) -> AdaptiveDesign {
         assumed: boxes.assumed.clone(),
     };
     match settings(plant, around, &boxes, &found) {
-        Ok(settings) => {
-            match certificate(plant, around, &boxes, settings) {
-                Ok((value, settings)) => {
-                    found.certificate = Some(value);
-                    found.settings = Some(settings);
-                }
-                Err(why) => {
-                    found.uncertified = Some(why);
-                    found.settings = Some(settings);
-                }
+        Ok(settings) => match certificate(plant, around, &boxes, settings) {
+            Ok((value, settings)) => {
+                found.certificate = Some(value);
+                found.settings = Some(settings);
             }
-        }
+            Err(why) => {
+                found.uncertified = Some(why);
+                found.settings = Some(settings);
+            }
+        },
         Err(why) => found.refused = Some(why),
     }
     found
@@ -145,14 +145,19 @@ fn settings(
 ) -> Result<AdaptiveSettings<f64, 0>, String> {
     let (h, bandwidth) = (found.step, found.loop_gain / found.step);
     let Boxes { alpha, delta, .. } = *boxes;
-    if alpha.low <= 0.0 {
+    if boxes.gain.low <= 0.0 {
         return Err(format!(
             "the interval of B reaches {:.4}: the law needs a gain above zero",
-            alpha.low / around.drive_gain
+            boxes.gain.low
         ));
     }
-    let beta = Interval { low: 1.0 / alpha.high, high: 1.0 / alpha.low };
-    let plant_gain = alpha.high.max(plant.slopes.magnitude() * around.drive_gain * (1.0 + DRIVE));
+    let beta = Interval {
+        low: 1.0 / alpha.high,
+        high: 1.0 / alpha.low,
+    };
+    let plant_gain = alpha
+        .high
+        .max(plant.slopes.magnitude() * around.drive_gain * (1.0 + DRIVE));
     let g = plant_gain * beta.high;
     // From k > 1/lambda² with k = bandwidth/(2·lambda·g), twice over.
     let lambda = (bandwidth / 50.0).max(4.0 * g / bandwidth);
@@ -170,7 +175,10 @@ fn settings(
     let torque = low.abs().max(high.abs()).max(f64::MIN_POSITIVE);
     let initial = 1.0 / (plant.cable.gain() * around.drive_gain);
     let drive = time * lambda * epsilon;
-    let lag = Form::Lag { step: h, plant_gain };
+    let lag = Form::Lag {
+        step: h,
+        plant_gain,
+    };
     let settings = AdaptiveSettings {
         beta: Estimator {
             prior: initial,
@@ -178,13 +186,18 @@ fn settings(
                 .within(beta.low, beta.high)
                 .adapting((beta.high - beta.low) / (drive * torque), leakage)
         },
-        delta: Estimator::fixed(0.0).within(0.0, delta).adapting(delta / drive, leakage),
+        delta: Estimator::fixed(0.0)
+            .within(0.0, delta)
+            .adapting(delta / drive, leakage),
         // As far as the integral of PI can go.
         z_limit: torque.max(1.0) / lambda,
         ..AdaptiveSettings::new(lag, k, lambda, epsilon, around.limits, h, around.fallback)
     };
     let longest_dt = settings.largest_step().unwrap_or(h).max(h);
-    let settings = AdaptiveSettings { longest_dt, ..settings };
+    let settings = AdaptiveSettings {
+        longest_dt,
+        ..settings
+    };
     Adaptive::try_new(settings).map_err(|e| e.to_string())?;
     Ok(settings)
 }
@@ -220,7 +233,10 @@ fn certificate(
         reference_rate,
         ..Known::new(1.0, boxes.delta)
     };
-    let free = AdaptiveSettings { z_limit: f64::MAX, ..settings };
+    let free = AdaptiveSettings {
+        z_limit: f64::MAX,
+        ..settings
+    };
     let law = Adaptive::try_new(free).map_err(|e| e.to_string())?;
     let peak = PeakSampled::try_new(&law, &known).map_err(|e| e.to_string())?;
     if peak.bound > reference {
@@ -230,5 +246,11 @@ fn certificate(
         ));
     }
     let z_limit = settings.z_limit.max(1.01 * peak.s / settings.lambda);
-    Ok((peak.bound, AdaptiveSettings { z_limit, ..settings }))
+    Ok((
+        peak.bound,
+        AdaptiveSettings {
+            z_limit,
+            ..settings
+        },
+    ))
 }

@@ -47,10 +47,7 @@ impl Gains {
         // 1 - 1/z = 2·sin²(w/2) + i·sin(w).
         let (re, im) = (2.0 * (0.5 * w).sin().powi(2), w.sin());
         let square = re * re + im * im;
-        let (mut a, mut b) = (
-            self.k_p + self.k_i * re / square,
-            -self.k_i * im / square,
-        );
+        let (mut a, mut b) = (self.k_p + self.k_i * re / square, -self.k_i * im / square);
         if self.k_d != 0.0 {
             let (c, d) = (1.0 + self.tau * re, self.tau * im);
             let below = self.k_d / (c * c + d * d);
@@ -152,7 +149,9 @@ pub(super) fn response(gains: Gains, delay: usize, gain: f64) -> Response {
         settled: None,
     };
     for k in 0..length {
-        let y = k.checked_sub(delay).map_or(0.0, |then| gain * commands[then]);
+        let y = k
+            .checked_sub(delay)
+            .map_or(0.0, |then| gain * commands[then]);
         let error: f64 = 1.0 - y;
         found.overshoot = found.overshoot.max(-error);
         if error.abs() > 0.02 {
@@ -181,10 +180,19 @@ mod tests {
         // at w = pi/(2D - 1), where the loop has the gain k/(2·sin(w/2)).
         for delay in [1_usize, 2, 5, 30] {
             let k = 0.3 / delay as f64;
-            let own = margins(Gains { k_i: k, ..Gains::default() }, delay);
+            let own = margins(
+                Gains {
+                    k_i: k,
+                    ..Gains::default()
+                },
+                delay,
+            );
             let w = PI / (2.0 * delay as f64 - 1.0);
             let gain = 2.0 * (0.5 * w).sin() / k;
-            assert!((own.gain / gain - 1.0).abs() < 1e-6, "{delay}: {own:?} {gain}");
+            assert!(
+                (own.gain / gain - 1.0).abs() < 1e-6,
+                "{delay}: {own:?} {gain}"
+            );
             let w = 2.0 * (0.5 * k).asin();
             let phase = 90.0 - (w * (delay as f64 - 0.5)).to_degrees();
             assert!((own.phase - phase).abs() < 1e-6, "{delay}: {own:?} {phase}");
@@ -193,13 +201,21 @@ mod tests {
 
     #[test]
     fn beyond_the_gain_margin_the_response_grows_and_within_it_it_settles() {
-        let gains = Gains { k_p: 0.2, k_i: 0.1, k_d: 0.1, tau: 2.0 };
+        let gains = Gains {
+            k_p: 0.2,
+            k_i: 0.1,
+            k_d: 0.1,
+            tau: 2.0,
+        };
         for delay in [1, 3, 8] {
             let own = margins(gains, delay);
             let within = response(gains.times(0.9 * own.gain), delay, 1.0);
             assert!(within.overshoot < 2.0, "{delay}: {within:?}");
             let beyond = response(gains.times(1.3 * own.gain), delay, 1.0);
-            assert!(beyond.overshoot > 10.0 && beyond.settled.is_none(), "{delay}: {beyond:?}");
+            assert!(
+                beyond.overshoot > 10.0 && beyond.settled.is_none(),
+                "{delay}: {beyond:?}"
+            );
         }
     }
 }

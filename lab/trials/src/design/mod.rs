@@ -185,7 +185,9 @@ impl Question {
         ] {
             if !(value.is_finite() && value >= 0.0 && (value > 0.0 || !above)) {
                 let from = if above { "above zero" } else { "from zero up" };
-                return Err(format!("{option} {value}: a number {from} was expected [{unit}]"));
+                return Err(format!(
+                    "{option} {value}: a number {from} was expected [{unit}]"
+                ));
             }
         }
         Ok(())
@@ -217,7 +219,10 @@ pub fn design(text: &str, label: &str, asked: &Question) -> Result<Designed, Str
     }
     let count = samples(delay, h);
     let slope = plant.slopes.magnitude();
-    let unit = Units { gain: slope * asked.drive_gain, h };
+    let unit = Units {
+        gain: slope * asked.drive_gain,
+        h,
+    };
     let pi = pi::pi(count);
     let pid = pi::pid(count);
     let derivative = Derivative {
@@ -363,14 +368,19 @@ fn bounds(
     let proportional = (used.k_p + used.k_i) / unit.gain;
     let slew_of_noise = 2.0 * proportional * PEAK_OF_NOISE * asked.noise * asked.rate;
     let slew_of_record = plant.greatest_rate() / asked.drive_gain;
-    let after = (0.02_f64.max(2.0 * delay) * asked.rate).ceil().clamp(2.0, 1e6);
+    let after = (0.02_f64.max(2.0 * delay) * asked.rate)
+        .ceil()
+        .clamp(2.0, 1e6);
     Ok(Bounds {
         low,
         high,
         slew_of_noise,
         slew_of_record,
         slew: slew_of_noise.max(slew_of_record),
-        reference_rate: plant.slopes.rising().map(|least| least * plant.greatest_rate()),
+        reference_rate: plant
+            .slopes
+            .rising()
+            .map(|least| least * plant.greatest_rate()),
         output: plant.output(),
         longest_dt,
         fallback_after: after as u32,

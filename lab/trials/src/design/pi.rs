@@ -51,7 +51,7 @@ fn admissible(gains: Gains, delay: usize) -> bool {
 /// The greatest value up to `high` that is admitted, of those that are admitted from zero on.
 fn greatest(high: f64, admitted: impl Fn(f64) -> bool) -> f64 {
     let (mut low, mut high) = (0.0, high);
-    for _ in 0..30 {
+    for _ in 0..24 {
         let middle = 0.5 * (low + high);
         if admitted(middle) {
             low = middle;
@@ -112,11 +112,11 @@ pub(super) fn pi(delay: usize) -> Found {
 pub(super) fn pid(delay: usize) -> Found {
     let seen = delay.min(LONGEST / 2);
     let tau = (0.5 * seen as f64).max(1.0);
-    let grid = (1..=8).flat_map(|p| {
-        (1..=6).map(move |d| Gains {
-            k_p: greatest_proportional() * f64::from(p) / 9.0,
+    let grid = (1..=5).flat_map(|p| {
+        (1..=5).map(move |d| Gains {
+            k_p: greatest_proportional() * f64::from(p) / 6.0,
             // At high frequencies the term has the gain k_d/tau.
-            k_d: 0.08 * f64::from(d) * tau,
+            k_d: 0.1 * f64::from(d) * tau,
             tau,
             ..Gains::default()
         })

@@ -172,7 +172,10 @@ impl Plant {
                 let at = Situation {
                     dt: 0.0,
                     motion,
-                    input: Motion { position: load, ..Motion::default() },
+                    input: Motion {
+                        position: load,
+                        ..Motion::default()
+                    },
                     load,
                     ..Situation::default()
                 };

@@ -63,7 +63,12 @@ pub fn rust(designed: &Designed) -> String {
 fn head(designed: &Designed) -> String {
     let (for_, pi) = (&designed.gains.design, &designed.pi);
     let mut out = String::new();
-    line!(out, "//! Gains that {} designed for {}.", for_.by, for_.model);
+    line!(
+        out,
+        "//! Gains that {} designed for {}.",
+        for_.by,
+        for_.model
+    );
     line!(out, "//!");
     line!(
         out,
@@ -182,7 +187,9 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
     line!(out, "    z_limit: {},", number(own.z_limit));
     let three = [own.gain, own.lambda, own.epsilon].map(number);
     let longest = number(own.longest_dt);
-    let list = ["LAG", &three[0], &three[1], &three[2], "LIMITS", &longest, "FALLBACK"];
+    let list = [
+        "LAG", &three[0], &three[1], &three[2], "LIMITS", &longest, "FALLBACK",
+    ];
     let list = list.join(", ");
     if list.len() <= 60 {
         line!(out, "    ..AdaptiveSettings::new({list})");
@@ -195,7 +202,10 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
     }
     line!(out, "}};");
     line!(out);
-    line!(out, "/// The adaptive law in lag form without regressors, checked.");
+    line!(
+        out,
+        "/// The adaptive law in lag form without regressors, checked."
+    );
     line!(out, "///");
     match every {
         1 => line!(out, "/// Call it once a sample."),

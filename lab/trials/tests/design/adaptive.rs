@@ -11,7 +11,11 @@ fn its_gains_are_half_of_what_the_constructor_admits() {
     let mut dice = Noise::new(8);
     for delay in [0.0, 0.0004, 0.003] {
         for _ in 0..20 {
-            let asked = Question { delay, drive_gain: 0.6, ..ASKED };
+            let asked = Question {
+                delay,
+                drive_gain: 0.6,
+                ..ASKED
+            };
             let own = designed(rising(&mut dice), &asked).adaptive;
             let settings = own.settings.expect("admissible");
             assert!(Adaptive::try_new(settings).is_ok());
@@ -21,7 +25,10 @@ fn its_gains_are_half_of_what_the_constructor_admits() {
             assert!(own.step > delay && own.every as f64 / asked.rate == own.step);
             assert_eq!(own.at_the_rate, own.every == 1);
             assert!(settings.epsilon >= settings.delta.high / 40.0);
-            let twice = AdaptiveSettings { gain: 4.0 * settings.gain, ..settings };
+            let twice = AdaptiveSettings {
+                gain: 4.0 * settings.gain,
+                ..settings
+            };
             assert!(Adaptive::try_new(twice).is_err());
         }
     }
@@ -33,14 +40,23 @@ fn the_error_on_a_plant_that_answers_within_the_step_stays_within_the_certificat
     let mut certified = 0;
     for _ in 0..12 {
         let numbers = rising(&mut dice);
-        let own = designed(numbers, &Question { delay: 0.0, ..ASKED });
+        let own = designed(
+            numbers,
+            &Question {
+                delay: 0.0,
+                ..ASKED
+            },
+        );
         let law = own.adaptive.settings.unwrap();
         let Some(bound) = own.adaptive.certificate else {
             continue;
         };
         certified += 1;
         // The certificate holds where no limit is met.
-        let free = AdaptiveSettings { limits: Limits::unlimited(), ..law };
+        let free = AdaptiveSettings {
+            limits: Limits::unlimited(),
+            ..law
+        };
         let law = Adaptive::try_new(free).unwrap();
         let mut state = AdaptiveState::new(&law);
         let (cable, mut cable_state) = (cable(numbers), BoucWen::new());
@@ -83,14 +99,23 @@ fn the_boxes_are_the_intervals_of_the_model_and_what_is_assumed_is_said() {
     assert!((law.beta.low - 1.0 / (0.92 * 1.02)).abs() < 1e-12);
     assert!((law.beta.high - 1.0 / (0.88 * 0.98)).abs() < 1e-12);
     assert!((law.delta.high - 2.2).abs() < 1e-12);
-    let Form::Lag { plant_gain, .. } = law.form else { panic!() };
+    let Form::Lag { plant_gain, .. } = law.form else {
+        panic!()
+    };
     assert!((plant_gain - 0.92 * 1.02).abs() < 1e-12);
 }
 
 #[test]
 fn where_no_gain_is_admissible_it_says_why() {
     let numbers = [0.9, 2.0, 0.05, 0.2, 0.6, 2.0];
-    let slow = designed(numbers, &Question { rate: 2.0, delay: 0.4, ..ASKED });
+    let slow = designed(
+        numbers,
+        &Question {
+            rate: 2.0,
+            delay: 0.4,
+            ..ASKED
+        },
+    );
     assert!(slow.adaptive.settings.is_none() && slow.gains.adaptive.is_none());
     let why = slow.adaptive.refused.unwrap();
     assert!(why.contains("h·lambda <= 1 exclude each other"), "{why}");

@@ -41,7 +41,14 @@ fn rising(dice: &mut Noise) -> Numbers {
     let rho = within(0.05, 0.5, dice.uniform());
     // The least slope is between a fifth and four fifths of B.
     let kappa_eta = within(0.2, 0.8, dice.uniform()) * b / (2.0 * sigma * rho);
-    [b, kappa_eta, 0.05, rho, sigma, within(1.0, 4.0, dice.uniform())]
+    [
+        b,
+        kappa_eta,
+        0.05,
+        rho,
+        sigma,
+        within(1.0, 4.0, dice.uniform()),
+    ]
 }
 
 const ASKED: Question = Question {
