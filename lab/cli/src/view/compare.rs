@@ -188,9 +188,9 @@ idealised plant without sensor noise: `bowden certify` lists what each assumes.
 
 const OWN_NOTES: &str = "
 Inertias, spring, damping, lags and delay of the rig are those of the reference rig unless they
-are given; the transmission and the effects are the model's, so the feed-forward knows the rig
-exactly. Gains of `bowden design` are for a plant that answers after the stated delay: a joint
-that swings is slower.
+are given. The transmission and the effects are the model's, which the feed-forward inverts as far
+as that can be. Gains of `bowden design` are for a plant that answers after the stated delay: a
+heavy joint that swings may ring with them.
 ";
 
 fn lineup_json(heading: &Heading, lineup: &Lineup) -> String {

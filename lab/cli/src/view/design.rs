@@ -184,7 +184,7 @@ fn adaptive(own: &AdaptiveDesign, row: &mut impl FnMut(&str, String)) {
         row(
             "adaptive",
             format!(
-                "none at this rate: the lag form needs a plant that answers within one sample. On every {}th sample ({} s):",
+                "none at this rate: the lag form needs a plant that answers within one sample. On one sample in {} ({} s):",
                 own.every,
                 short(own.step)
             ),

@@ -214,7 +214,7 @@ fn gains_rs_compiles_without_warnings_and_is_the_gains() {
         assert!(written.contains(if index == 0 {
             "once a sample"
         } else {
-            "every 5th sample"
+            "one sample in 5"
         }));
         assert!(
             !written.contains(&place.0.path().display().to_string()),

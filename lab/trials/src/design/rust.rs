@@ -174,10 +174,21 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
     estimator("BETA", "beta_hat [command unit/(N·m)]", &own.beta, out);
     estimator("DELTA", "delta_hat [N·m]", &own.delta, out);
     line!(out);
-    line!(
-        out,
-        "/// k, lambda [1/s] and epsilon [N·m] behind the form, the longest step [s] last but one."
-    );
+    for (name, what, value) in [
+        ("K", "k", own.gain),
+        ("LAMBDA", "lambda [1/s]", own.lambda),
+        ("EPSILON", "epsilon [N·m]", own.epsilon),
+        (
+            "LONGEST_STEP",
+            "A longer step of the law is a bad sample [s]",
+            own.longest_dt,
+        ),
+    ] {
+        line!(out, "/// {what}.");
+        item(&format!("const {name}: f32"), &number(value), out);
+        line!(out);
+    }
+    line!(out, "/// The settings of the law.");
     line!(
         out,
         "const ADAPTIVE_SETTINGS: AdaptiveSettings<f32, 0> = AdaptiveSettings {{"
@@ -185,21 +196,10 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
     line!(out, "    beta: BETA,");
     line!(out, "    delta: DELTA,");
     line!(out, "    z_limit: {},", number(own.z_limit));
-    let three = [own.gain, own.lambda, own.epsilon].map(number);
-    let longest = number(own.longest_dt);
-    let list = [
-        "LAG", &three[0], &three[1], &three[2], "LIMITS", &longest, "FALLBACK",
-    ];
-    let list = list.join(", ");
-    if list.len() <= 60 {
-        line!(out, "    ..AdaptiveSettings::new({list})");
-    } else {
-        line!(out, "    ..AdaptiveSettings::new(");
-        for value in list.split(", ") {
-            line!(out, "        {value},");
-        }
-        line!(out, "    )");
-    }
+    line!(
+        out,
+        "    ..AdaptiveSettings::new(LAG, K, LAMBDA, EPSILON, LIMITS, LONGEST_STEP, FALLBACK)"
+    );
     line!(out, "}};");
     line!(out);
     line!(
@@ -211,7 +211,7 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
         1 => line!(out, "/// Call it once a sample."),
         _ => line!(
             out,
-            "/// Call it on every {every}th sample: the plant must answer within its step."
+            "/// Call it on one sample in {every}: the plant must answer within its step."
         ),
     }
     line!(out, "#[allow(dead_code)]");
