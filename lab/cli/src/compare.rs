@@ -28,9 +28,9 @@ pub struct Compare {
     /// NAME, NAME:STRENGTH or NAME@CHANNEL:STRENGTH, strength in N·m rms.
     #[arg(long, value_name = "NAME[@CHANNEL][:STRENGTH]")]
     effect: Option<String>,
-    /// A file of `close --model-out`: the rig has its transmission and effects, the reference
-    /// stays within what its record has covered, and it is fed forward. Or gains, rig and
-    /// model in one file.
+    /// A file of `close --model-out`, which is fed forward. With --gains or a number of the rig
+    /// the rig has its transmission and effects, and the reference stays within what its
+    /// record has covered. Or gains, rig and model in one file.
     #[arg(long, value_name = "MODEL.toml")]
     model: Option<PathBuf>,
     /// Gains of `bowden design`, with the model that they are for in --model; or gains, rig

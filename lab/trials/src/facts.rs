@@ -37,8 +37,8 @@ const FROM: f64 = 5.0;
 /// What is asked.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Question<'a> {
-    /// A model, whose transmission the rig then has, or gains, rig and model in one file; the
-    /// paper's and the reference rig's where not given.
+    /// A model that is fed forward, whose transmission the rig has too with `gains` or `rig`; or
+    /// gains, rig and model in one file; the paper's and the reference rig's where not given.
     pub setup: Option<&'a Path>,
     /// Gains of `bowden design`, or a file as of `setup`.
     pub gains: Option<&'a Path>,
@@ -158,6 +158,8 @@ pub fn paper(controller: &str, varying: bool) -> Option<[f64; 2]> {
 /// One line where the setup cannot be read, a law is refused, or the bench finds no model.
 pub fn compare(question: &Question<'_>) -> Result<Compared, String> {
     let (mut setup, gains) = inputs(question)?;
+    // A model alone is fed forward on the reference rig.
+    setup.is_model &= question.gains.is_some() || question.rig != RigChanges::default();
     let effect = question.effect.map(Undeclared::parse).transpose()?;
     if effect.is_some() && (setup.is_model || gains.is_some()) {
         return Err(

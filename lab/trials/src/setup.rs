@@ -46,8 +46,8 @@
 //! n = 3.871
 //! ```
 //!
-//! A file that is such a model by itself is read as one; `bowden compare --model` then gives
-//! the rig its transmission and its effects ([`own_rig`](super::own_rig)).
+//! A file that is such a model by itself is read as one; beside gains `bowden compare --model`
+//! gives the rig its transmission and its effects ([`own_rig`](super::own_rig)).
 
 use super::gains::message;
 use bowden::control::{AdaptiveSettings, Damping, Estimator, Form, Leakage, PidSettings};
@@ -74,7 +74,7 @@ pub struct Setup {
     pub adaptive: AdaptiveGains,
     /// The model that is fed forward; the rig's own transmission where there is none.
     pub model: Option<ModelFile>,
-    /// Whether the file was a model by itself: then the rig has its transmission.
+    /// Whether the file was a model by itself.
     #[serde(skip)]
     pub is_model: bool,
 }

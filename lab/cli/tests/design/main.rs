@@ -336,6 +336,8 @@ fn gains_and_rigs_that_make_no_sense_are_one_line() {
         .replace("source = \"phi_p\"", "source = \"oil\"")
         .replace("\"phi_p\", ", "\"oil\", ");
     let other = place.write("oil.toml", &other);
-    let line = refused(&["compare", "--model", &other, "--seeds", "1"]);
+    let line = refused(&[
+        "compare", "--model", &other, "--spring", "160", "--seeds", "1",
+    ]);
     assert!(line.contains("oil.toml: the term viscous@oil"), "{line}");
 }

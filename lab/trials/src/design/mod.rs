@@ -192,6 +192,19 @@ impl Question {
         }
         Ok(())
     }
+
+    /// What the gains are for, with the name of the model's file without folders.
+    fn of_model(&self, label: &str) -> DesignedFor {
+        let name = std::path::Path::new(label).file_name();
+        DesignedFor {
+            by: format!("bowden {}", env!("CARGO_PKG_VERSION")),
+            model: name.map_or_else(|| label.to_owned(), |n| n.to_string_lossy().into_owned()),
+            rate: self.rate,
+            delay: self.delay,
+            drive_gain: self.drive_gain,
+            noise: self.noise,
+        }
+    }
 }
 
 /// Samples after which a command is first measured: it is out right after its sample, and a
@@ -236,12 +249,7 @@ pub fn design(text: &str, label: &str, asked: &Question) -> Result<Designed, Str
     }
     let longest_dt = longest_step(pi.gains, delay, h);
     let bounds = bounds(&plant, asked, unit, used, (delay, longest_dt))?;
-    let told = |e: bowden::Error| format!("{label}: {e}");
-    let limits = Limits::try_new(bounds.low, bounds.high)
-        .and_then(|range| range.with_slew(bounds.slew))
-        .map_err(told)?;
-    let fallback =
-        Fallback::try_new(bounds.fallback_after, bounds.fallback_command).map_err(told)?;
+    let safety = Safety::new(&bounds).map_err(|e| format!("{label}: {e}"))?;
     let admissible = Admissible {
         k_p: pi::greatest_proportional() / unit.gain,
         k_i: pi.gains.k_i / (unit.gain * h),
@@ -251,43 +259,24 @@ pub fn design(text: &str, label: &str, asked: &Question) -> Result<Designed, Str
         rate: asked.rate,
         delay,
         drive_gain: asked.drive_gain,
-        limits,
-        fallback,
+        limits: safety.limits,
+        fallback: safety.fallback,
         reference_rate: bounds.reference_rate,
     };
     let adaptive = adaptive::design(&plant, &around);
-    let settings = |own: &PidDesign| {
-        let plain = PidSettings::new(own.k_p, own.k_i, limits, longest_dt, fallback);
-        match own.k_d == 0.0 {
-            true => plain,
-            false => PidSettings {
-                k_d: own.k_d,
-                derivative_time: own.derivative_time,
-                damping: Damping::on_measurement(),
-                ..plain
-            },
-        }
-    };
     let pi = unit.pid(&pi);
+    let told = |e: bowden::Error| format!("{label}: {e}");
+    let pid = match derivative.helps {
+        true => Some(safety.settings(&derivative.pid).map_err(told)?),
+        false => None,
+    };
     let gains = GainsFile {
         schema: SCHEMA.to_owned(),
-        design: DesignedFor {
-            by: format!("bowden {}", env!("CARGO_PKG_VERSION")),
-            model: std::path::Path::new(label)
-                .file_name()
-                .map_or_else(|| label.to_owned(), |n| n.to_string_lossy().into_owned()),
-            rate: asked.rate,
-            delay: asked.delay,
-            drive_gain: asked.drive_gain,
-            noise: asked.noise,
-        },
-        pi: settings(&pi),
-        pid: derivative.helps.then(|| settings(&derivative.pid)),
+        design: asked.of_model(label),
+        pi: safety.settings(&pi).map_err(told)?,
+        pid,
         adaptive: adaptive.settings,
     };
-    for pid in std::iter::once(gains.pi).chain(gains.pid) {
-        Pid::try_new(pid).map_err(told)?;
-    }
     Ok(Designed {
         slopes: plant.slopes,
         design_slope: slope,
@@ -302,6 +291,44 @@ pub fn design(text: &str, label: &str, asked: &Question) -> Result<Designed, Str
         adaptive,
         gains,
     })
+}
+
+/// What keeps a controller from harm.
+#[derive(Debug, Clone, Copy)]
+struct Safety {
+    limits: Limits<f64>,
+    longest_dt: f64,
+    fallback: Fallback<f64>,
+}
+
+impl Safety {
+    fn new(bounds: &Bounds) -> Result<Self, bowden::Error> {
+        Ok(Self {
+            limits: Limits::try_new(bounds.low, bounds.high)?.with_slew(bounds.slew)?,
+            longest_dt: bounds.longest_dt,
+            fallback: Fallback::try_new(bounds.fallback_after, bounds.fallback_command)?,
+        })
+    }
+
+    /// Settings of PI or PID, checked.
+    fn settings(&self, own: &PidDesign) -> Result<PidSettings<f64>, bowden::Error> {
+        let Self {
+            limits,
+            longest_dt,
+            fallback,
+        } = *self;
+        let plain = PidSettings::new(own.k_p, own.k_i, limits, longest_dt, fallback);
+        let settings = match own.k_d == 0.0 {
+            true => plain,
+            false => PidSettings {
+                k_d: own.k_d,
+                derivative_time: own.derivative_time,
+                damping: Damping::on_measurement(),
+                ..plain
+            },
+        };
+        Pid::try_new(settings).map(PidSettings::from)
+    }
 }
 
 /// A model file, with the place where it is wrong.
