@@ -35,6 +35,38 @@ fn its_gains_are_half_of_what_the_constructor_admits() {
 }
 
 #[test]
+fn the_certificate_is_the_shipped_one_of_the_plant_that_the_model_describes() {
+    use bowden::bound::{Interval, PeakSampled, Plant};
+    let term = "[[terms]]\neffect = \"viscous\"\nsource = \"phi_p\"\ngain = -0.1\n";
+    let text = model([0.9, 2.0, 0.05, 0.2, 0.6, 2.0], term)
+        + "[about.ranges.phi_p]\nposition = [-1.0, 1.0]\nvelocity = [-2.0, 3.0]\nacceleration = [-9.0, 9.0]\n\
+           [about.intervals]\ngain = [0.88, 0.92]\nkappa_eta = [1.9, 2.1]\noffset = [0.0, 0.1]\n";
+    let asked = Question {
+        delay: 0.0,
+        ..ASKED
+    };
+    let own = design(&text, "m.toml", &asked).unwrap();
+    let law = Adaptive::try_new(own.adaptive.settings.unwrap()).unwrap();
+    // f = rho·2·sigma = 0.24, B - kappa_eta·f = 0.42; the viscous share is at most 0.3 N·m.
+    let rate = 0.42 * 40.0;
+    let plant = Plant {
+        alpha: Interval {
+            low: 0.88 * 0.98,
+            high: 0.92 * 1.02,
+        },
+        delta_rate: 0.48 / 0.42 * rate + std::f64::consts::TAU * 8.0 * 0.3,
+        reference: 0.9 * 20.0 - 2.0 + 0.05,
+        reference_rate: rate,
+        ..Plant::new(1.0, 2.1 + 0.1 + 0.3)
+    };
+    let peak = PeakSampled::try_new(&law, &plant).unwrap();
+    assert!(
+        (own.adaptive.certificate.unwrap() / peak.bound - 1.0).abs() < 1e-9,
+        "{own:?} {peak:?}"
+    );
+}
+
+#[test]
 fn the_error_on_a_plant_that_answers_within_the_step_stays_within_the_certificate() {
     let mut dice = Noise::new(9);
     let mut certified = 0;
