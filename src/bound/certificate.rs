@@ -15,6 +15,8 @@ pub enum Kind {
     PeakContinuous,
     /// [`PeakSampled`](super::PeakSampled): the box theorem.
     PeakSampled,
+    /// [`PeakRounded`](super::PeakRounded): the box theorem with every rounding.
+    PeakRounded,
     /// [`PerStep`](super::PerStep), summed over all time.
     PerStep,
 }
@@ -50,7 +52,7 @@ impl<T> Certificate<T> {
         match self.kind {
             Kind::Theorem1 | Kind::PeakContinuous | Kind::PerStep => "limsup |e|",
             Kind::Rms => "rms e, over a long time",
-            Kind::PeakSampled => "|e| at every sample",
+            Kind::PeakSampled | Kind::PeakRounded => "|e| at every sample",
         }
     }
 
@@ -66,6 +68,7 @@ impl<T> Certificate<T> {
         match self.kind {
             Kind::Theorem1 | Kind::Rms | Kind::PeakContinuous => CONTINUOUS,
             Kind::PeakSampled => SAMPLED,
+            Kind::PeakRounded => ROUNDED,
             Kind::PerStep => PER_STEP,
         }
     }
@@ -100,6 +103,19 @@ static SAMPLED: &[&str] = &[
     "y and x are measured without noise (noise of y adds to D and, over h, to its rate)",
     "the errors start in the box: else the bound holds in the limit",
     LIMITS,
+    FIXED,
+];
+
+static ROUNDED: &[&str] = &[
+    "each command acts within its sample: y at a sample is of the u of the one before",
+    PLANT,
+    "alpha lies in its interval and does not change; neither does theta",
+    "|D| <= delta at every time, with what the sensor rounds; y is what the controller reads",
+    "|D(k+1) - D(k)| <= h*delta_rate and |x(k+1) - x(k)| <= h*rate along the true path",
+    "|y_r|, its change from sample to sample and |x| stay within what is stated",
+    "the next reference given to the law is the one that comes; no feed-forward",
+    "dt is the step of the form at every sample; no sample is bad",
+    "the errors start in the box, and no sum owes more than it may",
     FIXED,
 ];
 

@@ -6,6 +6,7 @@
 //! | [`Rms`] | literal form, continuous time | root mean square of e |
 //! | [`PeakContinuous`] | literal form, continuous time, boxes | limsup of \|e\| |
 //! | [`PeakSampled`] | lag form, sampled, boxes | \|e\| for all time: the box theorem |
+//! | [`PeakRounded`] | lag form, sampled, boxes, every rounding of the shipped step | \|e\| for all time |
 //! | [`PerStep`] | lag form, sampled, boxes | V from step to step |
 //!
 //! Each is made from an [`Adaptive`](crate::control::Adaptive) law and a [`Plant`]: what is
@@ -26,18 +27,22 @@
 //! - "control laws (26), (30)" are (19), (23).
 
 mod certificate;
+mod dyadic;
 mod peak;
 mod per_step;
 mod plant;
 mod rms;
+mod rounded;
 mod sampled;
 mod theorem_1;
 mod truth;
 
 pub use certificate::{Certificate, Kind};
+pub use dyadic::{Dyadic, Enclosure};
 pub use peak::PeakContinuous;
 pub use per_step::PerStep;
 pub use plant::{Interval, Known, Plant};
 pub use rms::Rms;
+pub use rounded::{Inequality, Named, PeakRounded, Roundings};
 pub use sampled::PeakSampled;
 pub use theorem_1::Theorem1;

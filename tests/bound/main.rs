@@ -3,10 +3,13 @@
 // Clippy's allowance covers the test functions, not what they share.
 #![allow(clippy::unwrap_used)]
 
+mod adversary;
 mod continuous;
+mod dyadic;
 mod figures;
 mod refused;
 mod rig;
+mod rounded;
 mod sampled;
 mod step;
 

@@ -1,0 +1,156 @@
+//! The eight inequalities, with both sides.
+
+use super::gains::Gains;
+use super::roundings::{roundings, Roundings};
+use super::PeakRounded;
+use crate::bound::dyadic::{Dyadic, Enclosure};
+
+/// Which inequality.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Named {
+    /// `h·lambda <= 1`.
+    Step,
+    /// `h·lambda·g⁺·(k + delta_hat·q) <= 1`, q the steepest `T(s/epsilon)/s`.
+    Steepness,
+    /// `h·S + E_z <= h·lambda·Z`.
+    ZStays,
+    /// `Z <= lambda·k·S`.
+    Stiffness,
+    /// `h·lambda·W + h·Xi + R_s + E_s <= h·g⁻·(lambda·k·S - Z)`.
+    SStays,
+    /// What z's sum owes after a step, and what it may owe.
+    Owed,
+    /// `Z <= z_limit`.
+    ZLimit,
+    /// `(r + S + lambda·Z + theta'x + D)/alpha⁻ <=` the limit of the command.
+    Command,
+}
+
+impl Named {
+    /// The inequality in words and symbols.
+    #[must_use]
+    pub const fn text(self) -> &'static str {
+        match self {
+            Self::Step => "h*lambda <= 1",
+            Self::Steepness => "h*lambda*g+*(k + delta*q) <= 1",
+            Self::ZStays => "z stays: h*S + Ez <= h*lambda*Z",
+            Self::Stiffness => "Z <= lambda*k*S",
+            Self::SStays => "s stays: h*lambda*W + h*Xi + Rs + Es <= h*g-*(lambda*k*S - Z)",
+            Self::Owed => "what the sum of z owes reproduces itself",
+            Self::ZLimit => "Z <= z_limit",
+            Self::Command => "(r + S + lambda*Z + load)/alpha- <= limit of the command",
+        }
+    }
+}
+
+/// One inequality with both sides, rounded against it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Inequality {
+    /// Which one.
+    pub name: Named,
+    /// At least the left side.
+    pub left: Dyadic,
+    /// At most the right side.
+    pub right: Dyadic,
+}
+
+impl Inequality {
+    fn new(name: Named, left: Enclosure, right: Enclosure) -> Self {
+        Self {
+            name,
+            left: left.high(),
+            right: right.low(),
+        }
+    }
+
+    /// Whether it holds.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.left <= self.right
+    }
+}
+
+/// Bits of Z: few, so that it can be written down.
+const BITS_OF_Z: u32 = 40;
+
+/// Rounds of the search for Z.
+const ROUNDS: u32 = 4;
+
+impl Gains {
+    /// S of [`PeakSampled`](crate::bound::PeakSampled); one where there is none.
+    pub(super) fn exact_box(&self) -> Enclosure {
+        let stiffness = self.gain - Enclosure::ONE / (self.lambda * self.lambda);
+        if stiffness.is_at_most(Enclosure::ZERO) {
+            return Enclosure::ONE;
+        }
+        let s = (self.w + self.xi / self.lambda) / (self.g[0] * stiffness);
+        Enclosure::exactly(s.high().shortened(20))
+    }
+
+    /// The command that a box needs \[command unit\].
+    fn needed(&self, s: Enclosure, z: Enclosure) -> Enclosure {
+        (self.reference + s + self.lambda * z + self.load) / self.alpha[0]
+    }
+
+    /// Z for an S: S/lambda, and room for what rounding adds to z.
+    fn z(&self, s: Enclosure) -> Enclosure {
+        let above = Enclosure::ONE + Enclosure::power(-20);
+        let mut z = s / self.lambda;
+        for _ in 0..ROUNDS {
+            let added = roundings(self, s, z, self.needed(s, z)).z;
+            z = (s + added * above / self.step) * above / self.lambda;
+        }
+        Enclosure::exactly(z.high().shortened(BITS_OF_Z))
+    }
+}
+
+impl PeakRounded {
+    /// Everything at one S.
+    pub(super) fn at(gains: &Gains, s: Enclosure) -> Self {
+        let z = gains.z(s);
+        let command = gains.needed(s, z);
+        let added = roundings(gains, s, z, command);
+        Self {
+            s,
+            z,
+            w: gains.w,
+            xi: gains.xi,
+            g: gains.g,
+            error: s + gains.lambda * z,
+            roundings: added,
+            inequalities: inequalities(gains, s, z, command, &added),
+        }
+    }
+}
+
+fn inequalities(
+    gains: &Gains,
+    s: Enclosure,
+    z: Enclosure,
+    command: Enclosure,
+    added: &Roundings,
+) -> [Inequality; 8] {
+    let [_, alpha] = gains.alpha;
+    let [g_low, g_high] = gains.g;
+    let share = gains.step * gains.lambda;
+    let steepest = gains.gain + gains.delta * gains.slope;
+    let underflow = share * g_high * gains.delta * added.smooth_sign;
+    let rs = alpha * added.command + gains.lambda * added.z + underflow;
+    let pushed = share * gains.w + gains.step * gains.xi + rs + added.s;
+    let stiff = gains.lambda * gains.gain * s;
+    let one = Enclosure::ONE;
+    [
+        Inequality::new(Named::Step, share, one),
+        Inequality::new(Named::Steepness, share * g_high * steepest, one),
+        Inequality::new(Named::ZStays, gains.step * s + added.z, share * z),
+        Inequality::new(Named::Stiffness, z, stiff),
+        Inequality::new(Named::SStays, pushed, gains.step * g_low * (stiff - z)),
+        Inequality::new(Named::Owed, added.owed_after, added.owed_by_z),
+        Inequality::new(Named::ZLimit, z, gains.z_limit),
+        Inequality::new(Named::Command, command, gains.command),
+    ]
+}

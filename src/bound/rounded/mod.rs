@@ -1,0 +1,166 @@
+//! The box theorem for the shipped step: every rounding included.
+
+mod gains;
+mod inequalities;
+mod roundings;
+
+pub use inequalities::{Inequality, Named};
+pub use roundings::Roundings;
+
+use super::dyadic::Enclosure;
+use super::{Certificate, Kind, Plant};
+use crate::control::{Adaptive, AdaptiveSettings};
+use crate::{Error, Real};
+use gains::Gains;
+
+/// The box theorem of the lag form, for the step as it is shipped, with every rounding.
+///
+/// [`PeakSampled`](super::PeakSampled) is about exact numbers. This is about the floats of
+/// the controller: let `|s| <= S`, `|z| <= Z`, and let the sums of z and of the command owe
+/// no more than their last addition lost. If the eight [`inequalities`](Self::inequalities)
+/// hold, all of that holds after every step too, and `|e| <= S + lambda·Z` at every sample,
+/// for `f32` and `f64`. Each inequality is computed in integers, rounded outwards: what is
+/// proved here needs no trust in a float. The certificate takes below 1 ms on a desktop, so
+/// that a controller can check its own gains at start-up.
+///
+/// *Proof.* The exact step keeps the box with room to spare, as in
+/// [`PeakSampled`](super::PeakSampled); the [`Roundings`] are less than the room. The theorem
+/// over the reals is `theorems/Box.v`.
+///
+/// Assumed beside: the plant `y = alpha·u - theta'x - D` without dynamics, where y is as the
+/// controller reads it: what the sensor rounds is part of D and counts in its rate; `dt` is
+/// the form's step at every sample; the next reference is the one that comes; no feed-forward;
+/// no sample is bad; the errors start in the box. The truth need not lie in the boxes, and the
+/// estimates may move in theirs as they like.
+///
+/// ```
+/// use bowden::bound::{PeakRounded, Plant};
+/// use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form, Limits};
+/// let lag = Form::Lag { step: 0.001, plant_gain: 1.0 };
+/// let law = Adaptive::try_new(AdaptiveSettings {
+///     beta: Estimator::free(1.0).within(0.8, 1.2).adapting(2.5e-4, 0.01),
+///     delta: Estimator::free(1.0).within(0.0, 4.0).adapting(0.00625, 0.01),
+///     limits: Limits::try_new(-60.0, 60.0)?,
+///     ..AdaptiveSettings::<f32, 0>::unlimited(lag, 24.0, 8.0, 0.05)
+/// })?;
+/// let plant = Plant { reference: 10.0, ..Plant::new(1.0, 6.0) }; // [N·m], always f64
+/// let proved = PeakRounded::try_new(&law, &plant)?;
+/// assert!((proved.bound() - 0.8347).abs() < 1e-3); // [N·m]
+/// # Ok::<(), bowden::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PeakRounded {
+    /// S \[N·m\]: the box of s. The least that is proved, to 2^-14 of itself.
+    pub s: Enclosure,
+    /// Z \[N·m·s\]: the box of z.
+    pub z: Enclosure,
+    /// W \[N·m\]: greatest `|(g-1)·(r + r'/lambda) + (g·theta_hat - theta)'x - D|`.
+    pub w: Enclosure,
+    /// Xi \[N·m/s\]: greatest rate of `D + theta'x`.
+    pub xi: Enclosure,
+    /// Least and greatest g = alpha·beta_hat.
+    pub g: [Enclosure; 2],
+    /// S + lambda·Z \[N·m\].
+    pub error: Enclosure,
+    /// What one step rounds.
+    pub roundings: Roundings,
+    /// The eight inequalities, in the order of [`Named`].
+    pub inequalities: [Inequality; 8],
+}
+
+/// Doublings and halvings of the search for S.
+const DOUBLINGS: u32 = 20;
+const HALVINGS: u32 = 80;
+
+impl PeakRounded {
+    /// The certificate of a law on a plant.
+    ///
+    /// # Errors
+    /// Those of [`examine`](Self::examine), and [`Error::Inadmissible`] with the first
+    /// inequality that does not hold.
+    pub fn try_new<T: Real, const N: usize>(
+        law: &Adaptive<T, N>,
+        plant: &Plant<f64, N>,
+    ) -> Result<Self, Error> {
+        let examined = Self::examine(law.settings(), plant)?;
+        match examined.refused() {
+            None => Ok(examined),
+            Some(inequality) => Err(Error::Inadmissible(inequality.name.text())),
+        }
+    }
+
+    /// The inequalities at the least S that they allow, whether all of them hold or not.
+    ///
+    /// Of settings, since [`Adaptive::try_new`] refuses some that fail. Where no S will do,
+    /// they stand at the S that exact numbers would need.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`], [`Error::OutOfRange`] or [`Error::Inadmissible`] where settings
+    /// or plant are such that no inequality can be stated; [`Error::Capacity`] for more than
+    /// 16 regressors.
+    pub fn examine<T: Real, const N: usize>(
+        settings: &AdaptiveSettings<T, N>,
+        plant: &Plant<f64, N>,
+    ) -> Result<Self, Error> {
+        let gains = Gains::try_new(settings, plant)?;
+        let mut high = Enclosure::ONE;
+        let mut doublings = 0;
+        while !Self::at(&gains, high).grows_into() {
+            high = high + high;
+            doublings += 1;
+            if doublings > DOUBLINGS {
+                return Ok(Self::at(&gains, gains.exact_box()));
+            }
+        }
+        let mut low = Enclosure::ZERO;
+        for _ in 0..HALVINGS {
+            if (high - low).is_at_most(high * Enclosure::power(-14)) {
+                break;
+            }
+            let middle = (low + high) * Enclosure::power(-1);
+            if Self::at(&gains, middle).grows_into() {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        Ok(Self::at(&gains, high))
+    }
+
+    /// Whether all eight inequalities hold.
+    #[must_use]
+    pub fn is_proved(&self) -> bool {
+        self.refused().is_none()
+    }
+
+    /// The first inequality that does not hold.
+    #[must_use]
+    pub fn refused(&self) -> Option<&Inequality> {
+        self.inequalities.iter().find(|it| !it.holds())
+    }
+
+    /// S + lambda·Z \[N·m\]: `|e|` at every sample; not below it as a real number.
+    #[must_use]
+    pub fn bound(&self) -> f64 {
+        let nearest = self.error.high().as_f64();
+        nearest + nearest.abs() * f64::EPSILON
+    }
+
+    /// The bound as a certificate.
+    #[must_use]
+    pub fn certificate(&self) -> Certificate<f64> {
+        Certificate {
+            kind: Kind::PeakRounded,
+            value: self.bound(),
+        }
+    }
+
+    /// Whether the inequalities hold that a greater S can mend.
+    fn grows_into(&self) -> bool {
+        let [step, steep, z, stiff, s, owed, _, _] = &self.inequalities;
+        [step, steep, z, stiff, s, owed]
+            .iter()
+            .all(|inequality| inequality.holds())
+    }
+}

@@ -1,0 +1,161 @@
+//! Adversaries against the shipped controller, on a plant that is as bad as the certificate
+//! allows: the box is filled and never left.
+
+use super::rounded::{own, own_plant, proved, table_2, table_2_plant};
+use bowden::bound::{PeakRounded, Plant};
+use bowden::control::{
+    Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Status,
+};
+use bowden::Real;
+
+/// A signal that goes from one end to the other as fast as it may, and is there at the end
+/// of each half period.
+struct Swing {
+    most: f64,
+    rate: f64,
+}
+
+impl Swing {
+    /// The value `left` \[s\] before the end of the half of sign `side`. A thousandth of the
+    /// rate is left for the rounding of the float that it becomes.
+    fn at(&self, side: f64, left: f64) -> f64 {
+        side * (self.most - 0.999 * self.rate * left).max(-self.most)
+    }
+}
+
+/// What the adversary plays: the plant's truth, and which way each regressor pushes.
+struct Play<const N: usize> {
+    alpha: f64,
+    theta: [f64; N],
+    /// Length of a half period \[s\].
+    half: f64,
+}
+
+/// The largest `|s|/S` over `steps`, from the corner of rest; everything is asserted on the way.
+fn attack<T: Real, const N: usize>(
+    settings: AdaptiveSettings<T, N>,
+    plant: &Plant<f64, N>,
+    play: &Play<N>,
+    steps: u32,
+) -> f64 {
+    let proof: PeakRounded = proved(settings, plant);
+    let (s_most, z_most) = (proof.s.high().as_f64(), proof.z.high().as_f64());
+    let law = Adaptive::try_new(settings).unwrap();
+    let h = law.settings().longest_dt.min(match settings.form {
+        bowden::control::Form::Lag { step, .. } => step,
+        bowden::control::Form::Literal { .. } => T::HIGHEST,
+    });
+    let (dt, lambda) = (h.as_f64(), settings.lambda.as_f64());
+    let swing = |most, rate| Swing { most, rate };
+    let reference = swing(plant.reference, plant.reference_rate);
+    let disturbance = swing(0.999_9 * plant.delta, plant.delta_rate);
+    let xs = plant.regressors.map(|x| swing(x.magnitude, x.rate));
+    let phase = |n: u32| {
+        let time = f64::from(n) * dt;
+        let half = (time / play.half).floor();
+        let side = if half % 2.0 == 0.0 { 1.0 } else { -1.0 };
+        (side, play.half * (half + 1.0) - time)
+    };
+    let float = |x: f64| T::of(x).as_f64();
+    let mut state = AdaptiveState::new(&law);
+    let mut last_load: Option<f64> = None;
+    let mut reached = 0.0_f64;
+    // From rest: the command at which the errors start at zero.
+    let mut started = false;
+    for n in 0..steps {
+        let (side, left) = phase(n);
+        let (next_side, next_left) = phase(n + 1);
+        let r = float(reference.at(side, left));
+        let x: [f64; N] = core::array::from_fn(|i| float(xs[i].at(side, left)));
+        let known: f64 = x.iter().zip(play.theta).map(|(x, theta)| x * theta).sum();
+        let wanted = disturbance.at(side, left);
+        if !started {
+            let at = (r + known + wanted) / play.alpha;
+            let zero = AdaptiveInput::new(h, T::of(r), T::of(r), x.map(T::of));
+            state = AdaptiveState::resume_from(&law, T::of(at), &zero);
+            started = true;
+        }
+        let y = T::of(play.alpha * state.command().as_f64() - known - wanted);
+        // The disturbance that this y is of, with what y was rounded by.
+        let d = play.alpha * state.command().as_f64() - known - y.as_f64();
+        assert!(d.abs() <= plant.delta, "{d}");
+        let (load, rate) = (d + known, proof.xi.high().as_f64());
+        assert!(
+            last_load.is_none_or(|last| (load - last).abs() <= dt * rate + 1e-14),
+            "{n}"
+        );
+        last_load = Some(load);
+        let error = y.as_f64() - r;
+        let z = state.accumulated_error().as_f64();
+        let s = error + lambda * z;
+        assert!(s.abs() <= s_most, "step {n}: s = {s}, S = {s_most}");
+        assert!(z.abs() <= z_most, "step {n}: z = {z}, Z = {z_most}");
+        assert!(error.abs() <= proof.bound(), "step {n}: e = {error}");
+        reached = reached.max(s.abs() / s_most);
+        let next = T::of(float(reference.at(next_side, next_left)));
+        let output = law.step(
+            &mut state,
+            &AdaptiveInput {
+                next_reference: next,
+                ..AdaptiveInput::new(h, T::of(r), y, x.map(T::of))
+            },
+        );
+        assert_eq!(output.status, Status::Good);
+    }
+    println!(
+        "{} bits: reached {reached} of the box in {steps} steps",
+        8 * size_of::<T>()
+    );
+    reached
+}
+
+/// Estimates where they do most harm; their gains are too small to move them.
+fn worst<T: Real, const N: usize>(settings: AdaptiveSettings<T, N>) -> AdaptiveSettings<T, N> {
+    let low = |estimator: Estimator<T>| Estimator {
+        initial: estimator.low,
+        ..estimator
+    };
+    AdaptiveSettings {
+        beta: low(settings.beta),
+        delta: low(settings.delta),
+        theta: settings.theta.map(low),
+        ..settings
+    }
+}
+
+fn both(steps: u32) {
+    // r = 10 and g = 0.8 push as 2 N·m, D = 6 N·m with them: W is filled, at rest.
+    let resting = Play {
+        alpha: 1.0,
+        theta: [],
+        half: f64::INFINITY,
+    };
+    let plant = table_2_plant();
+    let reached = [
+        attack(worst(table_2::<f32, 0>(0.0)), &plant, &resting, steps),
+        attack(worst(table_2::<f64, 0>(0.0)), &plant, &resting, steps),
+    ];
+    assert!(reached.iter().all(|share| *share >= 0.9), "{reached:?}");
+    // The reference's way from end to end at its rate; all else arrives with it.
+    let moving = Play {
+        alpha: 0.92,
+        theta: [3.0, 0.3],
+        half: 2.0 * 25.0 / (0.999 * 22.3),
+    };
+    let reached = [
+        attack(worst(own::<f32>()), &own_plant(), &moving, steps),
+        attack(worst(own::<f64>()), &own_plant(), &moving, steps),
+    ];
+    assert!(reached.iter().all(|share| *share >= 0.9), "{reached:?}");
+}
+
+#[test]
+fn an_adversary_fills_nine_tenths_of_the_box_and_never_leaves_it() {
+    both(100_000);
+}
+
+#[test]
+#[ignore = "slow: bash .ci/run core-tests"]
+fn an_adversary_fills_the_box_for_a_million_steps_and_never_leaves_it() {
+    both(1_000_000);
+}
