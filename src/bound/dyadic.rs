@@ -85,7 +85,8 @@ impl Dyadic {
     }
 
     /// The next number of at most `bits` bits that is not below this one.
-    pub(super) fn shortened(self, bits: u32) -> Self {
+    #[must_use]
+    pub fn shortened(self, bits: u32) -> Self {
         Self::cut(self.mantissa, self.exponent, bits, Towards::Above)
     }
 

@@ -18,6 +18,7 @@ mod reading;
 pub mod view;
 
 use clap::{Parser, Subcommand};
+use std::process::ExitCode;
 
 /// What went wrong, in one line, for exit status 2.
 pub type Failure = String;
@@ -28,7 +29,7 @@ pub type Failure = String;
     version,
     about = "Hysteretic cable transmissions: closes the loop between a model and measured data",
     disable_help_subcommand = true,
-    after_help = "Without a subcommand: `bowden close` on the embedded record.\nThe words of its ledger: `bowden help terms`.\nExit status: 0 with any verdict, 2 for bad use or a bad record."
+    after_help = "Without a subcommand: `bowden close` on the embedded record.\nThe words of its ledger: `bowden help terms`.\nExit status: 0 with any verdict, 1 where certify does not prove your gains, 2 for bad use or a bad record."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -63,19 +64,20 @@ enum Command {
 ///
 /// # Errors
 /// The line to be printed on stderr.
-pub fn run() -> Result<(), Failure> {
+pub fn run() -> Result<ExitCode, Failure> {
     match Arguments::parse().command {
+        Some(Command::Certify(certify)) => return certify.run(),
         None => close::Close::default().run(),
         Some(Command::Close(close)) => close.run(),
         Some(Command::Check(check)) => check.run(),
         Some(Command::Design(design)) => design.run(),
         Some(Command::Compare(compare)) => compare.run(),
-        Some(Command::Certify(certify)) => certify.run(),
         Some(Command::Power(power)) => power.run(),
         Some(Command::Plan(plan)) => plan.run(),
         Some(Command::Generate(generate)) => generate.run(),
         Some(Command::Help(help)) => help.run(),
-    }
+    }?;
+    Ok(ExitCode::SUCCESS)
 }
 
 /// Text on stdout, with colours only on a terminal; a reader that has gone away is no

@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     match bowden_cli::run() {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(status) => status,
         Err(line) => {
             anstream::eprintln!("bowden: {line}");
             ExitCode::from(2)

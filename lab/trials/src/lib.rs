@@ -15,6 +15,7 @@ pub mod found;
 pub mod gains;
 pub mod lineup;
 pub mod own_rig;
+pub mod proof;
 pub mod setup;
 pub mod table;
 pub mod trial;

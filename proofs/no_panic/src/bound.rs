@@ -33,9 +33,46 @@ pub fn all<T: Real>() -> Option<()> {
     let per_step = black_box(PerStep::try_new(&law, &plant)).ok()?;
     never_panics!(bound_per_step_certificate, per_step.certificate());
 
+    dyadic::<T>();
+    rounded::<T>()?;
     let certificate = black_box(rms.certificate());
     never_panics!(bound_certificate_bounds, certificate.bounds());
     never_panics!(bound_certificate_unit, certificate.unit());
     never_panics!(bound_certificate_assumptions, certificate.assumptions());
+    Some(())
+}
+
+fn dyadic<T: Real>() {
+    never_panics!(bound_dyadic_of, Dyadic::of::<T>(any()));
+    let number = black_box(Dyadic::of::<T>(any()));
+    never_panics!(bound_dyadic_as_f64, number.as_f64());
+    never_panics!(bound_dyadic_parts, number.parts());
+    never_panics!(bound_dyadic_shortened, number.shortened(any()));
+    never_panics!(bound_dyadic_of, Enclosure::of::<T>(any()));
+    never_panics!(bound_dyadic_exactly, Enclosure::exactly(number));
+    let (a, b) = (
+        black_box(Enclosure::of::<T>(any())),
+        black_box(Enclosure::of::<T>(any())),
+    );
+    never_panics!(bound_dyadic_low, a.low());
+    never_panics!(bound_dyadic_high, a.high());
+    never_panics!(bound_dyadic_is_at_most, a.is_at_most(b));
+    never_panics!(bound_dyadic_abs, a.abs());
+    never_panics!(bound_dyadic_max, a.max(b));
+}
+
+fn rounded<T: Real>() -> Option<()> {
+    let (law, plant) = (law::<T>()?, black_box(Plant::<f64, 2>::new(any(), any())));
+    never_panics!(bound_rounded_try_new, PeakRounded::try_new(&law, &plant));
+    let settings = law.settings();
+    never_panics!(bound_rounded_examine, PeakRounded::examine(settings, &plant));
+    let peak = black_box(PeakRounded::examine(settings, &plant)).ok()?;
+    never_panics!(bound_rounded_bound, peak.bound());
+    never_panics!(bound_rounded_certificate, peak.certificate());
+    never_panics!(bound_rounded_is_proved, peak.is_proved());
+    never_panics!(bound_rounded_refused, peak.refused());
+    let inequality = black_box(peak.inequalities).first().copied()?;
+    never_panics!(bound_rounded_inequalities_holds, inequality.holds());
+    never_panics!(bound_rounded_inequalities_text, inequality.name.text());
     Some(())
 }

@@ -12,6 +12,7 @@ pub mod design;
 mod hand_over;
 mod json;
 mod power;
+pub mod proof;
 mod several;
 mod terminal;
 pub mod terms;

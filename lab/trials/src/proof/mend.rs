@@ -1,0 +1,65 @@
+//! What would mend an inequality that does not hold: a rate, a box or a gain.
+
+use super::form::{Float, Form};
+use bowden::bound::{Inequality, Named};
+
+/// In one sentence. Its numbers are rounded to the safe side, to three digits.
+pub(super) fn words(form: &Form, inequality: &Inequality) -> String {
+    let (lambda, step, k) = (form.lambda.0, form.step.0, form.k.0);
+    let g = form.plant.alpha.0[1] * form.beta.0[1];
+    let (left, right) = (inequality.left.as_f64(), inequality.right.as_f64());
+    let coarse = match form.float {
+        Float::F32 => "f64, a lower rate or a greater lambda",
+        Float::F64 => "a lower rate or a greater lambda",
+    };
+    match inequality.name {
+        Named::Step => format!(
+            "a rate of at least {} Hz, or lambda of at most {} 1/s",
+            up(lambda),
+            down(1.0 / step)
+        ),
+        Named::Steepness => {
+            let rate = format!("a rate of at least {} Hz", up(left / step));
+            let room = 1.0 / (step * lambda * g);
+            if room > k {
+                let epsilon = up(form.delta.0[1] / (room - k));
+                let delta = down((room - k) * form.epsilon.0);
+                format!("{rate}, epsilon of at least {epsilon} N·m, or a box of delta_hat up to {delta} N·m")
+            } else {
+                format!("{rate}, or k below {}", down(room))
+            }
+        }
+        Named::Stiffness => format!("k above 1/lambda² = {}", up(1.0 / (lambda * lambda))),
+        Named::SStays => format!(
+            "a greater k or lambda, a box of beta_hat that starts higher, {coarse}: k = {k} leaves too little beyond 1/lambda² = {}",
+            up(1.0 / (lambda * lambda))
+        ),
+        Named::ZStays | Named::Owed => format!("{coarse}: z moves by less than it is rounded by"),
+        Named::ZLimit => format!("z_limit of at least {} N·m·s", up(left)),
+        Named::Command => format!(
+            "a limit of the command of at least {}, a smaller reference or a smaller disturbance (the limit is {right})",
+            up(left)
+        ),
+    }
+}
+
+fn up(x: f64) -> String {
+    digits(x, f64::ceil)
+}
+
+fn down(x: f64) -> String {
+    digits(x, f64::floor)
+}
+
+/// Three digits.
+fn digits(x: f64, round: fn(f64) -> f64) -> String {
+    if !(x.is_finite() && x > 0.0) {
+        return x.to_string();
+    }
+    #[allow(clippy::cast_possible_truncation)]
+    let places = 2 - x.log10().floor() as i32;
+    let rounded = round(x * 10_f64.powi(places)) * 10_f64.powi(-places);
+    #[allow(clippy::cast_sign_loss)]
+    let shown = places.max(0) as usize;
+    format!("{rounded:.shown$}")
+}

@@ -1,0 +1,347 @@
+//! One's own gains: what is proved of the shipped step with them, every rounding included.
+
+mod form;
+mod mend;
+
+pub use form::Float;
+
+use super::gains::message;
+use bowden::bound::{Dyadic, Inequality, Interval, Kind, Known, Named, PeakRounded, Plant};
+use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Limits};
+use bowden::{Error, Real};
+use form::Form;
+use serde::Serialize;
+use std::path::Path;
+
+/// What is proved of gains, or which inequality refuses them.
+///
+/// Numbers are exact, as `mantissa*2^exponent`; beside them stands the nearest `f64` where
+/// people read them. As JSON it is of the schema `bowden.certificate/1`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Proof {
+    /// `bowden.certificate/1`.
+    pub schema: &'static str,
+    /// Whether all eight inequalities hold.
+    pub proved: bool,
+    /// The controller's float.
+    pub float: Float,
+    /// The gains as the controller has them, in its own float.
+    pub gains: Exact,
+    /// What is known of the plant.
+    pub plant: ExactPlant,
+    /// The regressors.
+    pub regressors: Vec<ExactRegressor>,
+    /// S \[N·m\]: box of s.
+    pub s: Number,
+    /// Z \[N·m·s\]: box of z.
+    pub z: Number,
+    /// S + lambda·Z \[N·m\]: `|e|` at every sample.
+    pub error: Number,
+    /// W \[N·m\].
+    pub w: Number,
+    /// Xi \[N·m/s\].
+    pub xi: Number,
+    /// Least and greatest g = alpha·beta_hat.
+    pub g: [Number; 2],
+    /// What one step rounds.
+    pub roundings: Rounded,
+    /// The eight inequalities.
+    pub inequalities: Vec<Sides>,
+    /// The first inequality that does not hold, and what would mend it.
+    pub refused: Option<Refusal>,
+    /// What the user must check.
+    pub assumptions: &'static [&'static str],
+}
+
+/// An exact number, and the nearest `f64`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Number {
+    /// `mantissa*2^exponent`.
+    pub exact: String,
+    /// The nearest `f64`.
+    pub value: f64,
+}
+
+impl From<Dyadic> for Number {
+    fn from(number: Dyadic) -> Self {
+        Self {
+            exact: number.to_string(),
+            value: number.as_f64(),
+        }
+    }
+}
+
+/// The gains as the controller has them.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Exact {
+    /// Control gain.
+    pub k: String,
+    /// \[1/s\]
+    pub lambda: String,
+    /// \[s\]
+    pub step: String,
+    /// \[N·m\]
+    pub epsilon: String,
+    /// \[N·m·s\]
+    pub z_limit: String,
+    /// \[command unit\]
+    pub command: String,
+    /// Box of beta_hat.
+    pub beta: [String; 2],
+    /// Box of delta_hat \[N·m\].
+    pub delta: [String; 2],
+}
+
+/// What is known of the plant.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ExactPlant {
+    /// \[N·m/command unit\]
+    pub alpha: [String; 2],
+    /// \[N·m\]
+    pub disturbance: String,
+    /// \[N·m/s\]
+    pub disturbance_rate: String,
+    /// \[N·m\]
+    pub reference: String,
+    /// \[N·m/s\]
+    pub reference_rate: String,
+}
+
+/// What is known of a regressor.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ExactRegressor {
+    /// Box of the estimate.
+    pub theta_hat: [String; 2],
+    /// Where the truth lies.
+    pub theta: [String; 2],
+    /// Greatest magnitude.
+    pub magnitude: String,
+    /// Greatest rate \[1/s\].
+    pub rate: String,
+}
+
+/// What one step rounds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Rounded {
+    /// Of s \[N·m\].
+    pub s: Number,
+    /// Of the command \[command unit\].
+    pub command: Number,
+    /// Of z \[N·m·s\].
+    pub z: Number,
+    /// What the sum of z may owe \[N·m·s\].
+    pub owed_by_z: Number,
+    /// What the sum of the command may owe \[command unit\].
+    pub owed_by_command: Number,
+}
+
+/// An inequality with both sides.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Sides {
+    /// `step`, `steepness`, …
+    pub name: Named,
+    /// In symbols.
+    pub text: &'static str,
+    /// At least the left side.
+    pub left: Number,
+    /// At most the right side.
+    pub right: Number,
+    /// Whether it holds.
+    pub holds: bool,
+}
+
+impl From<&Inequality> for Sides {
+    fn from(inequality: &Inequality) -> Self {
+        Self {
+            name: inequality.name,
+            text: inequality.name.text(),
+            left: inequality.left.into(),
+            right: inequality.right.into(),
+            holds: inequality.holds(),
+        }
+    }
+}
+
+/// Why gains are not proved.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Refusal {
+    /// The inequality.
+    pub text: &'static str,
+    /// What would mend it.
+    pub mend: String,
+}
+
+/// Most regressors of a file.
+const MOST: usize = 8;
+
+/// Reads a file of gains and examines them.
+///
+/// # Errors
+/// One line with file, line, column and what was expected.
+pub fn prove(path: &Path) -> Result<Proof, String> {
+    let label = path.display().to_string();
+    let text = std::fs::read_to_string(path).map_err(|e| format!("{label}: {e}"))?;
+    parse(&text, &label)
+}
+
+/// The same of a text; `label` stands for the file's name.
+///
+/// # Errors
+/// As [`prove`].
+pub fn parse(text: &str, label: &str) -> Result<Proof, String> {
+    let form: Form = toml::from_str(text).map_err(|e| message(&e, text, label))?;
+    match form.float {
+        Float::F32 => of_any::<f32>(&form),
+        Float::F64 => of_any::<f64>(&form),
+    }
+    .map_err(|e| format!("{label}: {e}"))
+}
+
+fn of_any<T: Real>(form: &Form) -> Result<Proof, String> {
+    match form.regressor.len() {
+        0 => of::<T, 0>(form),
+        1 => of::<T, 1>(form),
+        2 => of::<T, 2>(form),
+        3 => of::<T, 3>(form),
+        4 => of::<T, 4>(form),
+        5 => of::<T, 5>(form),
+        6 => of::<T, 6>(form),
+        7 => of::<T, 7>(form),
+        8 => of::<T, 8>(form),
+        many => Err(format!("{many} regressors: at most {MOST} were expected")),
+    }
+}
+
+fn of<T: Real, const N: usize>(form: &Form) -> Result<Proof, String> {
+    let settings = settings::<T, N>(form).map_err(|e| e.to_string())?;
+    let plant = plant::<N>(form);
+    let examined = PeakRounded::examine(&settings, &plant).map_err(|e| e.to_string())?;
+    // What is proved is of a controller that exists.
+    if examined.is_proved() {
+        Adaptive::try_new(settings).map_err(|e| format!("the controller refuses: {e}"))?;
+    }
+    Ok(proof(form, &settings, &plant, &examined))
+}
+
+/// The nearest floats; the upper bound of alpha is not below it.
+fn settings<T: Real, const N: usize>(form: &Form) -> Result<AdaptiveSettings<T, N>, Error> {
+    let moving = |[low, high]: [f64; 2]| {
+        let estimator = Estimator::free(T::of(low)).within(T::of(low), T::of(high));
+        if estimator.low == estimator.high {
+            estimator
+        } else {
+            // Any gain: the estimate is anywhere in its box.
+            estimator.adapting(T::ONE, T::ZERO)
+        }
+    };
+    let mut plant_gain = T::of(form.plant.alpha.0[1]);
+    if plant_gain.as_f64() < form.plant.alpha.0[1] {
+        plant_gain = plant_gain * (T::ONE + T::epsilon());
+    }
+    let lag = bowden::control::Form::Lag {
+        step: T::of(form.step.0),
+        plant_gain,
+    };
+    let command = T::of(form.command.0);
+    let mut theta = [Estimator::fixed(T::ZERO); N];
+    for (estimator, regressor) in theta.iter_mut().zip(&form.regressor) {
+        *estimator = moving(regressor.theta_hat.0);
+    }
+    let (k, lambda, epsilon) = (form.k.0, form.lambda.0, form.epsilon.0);
+    Ok(AdaptiveSettings {
+        beta: moving(form.beta.0),
+        delta: moving(form.delta.0),
+        theta,
+        z_limit: T::of(form.z_limit.0),
+        limits: Limits::try_new(-command, command)?,
+        ..AdaptiveSettings::unlimited(lag, T::of(k), T::of(lambda), T::of(epsilon))
+    })
+}
+
+fn plant<const N: usize>(form: &Form) -> Plant<f64, N> {
+    let interval = |[low, high]: [f64; 2]| Interval { low, high };
+    let mut regressors = [Known::default(); N];
+    for (known, regressor) in regressors.iter_mut().zip(&form.regressor) {
+        *known = Known {
+            theta: interval(regressor.theta.0),
+            magnitude: regressor.magnitude.0,
+            rate: regressor.rate.0,
+        };
+    }
+    let plant = &form.plant;
+    Plant {
+        alpha: interval(plant.alpha.0),
+        delta: plant.disturbance.0,
+        delta_rate: plant.disturbance_rate.0,
+        regressors,
+        reference: plant.reference.0,
+        reference_rate: plant.reference_rate.0,
+    }
+}
+
+fn proof<T: Real, const N: usize>(
+    form: &Form,
+    settings: &AdaptiveSettings<T, N>,
+    plant: &Plant<f64, N>,
+    examined: &PeakRounded,
+) -> Proof {
+    let float = |x: T| Dyadic::of(x).to_string();
+    let real = |x: f64| Dyadic::of(x).to_string();
+    let number = |x: bowden::bound::Enclosure| Number::from(x.high());
+    let range = |estimator: &Estimator<T>| [float(estimator.low), float(estimator.high)];
+    let pairs = settings.theta.iter().zip(&plant.regressors);
+    let rounded = &examined.roundings;
+    Proof {
+        schema: "bowden.certificate/1",
+        proved: examined.is_proved(),
+        float: form.float,
+        gains: Exact {
+            k: float(settings.gain),
+            lambda: float(settings.lambda),
+            step: float(T::of(form.step.0)),
+            epsilon: float(settings.epsilon),
+            z_limit: float(settings.z_limit),
+            command: float(settings.limits.high()),
+            beta: range(&settings.beta),
+            delta: range(&settings.delta),
+        },
+        plant: ExactPlant {
+            alpha: [plant.alpha.low, plant.alpha.high].map(real),
+            disturbance: real(plant.delta),
+            disturbance_rate: real(plant.delta_rate),
+            reference: real(plant.reference),
+            reference_rate: real(plant.reference_rate),
+        },
+        regressors: pairs
+            .map(|(estimator, known)| ExactRegressor {
+                theta_hat: range(estimator),
+                theta: [known.theta.low, known.theta.high].map(real),
+                magnitude: real(known.magnitude),
+                rate: real(known.rate),
+            })
+            .collect(),
+        s: number(examined.s),
+        z: number(examined.z),
+        error: number(examined.error),
+        w: number(examined.w),
+        xi: number(examined.xi),
+        g: [examined.g[0].low().into(), examined.g[1].high().into()],
+        roundings: Rounded {
+            s: number(rounded.s),
+            command: number(rounded.command),
+            z: number(rounded.z),
+            owed_by_z: number(rounded.owed_by_z),
+            owed_by_command: number(rounded.owed_by_command),
+        },
+        inequalities: examined.inequalities.iter().map(Sides::from).collect(),
+        refused: examined.refused().map(|inequality| Refusal {
+            text: inequality.name.text(),
+            mend: mend::words(form, inequality),
+        }),
+        assumptions: bowden::bound::Certificate {
+            kind: Kind::PeakRounded,
+            value: 0.0,
+        }
+        .assumptions(),
+    }
+}
