@@ -25,6 +25,8 @@ pub(crate) mod sealed {
         fn short_exp(self) -> Self;
         fn short_pow(self, exponent: Self) -> Self;
         fn short_tanh(self) -> Self;
+        /// tanh with the sign of its argument, no further from zero than that and than 1.
+        fn confined_tanh(self) -> Self;
         /// Base-2 logarithm by straight lines between the powers of 2.
         fn coarse_log2(self) -> Self;
         /// A power by the same straight lines.
@@ -54,6 +56,12 @@ pub(crate) mod sealed {
         #[inline]
         fn short_tanh(self) -> Self {
             short::tanh(self)
+        }
+        /// libm's keeps to it at all 2^32 arguments, to a unit in the last place, which the
+        /// bounds allow for: `tests/exhaustive.rs`.
+        #[inline]
+        fn confined_tanh(self) -> Self {
+            libm::tanhf(self)
         }
         #[inline]
         fn coarse_log2(self) -> Self {
@@ -91,6 +99,11 @@ pub(crate) mod sealed {
         fn short_tanh(self) -> Self {
             libm::tanh(self)
         }
+        /// Made true, whatever libm returns: its arguments are too many to try.
+        #[inline]
+        fn confined_tanh(self) -> Self {
+            confined(self, libm::tanh(self))
+        }
         #[inline]
         fn coarse_log2(self) -> Self {
             (self.to_bits() as i64).wrapping_sub(ONE) as f64 / 4_503_599_627_370_496.0
@@ -104,6 +117,21 @@ pub(crate) mod sealed {
         fn binade(self) -> Self {
             Self::from_bits(self.to_bits() & 0xfff0_0000_0000_0000)
         }
+    }
+
+    /// A value of tanh at `x` with x's sign, no further from zero than x and than 1. NaN
+    /// stays NaN.
+    #[inline]
+    pub(crate) fn confined(x: f64, value: f64) -> f64 {
+        let most = if x.abs() < 1.0 { x.abs() } else { 1.0 };
+        let size = value.abs();
+        // A value that is NaN, of an argument that is none, is the most that it may be.
+        let size = if size <= most || x.is_nan() {
+            size
+        } else {
+            most
+        };
+        libm::copysign(size, x)
     }
 
     /// The bits of 1.
@@ -251,3 +279,59 @@ real!(
     atan,
     tanh
 );
+
+#[cfg(test)]
+mod tests {
+    use super::sealed::{confined, Sealed};
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Whatever libm might return.
+        #[test]
+        fn any_value_is_confined_to_its_argument(x in any::<f64>(), value in any::<f64>()) {
+            let t = confined(x, value);
+            prop_assert!(t.abs() <= 1.0 && t.abs() <= x.abs());
+            prop_assert_eq!(t.is_sign_negative(), x.is_sign_negative());
+        }
+
+        /// What libm returns rightly stays to the bit.
+        #[test]
+        fn a_right_value_keeps_its_bits(x in any::<f64>()) {
+            let value = libm::tanh(x);
+            if value.abs() <= x.abs() || x.is_nan() {
+                prop_assert_eq!(x.confined_tanh().to_bits(), value.to_bits());
+            }
+        }
+    }
+
+    /// libm's value is further from zero than its argument by a unit in the last place at
+    /// some arguments near 1e-8: those become the argument itself, and nothing else changes.
+    #[test]
+    fn on_a_grid_only_what_is_beyond_its_argument_changes() {
+        let (mut kept, mut mended) = (0, 0);
+        for step in -400_000..=400_000_i32 {
+            let x = f64::from(step) * 1e-4;
+            for x in [x, x * 1e-8, x * 1e-300] {
+                let (value, t) = (libm::tanh(x), x.confined_tanh());
+                if value.abs() <= x.abs() {
+                    assert_eq!(t.to_bits(), value.to_bits(), "{x:e}");
+                    kept += 1;
+                } else {
+                    assert_eq!(t.to_bits(), x.to_bits(), "{x:e}");
+                    assert!((value - x).abs() <= 2.0 * f64::EPSILON * x.abs(), "{x:e}");
+                    mended += 1;
+                }
+            }
+        }
+        assert!(mended > 0 && kept > 100 * mended, "{kept} {mended}");
+    }
+
+    #[test]
+    fn zeros_keep_their_sign_and_nan_stays_nan() {
+        assert_eq!(confined(-0.0, 0.5).to_bits(), (-0.0_f64).to_bits());
+        assert_eq!(confined(0.0, -0.5).to_bits(), 0.0_f64.to_bits());
+        assert!(confined(f64::NAN, f64::NAN).is_nan());
+        assert_eq!(confined(-2.0, f64::NAN), -1.0);
+        assert_eq!(confined(f64::INFINITY, 1.0 + f64::EPSILON), 1.0);
+    }
+}

@@ -9,6 +9,8 @@
 pub enum Kind {
     /// [`Theorem1`](super::Theorem1), as the paper has it.
     Theorem1,
+    /// [`Tightest`](super::Tightest): Theorem 1 with the best of its free constants.
+    Tightest,
     /// [`Rms`](super::Rms).
     Rms,
     /// [`PeakContinuous`](super::PeakContinuous).
@@ -50,7 +52,7 @@ impl<T> Certificate<T> {
     #[must_use]
     pub fn bounds(&self) -> &'static str {
         match self.kind {
-            Kind::Theorem1 | Kind::PeakContinuous | Kind::PerStep => "limsup |e|",
+            Kind::Theorem1 | Kind::Tightest | Kind::PeakContinuous | Kind::PerStep => "limsup |e|",
             Kind::Rms => "rms e, over a long time",
             Kind::PeakSampled | Kind::PeakRounded => "|e| at every sample",
         }
@@ -66,7 +68,7 @@ impl<T> Certificate<T> {
     #[must_use]
     pub fn assumptions(&self) -> &'static [&'static str] {
         match self.kind {
-            Kind::Theorem1 | Kind::Rms | Kind::PeakContinuous => CONTINUOUS,
+            Kind::Theorem1 | Kind::Tightest | Kind::Rms | Kind::PeakContinuous => CONTINUOUS,
             Kind::PeakSampled => SAMPLED,
             Kind::PeakRounded => ROUNDED,
             Kind::PerStep => PER_STEP,

@@ -3,6 +3,7 @@
 //! | certificate | of | what it bounds |
 //! |---|---|---|
 //! | [`Theorem1`] | literal form, continuous time | limsup of \|e\|, as the paper has it |
+//! | [`Tightest`] | literal form, continuous time | the same with the best choice of its free constants |
 //! | [`Rms`] | literal form, continuous time | root mean square of e |
 //! | [`PeakContinuous`] | literal form, continuous time, boxes | limsup of \|e\| |
 //! | [`PeakSampled`] | lag form, sampled, boxes | \|e\| for all time: the box theorem |
@@ -35,6 +36,7 @@ mod rms;
 mod rounded;
 mod sampled;
 mod theorem_1;
+mod tightest;
 mod truth;
 
 pub use certificate::{Certificate, Kind};
@@ -46,3 +48,4 @@ pub use rms::Rms;
 pub use rounded::{Inequality, Named, PeakRounded, Roundings};
 pub use sampled::PeakSampled;
 pub use theorem_1::Theorem1;
+pub use tightest::Tightest;

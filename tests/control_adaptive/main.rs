@@ -9,6 +9,7 @@ mod hand_over;
 mod law;
 mod leakage;
 mod limited;
+mod line;
 
 use bowden::control::{AdaptiveSettings, Estimator, Form};
 

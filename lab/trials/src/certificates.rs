@@ -4,6 +4,7 @@ use super::lineup::RATE;
 use super::setup::Setup;
 use bowden::bound::{
     Certificate, Interval, Known, PeakContinuous, PeakSampled, PerStep, Plant, Rms, Theorem1,
+    Tightest,
 };
 use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form};
 use bowden::Error;
@@ -16,7 +17,7 @@ use std::collections::BTreeMap;
 pub struct Promise {
     /// The law that it is of.
     pub law: String,
-    /// Which theorem: `theorem1`, `rms`, `peak-continuous`, `peak-sampled`, `per-step`.
+    /// Which theorem: `theorem1`, `theorem1-tightest`, `rms`, `peak-continuous`, `peak-sampled`, `per-step`.
     pub kind: &'static str,
     /// What the value bounds.
     pub bounds: Option<&'static str>,
@@ -30,6 +31,17 @@ pub struct Promise {
     pub refused: Option<String>,
     /// What the user must check.
     pub assumptions: &'static [&'static str],
+    /// The term that the value is mostly made of, and its share, where that is told.
+    pub mostly: Option<Mostly>,
+}
+
+/// The greatest term of a bound.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Mostly {
+    /// What it is.
+    pub term: &'static str,
+    /// Its share of the sum of all terms.
+    pub share: f64,
 }
 
 /// Greatest reference \[N·m\] and rate \[N·m/s\] of the paper's experiment.
@@ -76,6 +88,7 @@ fn line(law: &str, kind: &'static str, certificate: Result<Certificate<f64>, Err
             vacuous: certificate.value > REFERENCE,
             refused: None,
             assumptions: certificate.assumptions(),
+            mostly: None,
         },
         Err(e) => Promise {
             law: law.to_owned(),
@@ -86,7 +99,17 @@ fn line(law: &str, kind: &'static str, certificate: Result<Certificate<f64>, Err
             vacuous: false,
             refused: Some(e.to_string()),
             assumptions: &[],
+            mostly: None,
         },
+    }
+}
+
+/// Theorem 1 at its best, with the term that is to blame.
+fn tightest(law: &str, found: Result<Tightest<f64>, Error>) -> Promise {
+    let blamed = found.map(|found| found.to_blame());
+    Promise {
+        mostly: blamed.ok().map(|(term, share)| Mostly { term, share }),
+        ..line(law, "theorem1-tightest", found.map(|c| c.certificate()))
     }
 }
 
@@ -132,6 +155,7 @@ pub fn all(setup: &Setup) -> Result<Vec<Promise>, String> {
             "theorem1",
             Theorem1::try_new(&law, &known).map(|c| c.certificate()),
         ),
+        tightest(as_given, Tightest::try_new(&law, &known)),
         line(
             as_given,
             "rms",

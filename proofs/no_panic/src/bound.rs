@@ -21,6 +21,10 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(bound_sampled_try_new, PeakSampled::try_new(&law, &plant));
     never_panics!(bound_per_step_try_new, PerStep::try_new(&law, &plant));
 
+    never_panics!(bound_tightest_try_new, Tightest::try_new(&law, &plant));
+    let tightest = black_box(Tightest::try_new(&law, &plant)).ok()?;
+    never_panics!(bound_tightest_to_blame, tightest.to_blame());
+    never_panics!(bound_tightest_certificate, tightest.certificate());
     let theorem_1 = black_box(Theorem1::try_new(&law, &plant)).ok()?;
     never_panics!(bound_theorem_1_certificate, theorem_1.certificate());
     let rms = black_box(Rms::try_new(&law, &plant)).ok()?;

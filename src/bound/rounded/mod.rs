@@ -158,8 +158,9 @@ impl PeakRounded {
 
     /// Whether the inequalities hold that a greater S can mend.
     fn grows_into(&self) -> bool {
-        let [step, steep, z, stiff, s, owed, _, _] = &self.inequalities;
-        [step, steep, z, stiff, s, owed]
+        // The step's own two are the same at every S, the last two are lost with a greater one.
+        let [_, _, z, stiff, s, owed, _, _] = &self.inequalities;
+        [z, stiff, s, owed]
             .iter()
             .all(|inequality| inequality.holds())
     }

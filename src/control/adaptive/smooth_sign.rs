@@ -36,7 +36,7 @@ impl SmoothSign {
     #[must_use]
     pub fn of<T: Real>(self, x: T) -> T {
         match self {
-            Self::Tanh => x.tanh(),
+            Self::Tanh => x.confined_tanh(),
             Self::Clamp => clamp(x, -T::one(), T::one()),
         }
     }

@@ -32,7 +32,17 @@ pub fn text(lines: &[Promise]) -> String {
             (None, Some(reason)) => format!("none: {reason}"),
             (None, None) => "none".to_owned(),
         };
-        let _ = writeln!(out, "{:<47} {:<16} {what}", line.law, line.kind);
+        let _ = writeln!(out, "{:<47} {:<17} {what}", line.law, line.kind);
+        if let Some(mostly) = &line.mostly {
+            let _ = writeln!(
+                out,
+                "{:<47} {:<17} best free constants; {:.0} % of it is the {}",
+                "",
+                "",
+                100.0 * mostly.share,
+                mostly.term
+            );
+        }
         if !line.assumptions.is_empty() && !told.contains(&line.assumptions) {
             told.push(line.assumptions);
         }

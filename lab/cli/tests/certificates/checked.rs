@@ -19,7 +19,9 @@ fn checked(certificates: &[Proof]) -> Option<Vec<String>> {
         return None;
     };
     let mut input = child.stdin.take().unwrap();
-    let lines = certificates.iter().map(|c| serde_json::to_string(c).unwrap() + "\n");
+    let lines = certificates
+        .iter()
+        .map(|c| serde_json::to_string(c).unwrap() + "\n");
     let lines: String = lines.collect();
     // Beside the reading: neither pipe fills up.
     let writer = std::thread::spawn(move || input.write_all(lines.as_bytes()));
@@ -49,9 +51,16 @@ impl Random {
 
     /// Any gains, at rates from 200 Hz to 20 kHz: many are proved, many are not.
     fn gains(&mut self) -> String {
-        let float = if self.within(0.0, 1.0) < 0.5 { "f32" } else { "f64" };
+        let float = if self.within(0.0, 1.0) < 0.5 {
+            "f32"
+        } else {
+            "f64"
+        };
         let (k, lambda) = (self.within(0.5, 40.0), self.within(1.0, 15.0));
-        let (step, epsilon) = (1.0 / (200.0 * self.within(1.0, 10.0).powi(2)), self.within(0.02, 1.0));
+        let (step, epsilon) = (
+            1.0 / (200.0 * self.within(1.0, 10.0).powi(2)),
+            self.within(0.02, 1.0),
+        );
         let spread = self.within(0.0, 0.3);
         let mut text = format!(
             "float = \"{float}\"\nk = {k:e}\nlambda = {lambda:e}\nstep = {step:e}\nepsilon = {epsilon:e}\n\
@@ -88,7 +97,9 @@ impl Random {
 
 fn random(number: usize, seed: u64) -> Vec<Proof> {
     let mut random = Random(seed);
-    (0..number).map(|_| parse(&random.gains(), "random").unwrap()).collect()
+    (0..number)
+        .map(|_| parse(&random.gains(), "random").unwrap())
+        .collect()
 }
 
 fn examples() -> Vec<Proof> {
@@ -173,6 +184,9 @@ fn each_inequality_with_a_number_changed_is_caught() {
         return;
     };
     for (i, line) in said.iter().enumerate() {
-        assert!(!line.ends_with(": ok"), "mutation {i} was not caught: {line}");
+        assert!(
+            !line.ends_with(": ok"),
+            "mutation {i} was not caught: {line}"
+        );
     }
 }

@@ -6,10 +6,19 @@ use super::shell::{bowden, refused, said, text};
 #[test]
 fn gains_that_are_proved_are_said_to_be_with_all_eight_inequalities() {
     let report = said(&["certify", &example("gains_table2.toml")]);
-    assert!(report.contains("PROVED in f32, every rounding included: |e| <= 0.8340 N·m, |s| <= 0.4170"), "{report}");
-    assert_eq!(report.lines().filter(|l| l.starts_with("holds ")).count(), 8);
+    assert!(
+        report.contains("PROVED in f32, every rounding included: |e| <= 0.8340 N·m, |s| <= 0.4170"),
+        "{report}"
+    );
+    assert_eq!(
+        report.lines().filter(|l| l.starts_with("holds ")).count(),
+        8
+    );
     let report = said(&["certify", &example("gains_own.toml")]);
-    assert!(report.contains("|e| <= 3.22") && report.contains("|s| <= 1.61"), "{report}");
+    assert!(
+        report.contains("|e| <= 3.22") && report.contains("|s| <= 1.61"),
+        "{report}"
+    );
     // Found twice, it is the same to the byte.
     assert_eq!(report, said(&["certify", &example("gains_own.toml")]));
 }
@@ -19,10 +28,17 @@ fn gains_that_are_not_proved_exit_with_1_and_say_what_would_mend_them() {
     let output = bowden(&["certify", &example("gains_refused.toml")]);
     assert_eq!(output.status.code(), Some(1), "{output:?}");
     let report = text(&output.stdout);
-    assert!(report.contains("NOT PROVED in f32: h*lambda*g+*(k + delta*q) <= 1"), "{report}");
+    assert!(
+        report.contains("NOT PROVED in f32: h*lambda*g+*(k + delta*q) <= 1"),
+        "{report}"
+    );
     assert_eq!(report.lines().filter(|l| l.starts_with("FAILS")).count(), 1);
     let mend = report.lines().find(|l| l.starts_with("mended by")).unwrap();
-    for part in ["a rate of at least", "epsilon of at least", "delta_hat up to"] {
+    for part in [
+        "a rate of at least",
+        "epsilon of at least",
+        "delta_hat up to",
+    ] {
         assert!(mend.contains(part), "{mend}");
     }
 }
@@ -41,7 +57,11 @@ fn changed(from: &str, to: &str) -> (tempfile::TempDir, String) {
 #[test]
 fn what_is_said_to_mend_mends() {
     let advice = bowden(&["certify", &example("gains_refused.toml")]);
-    let advice = text(&advice.stdout).lines().find(|l| l.starts_with("mended by")).unwrap().to_owned();
+    let advice = text(&advice.stdout)
+        .lines()
+        .find(|l| l.starts_with("mended by"))
+        .unwrap()
+        .to_owned();
     let after = |words: &str| -> f64 {
         let (_, rest) = advice.split_once(words).unwrap();
         rest.split_whitespace().next().unwrap().parse().unwrap()
@@ -49,8 +69,14 @@ fn what_is_said_to_mend_mends() {
     let rate = after("a rate of at least ");
     for (from, to) in [
         ("step = 0.0005 ", format!("step = {} ", 1.0 / rate)),
-        ("epsilon = 0.015", format!("epsilon = {}", after("epsilon of at least "))),
-        ("delta = [0.0, 5.0]", format!("delta = [0.0, {}]", after("delta_hat up to "))),
+        (
+            "epsilon = 0.015",
+            format!("epsilon = {}", after("epsilon of at least ")),
+        ),
+        (
+            "delta = [0.0, 5.0]",
+            format!("delta = [0.0, {}]", after("delta_hat up to ")),
+        ),
     ] {
         let (_folder, path) = changed(from, &to);
         let report = said(&["certify", &path]);
@@ -61,20 +87,76 @@ fn what_is_said_to_mend_mends() {
 #[test]
 fn a_file_that_is_none_is_refused_with_file_line_and_column() {
     for (from, to, parts) in [
-        ("lambda = 6.1", "lamda = 6.1", &["gains.toml:4:1: `lamda`", "unknown field"][..]),
-        ("lambda = 6.1            # [1/s]\n", "", &["gains.toml:1:1: ", "missing field `lambda`"]),
-        ("reference = 25.0        # |y_r| [N·m]\n", "", &["gains.toml:12:1: ", "missing field `reference`"]),
-        ("rate = 3.0", "", &["gains.toml:19:1: ", "missing field `rate`"]),
-        ("k = 17.3", "k = \"much\"", &["gains.toml:3:5: `k`", "string"]),
-        ("k = 17.3", "k = nan", &["gains.toml:3:5: `k`", "above zero was expected"]),
-        ("k = 17.3", "k = -1", &["gains.toml:3:5: `k`", "above zero was expected"]),
-        ("disturbance = 7.056", "disturbance = inf", &["gains.toml:14:15: `disturbance`", "finite"]),
-        ("beta = [0.9, 1.1]", "beta = [0.9, 1.0, 1.1]", &["gains.toml:9:8: `beta`", "2"]),
-        ("beta = [0.9, 1.1]", "beta = [0.9]", &["gains.toml:9:8: `beta`", "2"]),
-        ("beta = [0.9, 1.1]", "beta = [1.1, 0.9]", &["gains.toml:9:8: `beta`", "lower one first"]),
-        ("alpha = [0.92, 1.04]", "alpha = [0.0, 1.04]", &["gains.toml:13:9: `alpha`", "above zero"]),
-        ("delta = [0.0, 5.0]", "delta = [-1, 5.0]", &["gains.toml:10:9: `delta`", "not below zero"]),
-        ("float = \"f32\"", "float = \"f16\"", &["gains.toml:2:9: `float`", "f16", "f64"]),
+        (
+            "lambda = 6.1",
+            "lamda = 6.1",
+            &["gains.toml:4:1: `lamda`", "unknown field"][..],
+        ),
+        (
+            "lambda = 6.1            # [1/s]\n",
+            "",
+            &["gains.toml:1:1: ", "missing field `lambda`"],
+        ),
+        (
+            "reference = 25.0        # |y_r| [N·m]\n",
+            "",
+            &["gains.toml:12:1: ", "missing field `reference`"],
+        ),
+        (
+            "rate = 3.0",
+            "",
+            &["gains.toml:19:1: ", "missing field `rate`"],
+        ),
+        (
+            "k = 17.3",
+            "k = \"much\"",
+            &["gains.toml:3:5: `k`", "string"],
+        ),
+        (
+            "k = 17.3",
+            "k = nan",
+            &["gains.toml:3:5: `k`", "above zero was expected"],
+        ),
+        (
+            "k = 17.3",
+            "k = -1",
+            &["gains.toml:3:5: `k`", "above zero was expected"],
+        ),
+        (
+            "disturbance = 7.056",
+            "disturbance = inf",
+            &["gains.toml:14:15: `disturbance`", "finite"],
+        ),
+        (
+            "beta = [0.9, 1.1]",
+            "beta = [0.9, 1.0, 1.1]",
+            &["gains.toml:9:8: `beta`", "2"],
+        ),
+        (
+            "beta = [0.9, 1.1]",
+            "beta = [0.9]",
+            &["gains.toml:9:8: `beta`", "2"],
+        ),
+        (
+            "beta = [0.9, 1.1]",
+            "beta = [1.1, 0.9]",
+            &["gains.toml:9:8: `beta`", "lower one first"],
+        ),
+        (
+            "alpha = [0.92, 1.04]",
+            "alpha = [0.0, 1.04]",
+            &["gains.toml:13:9: `alpha`", "above zero"],
+        ),
+        (
+            "delta = [0.0, 5.0]",
+            "delta = [-1, 5.0]",
+            &["gains.toml:10:9: `delta`", "not below zero"],
+        ),
+        (
+            "float = \"f32\"",
+            "float = \"f16\"",
+            &["gains.toml:2:9: `float`", "f16", "f64"],
+        ),
         ("k = 17.3", "k = ", &["gains.toml:3:"]),
     ] {
         let (_folder, path) = changed(from, to);
