@@ -2,9 +2,9 @@
 
 use super::Failure;
 use crate::view::{certificates, proof};
-use bowden_trials::facts::{certify, prove};
+use bowden_trials::facts::{certify, coq, gappa, prove, Proof};
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 #[derive(Args)]
@@ -20,6 +20,12 @@ pub struct Certify {
     /// Print one JSON object on stdout instead of a table.
     #[arg(long)]
     json: bool,
+    /// Write what is proved of your gains as a theorem, which `coqc` checks from nothing.
+    #[arg(long, value_name = "FILE.v", requires = "own")]
+    coq: Option<PathBuf>,
+    /// Write the roundings of one step as a script, which `gappa` checks from nothing.
+    #[arg(long, value_name = "FILE.g", requires = "own")]
+    gappa: Option<PathBuf>,
 }
 
 /// Exit status of gains that are not proved.
@@ -36,7 +42,15 @@ impl Certify {
             super::say(report.trim_end())?;
             return Ok(ExitCode::SUCCESS);
         };
+        for (option, file) in [("--coq", &self.coq), ("--gappa", &self.gappa)] {
+            if let Some(file) = file {
+                super::writable(option, file, &[path])?;
+            }
+        }
         let proof = prove(path)?;
+        if proof.proved {
+            self.write(&proof)?;
+        }
         let report = match self.json {
             true => proof::json(&proof).map_err(|e| e.to_string())?,
             false => proof::text(&proof, &path.display().to_string()),
@@ -46,5 +60,18 @@ impl Certify {
             true => ExitCode::SUCCESS,
             false => ExitCode::from(NOT_PROVED),
         })
+    }
+
+    /// All files that are asked for, or none.
+    fn write(&self, proof: &Proof) -> Result<(), Failure> {
+        type Text = fn(&Proof) -> Result<String, String>;
+        let asked: [(&Option<PathBuf>, Text); 2] = [(&self.coq, coq), (&self.gappa, gappa)];
+        let mut files = Vec::new();
+        for (path, text) in asked {
+            if let Some(path) = path {
+                files.push((Path::to_path_buf(path), text(proof)?.into_bytes()));
+            }
+        }
+        super::write_together(&files)
     }
 }

@@ -20,7 +20,7 @@ pub use super::design::{
 };
 pub use super::found::{Outcome, Pair};
 pub use super::own_rig::RigChanges;
-pub use super::proof::{prove, Proof};
+pub use super::proof::{coq, gappa, prove, Proof};
 pub use super::table::{Line, Spread};
 pub use super::trial::Row;
 pub use super::undeclared::Undeclared;

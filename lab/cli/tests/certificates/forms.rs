@@ -130,12 +130,12 @@ fn a_file_that_is_none_is_refused_with_file_line_and_column() {
         (
             "beta = [0.9, 1.1]",
             "beta = [0.9, 1.0, 1.1]",
-            &["gains.toml:9:8: `beta`", "2"],
+            &["gains.toml:9:8: `beta`", "a box of two"],
         ),
         (
             "beta = [0.9, 1.1]",
             "beta = [0.9]",
-            &["gains.toml:9:8: `beta`", "2"],
+            &["gains.toml:9:8: `beta`", "a box of two"],
         ),
         (
             "beta = [0.9, 1.1]",

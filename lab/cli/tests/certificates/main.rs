@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod checked;
+mod foreign;
 mod forms;
 #[allow(dead_code)]
 #[path = "../shell/mod.rs"]

@@ -70,58 +70,65 @@ impl Float {
     }
 }
 
-/// A checked type over what serde reads; a refusal has the value's line and column.
-macro_rules! checked {
-    ($name:ident, $raw:ty, $literal:literal, $what:literal, $ok:expr) => {
+/// A checked number; a refusal has its line and column.
+macro_rules! number {
+    ($name:ident, $what:literal, $ok:expr) => {
         #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
-        #[serde(try_from = $literal)]
-        pub(super) struct $name(pub(super) $raw);
+        #[serde(try_from = "f64")]
+        pub(super) struct $name(pub(super) f64);
 
-        impl TryFrom<$raw> for $name {
+        impl TryFrom<f64> for $name {
             type Error = String;
-            fn try_from(raw: $raw) -> Result<Self, String> {
-                let ok: fn($raw) -> bool = $ok;
-                if ok(raw) {
-                    Ok(Self(raw))
+            fn try_from(x: f64) -> Result<Self, String> {
+                let ok: fn(f64) -> bool = $ok;
+                if x.is_finite() && ok(x) {
+                    Ok(Self(x))
                 } else {
-                    Err(format!("{raw:?}: {} was expected", $what))
+                    Err(format!("{x}: {} was expected", $what))
                 }
             }
         }
     };
 }
-checked!(Positive, f64, "f64", "a finite number above zero", |x| x
-    .is_finite()
-    && x > 0.0);
-checked!(
-    NotNegative,
-    f64,
-    "f64",
-    "a finite number, zero or above",
-    |x| x.is_finite() && x >= 0.0
-);
-checked!(
-    Range,
-    [f64; 2],
-    "[f64; 2]",
-    "a box of two finite numbers, the lower one first",
-    ordered
-);
-checked!(
-    Above,
-    [f64; 2],
-    "[f64; 2]",
-    "a box of two numbers above zero, the lower one first",
-    |x| ordered(x) && x[0] > 0.0
-);
-checked!(
-    NotBelow,
-    [f64; 2],
-    "[f64; 2]",
-    "a box of two numbers not below zero, the lower one first",
-    |x| ordered(x) && x[0] >= 0.0
-);
+number!(Positive, "a finite number above zero", |x| x > 0.0);
+number!(NotNegative, "a finite number, zero or above", |x| x >= 0.0);
 
-fn ordered([low, high]: [f64; 2]) -> bool {
-    low.is_finite() && high.is_finite() && low <= high
+/// A checked box, likewise. It is read as a list of any length: an array of two would take
+/// the first two of three.
+macro_rules! range {
+    ($name:ident, $what:literal, $ok:expr) => {
+        #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+        #[serde(try_from = "Vec<f64>")]
+        pub(super) struct $name(pub(super) [f64; 2]);
+
+        impl TryFrom<Vec<f64>> for $name {
+            type Error = String;
+            fn try_from(list: Vec<f64>) -> Result<Self, String> {
+                let ok: fn(f64) -> bool = $ok;
+                match list[..] {
+                    [low, high]
+                        if low.is_finite() && high.is_finite() && low <= high && ok(low) =>
+                    {
+                        Ok(Self([low, high]))
+                    }
+                    _ => Err(format!("{list:?}: {} was expected", $what)),
+                }
+            }
+        }
+    };
 }
+range!(
+    Range,
+    "a box of two finite numbers, the lower one first",
+    |_| true
+);
+range!(
+    Above,
+    "a box of two finite numbers above zero, the lower one first",
+    |low| low > 0.0
+);
+range!(
+    NotBelow,
+    "a box of two finite numbers not below zero, the lower one first",
+    |low| low >= 0.0
+);

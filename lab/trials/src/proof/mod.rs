@@ -2,8 +2,10 @@
 
 mod form;
 mod mend;
+mod written;
 
 pub use form::Float;
+pub use written::{coq, gappa};
 
 use super::gains::message;
 use bowden::bound::{Dyadic, Inequality, Interval, Kind, Known, Named, PeakRounded, Plant};
