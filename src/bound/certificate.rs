@@ -13,6 +13,8 @@ pub enum Kind {
     Tightest,
     /// [`Rms`](super::Rms).
     Rms,
+    /// [`RmsSampled`](super::RmsSampled).
+    RmsSampled,
     /// [`PeakContinuous`](super::PeakContinuous).
     PeakContinuous,
     /// [`PeakSampled`](super::PeakSampled): the box theorem.
@@ -53,7 +55,7 @@ impl<T> Certificate<T> {
     pub fn bounds(&self) -> &'static str {
         match self.kind {
             Kind::Theorem1 | Kind::Tightest | Kind::PeakContinuous | Kind::PerStep => "limsup |e|",
-            Kind::Rms => "rms e, over a long time",
+            Kind::Rms | Kind::RmsSampled => "rms e, over a long time",
             Kind::PeakSampled | Kind::PeakRounded => "|e| at every sample",
         }
     }
@@ -71,7 +73,7 @@ impl<T> Certificate<T> {
             Kind::Theorem1 | Kind::Tightest | Kind::Rms | Kind::PeakContinuous => CONTINUOUS,
             Kind::PeakSampled => SAMPLED,
             Kind::PeakRounded => ROUNDED,
-            Kind::PerStep => PER_STEP,
+            Kind::PerStep | Kind::RmsSampled => PER_STEP,
         }
     }
 }

@@ -8,6 +8,7 @@
 //! | [`PeakContinuous`] | literal form, continuous time, boxes | limsup of \|e\| |
 //! | [`PeakSampled`] | lag form, sampled, boxes | \|e\| for all time: the box theorem |
 //! | [`PeakRounded`] | lag form, sampled, boxes, every rounding of the shipped step | \|e\| for all time |
+//! | [`RmsSampled`] | lag form, sampled, boxes | root mean square of e |
 //! | [`PerStep`] | lag form, sampled, boxes | V from step to step |
 //!
 //! Each is made from an [`Adaptive`](crate::control::Adaptive) law and a [`Plant`]: what is
@@ -33,6 +34,7 @@ mod peak;
 mod per_step;
 mod plant;
 mod rms;
+mod rms_sampled;
 mod rounded;
 mod sampled;
 mod theorem_1;
@@ -45,6 +47,7 @@ pub use peak::PeakContinuous;
 pub use per_step::PerStep;
 pub use plant::{Interval, Known, Plant};
 pub use rms::Rms;
+pub use rms_sampled::RmsSampled;
 pub use rounded::{Inequality, Named, PeakRounded, Roundings};
 pub use sampled::PeakSampled;
 pub use theorem_1::Theorem1;

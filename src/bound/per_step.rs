@@ -133,7 +133,7 @@ impl<T: Real> PerStep<T> {
 }
 
 /// R without the part of delta_hat, at worst in the box.
-fn second_order<T: Real, const N: usize>(
+pub(super) fn second_order<T: Real, const N: usize>(
     law: &Adaptive<T, N>,
     plant: &Plant<T, N>,
     within: &PeakSampled<T>,

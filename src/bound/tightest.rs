@@ -59,7 +59,7 @@ struct Problem<'a, T, const N: usize> {
 }
 
 /// Rounds of each search: the interval is cut to two thirds each time.
-const NARROWINGS: u32 = 60;
+const NARROWINGS: u32 = 36;
 
 impl<T: Real> Tightest<T> {
     /// What each of the terms is.

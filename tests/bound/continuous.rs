@@ -1,7 +1,7 @@
 //! The continuous certificates against the equations of the loop, at random states.
 
 use super::Random;
-use bowden::bound::{Interval, Known, PeakContinuous, Plant, Rms, Theorem1};
+use bowden::bound::{Interval, Known, PeakContinuous, Plant, Rms, Theorem1, Tightest};
 use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form, SmoothSign};
 
 /// A literal law with its plant.
@@ -187,4 +187,48 @@ fn on_the_edge_of_the_continuous_box_the_loop_points_inwards() {
         }
     }
     assert!(boxes > 1000 && nearest < 0.05, "{boxes} {nearest}");
+}
+
+/// V with the best weight of z, target and theta falls as the certificate says.
+#[test]
+fn v_falls_at_every_state_as_the_tightest_form_of_theorem_1_says() {
+    let mut random = Random(31);
+    let mut least = f64::INFINITY;
+    for _ in 0..80 {
+        let system = Loop::draw(&mut random);
+        let best = Tightest::try_new(&system.law, &system.known).unwrap();
+        let theorem = Theorem1::try_new(&system.law, &system.known).unwrap();
+        let lambda = system.law.settings().lambda;
+        assert!(best.bound <= theorem.bound, "{best:?} {theorem:?}");
+        let phi: f64 = best.terms.iter().sum();
+        let seen = (1.0 + lambda * lambda / best.weight) * 2.0 * phi / best.theta;
+        assert!((best.bound / seen.sqrt() - 1.0).abs() < 1e-12);
+        for _ in 0..500 {
+            let size = 10.0_f64.powf(random.within(-3.0, 1.5));
+            let at = system.moment(&mut random, size);
+            let (mut v, mut rate) = system.v(&at, best.target);
+            let more = best.weight - 1.0;
+            v += 0.5 * more * at.z * at.z;
+            rate += more * at.z * (at.s - lambda * at.z);
+            let room = phi - best.theta * v - rate;
+            assert!(
+                room >= -1e-9 * (phi + v + rate.abs()),
+                "{room} {best:?} {at:?}"
+            );
+            least = least.min(room / phi);
+        }
+    }
+    // Nor is it idle.
+    assert!(least < 0.5, "{least}");
+}
+
+#[test]
+fn the_best_of_theorem_1_for_table_2_is_96_n_m_and_beta_is_to_blame() {
+    let best = Tightest::try_new(&Adaptive::paper(), &Plant::new(0.5, 7.0_f64)).unwrap();
+    let (blamed, share) = best.to_blame();
+    println!("{} N·m, {share} of it {blamed}, {best:?}", best.bound);
+    assert!((best.bound - 96.0).abs() < 2.0, "{best:?}");
+    assert!(blamed == "leakage of beta_hat" && share > 0.8, "{share}");
+    // Of no choice: 1/(alpha·gamma) is what the leakage of beta_hat leaves of V at least.
+    assert!(best.bound > (1.0_f64 / (0.5 * 2.5e-4)).sqrt());
 }

@@ -1,7 +1,7 @@
 //! The box theorem against adversaries.
 
 use super::Random;
-use bowden::bound::{Interval, Known, PeakSampled, Plant};
+use bowden::bound::{Interval, Known, PeakSampled, Plant, RmsSampled};
 use bowden::control::{
     Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Disturbance, ErrorState, Estimator,
     Form, LagRecursion, SmoothSign,
@@ -209,4 +209,45 @@ fn the_shipped_step_never_leaves_the_box_on_a_static_plant() {
     }
     // What this simpler adversary reaches shows that the assertion is not idle.
     assert!(reached > 0.25, "{reached}");
+}
+
+/// From z = 0, on a static plant with signals at the ends of what is stated.
+#[test]
+fn the_mean_square_of_the_error_stays_within_the_sampled_certificate() {
+    let mut random = Random(23);
+    let mut reached = 0.0_f64;
+    for system in 0..40 {
+        let sign = [SmoothSign::Tanh, SmoothSign::Clamp][system % 2];
+        let (gain, lambda) = (random.within(6.0, 30.0), random.within(3.0, 10.0));
+        let law = law(gain, lambda, 0.1, sign);
+        let known = Plant {
+            delta_rate: 3.0,
+            reference_rate: 0.0,
+            ..plant()
+        };
+        let certificate = RmsSampled::try_new(&law, &known).unwrap();
+        let h = law.largest_step().unwrap();
+        let (theta, mut d, mut sum) = (0.4, 7.0, 0.0);
+        let (r, x) = (-38.0, 0.0);
+        let input = |y| AdaptiveInput::new(h, r, y, [x]);
+        let mut state = AdaptiveState::resume_from(&law, r + theta * x + d, &input(r));
+        let steps = 20_000;
+        for n in 0..steps {
+            let y = state.command() - theta * x - d;
+            let output = law.step_with_terms(&mut state, &input(y));
+            sum += output.terms.error.powi(2);
+            // One way, then the other: each takes as long as D needs at its rate.
+            let period = 4.0 * 7.0 / 3.0;
+            let phase = (f64::from(n) * h / period).fract();
+            d += if phase < 0.5 { -3.0 * h } else { 3.0 * h };
+            d = d.clamp(-7.056, 7.056);
+        }
+        let rms = (sum / f64::from(steps)).sqrt();
+        let promised = certificate.over(f64::from(steps) * h, 0.0);
+        assert!(rms <= promised, "{system}: {rms} {promised}");
+        assert!(certificate.bound <= promised);
+        reached = reached.max(rms / certificate.bound);
+    }
+    println!("reached {reached} of the bound over a long time");
+    assert!(reached > 0.02, "{reached}");
 }

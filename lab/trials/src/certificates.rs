@@ -3,8 +3,8 @@
 use super::lineup::RATE;
 use super::setup::Setup;
 use bowden::bound::{
-    Certificate, Interval, Known, PeakContinuous, PeakSampled, PerStep, Plant, Rms, Theorem1,
-    Tightest,
+    Certificate, Interval, Known, PeakContinuous, PeakSampled, PerStep, Plant, Rms, RmsSampled,
+    Theorem1, Tightest,
 };
 use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form};
 use bowden::Error;
@@ -17,7 +17,8 @@ use std::collections::BTreeMap;
 pub struct Promise {
     /// The law that it is of.
     pub law: String,
-    /// Which theorem: `theorem1`, `theorem1-tightest`, `rms`, `peak-continuous`, `peak-sampled`, `per-step`.
+    /// Which theorem: `theorem1`, `theorem1-tightest`, `rms`, `peak-continuous`, `peak-sampled`, `per-step`,
+    /// `rms-sampled`.
     pub kind: &'static str,
     /// What the value bounds.
     pub bounds: Option<&'static str>,
@@ -222,6 +223,8 @@ pub fn all(setup: &Setup) -> Result<Vec<Promise>, String> {
         if spread == 0.05 {
             let step = sampled.and_then(|law| PerStep::try_new(&law, &known));
             lines.push(line(&name, "per-step", step.map(|c| c.certificate())));
+            let rms = sampled.and_then(|law| RmsSampled::try_new(&law, &known));
+            lines.push(line(&name, "rms-sampled", rms.map(|c| c.certificate())));
         }
     }
     Ok(lines)

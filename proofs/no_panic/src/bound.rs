@@ -21,6 +21,10 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(bound_sampled_try_new, PeakSampled::try_new(&law, &plant));
     never_panics!(bound_per_step_try_new, PerStep::try_new(&law, &plant));
 
+    never_panics!(bound_rms_sampled_try_new, RmsSampled::try_new(&law, &plant));
+    let rms_sampled = black_box(RmsSampled::try_new(&law, &plant)).ok()?;
+    never_panics!(bound_rms_sampled_over, rms_sampled.over(any(), any()));
+    never_panics!(bound_rms_sampled_certificate, rms_sampled.certificate());
     never_panics!(bound_tightest_try_new, Tightest::try_new(&law, &plant));
     let tightest = black_box(Tightest::try_new(&law, &plant)).ok()?;
     never_panics!(bound_tightest_to_blame, tightest.to_blame());
