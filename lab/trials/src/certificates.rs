@@ -140,6 +140,25 @@ fn resting(settings: &AdaptiveSettings<f64, 2>) -> Result<Adaptive<f64, 0>, Erro
     })
 }
 
+/// The certificates of the literal form.
+fn continuous(name: &str, law: &Adaptive<f64, 2>, known: &Plant<f64, 2>) -> Vec<Promise> {
+    let peak = PeakContinuous::try_new(law, known);
+    vec![
+        line(
+            name,
+            "theorem1",
+            Theorem1::try_new(law, known).map(|c| c.certificate()),
+        ),
+        tightest(name, Tightest::try_new(law, known)),
+        line(
+            name,
+            "rms",
+            Rms::try_new(law, known).map(|c| c.certificate()),
+        ),
+        line(name, "peak-continuous", peak.map(|c| c.certificate())),
+    ]
+}
+
 /// The laws of the setup: as they are, and as a firmware would box them.
 ///
 /// # Errors
@@ -150,24 +169,7 @@ pub fn all(setup: &Setup) -> Result<Vec<Promise>, String> {
     let law = Adaptive::try_new(settings).map_err(refused)?;
     let known = plant(&setup.rig, 0.0);
     let as_given = "adaptive, as given";
-    let mut lines = vec![
-        line(
-            as_given,
-            "theorem1",
-            Theorem1::try_new(&law, &known).map(|c| c.certificate()),
-        ),
-        tightest(as_given, Tightest::try_new(&law, &known)),
-        line(
-            as_given,
-            "rms",
-            Rms::try_new(&law, &known).map(|c| c.certificate()),
-        ),
-        line(
-            as_given,
-            "peak-continuous",
-            PeakContinuous::try_new(&law, &known).map(|c| c.certificate()),
-        ),
-    ];
+    let mut lines = continuous(as_given, &law, &known);
     let alpha = known.alpha.low;
     let boxed = |spread: f64, form: Form<f64>, epsilon: f64| {
         let wide = |at: f64, by: f64| (at * (1.0 - by), at * (1.0 + by));

@@ -165,6 +165,10 @@ fn a_file_that_is_none_is_refused_with_file_line_and_column() {
             assert!(line.contains(part), "{to:?}: {part:?} is missing in {line}");
         }
     }
+}
+
+#[test]
+fn a_file_that_is_absent_or_a_gain_beyond_its_float_is_refused() {
     let line = refused(&["certify", "absent.toml"]);
     assert!(line.contains("absent.toml"), "{line}");
     // A gain that the float of the controller cannot hold.

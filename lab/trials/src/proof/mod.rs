@@ -238,7 +238,7 @@ fn settings<T: Real, const N: usize>(form: &Form) -> Result<AdaptiveSettings<T, 
     };
     let mut plant_gain = T::of(form.plant.alpha.0[1]);
     if plant_gain.as_f64() < form.plant.alpha.0[1] {
-        plant_gain = plant_gain * (T::ONE + T::epsilon());
+        plant_gain *= T::ONE + T::epsilon();
     }
     let lag = bowden::control::Form::Lag {
         step: T::of(form.step.0),

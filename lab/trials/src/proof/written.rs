@@ -3,7 +3,7 @@
 //! Neither believes a number of the program, so the numbers here are computed in plain
 //! floats, a little on the safe side, and rounded to few bits.
 
-use super::{ExactRegressor, Float, Proof};
+use super::{Float, Proof};
 use bowden::bound::{Dyadic, Enclosure};
 use std::collections::BTreeMap;
 
@@ -41,7 +41,7 @@ pub fn coq(proof: &Proof) -> Result<String, String> {
     let numbers = Numbers::of(proof)?;
     let (names, exact, comp) = sums(numbers.regressors);
     let mut words = Words(BTreeMap::new());
-    words.common(proof, &names, &exact);
+    words.common(proof, &exact);
     words.put("box", BOX.trim_end());
     words.put("comp", comp);
     for (name, number) in numbers.gains.iter().chain(&numbers.bounds) {
@@ -120,7 +120,7 @@ pub fn gappa(proof: &Proof) -> Result<String, String> {
     let numbers = Numbers::of(proof)?;
     let (names, exact, _) = sums(numbers.regressors);
     let mut words = Words(BTreeMap::new());
-    words.common(proof, &names, &exact);
+    words.common(proof, &exact);
     let products = exact.split(" + ").map(|product| format!("({product})"));
     let products = products.collect::<Vec<_>>().join(" + ");
     words.put("comp", format!("comp rnd= {products};"));
@@ -163,7 +163,7 @@ impl Words {
         self.0.insert(place.to_owned(), text.into());
     }
 
-    fn common(&mut self, proof: &Proof, _names: &[String], exact: &str) {
+    fn common(&mut self, proof: &Proof, exact: &str) {
         let (bits, least, width) = match proof.float {
             Float::F32 => ("24", "149", "32"),
             Float::F64 => ("53", "1074", "64"),
@@ -252,123 +252,117 @@ fn binary(x: Dyadic) -> String {
     format!("{mantissa}b{exponent}")
 }
 
-impl Numbers {
+/// What a certificate is of, read back.
+struct Given {
+    k: Enclosure,
+    lambda: Enclosure,
+    step: Enclosure,
+    epsilon: Enclosure,
+    alpha: [Enclosure; 2],
+    beta: [Enclosure; 2],
+    delta: Enclosure,
+    reference: Enclosure,
+    rate: Enclosure,
+    /// Greatest `|theta'x + D|`, and greatest `|theta_hat'x|`.
+    load: Enclosure,
+    compensation: Enclosure,
+    /// Greatest `|theta_hat_i|` and `|x_i|`, rounded up.
+    terms: Vec<(Enclosure, Enclosure)>,
+    unit: Enclosure,
+}
+
+impl Given {
     fn of(proof: &Proof) -> Result<Self, String> {
         let number = |exact: &String| read(exact).map(Enclosure::of);
         let ends = |exact: &[String; 2]| Ok::<_, String>([number(&exact[0])?, number(&exact[1])?]);
+        let largest = |[a, b]: [Enclosure; 2]| a.abs().max(b.abs());
         let (gains, plant) = (&proof.gains, &proof.plant);
-        let (k, lambda, h) = (
-            number(&gains.k)?,
-            number(&gains.lambda)?,
-            number(&gains.step)?,
-        );
-        let (alpha, beta) = (ends(&plant.alpha)?, ends(&gains.beta)?);
-        let delta = ends(&gains.delta)?[1];
-        let (r, rate) = (number(&plant.reference)?, number(&plant.reference_rate)?);
-        let mut terms = Vec::new();
+        let (mut terms, mut compensation) = (Vec::new(), zero());
         let mut load = number(&plant.disturbance)?;
-        let mut summed = zero();
-        for ExactRegressor {
-            theta_hat,
-            theta,
-            magnitude,
-            ..
-        } in &proof.regressors
-        {
-            let largest = |[a, b]: [Enclosure; 2]| a.abs().max(b.abs());
-            let (estimate, x) = (largest(ends(theta_hat)?), number(magnitude)?);
-            load = load + largest(ends(theta)?) * x;
-            summed = summed + estimate * x;
+        for regressor in &proof.regressors {
+            let x = number(&regressor.magnitude)?;
+            let estimate = largest(ends(&regressor.theta_hat)?);
+            load = load + largest(ends(&regressor.theta)?) * x;
+            compensation = compensation + estimate * x;
             terms.push((up(estimate, SHORT), up(x, SHORT)));
         }
-        // A thousandth more room than the program needs, and a hundredth more rounding.
-        let (one, of) = (Enclosure::of(1.0), Enclosure::of::<f64>);
-        let wider = of(1.0 + 2_f64.powi(-10));
-        let slack = of(1.01);
+        Ok(Self {
+            k: number(&gains.k)?,
+            lambda: number(&gains.lambda)?,
+            step: number(&gains.step)?,
+            epsilon: number(&gains.epsilon)?,
+            alpha: ends(&plant.alpha)?,
+            beta: ends(&gains.beta)?,
+            delta: number(&gains.delta[1])?,
+            reference: number(&plant.reference)?,
+            rate: number(&plant.reference_rate)?,
+            load,
+            compensation,
+            terms,
+            unit: Enclosure::of(match proof.float {
+                Float::F32 => 2_f64.powi(-24),
+                Float::F64 => 2_f64.powi(-53),
+            }),
+        })
+    }
+
+    /// The gains, and what follows from them alone.
+    fn gains(&self) -> BTreeMap<&'static str, Enclosure> {
+        let (low, high) = (self.alpha[0] * self.beta[0], self.alpha[1] * self.beta[1]);
+        let steepest = Enclosure::of(1.0) + self.unit * Enclosure::of(8.0);
+        BTreeMap::from([
+            ("h", self.step),
+            ("lambda", self.lambda),
+            ("k", self.k),
+            ("alow", self.alpha[0]),
+            ("ahigh", self.alpha[1]),
+            ("gmin", Enclosure::exactly(low.low())),
+            ("gmax", Enclosure::exactly(high.high())),
+            ("dmax", self.delta),
+            ("q", up(steepest / self.epsilon, LONG)),
+        ])
+    }
+
+    /// The boxes and the roundings: a thousandth more room than the program needs, and a
+    /// hundredth more rounding.
+    fn bounds(&self, proof: &Proof) -> BTreeMap<&'static str, Enclosure> {
+        let of = Enclosure::of::<f64>;
+        let (wider, slack) = (of(1.0 + 2_f64.powi(-10)), of(1.01));
         let s = up(of(proof.s.value) * wider, MIDDLE);
         let z = up(of(proof.z.value) * wider * of(1.0 + 2_f64.powi(-20)), LONG);
-        let error = s + lambda * z;
-        let command = up(
-            (r + error + load) / alpha[0] * of(1.0 + 2_f64.powi(-12)),
-            MIDDLE,
-        );
-        let unit = of(match proof.float {
-            Float::F32 => 2_f64.powi(-24),
-            Float::F64 => 2_f64.powi(-53),
-        });
+        let error = s + self.lambda * z;
+        let needed = (self.reference + error + self.load) / self.alpha[0];
+        let command = up(needed * of(1.0 + 2_f64.powi(-12)), MIDDLE);
         let rounded = |x: f64| up(of(x) * slack, SHORT);
+        let least = |x: f64| up(of(x) * of(1.0 + 2_f64.powi(-40)), LONG);
         let roundings = &proof.roundings;
         let (nes, cz) = (
             rounded(roundings.s.value),
             rounded(roundings.owed_by_z.value),
         );
-        let einc = up(unit * h * error * of(2.1), SHORT);
-        let ew = up(unit * h * error * of(1.1), SHORT);
-        let ubar = k * s + r + (rate + z) / lambda + delta + summed;
-        let moved = up(h * lambda * (beta[1] * ubar + command) * slack, SHORT);
-        let cu = up(unit * (command + moved) * slack, SHORT);
+        let moved_z = self.unit * self.step * error;
+        let (einc, ew) = (up(moved_z * of(2.1), SHORT), up(moved_z * of(1.1), SHORT));
+        let ubar = self.k * s
+            + self.reference
+            + (self.rate + z) / self.lambda
+            + self.delta
+            + self.compensation;
+        let way = self.beta[1] * ubar + command;
+        let moved = up(self.step * self.lambda * way * slack, SHORT);
+        let cu = up(self.unit * (command + moved) * slack, SHORT);
         let emove = rounded(roundings.command.value);
-        let ewu = up(unit * moved * of(2.1), SHORT);
-        let epsilon = number(&gains.epsilon)?;
-        let w = up(of(proof.w.value) * of(1.0 + 2_f64.powi(-40)), LONG);
-        let xi = up(of(proof.xi.value) * of(1.0 + 2_f64.powi(-40)), LONG);
-        let g = [alpha[0] * beta[0], alpha[1] * beta[1]];
-        let mut ranges: Vec<Range> = Vec::new();
-        let mut range = |name: &str, of: &str, low: Enclosure, high: Enclosure| {
-            let (name, of) = (name.to_owned(), of.to_owned());
-            ranges.push(Range {
-                name,
-                of,
-                low,
-                high,
-            });
-        };
-        let change = up(h * rate, SHORT);
-        let seen = up(error, SHORT);
-        for (name, of, most) in [
-            ("Hr", "r", r),
-            ("Hrp", "rp - r", change),
-            ("HE", "y - r", seen),
-            ("Hz", "z", z),
-            ("Hc", "carry", cz),
-            ("Hcu", "cu", cu),
-            ("Hu", "u", command),
-        ] {
-            range(name, of, zero() - most, most);
-        }
-        range("Hb", "beta", beta[0], beta[1]);
-        range("Hd", "delta", zero(), delta);
-        range("Ht", "t", zero() - one, one);
-        for (i, (estimate, x)) in (1..).zip(&terms) {
-            range(
-                &format!("Ht{i}"),
-                &format!("th{i}"),
-                zero() - *estimate,
-                *estimate,
-            );
-            range(&format!("Hx{i}"), &format!("x{i}"), zero() - *x, *x);
-        }
-        let low = |x: Enclosure| Enclosure::exactly(x.low());
-        let gains = BTreeMap::from([
-            ("h", h),
-            ("lambda", lambda),
-            ("k", k),
-            ("alow", alpha[0]),
-            ("ahigh", alpha[1]),
-            ("gmin", low(g[0])),
-            ("gmax", Enclosure::exactly(g[1].high())),
-            ("dmax", delta),
-            ("q", up((one + unit * of(8.0)) / epsilon, LONG)),
-        ]);
-        let bounds = BTreeMap::from([
+        let ewu = up(self.unit * moved * of(2.1), SHORT);
+        BTreeMap::from([
             ("S", s),
             ("Z", z),
             ("U", command),
-            ("W", w),
-            ("Xi", xi),
-            ("ref", r),
-            ("load", Enclosure::exactly(load.high())),
+            ("W", least(proof.w.value)),
+            ("Xi", least(proof.xi.value)),
+            ("ref", self.reference),
+            ("load", Enclosure::exactly(self.load.high())),
             ("sm", up(s + nes, MIDDLE)),
+            ("change", up(self.step * self.rate, SHORT)),
+            ("seen", up(error, SHORT)),
             ("nEs", nes),
             ("emove", emove),
             ("move", moved),
@@ -379,12 +373,57 @@ impl Numbers {
             ("ew", ew),
             ("nEl", emove + ewu + cu + cu),
             ("nEz", einc + ew + cz + cz),
-        ]);
+        ])
+    }
+
+    /// Where the inputs of the step lie.
+    fn ranges(&self, bounds: &BTreeMap<&'static str, Enclosure>) -> Vec<Range> {
+        let range = |name: &str, of: &str, low: Enclosure, high: Enclosure| Range {
+            name: name.to_owned(),
+            of: of.to_owned(),
+            low,
+            high,
+        };
+        let mut ranges = Vec::new();
+        for (name, of, bound) in [
+            ("Hr", "r", "ref"),
+            ("Hrp", "rp - r", "change"),
+            ("HE", "y - r", "seen"),
+            ("Hz", "z", "Z"),
+            ("Hc", "carry", "cz"),
+            ("Hcu", "cu", "cu"),
+            ("Hu", "u", "U"),
+        ] {
+            let most = bounds.get(bound).copied().unwrap_or(zero());
+            ranges.push(range(name, of, zero() - most, most));
+        }
+        let one = Enclosure::of(1.0);
+        ranges.push(range("Hb", "beta", self.beta[0], self.beta[1]));
+        ranges.push(range("Hd", "delta", zero(), self.delta));
+        ranges.push(range("Ht", "t", zero() - one, one));
+        for (i, (estimate, x)) in (1..).zip(&self.terms) {
+            let (theta, x_i) = (format!("th{i}"), format!("x{i}"));
+            ranges.push(range(
+                &format!("Ht{i}"),
+                &theta,
+                zero() - *estimate,
+                *estimate,
+            ));
+            ranges.push(range(&format!("Hx{i}"), &x_i, zero() - *x, *x));
+        }
+        ranges
+    }
+}
+
+impl Numbers {
+    fn of(proof: &Proof) -> Result<Self, String> {
+        let given = Given::of(proof)?;
+        let bounds = given.bounds(proof);
         Ok(Self {
-            gains,
+            gains: given.gains(),
+            ranges: given.ranges(&bounds),
             bounds,
-            ranges,
-            regressors: terms.len(),
+            regressors: given.terms.len(),
         })
     }
 }
