@@ -123,8 +123,8 @@ pub(crate) mod sealed {
     /// stays NaN.
     #[inline]
     pub(crate) fn confined(x: f64, value: f64) -> f64 {
-        let most = if x.abs() < 1.0 { x.abs() } else { 1.0 };
-        let size = value.abs();
+        let (reach, size) = (libm::fabs(x), libm::fabs(value));
+        let most = if reach < 1.0 { reach } else { 1.0 };
         // A value that is NaN, of an argument that is none, is the most that it may be.
         let size = if size <= most || x.is_nan() {
             size

@@ -144,7 +144,7 @@ impl PeakRounded {
     #[must_use]
     pub fn bound(&self) -> f64 {
         let nearest = self.error.high().as_f64();
-        nearest + nearest.abs() * f64::EPSILON
+        nearest + libm::fabs(nearest) * f64::EPSILON
     }
 
     /// The bound as a certificate.
