@@ -158,17 +158,20 @@ pub fn paper(controller: &str, varying: bool) -> Option<[f64; 2]> {
 /// # Errors
 /// One line where the setup cannot be read, a law is refused, or the bench finds no model.
 pub fn compare(question: &Question<'_>) -> Result<Compared, String> {
-    let (mut setup, gains) = inputs(question)?;
+    let (mut setup, gains, is_model) = inputs(question)?;
     // A model alone is fed forward on the reference rig.
-    setup.is_model &= question.gains.is_some() || question.rig != RigChanges::default();
+    let is_model = is_model && (question.gains.is_some() || question.rig != RigChanges::default());
     let effect = question.effect.map(Undeclared::parse).transpose()?;
-    if effect.is_some() && (setup.is_model || gains.is_some()) {
+    if effect.is_some() && (is_model || gains.is_some()) {
         return Err(
             "--effect: is hidden in the reference rig and found with the paper's gains; it goes with neither a model nor the gains of `bowden design`"
                 .to_owned(),
         );
     }
-    let own = own(&mut setup, question)?;
+    let own = match is_model {
+        true => own(&mut setup, question)?,
+        false => None,
+    };
     setup.rig = question.rig.apply(setup.rig)?;
     let range = own.as_ref().and_then(|own| own.reference);
     let conditions = Conditions {
@@ -197,7 +200,12 @@ pub fn compare(question: &Question<'_>) -> Result<Compared, String> {
         reference: range,
     };
     let results = match effect {
-        None => Results::Lineup(declared(&setup, gains.as_ref(), &conditions, question)?),
+        None => Results::Lineup(declared(
+            (&setup, is_model),
+            gains.as_ref(),
+            &conditions,
+            question,
+        )?),
         Some(effect) => Results::Found(found(&setup, effect, &conditions, question)?),
     };
     Ok(Compared { heading, results })
@@ -209,9 +217,9 @@ struct Own {
     reference: Option<[f64; 2]>,
 }
 
-/// Gives the rig the transmission of the model, where a model by itself was given.
+/// Gives the rig the transmission of the model.
 fn own(setup: &mut Setup, question: &Question<'_>) -> Result<Option<Own>, String> {
-    let (Some(file), Some(path), true) = (&setup.model, question.setup, setup.is_model) else {
+    let (Some(file), Some(path)) = (&setup.model, question.setup) else {
         return Ok(None);
     };
     let told = |e: String| format!("{}: {e}", path.display());
@@ -231,10 +239,19 @@ fn file_name(path: &Path) -> String {
     )
 }
 
-/// The setup, and the gains of `bowden design` where there are some.
-fn inputs(question: &Question<'_>) -> Result<(Setup, Option<GainsFile>), String> {
+/// Whether a file is a model by itself.
+fn is_model(path: Option<&Path>) -> bool {
+    let text = path.and_then(|path| std::fs::read_to_string(path).ok());
+    let table = text.and_then(|text| toml::from_str::<toml::Table>(&text).ok());
+    table.is_some_and(|table| table.contains_key("schema"))
+}
+
+/// The setup, the gains of `bowden design` where there are some, and whether `setup` is a model
+/// by itself.
+fn inputs(question: &Question<'_>) -> Result<(Setup, Option<GainsFile>, bool), String> {
     let Some(path) = question.gains else {
-        return Ok((setup(question, question.setup)?, None));
+        let own = setup(question, question.setup)?;
+        return Ok((own, None, is_model(question.setup)));
     };
     let label = path.display().to_string();
     let text = std::fs::read_to_string(path).map_err(|e| format!("{label}: {e}"))?;
@@ -247,23 +264,23 @@ fn inputs(question: &Question<'_>) -> Result<(Setup, Option<GainsFile>), String>
         )),
         Some("bowden.model/1") | None => {
             let mut gains = setup(question, Some(path))?;
-            if let Some(model) = question.setup {
-                let given = setup(question, Some(model))?;
-                if !given.is_model {
-                    return Err(format!(
-                        "{}: a model of `bowden close --model-out` was expected beside --gains",
-                        model.display()
-                    ));
-                }
-                (gains.model, gains.is_model) = (given.model, true);
-            } else {
-                gains.is_model = false;
+            let Some(model) = question.setup else {
+                return Ok((gains, None, false));
+            };
+            let given = Setup::read(model)?;
+            if !is_model(Some(model)) {
+                return Err(format!(
+                    "{}: a model of `bowden close --model-out` was expected beside --gains",
+                    model.display()
+                ));
             }
-            Ok((gains, None))
+            gains.model = given.model;
+            Ok((gains, None, true))
         }
         Some(_) => {
             let gains = GainsFile::parse(&text, &label)?;
-            Ok((setup(question, question.setup)?, Some(gains)))
+            let own = setup(question, question.setup)?;
+            Ok((own, Some(gains), is_model(question.setup)))
         }
     }
 }
@@ -301,7 +318,7 @@ fn setup(question: &Question<'_>, path: Option<&Path>) -> Result<Setup, String> 
 }
 
 fn declared(
-    setup: &Setup,
+    (setup, is_model): (&Setup, bool),
     gains: Option<&GainsFile>,
     conditions: &Conditions,
     question: &Question<'_>,
@@ -313,7 +330,7 @@ fn declared(
     };
     let lines = run_all(&controllers, conditions, &seeds, question.traced)?;
     // The certificates are of the paper's gains, reference and rig.
-    let certificates = match gains.is_some() || setup.is_model {
+    let certificates = match gains.is_some() || is_model {
         true => BTreeMap::new(),
         false => named(setup)?,
     };

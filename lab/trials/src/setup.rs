@@ -74,9 +74,6 @@ pub struct Setup {
     pub adaptive: AdaptiveGains,
     /// The model that is fed forward; the rig's own transmission where there is none.
     pub model: Option<ModelFile>,
-    /// Whether the file was a model by itself.
-    #[serde(skip)]
-    pub is_model: bool,
 }
 
 /// Gains of PI, PID or PIV; what is left out is the paper's.
@@ -236,7 +233,6 @@ impl Setup {
         let setup = if table.contains_key("schema") {
             Self {
                 model: Some(toml::from_str(text).map_err(failed)?),
-                is_model: true,
                 ..Self::default()
             }
         } else {
