@@ -113,6 +113,7 @@ mod tests {
         Piece {
             path: String::new(),
             samples: n,
+            dropped: 0,
             rate: 1.0,
             work: 0..n,
             rows: 0..n,
