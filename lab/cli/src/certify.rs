@@ -20,10 +20,10 @@ pub struct Certify {
     /// Print one JSON object on stdout instead of a table.
     #[arg(long)]
     json: bool,
-    /// Write what is proved of your gains as a theorem, which `coqc` checks from nothing.
+    /// Write what is proved of your gains as a theorem, which `coqc` checks independently.
     #[arg(long, value_name = "FILE.v", requires = "own")]
     coq: Option<PathBuf>,
-    /// Write the roundings of one step as a script, which `gappa` checks from nothing.
+    /// Write the roundings of one step as a script, which `gappa` checks independently.
     #[arg(long, value_name = "FILE.g", requires = "own")]
     gappa: Option<PathBuf>,
 }

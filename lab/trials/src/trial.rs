@@ -34,7 +34,7 @@ pub struct Controller {
     pub law: Law,
     /// Steps a second \[Hz\].
     pub rate: f64,
-    /// On every so-many-th step the law is called; between them its command stays.
+    /// The law is called on every Nth step, N being this number; between them its command stays.
     pub every: usize,
     /// Added to its command.
     pub feed: Option<FeedForward>,

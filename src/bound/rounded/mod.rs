@@ -20,8 +20,8 @@ use gains::Gains;
 /// no more than their last addition lost. If the eight [`inequalities`](Self::inequalities)
 /// hold, all of that holds after every step too, and `|e| <= S + lambda·Z` at every sample,
 /// for `f32` and `f64`. Each inequality is computed in integers, rounded outwards: what is
-/// proved here needs no trust in a float. The certificate takes below 1 ms on a desktop, so
-/// that a controller can check its own gains at start-up.
+/// proved here needs no trust in a float. It needs no heap, so that a controller can check
+/// its own gains at start-up; its time on a microcontroller is not measured.
 ///
 /// *Proof.* The exact step keeps the box with room to spare, as in
 /// [`PeakSampled`](super::PeakSampled); the [`Roundings`] are less than the room. The theorem

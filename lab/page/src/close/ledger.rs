@@ -121,7 +121,7 @@ fn names(facts: &Facts) -> Markup {
     html! {
         (table("What was added, in the final model", &head, 2..6, &rows))
         p class="note" {
-            "p: how often chance alone would do as well. Recurs: half-records in which the same search finds the effect again. Blocks better: stretches on which the effect helps."
+            "p: probability of so large an improvement by chance, if the effect were absent. Recurs: half-records in which the same search finds the effect again. Blocks better: blocks on which the effect reduces the error."
         }
     }
 }

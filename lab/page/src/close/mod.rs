@@ -111,7 +111,7 @@ fn numbers(facts: &Facts) -> Markup {
     html! {
         dl class="numbers" {
             div id="held-out" {
-                dt { "Error on data that nothing has seen" }
+                dt { "Error on held-out data (used neither to fit nor to select)" }
                 dd { (pair(before.held_out, after.held_out)) }
             }
             div id="fitted" {

@@ -29,7 +29,7 @@ const CROSSING: f64 = 100.0;
 pub struct AdaptiveDesign {
     /// Step of the law \[s\]: the shortest multiple of the sample that is longer than the delay.
     pub step: f64,
-    /// The law is called on every so-many-th sample.
+    /// The law is called on every Nth sample; N is this number.
     pub every: usize,
     /// Whether the plant's delay fits into one sample at the stated rate, which the lag form
     /// asks for; if not, the law runs at `step`.
