@@ -181,9 +181,23 @@ impl PartialOrd for Dyadic {
 
 impl Ord for Dyadic {
     fn cmp(&self, other: &Self) -> Ordering {
-        // Rounding does not change the sign of a difference.
-        let difference = self.plus(other.negated(), Towards::Below);
-        difference.mantissa.cmp(&0)
+        if self.mantissa == 0 || other.mantissa == 0 {
+            return self.mantissa.cmp(&other.mantissa);
+        }
+        // Exactly: a difference that is rounded may be zero where the numbers are not equal.
+        let apart = self.exponent.saturating_sub(other.exponent);
+        let up = apart.unsigned_abs();
+        if up > BITS {
+            // A mantissa has fewer bits than the exponents are apart.
+            return match apart > 0 {
+                true => self.mantissa.cmp(&0),
+                false => 0.cmp(&other.mantissa),
+            };
+        }
+        match apart > 0 {
+            true => (self.mantissa << up).cmp(&other.mantissa),
+            false => self.mantissa.cmp(&(other.mantissa << up)),
+        }
     }
 }
 

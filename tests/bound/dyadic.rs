@@ -117,3 +117,21 @@ fn a_number_is_written_exactly() {
     assert_eq!(Dyadic::of(-96.0).to_string(), "-3*2^5");
     assert_eq!(Dyadic::of(f64::NAN).to_string(), "0*2^0");
 }
+
+#[test]
+fn numbers_that_differ_in_their_last_bit_alone_are_told_apart() {
+    let one = Enclosure::of(1.0);
+    for exponent in 1..=61 {
+        let half = Enclosure::of(2.0_f64.powi(exponent - 1));
+        let (power, before) = (half + half, half - one + half);
+        assert_eq!(before.low(), before.high(), "2^{exponent} - 1 is exact");
+        assert!(before.high() < power.low(), "2^{exponent}");
+        assert!(!power.is_at_most(before), "2^{exponent}");
+        let (below, above) = (Enclosure::of(0.0) - power, Enclosure::of(0.0) - before);
+        assert!(below.high() < above.low(), "-2^{exponent}");
+    }
+    // Far apart, of either sign, and zero.
+    let (huge, tiny) = (Dyadic::of(1e300), Dyadic::of(1e-300));
+    assert!(huge > tiny && Dyadic::of(-1e300) < tiny && Dyadic::of(-1e-300) > Dyadic::of(-1e300));
+    assert!(Dyadic::of(0.0) < tiny && Dyadic::of(0.0) > Dyadic::of(-1e300));
+}
