@@ -1,6 +1,6 @@
 //! `bowden certify`: gains in, certificates out.
 
-use super::Failure;
+use super::{outputs, Failure};
 use crate::view::{certificates, proof};
 use bowden_trials::facts::{certify, coq, gappa, prove, Proof};
 use clap::Args;
@@ -42,11 +42,10 @@ impl Certify {
             super::say(report.trim_end())?;
             return Ok(ExitCode::SUCCESS);
         };
-        for (option, file) in [("--coq", &self.coq), ("--gappa", &self.gappa)] {
-            if let Some(file) = file {
-                super::writable(option, file, &[path])?;
-            }
-        }
+        let outputs = [("--coq", &self.coq), ("--gappa", &self.gappa)];
+        let outputs = outputs.map(|(option, file)| Some((option, file.as_deref()?)));
+        let outputs: Vec<(&str, &Path)> = outputs.into_iter().flatten().collect();
+        outputs::check(&[path], &outputs)?;
         let proof = prove(path)?;
         if proof.proved {
             self.write(&proof)?;
@@ -72,6 +71,6 @@ impl Certify {
                 files.push((Path::to_path_buf(path), text(proof)?.into_bytes()));
             }
         }
-        super::write_together(&files)
+        outputs::write_together(&files)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::drawing::{provenance, Drawing};
 use super::reading::{file, Columns, ModeName};
-use super::Failure;
+use super::{outputs, Failure};
 use crate::view::{check_json, check_text};
 use bowden_lab::facts::{check, CheckQuestion, ModelOfFile, Source};
 use bowden_page::Check as Page;
@@ -36,6 +36,10 @@ pub struct Check {
 impl Check {
     pub fn run(mut self) -> Result<(), Failure> {
         self.record = file(&self.record)?;
+        let read: [&Path; 2] = [&self.model, &self.record];
+        let trace = self.trace.as_deref().map(|path| ("--trace", path));
+        let outputs: Vec<_> = trace.into_iter().chain(self.drawing.outputs()).collect();
+        outputs::check(&read, &outputs)?;
         let of_model = |message: String| format!("{}: {message}", self.model.display());
         let asked = self.columns.asked()?;
         let given = ModelOfFile::parse(&load(&self.model)?).map_err(of_model)?;
@@ -46,11 +50,6 @@ impl Check {
                 given.mode().name()
             )));
         }
-        let read: [&Path; 2] = [&self.model, &self.record];
-        if let Some(path) = &self.trace {
-            super::writable("--trace", path, &read)?;
-        }
-        self.drawing.check(&read, &[self.trace.as_deref()])?;
         let question = CheckQuestion {
             asked,
             trace: self.trace.is_some(),
@@ -65,7 +64,7 @@ impl Check {
         };
         let checked = check(&given, &self.record, &question)?;
         if let (Some(path), Some(trace)) = (&self.trace, &checked.trace) {
-            super::write_whole(path, trace.as_bytes())?;
+            outputs::write_whole(path, trace.as_bytes())?;
         }
         let model = self.model.display().to_string();
         let (label, facts) = (&checked.label, &checked.facts);

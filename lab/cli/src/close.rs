@@ -3,7 +3,7 @@
 use super::drawing::{provenance, Drawing};
 use super::progress::{progress, telling};
 use super::reading::{files, Reading};
-use super::Failure;
+use super::{outputs, Failure};
 use crate::view::{cost_line, json, loop_text, terminal_width, text};
 use bowden_lab::facts::{
     close, Asked, Close as Question, Detail, Form, Handed, Meter, Record, Source,
@@ -97,7 +97,7 @@ impl Close {
             write_models(path, &closed.models)?;
         }
         if let (Some(path), Some(trace)) = (&self.trace, &closed.trace) {
-            super::write_whole(path, trace.as_bytes())?;
+            outputs::write_whole(path, trace.as_bytes())?;
         }
         if let Some(figures) = &closed.figures {
             let page = Page {
@@ -128,19 +128,18 @@ impl Close {
     /// Whether all that is to be written can be, before anything is computed for it.
     fn check_files(&self) -> Result<(), Failure> {
         let read: Vec<&Path> = self.records.iter().map(PathBuf::as_path).collect();
+        let mut models = Vec::new();
         if let Some(path) = &self.model_out {
             model_form(path)?;
             let several = self.per_file.is_some();
             for file in written(path, if several { read.len() } else { 1 }) {
-                super::writable("--model-out", &file, &read)?;
-                super::writable("--model-out", &vector_of(&file), &read)?;
+                models.extend([vector_of(&file), file]);
             }
         }
-        if let Some(path) = &self.trace {
-            super::writable("--trace", path, &read)?;
-        }
-        let others = [self.model_out.as_deref(), self.trace.as_deref()];
-        self.drawing.check(&read, &others)
+        let models = models.iter().map(|path| ("--model-out", path.as_path()));
+        let trace = self.trace.as_deref().map(|path| ("--trace", path));
+        let outputs: Vec<_> = models.chain(trace).chain(self.drawing.outputs()).collect();
+        outputs::check(&read, &outputs)
     }
 
     /// What is read, with its hash.
@@ -172,7 +171,7 @@ fn write_models(path: &Path, models: &[Handed]) -> Result<(), Failure> {
         all.push((own, bytes));
         all.push((beside, vector));
     }
-    super::write_together(&all)
+    outputs::write_together(&all)
 }
 
 /// The files of so many models.

@@ -1,7 +1,7 @@
 //! `bowden compare`: controllers on the simulated rig.
 
 use super::drawing::provenance;
-use super::Failure;
+use super::{outputs, Failure};
 use crate::view::compare::{json, text, trace};
 use bowden_lab::facts::Source;
 use bowden_page::Compare as Page;
@@ -104,9 +104,10 @@ impl Compare {
         self.check()?;
         let given = [self.model.as_deref(), self.gains.as_deref()];
         let read: Vec<&Path> = given.into_iter().flatten().collect();
-        if let Some(path) = &self.report {
-            super::writable("--report", path, &read)?;
-        }
+        let outputs = [("--report", &self.report), ("--trace", &self.trace)];
+        let outputs = outputs.map(|(option, file)| Some((option, file.as_deref()?)));
+        let outputs: Vec<(&str, &Path)> = outputs.into_iter().flatten().collect();
+        outputs::check(&read, &outputs)?;
         let sources: Vec<Source> = match self.report {
             Some(_) => read
                 .into_iter()
@@ -139,10 +140,10 @@ impl Compare {
                 both.extend((other.heading.varying == varying).then_some(other));
             }
             let page = Page { compared: &both };
-            super::write_whole(path, page.page(&provenance(sources)).as_bytes())?;
+            outputs::write_whole(path, page.page(&provenance(sources)).as_bytes())?;
         }
         if let Some(path) = &self.trace {
-            super::write_whole(path, trace(&compared.traced()).as_bytes())?;
+            outputs::write_whole(path, trace(&compared.traced()).as_bytes())?;
         }
         let out = match self.json {
             true => json(&compared),

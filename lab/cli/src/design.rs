@@ -1,6 +1,6 @@
 //! `bowden design`: an identified model in, gains out.
 
-use super::Failure;
+use super::{outputs, Failure};
 use crate::view::design::{json, text};
 use bowden_trials::facts::{design, design_rust, DesignQuestion};
 use clap::Args;
@@ -47,7 +47,7 @@ impl Design {
     pub fn run(self) -> Result<(), Failure> {
         let rust = self.out.as_deref().map(is_rust).transpose()?;
         if let Some(path) = &self.out {
-            super::writable("--out", path, &[&self.model])?;
+            outputs::check(&[&self.model], &[("--out", path)])?;
         }
         let question = DesignQuestion {
             rate: self.rate,
@@ -63,7 +63,7 @@ impl Design {
                 true => design_rust(&designed),
                 false => designed.gains.toml().map_err(|e| e.to_string())?,
             };
-            super::write_whole(path, written.as_bytes())?;
+            outputs::write_whole(path, written.as_bytes())?;
         }
         let report = match self.json {
             true => json(&designed).map_err(|e| e.to_string())?,

@@ -1,6 +1,6 @@
 //! What `close` and `check` draw: a page, or one figure.
 
-use super::Failure;
+use super::{outputs, Failure};
 use bowden_lab::facts::{Figures, Source};
 use bowden_page::{figure, Figure, Provenance};
 use clap::{Args, ValueEnum};
@@ -54,22 +54,11 @@ impl Drawing {
         self.report.is_some()
     }
 
-    /// Whether both files can be written, before anything is read.
-    pub fn check(&self, read: &[&Path], written: &[Option<&Path>]) -> Result<(), Failure> {
-        let report = self.report.as_deref();
-        for (option, path) in [("--report", report), ("--plot", self.plot.as_deref())] {
-            let Some(path) = path else { continue };
-            super::writable(option, path, read)?;
-            let before = (option == "--plot").then_some(report);
-            let mut others = written.iter().copied().chain(before).flatten();
-            if others.any(|other| other == path) {
-                return Err(format!(
-                    "{option} {}: another option writes this file, too",
-                    path.display()
-                ));
-            }
-        }
-        Ok(())
+    /// The options that are given, with their files.
+    pub fn outputs(&self) -> impl Iterator<Item = (&'static str, &Path)> {
+        let both = [("--report", &self.report), ("--plot", &self.plot)];
+        both.into_iter()
+            .filter_map(|(option, path)| Some((option, path.as_deref()?)))
     }
 
     /// Writes the page and the figure, or neither.
@@ -82,7 +71,7 @@ impl Drawing {
             let which = self.figure.map_or(Figure::Loop, FigureName::figure);
             files.push((path.clone(), figure(figures, which).into_bytes()));
         }
-        super::write_together(&files)
+        outputs::write_together(&files)
     }
 }
 

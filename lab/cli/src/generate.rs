@@ -1,6 +1,6 @@
 //! `bowden generate`: a generated record as CSV on stdout or in a file.
 
-use super::Failure;
+use super::{outputs, Failure};
 use bowden_synth::{generate, Mode, Planted, Recipe};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -101,7 +101,7 @@ impl Generate {
         };
         let csv = generate(&recipe).map_err(|e| e.to_string())?.to_csv();
         match &self.out {
-            Some(path) => super::write_whole(path, csv.as_bytes()),
+            Some(path) => outputs::write_whole(path, csv.as_bytes()),
             None => super::pour(csv.as_bytes()),
         }
     }

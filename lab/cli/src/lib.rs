@@ -11,6 +11,7 @@ mod design;
 mod drawing;
 mod generate;
 mod help;
+mod outputs;
 mod plan;
 mod power;
 mod progress;
@@ -96,93 +97,5 @@ fn pour(bytes: &[u8]) -> Result<(), Failure> {
     match std::io::stdout().write_all(bytes) {
         Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(format!("stdout: {e}")),
         _ => Ok(()),
-    }
-}
-
-/// Whether a file could be written there, found out before anything is computed for it: its
-/// folder exists and takes a file, and it is none of the files that are read.
-fn writable(
-    option: &str,
-    path: &std::path::Path,
-    read: &[&std::path::Path],
-) -> Result<(), Failure> {
-    let refuse = |message: String| Err(format!("{option} {}: {message}", path.display()));
-    if path.is_dir() {
-        return refuse("is a folder; the name of a file was expected".to_owned());
-    }
-    let same = |other: &&std::path::Path| match (path.canonicalize(), other.canonicalize()) {
-        (Ok(a), Ok(b)) => a == b,
-        _ => false,
-    };
-    if let Some(other) = read.iter().copied().find(|other| same(other)) {
-        return refuse(format!(
-            "would overwrite {}, which is read",
-            other.display()
-        ));
-    }
-    let part = neighbour(path);
-    match std::fs::File::create(&part) {
-        Ok(_) => std::fs::remove_file(&part).map_err(|e| format!("{}: {e}", part.display())),
-        Err(e) => refuse(e.to_string()),
-    }
-}
-
-/// The file beside another one into which that is written first.
-fn neighbour(path: &std::path::Path) -> std::path::PathBuf {
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(format!(".{}.part", std::process::id()));
-    path.with_file_name(name)
-}
-
-/// Writes a whole file or none: into a neighbour first, which then takes its name.
-fn write_whole(path: &std::path::Path, bytes: &[u8]) -> Result<(), Failure> {
-    write_together(&[(path.to_owned(), bytes.to_vec())])
-}
-
-/// Writes all files or none: each into a neighbour first; once all are on the disk each
-/// takes its name, the last ones first. A file that was there keeps its bytes until then.
-fn write_together(files: &[(std::path::PathBuf, Vec<u8>)]) -> Result<(), Failure> {
-    let written = || -> Result<(), Failure> {
-        for (path, bytes) in files {
-            let failed = |e: std::io::Error| format!("{}: {e}", path.display());
-            std::fs::write(neighbour(path), bytes).map_err(failed)?;
-        }
-        for (done, (path, _)) in files.iter().rev().enumerate() {
-            std::fs::rename(neighbour(path), path).map_err(|e| {
-                // What goes with a file that is not there is worth nothing.
-                for (path, _) in files.iter().rev().take(done) {
-                    let _ = std::fs::remove_file(path);
-                }
-                format!("{}: {e}", path.display())
-            })?;
-        }
-        Ok(())
-    };
-    written().inspect_err(|_| {
-        // Nothing half-written stays behind; that it may be absent already is fine.
-        for (path, _) in files {
-            let _ = std::fs::remove_file(neighbour(path));
-        }
-    })
-}
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used)]
-mod tests {
-    use super::write_together;
-
-    #[test]
-    fn of_files_that_cannot_all_be_written_none_is() {
-        // The place of the first or of the last one is taken by a folder.
-        for taken in ["a", "c"] {
-            let folder = tempfile::tempdir().unwrap();
-            std::fs::create_dir(folder.path().join(taken)).unwrap();
-            let file = |name: &str| (folder.path().join(name), name.as_bytes().to_vec());
-            let line = write_together(&["a", "b", "c"].map(file)).unwrap_err();
-            assert!(line.contains(&folder.path().join(taken).display().to_string()));
-            let left = std::fs::read_dir(folder.path()).unwrap();
-            let left: Vec<_> = left.map(|entry| entry.unwrap().file_name()).collect();
-            assert_eq!(left, [taken]);
-        }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::progress::{progress, telling};
 use super::reading::{file, Reading};
-use super::Failure;
+use super::{outputs, Failure};
 use bowden_lab::facts::plan;
 use clap::Args;
 use std::path::PathBuf;
@@ -21,9 +21,13 @@ pub struct Plan {
 impl Plan {
     pub fn run(self) -> Result<(), Failure> {
         let asked = self.reading.asked()?;
+        let path = file(&self.record)?;
+        if let Some(out) = &self.out {
+            outputs::check(&[&path], &[("--out", out)])?;
+        }
         let bar = progress();
         bar.set_message("reading");
-        let record = asked.read(&file(&self.record)?)?;
+        let record = asked.read(&path)?;
         let planned = plan(&record, &asked, &telling(&bar))?;
         bar.finish_and_clear();
         let Some(planned) = planned else {
@@ -33,7 +37,7 @@ impl Plan {
             return Ok(());
         };
         match &self.out {
-            Some(path) => super::write_whole(path, planned.csv.as_bytes())?,
+            Some(path) => outputs::write_whole(path, planned.csv.as_bytes())?,
             None => super::pour(planned.csv.as_bytes())?,
         }
         let experiment = &planned.experiment;

@@ -181,3 +181,19 @@ fn without_a_file_the_certificates_of_table_2_stay() {
     let report = said(&["certify"]);
     assert!(report.starts_with("bowden certify: what the tracking error is promised to stay below"));
 }
+
+#[test]
+fn one_file_for_both_checkers_is_refused_and_what_was_there_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let both = folder.path().join("same.v");
+    std::fs::write(&both, "mine").unwrap();
+    let own = example("gains_own.toml");
+    let path = both.to_str().unwrap();
+    let line = refused(&["certify", &own, "--coq", path, "--gappa", path]);
+    assert!(
+        line.contains("--gappa") && line.contains("another option writes this file"),
+        "{line}"
+    );
+    assert_eq!(std::fs::read_to_string(&both).unwrap(), "mine");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+}

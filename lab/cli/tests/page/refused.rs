@@ -48,6 +48,53 @@ fn a_page_that_cannot_be_written_is_refused_before_the_record_is_read() {
     assert_eq!(folder.names(), before);
 }
 
+/// Two outputs in one file, or an output over what is read: nothing is computed, and every file
+/// keeps its bytes. Another spelling of a path is the same file.
+#[test]
+fn no_output_takes_the_place_of_another_file_of_the_command() {
+    let folder = Folder::new();
+    let (missing, record) = (folder.path("later.csv"), folder.path("record.csv"));
+    let (model, out) = (folder.path("model.toml"), folder.path("out.html"));
+    let vector = folder.path("model.vector.csv");
+    let name = folder.0.path().file_name().unwrap().to_str().unwrap();
+    let other = folder.path(&format!("../{name}/out.html"));
+    std::fs::write(&out, "before").unwrap();
+    std::fs::copy(example("straight.csv"), &record).unwrap();
+    let names = folder.names();
+    let both = "another option writes this file";
+    let over = "would overwrite";
+    let short = ["compare", "--seconds", "8", "--seeds", "1"];
+    for (arguments, part) in [
+        (
+            [&short[..], &["--report", &out, "--trace", &out]].concat(),
+            both,
+        ),
+        (
+            [&short[..], &["--report", &out, "--trace", &other]].concat(),
+            both,
+        ),
+        (vec!["compare", "--gains", &out, "--trace", &other], over),
+        (
+            vec!["close", &missing, "--model-out", &model, "--trace", &vector],
+            both,
+        ),
+        (
+            vec![
+                "check", &missing, &missing, "--trace", &out, "--plot", &other,
+            ],
+            both,
+        ),
+        (vec!["plan", &record, "--out", &record], over),
+    ] {
+        let line = refused(&arguments);
+        assert!(line.contains(part), "{line}");
+        assert_eq!(folder.read("out.html"), "before");
+        assert_eq!(folder.names(), names);
+    }
+    let line = refused(&[short.as_slice(), &["--trace", &folder.path("no/trace.csv")]].concat());
+    assert!(line.contains("--trace"), "{line}");
+}
+
 #[test]
 fn a_bad_record_leaves_the_page_that_was_there() {
     let folder = Folder::new();

@@ -1,0 +1,191 @@
+//! The files that a command writes: none over another of its files, all or none.
+
+use super::Failure;
+use std::path::{Path, PathBuf};
+
+/// Whether each output could be written, found out before anything is read: its folder exists
+/// and takes a file, it is none of the files that are read, and no other option writes it.
+pub fn check(read: &[&Path], outputs: &[(&str, &Path)]) -> Result<(), Failure> {
+    for (index, (option, path)) in outputs.iter().enumerate() {
+        writable(option, path, read)?;
+        let before = outputs.iter().take(index);
+        if before.into_iter().any(|(_, other)| same(other, path)) {
+            return Err(format!(
+                "{option} {}: another option writes this file, too",
+                path.display()
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn writable(option: &str, path: &Path, read: &[&Path]) -> Result<(), Failure> {
+    let refuse = |message: String| Err(format!("{option} {}: {message}", path.display()));
+    if path.is_dir() {
+        return refuse("is a folder; the name of a file was expected".to_owned());
+    }
+    if let Some(other) = read.iter().find(|other| same(path, other)) {
+        return refuse(format!(
+            "would overwrite {}, which is read",
+            other.display()
+        ));
+    }
+    let part = beside(path, "part");
+    match std::fs::File::create(&part) {
+        Ok(_) => std::fs::remove_file(&part).map_err(|e| format!("{}: {e}", part.display())),
+        Err(e) => refuse(e.to_string()),
+    }
+}
+
+/// Whether two paths name one file, which need not exist.
+fn same(a: &Path, b: &Path) -> bool {
+    a == b || matches!((place(a), place(b)), (Some(a), Some(b)) if a == b)
+}
+
+/// A path without links and dots; of a file that does not exist, its folder's and its name.
+fn place(path: &Path) -> Option<PathBuf> {
+    if let Ok(place) = path.canonicalize() {
+        return Some(place);
+    }
+    let folder = match path.parent()? {
+        here if here.as_os_str().is_empty() => Path::new("."),
+        folder => folder,
+    };
+    Some(folder.canonicalize().ok()?.join(path.file_name()?))
+}
+
+/// A file of this process beside another one.
+fn beside(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}.{ending}", std::process::id()));
+    path.with_file_name(name)
+}
+
+/// Writes a whole file or none: into a neighbour first, which then takes its name.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    write_together(&[(path.to_owned(), bytes.to_vec())])
+}
+
+/// Writes all files or none: each into a neighbour first; once all are on the disk each
+/// takes its name, the last ones first. A file that was there keeps its bytes until then, and
+/// has them again where a later file cannot be written.
+pub fn write_together(files: &[(PathBuf, Vec<u8>)]) -> Result<(), Failure> {
+    for (index, (path, _)) in files.iter().enumerate() {
+        if files.iter().take(index).any(|(other, _)| same(other, path)) {
+            return Err(format!("{}: would be written twice", path.display()));
+        }
+    }
+    let written = write_parts(files).and_then(|()| take_names(files));
+    // No part stays behind; that it may be absent already is fine.
+    for (path, _) in files {
+        let _ = std::fs::remove_file(beside(path, "part"));
+    }
+    written
+}
+
+fn write_parts(files: &[(PathBuf, Vec<u8>)]) -> Result<(), Failure> {
+    for (path, bytes) in files {
+        let failed = |e: std::io::Error| format!("{}: {e}", path.display());
+        std::fs::write(beside(path, "part"), bytes).map_err(failed)?;
+    }
+    Ok(())
+}
+
+fn take_names(files: &[(PathBuf, Vec<u8>)]) -> Result<(), Failure> {
+    let mut done: Vec<&Path> = Vec::new();
+    for (path, _) in files.iter().rev() {
+        let renamed = keep(path).and_then(|()| std::fs::rename(beside(path, "part"), path));
+        if let Err(e) = renamed {
+            let _ = std::fs::remove_file(beside(path, "kept"));
+            for path in done {
+                restore(path);
+            }
+            return Err(format!("{}: {e}", path.display()));
+        }
+        done.push(path);
+    }
+    for path in done {
+        let _ = std::fs::remove_file(beside(path, "kept"));
+    }
+    Ok(())
+}
+
+/// A second name for the file that is there, if there is one; a copy where the file system has
+/// no links.
+fn keep(path: &Path) -> std::io::Result<()> {
+    let is_file = std::fs::symlink_metadata(path).is_ok_and(|there| !there.is_dir());
+    if !is_file {
+        return Ok(());
+    }
+    let kept = beside(path, "kept");
+    std::fs::hard_link(path, &kept).or_else(|_| std::fs::copy(path, &kept).map(drop))
+}
+
+/// The file that was there before, or none. What cannot be put back stays under its second name.
+fn restore(path: &Path) {
+    let kept = beside(path, "kept");
+    let _ = match std::fs::symlink_metadata(&kept) {
+        Ok(_) => std::fs::rename(kept, path),
+        Err(_) => std::fs::remove_file(path),
+    };
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::write_together;
+    use std::path::Path;
+
+    fn names(folder: &Path) -> Vec<std::ffi::OsString> {
+        let entries = std::fs::read_dir(folder).unwrap();
+        entries.map(|entry| entry.unwrap().file_name()).collect()
+    }
+
+    #[test]
+    fn of_files_that_cannot_all_be_written_none_is() {
+        // The place of the first or of the last one is taken by a folder.
+        for taken in ["a", "c"] {
+            let folder = tempfile::tempdir().unwrap();
+            std::fs::create_dir(folder.path().join(taken)).unwrap();
+            let file = |name: &str| (folder.path().join(name), name.as_bytes().to_vec());
+            let line = write_together(&["a", "b", "c"].map(file)).unwrap_err();
+            assert!(line.contains(&folder.path().join(taken).display().to_string()));
+            assert_eq!(names(folder.path()), [taken]);
+        }
+    }
+
+    #[test]
+    fn a_file_that_was_there_has_its_bytes_again_where_another_cannot_be_written() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::create_dir(folder.path().join("a")).unwrap();
+        std::fs::write(folder.path().join("c"), "before").unwrap();
+        let file = |name: &str| (folder.path().join(name), name.as_bytes().to_vec());
+        write_together(&["a", "b", "c"].map(file)).unwrap_err();
+        assert_eq!(std::fs::read(folder.path().join("c")).unwrap(), b"before");
+        let mut left = names(folder.path());
+        left.sort();
+        assert_eq!(left, ["a", "c"]);
+        // Over files that are there, all are written, and nothing else is left.
+        write_together(&["b", "c"].map(file)).unwrap();
+        assert_eq!(std::fs::read(folder.path().join("c")).unwrap(), b"c");
+        let mut left = names(folder.path());
+        left.sort();
+        assert_eq!(left, ["a", "b", "c"]);
+    }
+
+    #[test]
+    fn one_file_twice_is_refused_and_what_was_there_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("same");
+        std::fs::write(&path, "before").unwrap();
+        let name = folder.path().file_name().unwrap();
+        let again = folder.path().join("..").join(name).join("same");
+        for other in [path.clone(), again] {
+            let files = [(path.clone(), b"1".to_vec()), (other, b"2".to_vec())];
+            let line = write_together(&files).unwrap_err();
+            assert!(line.contains("would be written twice"), "{line}");
+            assert_eq!(std::fs::read(&path).unwrap(), b"before");
+            assert_eq!(names(folder.path()), ["same"]);
+        }
+    }
+}
