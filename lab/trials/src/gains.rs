@@ -117,6 +117,12 @@ impl GainsFile {
     }
 }
 
+/// Whether a text is a file of `bowden design`, by its schema.
+pub(crate) fn is_of_design(text: &str) -> bool {
+    let table = toml::from_str::<toml::Table>(text).ok();
+    table.is_some_and(|table| table.get("schema").and_then(toml::Value::as_str) == Some(SCHEMA))
+}
+
 /// file:line:column of a key of a table, or of the table, before a line.
 fn at(text: &str, label: &str, table: &str, key: &str, line: &str) -> String {
     let mut inside = table.is_empty();

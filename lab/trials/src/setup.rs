@@ -49,7 +49,7 @@
 //! A file that is such a model by itself is read as one; beside gains `bowden compare --model`
 //! gives the rig its transmission and its effects ([`own_rig`](super::own_rig)).
 
-use super::gains::message;
+use super::gains::{is_of_design, message};
 use bowden::control::{AdaptiveSettings, Damping, Estimator, Form, Leakage, PidSettings};
 use bowden_lab::export::ModelFile;
 use bowden_rig::RigConfig;
@@ -228,6 +228,11 @@ impl Setup {
     /// # Errors
     /// One line with file, line, column and key.
     pub fn parse(text: &str, label: &str) -> Result<Self, String> {
+        if is_of_design(text) {
+            return Err(format!(
+                "{label}: is a file of `bowden design`; a model of `bowden close --model-out`, or gains and rig in one file, was expected"
+            ));
+        }
         let failed = |e: toml::de::Error| message(&e, text, label);
         let table: toml::Table = toml::from_str(text).map_err(failed)?;
         let setup = if table.contains_key("schema") {

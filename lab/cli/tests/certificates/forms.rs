@@ -197,3 +197,26 @@ fn one_file_for_both_checkers_is_refused_and_what_was_there_stays() {
     assert_eq!(std::fs::read_to_string(&both).unwrap(), "mine");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
 }
+
+#[test]
+fn a_file_of_design_is_named_as_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("gains.toml");
+    std::fs::write(
+        &path,
+        "schema = \"bowden.gains/1\"\n[design]\nrate = 1000.0\n",
+    )
+    .unwrap();
+    let path = path.to_str().unwrap();
+    for (arguments, form) in [
+        (&["certify", path][..], "examples/data/gains_own.toml"),
+        (&["certify", "--gains", path], "gains and rig"),
+    ] {
+        let line = refused(arguments);
+        assert!(
+            line.contains("gains.toml: is a file of `bowden design`"),
+            "{line}"
+        );
+        assert!(line.contains(form), "{line}");
+    }
+}

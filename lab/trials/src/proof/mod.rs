@@ -7,7 +7,7 @@ mod written;
 pub use form::Float;
 pub use written::{coq, gappa};
 
-use super::gains::message;
+use super::gains::{is_of_design, message};
 use bowden::bound::{Dyadic, Inequality, Interval, Kind, Known, Named, PeakRounded, Plant};
 use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Limits};
 use bowden::{Error, Real};
@@ -191,6 +191,11 @@ pub fn prove(path: &Path) -> Result<Proof, String> {
 /// # Errors
 /// As [`prove`].
 pub fn parse(text: &str, label: &str) -> Result<Proof, String> {
+    if is_of_design(text) {
+        return Err(format!(
+            "{label}: is a file of `bowden design`; certify needs the form of examples/data/gains_own.toml"
+        ));
+    }
     let form: Form = toml::from_str(text).map_err(|e| message(&e, text, label))?;
     match form.float {
         Float::F32 => of_any::<f32>(&form),
