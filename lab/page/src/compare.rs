@@ -3,7 +3,7 @@
 use crate::chart::scale::Scale;
 use crate::chart::{Axis, Chart};
 use crate::document::{data, page, table, Opening, Provenance, Section};
-use bowden_trials::facts::{paper, Compared, Line, Results, Row};
+use bowden_trials::facts::{Compared, Heading, Line, Results, Row};
 use maud::{html, Markup};
 
 /// What the page shows: comparisons under one or several configurations.
@@ -61,11 +61,13 @@ impl Compare<'_> {
             ),
         ];
         let sentence = self.compared.first().map(Compared::sentence);
+        let own = self.compared.first().map(|compared| own(&compared.heading));
         let opening = Opening {
             title: "bowden compare: controllers on the simulated rig".to_owned(),
             verdict: None,
             sentence: sentence.unwrap_or_default(),
             body: html! {
+                @for sentence in own.unwrap_or_default() { p { (sentence) } }
                 p class="note" {
                     "The pattern is Figures 7 to 10 of "
                     cite { "Direct Torque Control for Cable Conduit Mechanisms for the Robotic Foot for Footwear Testing" }
@@ -75,6 +77,15 @@ impl Compare<'_> {
         };
         page(&opening, &sections, from)
     }
+}
+
+/// What is not the paper's, a sentence each.
+fn own(heading: &Heading) -> Vec<String> {
+    let model = heading
+        .model
+        .as_ref()
+        .map(|model| format!("The reference rig has the transmission and the effects of {model}."));
+    model.into_iter().chain(heading.own()).collect()
 }
 
 fn time(until: f64) -> Axis {
@@ -117,7 +128,7 @@ impl<'a> Part<'a> {
         let is_lineup = matches!(self.compared.results, Results::Lineup(_));
         let row = |line: &Line| {
             let cell = |mean: f64, sd: f64| data(mean, &format!("{mean:.4} ± {sd:.4}"));
-            let own = paper(&line.controller, heading.varying).filter(|_| is_lineup);
+            let own = heading.paper(&line.controller).filter(|_| is_lineup);
             html! { tr {
                 th scope="row" { (line.controller) }
                 @if let Some(at) = line.ran_away {

@@ -3,6 +3,7 @@
 use super::certificates::named;
 use super::found::outcome;
 use super::gains::GainsFile;
+use super::heading::{file_name, is_paper, with_drive_gain};
 use super::lineup::{declared_feed, lineup};
 use super::own_rig;
 use super::setup::Setup;
@@ -19,6 +20,7 @@ pub use super::design::{
     design, rust as design_rust, AdaptiveDesign, Designed, PidDesign, Question as DesignQuestion,
 };
 pub use super::found::{Outcome, Pair};
+pub use super::heading::Heading;
 pub use super::own_rig::RigChanges;
 pub use super::proof::{coq, gappa, prove, Proof};
 pub use super::table::{Line, Spread};
@@ -41,9 +43,10 @@ pub struct Question<'a> {
     /// A model that is fed forward, whose transmission the rig has too with `gains` or `rig`; or
     /// gains, rig and model in one file; the paper's and the reference rig's where not given.
     pub setup: Option<&'a Path>,
-    /// Gains of `bowden design`, or a file as of `setup`.
+    /// Gains of `bowden design`, which need the model in `setup`; or a file as of `setup`.
     pub gains: Option<&'a Path>,
-    /// Other numbers of the rig.
+    /// Other numbers of the rig. The drive gain that is not given is that of `gains`, where they
+    /// are those of `bowden design`.
     pub rig: RigChanges,
     /// White noise of the torque sensors \[N·m rms\], where another than the setup's.
     pub noise: Option<f64>,
@@ -57,33 +60,6 @@ pub struct Question<'a> {
     pub effect: Option<&'a str>,
     /// Whether the signals of the first trial are wanted.
     pub traced: bool,
-}
-
-/// What the trials were run under.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Heading {
-    /// White noise of the sensor \[N·m rms\].
-    pub noise: f64,
-    /// Whether the conduit was moved.
-    pub varying: bool,
-    /// Length of a trial \[s\].
-    pub seconds: f64,
-    /// From where errors count \[s\].
-    pub from: f64,
-    /// Length of the transient \[s\].
-    pub transient: f64,
-    /// Number of trials.
-    pub seeds: usize,
-    /// In what `--model` had to be changed to be fed forward, if in anything.
-    pub fed_with: Option<String>,
-    /// The model whose transmission the rig has, without folders; `None` of the reference rig's.
-    pub model: Option<String>,
-    /// The gains of `bowden design` that run, without folders; `None` of the paper's.
-    pub gains: Option<String>,
-    /// The rig's numbers that were given one by one.
-    pub rig: RigChanges,
-    /// Between which values the reference moves \[N·m\], where it is not the paper's.
-    pub reference: Option<[f64; 2]>,
 }
 
 /// The answer.
@@ -137,28 +113,17 @@ pub struct OverSeeds {
     pub higher: usize,
 }
 
-/// Table 3 of the paper: mean and standard deviation, fixed and varying \[N·m\].
-const PAPER: [(&str, [f64; 2], [f64; 2]); 4] = [
-    ("pi", [0.5991, 0.0154], [0.6034, 0.0182]),
-    ("pid", [0.6093, 0.0164], [0.6139, 0.0153]),
-    ("piv", [0.5320, 0.0134], [0.5323, 0.0186]),
-    ("adaptive", [0.3027, 0.0081], [0.3195, 0.0120]),
-];
-
-/// Mean and standard deviation of a controller in Table 3 of the paper \[N·m\], where it has
-/// a row there.
-#[must_use]
-pub fn paper(controller: &str, varying: bool) -> Option<[f64; 2]> {
-    let row = PAPER.iter().find(|row| row.0 == controller)?;
-    Some(if varying { row.2 } else { row.1 })
-}
-
 /// Runs the trials.
 ///
 /// # Errors
 /// One line where the setup cannot be read, a law is refused, or the bench finds no model.
 pub fn compare(question: &Question<'_>) -> Result<Compared, String> {
     let (mut setup, gains, is_model) = inputs(question)?;
+    let own_setup = match (&gains, is_model) {
+        (Some(_), _) => None,
+        (None, true) => question.gains,
+        (None, false) => question.gains.or(question.setup),
+    };
     // A model alone is fed forward on the reference rig.
     let is_model = is_model && (question.gains.is_some() || question.rig != RigChanges::default());
     let effect = question.effect.map(Undeclared::parse).transpose()?;
@@ -172,7 +137,7 @@ pub fn compare(question: &Question<'_>) -> Result<Compared, String> {
         true => own(&mut setup, question)?,
         false => None,
     };
-    setup.rig = question.rig.apply(setup.rig)?;
+    setup.rig = with_drive_gain(question.rig, gains.as_ref()).apply(setup.rig)?;
     let range = own.as_ref().and_then(|own| own.reference);
     let conditions = Conditions {
         rig: setup.rig,
@@ -196,8 +161,12 @@ pub fn compare(question: &Question<'_>) -> Result<Compared, String> {
         },
         model: own.as_ref().and(question.setup).map(file_name),
         gains: gains.as_ref().and(question.gains).map(file_name),
+        designed_drive_gain: gains.as_ref().map(|gains| gains.design.drive_gain),
+        setup: own_setup.map(file_name),
+        drive_gain: setup.rig.drive_gain,
         rig: question.rig,
         reference: range,
+        is_paper: own.is_none() && gains.is_none() && is_paper(&setup),
     };
     let results = match effect {
         None => Results::Lineup(declared(
@@ -232,18 +201,21 @@ fn own(setup: &mut Setup, question: &Question<'_>) -> Result<Option<Own>, String
     Ok(Some(own))
 }
 
-fn file_name(path: &Path) -> String {
-    path.file_name().map_or_else(
-        || path.display().to_string(),
-        |n| n.to_string_lossy().into_owned(),
-    )
-}
-
 /// Whether a file is a model by itself.
 fn is_model(path: Option<&Path>) -> bool {
     let text = path.and_then(|path| std::fs::read_to_string(path).ok());
     let table = text.and_then(|text| toml::from_str::<toml::Table>(&text).ok());
     table.is_some_and(|table| table.contains_key("schema"))
+}
+
+fn no_model_is_refused(path: &Path) -> Result<(), String> {
+    match is_model(Some(path)) {
+        true => Ok(()),
+        false => Err(format!(
+            "{}: a model of `bowden close --model-out` was expected beside --gains",
+            path.display()
+        )),
+    }
 }
 
 /// The setup, the gains of `bowden design` where there are some, and whether `setup` is a model
@@ -268,19 +240,20 @@ fn inputs(question: &Question<'_>) -> Result<(Setup, Option<GainsFile>, bool), S
                 return Ok((gains, None, false));
             };
             let given = Setup::read(model)?;
-            if !is_model(Some(model)) {
-                return Err(format!(
-                    "{}: a model of `bowden close --model-out` was expected beside --gains",
-                    model.display()
-                ));
-            }
+            no_model_is_refused(model)?;
             gains.model = given.model;
             Ok((gains, None, true))
         }
         Some(_) => {
             let gains = GainsFile::parse(&text, &label)?;
-            let own = setup(question, question.setup)?;
-            Ok((own, Some(gains), is_model(question.setup)))
+            let Some(model) = question.setup else {
+                return Err(format!(
+                    "{label}: gains of `bowden design` need the model that they were designed for: --model MODEL.toml"
+                ));
+            };
+            let own = setup(question, Some(model))?;
+            no_model_is_refused(model)?;
+            Ok((own, Some(gains), true))
         }
     }
 }

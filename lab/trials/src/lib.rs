@@ -13,6 +13,7 @@ pub mod facts;
 pub mod feed;
 pub mod found;
 pub mod gains;
+pub mod heading;
 pub mod lineup;
 pub mod own_rig;
 pub mod proof;

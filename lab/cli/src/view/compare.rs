@@ -1,8 +1,8 @@
 //! Output of `bowden compare`: tables, JSON, traces.
 
 use super::compare_found;
-use super::compare_rows::{conditions, configuration, row};
-use bowden_trials::facts::{paper, Compared, Heading, Line, Lineup, Promise, Results, Spread};
+use super::compare_rows::{conditions, configuration, own, row};
+use bowden_trials::facts::{Compared, Heading, Line, Lineup, Promise, Results, Spread};
 use serde_json::{json, Value};
 use std::fmt::Write as _;
 
@@ -58,58 +58,12 @@ fn lineup_text(heading: &Heading, lineup: &Lineup) -> String {
             "The model has no inverse as it is: fed forward with {changed}.\n"
         );
     }
-    let notes = match is_paper(heading) {
-        true => NOTES,
-        false => OWN_NOTES,
+    let notes = match (heading.is_paper, &heading.model) {
+        (true, _) => NOTES,
+        (false, Some(_)) => OWN_NOTES,
+        (false, None) => CHANGED_NOTES,
     };
     out + &steady(heading, lineup) + &transient(heading, &lineup.lines) + notes
-}
-
-/// Whether the rig, the gains and the reference are those of the paper's experiment.
-fn is_paper(heading: &Heading) -> bool {
-    heading.model.is_none() && heading.gains.is_none()
-}
-
-/// What is the user's own: gains, reference, numbers of the rig.
-fn own(heading: &Heading) -> String {
-    let mut out = String::new();
-    if let Some(gains) = &heading.gains {
-        let _ = writeln!(out, "Gains: those of {gains}.");
-    }
-    if let Some([low, high]) = heading.reference {
-        let _ = writeln!(
-            out,
-            "Reference: the paper's between {low:.2} and {high:.2} N·m, within what the model's record has covered."
-        );
-    }
-    let rig = &heading.rig;
-    let given = [
-        ("drive gain", rig.drive_gain, "N·m/unit"),
-        ("inertia", rig.motor_inertia, "kg·m²"),
-        ("damping", rig.motor_damping, "N·m·s/rad"),
-        ("joint inertia", rig.joint_inertia, "kg·m²"),
-        ("joint damping", rig.joint_damping, "N·m·s/rad"),
-        ("spring", rig.load_stiffness, "N·m/rad"),
-        ("drive lag", rig.drive_lag, "s"),
-        ("sensor lag", rig.sensor_lag, "s"),
-        ("delay", rig.delay.map(f64::from), "samples"),
-    ];
-    let given: Vec<String> = given
-        .iter()
-        .filter_map(|(name, value, unit)| Some(format!("{name} {} {unit}", (*value)?)))
-        .collect();
-    if !given.is_empty() {
-        let _ = writeln!(out, "Rig: {}.", given.join(", "));
-    }
-    if !out.is_empty() {
-        out.push('\n');
-    }
-    out
-}
-
-/// The row of Table 3, where the trial is of its rig and gains.
-fn paper_row(heading: &Heading, line: &Line) -> Option<[f64; 2]> {
-    paper(&line.controller, heading.varying).filter(|_| is_paper(heading))
 }
 
 fn steady(heading: &Heading, lineup: &Lineup) -> String {
@@ -134,7 +88,7 @@ fn steady(heading: &Heading, lineup: &Lineup) -> String {
             let _ = writeln!(out, "{:<22} {when}", line.controller);
             continue;
         }
-        let paper = paper_row(heading, line);
+        let paper = heading.paper(&line.controller);
         let paper = paper.map(|[mean, sd]| format!("{mean:.4} ± {sd:.4}"));
         let own = lineup.certificates.get(&line.controller);
         let _ = writeln!(
@@ -193,6 +147,15 @@ as that can be. Gains of `bowden design` are for a plant that answers after the 
 heavy joint that swings may ring with them.
 ";
 
+const CHANGED_NOTES: &str = "
+Rig or gains are not the paper's: Table 3 does not compare with them. What is not given is the
+paper's or the reference rig's; matched-pi then has the integral gain that the paper's adaptive
+law has in effect (320). The frozen law starts with beta_hat at 1/alpha and delta_hat as given,
+and never adapts; the feed-forward knows the rig's own transmission, or the model that is given.
+A certificate bounds an idealised plant without sensor noise: `bowden certify` lists what each
+assumes.
+";
+
 fn lineup_json(heading: &Heading, lineup: &Lineup) -> String {
     let rows = lineup.lines.iter().map(|line| {
         let mut row = row(line);
@@ -200,7 +163,7 @@ fn lineup_json(heading: &Heading, lineup: &Lineup) -> String {
             Some(c) if c.value.is_some() => json!({ "kind": c.kind, "value": c.value }),
             _ => Value::Null,
         };
-        row["paper"] = match paper_row(heading, line) {
+        row["paper"] = match heading.paper(&line.controller) {
             Some([mean, sd]) => json!({ "mean": mean, "sd": sd }),
             None => Value::Null,
         };

@@ -1,6 +1,6 @@
 //! Output of `bowden compare --effect`: the loop closed through the controllers.
 
-use super::compare_rows::{conditions, row};
+use super::compare_rows::{conditions, own, row};
 use bowden_trials::facts::{Found, Heading, Line, Outcome, OverSeeds, Pair};
 use serde_json::{json, Value};
 use std::fmt::Write as _;
@@ -31,6 +31,7 @@ pub(super) fn text(heading: &Heading, found: &Found) -> String {
         "bowden compare --effect {}: {} N·m rms of it on the rig, declared to nobody; noise {} N·m rms, {} s\n\n",
         effect.name, effect.strength, heading.noise, heading.seconds
     );
+    out.push_str(&own(heading));
     for outcome in outcomes {
         out.push_str(&seed(outcome));
     }

@@ -11,6 +11,15 @@ pub(super) fn configuration(heading: &Heading) -> &'static str {
     }
 }
 
+/// What is the user's own, a line each, and an empty line below.
+pub(super) fn own(heading: &Heading) -> String {
+    let own = heading.own();
+    match own.is_empty() {
+        true => String::new(),
+        false => own.join("\n") + "\n\n",
+    }
+}
+
 pub(super) fn conditions(heading: &Heading) -> Value {
     json!({
         "noise": heading.noise,
@@ -22,6 +31,8 @@ pub(super) fn conditions(heading: &Heading) -> Value {
         "fed_with": heading.fed_with,
         "model": heading.model,
         "gains": heading.gains,
+        "setup": heading.setup,
+        "drive_gain": heading.drive_gain,
         "rig": heading.rig,
         "reference": heading.reference,
     })

@@ -1,5 +1,6 @@
 //! The TOML form: what it takes, and that it refuses the rest in one line.
 
+use super::shell::said;
 use super::{bowden, json, row};
 
 fn file(text: &str) -> (tempfile::TempDir, String) {
@@ -113,4 +114,40 @@ fn a_model_that_close_has_written_is_fed_forward() {
         "--json",
     ]);
     assert_eq!(row(&report, "adaptive-feed-forward")["diverged"], 0);
+}
+
+#[test]
+fn the_papers_results_stand_beside_the_papers_rig_and_gains_alone() {
+    let short = ["compare", "--seconds", "8", "--seeds", "1"];
+    let with = |more: &[&str]| said(&[&short, more].concat());
+    let (_weak, weak) = file("[pi]\nk_i = 9.0\n");
+    let (_light, light) = file("[rig]\nmotor_inertia = 0.1\n");
+    let (_same, same) = file("[pi]\nk_i = 18.0\n[rig]\nnoise = 0.1\n");
+    for own in [
+        &["--inertia", "0.4"][..],
+        &["--drive-gain", "0.5"],
+        &["--model", &weak],
+        &["--model", &light],
+    ] {
+        let table = with(own);
+        assert!(
+            !table.contains("0.5991") && !table.contains("Not reproduced"),
+            "{table}"
+        );
+        assert!(table.contains("not the paper's"), "{table}");
+    }
+    for paper in [
+        &["--noise", "0.02"][..],
+        &["--inertia", "0.2"],
+        &["--model", &same],
+    ] {
+        let table = with(paper);
+        assert!(
+            table.contains("0.5991") && table.contains("Not reproduced"),
+            "{table}"
+        );
+    }
+    // The table says what runs.
+    assert!(with(&["--inertia", "0.4"]).contains("Rig: inertia 0.4 kg·m²."));
+    assert!(with(&["--model", &weak]).contains("Gains and rig: those of gains.toml."));
 }

@@ -341,3 +341,66 @@ fn gains_and_rigs_that_make_no_sense_are_one_line() {
     ]);
     assert!(line.contains("oil.toml: the term viscous@oil"), "{line}");
 }
+
+/// Gains of `bowden design` for a drive of 1 N·m per command unit, which is its default.
+fn designed(place: &Place) -> (String, String) {
+    let (model, gains) = (place.model(), place.path("gains.toml"));
+    let asked = ["--rate", "500", "--delay", "0.006", "--out", &gains];
+    said(&[&["design", &model], asked.as_slice()].concat());
+    (model, gains)
+}
+
+#[test]
+fn designed_gains_run_on_no_rig_but_that_of_a_model() {
+    let place = Place::new();
+    let (_, gains) = designed(&place);
+    let line = refused(&["compare", "--gains", &gains, "--seeds", "1"]);
+    assert!(
+        line.contains("gains.toml: gains of `bowden design` need the model")
+            && line.contains("--model MODEL.toml"),
+        "{line}"
+    );
+    // A file of gains and rig has no model of its own.
+    let setup = place.write("setup.toml", "[rig]\nnoise = 0.02\n");
+    let line = refused(&[
+        "compare", "--model", &setup, "--gains", &gains, "--seeds", "1",
+    ]);
+    assert!(
+        line.contains("setup.toml: a model of `bowden close"),
+        "{line}"
+    );
+}
+
+#[test]
+fn the_rig_has_the_drive_gain_that_the_gains_were_designed_for() {
+    let place = Place::new();
+    let (model, gains) = designed(&place);
+    let fixed = [
+        "compare",
+        "--model",
+        &model,
+        "--gains",
+        &gains,
+        "--seconds",
+        "8",
+        "--seeds",
+        "1",
+    ];
+    let fixed = [&fixed, LIGHT.as_slice()].concat();
+    let with = |more: &[&str]| said(&[fixed.as_slice(), more].concat());
+    let json = |text: &str| serde_json::from_str::<Value>(text).unwrap();
+    let own = json(&with(&["--json"]));
+    let same = json(&with(&["--json", "--drive-gain", "1"]));
+    assert_eq!(own["conditions"]["drive_gain"], 1.0);
+    assert_eq!(own["rows"], same["rows"]);
+    let own = with(&[]);
+    assert!(
+        own.contains("Drive gain: 1 N·m/unit, which the gains were designed for."),
+        "{own}"
+    );
+    let other = with(&["--drive-gain", "0.6"]);
+    assert!(
+        other.contains("Drive gain: 0.6 N·m/unit; the gains were designed for 1 N·m/unit."),
+        "{other}"
+    );
+}

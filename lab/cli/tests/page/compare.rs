@@ -60,3 +60,48 @@ fn the_page_has_each_controller_with_the_conduit_at_rest_and_moved() {
         text(lead)
     );
 }
+
+/// The paper's results stand beside the paper's rig alone, and the page says whose rig it is.
+#[test]
+fn the_page_names_model_gains_and_rig_and_keeps_the_papers_results_out() {
+    let folder = Folder::new();
+    let (model, gains) = (folder.path("model.toml"), folder.path("gains.toml"));
+    let out = folder.path("compare.html");
+    let record = crate::example("straight.csv");
+    said(&["close", &record, "--rounds", "0", "--model-out", &model]);
+    let asked = ["--rate", "500", "--delay", "0.006", "--out", &gains];
+    said(&[&["design", &model], asked.as_slice()].concat());
+    let short = [
+        "compare",
+        "--seconds",
+        "8",
+        "--seeds",
+        "1",
+        "--report",
+        &out,
+    ];
+    let own = ["--model", &model, "--gains", &gains, "--inertia", "0.002"];
+    for (more, wanted) in [
+        (
+            &own[..],
+            &[
+                "model.toml",
+                "gains.toml",
+                "Drive gain: 1 N·m/unit",
+                "inertia 0.002 kg·m²",
+            ][..],
+        ),
+        (&["--inertia", "0.4"], &["Rig: inertia 0.4 kg·m²."]),
+    ] {
+        said(&[&short, more].concat());
+        let page = folder.read("compare.html");
+        assert_sound(&page);
+        assert!(!page.contains("0.5991"));
+        let document = parsed(&page);
+        let of_id = |n: &roxmltree::Node| n.attribute("id") == Some("verdict");
+        let verdict = elements(document.root(), "section").find(of_id).unwrap();
+        for words in wanted {
+            assert!(text(verdict).contains(words), "{words}: {}", text(verdict));
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! What the trials of a comparison were run under.
+
+use super::gains::GainsFile;
+use super::lineup::Laws;
+use super::own_rig::RigChanges;
+use super::setup::Setup;
+use bowden_rig::{Drift, RigConfig};
+use std::path::Path;
+
+/// What the trials were run under.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Heading {
+    /// White noise of the sensor \[N·m rms\].
+    pub noise: f64,
+    /// Whether the conduit was moved.
+    pub varying: bool,
+    /// Length of a trial \[s\].
+    pub seconds: f64,
+    /// From where errors count \[s\].
+    pub from: f64,
+    /// Length of the transient \[s\].
+    pub transient: f64,
+    /// Number of trials.
+    pub seeds: usize,
+    /// In what `--model` had to be changed to be fed forward, if in anything.
+    pub fed_with: Option<String>,
+    /// The model whose transmission the rig has, without folders; `None` of the reference rig's.
+    pub model: Option<String>,
+    /// The gains of `bowden design` that run, without folders; `None` of the paper's.
+    pub gains: Option<String>,
+    /// The drive gain that these gains were designed for \[N·m/unit\].
+    pub designed_drive_gain: Option<f64>,
+    /// The file of gains and rig, without folders, where there is one.
+    pub setup: Option<String>,
+    /// The rig's drive gain \[N·m/unit\].
+    pub drive_gain: f64,
+    /// The rig's numbers that were given one by one.
+    pub rig: RigChanges,
+    /// Between which values the reference moves \[N·m\], where it is not the paper's.
+    pub reference: Option<[f64; 2]>,
+    /// Whether rig, gains and reference are those of the paper's experiment, whatever the noise.
+    pub is_paper: bool,
+}
+
+impl Heading {
+    /// What is the user's own but for the model: gains, reference, numbers of the rig. A
+    /// sentence each.
+    #[must_use]
+    pub fn own(&self) -> Vec<String> {
+        let mut all = Vec::new();
+        if let Some(setup) = &self.setup {
+            all.push(format!("Gains and rig: those of {setup}."));
+        }
+        if let Some(gains) = &self.gains {
+            all.push(format!("Gains: those of {gains}."));
+        }
+        if let Some(designed) = self.designed_drive_gain {
+            let own = self.drive_gain;
+            #[allow(clippy::float_cmp)] // Copied, or typed: no arithmetic stands between.
+            all.push(match own == designed {
+                true => format!("Drive gain: {own} N·m/unit, which the gains were designed for."),
+                false => format!(
+                    "Drive gain: {own} N·m/unit; the gains were designed for {designed} N·m/unit."
+                ),
+            });
+        }
+        if let Some([low, high]) = self.reference {
+            all.push(format!(
+                "Reference: the paper's between {low:.2} and {high:.2} N·m, within what the model's record has covered."
+            ));
+        }
+        let rig = &self.rig;
+        let given = [
+            ("drive gain", rig.drive_gain, "N·m/unit"),
+            ("inertia", rig.motor_inertia, "kg·m²"),
+            ("damping", rig.motor_damping, "N·m·s/rad"),
+            ("joint inertia", rig.joint_inertia, "kg·m²"),
+            ("joint damping", rig.joint_damping, "N·m·s/rad"),
+            ("spring", rig.load_stiffness, "N·m/rad"),
+            ("drive lag", rig.drive_lag, "s"),
+            ("sensor lag", rig.sensor_lag, "s"),
+            ("delay", rig.delay.map(f64::from), "samples"),
+        ];
+        let given: Vec<String> = given
+            .iter()
+            .filter_map(|(name, value, unit)| Some(format!("{name} {} {unit}", (*value)?)))
+            .collect();
+        if !given.is_empty() {
+            all.push(format!("Rig: {}.", given.join(", ")));
+        }
+        all
+    }
+
+    /// Mean and standard deviation of a controller in Table 3 of the paper \[N·m\], where rig
+    /// and gains are the paper's and the controller has a row there.
+    #[must_use]
+    pub fn paper(&self, controller: &str) -> Option<[f64; 2]> {
+        let row = PAPER.iter().find(|row| row.0 == controller)?;
+        let row = if self.varying { row.2 } else { row.1 };
+        self.is_paper.then_some(row)
+    }
+}
+
+/// Table 3 of the paper: mean and standard deviation, fixed and varying \[N·m\].
+const PAPER: [(&str, [f64; 2], [f64; 2]); 4] = [
+    ("pi", [0.5991, 0.0154], [0.6034, 0.0182]),
+    ("pid", [0.6093, 0.0164], [0.6139, 0.0153]),
+    ("piv", [0.5320, 0.0134], [0.5323, 0.0186]),
+    ("adaptive", [0.3027, 0.0081], [0.3195, 0.0120]),
+];
+
+/// Whether rig and gains of a setup are those of Table 3: the noise may be another, since the
+/// comparison without it is told beside the paper's.
+pub(super) fn is_paper(setup: &Setup) -> bool {
+    let paper = Setup::default();
+    let drift = setup.rig.drift;
+    let rig = RigConfig {
+        noise: paper.rig.noise,
+        input_noise: paper.rig.input_noise,
+        drift: None,
+        ..setup.rig
+    };
+    let laws = |setup: &Setup| {
+        let laws = Laws::new(setup).ok()?;
+        Some([laws.pi, laws.pid, laws.piv, laws.matched_pi].map(|law| *law.settings()))
+    };
+    rig == paper.rig
+        && drift.is_none_or(|drift| drift == Drift::reference())
+        && laws(setup) == laws(&paper)
+        && setup.adaptive == paper.adaptive
+}
+
+/// The drive gain of the gains that run, where the rig is given none.
+pub(super) fn with_drive_gain(rig: RigChanges, gains: Option<&GainsFile>) -> RigChanges {
+    let designed = gains.map(|gains| gains.design.drive_gain);
+    RigChanges {
+        drive_gain: rig.drive_gain.or(designed),
+        ..rig
+    }
+}
+
+/// A file's name without folders.
+pub(super) fn file_name(path: &Path) -> String {
+    path.file_name().map_or_else(
+        || path.display().to_string(),
+        |n| n.to_string_lossy().into_owned(),
+    )
+}
