@@ -33,8 +33,8 @@ pub struct Compare {
     /// record has covered. Or gains, rig and model in one file.
     #[arg(long, value_name = "MODEL.toml")]
     model: Option<PathBuf>,
-    /// Gains of `bowden design`, with the model that they are for in --model; or gains, rig
-    /// and model in one file.
+    /// Gains of `bowden design`, with the model that they were designed for in --model; or
+    /// gains, rig and model in one file.
     #[arg(long, value_name = "GAINS.toml")]
     gains: Option<PathBuf>,
     #[command(flatten)]
@@ -54,7 +54,8 @@ pub struct Compare {
 /// Numbers of the rig.
 #[derive(Args)]
 struct RigOptions {
-    /// Motor torque of one command unit [N·m]; 0.6 where not given.
+    /// Torque at the proximal pulley per command unit [N·m]; where not given, that of the
+    /// --gains of `bowden design`, or 0.6.
     #[arg(long, value_name = "N·m", allow_negative_numbers = true)]
     drive_gain: Option<f64>,
     /// Inertia of motor and proximal pulley [kg·m²]; 0.2 where not given.

@@ -26,7 +26,8 @@ pub struct Design {
         allow_negative_numbers = true
     )]
     noise: f64,
-    /// Proximal torque of one command unit [N·m].
+    /// Torque at the proximal pulley per command unit [N·m], which `compare --gains` then
+    /// gives its rig.
     #[arg(
         long,
         value_name = "N·m",

@@ -39,7 +39,7 @@ pub struct DesignedFor {
     pub rate: f64,
     /// From the command to its measured torque \[s\].
     pub delay: f64,
-    /// Proximal torque of one command unit \[N·m/command unit\].
+    /// Torque at the proximal pulley per command unit \[N·m/command unit\].
     pub drive_gain: f64,
     /// Noise of the measured torque \[N·m rms\].
     pub noise: f64,

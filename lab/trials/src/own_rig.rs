@@ -14,7 +14,7 @@ use bowden_rig::{Reference, Rig, RigConfig};
 /// Numbers of the rig that are given one by one; what is not given stays.
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
 pub struct RigChanges {
-    /// Motor torque of one command unit \[N·m/unit\].
+    /// Torque at the proximal pulley per command unit \[N·m/unit\].
     pub drive_gain: Option<f64>,
     /// Inertia of motor and proximal pulley \[kg·m²\].
     pub motor_inertia: Option<f64>,

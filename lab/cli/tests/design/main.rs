@@ -404,3 +404,18 @@ fn the_rig_has_the_drive_gain_that_the_gains_were_designed_for() {
         "{other}"
     );
 }
+
+#[test]
+fn one_drive_gain_has_one_explanation() {
+    for (command, default) in [("design", "[default: 1]"), ("compare", "0.6")] {
+        let help = said(&[command, "--help"]);
+        let (_, help) = help.split_once("--drive-gain").unwrap();
+        let words: Vec<&str> = help.split_whitespace().take(40).collect();
+        let help = words.join(" ");
+        assert!(
+            help.contains("Torque at the proximal pulley per command unit [N·m]"),
+            "{help}"
+        );
+        assert!(help.contains(default), "{help}");
+    }
+}
