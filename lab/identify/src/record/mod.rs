@@ -43,6 +43,7 @@ mod series;
 mod sheet;
 mod source;
 mod text;
+mod thousands;
 mod time;
 mod units;
 

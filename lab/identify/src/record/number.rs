@@ -1,7 +1,8 @@
 //! One cell, one number.
 
 use super::error::{shown, Bad, RecordError};
-use std::cell::Cell;
+use super::thousands::Thousands;
+use std::cell::{Cell, RefCell};
 
 /// Beyond this a product of two values, or its square, would overflow.
 pub(super) const LARGEST: f64 = 1e150;
@@ -18,12 +19,14 @@ enum Sign {
 /// How a file writes its numbers: with a point or with a comma, never with both.
 ///
 /// The first cell that has either decides. A comma can stand in a number only where it does
-/// not separate cells. A file that mixes both is refused at the first cell of the other kind.
+/// not separate cells. A file that mixes both is refused at the first cell of the other kind,
+/// and so is a column whose commas may separate thousands.
 pub(super) struct Notation {
     comma_possible: bool,
     sign: Cell<Option<Sign>>,
     /// The line that decided.
     decided: Cell<usize>,
+    thousands: RefCell<Thousands>,
 }
 
 impl Notation {
@@ -32,6 +35,7 @@ impl Notation {
             comma_possible: separator != b',',
             sign: Cell::new(None),
             decided: Cell::new(0),
+            thousands: RefCell::default(),
         }
     }
 
@@ -40,8 +44,30 @@ impl Notation {
         self.sign.get() == Some(Sign::Comma)
     }
 
-    /// The number in a cell.
-    pub(super) fn read(&self, cell: &str, line: usize, column: &str) -> Result<f64, RecordError> {
+    /// The number in a cell of the column `index`.
+    pub(super) fn read_in(
+        &self,
+        index: usize,
+        cell: &str,
+        line: usize,
+        column: &str,
+    ) -> Result<f64, RecordError> {
+        let value = self.read(cell, line, column)?;
+        if self.comma_possible && self.sign.get() != Some(Sign::Point) {
+            self.thousands.borrow_mut().see(index, cell, line);
+        }
+        Ok(value)
+    }
+
+    /// Refuses commas that may separate thousands; `name` is that of a column.
+    pub(super) fn check<'n>(&self, name: impl Fn(usize) -> &'n str) -> Result<(), RecordError> {
+        match self.is_comma() {
+            true => self.thousands.borrow().check(name),
+            false => Ok(()),
+        }
+    }
+
+    fn read(&self, cell: &str, line: usize, column: &str) -> Result<f64, RecordError> {
         let parsed = match self.sign.get() {
             Some(Sign::Point) => cell.parse::<f64>().ok(),
             Some(Sign::Comma) if cell.contains('.') => {

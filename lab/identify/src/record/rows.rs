@@ -183,13 +183,18 @@ pub(super) fn read(
             Err(error) => {
                 let used: Vec<usize> = roles.time.into_iter().chain(roles.read()).collect();
                 let text = rows.text_below(&used).filter(|_| clock.rows() > 0);
-                let text = text.ok_or(error)?;
+                let Some(text) = text else {
+                    // Thousands in the stamps let time run backwards.
+                    rows.check(header)?;
+                    return Err(error);
+                };
                 let first = rows.line();
                 below = Some(passed_over(first, first + text - 1, "below the table"));
                 break;
             }
         }
     }
+    rows.check(header)?;
     clock.finish(header)?;
     long_enough(time.len(), &clock, dropped.all(), rows.line())?;
     let mut notes: Vec<String> = rows.note().into_iter().collect();

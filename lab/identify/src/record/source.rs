@@ -1,6 +1,7 @@
 //! Rows of numbers, whatever the file is.
 
 use super::error::RecordError;
+use super::header::Header;
 use super::layout::only_text;
 use super::number;
 use super::text;
@@ -57,6 +58,14 @@ impl Source<'_> {
         };
         let rest = rows.here();
         only_text(rest, rows.separator(), used).then(|| rest.split('\n').count())
+    }
+
+    /// Refuses numbers that may be read in two ways.
+    pub(super) fn check(&self, header: &Header) -> Result<(), RecordError> {
+        match self {
+            Self::Text(rows) => rows.notation().check(|index| &header.columns[index].name),
+            Self::Sheet(_) => Ok(()),
+        }
     }
 
     /// What is to be said of how numbers are written.

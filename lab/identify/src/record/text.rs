@@ -163,7 +163,8 @@ impl<'a> Row<'a> {
 
     /// The number in a cell.
     pub(super) fn number(&self, index: usize, column: &str) -> Result<f64, RecordError> {
-        self.notation.read(self.cell(index), self.line, column)
+        self.notation
+            .read_in(index, self.cell(index), self.line, column)
     }
 
     pub(super) fn cells(&self) -> impl Iterator<Item = &'a str> + '_ {

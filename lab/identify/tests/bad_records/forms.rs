@@ -48,6 +48,40 @@ fn a_decimal_comma_is_read_behind_semicolons_and_tabs() {
 }
 
 #[test]
+fn commas_that_may_separate_thousands_are_refused() {
+    let with = |force: &dyn Fn(usize) -> String, time: &dyn Fn(usize) -> String| {
+        let row = |i: usize| format!("{};{i},25;{}\n", time(i), force(i));
+        format!("t;x;f\n{}", (0..400).map(row).collect::<String>())
+    };
+    let seconds = |i: usize| format!("{},{:02}", i / 100, i % 100);
+    let grouped = |n: usize| match n {
+        1000.. => format!("{},{:03}", n / 1000, n % 1000),
+        _ => n.to_string(),
+    };
+    refused(
+        with(&|i| grouped(900 + i), &seconds),
+        "r.csv:102: column `f`: `1,000` may be 1.000 or 1000, beside `900` without a comma in \
+         line 2; thousands without a separator or the same decimals in every cell were expected",
+    );
+    // Time would run backwards at this place.
+    refused(
+        with(&|i| format!("{i},5"), &|i| grouped(10 * i)),
+        "r.csv:102: column `t`: `1,000` may be 1.000 or 1000, beside `0` without a comma in \
+         line 2; thousands without a separator or the same decimals in every cell were expected",
+    );
+    // Three decimals in every cell, four digits without a comma, another number of decimals.
+    for (force, value) in [
+        (&(|i: usize| format!("{},125", 900 + i)) as &dyn Fn(usize) -> String, 1000.125),
+        (&|i| if i == 100 { "1,197".into() } else { (900 + i).to_string() }, 1.197),
+        (&|i| if i == 7 { "1,2".into() } else { grouped(900 + i) }, 1.0),
+    ] {
+        let record = accepted(with(force, &seconds));
+        assert_eq!(record.output.values[100], value);
+        assert_eq!(record.notes, ["numbers have a decimal comma"]);
+    }
+}
+
+#[test]
 fn a_preamble_and_a_row_of_units_are_found() {
     let values = rows().join("\n");
     let preamble = "Prüfstand;3\nDatum;01.02.2026\nKanäle;3\n\nWeg x;Kraft f;Kommentar\n";

@@ -1,0 +1,136 @@
+//! Commas that may separate thousands.
+//!
+//! A program that writes decimals writes as many in every cell (`900,000`) or as few as the
+//! number needs (`1,2`); one that groups digits writes `900` and `1,197`. A column in which
+//! every comma stands behind one to three digits and before three, and which has whole numbers
+//! of at most three digits without a comma, is read in either way, so that it is refused.
+
+use super::error::{shown, RecordError};
+
+const CELL_LENGTH: usize = 24;
+
+/// A cell and its line.
+type Place = (usize, String);
+
+/// What the cells of one column say.
+#[derive(Clone, Default)]
+struct Column {
+    /// A cell that grouped digits do not have: the commas are decimal signs.
+    decimal: bool,
+    /// The first cell like `1,197`.
+    grouped: Option<Place>,
+    /// The first whole number of at most three digits without a comma.
+    whole: Option<Place>,
+}
+
+/// What the cells of a file say, column by column.
+#[derive(Default)]
+pub(super) struct Thousands {
+    columns: Vec<Column>,
+}
+
+impl Thousands {
+    /// Takes in a cell that holds a number.
+    pub(super) fn see(&mut self, index: usize, cell: &str, line: usize) {
+        if self.columns.len() <= index {
+            self.columns.resize(index + 1, Column::default());
+        }
+        let column = &mut self.columns[index];
+        if column.decimal || (column.grouped.is_some() && column.whole.is_some()) {
+            // Only a cell that decides is still of interest.
+            column.decimal |= decides(cell);
+        } else if decides(cell) {
+            column.decimal = true;
+        } else if cell.contains(',') {
+            column.grouped.get_or_insert_with(|| (line, cell.to_owned()));
+        } else if digits(cell).is_some() {
+            column.whole.get_or_insert_with(|| (line, cell.to_owned()));
+        }
+    }
+
+    /// Refuses the first cell that may be two numbers; `name` is that of a column.
+    pub(super) fn check<'n>(&self, name: impl Fn(usize) -> &'n str) -> Result<(), RecordError> {
+        let open = self.columns.iter().enumerate().filter_map(|(index, own)| {
+            let pair = own.grouped.as_ref().zip(own.whole.as_ref());
+            pair.filter(|_| !own.decimal).map(|pair| (index, pair))
+        });
+        let first = open.min_by_key(|(index, ((line, _), _))| (*line, *index));
+        let Some((index, ((line, grouped), (whole_line, whole)))) = first else {
+            return Ok(());
+        };
+        let number = grouped.trim_start_matches('+');
+        let message = format!(
+            "`{}` may be {} or {}, beside `{}` without a comma in line {whole_line}; thousands \
+             without a separator or the same decimals in every cell were expected",
+            shown(grouped, CELL_LENGTH),
+            number.replace(',', "."),
+            number.replace(',', ""),
+            shown(whole, CELL_LENGTH),
+        );
+        Err(RecordError::at(*line, message).on(name(index)))
+    }
+}
+
+/// The number of digits of a cell that holds a sign and digits alone.
+fn digits(cell: &str) -> Option<usize> {
+    let own = cell.strip_prefix(['+', '-']).unwrap_or(cell);
+    (!own.is_empty() && own.bytes().all(|b| b.is_ascii_digit())).then_some(own.len())
+}
+
+/// Whether a cell shows that commas do not group its column's digits: decimals that are not
+/// three, nothing but zero before them, or four digits and more without a comma.
+fn decides(cell: &str) -> bool {
+    match cell.split_once(',') {
+        None => digits(cell).is_some_and(|count| count > 3),
+        Some((before, behind)) => {
+            let leading = before.strip_prefix(['+', '-']).unwrap_or(before);
+            let group = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
+            !((1..=3).contains(&leading.len())
+                && group(leading)
+                && !leading.starts_with('0')
+                && behind.len() == 3
+                && group(behind))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(cells: &[&str]) -> Result<(), String> {
+        let mut thousands = Thousands::default();
+        for (i, cell) in cells.iter().enumerate() {
+            thousands.see(2, cell, i + 2);
+        }
+        thousands.check(|_| "f").map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn what_may_be_thousands_or_decimals_is_refused() {
+        for cells in [
+            &["900", "1,197", "1,203"][..],
+            &["-1,197", "-900", "12,500"],
+            &["0", "1,000", "2,000"],
+            &["999,999", "5"],
+        ] {
+            let line = check(cells).unwrap_err();
+            assert!(line.contains("column `f`: `"), "{cells:?}: {line}");
+        }
+        assert_eq!(
+            check(&["900", "1,197"]).unwrap_err(),
+            ":3: column `f`: `1,197` may be 1.197 or 1197, beside `900` without a comma in line 2; \
+             thousands without a separator or the same decimals in every cell were expected"
+        );
+    }
+
+    #[test]
+    fn one_cell_that_grouped_digits_do_not_have_decides_for_decimals() {
+        for decided in ["0,197", "1,19", "1,1970", "1,197e2", "1197", "-1234,567", "01,197"] {
+            assert_eq!(check(&["900", "1,197", decided]), Ok(()), "{decided}");
+            assert_eq!(check(&[decided, "900", "1,197"]), Ok(()), "{decided}");
+        }
+        assert_eq!(check(&["900,000", "1,197", "12,500"]), Ok(()));
+        assert_eq!(check(&["900", "12", "0"]), Ok(()));
+    }
+}
