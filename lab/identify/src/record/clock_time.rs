@@ -18,6 +18,11 @@ pub(super) fn seconds(cell: &str) -> Option<f64> {
     Some(days as f64 * 86_400.0 + of_day(time.strip_suffix('Z').unwrap_or(time))?)
 }
 
+/// Whether a stamp has a date before its time.
+pub(super) fn has_date(cell: &str) -> bool {
+    cell.contains([' ', 'T'])
+}
+
 /// `HH:MM:SS`, with decimals behind a point or a comma.
 fn of_day(time: &str) -> Option<f64> {
     let mut parts = time.split(':');
@@ -56,7 +61,7 @@ fn days(date: &str) -> Option<i64> {
         (_, Some([day, month, year])) => [year, month, day],
         _ => return None,
     };
-    if !(1000..=9999).contains(&year) || !(1..=12).contains(&month) || !(1..=31).contains(&day) {
+    if !(1000..=9999).contains(&year) || !(1..=length(year, month)?).contains(&day) {
         return None;
     }
     // March is the first month of the year here, so that a leap day is its last one.
@@ -65,6 +70,17 @@ fn days(date: &str) -> Option<i64> {
         _ => (year, month - 3),
     };
     Some(365 * year + year / 4 - year / 100 + year / 400 + (153 * month + 2) / 5 + day - EPOCH)
+}
+
+/// Days of a month; `None` where there is no such month.
+fn length(year: i64, month: i64) -> Option<i64> {
+    let leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    match month {
+        2 => Some(if leap { 29 } else { 28 }),
+        4 | 6 | 9 | 11 => Some(30),
+        1..=12 => Some(31),
+        _ => None,
+    }
 }
 
 #[cfg(test)]
@@ -79,6 +95,10 @@ mod tests {
         assert_eq!(
             apart("2024-02-28T23:59:59", "2024-03-01 00:00:00Z"),
             86_401.0
+        );
+        assert_eq!(
+            apart("2000-02-29 00:00:00", "2000-03-01 00:00:00"),
+            86_400.0
         );
         assert_eq!(apart("31.12.2025 23:59:59,5", "1.1.2026 00:00:00"), 0.5);
         assert_eq!(
@@ -99,6 +119,14 @@ mod tests {
             "1:2:3:4",
             "+1:00:00",
             "2026-13-01 00:00:00",
+            "2026-00-01 00:00:00",
+            "2026-01-00 00:00:00",
+            "2026-01-32 00:00:00",
+            "2026-02-29 00:00:00",
+            "2026-02-31 00:00:00",
+            "2024-02-30 00:00:00",
+            "2100-02-29 00:00:00",
+            "31.4.2026 00:00:00",
             "1,5",
             "",
             ":",

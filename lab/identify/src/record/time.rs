@@ -116,10 +116,13 @@ impl Clock {
                 let first = *self.first.get_or_insert(stamp);
                 let t = stamp - first;
                 if t < self.last {
-                    let message = format!(
-                        "time runs backwards, from {} to {stamp} s",
-                        first + self.last
-                    );
+                    let last = first + self.last;
+                    let midnight = match self.of_day && !has_date(row, index) {
+                        true => "; does the record pass midnight? Then add a date",
+                        false => "",
+                    };
+                    let message =
+                        format!("time runs backwards, from {last} to {stamp} s{midnight}");
                     return Err(RecordError::at(line, message).on(name));
                 }
                 if !fresh && t <= self.last {
@@ -221,6 +224,11 @@ fn of_day(row: &Row<'_>, index: usize, all: bool, first: bool) -> Result<Option<
         }
         stamp => Ok(stamp),
     }
+}
+
+/// Whether a time of day has its date before it.
+fn has_date(row: &Row<'_>, index: usize) -> bool {
+    row.text(index).is_some_and(clock_time::has_date)
 }
 
 /// Median time between two samples.

@@ -267,6 +267,36 @@ fn times_of_day_are_time_stamps() {
 }
 
 #[test]
+fn times_of_day_over_midnight_ask_for_a_date_and_dates_are_days_of_the_calendar() {
+    let over = |before: &str, after: &str| {
+        let stamp = |i: usize| match i {
+            0..=99 => format!("{before}23:59:59.{:02}", i),
+            _ => format!("{after}00:00:0{}.{:02}", i / 100 - 1, i % 100),
+        };
+        super::with_time("t,x,f", stamp)
+    };
+    refused(
+        over("", ""),
+        "r.csv:102: column `t`: time runs backwards, from 86399.99 to 0 s; does the record pass \
+         midnight? Then add a date",
+    );
+    let line = refusal(over("2026-03-01 ", "2026-03-01 "), &Options::default());
+    assert!(line.contains("time runs backwards") && !line.contains("midnight"), "{line}");
+    for (before, after) in [
+        ("2026-03-01 ", "2026-03-02 "),
+        ("2024-02-29T", "2024-03-01T"),
+        ("31.12.2025 ", "1.1.2026 "),
+    ] {
+        let record = accepted(over(before, after));
+        assert!((record.time[399] - 3.99).abs() < 3e-7, "{before}");
+    }
+    refused(
+        over("2026-02-28 ", "2026-02-29 "),
+        "r.csv:102: column `t`: `2026-02-29 00:00:00.00` is not a time of day as in the rows above",
+    );
+}
+
+#[test]
 fn bad_rows_are_left_out_where_that_is_asked_for() {
     let drop = Options {
         drop_bad: true,
