@@ -74,6 +74,9 @@ const WORTH: f64 = 1.1;
 /// Gain margin that a loop must keep whose every step is the longest one.
 const LONG_MARGIN: f64 = 1.4;
 
+/// Steps that are tried as the longest one \[samples\].
+const LONGER: [f64; 6] = [1.25, 1.5, 2.0, 3.0, 4.0, 5.0];
+
 /// PI or PID, with what it gives.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PidDesign {
@@ -122,7 +125,8 @@ pub struct Bounds {
     pub low: f64,
     /// Greatest command \[command unit\].
     pub high: f64,
-    /// Least slew rate that cuts no noise, `2·k_p·noise·rate` \[command unit/s\].
+    /// Least slew rate that cuts no noise, `2·(k_p + k_i/rate)·6·noise·rate`; with a derivative
+    /// that helps, `k_p` is increased by `k_d/(derivative_time + 1/rate)` \[command unit/s\].
     pub slew_of_noise: f64,
     /// Greatest rate that the record has covered \[command unit/s\].
     pub slew_of_record: f64,
@@ -371,10 +375,10 @@ impl Units {
     }
 }
 
-/// The longest step at which the loop would keep a margin, of 1.5 to 5 samples \[s\].
+/// The longest of these steps at which the PI loop keeps [`LONG_MARGIN`] \[s\].
 fn longest_step(gains: Gains, delay: f64, h: f64) -> f64 {
-    let mut longest = 1.5;
-    for ratio in [2.0, 3.0, 4.0, 5.0] {
+    let mut longest = 1.0;
+    for ratio in LONGER {
         let own = linear::margins(gains.at_step(ratio), samples(delay, ratio * h));
         if own.gain < LONG_MARGIN {
             break;

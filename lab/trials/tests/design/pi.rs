@@ -181,7 +181,7 @@ fn a_loop_at_the_longest_dt_still_settles() {
         let numbers = [0.9, 2.0, 0.0, 0.2, 0.6, 2.0];
         let own = designed(numbers, &asked);
         let ratio = own.bounds.longest_dt * asked.rate;
-        assert!((1.5..=5.0).contains(&ratio), "{ratio}");
+        assert!((1.25..=5.0).contains(&ratio), "{ratio}");
         let slow = Question {
             rate: asked.rate / ratio,
             ..asked
@@ -189,5 +189,24 @@ fn a_loop_at_the_longest_dt_still_settles() {
         let count = (delay / own.bounds.longest_dt + 1e-9).floor() as usize + 1;
         let all = errors(numbers, free(&own.gains.pi, 1.0), (&slow, count), &[5.0]);
         assert!(all[all.len() - 1].abs() < 0.1, "{delay}: {ratio}");
+    }
+}
+
+#[test]
+fn a_loop_at_the_longest_dt_keeps_its_gain_margin() {
+    // Without hysteresis the cable has one slope, for which the margin is stated.
+    let numbers = [0.9, 0.0, 0.0, 0.2, 0.6, 2.0];
+    for delay in [0.0, 0.0005, 0.001, 0.004, 0.02] {
+        let asked = Question { delay, ..ASKED };
+        let own = designed(numbers, &asked);
+        let slow = Question {
+            rate: 1.0 / own.bounds.longest_dt,
+            ..asked
+        };
+        let count = (delay / own.bounds.longest_dt + 1e-9).floor() as usize + 1;
+        let all = errors(numbers, free(&own.gains.pi, 1.38), (&slow, count), &[5.0]);
+        let last = all.iter().rev().take(10 * count);
+        let last = last.fold(0.0, |most: f64, e| most.max(e.abs()));
+        assert!(last < 5.0, "{delay}: {last}");
     }
 }
