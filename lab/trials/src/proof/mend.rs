@@ -20,13 +20,22 @@ pub(super) fn words(form: &Form, inequality: &Inequality) -> String {
         ),
         Named::Steepness => {
             let rate = format!("a rate of at least {} Hz", up(left / step));
+            // What k + delta/epsilon may be.
             let room = 1.0 / (step * lambda * g);
+            let slope = form.delta.0[1] / form.epsilon.0;
+            let least_k = 1.0 / (lambda * lambda);
             if room > k {
                 let epsilon = up(form.delta.0[1] / (room - k));
                 let delta = down((room - k) * form.epsilon.0);
                 format!("{rate}, epsilon of at least {epsilon} N·m, or a box of delta_hat up to {delta} N·m")
+            } else if room - slope > least_k {
+                format!("{rate}, or k of at most {}", down(room - slope))
             } else {
-                format!("{rate}, or k below {}", down(room))
+                format!(
+                    "{rate}, or k + delta_hat/epsilon of at most {} in place of {k} + {}",
+                    down(room),
+                    up(slope)
+                )
             }
         }
         Named::Stiffness => format!("k above 1/lambda² = {}", up(1.0 / (lambda * lambda))),
