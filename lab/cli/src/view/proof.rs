@@ -1,5 +1,6 @@
 //! `bowden certify GAINS.toml`: what is proved of one's own gains.
 
+use super::decimal::{fixed, scientific, Towards};
 use bowden_trials::facts::Proof;
 use std::fmt::Write as _;
 
@@ -18,10 +19,10 @@ pub fn text(proof: &Proof, label: &str) -> String {
     let float = proof.float.name();
     match &proof.refused {
         None => {
-            let (error, s) = (above(proof.error.value), above(proof.s.value));
+            let (error, s) = (above(proof.error.high), above(proof.s.high));
             let _ = writeln!(
                 out,
-                "PROVED in {float}, every rounding included: |e| <= {error:.4} N·m, |s| <= {s:.4} N·m at every sample\n"
+                "PROVED in {float}, every rounding included: |e| <= {error} N·m, |s| <= {s} N·m at every sample\n"
             );
         }
         Some(refusal) => {
@@ -34,28 +35,26 @@ pub fn text(proof: &Proof, label: &str) -> String {
     }
     let _ = writeln!(
         out,
-        "|w| <= {:.4} N·m, which moves by at most {:.4} N·m/s; g = alpha·beta_hat in [{:.3}, {:.3}]",
-        proof.w.value, proof.xi.value, proof.g[0].value, proof.g[1].value
+        "|w| <= {} N·m, which moves by at most {} N·m/s; g = alpha·beta_hat in [{}, {}]",
+        above(proof.w.high),
+        above(proof.xi.high),
+        fixed(proof.g[0].low, 3, Towards::Below),
+        fixed(proof.g[1].high, 3, Towards::Above)
     );
     let rounded = &proof.roundings;
     let _ = writeln!(
         out,
-        "rounding a step: s {:.1e} N·m, command {:.1e}, z {:.1e} N·m·s, of which owed from the step before {:.1e} and {:.1e}\n",
-        rounded.s.value,
-        rounded.command.value,
-        rounded.z.value,
-        rounded.owed_by_command.value,
-        rounded.owed_by_z.value
+        "rounding a step: s {} N·m, command {}, z {} N·m·s, of which owed from the step before {} and {}\n",
+        short(rounded.s.high),
+        short(rounded.command.high),
+        short(rounded.z.high),
+        short(rounded.owed_by_command.high),
+        short(rounded.owed_by_z.high)
     );
     for sides in &proof.inequalities {
-        let _ = writeln!(
-            out,
-            "{}  {:>12.6e} <= {:<12.6e}  {}",
-            if sides.holds { "holds" } else { "FAILS" },
-            sides.left.value,
-            sides.right.value,
-            sides.text
-        );
+        let (left, right) = both(sides.left.high, sides.right.low, sides.holds);
+        let holds = if sides.holds { "holds" } else { "FAILS" };
+        let _ = writeln!(out, "{holds}  {left:>12} <= {right:<12}  {}", sides.text);
     }
     out.push_str("\nTo check:\n");
     for assumption in proof.assumptions {
@@ -65,6 +64,30 @@ pub fn text(proof: &Proof, label: &str) -> String {
 }
 
 /// Four decimals that are not below the number.
-fn above(x: f64) -> f64 {
-    (x * 1e4).ceil() / 1e4
+fn above(x: f64) -> String {
+    fixed(x, 4, Towards::Above)
+}
+
+/// Two digits that are not below the number.
+fn short(x: f64) -> String {
+    scientific(x, 1, Towards::Above)
+}
+
+/// Decimals that are enough for any two different `f64`.
+const MOST_DECIMALS: usize = 17;
+
+/// Both sides rounded against the inequality, with as many decimals as show whether it holds.
+fn both(left: f64, right: f64, holds: bool) -> (String, String) {
+    let with = |places: usize| {
+        (
+            scientific(left, places, Towards::Above),
+            scientific(right, places, Towards::Below),
+        )
+    };
+    let shows = |(left, right): &(String, String)| {
+        let number = |text: &str| text.parse().unwrap_or(f64::NAN);
+        (number(left) <= number(right)) == holds
+    };
+    let mut tried = (6..MOST_DECIMALS).map(with);
+    tried.find(shows).unwrap_or_else(|| with(MOST_DECIMALS))
 }

@@ -84,6 +84,107 @@ fn what_is_said_to_mend_mends() {
     }
 }
 
+/// The same where k itself is too great, alone or together with delta_hat/epsilon.
+#[test]
+fn what_is_said_to_mend_a_large_k_mends() {
+    let given = std::fs::read_to_string(example("gains_refused.toml")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("gains.toml");
+    let path = path.to_str().unwrap();
+    let certify = |rate: f64, k: f64, epsilon: f64| {
+        let own = given
+            .replace("step = 0.0005 ", &format!("step = {} ", 1.0 / rate))
+            .replace("k = 17.3", &format!("k = {k}"))
+            .replace("epsilon = 0.015", &format!("epsilon = {epsilon}"));
+        std::fs::write(path, own).unwrap();
+        text(&bowden(&["certify", path]).stdout).to_owned()
+    };
+    let after = |report: &str, words: &str| -> f64 {
+        let (_, rest) = report
+            .split_once(words)
+            .unwrap_or_else(|| panic!("{words}: {report}"));
+        let number = rest.split([' ', '\n', ',']).next().unwrap();
+        number.parse().unwrap()
+    };
+    for (epsilon, words) in [
+        (0.1, "or k of at most "),
+        (0.015, "or k + delta_hat/epsilon of at most "),
+    ] {
+        let (rate, k) = (1000.0, 230.0);
+        let refused = certify(rate, k, epsilon);
+        assert!(refused.contains("NOT PROVED"), "{refused}");
+        let room = after(&refused, words);
+        let (k_room, wider) = match epsilon {
+            0.1 => (room, epsilon),
+            _ => (0.5 * room, 5.0 / (0.5 * room)),
+        };
+        let with_k = certify(rate, k_room, wider * (1.0 + 1e-6));
+        let holds = |report: &str| {
+            let line = report
+                .lines()
+                .find(|l| l.contains("  h*lambda*g+*(k + delta*q) <= 1"));
+            line.is_some_and(|l| l.starts_with("holds "))
+        };
+        assert!(holds(&with_k), "{k_room}, {wider}: {with_k}");
+        assert!(with_k.contains("\nPROVED"), "{k_room}, {wider}: {with_k}");
+        let with_rate = certify(after(&refused, "a rate of at least "), k, epsilon);
+        assert!(holds(&with_rate), "{with_rate}");
+    }
+}
+
+#[test]
+fn both_sides_are_rounded_against_the_inequality() {
+    let own = std::fs::read_to_string(example("gains_own.toml")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("gains.toml");
+    let certify = |z_limit: f64| {
+        let line = own.lines().find(|l| l.starts_with("z_limit = ")).unwrap();
+        std::fs::write(&path, own.replace(line, &format!("z_limit = {z_limit:?}"))).unwrap();
+        let path = path.to_str().unwrap();
+        let json = bowden(&["certify", path, "--json"]).stdout;
+        let json: serde_json::Value = serde_json::from_slice(&json).unwrap();
+        (text(&bowden(&["certify", path]).stdout).to_owned(), json)
+    };
+    let needed = certify(0.5).1["inequalities"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .find(|own| own["name"] == "z-limit")
+        .and_then(|own| own["left"]["value"].as_f64())
+        .unwrap();
+    for factor in [1.0 - 1e-3, 1.0 - 2e-7, 1.0 + 2e-7, 1.0 + 1e-3] {
+        let (report, json) = certify(needed * factor);
+        let printed = report.lines().filter_map(|line| {
+            let (word, rest) = line.split_once("  ")?;
+            let (left, rest) = rest.split_once(" <= ")?;
+            let number = |text: &str| text.trim().parse::<f64>().ok();
+            Some((word, number(left)?, number(rest.split("  ").next()?)?))
+        });
+        let printed: Vec<_> = printed.collect();
+        let all = json["inequalities"].as_array().unwrap();
+        assert_eq!(printed.len(), all.len());
+        for ((word, left, right), own) in printed.into_iter().zip(all) {
+            let value = |side: &str| own[side]["value"].as_f64().unwrap();
+            assert!(left >= value("left") && right <= value("right"), "{report}");
+            assert_eq!(left <= right, word == "holds", "{report}");
+        }
+        let (_, line) = report.split_once("\n|w| <= ").unwrap();
+        let mut numbers = line
+            .split([' ', ',', '[', ']', '\n'])
+            .filter_map(|t| t.parse().ok());
+        let mut next = || -> f64 { numbers.next().unwrap() };
+        let value = |own: &serde_json::Value| own["value"].as_f64().unwrap();
+        assert!(
+            next() >= value(&json["w"]) && next() >= value(&json["xi"]),
+            "{report}"
+        );
+        assert!(
+            next() <= value(&json["g"][0]) && next() >= value(&json["g"][1]),
+            "{report}"
+        );
+    }
+}
+
 #[test]
 fn a_file_that_is_none_is_refused_with_file_line_and_column() {
     for (from, to, parts) in [

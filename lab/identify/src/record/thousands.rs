@@ -42,7 +42,9 @@ impl Thousands {
         } else if decides(cell) {
             column.decimal = true;
         } else if cell.contains(',') {
-            column.grouped.get_or_insert_with(|| (line, cell.to_owned()));
+            column
+                .grouped
+                .get_or_insert_with(|| (line, cell.to_owned()));
         } else if digits(cell).is_some() {
             column.whole.get_or_insert_with(|| (line, cell.to_owned()));
         }
@@ -126,7 +128,15 @@ mod tests {
 
     #[test]
     fn one_cell_that_grouped_digits_do_not_have_decides_for_decimals() {
-        for decided in ["0,197", "1,19", "1,1970", "1,197e2", "1197", "-1234,567", "01,197"] {
+        for decided in [
+            "0,197",
+            "1,19",
+            "1,1970",
+            "1,197e2",
+            "1197",
+            "-1234,567",
+            "01,197",
+        ] {
             assert_eq!(check(&["900", "1,197", decided]), Ok(()), "{decided}");
             assert_eq!(check(&[decided, "900", "1,197"]), Ok(()), "{decided}");
         }

@@ -71,9 +71,30 @@ fn commas_that_may_separate_thousands_are_refused() {
     );
     // Three decimals in every cell, four digits without a comma, another number of decimals.
     for (force, value) in [
-        (&(|i: usize| format!("{},125", 900 + i)) as &dyn Fn(usize) -> String, 1000.125),
-        (&|i| if i == 100 { "1,197".into() } else { (900 + i).to_string() }, 1.197),
-        (&|i| if i == 7 { "1,2".into() } else { grouped(900 + i) }, 1.0),
+        (
+            &(|i: usize| format!("{},125", 900 + i)) as &dyn Fn(usize) -> String,
+            1000.125,
+        ),
+        (
+            &|i| {
+                if i == 100 {
+                    "1,197".into()
+                } else {
+                    (900 + i).to_string()
+                }
+            },
+            1.197,
+        ),
+        (
+            &|i| {
+                if i == 7 {
+                    "1,2".into()
+                } else {
+                    grouped(900 + i)
+                }
+            },
+            1.0,
+        ),
     ] {
         let record = accepted(with(force, &seconds));
         assert_eq!(record.output.values[100], value);
@@ -281,7 +302,10 @@ fn times_of_day_over_midnight_ask_for_a_date_and_dates_are_days_of_the_calendar(
          midnight? Then add a date",
     );
     let line = refusal(over("2026-03-01 ", "2026-03-01 "), &Options::default());
-    assert!(line.contains("time runs backwards") && !line.contains("midnight"), "{line}");
+    assert!(
+        line.contains("time runs backwards") && !line.contains("midnight"),
+        "{line}"
+    );
     for (before, after) in [
         ("2026-03-01 ", "2026-03-02 "),
         ("2024-02-29T", "2024-03-01T"),

@@ -62,13 +62,32 @@ pub struct Number {
     pub exact: String,
     /// The nearest `f64`.
     pub value: f64,
+    /// The greatest `f64` that is not above the number.
+    #[serde(skip)]
+    pub low: f64,
+    /// The least `f64` that is not below the number.
+    #[serde(skip)]
+    pub high: f64,
 }
 
 impl From<Dyadic> for Number {
     fn from(number: Dyadic) -> Self {
+        let value = number.as_f64();
+        let nearest = Dyadic::of(value);
         Self {
             exact: number.to_string(),
-            value: number.as_f64(),
+            value,
+            // A number beyond the floats has an infinite nearest one.
+            low: if nearest > number || value.is_infinite() {
+                value.next_down()
+            } else {
+                value
+            },
+            high: if nearest < number {
+                value.next_up()
+            } else {
+                value
+            },
         }
     }
 }

@@ -1,0 +1,103 @@
+//! Decimals rounded in a direction: `format!` rounds to the nearest one.
+
+/// Which way a decimal may differ from its number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Towards {
+    /// Not above the number.
+    Below,
+    /// Not below the number.
+    Above,
+}
+
+/// More decimals than any `f64` has.
+const ALL: usize = 1080;
+
+/// With `places` decimals.
+#[must_use]
+pub fn fixed(x: f64, places: usize, to: Towards) -> String {
+    if !x.is_finite() {
+        return x.to_string();
+    }
+    let (cut, _) = cut(&format!("{:.ALL$}", x.abs()), places, grows(x, to));
+    signed(x, cut)
+}
+
+/// As `1.5e-3`, with `places` decimals.
+#[must_use]
+pub fn scientific(x: f64, places: usize, to: Towards) -> String {
+    if !x.is_finite() {
+        return x.to_string();
+    }
+    let exact = format!("{:.ALL$e}", x.abs());
+    let (mantissa, exponent) = exact.split_once('e').unwrap_or((&exact, "0"));
+    let (cut, carried) = cut(mantissa, places, grows(x, to));
+    let exponent = exponent.parse::<i32>().unwrap_or_default();
+    match carried {
+        // 9.99 became 10.00.
+        true => signed(x, format!("1.{:0<places$}e{}", "", exponent + 1)),
+        false => signed(x, format!("{cut}e{exponent}")),
+    }
+}
+
+fn grows(x: f64, to: Towards) -> bool {
+    (to == Towards::Above) != (x < 0.0)
+}
+
+fn signed(x: f64, text: String) -> String {
+    if x < 0.0 {
+        format!("-{text}")
+    } else {
+        text
+    }
+}
+
+/// A decimal without what is behind `places`, one more in its last place where that was not
+/// zero and `up`; and whether it has one digit more by that.
+fn cut(exact: &str, places: usize, up: bool) -> (String, bool) {
+    let (whole, behind) = exact.split_once('.').unwrap_or((exact, ""));
+    let (kept, rest) = behind.split_at(places.min(behind.len()));
+    let mut digits: Vec<u8> = whole.bytes().chain(kept.bytes()).collect();
+    let mut carry = up && rest.bytes().any(|digit| digit != b'0');
+    for digit in digits.iter_mut().rev() {
+        if !carry {
+            break;
+        }
+        carry = *digit == b'9';
+        *digit = if carry { b'0' } else { *digit + 1 };
+    }
+    if carry {
+        digits.insert(0, b'1');
+    }
+    let mut text: String = digits.into_iter().map(char::from).collect();
+    if !kept.is_empty() {
+        text.insert(text.len() - kept.len(), '.');
+    }
+    (text, carry)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Towards::{Above, Below};
+    use super::*;
+
+    #[test]
+    fn decimals_lie_on_their_side_of_the_number() {
+        assert_eq!(fixed(0.264_222_85, 4, Above), "0.2643");
+        assert_eq!(fixed(0.264_222_85, 4, Below), "0.2642");
+        assert_eq!(fixed(9.999_96, 4, Above), "10.0000");
+        assert_eq!(fixed(0.5, 4, Above), "0.5000");
+        assert_eq!(fixed(-1.23, 1, Above), "-1.2");
+        assert_eq!(fixed(-1.23, 1, Below), "-1.3");
+        assert_eq!(fixed(2.5, 0, Above), "3");
+        // The double beside 0.1 is above it.
+        assert_eq!(fixed(0.1, 1, Above), "0.2");
+        assert_eq!(fixed(0.1, 1, Below), "0.1");
+        assert_eq!(scientific(0.264_222_85, 6, Above), "2.642229e-1");
+        assert_eq!(scientific(0.264_222_85, 6, Below), "2.642228e-1");
+        assert_eq!(scientific(9.99e5, 1, Above), "1.0e6");
+        assert_eq!(scientific(0.0, 6, Above), "0.000000e0");
+        assert_eq!(scientific(1.0, 6, Above), "1.000000e0");
+        assert_eq!(scientific(5e-324, 1, Below), "4.9e-324");
+        assert_eq!(scientific(f64::INFINITY, 1, Below), "inf");
+    }
+}
