@@ -198,16 +198,20 @@ impl LeftOut {
 
 /// Index of the model to deliver, of models in the order in which they are preferred: the first
 /// one that errs on left-out blocks as little as the best, or more by no more than chance.
+///
+/// The declared model, the first of them, is delivered only where it errs least: the first
+/// addition has passed the test of the search against it.
 #[must_use]
 pub fn delivered(data: &Prepared, models: &[&Solution]) -> usize {
     use rayon::prelude::*;
     let errors: Vec<LeftOut> = models.par_iter().map(|s| LeftOut::of(data, s)).collect();
     let best = errors.iter().min_by(|a, b| a.error.total_cmp(&b.error));
     best.map_or(0, |best| {
-        let first = errors.iter().position(|one| {
-            std::ptr::eq(one, best) || (one.error.is_finite() && one.is_as_good_as(best))
-        });
-        first.unwrap_or(0)
+        let does = |(index, one): (usize, &LeftOut)| {
+            std::ptr::eq(one, best)
+                || (index > 0 && one.error.is_finite() && one.is_as_good_as(best))
+        };
+        errors.iter().enumerate().position(does).unwrap_or(0)
     })
 }
 
