@@ -58,7 +58,7 @@ pub struct Question {
     pub delay: f64,
     /// Noise of the measured torque \[N·m rms\].
     pub noise: f64,
-    /// Proximal torque of one command unit \[N·m/command unit\].
+    /// Torque at the proximal pulley per command unit \[N·m/command unit\].
     pub drive_gain: f64,
 }
 

@@ -1,4 +1,4 @@
-//! A certificate as what other people's tools check from nothing: Coq and Gappa.
+//! A certificate in the forms that Coq and Gappa check independently of this program.
 //!
 //! Neither believes a number of the program, so the numbers here are computed in plain
 //! floats, a little on the safe side, and rounded to few bits.
