@@ -1,13 +1,13 @@
 //! K2, K12: the whole shipped step of the lag form.
 
-use super::super::{Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState};
+use super::super::{Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, AdaptiveTerms};
 use super::super::{ErrorState, Estimator, Form, SmoothSign};
-use super::samples::any_virtual_command;
 use crate::control::status::Held;
 use crate::proofs::any::within;
 use crate::proofs::properties::control::the_lag_does_not_pass_its_target;
 use crate::proofs::properties::tracking::{the_law_keeps_the_box, StaticPlant};
 use crate::signal::Compensated;
+use crate::Real;
 
 /// Table 2 in lag form at 1 kHz on a plant of known gain, estimates at rest.
 fn paper() -> Adaptive<f32, 0> {
@@ -52,6 +52,17 @@ fn slow_tracking_box_of_the_law() {
     assert!(kept);
 }
 
+/// The reference that comes next: any number that a sample may hold, and the same one each
+/// time that it is asked for. A law that returned another number to the step than to its
+/// telemetry would let the one be finite and the other not.
+fn next_reference<T: Real, const N: usize>(
+    _: &Adaptive<T, N>,
+    _: &AdaptiveTerms<T, N>,
+    input: &AdaptiveInput<T, N>,
+) -> T {
+    input.next_reference
+}
+
 /// K12. The lag's command lies between the one before and its target, but for the rounding
 /// of one subtraction and one sum.
 ///
@@ -59,13 +70,17 @@ fn slow_tracking_box_of_the_law() {
 /// command. (A claim about one step.)
 #[kani::proof]
 #[kani::unwind(5)]
-#[kani::stub(Adaptive::virtual_command, any_virtual_command)]
+#[kani::stub(Adaptive::virtual_command, next_reference)]
 fn lag_between() {
     let law = paper();
     let mut state = AdaptiveState::new(&law);
     let before = within(-1000.0, 1000.0);
     state.lag = Compensated::new(before);
-    let out = law.step_with_terms(&mut state, &AdaptiveInput::new(0.001, 0.0, 0.0, []));
+    let input = AdaptiveInput {
+        next_reference: kani::any(),
+        ..AdaptiveInput::new(0.001, 0.0, 0.0, [])
+    };
+    let out = law.step_with_terms(&mut state, &input);
     kani::cover!(out.terms.law > before && out.terms.law < out.terms.virtual_command);
     assert!(the_lag_does_not_pass_its_target(before, 0.0, &out));
 }
