@@ -53,7 +53,7 @@ fn the_report_of_something_unknown_says_so_in_both_forms_and_is_the_same_on_one_
     let sentence = report["sentence"].as_str().unwrap();
     assert!(sentence.contains("depends on x"), "{sentence}");
     let ledger = text(&facts, false);
-    assert!(ledger.contains("unknown: The residual depends on x; the catalogue explains"));
+    assert!(ledger.contains("unknown: The residual depends on x; to first order the best one"));
 
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(1)
