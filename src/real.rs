@@ -33,6 +33,9 @@ pub(crate) mod sealed {
         fn coarse_power(self, exponent: Self) -> Self;
         /// The power of 2 at a number above zero, or next below it.
         fn binade(self) -> Self;
+        /// Whether it is above zero and at most `longest`, a number above zero: one comparison
+        /// of bits, which those of negative numbers, infinities and NaN fail.
+        fn is_step(self, longest: Self) -> bool;
     }
 
     impl Sealed for f32 {
@@ -75,6 +78,10 @@ pub(crate) mod sealed {
         fn binade(self) -> Self {
             Self::from_bits(self.to_bits() & 0xff80_0000)
         }
+        #[inline]
+        fn is_step(self, longest: Self) -> bool {
+            self.to_bits().wrapping_sub(1) < longest.to_bits()
+        }
     }
 
     impl Sealed for f64 {
@@ -116,6 +123,10 @@ pub(crate) mod sealed {
         #[inline]
         fn binade(self) -> Self {
             Self::from_bits(self.to_bits() & 0xfff0_0000_0000_0000)
+        }
+        #[inline]
+        fn is_step(self, longest: Self) -> bool {
+            self.to_bits().wrapping_sub(1) < longest.to_bits()
         }
     }
 
@@ -292,6 +303,22 @@ mod tests {
             let t = confined(x, value);
             prop_assert!(t.abs() <= 1.0 && t.abs() <= x.abs());
             prop_assert_eq!(t.is_sign_negative(), x.is_sign_negative());
+        }
+
+        /// The comparison of bits is the two comparisons of numbers.
+        #[test]
+        fn a_step_is_above_zero_and_at_most_the_longest(
+            dt in any::<f32>(), bits in any::<u32>(), longest in 1e-30_f32..1e30, like: bool
+        ) {
+            for x in [dt, f32::from_bits(bits), if like { longest } else { longest.next_up() }] {
+                prop_assert_eq!(x.is_step(longest), x > 0.0 && x <= longest);
+                let (wide, most) = (f64::from(x), f64::from(longest));
+                prop_assert_eq!(wide.is_step(most), wide > 0.0 && wide <= most);
+            }
+            for x in [0.0, -0.0, f32::INFINITY, f32::NAN, -f32::NAN, f32::NEG_INFINITY] {
+                prop_assert!(!x.is_step(f32::MAX) && !f64::from(x).is_step(f64::MAX));
+            }
+            prop_assert!(f32::from_bits(1).is_step(longest) && f64::from_bits(1).is_step(1.0));
         }
 
         /// What libm returns rightly stays to the bit.

@@ -26,7 +26,7 @@ pub use settings::{AntiWindup, Damping, PidSettings};
 pub use signals::{PidInput, PidOutput, PidTerms};
 pub use state::PidState;
 
-use super::status::{fault_of_dt, first_fault, Latch};
+use super::status::{fault_of_dt, first_fault, rarely, Latch};
 use super::{Fault, Output, Status};
 use crate::error::is_usable;
 use crate::signal::{clamp, Compensated, Derivative};
@@ -152,7 +152,15 @@ impl<T: Real> Pid<T> {
                 return Output { command, status };
             }
         }
-        self.exception(state, at)
+        // Number by number, so that the sample of a good step stays in registers.
+        let sample = PidInput {
+            dt: at.dt,
+            reference: at.reference,
+            measured: at.measured,
+            velocity: at.velocity,
+            feed_forward: at.feed_forward,
+        };
+        self.exception(state, &sample)
     }
 
     /// The same, and every term for telemetry: [`terms`](Self::terms) after the step.
@@ -231,7 +239,7 @@ impl<T: Real> Pid<T> {
         if let Some(fault) = first_fault(&[(output, Fault::Command)]).or_else(|| self.fault(at)) {
             return Err(fault);
         }
-        let mut last = Last::of(at);
+        let mut last = Last::at(at).with_known_velocity();
         let rest = self.rest(&last, T::ZERO);
         let command = self.settings.limits.confine(output);
         let integral = self.confine(command - rest);
@@ -244,49 +252,86 @@ impl<T: Real> Pid<T> {
         }
     }
 
+    /// A good sample with rate and integral as they are.
+    fn without_integrating(&self, state: &PidState<T>, at: &PidInput<T>) -> Result<Last<T>, Fault> {
+        let mut last = Last::at(at).with_known_velocity();
+        last.unlimited = self.rest(&last, state.rate) + state.integral.value;
+        last.command = self
+            .settings
+            .limits
+            .apply(state.command(), last.unlimited, at.dt);
+        if is_usable(last.unlimited) {
+            Ok(last)
+        } else {
+            Err(Fault::Overflow)
+        }
+    }
+
     /// The command of a good sample, which moves the state; `None`, and nothing has moved,
     /// where a number cannot be used or the law overflows.
     ///
-    /// Not inlined: the exceptions call it too, and a copy is 1 KB of flash.
-    #[inline(never)]
+    /// One test at the end for all numbers of the sample: one that is not finite leaves no finite
+    /// sum. [`AntiWindup::Clamp`] would hide an infinite error.
+    #[inline(always)]
     fn advance(&self, state: &mut PidState<T>, at: &PidInput<T>) -> Option<T> {
         let s = &self.settings;
-        let error = at.measured - at.reference;
-        let mut all = at.dt + error + at.feed_forward;
-        if let Damping::Velocity = s.damping {
-            all += at.velocity;
-        }
-        if !(is_usable(all) && at.dt > T::ZERO && at.dt <= s.longest_dt) {
+        if !at.dt.is_step(s.longest_dt) {
             return None;
         }
-        let mut last = Last::of(at);
+        let mut last = Last::at(at);
+        let error = at.measured - at.reference;
         let rate = self.rate(state, &last, at.dt);
         let rest = self.rest(&last, rate);
         let change = -s.k_i * error * at.dt;
         let returned = self.returned(state, at.dt);
-        let mut integral = self.confined(state.integral.plus(change + returned));
+        let moved = returned.map_or(change, |returned| change + returned);
+        let mut integral = self.confined(state.integral.plus(moved));
         last.unlimited = rest + integral.value;
-        if let AntiWindup::Conditional = s.anti_windup {
-            let further = if last.unlimited > s.limits.high() {
-                change > T::ZERO
-            } else {
-                last.unlimited < s.limits.low() && change < T::ZERO
-            };
-            if further {
-                integral = state.integral.plus(returned);
-                last.unlimited = rest + integral.value;
+        let mut all = last.unlimited + integral.carry;
+        if let AntiWindup::Clamp = s.anti_windup {
+            all += error;
+        }
+        if !is_usable(all + at.velocity) {
+            rarely();
+            if !is_usable(all + self.velocity(at)) {
+                return None;
             }
+            last = last.with_known_velocity();
         }
-        if !is_usable(last.unlimited + integral.carry) {
-            return None;
+        last.command = last.unlimited;
+        let inside = s.limits.contains(last.unlimited);
+        if !inside || s.limits.slew().is_some() {
+            rarely();
+            if !inside && self.asks_for_more(last.unlimited, change) {
+                integral = state.integral.plus(returned.unwrap_or(T::ZERO));
+                last.unlimited = rest + integral.value;
+                if !is_usable(last.unlimited + integral.carry + error) {
+                    return None;
+                }
+            }
+            last.command = s.limits.apply(state.command(), last.unlimited, at.dt);
         }
-        last.command = s.limits.apply(state.command(), last.unlimited, at.dt);
         state.integral = integral;
         state.rate = rate;
         state.gap = T::ZERO;
         state.held.good(last.command);
         state.last = Some(last);
         Some(last.command)
+    }
+
+    /// Whether conditional integration leaves a change out: the limits are passed already, and
+    /// it would go further.
+    #[inline]
+    fn asks_for_more(&self, unlimited: T, change: T) -> bool {
+        let s = &self.settings;
+        if !matches!(s.anti_windup, AntiWindup::Conditional) {
+            return false;
+        }
+        if unlimited > s.limits.high() {
+            change > T::ZERO
+        } else {
+            unlimited < s.limits.low() && change < T::ZERO
+        }
     }
 
     /// A bad sample, a latched safe command, or the first good sample after one.
@@ -316,8 +361,11 @@ impl<T: Real> Pid<T> {
     fn close(&self, state: &mut PidState<T>, at: &PidInput<T>) -> Status {
         let started = if self.settings.k_i == T::ZERO {
             // An integral that nothing moves would stay in the command for ever.
-            state.gap = T::HIGHEST;
-            self.advance(state, at).ok_or(Fault::Overflow).map(|_| ())
+            self.without_integrating(state, at).map(|last| {
+                state.gap = T::ZERO;
+                state.held.good(last.command);
+                state.last = Some(last);
+            })
         } else {
             let started = self.started_at(state.command(), at);
             started.map(|(last, integral)| state.start(last, integral))
@@ -331,17 +379,21 @@ impl<T: Real> Pid<T> {
         }
     }
 
-    /// What is wrong with a sample, where something is; not whether the law overflows on it.
-    fn fault(&self, at: &PidInput<T>) -> Option<Fault> {
-        let velocity = match self.settings.damping {
+    /// The velocity that the law reads; zero where it reads none, and it may be no number.
+    fn velocity(&self, at: &PidInput<T>) -> T {
+        match self.settings.damping {
             Damping::Velocity => at.velocity,
             Damping::Rate { .. } => T::ZERO,
-        };
+        }
+    }
+
+    /// What is wrong with a sample, where something is; not whether the law overflows on it.
+    fn fault(&self, at: &PidInput<T>) -> Option<Fault> {
         fault_of_dt(at.dt, self.settings.longest_dt).or_else(|| {
             first_fault(&[
                 (at.reference, Fault::Reference),
                 (at.measured, Fault::Measured),
-                (velocity, Fault::Velocity),
+                (self.velocity(at), Fault::Velocity),
                 (at.feed_forward, Fault::FeedForward),
                 (at.measured - at.reference, Fault::Overflow),
             ])
@@ -350,21 +402,19 @@ impl<T: Real> Pid<T> {
 
     /// What the limits cut off the last command, as far as it flows back into the integral.
     #[inline]
-    fn returned(&self, state: &PidState<T>, dt: T) -> T {
-        let (Some(before), s) = (&state.last, &self.settings) else {
-            return T::ZERO;
-        };
+    fn returned(&self, state: &PidState<T>, dt: T) -> Option<T> {
+        let (before, s) = (state.last.as_ref()?, &self.settings);
         match s.anti_windup {
             AntiWindup::BackCalculation { tracking_time } => {
-                (before.command - before.unlimited) * (dt / (tracking_time + dt))
+                Some((before.command - before.unlimited) * (dt / (tracking_time + dt)))
             }
             // T_t = k_p/k_i, without dividing by a gain that may be zero.
             AntiWindup::Conditional if s.limits.slew().is_some() && s.k_i != T::ZERO => {
                 let wanted = clamp(before.unlimited, s.limits.low(), s.limits.high());
                 let share = s.k_i * dt / (s.k_p + s.k_i * dt);
-                (before.command - wanted) * share
+                Some((before.command - wanted) * share)
             }
-            _ => T::ZERO,
+            _ => None,
         }
     }
 
@@ -402,8 +452,11 @@ impl<T: Real> Pid<T> {
     /// The command without limits and without the integral.
     #[inline]
     fn rest(&self, at: &Last<T>, rate: T) -> T {
-        let (derivative, velocity) = self.damping(at, rate);
-        self.proportional(at) + derivative + velocity + at.feed_forward
+        let damped = match self.settings.damping {
+            Damping::Rate { .. } => rate,
+            Damping::Velocity => at.velocity,
+        };
+        self.proportional(at) - self.settings.k_d * damped + at.feed_forward
     }
 
     /// The integral within the range of [`AntiWindup::Clamp`], where that was chosen.
@@ -436,20 +489,27 @@ impl<T: Real> Pid<T> {
 }
 
 impl<T: Real> Last<T> {
-    /// A sample that can be used, before the law has seen it.
+    /// A sample before the law has seen it.
     #[inline]
-    fn of(at: &PidInput<T>) -> Self {
+    fn at(at: &PidInput<T>) -> Self {
         Self {
             reference: at.reference,
             measured: at.measured,
-            velocity: if is_usable(at.velocity) {
-                at.velocity
-            } else {
-                T::ZERO
-            },
+            velocity: at.velocity,
             feed_forward: at.feed_forward,
             command: T::ZERO,
             unlimited: T::ZERO,
+        }
+    }
+
+    /// The same, with zero for a velocity that is no number.
+    fn with_known_velocity(self) -> Self {
+        if is_usable(self.velocity) {
+            return self;
+        }
+        Self {
+            velocity: T::ZERO,
+            ..self
         }
     }
 }

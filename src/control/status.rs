@@ -259,7 +259,10 @@ impl<T: Real> Held<T> {
     #[inline]
     pub(crate) fn good(&mut self, command: T) {
         self.command = command;
-        self.score = self.score.saturating_sub(1);
+        if self.score != 0 {
+            rarely();
+            self.score -= 1;
+        }
     }
 
     /// Whether nothing stands between a good sample and the command.
@@ -307,6 +310,11 @@ impl<T: Real> Held<T> {
         }
     }
 }
+
+/// Says that the branch around it is taken rarely: the usual one needs no jump.
+#[cold]
+#[inline]
+pub(crate) const fn rarely() {}
 
 /// What is wrong with the sample time, where something is.
 pub(crate) fn fault_of_dt<T: Real>(dt: T, longest: T) -> Option<Fault> {

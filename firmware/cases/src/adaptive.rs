@@ -5,6 +5,7 @@ use bowden::control::{
     Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Fallback, Form, Limits,
     SmoothSign,
 };
+use bowden::constant;
 use bowden::Error;
 use core::hint::black_box;
 
@@ -19,56 +20,49 @@ const LITERAL: Form<f32> = Form::Literal {
     time_constant: 0.005,
 };
 
+const LEAKAGE: f32 = 0.01;
+
 /// Table 2 with boxes: velocity and acceleration, then the pulley's angle.
-fn settings<const N: usize>(
+const fn settings<const N: usize>(
     form: Form<f32>,
     smooth_sign: SmoothSign,
-) -> Result<AdaptiveSettings<f32, N>, Error> {
-    let leakage = 0.01;
+) -> AdaptiveSettings<f32, N> {
     let friction = Estimator::fixed(0.0).within(-6.0, 6.0);
-    Ok(AdaptiveSettings {
+    AdaptiveSettings {
         smooth_sign,
         beta: Estimator::fixed(1.0)
             .within(0.8, 1.2)
-            .adapting(2.5e-4, leakage),
+            .adapting(2.5e-4, LEAKAGE),
         delta: Estimator::fixed(1.0)
             .within(0.0, 7.0)
-            .adapting(6e-3, leakage),
-        theta: [friction.adapting(5e-4, leakage); N],
+            .adapting(6e-3, LEAKAGE),
+        theta: [friction.adapting(5e-4, LEAKAGE); N],
         ..AdaptiveSettings::new(
             form,
             24.0,
             8.0,
             0.1,
-            Limits::try_new(-20.0, 60.0)?,
+            constant!(Limits::<f32>::const_new(-20.0, 60.0)),
             0.005,
-            Fallback::try_new(20, 0.0)?,
+            constant!(Fallback::<f32>::const_new(20, 0.0)),
         )
-    })
+    }
 }
 
-#[derive(Debug)]
-struct Law<const N: usize> {
-    law: Adaptive<f32, N>,
-    state: AdaptiveState<f32, N>,
-}
-
-impl<const N: usize> Law<N> {
-    fn try_new(form: Form<f32>, smooth_sign: SmoothSign) -> Result<Self, Error> {
-        let law = Adaptive::try_new(black_box(settings(form, smooth_sign)?))?;
-        let state = AdaptiveState::new(&law);
-        Ok(Self { law, state })
-    }
-
-    #[inline]
-    fn step(&mut self, at: &Sample, regressors: [f32; N]) -> Output {
-        let sample = AdaptiveInput {
-            next_reference: at.next_reference,
-            ..AdaptiveInput::new(at.dt, at.reference, at.measured, regressors)
-        };
-        let out = self.law.step(&mut self.state, &sample);
-        Output::commanded(out.command, out.status)
-    }
+fn step<const N: usize>(
+    law: &Adaptive<f32, N>,
+    state: &mut AdaptiveState<f32, N>,
+    at: &Sample,
+) -> Output
+where
+    Sample: Regressors<N>,
+{
+    let sample = AdaptiveInput {
+        next_reference: at.next_reference,
+        ..AdaptiveInput::new(at.dt, at.reference, at.measured, at.regressors())
+    };
+    let out = law.step(state, &sample);
+    Output::commanded(out.command, out.status)
 }
 
 /// What the law reads of a sample, for each number of regressors.
@@ -91,20 +85,45 @@ impl Regressors<3> for Sample {
 }
 
 macro_rules! laws {
-    ($($(#[$doc:meta])+ $name:ident: $n:literal, $form:expr, $sign:ident;)+) => {
+    ($($loaded:ident, $constant:ident: $n:literal, $form:expr, $sign:ident, $text:literal;)+) => {
         $(
-            $(#[$doc])+
+            #[doc = concat!($text, "; the compiler knows none of its settings.")]
             #[derive(Debug)]
-            pub struct $name(Law<$n>);
+            pub struct $loaded {
+                law: Adaptive<f32, $n>,
+                state: AdaptiveState<f32, $n>,
+            }
 
-            impl Case for $name {
+            impl Case for $loaded {
                 fn try_new() -> Result<Self, Error> {
-                    Law::try_new($form, SmoothSign::$sign).map(Self)
+                    let law = Adaptive::try_new(black_box(settings($form, SmoothSign::$sign)))?;
+                    let state = AdaptiveState::new(&law);
+                    Ok(Self { law, state })
                 }
 
                 #[inline]
                 fn step(&mut self, at: &Sample) -> Output {
-                    self.0.step(at, at.regressors())
+                    step(&self.law, &mut self.state, at)
+                }
+            }
+
+            #[doc = concat!($text, "; a constant, which the compiler has checked.")]
+            #[derive(Debug)]
+            pub struct $constant(AdaptiveState<f32, $n>);
+
+            impl $constant {
+                const LAW: Adaptive<f32, $n> =
+                    constant!(Adaptive::<f32, $n>::const_new(settings($form, SmoothSign::$sign)));
+            }
+
+            impl Case for $constant {
+                fn try_new() -> Result<Self, Error> {
+                    Ok(Self(AdaptiveState::new(&Self::LAW)))
+                }
+
+                #[inline]
+                fn step(&mut self, at: &Sample) -> Output {
+                    step(&Self::LAW, &mut self.0, at)
                 }
             }
         )+
@@ -112,20 +131,12 @@ macro_rules! laws {
 }
 
 laws! {
-    /// Two regressors, lag form, clamp.
-    LagClamp2: 2, LAG, Clamp;
-    /// Two regressors, literal form, clamp.
-    LiteralClamp2: 2, LITERAL, Clamp;
-    /// Two regressors, lag form, tanh.
-    LagTanh2: 2, LAG, Tanh;
-    /// Two regressors, literal form, tanh.
-    LiteralTanh2: 2, LITERAL, Tanh;
-    /// Three regressors, lag form, clamp.
-    LagClamp3: 3, LAG, Clamp;
-    /// Three regressors, literal form, clamp.
-    LiteralClamp3: 3, LITERAL, Clamp;
-    /// Three regressors, lag form, tanh.
-    LagTanh3: 3, LAG, Tanh;
-    /// Three regressors, literal form, tanh.
-    LiteralTanh3: 3, LITERAL, Tanh;
+    LagClamp2, LagClamp2Constant: 2, LAG, Clamp, "Two regressors, lag form, clamp";
+    LiteralClamp2, LiteralClamp2Constant: 2, LITERAL, Clamp, "Two regressors, literal form, clamp";
+    LagTanh2, LagTanh2Constant: 2, LAG, Tanh, "Two regressors, lag form, tanh";
+    LiteralTanh2, LiteralTanh2Constant: 2, LITERAL, Tanh, "Two regressors, literal form, tanh";
+    LagClamp3, LagClamp3Constant: 3, LAG, Clamp, "Three regressors, lag form, clamp";
+    LiteralClamp3, LiteralClamp3Constant: 3, LITERAL, Clamp, "Three regressors, literal form, clamp";
+    LagTanh3, LagTanh3Constant: 3, LAG, Tanh, "Three regressors, lag form, tanh";
+    LiteralTanh3, LiteralTanh3Constant: 3, LITERAL, Tanh, "Three regressors, literal form, tanh";
 }

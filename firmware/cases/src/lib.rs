@@ -120,6 +120,9 @@ cases! {
     "pi": pid::Pi;
     "pid": pid::Pid;
     "piv": pid::Piv;
+    "pi-constant": pid::PiConstant;
+    "pid-constant": pid::PidConstant;
+    "piv-constant": pid::PivConstant;
     "adaptive-2-lag-clamp": adaptive::LagClamp2;
     "adaptive-2-literal-clamp": adaptive::LiteralClamp2;
     "adaptive-2-lag-tanh": adaptive::LagTanh2;
@@ -128,6 +131,10 @@ cases! {
     "adaptive-3-literal-clamp": adaptive::LiteralClamp3;
     "adaptive-3-lag-tanh": adaptive::LagTanh3;
     "adaptive-3-literal-tanh": adaptive::LiteralTanh3;
+    "adaptive-2-lag-clamp-constant": adaptive::LagClamp2Constant;
+    "adaptive-2-lag-tanh-constant": adaptive::LagTanh2Constant;
+    "adaptive-2-literal-clamp-constant": adaptive::LiteralClamp2Constant;
+    "adaptive-2-literal-tanh-constant": adaptive::LiteralTanh2Constant;
     "hysteresis": cable::Hysteresis;
     "transmission": cable::Forward;
     "inverse": cable::Inverse;

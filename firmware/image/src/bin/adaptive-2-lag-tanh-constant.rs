@@ -1,0 +1,5 @@
+//! The image of the adaptive law over two regressors, lag form, tanh; its settings are constants.
+#![no_std]
+#![no_main]
+
+bowden_image::image!(bowden_cases::adaptive::LagTanh2Constant);
