@@ -92,6 +92,11 @@ pub(crate) fn finite<T: crate::Real>(value: T, name: &'static str) -> Result<T, 
     }
 }
 
+/// Says that the branch around it is taken rarely: the usual one needs no jump.
+#[cold]
+#[inline]
+pub(crate) const fn rarely() {}
+
 /// Whether a number is finite. Of several, add them up first: one test for all.
 #[inline]
 pub(crate) fn is_usable<T: crate::Real>(sum: T) -> bool {

@@ -26,9 +26,9 @@ pub use settings::{AntiWindup, Damping, PidSettings};
 pub use signals::{PidInput, PidOutput, PidTerms};
 pub use state::PidState;
 
-use super::status::{fault_of_dt, first_fault, rarely, Latch};
+use super::status::{fault_of_dt, first_fault, Latch};
 use super::{Fault, Output, Status};
-use crate::error::is_usable;
+use crate::error::{is_usable, rarely};
 use crate::signal::{clamp, Compensated, Derivative};
 use crate::{Error, Real};
 use state::Last;

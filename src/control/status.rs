@@ -1,6 +1,6 @@
 //! What a step did: a good one, or a bad sample and what was commanded instead.
 
-use crate::error::must_be_finite;
+use crate::error::{must_be_finite, rarely};
 use crate::{Error, Real};
 
 /// Which input of a step could not be used.
@@ -310,11 +310,6 @@ impl<T: Real> Held<T> {
         }
     }
 }
-
-/// Says that the branch around it is taken rarely: the usual one needs no jump.
-#[cold]
-#[inline]
-pub(crate) const fn rarely() {}
 
 /// What is wrong with the sample time, where something is.
 pub(crate) fn fault_of_dt<T: Real>(dt: T, longest: T) -> Option<Fault> {

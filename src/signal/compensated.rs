@@ -1,7 +1,7 @@
 //! A sum that keeps what rounding would drop.
 
 use super::clamp;
-use crate::error::is_usable;
+use crate::error::rarely;
 use crate::Real;
 
 /// A running sum with the part that the last addition lost to rounding.
@@ -50,24 +50,20 @@ impl<T: Real> Compensated<T> {
         Self { value, carry }
     }
 
-    /// The sum after `increment`, within `[low, high]`.
+    /// The sum confined to `[low, high]`; at an edge nothing is owed.
     ///
-    /// `None` where it, or what it owes, is not finite before it is clamped: an overflow, or
-    /// NaN.
+    /// The carry of a sum that overflowed is no number, and stays none.
     #[inline]
-    pub(crate) fn add(self, increment: T, low: T, high: T) -> Option<Self> {
-        let sum = self.plus(increment);
-        if !is_usable(sum.value + sum.carry) {
-            return None;
+    pub(crate) fn within(self, low: T, high: T) -> Self {
+        if low <= self.value && self.value <= high {
+            return self;
         }
-        let value = clamp(sum.value, low, high);
-        // At an edge of the box nothing is owed.
-        let carry = if value == sum.value {
-            sum.carry
-        } else {
-            T::ZERO
-        };
-        Some(Self { value, carry })
+        rarely();
+        Self {
+            value: clamp(self.value, low, high),
+            // Zero, or NaN of a carry that is not finite.
+            carry: self.carry * T::ZERO,
+        }
     }
 
     /// Whether both numbers are finite.

@@ -164,14 +164,12 @@ impl<T: Real> Estimator<T> {
         self.low <= value && value <= self.high
     }
 
-    /// The estimate after `dt` \[s\] under the drive `v`; `None` where that overflows.
+    /// The estimate after `dt` \[s\] under the drive `v`, in its box; where that overflows, its
+    /// carry is not finite.
     #[inline]
-    pub(crate) fn update(&self, p: Compensated<T>, dt: T, v: T) -> Option<Compensated<T>> {
-        p.add(
-            self.increment(p.value - self.prior, dt, v),
-            self.low,
-            self.high,
-        )
+    pub(crate) fn update(&self, p: Compensated<T>, dt: T, v: T) -> Compensated<T> {
+        let increment = self.increment(p.value - self.prior, dt, v);
+        p.plus(increment).within(self.low, self.high)
     }
 
     /// How far an estimate moves that is a `distance` from its prior.

@@ -4,7 +4,7 @@ use super::{Adaptive, AdaptiveInput, AdaptiveOutput, AdaptiveState, AdaptiveTerm
 use super::{Form, Missing};
 use crate::control::status::{fault_of_dt, first_fault, Latch};
 use crate::control::{Fault, Output, Status};
-use crate::error::is_usable;
+use crate::error::{is_usable, rarely};
 use crate::signal::{Compensated, Derivative, DerivativeState};
 use crate::Real;
 
@@ -84,44 +84,56 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         frozen: bool,
     ) -> Option<T> {
         let dt = input.dt;
-        let mut all = dt + (input.measured - input.reference) + input.next_reference;
-        all += input.feed_forward;
+        let mut given = (input.measured - input.reference) + input.next_reference;
+        given += input.feed_forward;
         for x in &input.regressors {
-            all += *x;
+            given += *x;
         }
-        if !(is_usable(all) && dt > T::ZERO && dt <= self.longest) {
+        if !(dt.is_step(self.longest) && is_usable(given)) {
             return None;
         }
+        let settings = &self.settings;
         let Evaluated {
             terms,
             error_rate,
-            lag,
+            mut lag,
         } = self.evaluated(state, input);
-        if !is_usable(terms.unlimited + terms.virtual_command) {
-            return None;
+        // The sums that the command does not hold; the carry of one that overflows is no number.
+        let mut all = terms.unlimited;
+        let limits = &settings.limits;
+        let mut command = terms.unlimited;
+        let (mut z_waits, mut estimates_wait) = (false, frozen);
+        if limits.slew().is_some() || !limits.contains(command) {
+            rarely();
+            command = limits.apply(state.held.command, terms.unlimited, dt);
+            // An error of this sign asks for more than the limit gives.
+            let asks_more = |error: T| {
+                (command < terms.unlimited && error < T::ZERO)
+                    || (command > terms.unlimited && error > T::ZERO)
+            };
+            z_waits = asks_more(terms.error);
+            estimates_wait |= asks_more(terms.s);
+            if command != terms.unlimited {
+                lag = Compensated::new(command - input.feed_forward);
+            }
         }
-        let limits = &self.settings.limits;
-        let command = limits.apply(state.held.command, terms.unlimited, dt);
-        let lag = if command == terms.unlimited {
-            lag
-        } else {
-            Compensated::new(command - input.feed_forward)
-        };
-        // An error of this sign asks for more than the limit gives.
-        let asks_more = |error: T| {
-            (command < terms.unlimited && error < T::ZERO)
-                || (command > terms.unlimited && error > T::ZERO)
-        };
         let mut z = state.z;
-        if !asks_more(terms.error) {
-            let limit = self.settings.z_limit;
-            z = z.add(dt * terms.error, -limit, limit)?;
+        if !z_waits {
+            let limit = settings.z_limit;
+            z = z.plus(dt * terms.error).within(-limit, limit);
+            all += z.carry;
         }
         let mut estimates = (state.beta, state.delta, state.theta);
-        if !frozen && !asks_more(terms.s) {
-            estimates = self.adapted(state, input, &terms)?;
+        if !estimates_wait {
+            estimates = self.adapted(state, input, &terms);
+            let (beta, delta, theta) = &estimates;
+            all += beta.carry;
+            all += delta.carry;
+            for theta in theta {
+                all += theta.carry;
+            }
         }
-        if !is_usable(lag.value + lag.carry) {
+        if !is_usable(all) {
             return None;
         }
         state.z = z;
@@ -310,26 +322,26 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
             - terms.delta_hat * terms.smooth_sign
     }
 
-    /// (24)-(26); `None` where an estimate overflows.
+    /// (24)-(26).
     #[inline]
     fn adapted(
         &self,
         state: &AdaptiveState<T, N>,
         input: &AdaptiveInput<T, N>,
         terms: &AdaptiveTerms<T, N>,
-    ) -> Option<Estimates<T, N>> {
+    ) -> Estimates<T, N> {
         let settings = &self.settings;
         let (dt, pull) = (input.dt, settings.lambda * terms.s);
         let drive = -pull * terms.virtual_command;
-        let beta = settings.beta.update(state.beta, dt, drive)?;
+        let beta = settings.beta.update(state.beta, dt, drive);
         let drive = pull * terms.smooth_sign;
-        let delta = settings.delta.update(state.delta, dt, drive)?;
+        let delta = settings.delta.update(state.delta, dt, drive);
         let mut theta = state.theta;
         let each = theta.iter_mut().zip(&settings.theta);
         for ((estimate, estimator), x) in each.zip(&input.regressors) {
-            *estimate = estimator.update(*estimate, dt, -pull * *x)?;
+            *estimate = estimator.update(*estimate, dt, -pull * *x);
         }
-        Some((beta, delta, theta))
+        (beta, delta, theta)
     }
 }
 
