@@ -35,7 +35,7 @@ pub(crate) mod sealed {
         fn binade(self) -> Self;
         /// Whether it is above zero and at most `longest`, a number above zero: one comparison
         /// of bits, which those of negative numbers, infinities and NaN fail.
-        fn is_step(self, longest: Self) -> bool;
+        fn positive_up_to(self, longest: Self) -> bool;
     }
 
     impl Sealed for f32 {
@@ -79,7 +79,7 @@ pub(crate) mod sealed {
             Self::from_bits(self.to_bits() & 0xff80_0000)
         }
         #[inline]
-        fn is_step(self, longest: Self) -> bool {
+        fn positive_up_to(self, longest: Self) -> bool {
             self.to_bits().wrapping_sub(1) < longest.to_bits()
         }
     }
@@ -125,7 +125,7 @@ pub(crate) mod sealed {
             Self::from_bits(self.to_bits() & 0xfff0_0000_0000_0000)
         }
         #[inline]
-        fn is_step(self, longest: Self) -> bool {
+        fn positive_up_to(self, longest: Self) -> bool {
             self.to_bits().wrapping_sub(1) < longest.to_bits()
         }
     }
@@ -311,14 +311,14 @@ mod tests {
             dt in any::<f32>(), bits in any::<u32>(), longest in 1e-30_f32..1e30, like: bool
         ) {
             for x in [dt, f32::from_bits(bits), if like { longest } else { longest.next_up() }] {
-                prop_assert_eq!(x.is_step(longest), x > 0.0 && x <= longest);
+                prop_assert_eq!(x.positive_up_to(longest), x > 0.0 && x <= longest);
                 let (wide, most) = (f64::from(x), f64::from(longest));
-                prop_assert_eq!(wide.is_step(most), wide > 0.0 && wide <= most);
+                prop_assert_eq!(wide.positive_up_to(most), wide > 0.0 && wide <= most);
             }
             for x in [0.0, -0.0, f32::INFINITY, f32::NAN, -f32::NAN, f32::NEG_INFINITY] {
-                prop_assert!(!x.is_step(f32::MAX) && !f64::from(x).is_step(f64::MAX));
+                prop_assert!(!x.positive_up_to(f32::MAX) && !f64::from(x).positive_up_to(f64::MAX));
             }
-            prop_assert!(f32::from_bits(1).is_step(longest) && f64::from_bits(1).is_step(1.0));
+            prop_assert!(f32::from_bits(1).positive_up_to(longest) && f64::from_bits(1).positive_up_to(1.0));
         }
 
         /// What libm returns rightly stays to the bit.

@@ -2,7 +2,7 @@
 
 use bowden::control::{Adaptive, AdaptiveInput, AdaptiveOutput, AdaptiveState, Limits};
 use bowden::control::{Compensator, CompensatorInput, CompensatorState};
-use bowden::control::{Damping, Fallback, Fault, Pid, PidInput, PidState, Status};
+use bowden::control::{Damping, Fallback, Fault, Missing, Pid, PidInput, PidState, Status};
 use bowden::signal::clamp;
 
 /// The command nearest to what is wanted: within the range, and within the slew rate of
@@ -27,6 +27,8 @@ struct Answer<'a> {
     dt: [f32; 2],
     /// Whether every other number that the step reads can be used.
     usable: bool,
+    /// The same but for those that may be dropped.
+    needed: bool,
     status: Status,
     before: Out,
     after: Out,
@@ -53,7 +55,9 @@ impl Answer<'_> {
         let usable = self.usable && dt > 0.0 && dt <= longest;
         let most = self.fallback.most();
         let counted = after.score == most.min(before.score.saturating_add(self.fallback.weight()));
-        let told = |fault| (fault == Fault::Overflow) == usable;
+        // A sample that lacks what may be dropped can overflow as a whole one can.
+        let complete = self.needed && dt > 0.0 && dt <= longest;
+        let told = |fault| (fault == Fault::Overflow) == complete;
         after.command.is_finite()
             && self.limits.contains(after.command)
             && match self.status {
@@ -111,11 +115,13 @@ pub fn pid_commands_within_its_limits(
     let untouched = state.integral() == before.integral() && state.rate() == before.rate();
     let velocity = settings.damping != Damping::Velocity || at.velocity.is_finite();
     let numbers = at.reference.is_finite() && at.measured.is_finite();
+    let usable = velocity && numbers && at.feed_forward.is_finite();
     let answer = Answer {
         limits: &settings.limits,
         fallback: &settings.fallback,
         dt: [at.dt, settings.longest_dt],
-        usable: velocity && numbers && at.feed_forward.is_finite(),
+        usable,
+        needed: usable,
         status: out.status,
         before: pid_out(before.command(), &before),
         after: pid_out(out.command, state),
@@ -154,15 +160,17 @@ pub fn adaptive_commands_within_its_limits<const N: usize>(
         && state.delta_hat() == before.delta_hat()
         && state.theta_hat() == before.theta_hat();
     let untouched = waits && state.accumulated_error() == before.accumulated_error();
+    let numbers = input.feed_forward.is_finite()
+        && input.reference.is_finite()
+        && input.next_reference.is_finite()
+        && input.measured.is_finite();
+    let mut regressors = input.regressors.iter().zip(&settings.missing);
     let answer = Answer {
         limits: &settings.limits,
         fallback: &settings.fallback,
         dt: [input.dt, law.longest_dt()],
-        usable: input.feed_forward.is_finite()
-            && input.reference.is_finite()
-            && input.next_reference.is_finite()
-            && input.measured.is_finite()
-            && input.regressors.iter().all(|x| x.is_finite()),
+        usable: numbers && input.regressors.iter().all(|x| x.is_finite()),
+        needed: numbers && regressors.all(|(x, to)| x.is_finite() || *to == Missing::Drop),
         status: out.status,
         before: adaptive_out(before.command(), &before),
         after: adaptive_out(out.command, state),

@@ -275,7 +275,7 @@ impl<T: Real> Pid<T> {
     #[inline(always)]
     fn advance(&self, state: &mut PidState<T>, at: &PidInput<T>) -> Option<T> {
         let s = &self.settings;
-        if !at.dt.is_step(s.longest_dt) {
+        if !at.dt.positive_up_to(s.longest_dt) {
             return None;
         }
         let mut last = Last::at(at);
@@ -484,32 +484,6 @@ impl<T: Real> Pid<T> {
             integral
         } else {
             Compensated::new(value)
-        }
-    }
-}
-
-impl<T: Real> Last<T> {
-    /// A sample before the law has seen it.
-    #[inline]
-    fn at(at: &PidInput<T>) -> Self {
-        Self {
-            reference: at.reference,
-            measured: at.measured,
-            velocity: at.velocity,
-            feed_forward: at.feed_forward,
-            command: T::ZERO,
-            unlimited: T::ZERO,
-        }
-    }
-
-    /// The same, with zero for a velocity that is no number.
-    fn with_known_velocity(self) -> Self {
-        if is_usable(self.velocity) {
-            return self;
-        }
-        Self {
-            velocity: T::ZERO,
-            ..self
         }
     }
 }

@@ -1,11 +1,11 @@
 //! The adaptive law, in both forms, with both smooth signs, over two and three regressors.
 
 use crate::{Case, Output, Sample};
+use bowden::constant;
 use bowden::control::{
     Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Fallback, Form, Limits,
     SmoothSign,
 };
-use bowden::constant;
 use bowden::Error;
 use core::hint::black_box;
 

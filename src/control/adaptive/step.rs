@@ -89,7 +89,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         for x in &input.regressors {
             given += *x;
         }
-        if !(dt.is_step(self.longest) && is_usable(given)) {
+        if !(dt.positive_up_to(self.longest) && is_usable(given)) {
             return None;
         }
         let settings = &self.settings;

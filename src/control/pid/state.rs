@@ -3,6 +3,7 @@
 use super::{Pid, PidInput};
 use crate::control::status::Held;
 use crate::control::Status;
+use crate::error::is_usable;
 use crate::signal::{gap_after, Compensated};
 use crate::Real;
 
@@ -58,6 +59,32 @@ pub(crate) struct Last<T> {
     pub(crate) feed_forward: T,
     pub(crate) command: T,
     pub(crate) unlimited: T,
+}
+
+impl<T: Real> Last<T> {
+    /// A sample before the law has seen it.
+    #[inline]
+    pub(super) fn at(at: &PidInput<T>) -> Self {
+        Self {
+            reference: at.reference,
+            measured: at.measured,
+            velocity: at.velocity,
+            feed_forward: at.feed_forward,
+            command: T::ZERO,
+            unlimited: T::ZERO,
+        }
+    }
+
+    /// The same, with zero for a velocity that is no number.
+    pub(super) fn with_known_velocity(self) -> Self {
+        if is_usable(self.velocity) {
+            return self;
+        }
+        Self {
+            velocity: T::ZERO,
+            ..self
+        }
+    }
 }
 
 impl<T: Real> PidState<T> {
