@@ -4,7 +4,7 @@
 use super::rounded::{own, own_plant, proved, table_2, table_2_plant};
 use bowden::bound::{PeakRounded, Plant};
 use bowden::control::{
-    Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Status,
+    Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Limits, Status,
 };
 use bowden::Real;
 
@@ -29,18 +29,36 @@ struct Play<const N: usize> {
     theta: [f64; N],
     /// Length of a half period \[s\].
     half: f64,
+    estimates: Estimates,
 }
 
-/// The largest `|s|/S` over `steps`, from the corner of rest; everything is asserted on the way.
+/// What the adversary does with the estimates.
+enum Estimates {
+    Stay,
+    /// From one corner of their boxes to the other and back, once a second.
+    Jump,
+}
+
+/// What an adversary reached: the largest `|s|/S` of all samples, and of those whose command
+/// the limit cut, with their number.
+#[derive(Debug)]
+struct Reached {
+    all: f64,
+    limited: f64,
+    cuts: u32,
+}
+
+/// The attack over `steps`, from the corner of rest; everything is asserted on the way.
 fn attack<T: Real, const N: usize>(
     settings: AdaptiveSettings<T, N>,
     plant: &Plant<f64, N>,
     play: &Play<N>,
     steps: u32,
-) -> f64 {
+) -> Reached {
     let proof: PeakRounded = proved(settings, plant);
     let (s_most, z_most) = (proof.s.high().as_f64(), proof.z.high().as_f64());
     let law = Adaptive::try_new(settings).unwrap();
+    let [low, high] = corners(settings).map(|corner| Adaptive::try_new(corner).unwrap());
     let h = law.settings().longest_dt.min(match settings.form {
         bowden::control::Form::Lag { step, .. } => step,
         bowden::control::Form::Literal { .. } => T::HIGHEST,
@@ -59,7 +77,7 @@ fn attack<T: Real, const N: usize>(
     let float = |x: f64| T::of(x).as_f64();
     let mut state = AdaptiveState::new(&law);
     let mut last_load: Option<f64> = None;
-    let mut reached = 0.0_f64;
+    let (mut reached, mut limited, mut cuts) = (0.0_f64, 0.0_f64, 0);
     // From rest: the command at which the errors start at zero.
     let mut started = false;
     for n in 0..steps {
@@ -93,20 +111,58 @@ fn attack<T: Real, const N: usize>(
         assert!(error.abs() <= proof.bound(), "step {n}: e = {error}");
         reached = reached.max(s.abs() / s_most);
         let next = T::of(float(reference.at(next_side, next_left)));
-        let output = law.step(
-            &mut state,
-            &AdaptiveInput {
-                next_reference: next,
-                ..AdaptiveInput::new(h, T::of(r), y, x.map(T::of))
-            },
-        );
+        let input = AdaptiveInput {
+            next_reference: next,
+            ..AdaptiveInput::new(h, T::of(r), y, x.map(T::of))
+        };
+        let law = match play.estimates {
+            Estimates::Stay => &law,
+            Estimates::Jump if (f64::from(n) * dt).fract() < 0.8 => &low,
+            Estimates::Jump => &high,
+        };
+        let output = law.step_with_terms(&mut state, &input);
         assert_eq!(output.status, Status::Good);
+        if output.terms.limited {
+            limited = limited.max(s.abs() / s_most);
+            cuts += 1;
+        }
     }
     println!(
-        "{} bits: reached {reached} of the box in {steps} steps",
+        "{} bits: reached {reached} of the box in {steps} steps, {limited} in {cuts} cut ones",
         8 * size_of::<T>()
     );
-    reached
+    Reached {
+        all: reached,
+        limited,
+        cuts,
+    }
+}
+
+/// The law with its estimates held near either corner of their boxes: a step of it takes them there.
+fn corners<T: Real, const N: usize>(
+    settings: AdaptiveSettings<T, N>,
+) -> [AdaptiveSettings<T, N>; 2] {
+    let held = |own: Estimator<T>, low: T, high: T| Estimator {
+        initial: low,
+        prior: low,
+        low,
+        high,
+        ..own
+    };
+    let near = |own: Estimator<T>| (own.high - own.low) * T::of(1e-3);
+    let low = |own: Estimator<T>| held(own, own.low, own.low + near(own));
+    let high = |own: Estimator<T>| held(own, own.high - near(own), own.high);
+    let with = |beta, delta, theta| AdaptiveSettings {
+        beta,
+        delta,
+        theta,
+        ..settings
+    };
+    let (beta, delta, theta) = (settings.beta, settings.delta, settings.theta);
+    [
+        with(low(beta), low(delta), theta.map(low)),
+        with(high(beta), high(delta), theta.map(high)),
+    ]
 }
 
 /// Estimates where they do most harm; their gains are too small to move them.
@@ -129,11 +185,12 @@ fn both(steps: u32) {
         alpha: 1.0,
         theta: [],
         half: f64::INFINITY,
+        estimates: Estimates::Stay,
     };
     let plant = table_2_plant();
     let reached = [
-        attack(worst(table_2::<f32, 0>(0.0)), &plant, &resting, steps),
-        attack(worst(table_2::<f64, 0>(0.0)), &plant, &resting, steps),
+        attack(worst(table_2::<f32, 0>(0.0)), &plant, &resting, steps).all,
+        attack(worst(table_2::<f64, 0>(0.0)), &plant, &resting, steps).all,
     ];
     assert!(reached.iter().all(|share| *share >= 0.9), "{reached:?}");
     // The reference's way from end to end at its rate; all else arrives with it.
@@ -141,10 +198,11 @@ fn both(steps: u32) {
         alpha: 0.92,
         theta: [3.0, 0.3],
         half: 2.0 * 25.0 / (0.999 * 22.3),
+        estimates: Estimates::Stay,
     };
     let reached = [
-        attack(worst(own::<f32>()), &own_plant(), &moving, steps),
-        attack(worst(own::<f64>()), &own_plant(), &moving, steps),
+        attack(worst(own::<f32>()), &own_plant(), &moving, steps).all,
+        attack(worst(own::<f64>()), &own_plant(), &moving, steps).all,
     ];
     assert!(reached.iter().all(|share| *share >= 0.9), "{reached:?}");
 }
@@ -158,4 +216,53 @@ fn an_adversary_fills_nine_tenths_of_the_box_and_never_leaves_it() {
 #[ignore = "slow: bash .ci/run core-tests"]
 fn an_adversary_fills_the_box_for_a_million_steps_and_never_leaves_it() {
     both(1_000_000);
+}
+
+/// The same law with a limit of the command.
+fn limited<T: Real, const N: usize>(
+    settings: AdaptiveSettings<T, N>,
+    command: f64,
+) -> AdaptiveSettings<T, N> {
+    let command = T::of(command);
+    AdaptiveSettings {
+        limits: Limits::try_new(-command, command).unwrap(),
+        ..settings
+    }
+}
+
+/// s and z are driven into the corner while the command just holds the load; then the estimates
+/// jump, and ask for more than the limit, which only just holds the reference against the load.
+fn at_the_limit(steps: u32) {
+    let play = Play {
+        alpha: 1.0,
+        theta: [],
+        half: f64::INFINITY,
+        estimates: Estimates::Jump,
+    };
+    // (10 + 6)/1 = 16, and what z's rounding needs.
+    let (single, double) = (
+        limited(worst(table_2::<f32, 0>(0.0)), 16.001),
+        limited(worst(table_2::<f64, 0>(0.0)), 16.001),
+    );
+    let plant = table_2_plant();
+    assert!(proved(single, &plant).may_meet_the_limit());
+    assert!(proved(double, &plant).may_meet_the_limit());
+    for reached in [
+        attack(single, &plant, &play, steps),
+        attack(double, &plant, &play, steps),
+    ] {
+        assert!(reached.all >= 0.9 && reached.limited >= 0.9, "{reached:?}");
+        assert!(reached.cuts > steps / 100, "{reached:?}");
+    }
+}
+
+#[test]
+fn an_adversary_that_meets_the_limit_fills_the_box_and_never_leaves_it() {
+    at_the_limit(100_000);
+}
+
+#[test]
+#[ignore = "slow: bash .ci/run core-tests"]
+fn an_adversary_that_meets_the_limit_for_a_million_steps_never_leaves_the_box() {
+    at_the_limit(1_000_000);
 }

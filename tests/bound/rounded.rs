@@ -167,11 +167,6 @@ fn each_inequality_refuses_what_it_should() {
         ..good
     };
     assert_eq!(refused(&short, &plant), Some(Named::ZLimit));
-    let weak = AdaptiveSettings {
-        limits: Limits::try_new(-44.0, 44.0).unwrap(),
-        ..good
-    };
-    assert_eq!(refused(&weak, &plant), Some(Named::Command));
     // Where one step moves z by less than z is rounded by, z need not stay.
     assert_eq!(refused(&at(1e-8), &plant), Some(Named::ZStays));
     // k barely above 1/lambda²: roundings of s eat what is left.
@@ -180,6 +175,55 @@ fn each_inequality_refuses_what_it_should() {
         ..good
     };
     assert_eq!(refused(&barely, &plant), Some(Named::SStays));
+}
+
+#[test]
+fn a_limit_may_be_met_where_it_holds_the_reference_against_the_load() {
+    let (good, plant) = (own::<f32>(), own_plant());
+    // A limit below what the box needs is enough where it holds the reference against the load.
+    let limited = |command: f32| AdaptiveSettings {
+        limits: Limits::try_new(-command, command).unwrap(),
+        ..good
+    };
+    let at_most = PeakRounded::examine(&limited(44.0), &plant).unwrap();
+    assert!(at_most.is_proved() && at_most.may_meet_the_limit());
+    assert!(!PeakRounded::examine(&good, &plant)
+        .unwrap()
+        .may_meet_the_limit());
+    // (25 + 7.056 + 3.0*1.5 + 0.3*3.0)/0.92 = 40.713.
+    assert_eq!(refused(&limited(40.72), &plant), None);
+    assert_eq!(refused(&limited(40.71), &plant), Some(Named::Reserve));
+    // Where z that waits would lead over the box, the limit must not be met.
+    let quick = AdaptiveSettings {
+        gain: 286.0,
+        delta: Estimator::fixed(0.0),
+        ..limited(40.8)
+    };
+    let examined = PeakRounded::examine(&quick, &plant).unwrap();
+    assert!(!examined.at_the_limit[1].holds());
+    assert_eq!(refused(&quick, &plant), Some(Named::Command));
+    let free = limited(60.0).limits;
+    let quick = AdaptiveSettings {
+        limits: free,
+        ..quick
+    };
+    assert_eq!(refused(&quick, &plant), None);
+}
+
+/// epsilon so small that s/epsilon is beyond the largest `f32`.
+fn sharp<T: Real>(settings: AdaptiveSettings<T, 2>) -> AdaptiveSettings<T, 2> {
+    AdaptiveSettings {
+        delta: Estimator::fixed(T::ZERO),
+        epsilon: T::of(2e-39),
+        ..settings
+    }
+}
+
+#[test]
+fn what_overflows_is_refused() {
+    let plant = own_plant();
+    assert_eq!(refused(&sharp(own::<f32>()), &plant), Some(Named::Overflow));
+    assert_eq!(refused(&sharp(own::<f64>()), &plant), None);
 }
 
 #[test]

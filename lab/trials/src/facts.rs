@@ -22,10 +22,11 @@ pub use super::design::{
 pub use super::found::{Outcome, Pair};
 pub use super::heading::Heading;
 pub use super::own_rig::RigChanges;
-pub use super::proof::{coq, gappa, prove, Proof};
+pub use super::proof::{coq, gappa, prove, Proof, Sides};
 pub use super::table::{Line, Spread};
 pub use super::trial::Row;
 pub use super::undeclared::Undeclared;
+pub use bowden::bound::Named;
 
 /// Gain, leakage and box of one estimate of the adaptive law.
 pub type Estimate = bowden::control::Estimator<f64>;

@@ -79,6 +79,7 @@ fn rounded<T: Real>() -> Option<()> {
     never_panics!(bound_rounded_bound, peak.bound());
     never_panics!(bound_rounded_certificate, peak.certificate());
     never_panics!(bound_rounded_is_proved, peak.is_proved());
+    never_panics!(bound_rounded_may_meet_the_limit, peak.may_meet_the_limit());
     never_panics!(bound_rounded_refused, peak.refused());
     let inequality = black_box(peak.inequalities).first().copied()?;
     never_panics!(bound_rounded_inequalities_holds, inequality.holds());

@@ -30,6 +30,7 @@ pub(super) struct Gains {
     pub(super) word: Word,
     pub(super) gain: Enclosure,
     pub(super) lambda: Enclosure,
+    pub(super) epsilon: Enclosure,
     pub(super) step: Enclosure,
     /// Least and greatest alpha.
     pub(super) alpha: [Enclosure; 2],
@@ -95,6 +96,7 @@ impl Gains {
             word,
             gain: Enclosure::of(settings.gain),
             lambda,
+            epsilon: Enclosure::of(settings.epsilon),
             step: Enclosure::of(step),
             alpha,
             beta: beta[1],
@@ -118,7 +120,8 @@ fn word<T: Real>() -> Word {
     let unit = Enclosure::of(T::epsilon()) * Enclosure::power(-1);
     // Half of the least subnormal number: the least normal one has as many bits above it.
     let least = Enclosure::of(T::min_positive_value()) * unit;
-    Word { unit, least }
+    let most = Enclosure::of(T::HIGHEST);
+    Word { unit, least, most }
 }
 
 /// The step \[s\] of settings whose single numbers make sense.

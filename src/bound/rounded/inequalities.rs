@@ -1,4 +1,4 @@
-//! The eight inequalities, with both sides.
+//! The inequalities, with both sides.
 
 use super::gains::Gains;
 use super::roundings::{roundings, Roundings};
@@ -25,8 +25,16 @@ pub enum Named {
     Owed,
     /// `Z <= z_limit`.
     ZLimit,
-    /// `(r + S + lambda·Z + theta'x + D)/alpha⁻ <=` the limit of the command.
+    /// `(r + S + lambda·Z + theta'x + D)/alpha⁻ <=` the limit of the command: it is not met.
     Command,
+    /// Twice the sum of what the step adds and multiplies `<=` the largest float.
+    Overflow,
+    /// `(r + theta'x + D + lambda·Z - S)/alpha⁻ <=` the limit of the command, which may be met.
+    Reserve,
+    /// `h·lambda·(2 + g⁺·k) <= 1`: while z waits, one step does not lead over the box.
+    Waiting,
+    /// `lambda²·Z <= lambda·S + 2·g⁻·Z`: the room that rounding needs of Z, while z waits.
+    Slack,
 }
 
 impl Named {
@@ -42,6 +50,10 @@ impl Named {
             Self::Owed => "what the sum of z owes reproduces itself",
             Self::ZLimit => "Z <= z_limit",
             Self::Command => "(r + S + lambda*Z + load)/alpha- <= limit of the command",
+            Self::Overflow => "no number of the step overflows",
+            Self::Reserve => "(r + load + lambda*Z - S)/alpha- <= limit of the command",
+            Self::Waiting => "h*lambda*(2 + g+*k) <= 1",
+            Self::Slack => "lambda^2*Z <= lambda*S + 2*g-*Z",
         }
     }
 }
@@ -123,6 +135,7 @@ impl PeakRounded {
             error: s + gains.lambda * z,
             roundings: added,
             inequalities: inequalities(gains, s, z, command, &added),
+            at_the_limit: at_the_limit(gains, s, z),
         }
     }
 }
@@ -133,7 +146,7 @@ fn inequalities(
     z: Enclosure,
     command: Enclosure,
     added: &Roundings,
-) -> [Inequality; 8] {
+) -> [Inequality; 9] {
     let [_, alpha] = gains.alpha;
     let [g_low, g_high] = gains.g;
     let share = gains.step * gains.lambda;
@@ -152,5 +165,24 @@ fn inequalities(
         Inequality::new(Named::Owed, added.owed_after, added.owed_by_z),
         Inequality::new(Named::ZLimit, z, gains.z_limit),
         Inequality::new(Named::Command, command, gains.command),
+        Inequality::new(Named::Overflow, added.largest, gains.word.most),
+    ]
+}
+
+/// Where the limit of the command may be met: `theorems/Limit.v`.
+fn at_the_limit(gains: &Gains, s: Enclosure, z: Enclosure) -> [Inequality; 3] {
+    let two = Enclosure::power(1);
+    let [g_low, g_high] = gains.g;
+    let over = gains.lambda * z - s;
+    let reserve = (gains.reference + gains.load + over) / gains.alpha[0];
+    let waiting = gains.step * gains.lambda * (two + g_high * gains.gain);
+    [
+        Inequality::new(Named::Reserve, reserve, gains.command),
+        Inequality::new(Named::Waiting, waiting, Enclosure::ONE),
+        Inequality::new(
+            Named::Slack,
+            gains.lambda * (gains.lambda * z),
+            gains.lambda * s + two * g_low * z,
+        ),
     ]
 }

@@ -17,7 +17,7 @@ use gains::Gains;
 ///
 /// [`PeakSampled`](super::PeakSampled) is about exact numbers. This is about the floats of
 /// the controller: let `|s| <= S`, `|z| <= Z`, and let the sums of z and of the command owe
-/// no more than their last addition lost. If the eight [`inequalities`](Self::inequalities)
+/// no more than their last addition lost. If the nine [`inequalities`](Self::inequalities)
 /// hold, all of that holds after every step too, and `|e| <= S + lambda·Z` at every sample,
 /// for `f32` and `f64`. Each inequality is computed in integers, rounded outwards: what is
 /// proved here needs no trust in a float. It needs no heap, so that a controller can check
@@ -26,6 +26,11 @@ use gains::Gains;
 /// *Proof.* The exact step keeps the box with room to spare, as in
 /// [`PeakSampled`](super::PeakSampled); the [`Roundings`] are less than the room. The theorem
 /// over the reals is `theorems/Box.v`.
+///
+/// **A limit that may be met.** The eighth inequality says that the box needs no command beyond
+/// the limit. Where it fails, the three of [`at_the_limit`](Self::at_the_limit) will do: a limit
+/// that holds the reference against the load cuts a command, z waits, and the box is the same
+/// (`theorems/Limit.v`). A slew rate is not covered.
 ///
 /// Assumed beside: the plant `y = alpha·u - theta'x - D` without dynamics, where y is as the
 /// controller reads it: what the sensor rounds is part of D and counts in its rate; `dt` is
@@ -65,8 +70,10 @@ pub struct PeakRounded {
     pub error: Enclosure,
     /// What one step rounds.
     pub roundings: Roundings,
-    /// The eight inequalities, in the order of [`Named`].
-    pub inequalities: [Inequality; 8],
+    /// The nine inequalities, in the order of [`Named`].
+    pub inequalities: [Inequality; 9],
+    /// What stands for [`Named::Command`] where that one fails.
+    pub at_the_limit: [Inequality; 3],
 }
 
 /// Doublings and halvings of the search for S.
@@ -128,16 +135,30 @@ impl PeakRounded {
         Ok(Self::at(&gains, high))
     }
 
-    /// Whether all eight inequalities hold.
+    /// Whether all inequalities hold, or of [`Named::Command`] what stands for it.
     #[must_use]
     pub fn is_proved(&self) -> bool {
         self.refused().is_none()
     }
 
-    /// The first inequality that does not hold.
+    /// Whether the limit of the command may be met in the box: [`Named::Command`] fails.
+    #[must_use]
+    pub fn may_meet_the_limit(&self) -> bool {
+        let mut fails = self.inequalities.iter().filter(|it| !it.holds());
+        fails.any(|it| it.name == Named::Command)
+    }
+
+    /// The first inequality that does not hold; of a limit that may be met
+    /// [`Named::Reserve`], where it is that which fails.
     #[must_use]
     pub fn refused(&self) -> Option<&Inequality> {
-        self.inequalities.iter().find(|it| !it.holds())
+        let [reserve, waiting, slack] = &self.at_the_limit;
+        let waits = waiting.holds() && slack.holds();
+        let instead = |it: &Inequality| it.name == Named::Command && waits && reserve.holds();
+        let mut all = self.inequalities.iter();
+        let first = all.find(|it| !it.holds() && !instead(it))?;
+        let is_reserve = first.name == Named::Command && waits;
+        Some(if is_reserve { reserve } else { first })
     }
 
     /// S + lambda·Z \[N·m\]: `|e|` at every sample; not below it as a real number.
@@ -158,8 +179,8 @@ impl PeakRounded {
 
     /// Whether the inequalities hold that a greater S can mend.
     fn grows_into(&self) -> bool {
-        // The step's own two are the same at every S, the last two are lost with a greater one.
-        let [_, _, z, stiff, s, owed, _, _] = &self.inequalities;
+        // The step's own two are the same at every S, the last three are lost with a greater one.
+        let [_, _, z, stiff, s, owed, ..] = &self.inequalities;
         [z, stiff, s, owed]
             .iter()
             .all(|inequality| inequality.holds())

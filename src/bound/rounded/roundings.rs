@@ -50,6 +50,8 @@ pub(super) struct Word {
     pub(super) unit: Enclosure,
     /// Half of the least number above zero.
     pub(super) least: Enclosure,
+    /// The greatest number.
+    pub(super) most: Enclosure,
 }
 
 impl Word {
@@ -94,6 +96,9 @@ pub struct Roundings {
     pub owed_after: Enclosure,
     /// What of `T(s/epsilon)` is not in proportion to s: underflow.
     pub smooth_sign: Enclosure,
+    /// More than any number of the step but those of the estimates: twice the sum of all that
+    /// it adds and multiplies, half of which is for rounding.
+    pub largest: Enclosure,
 }
 
 /// The roundings while `|s| <= S`, `|z| <= Z` and `|u| <= command`.
@@ -144,7 +149,25 @@ pub(super) fn roundings(
         owed_after: word.unit * (z + increment.most + increment.error),
         // The quotient s/epsilon, and a smooth sign that is off by as much.
         smooth_sign: word.least * Enclosure::power(2),
+        largest: largest(gains, s + s_error, z, command, ubar.most),
     }
+}
+
+/// Every number of the step is a sum of some of these, or one of them less a factor below one.
+fn largest(
+    gains: &Gains,
+    s: Enclosure,
+    z: Enclosure,
+    command: Enclosure,
+    ubar: Enclosure,
+) -> Enclosure {
+    let one = Enclosure::ONE;
+    let moved = (s + gains.lambda * z + gains.reference_rate) * (one + gains.step);
+    let mut all = one + gains.step + gains.reference + moved + z + command;
+    for term in gains.regressors() {
+        all = all + term.magnitude;
+    }
+    (all + s / gains.epsilon + ubar * (one + gains.beta)) * Enclosure::power(1)
 }
 
 /// `sum(theta_hat_i·x_i)`: the first product is added to zero, which rounds nothing.

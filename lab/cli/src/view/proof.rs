@@ -1,8 +1,11 @@
 //! `bowden certify GAINS.toml`: what is proved of one's own gains.
 
 use super::decimal::{fixed, scientific, Towards};
-use bowden_trials::facts::Proof;
+use bowden_trials::facts::{Named, Proof, Sides};
 use std::fmt::Write as _;
+
+/// Of a proof in which the limit of the command may be met.
+const AT_THE_LIMIT: &str = "The box needs commands beyond the limit; the limit may be met, and the box holds all the same\n(theorems/Limit.v: it holds the reference against the load).\n\n";
 
 /// Schema `bowden.certificate/1`.
 ///
@@ -24,6 +27,9 @@ pub fn text(proof: &Proof, label: &str) -> String {
                 out,
                 "PROVED in {float}, every rounding included: |e| <= {error} N·m, |s| <= {s} N·m at every sample\n"
             );
+            if proof.may_meet_the_limit {
+                out.push_str(AT_THE_LIMIT);
+            }
         }
         Some(refusal) => {
             let _ = writeln!(
@@ -51,7 +57,12 @@ pub fn text(proof: &Proof, label: &str) -> String {
         short(rounded.owed_by_command.high),
         short(rounded.owed_by_z.high)
     );
-    for sides in &proof.inequalities {
+    // Of the command one of the two ways is enough, and the other is not shown.
+    let shown = |sides: &&Sides| !(sides.name == Named::Command && proof.may_meet_the_limit);
+    let own = proof.inequalities.iter().filter(shown);
+    let at_the_limit = proof.at_the_limit.iter();
+    let at_the_limit = at_the_limit.filter(|_| proof.may_meet_the_limit);
+    for sides in own.chain(at_the_limit) {
         let (left, right) = both(sides.left.high, sides.right.low, sides.holds);
         let holds = if sides.holds { "holds" } else { "FAILS" };
         let _ = writeln!(out, "{holds}  {left:>12} <= {right:<12}  {}", sides.text);

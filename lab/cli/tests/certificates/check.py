@@ -55,15 +55,25 @@ def sides(c):
     Ez, owed = summed(Z, inc, carry)[1], u * (Z + w[0] + w[1])
     q = (1 + 8 * u) / gains["epsilon"]
     Rs = plant["alpha"][1] * El + lam * Ez + h * lam * g[1] * delta * 4 * eta
+    # More than any number of the step, and the greatest float.
+    big = 1 + h + r + (S + Es + lam * Z + plant["reference_rate"]) * (1 + h) + Z + U
+    big += sum(each["magnitude"] for each in regressors)
+    big = 2 * (big + (S + Es) / gains["epsilon"] + ubar[0] * (1 + beta[1]))
+    top = (2 - 2 * u) * F(2) ** {"f32": 127, "f64": 1023}[c["float"]]
+    over = lam * Z - S
     return [("step", h * lam, F(1)), ("steepness", h * lam * g[1] * (k + delta * q), F(1)),
             ("z-stays", h * S + Ez, h * lam * Z), ("stiffness", Z, lam * k * S),
             ("s-stays", h * lam * W + h * xi + Rs + Es, h * g[0] * (lam * k * S - Z)),
-            ("owed", owed, carry), ("z-limit", Z, gains["z_limit"]), ("command", U, gains["command"])]
+            ("owed", owed, carry), ("z-limit", Z, gains["z_limit"]), ("command", U, gains["command"]),
+            ("overflow", big, top),
+            ("reserve", (r + load + over) / plant["alpha"][0], gains["command"]),
+            ("waiting", h * lam * (2 + g[1] * k), F(1)), ("slack", lam ** 2 * Z, lam * S + 2 * g[0] * Z)]
 
 
 def faults(c):
     near = F(1, 2 ** 45)
-    for (name, left, right), stated in zip(sides(c), c["inequalities"], strict=True):
+    fails = set()
+    for (name, left, right), stated in zip(sides(c), c["inequalities"] + c["at_the_limit"], strict=True):
         a, b = number(stated["left"]["exact"]), number(stated["right"]["exact"])
         if name != stated["name"]:
             yield f"{stated['name']} stands where {name} was expected"
@@ -71,8 +81,16 @@ def faults(c):
             yield f"{name}: left side {float(a)} is not {float(left)}"
         if not right - near * abs(right) <= b <= right:
             yield f"{name}: right side {float(b)} is not {float(right)}"
-        if (a <= b) != stated["holds"] or (c["proved"] and a > b):
+        if (a <= b) != stated["holds"]:
             yield f"{name}: {float(a)} <= {float(b)} is not as stated"
+        if a > b:
+            fails.add(name)
+    # A limit that is not met, or one that may be.
+    limit, own = {"reserve", "waiting", "slack"}, fails - {"reserve", "waiting", "slack"}
+    if c["may_meet_the_limit"] != ("command" in fails):
+        yield "may_meet_the_limit is not as stated"
+    if c["proved"] != (not own or (own == {"command"} and not fails & limit)):
+        yield f"proved is {c['proved']} with {sorted(fails)}"
 
 
 def main():

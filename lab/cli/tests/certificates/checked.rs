@@ -108,6 +108,31 @@ fn examples() -> Vec<Proof> {
         .to_vec()
 }
 
+/// `gains_own.toml` with another limit of the command.
+fn limited(command: &str) -> Proof {
+    let own = std::fs::read_to_string(example("gains_own.toml")).unwrap();
+    let limit = format!("command = {command}");
+    parse(&own.replace("command = 60.0", &limit), "limited").unwrap()
+}
+
+#[test]
+fn another_program_agrees_on_a_limit_that_may_be_met() {
+    let (met, weak) = (limited("41.0"), limited("40.0"));
+    assert!(met.proved && met.may_meet_the_limit);
+    assert!(!weak.proved && weak.may_meet_the_limit);
+    let mut denied = met.clone();
+    denied.may_meet_the_limit = false;
+    let mut claimed = weak.clone();
+    claimed.proved = true;
+    let mut disproved = met.clone();
+    disproved.proved = false;
+    let Some(said) = checked(&[met, weak, denied, claimed, disproved]) else {
+        return;
+    };
+    let wells: Vec<bool> = said.iter().map(|line| line.ends_with(": ok")).collect();
+    assert_eq!(wells, [true, true, false, false, false], "{said:?}");
+}
+
 #[track_caller]
 fn agree(certificates: &[Proof]) {
     let Some(said) = checked(certificates) else {
@@ -170,6 +195,13 @@ fn each_inequality_with_a_number_changed_is_caught() {
         let mut right = good.clone();
         right.inequalities[i].right.exact = nudged(&good.inequalities[i].right.exact, 1 << 20);
         mutated.extend([left, right]);
+    }
+    for i in 0..good.at_the_limit.len() {
+        for by in [-1, 1] {
+            let mut left = good.clone();
+            left.at_the_limit[i].left.exact = scaled(&good.at_the_limit[i].left.exact, by);
+            mutated.push(left);
+        }
     }
     // A smaller box than was proved, and a refusal that is called a proof.
     let mut smaller = good.clone();

@@ -4,7 +4,7 @@ use super::example;
 use super::shell::{bowden, refused, said, text};
 
 #[test]
-fn gains_that_are_proved_are_said_to_be_with_all_eight_inequalities() {
+fn gains_that_are_proved_are_said_to_be_with_all_nine_inequalities() {
     let report = said(&["certify", &example("gains_table2.toml")]);
     assert!(
         report.contains("PROVED in f32, every rounding included: |e| <= 0.8340 N·m, |s| <= 0.4170"),
@@ -12,7 +12,7 @@ fn gains_that_are_proved_are_said_to_be_with_all_eight_inequalities() {
     );
     assert_eq!(
         report.lines().filter(|l| l.starts_with("holds ")).count(),
-        8
+        9
     );
     let report = said(&["certify", &example("gains_own.toml")]);
     assert!(
@@ -21,6 +21,47 @@ fn gains_that_are_proved_are_said_to_be_with_all_eight_inequalities() {
     );
     // Found twice, it is the same to the byte.
     assert_eq!(report, said(&["certify", &example("gains_own.toml")]));
+}
+
+/// A limit that the box needs more than: proved where it holds the reference against the load.
+#[test]
+fn a_limit_that_may_be_met_is_proved_with_its_own_inequalities() {
+    let own = std::fs::read_to_string(example("gains_own.toml")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("gains.toml");
+    let with = |command: &str| {
+        let limit = format!("command = {command}");
+        std::fs::write(&path, own.replace("command = 60.0", &limit)).unwrap();
+        bowden(&["certify", path.to_str().unwrap()])
+    };
+    let report = with("41.0");
+    assert!(report.status.success(), "{report:?}");
+    let report = text(&report.stdout).to_owned();
+    assert!(
+        report.contains("\nPROVED") && report.contains("the limit may be met"),
+        "{report}"
+    );
+    let holds = report.lines().filter(|l| l.starts_with("holds "));
+    assert_eq!(holds.count(), 8 + 3, "{report}");
+    assert!(!report.contains("FAILS"), "{report}");
+    // What is said to be enough is enough, and the box is the one without a limit.
+    let weak = text(&with("40.0").stdout).to_owned();
+    let (_, enough) = weak.split_once("command of at least ").unwrap();
+    let enough = enough.split(',').next().unwrap();
+    let mended = text(&with(enough).stdout).to_owned();
+    assert!(mended.contains("\nPROVED"), "{enough}: {mended}");
+    let box_of = |report: &str| {
+        let line = report.lines().find(|l| l.starts_with("PROVED"));
+        line.unwrap().to_owned()
+    };
+    assert_eq!(
+        box_of(&report),
+        box_of(&said(&["certify", &example("gains_own.toml")]))
+    );
+    let coq = folder.path().join("own.v");
+    let (path, coq) = (path.to_str().unwrap(), coq.to_str().unwrap());
+    let line = refused(&["certify", path, "--coq", coq]);
+    assert!(line.contains("theorems/Limit.v"), "{line}");
 }
 
 #[test]

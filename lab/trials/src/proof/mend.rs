@@ -43,12 +43,21 @@ pub(super) fn words(form: &Form, inequality: &Inequality) -> String {
             "a greater k or lambda, a box of beta_hat that starts higher, {coarse}: k = {k} leaves too little beyond 1/lambda² = {}",
             up(1.0 / (lambda * lambda))
         ),
-        Named::ZStays | Named::Owed => format!("{coarse}: z moves by less than it is rounded by"),
+        Named::ZStays | Named::Owed | Named::Slack => format!("{coarse}: z moves by less than it is rounded by"),
         Named::ZLimit => format!("z_limit of at least {} N·m·s", up(left)),
         Named::Command => format!(
             "a limit of the command of at least {}, a smaller reference or a smaller disturbance (the limit is {right})",
             up(left)
         ),
+        Named::Reserve => format!(
+            "a limit of the command of at least {}, a smaller reference or a smaller disturbance (the limit is {right}, and must hold the one against the other)",
+            up(left)
+        ),
+        Named::Waiting => format!("a rate of at least {} Hz", up(left / step)),
+        Named::Overflow => {
+            "a greater epsilon, or smaller gains: a number of the step is beyond its float"
+                .to_owned()
+        }
     }
 }
 

@@ -23,8 +23,10 @@ use std::path::Path;
 pub struct Proof {
     /// `bowden.certificate/1`.
     pub schema: &'static str,
-    /// Whether all eight inequalities hold.
+    /// Whether all inequalities hold, or of the command's those that stand for it.
     pub proved: bool,
+    /// Whether the limit of the command may be met in the box.
+    pub may_meet_the_limit: bool,
     /// The controller's float.
     pub float: Float,
     /// The gains as the controller has them, in its own float.
@@ -47,8 +49,10 @@ pub struct Proof {
     pub g: [Number; 2],
     /// What one step rounds.
     pub roundings: Rounded,
-    /// The eight inequalities.
+    /// The nine inequalities.
     pub inequalities: Vec<Sides>,
+    /// What stands for the command's where that one fails.
+    pub at_the_limit: Vec<Sides>,
     /// The first inequality that does not hold, and what would mend it.
     pub refused: Option<Refusal>,
     /// What the user must check.
@@ -320,6 +324,7 @@ fn proof<T: Real, const N: usize>(
     Proof {
         schema: "bowden.certificate/1",
         proved: examined.is_proved(),
+        may_meet_the_limit: examined.may_meet_the_limit(),
         float: form.float,
         gains: Exact {
             k: float(settings.gain),
@@ -360,6 +365,7 @@ fn proof<T: Real, const N: usize>(
             owed_by_command: number(rounded.owed_by_command),
         },
         inequalities: examined.inequalities.iter().map(Sides::from).collect(),
+        at_the_limit: examined.at_the_limit.iter().map(Sides::from).collect(),
         refused: examined.refused().map(|inequality| Refusal {
             text: inequality.name.text(),
             mend: mend::words(form, inequality),

@@ -33,11 +33,18 @@ struct Numbers {
     regressors: usize,
 }
 
+/// The theorem of a limit is over the reals alone.
+const AT_THE_LIMIT: &str = "--coq: this proof is of a limit of the command that may be met; a certificate for Coq is written of limits that are not (theorems/Limit.v has the theorem, --json all numbers)";
+
 /// The certificate as a theorem: `coqc` checks it, or refuses it.
 ///
 /// # Errors
-/// One line where a number is so small that it would not fit on one.
+/// One line where a number is so small that it would not fit on one, or where the limit of the
+/// command may be met.
 pub fn coq(proof: &Proof) -> Result<String, String> {
+    if proof.may_meet_the_limit {
+        return Err(AT_THE_LIMIT.to_owned());
+    }
     let numbers = Numbers::of(proof)?;
     let (names, exact, comp) = sums(numbers.regressors);
     let mut words = Words(BTreeMap::new());
