@@ -250,12 +250,243 @@ Hypothesis Hn4 : n <= 4.
 Lemma middle_coefficient : 0 <= f ^ 2 * (f - n * x / 2) + f ^ 2 * (1 + eta) - f * (1 + eta) ^ 2 / 2
     - 3 / 2 * (1 + eta) ^ 4.
 Proof.
-  set (most := x / (n + 1)).
-  assert (Hm : most * (n + 1) = x) by (unfold most; field; lra).
-  assert (Em : eta <= most).
-  { apply Rmult_le_reg_r with (n + 1); lra. }
-  set (Q := fun e => f ^ 2 * (f - n * x / 2) + f ^ 2 * (1 + e) - f * (1 + e) ^ 2 / 2 - 3 / 2 * (1 + e) ^ 4).
-  change (0 <= Q eta).
-  admit.
-Admitted.
+  assert (Hy : 0 <= n * x <= 3) by (split; [apply pos2; lra | lra]).
+  assert (Y4 : n * x <= 4 * x) by (apply Rmult_le_compat_r; lra).
+  set (y := n * x) in Hy, Y4 |- *. set (m := n - 1).
+  set (M := 1 + x / (n + 1)). set (X := 1 + eta).
+  assert (HM : (M - 1) * (n + 1) = x) by (unfold M; field; lra).
+  assert (XM : 1 <= X <= M).
+  { split; [unfold X; lra |]. apply Rmult_le_reg_r with (n + 1); [lra |]. unfold X. lra. }
+  (* At the lower end. *)
+  assert (Q1 : 0 <= f ^ 2 * (f - y / 2) + f ^ 2 - f / 2 - 3 / 2).
+  { assert (F2 : 0 <= f ^ 2) by apply pow2_ge_0.
+    destruct (Rle_dec x (3 / 4)).
+    - assert (A : f ^ 2 * (f - 2 * x) <= f ^ 2 * (f - y / 2)) by (apply le2; lra).
+      unfold f in *. nra.
+    - assert (A : f ^ 2 * (f - 3 / 2) <= f ^ 2 * (f - y / 2)) by (apply le2; lra).
+      unfold f in *. nra. }
+  (* At the upper end: a polynomial of n and y, in Bernstein's form in y. *)
+  assert (QM : 0 <= f ^ 2 * (f - y / 2) + f ^ 2 * M - f * M ^ 2 / 2 - 3 / 2 * M ^ 4).
+  { assert (Hm : 0 <= m <= 3) by (unfold m; lra).
+    set (w := y / 3). assert (Hw : 0 <= w <= 1) by (unfold w; lra).
+    set (c0 := 32 + m * (192 + m * (472 + m * (612 + m * (444 + m * (171 + m * (25 + m * (-3 - m)))))))).
+    set (c1 := 68 + m * (372 + m * (797 + m * (868 + m * (511 + m * (151 + m * (11 + m * (-5 - m)))))))).
+    set (c2 := 116 + m * (636 + m * (1203 + m * (1091 + m * (515 + m * (107 + m * (-6 + m * (-7 - m)))))))).
+    set (c3 := 95 + m * (984 + m * (1690 + m * (1281 + m * (456 + m * (39 + m * (-26 + m * (-9 - m)))))))).
+    assert (N0 : forall c k, 0 <= c -> 0 <= k -> 0 <= c + m * k).
+    { intros c k Hc Hk0. assert (0 <= m * k) by (apply pos2; lra). lra. }
+    assert (M2 : m * m <= 3 * m) by nra.
+    assert (M3 : m * (m * m) <= 9 * m) by nra.
+    assert (M4 : m * (m * (m * m)) <= 27 * m).
+    { assert (m * (m * (m * m)) <= m * (9 * m)) by (apply le2; lra). lra. }
+    assert (C0 : 0 <= c0) by (unfold c0; do 6 (apply N0; [lra |]); lra).
+    assert (C1 : 0 <= c1) by (unfold c1; do 5 (apply N0; [lra |]); lra).
+    assert (C2 : 0 <= c2) by (unfold c2; do 4 (apply N0; [lra |]); lra).
+    assert (C3 : 0 <= c3) by (unfold c3; do 4 (apply N0; [lra |]); lra).
+    assert (K : 2 * n ^ 4 * (n + 1) ^ 4 * (f ^ 2 * (f - y / 2) + f ^ 2 * M - f * M ^ 2 / 2 - 3 / 2 * M ^ 4)
+      = y * (c0 * (1 - w) ^ 3 + 3 * c1 * w * (1 - w) ^ 2 + 3 * c2 * w ^ 2 * (1 - w) + c3 * w ^ 3)).
+    { unfold c0, c1, c2, c3, w, m, M, y, f. field. lra. }
+    assert (R : 0 <= 2 * n ^ 4 * (n + 1) ^ 4 * (f ^ 2 * (f - y / 2) + f ^ 2 * M - f * M ^ 2 / 2 - 3 / 2 * M ^ 4)).
+    { rewrite K. apply pos2; [lra |].
+      assert (0 <= c0 * (1 - w) ^ 3) by (apply pos2; [| apply pow_le]; lra).
+      assert (0 <= 3 * c1 * w * (1 - w) ^ 2) by (apply pos2; [apply pos2; lra | apply pow2_ge_0]).
+      assert (0 <= 3 * c2 * w ^ 2 * (1 - w)) by (apply pos2; [apply pos2; [lra | apply pow2_ge_0] | lra]).
+      assert (0 <= c3 * w ^ 3) by (apply pos2; [| apply pow_le]; lra). lra. }
+    assert (P : 0 < 2 * n ^ 4 * (n + 1) ^ 4).
+    { apply Rmult_lt_0_compat; [apply Rmult_lt_0_compat; [lra |] |]; apply pow_lt; lra. }
+    apply Rmult_le_reg_l with (2 * n ^ 4 * (n + 1) ^ 4); [assumption |]. lra. }
+  (* Between: the powers lie below their chords. *)
+  assert (Hf : 1 <= f) by (unfold f; lra).
+  assert (X2 : X ^ 2 <= 1 + (X - 1) * (1 + M)) by nra.
+  assert (X4 : X ^ 4 <= 1 + (X - 1) * ((1 + M) * (1 + M ^ 2))).
+  { replace (X ^ 4) with (1 + (X - 1) * ((1 + X) * (1 + X ^ 2))) by ring.
+    assert ((X - 1) * ((1 + X) * (1 + X ^ 2)) <= (X - 1) * ((1 + M) * (1 + M ^ 2))); [| lra].
+    apply le2; [lra |]. assert (X ^ 2 <= M ^ 2) by nra.
+    apply Rmult_le_compat; try lra. assert (0 <= X ^ 2) by apply pow2_ge_0. lra. }
+  assert (FX : f / 2 * X ^ 2 <= f / 2 * (1 + (X - 1) * (1 + M))) by (apply le2; lra).
+  set (a := f ^ 2 * (f - y / 2)) in *.
+  assert (L : 0 <= a + f ^ 2 * X - f / 2 * (1 + (X - 1) * (1 + M))
+      - 3 / 2 * (1 + (X - 1) * ((1 + M) * (1 + M ^ 2)))).
+  { destruct (Req_dec M 1) as [E1 | NE].
+    - assert (EX : X = 1) by lra. rewrite EX, E1. lra.
+    - apply Rmult_le_reg_l with (M - 1); [lra |].
+      assert (S1 := pos2 (M - X) _ ltac:(lra) Q1). assert (S2 := pos2 (X - 1) _ ltac:(lra) QM).
+      replace ((M - 1) * (a + f ^ 2 * X - f / 2 * (1 + (X - 1) * (1 + M))
+        - 3 / 2 * (1 + (X - 1) * ((1 + M) * (1 + M ^ 2)))))
+        with ((M - X) * (a + f ^ 2 - f / 2 - 3 / 2) + (X - 1) * (a + f ^ 2 * M - f * M ^ 2 / 2 - 3 / 2 * M ^ 4))
+        by field.
+      lra. }
+  fold X. fold a. lra.
+Qed.
+
+Lemma above_below_u : forall t, 0 <= t <= 1 -> above t <= u * (D t) ^ 2.
+Proof.
+  intros t Ht. destruct H_bounds as [P E]. assert (U := u_above_one).
+  assert (Mid := middle_coefficient).
+  set (mid := f ^ 2 * (f - n * x / 2) + f ^ 2 * (1 + eta) - f * (1 + eta) ^ 2 / 2 - 3 / 2 * (1 + eta) ^ 4) in *.
+  set (E1 := alpha + t * (beta + t * gamma)).
+  assert (K : u * D t ^ 2 - above t
+    = t * (u * (n * x) * H * (1 - t) ^ 2 + 2 * (mid * H ^ 3) * (t * (1 - t)) + (2 * f - u - (1 + eta)) * t ^ 2)
+      + u * (t * E1) ^ 2).
+  { unfold mid, E1, above, D, cubic, cubic', gamma, beta, alpha, u, H. field. lra. }
+  assert (L : 0 <= 2 * f - u - (1 + eta)).
+  { apply Rmult_le_reg_l with (1 + eta); [lra |].
+    replace ((1 + eta) * (2 * f - u - (1 + eta))) with (x * (1 + 2 * eta) - eta ^ 2)
+      by (unfold u, f, H; field; lra).
+    destruct eta_below_x as [A _]. nra. }
+  assert (Hxn : 0 <= n * x) by (apply pos2; lra).
+  assert (0 <= u * (n * x) * H * (1 - t) ^ 2).
+  { apply pos2; [apply pos2; [apply pos2 |] | apply pow2_ge_0]; lra. }
+  assert (0 <= 2 * (mid * H ^ 3) * (t * (1 - t))).
+  { apply pos2; [| apply pos2; lra]. assert (0 <= mid * H ^ 3) by (apply pos2; [| apply pow_le]; lra). lra. }
+  assert (0 <= (2 * f - u - (1 + eta)) * t ^ 2) by (apply pos2; [lra | apply pow2_ge_0]).
+  assert (0 <= u * (t * E1) ^ 2) by (apply pos2; [lra | apply pow2_ge_0]).
+  assert (0 <= t * (u * (n * x) * H * (1 - t) ^ 2 + 2 * (mid * H ^ 3) * (t * (1 - t))
+    + (2 * f - u - (1 + eta)) * t ^ 2)) by (apply pos2; lra).
+  lra.
+Qed.
+
+Lemma below_rises : slopes below 0 u 0 1.
+Proof.
+  apply slopes_of_derivative with (f' := fun t => above t / (D t) ^ 2).
+  - intros t Ht. assert (P := D_positive t Ht).
+    assert (N := cubic_derives (-1) 1 0 0 t). assert (Dd := cubic_derives 1 alpha beta gamma t).
+    assert (Q := quotient_derives _ _ t _ _ (Rgt_not_eq _ _ P) N Dd).
+    replace (above t / D t ^ 2) with
+      ((cubic' 1 0 0 t * cubic 1 alpha beta gamma t - cubic' alpha beta gamma t * cubic (-1) 1 0 0 t)
+        / cubic 1 alpha beta gamma t ^ 2)
+      by (unfold above, D, cubic', cubic; f_equal; ring).
+    intros eps He. destruct (Q eps He) as [d Hd]. exists d. intros k Hk0 Hkd.
+    specialize (Hd k Hk0 Hkd). unfold below, D.
+    replace (- (1 - (t + k))) with (cubic (-1) 1 0 0 (t + k)) by (unfold cubic; ring).
+    replace (- (1 - t)) with (cubic (-1) 1 0 0 t) by (unfold cubic; ring). exact Hd.
+  - intros t Ht. assert (P := D_positive t Ht). assert (A := above_positive t Ht).
+    assert (B := above_below_u t Ht). assert (P2 : 0 < D t ^ 2) by (apply pow_lt; assumption).
+    split; [apply Rmult_le_pos; [lra | left; apply Rinv_0_lt_compat; lra] |].
+    apply Rmult_le_reg_r with (D t ^ 2); [assumption |].
+    unfold Rdiv. rewrite Rmult_assoc, Rinv_l; lra.
+Qed.
+
+Theorem flat_unloading_rises_no_faster_than_f : forall a, 0 < a ->
+  slopes (fun p => a * below (p / (a * H))) 0 f 0 (a * H).
+Proof.
+  intros a Ha. destruct H_bounds as [P E].
+  assert (Hu : 0 < a * H) by (apply Rmult_lt_0_compat; assumption).
+  assert (S1 := slopes_scale below 0 u 0 1 (a * H) a Hu (Rlt_le _ _ Ha) below_rises).
+  replace (a * 0 / (a * H)) with 0 in S1 by (field; lra).
+  replace (a * u / (a * H)) with f in S1 by (unfold u; field; lra).
+  replace (a * H * 0) with 0 in S1 by ring. replace (a * H * 1) with (a * H) in S1 by ring. exact S1.
+Qed.
 End Flat.
+
+(* The share that flat_share computes is the H of that: eta is at most x/(n + 1). *)
+Theorem flat_share_meets_the_condition : forall n x, 1 <= n -> 0 <= x ->
+  let n2 := 2 * n + 1 in
+  let first := x / (n + 1) in
+  let third := (n + 1) ^ 2 * x / (n2 + n) in
+  let over := n2 + third + n * n * first in
+  0 <= first * (n2 + third) / over /\ first * (n2 + third) / over * (n + 1) <= x.
+Proof.
+  intros n x Hn Hx n2 first third over.
+  assert (F : 0 <= first) by (unfold first; apply Rmult_le_pos; [lra | left; apply Rinv_0_lt_compat; lra]).
+  assert (T : 0 <= third).
+  { unfold third, n2. apply Rmult_le_pos; [apply pos2; [apply pow2_ge_0 | lra] |].
+    left; apply Rinv_0_lt_compat; lra. }
+  assert (G : 0 <= n * n * first) by (apply pos2; [apply pos2 |]; lra).
+  assert (O : 0 < over) by (unfold over, n2; lra).
+  assert (I : 0 <= / over) by (left; apply Rinv_0_lt_compat; lra).
+  split.
+  - apply Rmult_le_pos; [apply pos2; [lra | unfold n2; lra] | assumption].
+  - assert (S1 : (n2 + third) / over <= 1).
+    { apply Rmult_le_reg_r with over; [assumption |]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l; [unfold over |]; lra. }
+    assert (E : first * (n + 1) = x) by (unfold first; field; lra).
+    replace (first * (n2 + third) / over * (n + 1)) with (first * (n + 1) * ((n2 + third) / over)) by (field; lra).
+    rewrite E. assert (X := le2 x _ _ Hx S1). lra.
+Qed.
+
+(* Unloading where n*x > 3: -a*(1 - t)*P(s), P a fraction for a power, of any H for which first =
+   f*H - 1 is above zero and second is not below it. *)
+Section Steep.
+Variables n first second : R.
+Hypotheses (Hn : 1 <= n) (Hfirst : 0 < first) (Hsecond : 0 <= second).
+Let half := n / 2.
+Let A := Rabs (half - 9 / 10).
+Let F := 1 + A.
+Definition inverse_power (s : R) : R := (1 + s * A) / (1 + s * (F + s * (F - half))).
+Definition reach (t : R) : R := first * first * t / (first + second / 2 * t).
+Definition below_steep (t : R) : R := - ((1 - t) * inverse_power (reach t)).
+
+Lemma constants : 0 <= A /\ 0 <= F - half <= F.
+Proof.
+  unfold F, A, half, Rabs. destruct (Rcase_abs _); lra.
+Qed.
+
+Lemma inverse_power_falls : forall s s', 0 <= s -> s <= s' ->
+  0 <= inverse_power s' <= 1 /\ 0 <= inverse_power s - inverse_power s' <= s' - s.
+Proof.
+  intros s s' Hs Hss. destruct constants as (HA & HG & HGF). set (G := F - half) in *.
+  assert (P : forall v, 0 <= v -> 1 + F * v <= 1 + v * (F + v * G)).
+  { intros v Hv. assert (0 <= v * (v * G)) by (apply pos2; [| apply pos2]; lra). lra. }
+  assert (HF : 1 <= F) by (unfold F; lra).
+  assert (Q : forall v, 0 <= v -> 0 <= F * v) by (intros; apply pos2; lra).
+  assert (P1 := P s Hs). assert (P2 := P s' ltac:(lra)).
+  assert (Q1 := Q s Hs). assert (Q2 := Q s' ltac:(lra)).
+  set (d := 1 + s * (F + s * G)) in *. set (d' := 1 + s' * (F + s' * G)) in *.
+  assert (HAs : 0 <= s' * A) by (apply pos2; lra).
+  assert (AF : s' * A <= F * s') by (unfold F; lra).
+  unfold inverse_power. fold G. fold d. fold d'.
+  assert (I : 0 < / (d * d')) by (apply Rinv_0_lt_compat; apply Rmult_lt_0_compat; lra).
+  split.
+  - split; [apply Rmult_le_pos; [lra | left; apply Rinv_0_lt_compat; lra] |].
+    apply Rmult_le_reg_r with d'; [lra |]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l; lra.
+  - assert (E : (1 + s * A) / d - (1 + s' * A) / d'
+      = (s' - s) * (1 + G * (s + s') + A * G * (s * s')) * / (d * d')).
+    { unfold d, d', F in *. field. split; lra. }
+    assert (HAG : 0 <= A * G) by (apply pos2; lra).
+    assert (Hp : 0 <= s * s') by (apply pos2; lra).
+    assert (N0 : 0 <= 1 + G * (s + s') + A * G * (s * s')).
+    { assert (0 <= G * (s + s')) by (apply pos2; lra). assert (0 <= A * G * (s * s')) by (apply pos2; lra). lra. }
+    assert (N1 : 1 + G * (s + s') + A * G * (s * s') <= d * d').
+    { assert (M : (1 + F * s) * (1 + F * s') <= d * d') by (apply Rmult_le_compat; lra).
+      assert (G * (s + s') <= F * (s + s')) by (apply Rmult_le_compat_r; lra).
+      assert (A * G <= F * F) by (apply Rmult_le_compat; unfold F in *; lra).
+      assert (A * G * (s * s') <= F * F * (s * s')) by (apply Rmult_le_compat_r; lra). lra. }
+    rewrite E. split.
+    + apply Rmult_le_pos; [apply pos2; lra | lra].
+    + apply Rmult_le_reg_r with (d * d'); [apply Rmult_lt_0_compat; lra |].
+      rewrite Rmult_assoc, Rinv_l, Rmult_1_r; [apply le2; lra |].
+      apply Rgt_not_eq, Rmult_lt_0_compat; lra.
+Qed.
+
+Lemma reach_rises : forall t t', 0 <= t -> t <= t' -> 0 <= reach t /\ 0 <= reach t' - reach t <= first * (t' - t).
+Proof.
+  intros t t' Ht Htt. unfold reach. set (e := second / 2). assert (He : 0 <= e) by (unfold e; lra).
+  assert (E1 := pos2 e t He Ht). assert (E2 := pos2 e t' He ltac:(lra)).
+  set (d := first + e * t) in *. set (d' := first + e * t') in *.
+  assert (Hd : first <= d) by (unfold d; lra). assert (Hd' : first <= d') by (unfold d'; lra).
+  assert (Hf2 : 0 <= first * first) by (apply pos2; lra).
+  assert (Hdd : first * first <= d * d') by (apply Rmult_le_compat; lra).
+  assert (I : 0 < / (d * d')) by (apply Rinv_0_lt_compat; apply Rmult_lt_0_compat; lra).
+  assert (K : first * first * t' / d' - first * first * t / d
+    = first * (t' - t) * (first * first) * / (d * d')).
+  { unfold d, d' in *. field. split; lra. }
+  assert (Hft : 0 <= first * (t' - t)) by (apply pos2; lra).
+  split; [apply Rmult_le_pos; [apply pos2; lra | left; apply Rinv_0_lt_compat; lra] |].
+  rewrite K. split; [apply Rmult_le_pos; [apply pos2; lra | lra] |].
+  apply Rmult_le_reg_r with (d * d'); [apply Rmult_lt_0_compat; lra |].
+  rewrite Rmult_assoc, Rinv_l, Rmult_1_r; [apply le2; lra |].
+  apply Rgt_not_eq, Rmult_lt_0_compat; lra.
+Qed.
+
+Theorem steep_unloading_rises_no_faster_than_f : slopes below_steep 0 (1 + first) 0 1.
+Proof.
+  intros t t' Ht Htt Ht'. destruct (reach_rises t t' Ht Htt) as [R0 [R1 R2]].
+  destruct (inverse_power_falls (reach t) (reach t') R0 ltac:(lra)) as [[P0 P1] [Q0 Q1]].
+  unfold below_steep. set (p := inverse_power (reach t)) in *. set (p' := inverse_power (reach t')) in *.
+  replace (- ((1 - t') * p') - - ((1 - t) * p)) with ((1 - t) * (p - p') + (t' - t) * p') by ring.
+  assert (0 <= (1 - t) * (p - p')) by (apply pos2; lra).
+  assert (0 <= t * (p - p')) by (apply pos2; lra).
+  assert (0 <= (t' - t) * p') by (apply pos2; lra).
+  assert ((t' - t) * p' <= (t' - t) * 1) by (apply le2; lra). lra.
+Qed.
+End Steep.
