@@ -490,3 +490,123 @@ Proof.
   assert ((t' - t) * p' <= (t' - t) * 1) by (apply le2; lra). lra.
 Qed.
 End Steep.
+
+(* From zero up to p = 1, leave_zero: p/(1 + Y + b*Y^2), Y = p*power/(n + 1). The power is drawn by
+   straight lines, c0 + c1*p between two corners; of a straight line that stands for p^(n-1) two
+   things are used: it is within [0, 1], and p times its slope is at most 2*(n - 1) of it. *)
+Section From_zero.
+Variables n c0 c1 first last : R.
+Hypotheses (Hn : 1 <= n) (Hfirst : 0 <= first) (Hlast : last <= 1) (Hc1 : 0 <= c1)
+  (Hpower : forall p, first <= p <= last -> 0 <= c0 + c1 * p <= 1)
+  (Hsteep : forall p, first <= p <= last -> p * c1 <= 2 * (n - 1) * (c0 + c1 * p)).
+Let b := (1 + n - n ^ 2) / (2 * n + 1).
+Let Y := cubic 0 (c0 / (n + 1)) (c1 / (n + 1)) 0.
+Definition from_zero (p : R) : R := p / (1 + Y p * (1 + b * Y p)).
+
+Lemma between_zero_and_its_end : forall v, 0 <= v -> v * (n + 1) <= 1 ->
+  0 <= 1 + 2 * b * v /\ 0 <= v * (1 + b * v) /\ (2 * n - 1) * v * (1 + 2 * b * v) <= 1 + v * (1 + b * v).
+Proof.
+  intros v Hv Hv1.
+  assert (Eb : b * (2 * n + 1) = 1 + n - n ^ 2) by (unfold b; field; lra).
+  assert (L : 0 <= 1 + 2 * b * v).
+  { destruct (Rle_dec 0 b) as [B | B]; [assert (0 <= b * v) by (apply pos2; lra); lra |].
+    assert (Bn : - b * 2 <= n + 1).
+    { apply Rmult_le_reg_r with (2 * n + 1); [lra |]. nra. }
+    assert (X : (- b * 2) * v <= (n + 1) * v) by (apply Rmult_le_compat_r; lra). lra. }
+  split; [assumption |]. split.
+  { apply pos2; [assumption |]. lra. }
+  (* 1 - 2*(n - 1)*v - (4*n - 3)*b*v^2 >= 0 *)
+  assert (K : 0 <= 1 - 2 * (n - 1) * v - (4 * n - 3) * b * v ^ 2); [| nra].
+  assert (V2 : 0 <= v ^ 2) by apply pow2_ge_0.
+  destruct (Rle_dec b 0) as [B | B].
+  - destruct (Rle_dec n 3) as [N | N].
+    + assert (0 <= (4 * n - 3) * - b * v ^ 2) by (apply pos2; [apply pos2; lra | lra]).
+      assert (2 * (n - 1) * v <= (n + 1) * v) by (apply Rmult_le_compat_r; lra). lra.
+    + assert (D : (n - 1) ^ 2 <= (4 * n - 3) * - b).
+      { apply Rmult_le_reg_r with (2 * n + 1); [lra |].
+        replace ((4 * n - 3) * - b * (2 * n + 1)) with (- (4 * n - 3) * (b * (2 * n + 1))) by ring.
+        rewrite Eb. nra. }
+      assert (0 <= ((4 * n - 3) * - b - (n - 1) ^ 2) * v ^ 2) by (apply pos2; lra).
+      assert (0 <= (1 - (n - 1) * v) ^ 2) by apply pow2_ge_0. lra.
+  - assert (N2 : n <= 2).
+    { destruct (Rle_dec n 2); [assumption |]. assert (0 < b * (2 * n + 1)) by (apply Rmult_lt_0_compat; lra). nra. }
+    assert (B1 : (4 * n - 3) * b <= 1).
+    { apply Rmult_le_reg_r with (2 * n + 1); [lra |]. rewrite Rmult_assoc, Eb. nra. }
+    assert ((4 * n - 3) * b * v ^ 2 <= 1 * v ^ 2) by (apply Rmult_le_compat_r; lra).
+    assert (v <= 1 / 2) by nra. assert (v ^ 2 <= v / 2) by nra.
+    assert (2 * (n - 1) * v <= n * v) by (apply Rmult_le_compat_r; lra). nra.
+Qed.
+
+Lemma Y_within : forall p, first <= p <= last -> 0 <= Y p /\ Y p * (n + 1) <= 1.
+Proof.
+  intros p Hp. destruct (Hpower p Hp) as [P0 P1].
+  assert (E : Y p * (n + 1) = p * (c0 + c1 * p)) by (unfold Y, cubic; field; lra).
+  assert (0 <= p * (c0 + c1 * p)) by (apply pos2; lra).
+  split; [apply Rmult_le_reg_r with (n + 1); lra |].
+  rewrite E. assert (p * (c0 + c1 * p) <= p * 1) by (apply le2; lra). lra.
+Qed.
+
+Theorem from_zero_rises_no_faster_than_its_path : slopes from_zero 0 1 first last.
+Proof.
+  set (Y' := cubic' (c0 / (n + 1)) (c1 / (n + 1)) 0).
+  set (den := fun p => 1 + Y p * (1 + b * Y p)).
+  apply slopes_of_derivative with
+    (f' := fun p => (1 * den p - (Y' p * (1 + 2 * b * Y p)) * p) / (den p) ^ 2).
+  - intros p Hp. destruct (Y_within p Hp) as [Y0 Y1].
+    destruct (between_zero_and_its_end _ Y0 Y1) as (L & D0 & _).
+    assert (Dy : derivable_pt_lim Y p (Y' p)) by apply cubic_derives.
+    assert (Dd : derivable_pt_lim den p (Y' p * (1 + 2 * b * Y p))).
+    { assert (Q := derivable_pt_lim_comp Y (cubic 1 1 b 0) p _ _ Dy (cubic_derives 1 1 b 0 (Y p))).
+      replace (Y' p * (1 + 2 * b * Y p)) with (cubic' 1 b 0 (Y p) * Y' p) by (unfold cubic'; ring).
+      intros eps He. destruct (Q eps He) as [d Hd]. exists d. intros k Hk Hkd. specialize (Hd k Hk Hkd).
+      unfold den. unfold comp, cubic in Hd.
+      replace (1 + Y (p + k) * (1 + b * Y (p + k))) with (1 + Y (p + k) * (1 + Y (p + k) * (b + Y (p + k) * 0))) by ring.
+      replace (1 + Y p * (1 + b * Y p)) with (1 + Y p * (1 + Y p * (b + Y p * 0))) by ring. exact Hd. }
+    exact (quotient_derives id den p 1 _ ltac:(unfold den; lra) (derivable_pt_lim_id p) Dd).
+  - intros p Hp. destruct (Y_within p Hp) as [Y0 Y1].
+    destruct (between_zero_and_its_end _ Y0 Y1) as (L & D0 & K).
+    assert (Dp : 1 <= den p) by (unfold den; lra).
+    assert (P2 : 0 < den p ^ 2) by (apply pow_lt; lra).
+    assert (E : Y' p * p * (n + 1) = Y p * (n + 1) + p * (p * c1)).
+    { unfold Y', Y, cubic', cubic. field. lra. }
+    assert (EY : Y p * (n + 1) = p * (c0 + c1 * p)) by (unfold Y, cubic; field; lra).
+    assert (S1 : p * (p * c1) <= p * (2 * (n - 1) * (c0 + c1 * p))) by (apply le2; [lra | apply Hsteep; assumption]).
+    replace (p * (2 * (n - 1) * (c0 + c1 * p))) with (2 * (n - 1) * (Y p * (n + 1))) in S1 by (rewrite EY; ring).
+    assert (YS : Y' p * p <= (2 * n - 1) * Y p) by (apply Rmult_le_reg_r with (n + 1); lra).
+    assert (Y0' : 0 <= Y' p * p).
+    { apply Rmult_le_reg_r with (n + 1); [lra |]. rewrite E.
+      assert (0 <= p * (p * c1)) by (apply pos2; [| apply pos2]; lra).
+      assert (0 <= Y p * (n + 1)) by (apply pos2; lra). lra. }
+    assert (M := Rmult_le_compat_r _ _ _ L YS). assert (M0 := pos2 _ _ Y0' L).
+    assert (dd : den p = 1 + Y p * (1 + b * Y p)) by reflexivity.
+    split.
+    + apply Rmult_le_pos; [lra | left; apply Rinv_0_lt_compat; lra].
+    + apply Rmult_le_reg_r with (den p ^ 2); [assumption |].
+      unfold Rdiv. rewrite Rmult_assoc, Rinv_l; [nra | lra].
+Qed.
+End From_zero.
+
+(* Beyond p = 1 the step goes on as a loading part, with n*w for f, from where p = 1 led: so
+   loading_rises_no_faster_than_f has it, as n*w is at most one. *)
+Theorem beyond_one_it_is_a_loading_part : forall n, 1 <= n ->
+  let b := (1 + n - n ^ 2) / (2 * n + 1) in
+  let y := 1 / (n + 1) in
+  let w := 1 - 1 / (1 + y * (1 + y * b)) in
+  0 < w /\ n * w <= 1.
+Proof.
+  intros n Hn b y w.
+  set (q := y * (1 + y * b)).
+  assert (Eb : b * (2 * n + 1) = 1 + n - n ^ 2) by (unfold b; field; lra).
+  assert (Eq : q * (n + 1) ^ 2 = n + 1 + b) by (unfold q, y; field; lra).
+  assert (B1 : b <= 1 / 3) by (apply Rmult_le_reg_r with (2 * n + 1); [lra | nra]).
+  assert (B0 : 0 < n + 1 + b) by (apply Rmult_lt_reg_r with (2 * n + 1); [lra | nra]).
+  assert (P : 0 < (n + 1) ^ 2) by (apply pow_lt; lra).
+  assert (Q0 : 0 < q) by (apply Rmult_lt_reg_r with ((n + 1) ^ 2); lra).
+  assert (Q1 : (n - 1) * q <= 1).
+  { apply Rmult_le_reg_r with ((n + 1) ^ 2); [assumption |]. rewrite Rmult_assoc, Eq. nra. }
+  assert (I : 0 < / (1 + q)) by (apply Rinv_0_lt_compat; lra).
+  assert (E : w = q * / (1 + q)) by (unfold w; fold q; field; lra).
+  rewrite E. split; [apply Rmult_lt_0_compat; assumption |].
+  apply Rmult_le_reg_r with (1 + q); [lra |].
+  replace (n * (q * / (1 + q)) * (1 + q)) with (n * q) by (field; lra). lra.
+Qed.

@@ -2,6 +2,7 @@
 
 use super::{record_error, shape, sine, single, walk, Uniform, SETS};
 use bowden::hysteresis::{BoucWen, Sensitivity, Shape};
+use bowden::Real;
 use proptest::prelude::*;
 
 /// What the motor of a rig's plant may have, and what the paper identified.
@@ -210,4 +211,60 @@ proptest! {
             prop_assert!(!is_behind, "{} to {}", eta, next);
         }
     }
+}
+
+/// Least and greatest slope of the step along its path over `2·sigma`, between states a `part`
+/// of the path apart, from states of either sign.
+fn slopes<T: Real>(n: f64, sigma: f64, part: f64) -> [f64; 2] {
+    let shape = Shape::try_new(T::ONE, T::of(sigma), T::of(n)).unwrap();
+    let [mut least, mut greatest] = [f64::INFINITY, f64::NEG_INFINITY];
+    for start in -40..=40 {
+        let eta = T::of(f64::from(start) / 40.0);
+        let mut last = [0.0, eta.as_f64()];
+        for i in 1..=150 {
+            let path = T::of(f64::from(i) * part);
+            let now = [path.as_f64(), shape.advance_bounded(eta, path).as_f64()];
+            let slope = (now[1] - last[1]) / (now[0] - last[0]) / (2.0 * sigma);
+            (least, greatest) = (least.min(slope), greatest.max(slope));
+            last = now;
+        }
+    }
+    [least, greatest]
+}
+
+/// What the inverse of a transmission needs, and `theorems/Slope.v` has: eta does not fall
+/// along the path and rises by at most 2·sigma of it, up to n = 4. Beyond about n = 12 the step
+/// rises faster than that where it unloads, by up to 39 %.
+#[test]
+fn the_slope_of_the_step_stays_below_two_sigma() {
+    for sigma in [0.5, 0.55, 0.6, 0.743, 1.2, 3.0, 98.36] {
+        for (n, most) in [
+            (1.0, 1.0),
+            (1.3, 1.0),
+            (2.0, 1.0),
+            (3.871, 1.0),
+            (4.0, 1.0),
+            (10.0, 1.0),
+            (32.0, 1.22),
+            (1000.0, 1.39),
+        ] {
+            for part in [0.02, 0.02 / sigma] {
+                // Of rounding alone: some units in the last place of eta over a part.
+                let [least, greatest] = slopes::<f64>(n, sigma, part);
+                assert!(
+                    least > -1e-11 && greatest < most + 1e-11,
+                    "f64, n {n}, sigma {sigma}: {least}, {greatest}"
+                );
+                let [least, greatest] = slopes::<f32>(n, sigma, part);
+                assert!(
+                    least > -1e-4 && greatest < most + 1e-4,
+                    "f32, n {n}, sigma {sigma}: {least}, {greatest}"
+                );
+            }
+        }
+    }
+    // The bounds of the greater n are reached.
+    let greatest = |n: f64| slopes::<f64>(n, 0.5 + 1.5 / n, 0.02)[1];
+    println!("{} {}", greatest(32.0), greatest(1000.0));
+    assert!(greatest(32.0) > 1.15 && greatest(1000.0) > 1.3);
 }
