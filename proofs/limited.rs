@@ -28,10 +28,10 @@ pub(crate) fn apply<T: Real>(limits: &Limits<T>, last: T, wanted: T, dt: T) -> T
 }
 
 /// Whether the command is the answer to this question, or keeps any slew rate: it stays where
-/// it was, or the one before it was outside of the range.
+/// it was, the one before it was outside of the range, or there is none.
 pub(crate) fn follows(limits: &Limits<f32>, last: f32, command: f32, dt: f32) -> bool {
     let is = |cell: &AtomicU64, x: f32| cell.load(Ordering::Relaxed) == f64::from(x).to_bits();
     let asked = is(&LAST, last) && is(&DT, dt) && is(&COMMAND, command);
-    let stays = command == last || !limits.contains(last);
-    asked || (stays && limits.contains(command))
+    let free = limits.slew().is_none() || command == last || !limits.contains(last);
+    asked || (free && limits.contains(command))
 }
