@@ -1,0 +1,229 @@
+//! The Bouc-Wen state, the transmission, and its inverse.
+
+use crate::object::{kept, start, writable, write, Object};
+use crate::result::{bowden_about, bowden_result, code, told, Refused};
+use core_bowden::hysteresis::{BoucWen, Shape};
+use core_bowden::transmission::{Inverse, Transmission};
+
+/// What is transmitted.
+#[repr(u32)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum bowden_mode {
+    /// Torque to torque, (5): y = gain*u - kappa_eta*eta - offset.
+    Torque = 0,
+    /// Displacement to force, (1): y = gain*u + kappa_eta*eta + offset.
+    Displacement = 1,
+}
+
+/// Room of a bowden_hysteresis_f32, in words of 64 bits.
+pub const BOWDEN_HYSTERESIS_F32_WORDS: usize = 8;
+/// Room of a bowden_hysteresis_f64, in words of 64 bits.
+pub const BOWDEN_HYSTERESIS_F64_WORDS: usize = 12;
+/// Room of a bowden_cable_f32, in words of 64 bits.
+pub const BOWDEN_CABLE_F32_WORDS: usize = 10;
+/// Room of a bowden_cable_f64, in words of 64 bits.
+pub const BOWDEN_CABLE_F64_WORDS: usize = 16;
+/// Room of a bowden_inverse_f32, in words of 64 bits.
+pub const BOWDEN_INVERSE_F32_WORDS: usize = 10;
+/// Room of a bowden_inverse_f64, in words of 64 bits.
+pub const BOWDEN_INVERSE_F64_WORDS: usize = 16;
+
+/// Of a step that is fed one number: a good sample or a held one.
+fn good(is_good: bool) -> bowden_result {
+    if is_good {
+        bowden_result::Ok
+    } else {
+        bowden_result::Held
+    }
+}
+
+macro_rules! hysteresis {
+    ($f:ident, $magic:literal) => {
+        pastey::paste! {
+            /// The transmission's figures, (1), (2), (5), (7).
+            #[repr(C)]
+            #[derive(Debug, Clone, Copy, PartialEq)]
+            pub struct [<bowden_cable_settings_ $f>] {
+                /// One of bowden_mode.
+                pub mode: u32,
+                /// B of (5) or kappa of (1) [output unit/input unit].
+                pub gain: $f,
+                /// Share of the hysteresis [output unit].
+                pub kappa_eta: $f,
+                /// T0 of (5) or the offset of (1) [output unit].
+                pub offset: $f,
+                /// Above zero [1/input unit].
+                pub rho: $f,
+                /// At least 1/2.
+                pub sigma: $f,
+                /// At least 1.
+                pub n: $f,
+                /// The hysteresis state at the start, within -1 and 1; 0 where it is not known.
+                pub eta: $f,
+            }
+
+            impl [<bowden_cable_settings_ $f>] {
+                fn parts(&self) -> Result<(Transmission<$f>, BoucWen<$f>), Refused> {
+                    let shape = Shape::try_new(self.rho, self.sigma, self.n)?;
+                    let build = match self.mode {
+                        m if m == bowden_mode::Torque as u32 => Transmission::torque,
+                        m if m == bowden_mode::Displacement as u32 => Transmission::displacement,
+                        _ => return Err(Refused::choice("mode")),
+                    };
+                    let cable = build(self.gain, self.kappa_eta, self.offset, shape)?;
+                    Ok((cable, BoucWen::with_eta(self.eta)?))
+                }
+            }
+
+            /// The hysteresis (2), (7) with its state; made by bowden_hysteresis_init.
+            #[repr(C)]
+            pub struct [<bowden_hysteresis_ $f>] {
+                /// Not for use.
+                pub opaque: [u64; [<BOWDEN_HYSTERESIS_ $f:upper _WORDS>]],
+            }
+
+            // SAFETY: `repr(C)` of one array of u64.
+            unsafe impl Object for [<bowden_hysteresis_ $f>] {
+                type Inner = (Shape<$f>, BoucWen<$f>);
+                const MAGIC: u64 = $magic;
+            }
+
+            /// A transmission (1), (5) with its state; made by bowden_cable_init.
+            #[repr(C)]
+            pub struct [<bowden_cable_ $f>] {
+                /// Not for use.
+                pub opaque: [u64; [<BOWDEN_CABLE_ $f:upper _WORDS>]],
+            }
+
+            // SAFETY: `repr(C)` of one array of u64.
+            unsafe impl Object for [<bowden_cable_ $f>] {
+                type Inner = (Transmission<$f>, BoucWen<$f>);
+                const MAGIC: u64 = $magic + 1;
+            }
+
+            /// The inverse (6) of a transmission, with its state; made by bowden_inverse_init.
+            #[repr(C)]
+            pub struct [<bowden_inverse_ $f>] {
+                /// Not for use.
+                pub opaque: [u64; [<BOWDEN_INVERSE_ $f:upper _WORDS>]],
+            }
+
+            // SAFETY: `repr(C)` of one array of u64.
+            unsafe impl Object for [<bowden_inverse_ $f>] {
+                type Inner = (Inverse<$f>, BoucWen<$f>);
+                const MAGIC: u64 = $magic + 2;
+            }
+
+            /// Starts a hysteresis at `eta`, within -1 and 1: rho above zero [1/input unit],
+            /// sigma at least 1/2, n at least 1. `about` may be null.
+            #[no_mangle]
+            pub unsafe extern "C" fn [<bowden_hysteresis_init_ $f>](
+                hysteresis: *mut [<bowden_hysteresis_ $f>],
+                rho: $f,
+                sigma: $f,
+                n: $f,
+                eta: $f,
+                about: *mut bowden_about,
+            ) -> bowden_result {
+                let parts = || -> Result<_, Refused> {
+                    Ok((Shape::try_new(rho, sigma, n)?, BoucWen::with_eta(eta)?))
+                };
+                // SAFETY: the caller's rule of pointers.
+                unsafe { told(parts().and_then(|inner| Ok(start(hysteresis, inner)?)), about) }
+            }
+
+            /// One input [input unit]: `eta` gets the state, within -1 and 1. The first sample
+            /// only sets the input. One that is not finite is held: BOWDEN_RESULT_HELD.
+            #[no_mangle]
+            pub unsafe extern "C" fn [<bowden_hysteresis_step_ $f>](
+                hysteresis: *mut [<bowden_hysteresis_ $f>],
+                input: $f,
+                eta: *mut $f,
+            ) -> bowden_result {
+                // SAFETY: the caller's rule of pointers.
+                code((|| unsafe {
+                    writable(eta)?;
+                    let (shape, state) = kept(hysteresis)?;
+                    let value = shape.step(state, input);
+                    write(eta, value)?;
+                    Ok(good(input.is_finite()))
+                })())
+            }
+
+            /// Checks the figures and starts a transmission. `about` may be null.
+            #[no_mangle]
+            pub unsafe extern "C" fn [<bowden_cable_init_ $f>](
+                cable: *mut [<bowden_cable_ $f>],
+                settings: *const [<bowden_cable_settings_ $f>],
+                about: *mut bowden_about,
+            ) -> bowden_result {
+                // SAFETY: the caller's rule of pointers.
+                unsafe {
+                    let tried = crate::object::read(settings)
+                        .map_err(Refused::from)
+                        .and_then(|settings| settings.parts())
+                        .and_then(|parts| Ok(start(cable, parts)?));
+                    told(tried, about)
+                }
+            }
+
+            /// One input [input unit]: `output` gets the output [output unit]. One that is not
+            /// finite is held: BOWDEN_RESULT_HELD, and the last output, zero before the first.
+            #[no_mangle]
+            pub unsafe extern "C" fn [<bowden_cable_step_ $f>](
+                cable: *mut [<bowden_cable_ $f>],
+                input: $f,
+                output: *mut $f,
+            ) -> bowden_result {
+                // SAFETY: the caller's rule of pointers.
+                code((|| unsafe {
+                    writable(output)?;
+                    let (transmission, state) = kept(cable)?;
+                    let value = transmission.step(state, input);
+                    write(output, value)?;
+                    Ok(good(input.is_finite()))
+                })())
+            }
+
+            /// The same figures turned round; BOWDEN_RESULT_ERROR_INADMISSIBLE where the
+            /// transmission has no inverse (sigma above gain/(2*kappa_eta*rho)).
+            #[no_mangle]
+            pub unsafe extern "C" fn [<bowden_inverse_init_ $f>](
+                inverse: *mut [<bowden_inverse_ $f>],
+                settings: *const [<bowden_cable_settings_ $f>],
+                about: *mut bowden_about,
+            ) -> bowden_result {
+                // SAFETY: the caller's rule of pointers.
+                unsafe {
+                    let tried = crate::object::read(settings)
+                        .map_err(Refused::from)
+                        .and_then(|settings| settings.parts())
+                        .and_then(|(cable, state)| {
+                            Ok(start(inverse, (cable.inverse()?, state))?)
+                        });
+                    told(tried, about)
+                }
+            }
+
+            /// One output that is wanted [output unit]: `input` gets the input [input unit] that
+            /// gives it. One that is not finite is held: BOWDEN_RESULT_HELD.
+            #[no_mangle]
+            pub unsafe extern "C" fn [<bowden_inverse_step_ $f>](
+                inverse: *mut [<bowden_inverse_ $f>],
+                desired: $f,
+                input: *mut $f,
+            ) -> bowden_result {
+                // SAFETY: the caller's rule of pointers.
+                code((|| unsafe {
+                    writable(input)?;
+                    let (cable, state) = kept(inverse)?;
+                    let value = cable.step(state, desired);
+                    write(input, value)?;
+                    Ok(good(desired.is_finite()))
+                })())
+            }
+        }
+    };
+}
+hysteresis!(f32, 0x6879_7374_6633_3210);
+hysteresis!(f64, 0x6879_7374_6636_3410);

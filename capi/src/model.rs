@@ -1,0 +1,211 @@
+//! The identified model, from the bytes that the lab writes.
+
+use crate::object::{kept, read, read_all, seen, start, writable, write, Object};
+use crate::result::{bowden_about, bowden_result, code, told, Refused};
+use crate::{bowden_motion_f32, bowden_motion_f64};
+use core::slice;
+use core_bowden::model::{Model, ModelState, Sample, Source};
+use core_bowden::signal::Motion;
+
+/// Most terms of a model.
+pub const BOWDEN_TERMS: usize = 16;
+/// Most channels of a sample.
+pub const BOWDEN_CHANNELS: usize = 16;
+/// Most bytes of a model: more than any with BOWDEN_TERMS terms has.
+pub const BOWDEN_MODEL_BYTES: usize = 2048;
+/// Room of a bowden_model_f32, in words of 64 bits.
+pub const BOWDEN_MODEL_F32_WORDS: usize = 112;
+/// Room of a bowden_model_f64, in words of 64 bits.
+pub const BOWDEN_MODEL_F64_WORDS: usize = 216;
+
+/// As `bowden close --model-out` writes it behind the model.
+const CHECKSUM: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
+
+/// Whether a model reads no more channels than a sample holds.
+fn reads_what_there_is<T: core_bowden::Real>(model: &Model<T, BOWDEN_TERMS>) -> bool {
+    model.terms().iter().all(|term| match term.source {
+        Source::Input => true,
+        Source::Channel(index) => usize::from(index) < BOWDEN_CHANNELS,
+    })
+}
+
+macro_rules! model {
+    ($f:ident, $magic:literal) => {
+        pastey::paste! {
+            /// An identified model with its state; the caller's memory, made by
+            /// bowden_model_load.
+            #[repr(C)]
+            pub struct [<bowden_model_ $f>] {
+                /// Not for use.
+                pub opaque: [u64; [<BOWDEN_MODEL_ $f:upper _WORDS>]],
+            }
+
+            // SAFETY: `repr(C)` of one array of u64.
+            unsafe impl Object for [<bowden_model_ $f>] {
+                type Inner = (Model<$f, BOWDEN_TERMS>, ModelState<$f, BOWDEN_TERMS>);
+                const MAGIC: u64 = $magic;
+            }
+
+            /// One sample for a model.
+            #[repr(C)]
+            #[derive(Debug, Clone, Copy)]
+            pub struct [<bowden_model_sample_ $f>] {
+                /// Since the previous sample, above zero, also at the first one [s].
+                pub dt: $f,
+                /// The transmission's input, x or tau_i, with its rates.
+                pub input: [<bowden_motion_ $f>],
+                /// The transmitted load: tau_i in torque mode, else a load channel.
+                pub load: $f,
+                /// All other channels, in the order of the model's file; may be null where
+                /// there are none.
+                pub channels: *const [<bowden_motion_ $f>],
+                /// How many there are, at most BOWDEN_CHANNELS.
+                pub channel_count: usize,
+            }
+
+            /// The channels of a sample, in the crate's own form.
+            ///
+            /// # Safety
+            /// `from` is null or leads to `count` motions.
+            pub(crate) unsafe fn [<channels_ $f>](
+                from: *const [<bowden_motion_ $f>],
+                count: usize,
+            ) -> Result<[Motion<$f>; BOWDEN_CHANNELS], bowden_result> {
+                let mut channels = [Motion::default(); BOWDEN_CHANNELS];
+                // SAFETY: as of this function.
+                unsafe { read_all(from, count, &mut channels, [<bowden_motion_ $f>]::motion)? };
+                Ok(channels)
+            }
+
+            /// The number of a sample's channels that count.
+            pub(crate) fn [<counted_ $f>](
+                channels: &[Motion<$f>; BOWDEN_CHANNELS],
+                count: usize,
+            ) -> &[Motion<$f>] {
+                channels.get(..count).unwrap_or(channels)
+            }
+
+            /// Loads a model from the bytes that `bowden close --model-out FILE.postcard` or
+            /// `bowden export --c` writes, four bytes of CRC-32 last, and starts it.
+            ///
+            /// `eta` is the hysteresis state at the start, within -1 and 1; 0 where it is not
+            /// known. BOWDEN_RESULT_ERROR_MODEL where the bytes are damaged, of the other
+            /// precision, of another version, or hold more than BOWDEN_TERMS terms; `about`,
+            /// which may be null, tells the first ("checksum") from the others.
+            /// BOWDEN_RESULT_ERROR_CAPACITY where a term reads a channel from BOWDEN_CHANNELS
+            /// on, or there are more than BOWDEN_MODEL_BYTES bytes. The bytes are not needed
+            /// afterwards. On an error the object is as it was.
+            #[no_mangle]
+            pub unsafe extern "C" fn [<bowden_model_load_ $f>](
+                model: *mut [<bowden_model_ $f>],
+                bytes: *const u8,
+                length: usize,
+                eta: $f,
+                about: *mut bowden_about,
+            ) -> bowden_result {
+                // SAFETY: the caller's rule of pointers: there are `length` bytes.
+                unsafe {
+                    let tried = readable(bytes, length).and_then(|bytes| {
+                        let own = [<of_bytes_ $f>](bytes)?;
+                        Ok(start(model, (own, ModelState::with_eta(eta)?))?)
+                    });
+                    told(tried, about)
+                }
+            }
+
+            fn [<of_bytes_ $f>](bytes: &[u8]) -> Result<Model<$f, BOWDEN_TERMS>, Refused> {
+                let read = postcard::from_bytes_crc32::<Model<$f, BOWDEN_TERMS>>;
+                match read(bytes, CHECKSUM.digest()) {
+                    Ok(own) if reads_what_there_is(&own) => Ok(own),
+                    Ok(_) => Err(Refused::capacity("channels")),
+                    Err(_) => Err(Refused::model(is_whole(bytes))),
+                }
+            }
+
+            /// One sample: `output` gets the predicted output [output unit]:
+            ///
+            ///     y = transmission(input, eta) + sum of gain*regressor
+            ///
+            /// A bad sample (a dt that is not positive, a number that the model reads that is
+            /// not finite, a channel that is missing) leaves the state and gives the last good
+            /// output, 0 before the first one: BOWDEN_RESULT_HELD.
+            #[no_mangle]
+            pub unsafe extern "C" fn [<bowden_model_step_ $f>](
+                model: *mut [<bowden_model_ $f>],
+                sample: *const [<bowden_model_sample_ $f>],
+                output: *mut $f,
+            ) -> bowden_result {
+                // SAFETY: the caller's rule of pointers.
+                code((|| unsafe {
+                    let given = read(sample)?;
+                    let channels = [<channels_ $f>](given.channels, given.channel_count)?;
+                    writable(output)?;
+                    let (own, state) = kept(model)?;
+                    let at = Sample {
+                        dt: given.dt,
+                        input: given.input.motion(),
+                        load: given.load,
+                        channels: [<counted_ $f>](&channels, given.channel_count),
+                    };
+                    let is_good = own.accepts(&at);
+                    let value = own.step(state, &at);
+                    write(output, value)?;
+                    Ok(if is_good { bowden_result::Ok } else { bowden_result::Held })
+                })())
+            }
+
+            /// The hysteresis state, within -1 and 1.
+            #[no_mangle]
+            pub unsafe extern "C" fn [<bowden_model_eta_ $f>](
+                model: *const [<bowden_model_ $f>],
+                eta: *mut $f,
+            ) -> bowden_result {
+                // SAFETY: the caller's rule of pointers.
+                code((|| unsafe {
+                    let (_, state) = seen(model)?;
+                    write(eta, state.eta())?;
+                    Ok(bowden_result::Ok)
+                })())
+            }
+
+            /// The state of the start again, with this hysteresis state.
+            #[no_mangle]
+            pub unsafe extern "C" fn [<bowden_model_reset_ $f>](
+                model: *mut [<bowden_model_ $f>],
+                eta: $f,
+            ) -> bowden_result {
+                // SAFETY: the caller's rule of pointers.
+                code((|| unsafe {
+                    kept(model)?.1 = ModelState::with_eta(eta)?;
+                    Ok(bowden_result::Ok)
+                })())
+            }
+        }
+    };
+}
+
+/// The bytes of a caller.
+///
+/// # Safety
+/// `bytes` is null or leads to `length` bytes that nobody writes meanwhile.
+unsafe fn readable<'a>(bytes: *const u8, length: usize) -> Result<&'a [u8], Refused> {
+    if bytes.is_null() {
+        return Err(bowden_result::ErrorNull.into());
+    }
+    if length > BOWDEN_MODEL_BYTES {
+        return Err(Refused::capacity("bytes"));
+    }
+    // SAFETY: not null, so many bytes, and no more than an object may have.
+    Ok(unsafe { slice::from_raw_parts(bytes, length) })
+}
+
+/// Whether the checksum behind the bytes is theirs.
+fn is_whole(bytes: &[u8]) -> bool {
+    let Some((model, checksum)) = bytes.split_last_chunk::<4>() else {
+        return false;
+    };
+    CHECKSUM.checksum(model) == u32::from_le_bytes(*checksum)
+}
+
+model!(f32, 0x6d6f_6465_6633_3240);
+model!(f64, 0x6d6f_6465_6636_3440);

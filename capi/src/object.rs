@@ -1,0 +1,172 @@
+//! What is behind a pointer from C: read, checked and written here.
+//!
+//! An [`Object`] is memory that the caller owns: a magic word, what Rust keeps, the magic word
+//! turned round. The first word of memory that was not initialised is another one, but for one
+//! chance in 2^64; the last word tells of an array that was written over its end.
+
+use crate::bowden_result;
+use core::ffi::CStr;
+use core::ptr;
+
+/// Memory of a caller with something of Rust's inside.
+///
+/// # Safety
+/// `Self` is `repr(C)` of an array of `u64` and nothing else.
+pub(crate) unsafe trait Object: Sized {
+    /// What is kept.
+    type Inner: Copy;
+    /// Another one for every type.
+    const MAGIC: u64;
+    /// That there is room for it between two words, and that it is aligned there.
+    const FITS: () = assert!(
+        size_of::<Self::Inner>() + 2 * size_of::<u64>() <= size_of::<Self>()
+            && align_of::<Self::Inner>() <= align_of::<Self>()
+            && align_of::<Self>() == align_of::<u64>()
+    );
+}
+
+/// The place of the inner one, behind the first word.
+fn inner_of<O: Object>(object: *mut O) -> *mut O::Inner {
+    let () = O::FITS;
+    object.cast::<u64>().wrapping_add(1).cast()
+}
+
+fn last_of<O: Object>(object: *mut O) -> *mut u64 {
+    object
+        .cast::<u64>()
+        .wrapping_add(size_of::<O>() / size_of::<u64>() - 1)
+}
+
+fn is_placed<X>(at: *const X) -> Result<(), bowden_result> {
+    if at.is_null() {
+        Err(bowden_result::ErrorNull)
+    } else if !at.is_aligned() {
+        Err(bowden_result::ErrorMisaligned)
+    } else {
+        Ok(())
+    }
+}
+
+/// Puts `inner` into an object, whatever was there.
+///
+/// # Safety
+/// `object` is null or leads to writable memory of its type.
+pub(crate) unsafe fn start<O: Object>(
+    object: *mut O,
+    inner: O::Inner,
+) -> Result<(), bowden_result> {
+    is_placed(object)?;
+    // SAFETY: placed, and memory of its type: the three places lie within it by `O::FITS`. No
+    // interrupt takes the object for a good one before all of it is there.
+    unsafe {
+        ptr::write_volatile(object.cast::<u64>(), 0);
+        ptr::write(inner_of(object), inner);
+        ptr::write_volatile(last_of(object), !O::MAGIC);
+        ptr::write_volatile(object.cast::<u64>(), O::MAGIC);
+    }
+    Ok(())
+}
+
+/// Whether an object was initialised.
+///
+/// # Safety
+/// `object` is null or leads to memory of its type.
+unsafe fn is_started<O: Object>(object: *const O) -> Result<(), bowden_result> {
+    is_placed(object)?;
+    let last = last_of(object.cast_mut());
+    // SAFETY: placed, and memory of its type. Volatile: the words count as they are there.
+    let (first, last) = unsafe {
+        (
+            ptr::read_volatile(object.cast::<u64>()),
+            ptr::read_volatile(last),
+        )
+    };
+    if first == O::MAGIC && last == !O::MAGIC {
+        Ok(())
+    } else {
+        Err(bowden_result::ErrorUninitialised)
+    }
+}
+
+/// What is kept in an object that was initialised.
+///
+/// # Safety
+/// `object` is null or leads to memory of its type that nobody else uses meanwhile.
+pub(crate) unsafe fn kept<'a, O: Object>(
+    object: *mut O,
+) -> Result<&'a mut O::Inner, bowden_result> {
+    // SAFETY: both words are those that `start` writes after the inner one, which lies within
+    // the object and is aligned by `O::FITS`; nobody else uses it.
+    unsafe {
+        is_started(object)?;
+        Ok(&mut *inner_of(object))
+    }
+}
+
+/// The same of an object that is only read.
+///
+/// # Safety
+/// `object` is null or leads to memory of its type that nobody writes meanwhile.
+pub(crate) unsafe fn seen<'a, O: Object>(object: *const O) -> Result<&'a O::Inner, bowden_result> {
+    // SAFETY: as of `kept`; nobody writes to it.
+    unsafe {
+        is_started(object)?;
+        Ok(&*inner_of(object.cast_mut()).cast_const())
+    }
+}
+
+/// A value of a caller: numbers, for which every bit pattern is one.
+///
+/// # Safety
+/// `from` is null or leads to a value of its type, which is made of numbers and pointers.
+pub(crate) unsafe fn read<X: Copy>(from: *const X) -> Result<X, bowden_result> {
+    is_placed(from)?;
+    // SAFETY: placed, and of numbers and pointers only.
+    Ok(unsafe { ptr::read(from) })
+}
+
+/// The values of an array, as many as there are places; of an array of none the pointer may
+/// be null.
+///
+/// # Safety
+/// `from` is null or leads to so many values, made of numbers.
+pub(crate) unsafe fn read_all<X: Copy, Y>(
+    from: *const X,
+    count: usize,
+    places: &mut [Y],
+    own: impl Fn(X) -> Y,
+) -> Result<(), bowden_result> {
+    let places = places
+        .get_mut(..count)
+        .ok_or(bowden_result::ErrorCapacity)?;
+    if count == 0 {
+        return Ok(());
+    }
+    is_placed(from)?;
+    for (index, place) in places.iter_mut().enumerate() {
+        // SAFETY: placed, and there are so many.
+        *place = own(unsafe { ptr::read(from.wrapping_add(index)) });
+    }
+    Ok(())
+}
+
+/// Writes a value where a caller wants it; whatever was there is only overwritten.
+///
+/// # Safety
+/// `to` is null or leads to writable memory of its type.
+pub(crate) unsafe fn write<X: Copy>(to: *mut X, value: X) -> Result<(), bowden_result> {
+    is_placed(to)?;
+    // SAFETY: placed, and memory of its type.
+    unsafe { ptr::write(to, value) };
+    Ok(())
+}
+
+/// Whether something can be written there, asked before a step moves its state.
+pub(crate) fn writable<X>(to: *const X) -> Result<(), bowden_result> {
+    is_placed(to)
+}
+
+/// A literal with a NUL behind it.
+pub(crate) fn read_text(text: &'static str) -> &'static CStr {
+    CStr::from_bytes_with_nul(text.as_bytes()).unwrap_or(c"")
+}

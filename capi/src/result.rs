@@ -1,0 +1,287 @@
+//! What a function gives back, and what was wrong with a sample.
+
+use crate::object::{read_text, write};
+use core::ffi::{c_char, CStr};
+use core_bowden::control::{Fault, Status};
+use core_bowden::signal::{RatesFault, RatesStatus};
+use core_bowden::Error;
+
+/// What a function did: 0 for all well, above zero where a sample was not a good one and what
+/// was asked for was written all the same, below zero where nothing was done or written.
+#[repr(i32)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum bowden_result {
+    /// All well; of a step: a good sample.
+    Ok = 0,
+    /// Rates: a good sample, but the rates started from zero less than five time constants ago.
+    Settling = 1,
+    /// Rates: a good position after a time that is unknown; the rates are held.
+    Resumed = 2,
+    /// A regressor was bad and its term was left out; the loop is closed, the estimates wait.
+    Degraded = 3,
+    /// A bad sample: the state is as it was, the last good command or value is held.
+    Held = 4,
+    /// Too many bad samples: the safe command is out until it is acknowledged.
+    Safe = 5,
+    /// A pointer is null.
+    ErrorNull = -1,
+    /// A pointer is not aligned as its type must be.
+    ErrorMisaligned = -2,
+    /// The object was not initialised, or something has written over it.
+    ErrorUninitialised = -3,
+    /// A setting is NaN or infinite.
+    ErrorNonFinite = -4,
+    /// A setting is outside of its range.
+    ErrorOutOfRange = -5,
+    /// Two settings break a condition together.
+    ErrorInadmissible = -6,
+    /// More items than there is room for.
+    ErrorCapacity = -7,
+    /// A setting that is one of an enum has a value that the enum has not.
+    ErrorChoice = -8,
+    /// The bytes of a model are damaged, of the other precision or version, or of too many terms.
+    ErrorModel = -9,
+}
+
+/// What was wrong with a sample.
+#[repr(i32)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum bowden_fault {
+    /// Nothing.
+    None = 0,
+    /// dt is NaN or infinite.
+    Dt = 1,
+    /// dt is zero or negative: time has not moved on.
+    DtNotPositive = 2,
+    /// dt is longer than the longest that was stated, or than the law is stable for.
+    DtTooLong = 3,
+    /// The reference, or its next value.
+    Reference = 4,
+    /// The measured output.
+    Measured = 5,
+    /// The measured velocity.
+    Velocity = 6,
+    /// The feed-forward command.
+    FeedForward = 7,
+    /// The command to resume from.
+    Command = 8,
+    /// A regressor, or what a term of a model reads; which one stands beside it.
+    Regressor = 9,
+    /// Every input is finite, but the command could not be computed: an overflow.
+    Overflow = 10,
+    /// The position.
+    Position = 11,
+    /// Another one, of a later version.
+    Other = 12,
+}
+
+/// The name of the setting that was refused, or the condition that is not met.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct bowden_about {
+    /// ASCII with a NUL behind it, such as "k_p" or "low < high"; cut off where it is longer.
+    pub text: [c_char; 128],
+}
+
+impl bowden_about {
+    fn of(text: &str) -> Self {
+        let mut own = [0; 128];
+        let (_, places) = own.split_last_mut().unwrap_or((&mut 0, &mut []));
+        for (to, from) in places.iter_mut().zip(text.bytes()) {
+            // The sign of a char differs from target to target.
+            *to = if from.is_ascii() {
+                from as c_char
+            } else {
+                b'?' as c_char
+            };
+        }
+        Self { text: own }
+    }
+}
+
+/// Why nothing was done: a code, and for a setting what it is about.
+pub(crate) struct Refused {
+    code: bowden_result,
+    about: &'static str,
+}
+
+impl From<bowden_result> for Refused {
+    fn from(code: bowden_result) -> Self {
+        Self { code, about: "" }
+    }
+}
+
+impl From<Error> for Refused {
+    fn from(error: Error) -> Self {
+        let code = match error {
+            Error::NonFinite(_) => bowden_result::ErrorNonFinite,
+            Error::OutOfRange(_) => bowden_result::ErrorOutOfRange,
+            Error::Capacity(_) => bowden_result::ErrorCapacity,
+            // Inadmissible, and what a later version may add.
+            _ => bowden_result::ErrorInadmissible,
+        };
+        Self {
+            code,
+            about: error.about(),
+        }
+    }
+}
+
+impl Refused {
+    pub(crate) fn choice(about: &'static str) -> Self {
+        Self {
+            code: bowden_result::ErrorChoice,
+            about,
+        }
+    }
+
+    /// Of a model whose checksum is right, or not.
+    pub(crate) fn model(is_whole: bool) -> Self {
+        let about = if is_whole {
+            "precision, version or number of terms"
+        } else {
+            "checksum"
+        };
+        Self {
+            code: bowden_result::ErrorModel,
+            about,
+        }
+    }
+
+    pub(crate) fn capacity(about: &'static str) -> Self {
+        Self {
+            code: bowden_result::ErrorCapacity,
+            about,
+        }
+    }
+}
+
+/// The code of what was tried.
+pub(crate) fn code(tried: Result<bowden_result, Refused>) -> bowden_result {
+    tried.unwrap_or_else(|refused| refused.code)
+}
+
+/// The same, and the text of a refusal where somebody wants it.
+///
+/// # Safety
+/// `about` is null or leads to memory of its type.
+pub(crate) unsafe fn told(tried: Result<(), Refused>, about: *mut bowden_about) -> bowden_result {
+    let (code, text) = match tried {
+        Ok(()) => (bowden_result::Ok, ""),
+        Err(refused) => (refused.code, refused.about),
+    };
+    if !about.is_null() {
+        // SAFETY: as of this function.
+        if let Err(bad) = unsafe { write(about, bowden_about::of(text)) } {
+            return bad;
+        }
+    }
+    code
+}
+
+impl From<Fault> for bowden_fault {
+    fn from(fault: Fault) -> Self {
+        match fault {
+            Fault::Dt => Self::Dt,
+            Fault::DtNotPositive => Self::DtNotPositive,
+            Fault::DtTooLong => Self::DtTooLong,
+            Fault::Reference => Self::Reference,
+            Fault::Measured => Self::Measured,
+            Fault::Velocity => Self::Velocity,
+            Fault::FeedForward => Self::FeedForward,
+            Fault::Command => Self::Command,
+            Fault::Regressor(_) => Self::Regressor,
+            Fault::Overflow => Self::Overflow,
+            _ => Self::Other,
+        }
+    }
+}
+
+/// The code of a controller's step, what was wrong, and which regressor it was.
+pub(crate) fn of_status(status: Status) -> (bowden_result, bowden_fault, u32) {
+    let code = match status {
+        Status::Good => bowden_result::Ok,
+        Status::Degraded(_) => bowden_result::Degraded,
+        Status::Held(_) => bowden_result::Held,
+        Status::Safe(_) => bowden_result::Safe,
+    };
+    let Some(fault) = status.fault() else {
+        return (code, bowden_fault::None, 0);
+    };
+    let regressor = match fault {
+        Fault::Regressor(index) => u32::from(index),
+        _ => 0,
+    };
+    (code, fault.into(), regressor)
+}
+
+/// The code of a step of the rates, and what was wrong.
+pub(crate) fn of_rates(status: RatesStatus) -> (bowden_result, bowden_fault) {
+    match status {
+        RatesStatus::Good => (bowden_result::Ok, bowden_fault::None),
+        RatesStatus::Settling => (bowden_result::Settling, bowden_fault::None),
+        RatesStatus::Resumed => (bowden_result::Resumed, bowden_fault::None),
+        RatesStatus::Held(fault) => {
+            let fault = match fault {
+                RatesFault::Position => bowden_fault::Position,
+                RatesFault::Dt => bowden_fault::Dt,
+                RatesFault::DtNotPositive => bowden_fault::DtNotPositive,
+                RatesFault::Overflow => bowden_fault::Overflow,
+                _ => bowden_fault::Other,
+            };
+            (bowden_result::Held, fault)
+        }
+    }
+}
+
+/// A sentence on a result, for a log: ASCII, static, never null; also for a number that is no
+/// result.
+#[no_mangle]
+pub extern "C" fn bowden_result_text(result: i32) -> *const c_char {
+    let text: &CStr = match result {
+        0 => c"all well",
+        1 => c"a good sample, but the rates have not settled yet",
+        2 => c"a good position after an unknown time: the rates are held",
+        3 => c"a regressor was bad: its term is left out, the estimates wait",
+        4 => c"a bad sample: the last good command or value is held",
+        5 => c"too many bad samples: the safe command is out until it is acknowledged",
+        -1 => c"a pointer is null",
+        -2 => c"a pointer is misaligned",
+        -3 => c"the object was not initialised, or was written over",
+        -4 => c"a setting is NaN or infinite",
+        -5 => c"a setting is out of range",
+        -6 => c"two settings break a condition together",
+        -7 => c"more items than there is room for",
+        -8 => c"a setting has a value that its enum has not",
+        -9 => c"the bytes of the model are damaged, of the other precision or version, or of too many terms",
+        _ => c"no result of this library",
+    };
+    text.as_ptr()
+}
+
+/// What was wrong with a sample, for a log: ASCII, static, never null.
+#[no_mangle]
+pub extern "C" fn bowden_fault_text(fault: i32) -> *const c_char {
+    let text: &CStr = match fault {
+        0 => c"nothing",
+        1 => c"dt is NaN or infinite",
+        2 => c"dt is zero or negative",
+        3 => c"dt is too long",
+        4 => c"the reference is NaN or infinite",
+        5 => c"the measured output is NaN or infinite",
+        6 => c"the velocity is NaN or infinite",
+        7 => c"the feed-forward is NaN or infinite",
+        8 => c"the command to resume from is NaN or infinite",
+        9 => c"a regressor, or what a term reads, is NaN, infinite or missing",
+        10 => c"an overflow: the inputs are too large",
+        11 => c"the position is NaN or infinite",
+        _ => c"another fault",
+    };
+    text.as_ptr()
+}
+
+/// The version of the library, such as "0.2.0": static, never null.
+#[no_mangle]
+pub extern "C" fn bowden_version() -> *const c_char {
+    read_text(concat!(env!("CARGO_PKG_VERSION"), "\0")).as_ptr()
+}
