@@ -9,6 +9,7 @@ mod close;
 mod compare;
 mod design;
 mod drawing;
+mod export;
 mod generate;
 mod help;
 mod outputs;
@@ -53,6 +54,8 @@ enum Command {
     Power(power::Power),
     /// Plan the experiment that tells what a record cannot: its motion, as CSV.
     Plan(plan::Plan),
+    /// Write a model as source for firmware in C.
+    Export(export::Export),
     /// Generate a record with effects that the declared model lacks, as CSV.
     // `record` was the name up to 0.1 and stays for scripts; the help does not show it.
     #[command(alias = "record")]
@@ -75,6 +78,7 @@ pub fn run() -> Result<ExitCode, Failure> {
         Some(Command::Compare(compare)) => compare.run(),
         Some(Command::Power(power)) => power.run(),
         Some(Command::Plan(plan)) => plan.run(),
+        Some(Command::Export(export)) => export.run(),
         Some(Command::Generate(generate)) => generate.run(),
         Some(Command::Help(help)) => help.run(),
     }?;

@@ -4,11 +4,13 @@
 //! * [`invertible`]: the fit within what a compensator can invert.
 //! * [`causal`]: the error with the rates of firmware.
 //! * [`rust_file`]: `model.rs` compiles for every effect and says what its numbers mean.
+//! * [`c_file`]: the model as a C header.
 //! * [`postcard_file`]: the bytes that firmware reads, and their checksum.
 //! * [`vector`]: the test vector beside each model.
 //! * [`examples`]: the models in the repository, and the examples that run them.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod c_file;
 mod causal;
 mod clockwork;
 #[path = "../compiler/mod.rs"]

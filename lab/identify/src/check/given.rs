@@ -157,7 +157,7 @@ fn of_the_record(name: &str) -> bool {
 }
 
 /// The message of the TOML reader without its drawing of the line.
-fn one_line(text: &str) -> String {
+pub fn one_line(text: &str) -> String {
     let lines = text.lines().map(str::trim);
     let told: Vec<&str> = lines
         .filter(|line| !line.is_empty() && !line.contains('|'))

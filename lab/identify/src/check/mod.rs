@@ -29,7 +29,7 @@ use crate::fit::Solution;
 use crate::problem::{HeldOut, Preparation, Prepared};
 use crate::record::{to_unit, Defect, Record};
 use crate::score::dependences::{dependences, Dependence};
-pub use given::{About, Errors, Given, Seen};
+pub use given::{one_line, About, Errors, Given, Seen};
 pub use line::{Fitted, Line};
 pub use ranges::Outside;
 

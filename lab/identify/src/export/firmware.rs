@@ -18,3 +18,9 @@ pub fn postcard(file: &ModelFile) -> Result<Vec<u8>, String> {
     let model: Model<f32, MOST_TERMS> = file.model_in()?;
     postcard::to_allocvec_crc32(&model, CHECKSUM.digest()).map_err(|e| e.to_string())
 }
+
+/// The same in `f64`.
+pub(super) fn bytes_in_double(file: &ModelFile) -> Result<Vec<u8>, String> {
+    let model: Model<f64, MOST_TERMS> = file.model_in()?;
+    postcard::to_allocvec_crc32(&model, CHECKSUM.digest()).map_err(|e| e.to_string())
+}

@@ -1,10 +1,11 @@
-//! The model that is handed over, as a file: TOML for tools, Rust or postcard for firmware.
+//! The model that is handed over, as a file: TOML for tools, Rust, C or postcard for firmware.
 //!
-//! All hold the same numbers: TOML in `f64`, Rust and postcard rounded to `f32`. What the
+//! All hold the same numbers: TOML in `f64`, Rust and postcard rounded to `f32`, C both. What the
 //! core does not need, units, ranges and errors among it, is in the table `about`.
 //! A test vector goes with each file ([`vector`]).
 
 mod about;
+mod c;
 pub mod causal;
 pub mod clockwork;
 mod firmware;

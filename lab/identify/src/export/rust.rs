@@ -27,7 +27,7 @@ fn number(value: f64) -> String {
 }
 
 /// Where the model came from, what it is worth, and what it lacks.
-fn origin(about: &About) -> String {
+pub(super) fn origin(about: &About) -> String {
     let mut out = String::new();
     let (cutoff, rate) = (about.cutoff_hz, about.rate_hz);
     line!(

@@ -5,6 +5,7 @@
 //! only room that it uses, so what it prints cannot differ from what another view prints.
 
 mod asked;
+mod c_file;
 mod check;
 mod close;
 mod cost;
@@ -20,6 +21,7 @@ mod round;
 mod source;
 
 pub use asked::Asked;
+pub use c_file::model_in_c;
 pub use check::{check, CheckFacts, CheckQuestion, Checked, DependsOn, ModelOfFile};
 pub use close::{close, Close, Closed, Form, Handed};
 pub use cost::{CostFacts, Meter, StageSeconds};

@@ -1,0 +1,42 @@
+//! `bowden export`: a model file as source for firmware.
+
+use super::{outputs, Failure};
+use bowden_lab::facts::model_in_c;
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub struct Export {
+    /// The model, a file of `close --model-out`.
+    #[arg(value_name = "MODEL.toml")]
+    model: PathBuf,
+    /// As a C header that needs the library of capi/ alone.
+    #[arg(long, required = true)]
+    c: bool,
+    /// Write a file instead of stdout.
+    #[arg(long, value_name = "FILE.h")]
+    out: Option<PathBuf>,
+}
+
+impl Export {
+    pub fn run(self) -> Result<(), Failure> {
+        if let Some(path) = &self.out {
+            if path.extension().is_none_or(|e| e != "h") {
+                return Err(format!(
+                    "--out {}: a name that ends in .h was expected",
+                    path.display()
+                ));
+            }
+            outputs::check(&[&self.model], &[("--out", path)])?;
+        }
+        // Named after the file that C includes; on stdout, after the model.
+        let named = self.out.as_ref().unwrap_or(&self.model);
+        let name = named.file_stem().unwrap_or_default().to_string_lossy();
+        let header = model_in_c(&super::check::load(&self.model)?, &name)
+            .map_err(|e| format!("{}: {e}", self.model.display()))?;
+        match &self.out {
+            Some(path) => outputs::write_whole(path, header.as_bytes()),
+            None => super::pour(header.as_bytes()),
+        }
+    }
+}

@@ -1,0 +1,249 @@
+//! The model as a C header that needs the library alone: its bytes, and what loads them.
+
+use super::firmware::{bytes_in_double, postcard};
+use super::{About, ModelFile, Span};
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+
+/// Terms and channels that the C interface has room for: `BOWDEN_TERMS`, `BOWDEN_CHANNELS`.
+const MOST: usize = 16;
+
+/// Bytes on a line.
+const ON_A_LINE: usize = 16;
+
+/// Writes a line; a `String` takes any.
+macro_rules! line {
+    ($out:expr, $($what:tt)*) => {{ let _ = writeln!($out, $($what)*); }};
+}
+
+impl ModelFile {
+    /// As a C header: the bytes in `f32` and `f64`, functions `NAME_load_f32` and
+    /// `NAME_compensator_f32` (and `_f64`), the channels' places, the ranges, and the time
+    /// constant for `bowden_rates_init`.
+    ///
+    /// # Errors
+    /// One sentence where the core refuses a part, or the C interface has no room for it.
+    pub fn c(&self, name: &str) -> Result<String, String> {
+        let none = About::default();
+        let about = self.about.as_ref().unwrap_or(&none);
+        self.check_room()?;
+        let (single, double) = (postcard(self)?, bytes_in_double(self)?);
+        let lower = identifier(name).to_lowercase();
+        let upper = lower.to_uppercase();
+        let mut out = self.c_head(about, &lower);
+        line!(out, "#ifndef BOWDEN_MODEL_{upper}_H");
+        line!(out, "#define BOWDEN_MODEL_{upper}_H\n");
+        line!(out, "#include \"bowden.h\"\n");
+        self.places(about, &upper, &mut out);
+        if about.rates_time_constant_s > 0.0 {
+            let tau = about.rates_time_constant_s;
+            line!(
+                out,
+                "/* Time constant of bowden_rates_init for the rates of every source [s]. */"
+            );
+            line!(
+                out,
+                "#define {upper}_RATES_TIME_CONSTANT_F32 {}",
+                number(tau, true)
+            );
+            line!(
+                out,
+                "#define {upper}_RATES_TIME_CONSTANT_F64 {}\n",
+                number(tau, false)
+            );
+        }
+        for (is_single, bytes) in [(true, single), (false, double)] {
+            self.in_one_precision(about, &lower, is_single, &bytes, &mut out);
+        }
+        line!(out, "#endif /* BOWDEN_MODEL_{upper}_H */");
+        Ok(out)
+    }
+
+    fn check_room(&self) -> Result<(), String> {
+        let terms = self.terms.len();
+        if terms > MOST {
+            return Err(format!(
+                "{terms} terms: the C interface has room for {MOST}"
+            ));
+        }
+        for term in &self.terms {
+            let place = self.channels.iter().position(|name| *name == term.source);
+            if place.is_some_and(|place| place >= MOST) {
+                return Err(format!(
+                    "{} reads channel {}: the C interface has room for {MOST} channels",
+                    term.effect, term.source
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// What a reader has to know before the numbers.
+    fn c_head(&self, about: &About, lower: &str) -> String {
+        let mut text = format!("{}.\n\n", about.remark());
+        let (input, output) = (about.unit("input"), about.unit("output"));
+        line!(
+            text,
+            "Input [{input}], output [{output}], {} mode.",
+            self.mode
+        );
+        if self.about.is_some() {
+            // The lines of the Rust file, without its marks of a comment.
+            for line in super::rust::origin(about).lines() {
+                line!(text, "{}", line.trim_start_matches("//!").trim_start());
+            }
+            line!(text, "Feed-forward: {}.", about.feed_forward);
+        }
+        line!(text, "");
+        line!(text, "bowden_model_f32 model;");
+        line!(text, "if ({lower}_load_f32(&model, NULL) < 0) ...");
+        let mut out = String::new();
+        for (index, line) in text.lines().enumerate() {
+            let mark = if index == 0 { "/*" } else { " *" };
+            line!(out, "{}", format!("{mark} {}", commented(line)).trim_end());
+        }
+        line!(out, " */");
+        out
+    }
+
+    /// The channels' places in a sample.
+    fn places(&self, about: &About, upper: &str, out: &mut String) {
+        line!(
+            out,
+            "/* How many channels a sample has; at least those that the model reads. */"
+        );
+        line!(
+            out,
+            "#define {upper}_CHANNELS {}",
+            self.channels.len().min(MOST)
+        );
+        let mut taken = BTreeSet::from(["S".to_owned()]);
+        for (index, name) in self.channels.iter().take(MOST).enumerate() {
+            let mut own = identifier(name).to_uppercase();
+            if !taken.insert(own.clone()) {
+                own = format!("{own}_{index}");
+                taken.insert(own.clone());
+            }
+            let (name, unit) = (commented(name), commented(about.unit(name)));
+            line!(
+                out,
+                "#define {upper}_CHANNEL_{own} {index} /* {name} [{unit}] */"
+            );
+        }
+        line!(out, "");
+    }
+
+    fn in_one_precision(
+        &self,
+        about: &About,
+        lower: &str,
+        is_single: bool,
+        bytes: &[u8],
+        out: &mut String,
+    ) {
+        let (kind, suffix) = if is_single {
+            ("float", "f32")
+        } else {
+            ("double", "f64")
+        };
+        line!(
+            out,
+            "/* The model in {kind}, with its checksum: for bowden_model_load_{suffix}. */"
+        );
+        line!(
+            out,
+            "static const uint8_t {lower}_bytes_{suffix}[{}] = {{",
+            bytes.len()
+        );
+        for some in bytes.chunks(ON_A_LINE) {
+            let some: Vec<String> = some.iter().map(|byte| format!("0x{byte:02x},")).collect();
+            line!(out, "    {}", some.join(" "));
+        }
+        line!(out, "}};\n");
+        let (mut ranges, mut count) = ("NULL".to_owned(), 0);
+        if !about.ranges.is_empty() {
+            count = about.ranges.len();
+            ranges = format!("{lower}_ranges_{suffix}");
+            line!(
+                out,
+                "/* What the fit has seen of each source: position, velocity, acceleration. */"
+            );
+            line!(
+                out,
+                "static const bowden_range_{suffix} {ranges}[{count}] = {{"
+            );
+            for (name, span) in &about.ranges {
+                let place = self.channels.iter().position(|channel| channel == name);
+                let source = match place {
+                    Some(place) if name != "input" => place.to_string(),
+                    _ => "BOWDEN_SOURCE_INPUT".to_owned(),
+                };
+                let (low, high) = (end(span, 0, is_single), end(span, 1, is_single));
+                line!(
+                    out,
+                    "    {{{source}, {low}, {high}}}, /* {} */",
+                    commented(name)
+                );
+            }
+            line!(out, "}};\n");
+        }
+        line!(
+            out,
+            "/* Loads the model with its hysteresis at zero; `about` may be NULL. */"
+        );
+        line!(
+            out,
+            "static inline bowden_result {lower}_load_{suffix}(bowden_model_{suffix} *model, bowden_about *about) {{\n    \
+             return bowden_model_load_{suffix}(model, {lower}_bytes_{suffix}, sizeof {lower}_bytes_{suffix}, 0, about);\n}}\n"
+        );
+        line!(
+            out,
+            "/* Turns the loaded model round, within what the fit has seen. */"
+        );
+        line!(
+            out,
+            "static inline bowden_result {lower}_compensator_{suffix}(bowden_compensator_{suffix} *compensator,\n    \
+             const bowden_model_{suffix} *model, {kind} longest_dt, bowden_about *about) {{\n    \
+             return bowden_compensator_init_{suffix}(compensator, model, longest_dt, {ranges}, {count}, about);\n}}\n"
+        );
+    }
+}
+
+/// One end of a range.
+fn end(span: &Span, end: usize, is_single: bool) -> String {
+    let of = |range: [f64; 2]| number(range[end], is_single);
+    let (position, velocity) = (of(span.position), of(span.velocity));
+    format!("{{{position}, {velocity}, {}}}", of(span.acceleration))
+}
+
+/// The shortest text that reads back to the same number.
+fn number(value: f64, is_single: bool) -> String {
+    if is_single {
+        format!("{:?}f", value as f32)
+    } else {
+        format!("{value:?}")
+    }
+}
+
+/// A name of C; of a name without any letter or digit, `model`.
+fn identifier(name: &str) -> String {
+    let kept = name
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
+    let kept: String = kept.collect();
+    match kept.chars().find(|c| *c != '_') {
+        None => "model".to_owned(),
+        Some(_) if kept.starts_with(|c: char| c.is_ascii_digit()) => format!("model_{kept}"),
+        Some(_) => kept,
+    }
+}
+
+/// A text that neither ends a comment of C nor opens another.
+fn commented(text: &str) -> String {
+    let plain = text.chars().map(|c| if c.is_control() { ' ' } else { c });
+    let mut plain: String = plain.collect();
+    while plain.contains("*/") || plain.contains("/*") {
+        plain = plain.replace("*/", "* /").replace("/*", "/ *");
+    }
+    plain
+}

@@ -1,0 +1,15 @@
+//! A model file as a header for firmware in C.
+
+use crate::check::{one_line, Given};
+use crate::export::ModelFile;
+
+/// The C header of a model file: its bytes and what loads them, named after `name`.
+///
+/// # Errors
+/// One sentence on the first error in the text, or on what the C interface has no room for.
+pub fn model_in_c(text: &str, name: &str) -> Result<String, String> {
+    // The same refusals as of a model that is checked.
+    Given::parse(text)?;
+    let file: ModelFile = toml::from_str(text).map_err(|e| one_line(&e.to_string()))?;
+    file.c(name)
+}
