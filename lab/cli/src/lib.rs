@@ -19,6 +19,8 @@ mod progress;
 mod reading;
 pub mod view;
 
+pub use progress::share;
+
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 

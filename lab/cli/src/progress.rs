@@ -14,8 +14,10 @@ const STEPS: u64 = 1000;
 /// Where the search begins and ends.
 const SEARCH: [f64; 2] = [0.08, 0.80];
 
-/// Share of the work that is done when a step begins.
-fn share(step: &str) -> Option<f64> {
+/// Share of the work that is done when a step begins, 0 to 1; `None` for a message that is no
+/// step.
+#[must_use]
+pub fn share(step: &str) -> Option<f64> {
     if let Some(rest) = step.strip_prefix("looking for what is missing, turn ") {
         let turn: i32 = rest.split(',').next()?.parse().ok()?;
         let [from, to] = SEARCH;

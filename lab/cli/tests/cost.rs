@@ -63,3 +63,16 @@ fn the_counts_are_of_what_they_say() {
     let least = of("evaluations") + 4 * of("jacobians");
     assert!(of("columns_filtered") >= least, "{cost}");
 }
+
+#[test]
+fn the_counts_are_those_of_the_answer_whatever_is_drawn_of_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let name = |file: &str| folder.path().join(file).to_str().unwrap().to_owned();
+    let (trace, page) = (name("trace.csv"), name("page.html"));
+    let quick = ["close", "--rounds", "0"];
+    let drawn = [&quick[..], &["--trace", &trace, "--report", &page]].concat();
+    let ((alone, _), (drawn, _)) = (cost(&quick), cost(&drawn));
+    for name in ["evaluations", "jacobians", "columns_filtered", "searches"] {
+        assert_eq!(count(&alone, name), count(&drawn, name), "{name}");
+    }
+}

@@ -144,6 +144,11 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
         }
         hand => hand,
     };
+    tell("looking for declared parts that are not needed");
+    let told = hand.as_ref().map_err(String::as_str);
+    let facts = Facts::new(&label, &data, &ledger, &done, told, question.detail);
+    // Before anything is drawn: the cost of an answer is not that of its figures.
+    let cost = meter.read();
     let models = match &hand {
         Ok(hand) if question.models || question.figures => handed(&data, hand),
         _ => Vec::new(),
@@ -156,14 +161,12 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
         true => Some(Figures::of_close(&data, &ledger, &done)?),
         false => None,
     };
-    tell("looking for declared parts that are not needed");
-    let hand = hand.as_ref().map_err(String::as_str);
     Ok(Closed {
-        facts: Facts::new(&label, &data, &ledger, &done, hand, question.detail),
+        facts,
         models,
         trace,
         figures,
-        cost: meter.read(),
+        cost,
     })
 }
 

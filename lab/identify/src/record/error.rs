@@ -72,6 +72,11 @@ impl RecordError {
         }
     }
 
+    /// The file as it was given, or the label that stands for it.
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
     /// Line in the file, from 1; of a binary file the row.
     pub fn line(&self) -> Option<usize> {
         self.line

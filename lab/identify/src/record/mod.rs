@@ -184,6 +184,56 @@ pub fn parse(bytes: &[u8], label: &str, options: &Options) -> Result<Record, Rec
         })
 }
 
+/// Reads a record from columns in memory, as from a file that holds columns of numbers;
+/// `label` stands for the file's name.
+///
+/// A unit may stand in the name of its column, as in the header of a text (`tau_i [N·m]`).
+///
+/// # Errors
+/// One line that names label, row (from 1) and column: see [`RecordError`].
+///
+/// ```
+/// use bowden_lab::record::{of_columns, parse, Column, Options};
+///
+/// let torque = |i: u32| 16.0 * (0.02 * f64::from(i)).sin();
+/// let column = |name: &str, of: &dyn Fn(u32) -> f64| Column {
+///     name: name.to_owned(),
+///     unit: None,
+///     values: (0..400).map(of).collect(),
+/// };
+/// let mut columns = vec![
+///     column("t", &|i| f64::from(i) * 1e-3),
+///     column("tau_i [N·m]", &torque),
+///     column("tau_o", &|i| 0.95 * torque(i)),
+/// ];
+/// let record = of_columns(columns.clone(), "arrays", &Options::default())?;
+/// assert_eq!(record.input.unit.as_deref(), Some("N·m"));
+///
+/// let mut csv = String::from("t,tau_i [N·m],tau_o\n");
+/// for i in 0..400 {
+///     csv += &format!("{},{},{}\n", f64::from(i) * 1e-3, torque(i), 0.95 * torque(i));
+/// }
+/// assert_eq!(parse(csv.as_bytes(), "arrays", &Options::default())?, record);
+///
+/// columns[2].values[6] = f64::NAN;
+/// let error = of_columns(columns, "arrays", &Options::default()).unwrap_err();
+/// assert_eq!((error.file(), error.line(), error.column()), ("arrays", Some(7), Some("tau_o")));
+/// # Ok::<(), bowden_lab::record::RecordError>(())
+/// ```
+pub fn of_columns(
+    columns: Vec<Column>,
+    label: &str,
+    options: &Options,
+) -> Result<Record, RecordError> {
+    checks::options(options)
+        .and_then(|()| sheet::record(sheet::of_columns(columns)?, options))
+        .map_err(|error| error.in_file(label))
+        .map(|mut record| {
+            record.path = label.to_owned();
+            record
+        })
+}
+
 fn parse_lines(bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
     checks::options(options)?;
     match kind::of(bytes)? {

@@ -5,7 +5,7 @@ use super::header::Header;
 use super::parquet_file::File;
 use super::roles::{self, Roles};
 use super::source::{Sheet, Source};
-use super::{mat, Options, Record};
+use super::{mat, Column, Options, Record};
 
 /// The columns of a file by name.
 pub(super) struct Columns {
@@ -24,6 +24,22 @@ pub(super) fn of_mat(bytes: &[u8]) -> Result<Columns, RecordError> {
         .into_iter()
         .map(|own| ((own.name, own.unit, own.path), own.values))
         .unzip();
+    Ok(Columns {
+        header: Header::of(names)?,
+        stored: Stored::Values(values),
+    })
+}
+
+/// Columns in memory; the whole name of one is that in the header of a text.
+pub(super) fn of_columns(columns: Vec<Column>) -> Result<Columns, RecordError> {
+    let named = |Column { name, unit, values }| {
+        let whole = match &unit {
+            Some(unit) => format!("{name} [{unit}]"),
+            None => name.clone(),
+        };
+        ((name, unit, whole), values)
+    };
+    let (names, values): (Vec<_>, Vec<_>) = columns.into_iter().map(named).unzip();
     Ok(Columns {
         header: Header::of(names)?,
         stored: Stored::Values(values),

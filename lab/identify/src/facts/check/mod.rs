@@ -7,7 +7,7 @@ use super::figures::Figures;
 use super::record::{channel_name, RecordFacts};
 use crate::check::{Check, Errors, Given, Line, Outside, Verdict};
 use crate::problem::Prepared;
-use crate::record::Mode;
+use crate::record::{Mode, Record};
 use crate::score::dependences::Dependence;
 use sentence::sentence;
 use std::path::Path;
@@ -133,9 +133,21 @@ pub fn check(
     let record = asked
         .read(record)
         .map_err(|e| format!("{e} (the model is of {} mode)", model.mode.name()))?;
+    check_record(model, record, question)
+}
+
+/// The same with a record that was read already.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_record(
+    model: &ModelOfFile,
+    record: Record,
+    question: &CheckQuestion,
+) -> Result<Checked, String> {
     let label = record.path.clone();
-    let check =
-        Check::new(record, &model.given, asked.cutoff).map_err(|message| named(&label, message))?;
+    let check = Check::new(record, &model.given, question.asked.cutoff)
+        .map_err(|message| named(&label, message))?;
     Ok(Checked {
         trace: match question.trace {
             true => Some(check.trace()?),

@@ -1,0 +1,28 @@
+"""Hysteretic cable transmissions: closes the loop between a model and measured data.
+
+>>> import bowden
+>>> report = bowden.close("record.csv")               # doctest: +SKIP
+>>> report.verdict, report.names                       # doctest: +SKIP
+('explained', ['viscous'])
+"""
+
+from ._bowden import Record
+from ._check import check
+from ._close import close
+from ._error import Error
+from ._fields import Fields
+from ._model import Model
+from ._read import read
+from ._report import CheckReport, Report
+
+__all__ = [
+    "CheckReport",
+    "Error",
+    "Fields",
+    "Model",
+    "Record",
+    "Report",
+    "check",
+    "close",
+    "read",
+]

@@ -1,0 +1,73 @@
+"""Does a model still hold on the next record?"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from typing import Any, Optional, Union
+
+from . import _bowden
+from ._close import command_of, records_of
+from ._error import Error
+from ._model import Model
+from ._read import Channels, Reading
+from ._report import CheckReport
+
+
+def check(
+    model: Union[Model, str, "os.PathLike[str]"],
+    t: Any = None,
+    tau_i: Any = None,
+    tau_o: Any = None,
+    *,
+    x: Any = None,
+    f: Any = None,
+    channels: Optional[Channels] = None,
+    mode: Optional[str] = None,
+    time: Optional[str] = None,
+    input: Optional[str] = None,
+    output: Optional[str] = None,
+    skip: float = 0.0,
+    until: Optional[float] = None,
+    cutoff: Optional[float] = None,
+    rate: Optional[float] = None,
+    header_line: Optional[int] = None,
+    drop_bad: bool = False,
+    units: Optional[Mapping[str, str]] = None,
+    label: Optional[str] = None,
+    threads: Optional[int] = None,
+) -> CheckReport:
+    """Tries a model on another record of the same rig: nothing is fitted but gain and offset.
+
+    ``model`` is a :class:`Model` or the path of a ``.toml``; the record comes as in
+    :func:`bowden.close`, whose options of reading mean the same here.
+
+    Raises :class:`bowden.Error`.
+    """
+    own = model if isinstance(model, Model) else Model.load(model)
+    if mode not in (None, own.mode):
+        raise Error(f"{own.name}: mode={mode!r}: the model is of {own.mode} mode")
+    reading = Reading(
+        mode=own.mode,
+        time=time,
+        input=input,
+        output=output,
+        channels=channels,
+        skip=skip,
+        until=until,
+        rate=rate,
+        header_line=header_line,
+        drop_bad=drop_bad,
+        units=units,
+        label=label,
+    )
+    ends = {"tau_i": tau_i, "tau_o": tau_o, "x": x, "f": f}
+    records, files = records_of(reading, t, ends)
+    if len(records) != 1:
+        raise Error(f"{len(records)} records were given, one was expected")
+    hertz = None if cutoff is None else float(cutoff)
+    checked = _bowden.check(own._native, own.name, records[0], hertz, threads)
+    given = {"cutoff": cutoff, "skip": skip or None, "until": until, "rate": rate}
+    command = command_of("check", [own.name], {}).rstrip(")")
+    rest = command_of("check", [records[0].path], given).partition("(")[2]
+    return CheckReport(checked, f"{command}, {rest}", files)

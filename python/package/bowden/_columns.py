@@ -1,0 +1,93 @@
+"""Arrays and frames as columns of numbers."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from typing import Any, Optional
+
+import numpy as np
+
+from ._error import Error
+
+#: A column for the native half: name, unit, values.
+Column = tuple[str, Optional[str], "np.ndarray[Any, np.dtype[np.float64]]"]
+
+
+def is_path(source: object) -> bool:
+    return isinstance(source, (str, os.PathLike))
+
+
+def is_frame(source: object) -> bool:
+    """Whether columns have names in it: a frame, a table of pyarrow, a mapping, a structured array."""
+    if isinstance(source, np.ndarray):
+        return source.dtype.names is not None
+    return isinstance(source, Mapping) or hasattr(source, "columns") or hasattr(source, "column_names")
+
+
+def _names(frame: Any) -> Iterable[object]:
+    if isinstance(frame, np.ndarray):
+        return frame.dtype.names or ()
+    if isinstance(frame, Mapping):
+        return frame.keys()
+    # A table of pyarrow has the columns themselves in `columns`.
+    return frame.column_names if hasattr(frame, "column_names") else frame.columns
+
+
+def columns_of_frame(frame: Any, units: Mapping[str, str]) -> list[Column]:
+    """The numeric columns of a frame; others are left out, as those of a Parquet file are."""
+    found: list[Column] = []
+    for name in _names(frame):
+        column = _array(frame[name])
+        numbers = None if column is None else _numbers(column)
+        if numbers is not None:
+            values, unit = numbers
+            found.append((str(name), units.get(str(name), unit), values))
+    return found
+
+
+def column_of_array(name: str, array: Any, units: Mapping[str, str]) -> Column:
+    """A column that was given by itself, which has to be one."""
+    found = _array(array)
+    numbers = None if found is None else _numbers(found)
+    if found is None or numbers is None:
+        kind = type(array).__name__ if found is None else f"{found.dtype}"
+        raise Error(f"column `{name}`: values of {kind}, numbers were expected", column=name)
+    values, unit = numbers
+    if values.ndim != 1:
+        raise Error(
+            f"column `{name}`: shape {values.shape}, one dimension was expected", column=name
+        )
+    return name, units.get(name, unit), values
+
+
+def _array(column: Any) -> Optional[np.ndarray[Any, Any]]:
+    """The values of a column of any library."""
+    dtype = getattr(column, "dtype", None)
+    if hasattr(column, "to_numpy"):
+        # Of pandas' own types: those with a mask have no array of their own.
+        if hasattr(dtype, "na_value") and not isinstance(dtype, np.dtype):
+            if getattr(dtype, "kind", "O") not in "fiub":
+                return np.asarray(column) if getattr(dtype, "kind", "O") in "mM" else None
+            return np.asarray(column.to_numpy(dtype="float64", na_value=np.nan))
+        return np.asarray(column.to_numpy())
+    try:
+        return np.asarray(column)
+    except ValueError:
+        return None
+
+
+def _numbers(
+    values: np.ndarray[Any, Any],
+) -> Optional[tuple[np.ndarray[Any, np.dtype[np.float64]], Optional[str]]]:
+    """As doubles, without a copy where they are; points in time count from the first."""
+    if values.dtype.kind in "fiub":
+        return np.ascontiguousarray(values, dtype=np.float64), None
+    if values.dtype.kind in "mM" and values.ndim == 1:
+        known = values[~np.isnat(values)]
+        if known.size:
+            since = values if values.dtype.kind == "m" else values - known[0]
+            nanoseconds = since.astype("timedelta64[ns]").astype(np.float64)
+            nanoseconds[np.isnat(values)] = np.nan
+            return nanoseconds, "ns"
+    return None

@@ -1,0 +1,49 @@
+"""What a bad record, a bad option or a bad model gives."""
+
+from __future__ import annotations
+
+import re
+from typing import Optional
+
+
+class Error(ValueError):
+    """One line that says what was wrong, with the place where there is one.
+
+    ``file``, ``line`` (from 1; of arrays and of files without lines the row) and
+    ``column`` are ``None`` where the fault has none.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        file: Optional[str] = None,
+        line: Optional[int] = None,
+        column: Optional[str] = None,
+    ) -> None:
+        super().__init__(_in_python(message))
+        self.file = file
+        self.line = line
+        self.column = column
+
+    def __reduce__(self) -> tuple[type, tuple[object, ...]]:
+        return type(self), (str(self), self.file, self.line, self.column)
+
+
+#: The program's options that are written otherwise here.
+_OTHER = {
+    "--channel NAME=COL": "channels",
+    "--drop-bad": "drop_bad=True",
+    "--invertible": "invertible=True",
+    "--per-file gains": 'per_file="gains"',
+}
+_OPTION = re.compile(
+    r"--(channel|time|input|output|mode|skip|until|cutoff|rate|header-line|declare|rounds|budget)\b"
+    r"( COL| HZ)?"
+)
+
+
+def _in_python(message: str) -> str:
+    """The message with the options' names in Python."""
+    for program, python in _OTHER.items():
+        message = message.replace(program, python)
+    return _OPTION.sub(lambda found: found.group(1).replace("-", "_") + "=", message)

@@ -1,0 +1,162 @@
+"""Models for firmware: load, save, run sample by sample."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from typing import Any, Optional, Union
+
+import numpy as np
+
+from . import _bowden
+from ._columns import column_of_array
+from ._error import Error
+from ._fields import Fields, wrapped
+
+_Path = Union[str, "os.PathLike[str]"]
+
+
+class Model:
+    """A model as it stands in a file of schema ``bowden.model/1``."""
+
+    def __init__(self, toml: str, name: str = "(model)") -> None:
+        self._native = _bowden.Model(toml)
+        self._name = name
+
+    @classmethod
+    def load(cls, path: _Path) -> Model:
+        """Reads a ``.toml`` that :meth:`save` or `bowden close --model-out` has written."""
+        name = os.fspath(path)
+        try:
+            with open(name, encoding="utf-8", newline="") as file:
+                text = file.read()
+        except UnicodeDecodeError:
+            raise Error(f"{name}: is no text; a TOML file was expected", file=name) from None
+        try:
+            return cls(text, name)
+        except Error as error:
+            raise Error(f"{name}: {error}", file=name) from None
+
+    def save(self, path: _Path) -> None:
+        """Writes the model: ``.toml`` for tools, ``.rs`` or ``.postcard`` for firmware."""
+        name = os.fspath(path)
+        ending = os.path.splitext(name)[1]
+        if ending == ".toml":
+            data = self._native.toml.encode()
+        elif ending == ".rs":
+            data = self._native.rust().encode()
+        elif ending == ".postcard":
+            data = self._native.postcard()
+        else:
+            raise Error(f"{name}: a name that ends in .toml, .rs or .postcard was expected")
+        with open(name, "wb") as file:
+            file.write(data)
+
+    @property
+    def toml(self) -> str:
+        """The text of its ``.toml``."""
+        return self._native.toml
+
+    @property
+    def name(self) -> str:
+        """Its file, or what stands for it."""
+        return self._name
+
+    @property
+    def mode(self) -> str:
+        """``torque`` or ``displacement``."""
+        return self._native.mode
+
+    @property
+    def channels(self) -> list[str]:
+        """Names of the channels that it reads beside the input."""
+        return self._native.channels
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything in its file."""
+        found: dict[str, Any] = json.loads(self._native.json)
+        return found
+
+    @property
+    def transmission(self) -> Optional[Fields]:
+        """The Bouc-Wen transmission: gain, kappa_eta, offset, rho, sigma, n."""
+        found = self.to_dict().get("transmission")
+        return None if found is None else Fields(found)
+
+    @property
+    def terms(self) -> list[Fields]:
+        """The effects, in order."""
+        return list(wrapped(self.to_dict().get("terms", [])))
+
+    def predict(
+        self,
+        t: Any = None,
+        input: Any = None,
+        channels: Optional[Mapping[str, Any]] = None,
+        *,
+        dt: Optional[float] = None,
+        time_constant: Optional[float] = None,
+        dtype: Any = np.float64,
+    ) -> np.ndarray[Any, Any]:
+        """The output sample by sample, as firmware computes it, from a fresh state on.
+
+        ``input`` and each channel are arrays of shape (samples,), whose velocities and
+        accelerations then come from the causal filter of the core's `Rates` with
+        ``time_constant`` [s] (of the model's file where not given); or of shape (samples, 3):
+        position, velocity, acceleration. ``t`` are seconds; or ``dt`` is one step.
+        ``dtype`` is ``numpy.float64`` or ``numpy.float32``: the model runs in it.
+        """
+        given = dict(channels or {})
+        missing = [name for name in self.channels if name not in given]
+        if missing:
+            raise Error(f"channel `{missing[0]}`: the model reads it", column=missing[0])
+        sources = [_motions("input", input)]
+        sources += [_motions(name, given[name]) for name in self.channels]
+        steps = _steps(t, dt, len(sources[0]))
+        constant = time_constant if time_constant is not None else self._native.time_constant
+        if constant is None:
+            if any(source.shape[1] == 1 for source in sources):
+                raise Error("the model's file states no time constant: time_constant= was expected")
+            constant = 1.0
+        kind = np.dtype(dtype)
+        if kind not in (np.dtype(np.float32), np.dtype(np.float64)):
+            raise Error(f"dtype={kind}: float32 or float64 was expected")
+        single = kind == np.dtype(np.float32)
+        answers = self._native.answers(steps, sources, float(constant), single)
+        return answers.astype(kind, copy=False)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Model) and self.toml == other.toml
+
+    def __hash__(self) -> int:
+        return hash(self.toml)
+
+    def __reduce__(self) -> tuple[type, tuple[str, str]]:
+        return Model, (self.toml, self._name)
+
+    def __repr__(self) -> str:
+        effects = ", ".join(str(term.effect) for term in self.terms) or "no further effect"
+        return f"<bowden.Model {self._name}: {self.mode} mode, {effects}>"
+
+
+def _motions(name: str, array: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
+    values = np.asarray(array)
+    if values.ndim == 2 and values.shape[1] == 3 and values.dtype.kind in "fiu":
+        return np.ascontiguousarray(values, dtype=np.float64)
+    if values.ndim == 2:
+        raise Error(f"column `{name}`: shape {values.shape}, (n,) or (n, 3) was expected")
+    return column_of_array(name, array, {})[2].reshape(-1, 1)
+
+
+def _steps(t: Any, dt: Optional[float], samples: int) -> np.ndarray[Any, np.dtype[np.float64]]:
+    if (t is None) == (dt is None):
+        raise Error("one of t and dt was expected")
+    if t is None:
+        return np.full(samples, dt, dtype=np.float64)
+    time = column_of_array("t", t, {})[2]
+    if len(time) != samples:
+        raise Error(f"column `t`: {len(time)} values; {samples} were expected", column="t")
+    steps = np.diff(time)
+    first = np.median(steps) if len(steps) else 1.0
+    return np.concatenate([[first], steps])

@@ -1,0 +1,77 @@
+"""Progress of a long call: a bar of tqdm, or a function of the caller's."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any, Callable, Optional
+
+#: Called with the share that is done (0 to 1, ``None`` where unknown) and what is done now.
+Told = Callable[[Optional[float], str], object]
+
+
+class _Bar:
+    """A bar of tqdm or alike, moved to shares of its total."""
+
+    def __init__(self, bar: Any, own: bool) -> None:
+        self.bar, self.own = bar, own
+        if not getattr(bar, "total", None):
+            bar.total = 1.0
+
+    def __call__(self, share: Optional[float], message: str) -> None:
+        if hasattr(self.bar, "set_postfix_str"):
+            self.bar.set_postfix_str(message, refresh=False)
+        if share is not None:
+            # Never backwards.
+            self.bar.update(max(0.0, share * self.bar.total - self.bar.n))
+        if hasattr(self.bar, "refresh"):
+            self.bar.refresh()
+
+    def done(self) -> None:
+        self.bar.update(max(0.0, self.bar.total - self.bar.n))
+
+    def close(self) -> None:
+        if self.own:
+            self.bar.close()
+
+
+class Progress:
+    """What ``progress=`` means, for the length of one call."""
+
+    def __init__(self, wanted: Any) -> None:
+        self.bar: Optional[_Bar] = None
+        self.told: Optional[Told] = None
+        if wanted is None or wanted is False:
+            return
+        if wanted is True:
+            self.told = self.bar = _own_bar()
+            self.told = self.told or _line
+        elif hasattr(wanted, "update") and hasattr(wanted, "n"):
+            self.told = self.bar = _Bar(wanted, own=False)
+        elif callable(wanted):
+            self.told = wanted
+        else:
+            raise TypeError(
+                f"progress: {type(wanted).__name__}; True, a bar of tqdm or a function was expected"
+            )
+
+    def __enter__(self) -> Optional[Told]:
+        return self.told
+
+    def __exit__(self, kind: object, *rest: object) -> None:
+        if self.bar is not None:
+            if kind is None:
+                self.bar.done()
+            self.bar.close()
+
+
+def _own_bar() -> Optional[_Bar]:
+    try:
+        from tqdm.auto import tqdm
+    except ImportError:
+        return None
+    form = "{percentage:3.0f} % |{bar:24}| {elapsed} {postfix}"
+    return _Bar(tqdm(total=1.0, leave=False, bar_format=form), own=True)
+
+
+def _line(share: Optional[float], message: str) -> None:
+    print(f"bowden: {message}", file=sys.stderr)

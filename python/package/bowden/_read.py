@@ -1,0 +1,141 @@
+"""Whatever a record comes in, as a record."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any, Optional, Union
+
+from . import _bowden
+from ._columns import column_of_array, columns_of_frame, is_frame, is_path
+from ._error import Error
+
+#: A channel is the name of a column, ``A-B`` or ``A+B`` of two, or an array.
+Channels = Mapping[str, Any]
+
+
+class Reading:
+    """How columns are read, once for all records of a call."""
+
+    def __init__(
+        self,
+        *,
+        mode: Optional[str],
+        time: Optional[str],
+        input: Optional[str],
+        output: Optional[str],
+        channels: Optional[Channels],
+        skip: float,
+        until: Optional[float],
+        rate: Optional[float],
+        header_line: Optional[int],
+        drop_bad: bool,
+        units: Optional[Mapping[str, str]],
+        label: Optional[str],
+    ) -> None:
+        self.channels = dict(channels or {})
+        self.units = dict(units or {})
+        self.label = label
+        self.options: dict[str, Any] = {
+            "mode": mode,
+            "time": time,
+            "input": input,
+            "output": output,
+            "channels": [
+                (name, column if isinstance(column, str) else name)
+                for name, column in self.channels.items()
+            ],
+            "skip": float(skip),
+            "until": None if until is None else float(until),
+            "rate": None if rate is None else float(rate),
+            "header_line": header_line,
+            "drop_bad": bool(drop_bad),
+        }
+
+    def of_ends(self, ends: Mapping[str, Any]) -> _bowden.Record:
+        """Of arrays that were given by name."""
+        arrays = [(name, array) for name, array in ends.items() if array is not None]
+        arrays += [(n, a) for n, a in self.channels.items() if not isinstance(a, str)]
+        columns = [column_of_array(name, array, self.units) for name, array in arrays]
+        return _bowden.record_of_columns(columns, self.label or "(arrays)", self.options)
+
+    def of(self, source: Any, number: Optional[int] = None) -> _bowden.Record:
+        """Of one source; of several ``number`` counts from 1."""
+        if isinstance(source, _bowden.Record):
+            return source
+        if is_path(source):
+            self._no_arrays()
+            return _bowden.record_of_file(os.fspath(source), self.options)
+        if is_frame(source):
+            columns = columns_of_frame(source, self.units)
+            if number is not None:
+                self._no_arrays()
+            columns += [
+                column_of_array(name, array, self.units)
+                for name, array in self.channels.items()
+                if not isinstance(array, str)
+            ]
+            label = self.label or ("(frame)" if number is None else f"(frame {number})")
+            return _bowden.record_of_columns(columns, label, self.options)
+        raise Error(
+            f"{type(source).__name__}: a path, a frame, a bowden.Record or arrays were expected"
+        )
+
+    def all_of(self, sources: Union[Any, Sequence[Any]]) -> list[_bowden.Record]:
+        """Of one source or of a list of them, in the units of the first one."""
+        if not isinstance(sources, (list, tuple)):
+            return [self.of(sources)]
+        if not sources:
+            raise Error("no record was given")
+        paths = [os.fspath(source) for source in sources if is_path(source)]
+        for index, path in enumerate(paths):
+            if path in paths[:index]:
+                raise Error(f"{path}: given twice", file=path)
+        if len(sources) == 1:
+            return [self.of(sources[0])]
+        return _bowden.agree([self.of(s, k + 1) for k, s in enumerate(sources)])
+
+    def _no_arrays(self) -> None:
+        for name, column in self.channels.items():
+            if not isinstance(column, str):
+                raise Error(
+                    f"channels: `{name}` is an array; the name of a column was expected",
+                    column=name,
+                )
+
+
+def read(
+    path: Any,
+    *,
+    mode: Optional[str] = None,
+    time: Optional[str] = None,
+    input: Optional[str] = None,
+    output: Optional[str] = None,
+    channels: Optional[Channels] = None,
+    skip: float = 0.0,
+    until: Optional[float] = None,
+    rate: Optional[float] = None,
+    header_line: Optional[int] = None,
+    drop_bad: bool = False,
+    units: Optional[Mapping[str, str]] = None,
+    label: Optional[str] = None,
+) -> _bowden.Record:
+    """Reads one record: a file (CSV, .mat v5, Parquet, each also in gzip) or a frame.
+
+    The options are those of `bowden close`; see :func:`close`.
+    """
+    reading = Reading(
+        mode=mode,
+        time=time,
+        input=input,
+        output=output,
+        channels=channels,
+        skip=skip,
+        until=until,
+        rate=rate,
+        header_line=header_line,
+        drop_bad=drop_bad,
+        units=units,
+        label=label,
+    )
+    return reading.of(path)

@@ -1,0 +1,183 @@
+//! Records: from files, and from arrays.
+
+use crate::failure;
+use bowden_lab::facts::{Mode, Options};
+use bowden_lab::record::{self as lab, Column};
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::path::PathBuf;
+
+/// How columns are read: the program's options.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Columns {
+    mode: Option<String>,
+    time: Option<String>,
+    input: Option<String>,
+    output: Option<String>,
+    channels: Vec<(String, String)>,
+    skip: f64,
+    until: Option<f64>,
+    rate: Option<f64>,
+    header_line: Option<usize>,
+    drop_bad: bool,
+}
+
+impl Columns {
+    fn options(self) -> PyResult<Options> {
+        Ok(Options {
+            mode: self.mode.as_deref().map(mode).transpose()?,
+            time: self.time,
+            input: self.input,
+            output: self.output,
+            channels: self.channels,
+            skip: self.skip,
+            until: self.until,
+            rate: self.rate,
+            header_line: self.header_line,
+            drop_bad: self.drop_bad,
+        })
+    }
+}
+
+fn mode(name: &str) -> PyResult<Mode> {
+    match name {
+        "torque" => Ok(Mode::Torque),
+        "displacement" => Ok(Mode::Displacement),
+        other => Err(failure::plain(format!(
+            "mode={other:?}: \"torque\" or \"displacement\" was expected"
+        ))),
+    }
+}
+
+/// A checked record.
+#[pyclass(frozen, module = "bowden")]
+pub struct Record(pub lab::Record);
+
+#[pymethods]
+impl Record {
+    #[getter]
+    fn path(&self) -> &str {
+        &self.0.path
+    }
+
+    #[getter]
+    fn mode(&self) -> &'static str {
+        self.0.mode.name()
+    }
+
+    #[getter]
+    fn t<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.0.time.clone().into_pyarray(py)
+    }
+
+    #[getter]
+    fn input<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.0.input.values.clone().into_pyarray(py)
+    }
+
+    #[getter]
+    fn output<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.0.output.values.clone().into_pyarray(py)
+    }
+
+    #[getter]
+    fn channels<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let all = PyDict::new(py);
+        for column in &self.0.channels {
+            all.set_item(&column.name, column.values.clone().into_pyarray(py))?;
+        }
+        Ok(all)
+    }
+
+    /// The unit of each column by its name, where the record states one.
+    #[getter]
+    fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let all = PyDict::new(py);
+        for column in [&self.0.input, &self.0.output]
+            .into_iter()
+            .chain(&self.0.channels)
+        {
+            if let Some(unit) = &column.unit {
+                all.set_item(&column.name, unit)?;
+            }
+        }
+        Ok(all)
+    }
+
+    /// Names of the input's and of the output's column.
+    #[getter]
+    fn names(&self) -> (&str, &str) {
+        (&self.0.input.name, &self.0.output.name)
+    }
+
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.0.notes.clone()
+    }
+
+    #[getter]
+    fn defects(&self) -> Vec<String> {
+        let defects = self.0.defects.iter();
+        defects
+            .map(|d| format!("{}: {}", d.channel, d.message))
+            .collect()
+    }
+
+    #[getter]
+    fn dropped(&self) -> usize {
+        self.0.dropped
+    }
+
+    fn __len__(&self) -> usize {
+        self.0.samples()
+    }
+
+    fn __repr__(&self) -> String {
+        let record = &self.0;
+        format!(
+            "<bowden.Record {}: {} samples, {} mode>",
+            record.path,
+            record.samples(),
+            record.mode.name()
+        )
+    }
+}
+
+/// Reads a file, without the interpreter's lock.
+#[pyfunction]
+pub fn record_of_file(py: Python<'_>, path: PathBuf, columns: Columns) -> PyResult<Record> {
+    let options = columns.options()?;
+    py.detach(|| lab::read(&path, &options))
+        .map(Record)
+        .map_err(|e| failure::of_record(&e))
+}
+
+/// A record of (name, unit, values); each array is read in place and copied once.
+#[pyfunction]
+pub fn record_of_columns(
+    py: Python<'_>,
+    arrays: Vec<(String, Option<String>, PyReadonlyArray1<'_, f64>)>,
+    label: &str,
+    columns: Columns,
+) -> PyResult<Record> {
+    let options = columns.options()?;
+    let column = |(name, unit, values): (_, _, PyReadonlyArray1<'_, f64>)| Column {
+        name,
+        unit,
+        values: values.as_array().to_vec(),
+    };
+    let all: Vec<Column> = arrays.into_iter().map(column).collect();
+    py.detach(|| lab::of_columns(all, label, &options))
+        .map(Record)
+        .map_err(|e| failure::of_record(&e))
+}
+
+/// Several records in the units of the first one.
+#[pyfunction]
+pub fn agree(records: Vec<PyRef<'_, Record>>) -> PyResult<Vec<Record>> {
+    let mut all: Vec<lab::Record> = records.iter().map(|own| own.0.clone()).collect();
+    lab::agree(&mut all).map_err(|e| failure::of_record(&e))?;
+    Ok(all.into_iter().map(Record).collect())
+}

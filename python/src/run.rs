@@ -1,0 +1,122 @@
+//! Long work beside the interpreter: on threads of its own, stopped by Ctrl-C.
+//!
+//! The calling thread only waits. It hands what the work tells to Python and looks for signals
+//! twenty times a second; where a signal or the caller's own function raises, it returns at once
+//! and the work ends at its next message.
+
+use crate::failure;
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::panic::{catch_unwind, resume_unwind, AssertUnwindSafe};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{channel, Receiver, RecvTimeoutError};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+/// Longest time between two looks for signals.
+const LOOK: Duration = Duration::from_millis(50);
+
+enum Message<T> {
+    Told(String),
+    Done(std::thread::Result<T>),
+}
+
+/// The payload with which stopped work unwinds.
+struct Stopped;
+
+/// The threads of this process. A process that was forked has none of its parent's.
+static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
+
+fn pool(threads: Option<usize>) -> PyResult<Arc<ThreadPool>> {
+    let build = |threads: usize| {
+        let builder = ThreadPoolBuilder::new().num_threads(threads);
+        let built = builder.thread_name(|k| format!("bowden-{k}")).build();
+        built
+            .map(Arc::new)
+            .map_err(|e| PyRuntimeError::new_err(e.to_string()))
+    };
+    if let Some(threads) = threads {
+        return build(threads);
+    }
+    let mut kept = POOL.lock().unwrap_or_else(PoisonError::into_inner);
+    let own = std::process::id();
+    if let Some((_, pool)) = kept.as_ref().filter(|(process, _)| *process == own) {
+        return Ok(Arc::clone(pool));
+    }
+    let fresh = build(0)?;
+    // Not dropped: that would wait for threads that the fork has not taken along.
+    std::mem::forget(kept.replace((own, Arc::clone(&fresh))));
+    Ok(fresh)
+}
+
+/// Runs `work` on `threads` threads, all of the machine's where `None`. `progress` is called with
+/// the share of the work that is done (0 to 1, `None` if unknown) and what is done now.
+pub fn run<T: Send + 'static>(
+    py: Python<'_>,
+    threads: Option<usize>,
+    progress: Option<&Bound<'_, PyAny>>,
+    work: impl FnOnce(&dyn Fn(&str)) -> T + Send + 'static,
+) -> PyResult<T> {
+    if threads == Some(0) {
+        return Err(failure::plain("threads=0: one or more were expected"));
+    }
+    let pool = pool(threads)?;
+    let stop = Arc::new(AtomicBool::new(false));
+    let (send, receive) = channel();
+    let stopped = Arc::clone(&stop);
+    let worker = move || {
+        let tell = |what: &str| {
+            if stopped.load(Ordering::Relaxed) {
+                resume_unwind(Box::new(Stopped));
+            }
+            // Nobody listens any more where the caller has gone.
+            let _ = send.send(Message::Told(what.to_owned()));
+        };
+        let done = catch_unwind(AssertUnwindSafe(|| work(&tell)));
+        let _ = send.send(Message::Done(done));
+    };
+    pool.spawn(worker);
+    let done = listen(py, &Mutex::new(receive), progress);
+    if done.is_err() {
+        stop.store(true, Ordering::Relaxed);
+    }
+    match done? {
+        Ok(value) => Ok(value),
+        Err(panic) => Err(PyRuntimeError::new_err(words(panic.as_ref()))),
+    }
+}
+
+fn listen<T: Send>(
+    py: Python<'_>,
+    receive: &Mutex<Receiver<Message<T>>>,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<std::thread::Result<T>> {
+    loop {
+        let heard = py.detach(|| {
+            let receive = receive.lock().unwrap_or_else(PoisonError::into_inner);
+            receive.recv_timeout(LOOK)
+        });
+        py.check_signals()?;
+        match heard {
+            Ok(Message::Done(done)) => return Ok(done),
+            Ok(Message::Told(what)) => {
+                if let Some(progress) = progress {
+                    progress.call1((bowden_cli::share(&what), what))?;
+                }
+            }
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(PyRuntimeError::new_err(
+                    "the work has ended without an answer",
+                ));
+            }
+        }
+    }
+}
+
+fn words(panic: &(dyn std::any::Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
+    let text = text.or_else(|| panic.downcast_ref::<String>().cloned());
+    text.unwrap_or_else(|| "the work has ended without an answer".to_owned())
+}
