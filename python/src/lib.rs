@@ -7,9 +7,11 @@
 
 mod check;
 mod close;
+mod control;
 mod failure;
 mod model;
 mod record;
+mod rig;
 mod run;
 
 use pyo3::prelude::*;
@@ -21,7 +23,11 @@ mod _bowden {
     #[pymodule_export]
     use super::close::{close, Closed};
     #[pymodule_export]
+    use super::control::Controllers;
+    #[pymodule_export]
     use super::model::Model;
     #[pymodule_export]
     use super::record::{agree, record_of_columns, record_of_file, Record};
+    #[pymodule_export]
+    use super::rig::{paper_reference, Rigs};
 }

@@ -9,6 +9,7 @@
 from ._bowden import Record
 from ._check import check
 from ._close import close
+from ._control import PI, PID, PIV, STATUS, Adaptive, Controller, Rig, paper_reference
 from ._error import Error
 from ._fields import Fields
 from ._model import Model
@@ -16,13 +17,21 @@ from ._read import read
 from ._report import CheckReport, Report
 
 __all__ = [
+    "PI",
+    "PID",
+    "PIV",
+    "STATUS",
+    "Adaptive",
     "CheckReport",
+    "Controller",
     "Error",
     "Fields",
     "Model",
     "Record",
     "Report",
+    "Rig",
     "check",
     "close",
+    "paper_reference",
     "read",
 ]

@@ -31,7 +31,8 @@ def _names(frame: Any) -> Iterable[object]:
     if isinstance(frame, Mapping):
         return frame.keys()
     # A table of pyarrow has the columns themselves in `columns`.
-    return frame.column_names if hasattr(frame, "column_names") else frame.columns
+    names: Iterable[object] = getattr(frame, "column_names", None) or frame.columns
+    return names
 
 
 def columns_of_frame(frame: Any, units: Mapping[str, str]) -> list[Column]:

@@ -66,7 +66,7 @@ class Progress:
 
 def _own_bar() -> Optional[_Bar]:
     try:
-        from tqdm.auto import tqdm
+        from tqdm.auto import tqdm  # type: ignore[import-untyped,unused-ignore]
     except ImportError:
         return None
     form = "{percentage:3.0f} % |{bar:24}| {elapsed} {postfix}"

@@ -58,7 +58,7 @@ class _Found(Fields):
         columns: dict[str, Any] = dict(self._drawn().trace())
         if frame in (None, "pandas"):
             try:
-                import pandas
+                import pandas  # type: ignore[import-untyped,unused-ignore]
             except ImportError:
                 if frame:
                     raise

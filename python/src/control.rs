@@ -1,0 +1,205 @@
+//! Controllers, as many side by side as a caller has lanes; settings come as TOML, so that the
+//! core itself reads and checks them.
+
+use crate::failure;
+use bowden::control::{
+    Adaptive, AdaptiveState, Controller, LoopSample, Output, Pid, PidState, Status,
+};
+use numpy::ndarray::Array2;
+use numpy::{IntoPyArray, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::prelude::*;
+
+/// One controller with its state.
+pub trait Lane: Send + Sync {
+    fn step(&mut self, at: &LoopSample<'_, f64>) -> Output<f64>;
+    fn restart(&mut self);
+    fn acknowledge(&mut self);
+    fn command(&self) -> f64;
+    /// beta_hat, delta_hat and each theta_hat of an adaptive law; the integral of another.
+    fn estimates(&self) -> Vec<f64>;
+    fn regressors(&self) -> usize;
+}
+
+struct Running<C: Controller<f64>> {
+    law: C,
+    state: C::State,
+    look: fn(&C::State) -> Vec<f64>,
+    regressors: usize,
+}
+
+impl<C> Lane for Running<C>
+where
+    C: Controller<f64> + Send + Sync,
+    C::State: Send + Sync,
+{
+    fn step(&mut self, at: &LoopSample<'_, f64>) -> Output<f64> {
+        self.law.step(&mut self.state, at)
+    }
+
+    fn restart(&mut self) {
+        self.state = self.law.start();
+    }
+
+    fn acknowledge(&mut self) {
+        self.law.acknowledge(&mut self.state);
+    }
+
+    fn command(&self) -> f64 {
+        self.law.command(&self.state)
+    }
+
+    fn estimates(&self) -> Vec<f64> {
+        (self.look)(&self.state)
+    }
+
+    fn regressors(&self) -> usize {
+        self.regressors
+    }
+}
+
+fn estimates<const N: usize>(state: &AdaptiveState<f64, N>) -> Vec<f64> {
+    let ends = [state.beta_hat(), state.delta_hat()];
+    ends.into_iter().chain(state.theta_hat()).collect()
+}
+
+fn adaptive<const N: usize>(text: &str) -> Result<Box<dyn Lane>, toml::de::Error> {
+    let law: Adaptive<f64, N> = toml::from_str(text)?;
+    Ok(Box::new(Running {
+        state: law.start(),
+        law,
+        look: estimates::<N>,
+        regressors: N,
+    }))
+}
+
+/// A law of its settings; `None` for PI, PID and PIV, else the number of regressors.
+fn lane(text: &str, regressors: Option<usize>) -> PyResult<Box<dyn Lane>> {
+    let built = match regressors {
+        None => toml::from_str::<Pid<f64>>(text).map(|law| -> Box<dyn Lane> {
+            Box::new(Running {
+                state: law.start(),
+                law,
+                look: |state: &PidState<f64>| vec![state.integral()],
+                regressors: 0,
+            })
+        }),
+        Some(0) => adaptive::<0>(text),
+        Some(1) => adaptive::<1>(text),
+        Some(2) => adaptive::<2>(text),
+        Some(3) => adaptive::<3>(text),
+        Some(4) => adaptive::<4>(text),
+        Some(more) => {
+            return Err(failure::plain(format!(
+                "theta: {more} estimates; 0 to 4 were expected"
+            )))
+        }
+    };
+    built.map_err(|e| failure::plain(e.message()))
+}
+
+/// 0 good, 1 degraded, 2 held, 3 safe.
+pub fn code(status: Status) -> u8 {
+    match status {
+        Status::Good => 0,
+        Status::Degraded(_) => 1,
+        Status::Held(_) => 2,
+        Status::Safe(_) => 3,
+    }
+}
+
+/// Controllers side by side.
+#[pyclass(module = "bowden._bowden")]
+pub struct Controllers {
+    pub lanes: Vec<Box<dyn Lane>>,
+}
+
+type Signal<'py> = PyReadonlyArray2<'py, f64>;
+type Answer<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<u8>>);
+
+#[pymethods]
+impl Controllers {
+    #[new]
+    fn new(settings: Vec<String>, regressors: Option<usize>) -> PyResult<Self> {
+        let lanes = settings.iter().map(|text| lane(text, regressors));
+        Ok(Self {
+            lanes: lanes.collect::<PyResult<_>>()?,
+        })
+    }
+
+    fn __len__(&self) -> usize {
+        self.lanes.len()
+    }
+
+    /// Samples by lanes: commands, and the status of each. `regressors` are one array each.
+    #[allow(clippy::too_many_arguments)]
+    fn run<'py>(
+        &mut self,
+        py: Python<'py>,
+        dt: PyReadonlyArray1<'py, f64>,
+        reference: Signal<'py>,
+        next_reference: Signal<'py>,
+        measured: Signal<'py>,
+        velocity: Signal<'py>,
+        feed_forward: Signal<'py>,
+        regressors: Vec<Signal<'py>>,
+    ) -> PyResult<Answer<'py>> {
+        let signals = [
+            &reference,
+            &next_reference,
+            &measured,
+            &velocity,
+            &feed_forward,
+        ];
+        let views = signals.map(PyReadonlyArray2::as_array);
+        let more: Vec<_> = regressors.iter().map(PyReadonlyArray2::as_array).collect();
+        let dt = dt.as_array();
+        let shape = (dt.len(), self.lanes.len());
+        if views.iter().chain(&more).any(|view| view.dim() != shape) {
+            return Err(failure::plain(format!(
+                "arrays of shape {shape:?} were expected"
+            )));
+        }
+        let lanes = &mut self.lanes;
+        let (commands, statuses) = py.detach(|| {
+            let mut commands = Array2::zeros(shape);
+            let mut statuses = Array2::zeros(shape);
+            let mut read = Vec::with_capacity(more.len());
+            for row in 0..shape.0 {
+                for (column, lane) in lanes.iter_mut().enumerate() {
+                    let place = [row, column];
+                    read.clear();
+                    read.extend(more.iter().map(|own| own[place]));
+                    let out = lane.step(&LoopSample {
+                        dt: dt[row],
+                        reference: views[0][place],
+                        next_reference: views[1][place],
+                        measured: views[2][place],
+                        velocity: views[3][place],
+                        feed_forward: views[4][place],
+                        regressors: &read,
+                    });
+                    commands[place] = out.command;
+                    statuses[place] = code(out.status);
+                }
+            }
+            (commands, statuses)
+        });
+        Ok((commands.into_pyarray(py), statuses.into_pyarray(py)))
+    }
+
+    fn restart(&mut self) {
+        self.lanes.iter_mut().for_each(|lane| lane.restart());
+    }
+
+    fn acknowledge(&mut self) {
+        self.lanes.iter_mut().for_each(|lane| lane.acknowledge());
+    }
+
+    fn commands(&self) -> Vec<f64> {
+        self.lanes.iter().map(|lane| lane.command()).collect()
+    }
+
+    fn estimates(&self) -> Vec<Vec<f64>> {
+        self.lanes.iter().map(|lane| lane.estimates()).collect()
+    }
+}
