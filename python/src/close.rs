@@ -122,26 +122,11 @@ impl Closed {
         self.answer.facts.hand_over.as_ref().err().cloned()
     }
 
-    /// A model as the bytes of its file.
-    fn model<'py>(
-        &self,
-        py: Python<'py>,
-        index: usize,
-        form: &str,
-    ) -> PyResult<Bound<'py, PyBytes>> {
-        let form = match form {
-            "toml" => Form::Toml,
-            "rs" => Form::Rust,
-            "postcard" => Form::Postcard,
-            other => {
-                return Err(failure::plain(format!(
-                    "{other:?}: a file that ends in .toml, .rs or .postcard was expected"
-                )))
-            }
-        };
+    /// A model as the bytes of its `.toml`.
+    fn model<'py>(&self, py: Python<'py>, index: usize) -> PyResult<Bound<'py, PyBytes>> {
         let model = self.answer.models.get(index);
         let model = model.ok_or_else(|| failure::plain("there is no such model"))?;
-        let bytes = model.file(form).map_err(failure::plain)?;
+        let bytes = model.file(Form::Toml).map_err(failure::plain)?;
         Ok(PyBytes::new(py, &bytes))
     }
 

@@ -12,8 +12,10 @@ use pyo3::prelude::*;
 /// Most undeclared effects of a rig.
 const MOST: usize = 8;
 
+type Reading = fn(&RigSample<f64>) -> f64;
+
 /// What is read off a rig, by name.
-const READ: [(&str, fn(&RigSample<f64>) -> f64); 17] = [
+const READ: [(&str, Reading); 17] = [
     ("time", |s| s.time),
     ("tau_o", |s| s.tau_o),
     ("measured", |s| s.measured),
@@ -63,6 +65,12 @@ impl Taken {
 }
 
 type Named<'py> = Vec<(String, Bound<'py, PyArray2<f64>>)>;
+
+type Tracked<'py> = (
+    Named<'py>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<u8>>,
+);
 
 #[pymethods]
 impl Rigs {
@@ -141,11 +149,7 @@ impl Rigs {
         mut controllers: PyRefMut<'py, Controllers>,
         reference: PyReadonlyArray1<'py, f64>,
         dt: f64,
-    ) -> PyResult<(
-        Named<'py>,
-        Bound<'py, PyArray2<f64>>,
-        Bound<'py, PyArray2<u8>>,
-    )> {
+    ) -> PyResult<Tracked<'py>> {
         if controllers.lanes.len() != self.all.len() {
             return Err(failure::plain("as many controllers as rigs were expected"));
         }

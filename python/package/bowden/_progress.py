@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import importlib
+import importlib.util
 import sys
 from typing import Any, Callable, Optional
 
@@ -20,14 +22,19 @@ class _Bar:
     def __call__(self, share: Optional[float], message: str) -> None:
         if hasattr(self.bar, "set_postfix_str"):
             self.bar.set_postfix_str(message, refresh=False)
-        if share is not None:
-            # Never backwards.
-            self.bar.update(max(0.0, share * self.bar.total - self.bar.n))
+        self._move(share)
+
+    def _move(self, share: Optional[float]) -> None:
+        at = self.bar.n if share is None else share * self.bar.total
         if hasattr(self.bar, "refresh"):
+            # One drawing a step; never backwards.
+            self.bar.n = max(self.bar.n, at)
             self.bar.refresh()
+        elif at > self.bar.n:
+            self.bar.update(at - self.bar.n)
 
     def done(self) -> None:
-        self.bar.update(max(0.0, self.bar.total - self.bar.n))
+        self._move(1.0)
 
     def close(self) -> None:
         if self.own:
@@ -66,7 +73,9 @@ class Progress:
 
 def _own_bar() -> Optional[_Bar]:
     try:
-        from tqdm.auto import tqdm  # type: ignore[import-untyped,unused-ignore]
+        # Without ipywidgets `tqdm.auto` warns in a notebook and draws text all the same.
+        where = "tqdm.auto" if importlib.util.find_spec("ipywidgets") else "tqdm"
+        tqdm = importlib.import_module(where).tqdm
     except ImportError:
         return None
     form = "{percentage:3.0f} % |{bar:24}| {elapsed} {postfix}"

@@ -176,7 +176,7 @@ class Report(_Found):
     ) -> None:
         super().__init__(closed.json, closed, command, files)
         self._no_model = closed.no_model if kept else "figures=False: no model was kept"
-        self._models = [Model(closed.model(k, "toml").decode()) for k in range(closed.models)]
+        self._models = [Model(closed.model(k).decode()) for k in range(closed.models)]
         self._vectors = [closed.vector(k) for k in range(closed.models)]
 
     @property
