@@ -54,6 +54,22 @@ def torque(
     }
 
 
+def hard(seed: int = 1) -> dict[str, Any]:
+    """A record that lacks much, at four further channels: its search takes long."""
+    record = torque(seed=seed, seconds=120.0, viscous=1.2)
+    rng = np.random.default_rng(5)
+    t, tau_i, phi = record["t"], record["tau_i"], record["phi_p"]
+    rate = np.gradient(phi, t)
+    more = 0.8 * np.tanh(9.0 * rate) + 0.5 * np.sin(9.0 * phi) + 1.2 * phi * np.abs(phi)
+    more += 0.3 * np.sin(2.0 * np.pi * 0.37 * t) + 0.3 * np.sign(np.sin(3.0 * phi + tau_i))
+    for k in range(4):
+        own = multisine(t, rng, 1.0, 0.1, 1.5)
+        record[f"c{k}"] = own
+        more += 0.3 * own**3 + 0.1 * np.abs(own)
+    record["tau_o"] = record["tau_o"] + more
+    return record
+
+
 def write_csv(path: Path, record: dict[str, Any]) -> Path:
     """Each number in the shortest decimals that read back as it is."""
     columns = [np.asarray(values, dtype=np.float64).tolist() for values in record.values()]

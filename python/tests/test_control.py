@@ -44,6 +44,11 @@ def test_lanes_are_controllers_of_their_own() -> None:
     for lane, gain in enumerate(gains):
         alone = bowden.PI(gain, 18.0).run(DT, reference, measured)
         np.testing.assert_array_equal(commands[:, lane], alone)
+    own = rng.normal(20.0, 3.0, (2, 200, 3))
+    each = bowden.PI(k_p=gains).run(DT, own[0], own[1])
+    for lane, gain in enumerate(gains):
+        alone = bowden.PI(gain, 18.0).run(DT, own[0, :, lane], own[1, :, lane])
+        np.testing.assert_array_equal(each[:, lane], alone)
     again = bowden.PI(k_p=gains)
     assert again.step(DT, reference[0], measured[0]).shape == (3,)
 

@@ -58,15 +58,15 @@ def test_what_progress_raises_ends_the_call(viscous: dict[str, Any]) -> None:
 
 
 LONG = """
-import sys, time
+import sys
 sys.path.insert(0, {tests!r})
 import bowden, records
-record = records.torque(seed=1, seconds=240.0, viscous=1.2)
+record = records.hard()
+channels = {{name: name for name in record if name.startswith("c")}}
 print("begun", flush=True)
-begun = time.monotonic()
 try:
-    while True:
-        bowden.close(record, figures=False)
+    bowden.close(record, channels=channels, threads=1)
+    print("done", flush=True)
 except KeyboardInterrupt:
     print("interrupted", flush=True)
 """
@@ -75,17 +75,15 @@ except KeyboardInterrupt:
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
 def test_ctrl_c_stops_it() -> None:
     script = LONG.format(tests=str(Path(__file__).parent))
-    process = subprocess.Popen(
-        [sys.executable, "-c", script], stdout=subprocess.PIPE, text=True
-    )
+    process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True)
     assert process.stdout is not None
     assert process.stdout.readline() == "begun\n"
-    time.sleep(0.5)
+    time.sleep(1.0)
     sent = time.monotonic()
     process.send_signal(signal.SIGINT)
-    rest, _ = process.communicate(timeout=30)
+    rest, _ = process.communicate(timeout=120)
     assert rest == "interrupted\n" and process.returncode == 0
-    # Signals are looked for every 50 ms; the rest is for a machine with much to do.
+    # Signals are looked for every 50 ms; undisturbed, the call takes some ten seconds more.
     assert time.monotonic() - sent < 3.0
 
 
