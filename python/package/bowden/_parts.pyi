@@ -9,11 +9,19 @@ class Segments(Fields):
     stop: float
     held_out: float
 
-class Parameter(Fields):
+class Coefficient(Fields):
     name: str
     value: float
     unit: Optional[str]
     ci95: Optional[list[float]]
+
+class Refusal(Fields):
+    reason: str
+    excitation: str
+
+class Parameter(Coefficient):
+    identified: bool
+    refused: Optional[Refusal]
 
 class RecordPart(Fields):
     path: str
@@ -58,7 +66,7 @@ class Round(Fields):
     channel: str
     grade: str
     support: Fields
-    coefficients: list[Parameter]
+    coefficients: list[Coefficient]
     p: Optional[float]
     explained: float
     confounded_with: list[Fields]
@@ -66,6 +74,11 @@ class Round(Fields):
     rmse_before: Segments
     rmse_after: Segments
     raises_held_out: bool
+    model: Fields
+    models: list[Fields]
+    refitted: bool
+    not_refitted_without: str
+    nrmse: Segments
 
 class Rejected(Fields):
     family: str
@@ -76,6 +89,7 @@ class Rejected(Fields):
 class Defect(Fields):
     kind: str
     channel: str
+    ranges: list[list[int]]
     message: str
 
 class Fitted(Fields):
