@@ -74,11 +74,20 @@ def test_of_arrays(plain: dict[str, Any]) -> None:
         ({"per_file": "all"}, "per_file='all': \"gains\" was expected"),
         ({"mode": "x"}, 'mode="x": "torque" or "displacement" was expected'),
         ({"threads": 0}, "threads=0: one or more were expected"),
-        ({"skip": -1}, "(frame): skip= -1: seconds from 0 up were expected"),
+        ({"skip": -1}, "(frame): skip=-1: seconds from 0 up were expected"),
     ],
 )
 def test_of_options(plain: dict[str, Any], options: dict[str, Any], message: str) -> None:
     assert str(refused(pandas.DataFrame(plain), **options)) == message
+
+
+def test_options_have_their_names_in_python(plain: dict[str, Any]) -> None:
+    unnamed = {"t": plain["t"], "a": plain["tau_i"], "b": plain["tau_o"]}
+    message = str(refused(unnamed, input="a", output="b"))
+    assert message.endswith("; state mode=torque or mode=displacement"), message
+    message = str(refused({"a": plain["tau_i"], "b": plain["tau_o"]}, mode="torque"))
+    assert "time= names another one, rate= takes time from the row number" in message
+    assert "--" not in message
 
 
 def test_of_an_effect_that_is_none(plain: dict[str, Any]) -> None:

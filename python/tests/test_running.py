@@ -10,6 +10,7 @@ import subprocess
 import sys
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, Optional
 
@@ -110,6 +111,16 @@ def test_other_threads_run_meanwhile(viscous: dict[str, Any]) -> None:
 def test_numbers_do_not_depend_on_threads(viscous: dict[str, Any]) -> None:
     one, all = (bowden.close(viscous, threads=threads) for threads in (1, None))
     assert one.final == all.final and one.rounds == all.rounds
+
+
+def test_calls_side_by_side_do_not_mix() -> None:
+    all = [records.torque(seed=k, viscous=1.2) for k in range(1, 5)]
+    alone = [bowden.close(one) for one in all]
+    with ThreadPoolExecutor(4) as pool:
+        together = list(pool.map(bowden.close, all))
+    assert [r.final for r in together] == [r.final for r in alone]
+    assert [r.rounds for r in together] == [r.rounds for r in alone]
+    assert len({r.final.nrmse.held_out for r in alone}) == 4
 
 
 def names(seed: int) -> list[str]:

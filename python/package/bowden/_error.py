@@ -38,7 +38,7 @@ _OTHER = {
 }
 _OPTION = re.compile(
     r"--(channel|time|input|output|mode|skip|until|cutoff|rate|header-line|declare|rounds|budget)\b"
-    r"( COL| HZ)?"
+    r"(?: (?:COL|HZ)\b)?(?: (?=[-\d]|torque|displacement))?"
 )
 
 
