@@ -30,7 +30,47 @@ pub struct Grams {
     size: usize,
     scale: Vec<f64>,
     whole: Vec<f64>,
+    /// Of each block the lower triangle by rows: see [`place`].
     parts: Vec<Vec<f64>>,
+}
+
+/// Place of the product of columns `i` and `j <= i` in a lower triangle: row `i` has the
+/// products with the columns up to `i`, so that more columns are more rows.
+fn place(i: usize, j: usize) -> usize {
+    i * (i + 1) / 2 + j
+}
+
+/// Columns that are multiplied with those before them at a time: about half of a square of
+/// products is not needed.
+const AT_A_TIME: usize = 64;
+
+/// Appends to the products of one block those of the columns from `old` on with all before them.
+fn multiply(
+    part: &mut Vec<f64>,
+    old: usize,
+    (columns, scale): (&[Arc<Vec<f64>>], &[f64]),
+    rows: &[usize],
+) {
+    let size = columns.len();
+    let mut all = Vec::with_capacity(rows.len() * size);
+    for (column, scale) in columns.iter().zip(scale) {
+        let factor = scale.recip();
+        for run in rows.chunk_by(|a, b| *b == a + 1) {
+            let own = &column[run[0]..=run[run.len() - 1]];
+            all.extend(own.iter().map(|v| v * factor));
+        }
+    }
+    let all = DMatrix::from_vec(rows.len(), size, all);
+    // As a product of two matrices, which is faster than `tr_mul`.
+    let transposed = all.transpose();
+    part.reserve_exact(place(size, 0) - part.len());
+    for first in (old..size).step_by(AT_A_TIME) {
+        let end = size.min(first + AT_A_TIME);
+        let products = transposed.rows(0, end) * all.columns(first, end - first);
+        for (i, own) in (first..end).zip(products.as_slice().chunks_exact(end)) {
+            part.extend_from_slice(&own[..=i]);
+        }
+    }
 }
 
 /// Root of the squared norm about the mean; of the whole where the column is constant.
@@ -68,71 +108,52 @@ impl Grams {
         self.parts
             .par_iter_mut()
             .zip(blocks)
-            .for_each(|(part, block)| {
-                let rows = &rows[block.clone()];
-                let mut all = Vec::with_capacity(rows.len() * size);
-                for (column, scale) in columns.iter().zip(scale) {
-                    let factor = scale.recip();
-                    let from = all.len();
-                    for run in rows.chunk_by(|a, b| *b == a + 1) {
-                        all.extend_from_slice(&column[run[0]..=run[run.len() - 1]]);
-                    }
-                    for v in &mut all[from..] {
-                        *v *= factor;
-                    }
-                }
-                let all = DMatrix::from_vec(rows.len(), size, all);
-                // As a product of two matrices, which is faster than `tr_mul`.
-                let products = all.transpose() * all.columns_range(old..);
-                let mut grown = Vec::with_capacity(size * size);
-                for i in 0..old {
-                    grown.extend_from_slice(&part[i * old..(i + 1) * old]);
-                    grown.extend((0..size - old).map(|j| products[(i, j)]));
-                }
-                grown.extend_from_slice(products.as_slice());
-                *part = grown;
-            });
+            .for_each(|(part, block)| multiply(part, old, (columns, scale), &rows[block.clone()]));
         let mut whole = Vec::with_capacity(size * size);
         for i in 0..old {
             whole.extend_from_slice(&self.whole[i * old..(i + 1) * old]);
             whole.resize((i + 1) * size, 0.0);
         }
         whole.resize(size * size, 0.0);
-        let (known, new) = whole.split_at_mut(old * size);
-        for part in &self.parts {
-            for (sum, v) in new.iter_mut().zip(&part[old * size..]) {
-                *sum += v;
+        for i in old..size {
+            let row = &mut whole[i * size..=i * size + i];
+            for part in &self.parts {
+                for (sum, v) in row.iter_mut().zip(&part[place(i, 0)..]) {
+                    *sum += v;
+                }
             }
-        }
-        for (n, row) in new.chunks_exact(size.max(1)).enumerate() {
-            for (i, v) in row[..old].iter().enumerate() {
-                known[i * size + old + n] = *v;
+            for j in 0..i {
+                whole[j * size + i] = whole[i * size + j];
             }
         }
         self.whole = whole;
         self.size = size;
     }
 
-    /// The products of some of the columns, in that order.
+    /// The products of some of the columns, whose indices ascend.
     #[must_use]
     pub fn only(&self, columns: &[usize]) -> Self {
-        let runs = columns.chunk_by(|a, b| *b == a + 1);
-        let runs: Vec<Range<usize>> = runs.map(|run| run[0]..run[0] + run.len()).collect();
-        let of = |all: &Vec<f64>| {
-            let mut some = Vec::with_capacity(columns.len() * columns.len());
-            for &i in columns {
-                let row = &all[i * self.size..(i + 1) * self.size];
+        let mut runs: Vec<Range<usize>> = Vec::new();
+        let triangle = columns.len() * (columns.len() + 1) / 2;
+        let mut parts = vec![Vec::with_capacity(triangle); self.parts.len()];
+        let mut whole = Vec::with_capacity(columns.len() * columns.len());
+        for &i in columns {
+            match runs.last_mut() {
+                Some(run) if run.end == i => run.end += 1,
+                _ => runs.push(i..i + 1),
+            }
+            for (some, part) in parts.iter_mut().zip(&self.parts) {
                 for run in &runs {
-                    some.extend_from_slice(&row[run.clone()]);
+                    some.extend_from_slice(&part[place(i, run.start)..place(i, run.end)]);
                 }
             }
-            some
-        };
+            whole.extend(columns.iter().map(|&j| self.whole[i * self.size + j]));
+        }
         Self {
             size: columns.len(),
             scale: columns.iter().map(|&i| self.scale[i]).collect(),
-            whole: of(&self.whole),
-            parts: self.parts.iter().map(of).collect(),
+            whole,
+            parts,
         }
     }
 
@@ -165,9 +186,28 @@ impl Grams {
         swept
     }
 
-    /// Products of a column with all others on one block.
-    pub(super) fn row_of(&self, block: usize, column: usize) -> &[f64] {
-        &self.parts[block][column * self.size..(column + 1) * self.size]
+    /// Sum of the product of two columns over some blocks.
+    pub(super) fn sum_at(&self, blocks: &[usize], i: usize, j: usize) -> f64 {
+        let place = place(i.max(j), i.min(j));
+        blocks.iter().map(|&b| self.parts[b][place]).sum()
+    }
+
+    /// Sums of the products of a column with all others over some blocks.
+    pub(super) fn sum_of_row(&self, blocks: &[usize], column: usize) -> Vec<f64> {
+        let mut row = vec![0.0; self.size];
+        let (before, after) = row.split_at_mut(column + 1);
+        for &b in blocks {
+            let part = &self.parts[b];
+            for (sum, v) in before.iter_mut().zip(&part[place(column, 0)..]) {
+                *sum += v;
+            }
+            let mut at = place(column + 1, column);
+            for (sum, i) in after.iter_mut().zip(column + 2..) {
+                *sum += part[at];
+                at += i;
+            }
+        }
+        row
     }
 
     fn compact(&self, index: &[usize]) -> Vec<f64> {
@@ -223,7 +263,9 @@ impl Grams {
         let mut inner = DMatrix::zeros(d, d);
         let mut scores: Vec<Vec<f64>> = Vec::with_capacity(self.parts.len());
         for part in &self.parts {
-            let gram = DMatrix::from_fn(m, m, |i, j| part[index[i] * self.size + index[j]]);
+            let gram = DMatrix::from_fn(m, m, |i, j| {
+                part[place(index[i].max(index[j]), index[i].min(index[j]))]
+            });
             let products = residual.transpose() * gram * &residual;
             scores.push((0..d).map(|i| products[(i, d)]).collect());
             inner += products.view((0, 0), (d, d));

@@ -226,7 +226,6 @@ impl<'a> Linear<'a> {
         };
         linear.multiply();
         linear.refine(bank);
-        bank.keep(&linear.columns.all, &linear.grams);
         linear.base = linear.grams.without(&linear.own);
         linear.sought = Sought::of(&linear.choices());
         linear.kinds = kinds(&linear.groups);

@@ -161,10 +161,7 @@ impl<'a> Partial<'a> {
 impl Source<'_> {
     fn at(&self, i: usize, j: usize) -> f64 {
         match self {
-            Self::Blocks(grams, blocks, factor) => {
-                let sum: f64 = blocks.iter().map(|&b| grams.row_of(b, i)[j]).sum();
-                factor * sum
-            }
+            Self::Blocks(grams, blocks, factor) => factor * grams.sum_at(blocks, i, j),
             Self::Swept(swept) => swept.at(i, j),
         }
     }
@@ -172,12 +169,7 @@ impl Source<'_> {
     fn row(&self, s: usize) -> Vec<f64> {
         match self {
             Self::Blocks(grams, blocks, factor) => {
-                let mut row = vec![0.0; grams.size()];
-                for &block in *blocks {
-                    for (r, v) in row.iter_mut().zip(grams.row_of(block, s)) {
-                        *r += v;
-                    }
-                }
+                let mut row = grams.sum_of_row(blocks, s);
                 for r in &mut row {
                     *r *= factor;
                 }

@@ -132,6 +132,8 @@ impl<'a> Search<'a> {
             if Arc::ptr_eq(&standing.of, &self.now) {
                 standing.linear.prices.curve = self.curve_price();
                 self.linear = Some(standing);
+            } else {
+                self.leave(&standing);
             }
             if !goes_on && !self.begun_anew() {
                 break;
@@ -158,7 +160,9 @@ impl<'a> Search<'a> {
         }
         self.now = Arc::new(next);
         self.reached.push(Arc::clone(&self.now));
-        self.linear = None;
+        if let Some(standing) = self.linear.take() {
+            self.leave(&standing);
+        }
         (self.phase, self.failures) = (Phase::Any, 0);
         true
     }
@@ -174,6 +178,12 @@ impl<'a> Search<'a> {
             Some(standing) => Some(standing),
             None => self.stand(),
         }
+    }
+
+    /// Keeps of a linearisation what the next one has as well.
+    fn leave(&mut self, standing: &Standing<'a>) {
+        let linear = &standing.linear;
+        self.bank.keep(&linear.columns.all, &linear.grams);
     }
 
     fn curve_price(&self) -> f64 {
