@@ -10,8 +10,8 @@
 use super::vector::load;
 use super::{ModelFile, MOST_TERMS};
 use crate::fit::Segments;
-use crate::problem::{HeldOut, Preparation, Prepared};
-use crate::record::{Column, Record};
+use crate::problem::Prepared;
+use crate::record::Record;
 use bowden::effect::Motion;
 use bowden::model::{Model, ModelState, Sample};
 use bowden::signal::{Rates, RatesState};
@@ -41,27 +41,10 @@ pub fn causal(
     for (index, record) in records.iter().enumerate() {
         let file = files.get(index).or(files.first());
         let file = file.ok_or("no model was handed over")?;
-        let output = Column {
-            values: answers(data, record, file, time_constant)?,
-            ..record.output.clone()
-        };
-        answered.push(Record {
-            output,
-            ..record.clone()
-        });
+        answered.push(answers(data, record, file, time_constant)?);
     }
-    let held_out = match data.pieces.iter().all(|p| p.fitted) {
-        true => HeldOut::Trailing,
-        false => HeldOut::LastRecord,
-    };
-    let preparation = Preparation {
-        cutoff: Some(data.cutoff),
-    };
-    let played = Prepared::joined(&answered, preparation, held_out)?;
-    if played.target.len() != data.target.len() {
-        return Err("the model's answers do not come back to the record's grid".to_owned());
-    }
-    let pairs = data.target.iter().zip(&played.target);
+    let answered = data.answered(records, answered)?;
+    let pairs = data.target.iter().zip(&answered);
     let residual: Vec<f64> = pairs.map(|(measured, answer)| measured - answer).collect();
     Ok(Segments::of(data, &residual).normalised(data, &data.target))
 }

@@ -45,14 +45,15 @@ pub(super) fn evaluate(
     let rows = &data.split.fit;
     let mut residual = DVector::<f64>::zeros(rows.len());
     for (column, gain) in columns.iter().zip(&linear.gains) {
-        for (sum, &i) in residual.iter_mut().zip(rows) {
+        // As slices: the iterators of a matrix take five instructions more a number.
+        for (sum, &i) in residual.as_mut_slice().iter_mut().zip(rows) {
             *sum += gain * column[i];
         }
     }
-    for (sum, &i) in residual.iter_mut().zip(rows) {
+    for (sum, &i) in residual.as_mut_slice().iter_mut().zip(rows) {
         *sum = data.target[i] - *sum;
     }
-    if !residual.iter().all(|r| r.is_finite()) {
+    if !residual.as_slice().iter().all(|r| r.is_finite()) {
         return None;
     }
     Some(Evaluation {
@@ -199,7 +200,8 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Reduced<'_> {
             column *= -free.range.slope(self.line[j]);
             jacobian.set_column(j, &column);
         }
-        jacobian.iter().all(|v| v.is_finite()).then_some(jacobian)
+        let is_finite = jacobian.as_slice().iter().all(|v| v.is_finite());
+        is_finite.then_some(jacobian)
     }
 }
 

@@ -19,7 +19,11 @@ impl Table {
     #[must_use]
     pub fn columns(&self, data: &Prepared, eta: &[f64]) -> Option<Vec<Vec<f64>>> {
         let values = self.variable.values(data, eta)?;
-        let mut columns = vec![Vec::with_capacity(values.len()); self.shapes.len()];
+        if self.is_hats() {
+            return Some(self.hats(&values));
+        }
+        let empty = self.shapes.iter().map(|_| Vec::with_capacity(values.len()));
+        let mut columns: Vec<Vec<f64>> = empty.collect();
         for value in values {
             let (left, share) = self.place(value);
             for (column, shape) in columns.iter_mut().zip(&self.shapes) {
@@ -27,6 +31,31 @@ impl Table {
             }
         }
         Some(columns)
+    }
+
+    /// Whether each shape is one at its own knot and zero at all others.
+    fn is_hats(&self) -> bool {
+        let is_own = |(k, shape): (usize, &Vec<f64>)| {
+            let at = |(j, value): (usize, &f64)| *value == f64::from(u8::from(j == k));
+            shape.len() == self.knots.len() && shape.iter().enumerate().all(at)
+        };
+        self.shapes.len() == self.knots.len() && self.shapes.iter().enumerate().all(is_own)
+    }
+
+    /// The columns of hat functions: at most two of them differ from zero.
+    fn hats(&self, values: &[f64]) -> Vec<Vec<f64>> {
+        let zeros = self.knots.iter().map(|_| vec![0.0; values.len()]);
+        let mut columns: Vec<Vec<f64>> = zeros.collect();
+        for (i, &value) in values.iter().enumerate() {
+            let (left, share) = self.place(value);
+            if share.is_nan() {
+                columns.iter_mut().for_each(|column| column[i] = share);
+                continue;
+            }
+            columns[left][i] = 1.0 - share;
+            columns[left + 1][i] = share;
+        }
+        columns
     }
 
     /// The knot on the left, and how far on to the next one; constant beyond the ends.

@@ -21,12 +21,12 @@ const FORGOTTEN: f64 = 4.0;
 const LEFT_OUT: f64 = 0.25;
 
 /// What all records have in common.
-struct Grid {
+pub(super) struct Grid {
     /// Step of the uniform signals \[s\].
     step: f64,
     cutoff: f64,
     /// Uniform samples per work sample.
-    thinning: usize,
+    pub(super) thinning: usize,
     /// Step of the work grid \[s\].
     dt: f64,
     stride: usize,
@@ -141,7 +141,7 @@ impl Prepared {
 }
 
 impl Grid {
-    fn new(step: f64, cutoff: f64) -> Self {
+    pub(super) fn new(step: f64, cutoff: f64) -> Self {
         let rate = 1.0 / step;
         let thinning = ((rate / (24.0 * cutoff) + 1e-6).floor() as usize).max(1);
         let dt = step * thinning as f64;

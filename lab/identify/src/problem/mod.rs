@@ -20,6 +20,7 @@ use bowden::effect::Motion;
 use filter::{derivative, ZeroPhase};
 use std::ops::Range;
 
+mod answered;
 mod blind;
 mod build;
 pub mod cost;

@@ -123,8 +123,7 @@ pub(crate) fn hats(
 /// Whether a variable that starts again with each stroke encodes the phase of the stroke: then
 /// all strokes are alike, and a curve over it would imitate anything periodic.
 pub(crate) fn is_phase(data: &Prepared, now: &Solution, variable: Variable) -> bool {
-    let share = phase_share(data, now, variable);
-    variable.is_local() && share.is_none_or(|share| share > PHASE)
+    variable.is_local() && phase_share(data, now, variable).is_none_or(|share| share > PHASE)
 }
 
 /// A variable is a phase if curves over it explain more than this share of the directed
@@ -229,5 +228,17 @@ mod tests {
             // Rounding of a few operations on numbers of order one.
             assert!((value - expected).abs() < 1e-12);
         }
+    }
+
+    #[test]
+    fn hats_are_what_any_shapes_give() {
+        let (data, now) = line(|t| 10.0 * (TAU * 0.7 * t).sin());
+        let hats = hats(&data, &now, Variable::Position(Source::Input), 7).unwrap();
+        let mut more = hats.clone();
+        // With one shape that is no hat all are computed one by one.
+        more.shapes.push(vec![2.0; hats.knots.len()]);
+        let all = more.columns(&data, &now.eta).unwrap();
+        assert_eq!(hats.columns(&data, &now.eta).unwrap(), all[..7]);
+        assert!(all[7].iter().all(|v| *v == 2.0));
     }
 }

@@ -135,7 +135,9 @@ impl Grams {
     pub fn only(&self, columns: &[usize]) -> Self {
         let mut runs: Vec<Range<usize>> = Vec::new();
         let triangle = columns.len() * (columns.len() + 1) / 2;
-        let mut parts = vec![Vec::with_capacity(triangle); self.parts.len()];
+        // A clone of an empty vector has no room.
+        let empty = self.parts.iter().map(|_| Vec::with_capacity(triangle));
+        let mut parts: Vec<Vec<f64>> = empty.collect();
         let mut whole = Vec::with_capacity(columns.len() * columns.len());
         for &i in columns {
             match runs.last_mut() {
@@ -192,19 +194,24 @@ impl Grams {
         blocks.iter().map(|&b| self.parts[b][place]).sum()
     }
 
-    /// Sums of the products of a column with all others over some blocks.
-    pub(super) fn sum_of_row(&self, blocks: &[usize], column: usize) -> Vec<f64> {
-        let mut row = vec![0.0; self.size];
-        let (before, after) = row.split_at_mut(column + 1);
-        for &b in blocks {
-            let part = &self.parts[b];
-            for (sum, v) in before.iter_mut().zip(&part[place(column, 0)..]) {
+    /// Sums of the products of a column with the first `count` ones over some blocks.
+    pub(super) fn sum_of_row(&self, blocks: &[usize], column: usize, count: usize) -> Vec<f64> {
+        let [first, others @ ..] = blocks else {
+            return vec![0.0; count];
+        };
+        let own = |b: usize| &self.parts[b][place(column, 0)..place(column + 1, 0)];
+        let below = || (column + 1..count).map(|i| place(i, column));
+        let mut row = Vec::with_capacity(count);
+        row.extend(own(*first).iter().take(count));
+        row.extend(below().map(|at| self.parts[*first][at]));
+        for &b in others {
+            let (before, after) = row.split_at_mut(count.min(column + 1));
+            for (sum, v) in before.iter_mut().zip(own(b)) {
                 *sum += v;
             }
-            let mut at = place(column + 1, column);
-            for (sum, i) in after.iter_mut().zip(column + 2..) {
+            let part = &self.parts[b];
+            for (sum, at) in after.iter_mut().zip(below()) {
                 *sum += part[at];
-                at += i;
             }
         }
         row

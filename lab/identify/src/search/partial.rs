@@ -18,6 +18,8 @@ pub struct Entries {
     inner: Vec<(usize, usize)>,
     /// Where those of each group begin.
     begin: Vec<usize>,
+    /// Number of columns up to the last one of a group.
+    reach: usize,
 }
 
 impl Entries {
@@ -33,6 +35,7 @@ impl Entries {
             entries.begin.push(entries.inner.len());
             for (n, &i) in group.iter().enumerate() {
                 entries.inner.extend(group[n..].iter().map(|&j| (i, j)));
+                entries.reach = entries.reach.max(i + 1);
             }
         }
         entries
@@ -61,9 +64,13 @@ pub struct Partial<'a> {
     inner: Vec<f64>,
     with_target: Vec<f64>,
     rest: f64,
-    /// One row for each column of the set: its residual products with all columns, given the
-    /// set before it, divided by its own residual norm.
+    /// One row for each column of the set: its residual products with the first columns, given
+    /// the set before it, divided by its own residual norm. Later columns are in no entry.
     swept: Vec<Vec<f64>>,
+    /// Length of these rows.
+    reach: usize,
+    /// The column of each row.
+    set: Vec<usize>,
 }
 
 impl<'a> Partial<'a> {
@@ -99,6 +106,8 @@ impl<'a> Partial<'a> {
             with_target,
             rest,
             swept: Vec::new(),
+            reach: entries.reach.max(target + 1),
+            set: Vec::new(),
         }
     }
 
@@ -110,31 +119,67 @@ impl<'a> Partial<'a> {
 
     /// Adds columns to the set.
     pub fn sweep(&mut self, columns: &[usize]) {
+        let reach = columns.iter().map(|s| s + 1).max();
+        self.widen(reach.unwrap_or(0));
+        let mut own = Vec::with_capacity(self.entries.columns.len());
         for &s in columns {
-            let mut row = self.source.row(s);
-            for before in &self.swept {
-                let factor = before[s];
-                for (v, r) in row.iter_mut().zip(before) {
-                    *v -= factor * r;
+            let Some(row) = self.row(s) else { continue };
+            own.clear();
+            own.extend(self.entries.columns.iter().map(|&c| row[c]));
+            let mut inner = self.inner.as_mut_slice();
+            for group in &self.entries.groups {
+                let own = &own[group.clone()];
+                for (n, first) in own.iter().enumerate() {
+                    let (triangle, rest) = inner.split_at_mut(own.len() - n);
+                    for (v, second) in triangle.iter_mut().zip(&own[n..]) {
+                        *v -= first * second;
+                    }
+                    inner = rest;
                 }
             }
-            let pivot = row[s];
-            if pivot < DEPENDENT {
-                continue;
+            let to_target = row[self.target];
+            for (v, own) in self.with_target.iter_mut().zip(&own) {
+                *v -= own * to_target;
             }
-            let scale = pivot.sqrt().recip();
-            for v in &mut row {
-                *v *= scale;
-            }
-            for (v, &(i, j)) in self.inner.iter_mut().zip(&self.entries.inner) {
-                *v -= row[i] * row[j];
-            }
-            let own = row[self.target];
-            for (v, &c) in self.with_target.iter_mut().zip(&self.entries.columns) {
-                *v -= row[c] * own;
-            }
-            self.rest -= own * own;
+            self.rest -= to_target * to_target;
+            self.set.push(s);
             self.swept.push(row);
+        }
+    }
+
+    /// The residual products of a column, given the set, divided by its own residual norm;
+    /// `None` where it depends on the set.
+    fn row(&self, s: usize) -> Option<Vec<f64>> {
+        let mut row = self.source.row(s, self.reach);
+        for before in &self.swept {
+            let factor = before[s];
+            for (v, r) in row.iter_mut().zip(before) {
+                *v -= factor * r;
+            }
+        }
+        let pivot = row[s];
+        if pivot < DEPENDENT {
+            return None;
+        }
+        let scale = pivot.sqrt().recip();
+        for v in &mut row {
+            *v *= scale;
+        }
+        Some(row)
+    }
+
+    /// Makes the rows at least so long.
+    fn widen(&mut self, reach: usize) {
+        if reach <= self.reach {
+            return;
+        }
+        self.reach = reach;
+        self.swept.clear();
+        for s in std::mem::take(&mut self.set) {
+            if let Some(row) = self.row(s) {
+                self.set.push(s);
+                self.swept.push(row);
+            }
         }
     }
 
@@ -166,16 +211,17 @@ impl Source<'_> {
         }
     }
 
-    fn row(&self, s: usize) -> Vec<f64> {
+    /// Products of a column with the first `count` ones.
+    fn row(&self, s: usize, count: usize) -> Vec<f64> {
         match self {
             Self::Blocks(grams, blocks, factor) => {
-                let mut row = grams.sum_of_row(blocks, s);
+                let mut row = grams.sum_of_row(blocks, s, count);
                 for r in &mut row {
                     *r *= factor;
                 }
                 row
             }
-            Self::Swept(swept) => (0..swept.size()).map(|j| swept.at(s, j)).collect(),
+            Self::Swept(swept) => (0..count).map(|j| swept.at(s, j)).collect(),
         }
     }
 }
