@@ -32,7 +32,12 @@ pub struct Grams {
     whole: Vec<f64>,
     /// Of each block the lower triangle by rows: see [`place`].
     parts: Vec<Vec<f64>>,
+    /// Columns that are asked for often, each with its products with all others on each block.
+    often: Vec<(usize, Vec<Vec<f64>>)>,
 }
+
+/// Columns for which there is room beyond those that are kept.
+const ROOM: usize = 32;
 
 /// Place of the product of columns `i` and `j <= i` in a lower triangle: row `i` has the
 /// products with the columns up to `i`, so that more columns are more rows.
@@ -64,12 +69,18 @@ fn multiply(
     // As a product of two matrices, which is faster than `tr_mul`.
     let transposed = all.transpose();
     part.reserve_exact(place(size, 0) - part.len());
-    for first in (old..size).step_by(AT_A_TIME) {
-        let end = size.min(first + AT_A_TIME);
+    let mut first = old;
+    while first < size {
+        // No few columns alone: their products would be rounded in another way.
+        let end = match size - first {
+            rest if rest < AT_A_TIME + AT_A_TIME / 2 => size,
+            _ => first + AT_A_TIME,
+        };
         let products = transposed.rows(0, end) * all.columns(first, end - first);
         for (i, own) in (first..end).zip(products.as_slice().chunks_exact(end)) {
             part.extend_from_slice(&own[..=i]);
         }
+        first = end;
     }
 }
 
@@ -101,6 +112,7 @@ impl Grams {
     pub fn extend(&mut self, columns: &[Arc<Vec<f64>>], rows: &[usize], blocks: &[Range<usize>]) {
         use rayon::prelude::*;
         let (old, size) = (self.size, columns.len());
+        self.often.clear();
         self.parts.resize(blocks.len(), Vec::new());
         let new = columns[old..].iter().map(|c| scale_of(c, rows));
         self.scale.extend(new.collect::<Vec<f64>>());
@@ -134,9 +146,9 @@ impl Grams {
     #[must_use]
     pub fn only(&self, columns: &[usize]) -> Self {
         let mut runs: Vec<Range<usize>> = Vec::new();
-        let triangle = columns.len() * (columns.len() + 1) / 2;
-        // A clone of an empty vector has no room.
-        let empty = self.parts.iter().map(|_| Vec::with_capacity(triangle));
+        // The next linearisation has about as many columns as this one.
+        let room = place(self.size + ROOM, 0);
+        let empty = self.parts.iter().map(|_| Vec::with_capacity(room));
         let mut parts: Vec<Vec<f64>> = empty.collect();
         let mut whole = Vec::with_capacity(columns.len() * columns.len());
         for &i in columns {
@@ -156,7 +168,21 @@ impl Grams {
             scale: columns.iter().map(|&i| self.scale[i]).collect(),
             whole,
             parts,
+            often: Vec::new(),
         }
+    }
+
+    /// Prepares for frequent questions for the products of some columns with all others.
+    pub(super) fn prepare(&mut self, columns: &[usize]) {
+        let of = |part: &Vec<f64>, column: usize| -> Vec<f64> {
+            let at = |i: usize| part[place(i.max(column), i.min(column))];
+            (0..self.size).map(at).collect()
+        };
+        let rows = |&column: &usize| {
+            let rows = self.parts.iter().map(|part| of(part, column));
+            (column, rows.collect())
+        };
+        self.often = columns.iter().map(rows).collect();
     }
 
     /// Number of columns.
@@ -199,6 +225,15 @@ impl Grams {
         let [first, others @ ..] = blocks else {
             return vec![0.0; count];
         };
+        if let Some((_, rows)) = self.often.iter().find(|(own, _)| *own == column) {
+            let mut row = rows[*first][..count].to_vec();
+            for &b in others {
+                for (sum, v) in row.iter_mut().zip(&rows[b]) {
+                    *sum += v;
+                }
+            }
+            return row;
+        }
         let own = |b: usize| &self.parts[b][place(column, 0)..place(column + 1, 0)];
         let below = || (column + 1..count).map(|i| place(i, column));
         let mut row = Vec::with_capacity(count);
@@ -441,3 +476,6 @@ pub(super) fn gain(
     }
     gain
 }
+
+#[cfg(test)]
+mod tests;
