@@ -13,7 +13,7 @@ mod solution;
 pub(crate) mod starts;
 mod tie;
 
-use crate::model::structure::{Role, Structure};
+use crate::model::structure::{Free, Range, Role, Structure};
 use crate::problem::Prepared;
 use search::{descend, descend_fully};
 use settle::{choose, settle};
@@ -22,7 +22,7 @@ use starts::starts;
 pub use starts::Known;
 
 /// Fits a structure: short searches from all starts on a coarse grid, then full searches from
-/// the best three.
+/// the best three, those that meet in one optimum once.
 ///
 /// `from` is the optimum of the round before (its structure is a prefix of this one).
 /// `stage_gain` starts the gain of an output stage that is new.
@@ -48,12 +48,7 @@ pub fn fit_from(
     let free = structure.free(data);
     let starts = starts(data, structure, &free, from, stage_gain);
     let (coarse, fine) = (data.for_search(true), data.for_search(false));
-    let run = |data: &Prepared,
-               from: &[Vec<f64>],
-               most: usize,
-               tolerance: f64,
-               keep: usize|
-     -> Vec<Vec<f64>> {
+    let run = |data: &Prepared, from: &[Vec<f64>], most: usize, tolerance: f64| -> Vec<Vec<f64>> {
         let mut reached: Vec<(f64, Vec<f64>)> = from
             .par_iter()
             .map(|start| descend(data, structure, &free, start, most, tolerance))
@@ -62,11 +57,15 @@ pub fn fit_from(
             .flatten()
             .collect();
         reached.sort_by(|a, b| a.0.total_cmp(&b.0));
-        reached.truncate(keep);
+        if tolerance <= CLOSE {
+            // Of equal optima the best is searched further.
+            reached = distinct(&free, reached);
+        }
+        reached.truncate(3);
         reached.into_iter().map(|(_, values)| values).collect()
     };
-    let rough = run(&coarse, &starts, 12, 1e-3, 3);
-    let better = run(&coarse, &rough, 70, 1e-6, 3);
+    let rough = run(&coarse, &starts, 12, 1e-3);
+    let better = run(&coarse, &rough, 70, CLOSE);
     let best: Vec<Vec<f64>> = better
         .par_iter()
         .filter_map(|start| descend_fully(&fine, structure, &free, start))
@@ -78,6 +77,33 @@ pub fn fit_from(
     let mut settled: Vec<Solution> = settled.into_iter().flatten().collect();
     settled.sort_by(|a, b| a.rmse.fit.total_cmp(&b.rmse.fit));
     choose(settled)
+}
+
+/// Tolerance of the searches on the coarse grid after which optima are told apart.
+const CLOSE: f64 = 1e-6;
+/// Two searches have reached one optimum where their squared errors differ by less than this
+/// share, a hundred times the tolerance ...
+const SAME_ERROR: f64 = 1e-4;
+/// ... and each parameter by less than this on the unbounded scale of its range. A choice.
+const SAME_PLACE: f64 = 0.02;
+
+/// The optima that differ from all better ones; `reached` is in the order of the errors.
+fn distinct(free: &[Free], reached: Vec<(f64, Vec<f64>)>) -> Vec<(f64, Vec<f64>)> {
+    let near = |(f, (a, b)): (&Free, (&f64, &f64))| match f.range {
+        Range::Free => (a - b).abs() <= SAME_PLACE * a.abs(),
+        range => (range.encode(*a) - range.encode(*b)).abs() <= SAME_PLACE,
+    };
+    let mut kept: Vec<(f64, Vec<f64>)> = Vec::with_capacity(reached.len());
+    for (sse, values) in reached {
+        let is_known = kept.iter().any(|(better, known)| {
+            sse - better <= SAME_ERROR * better
+                && free.iter().zip(known.iter().zip(&values)).all(near)
+        });
+        if !is_known {
+            kept.push((sse, values));
+        }
+    }
+    kept
 }
 
 /// Searches the optimum again from a solution, on another split of its record.
@@ -128,4 +154,33 @@ pub fn glance_from(
     let own = last.and_then(|&term| free.iter().position(|f| f.role == Role::Stage { term }));
     let gain = own.map_or(stage_gain, |i| values[i]);
     Some((sse, refined, gain))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn optima_are_one_where_error_and_place_are() {
+        let free = |range| Free {
+            role: Role::Rho,
+            range,
+        };
+        let free = [free(Range::Free), free(Range::Log(0.1, 10.0))];
+        let at = |sse: f64, x: f64, rho: f64| (sse, vec![x, rho]);
+        let all = vec![
+            at(1.0, 5.0, 2.0),
+            // Equal.
+            at(1.00001, 5.01, 2.005),
+            // Elsewhere, each parameter.
+            at(1.00002, 6.0, 2.0),
+            at(1.00003, 5.0, 3.0),
+            // Equal to the one before.
+            at(1.00004, 5.0, 3.01),
+            // At the first place, but far from its error: it has not arrived.
+            at(1.1, 5.0, 2.0),
+        ];
+        let kept: Vec<f64> = distinct(&free, all).iter().map(|(sse, _)| *sse).collect();
+        assert_eq!(kept, [1.0, 1.00002, 1.00003, 1.1]);
+    }
 }
