@@ -167,6 +167,7 @@ pub fn record_of_columns(
         name,
         unit,
         values: values.as_array().to_vec(),
+        definition: None,
     };
     let all: Vec<Column> = arrays.into_iter().map(column).collect();
     py.detach(|| lab::of_columns(all, label, &options))

@@ -363,3 +363,58 @@ fn a_stuck_channel_that_nothing_reads_leaves_the_verdict() {
     let (data, ledger) = closed(&record);
     assert_ne!(verdict_of(&data, &ledger), Verdict::DataDefect);
 }
+
+/// Two encoders that turn against each other, and their sum as channel `stretch`: `b` flickers
+/// but for rows 3000 to 3400, where it follows to the last bit.
+fn counter_rotating(frozen: Option<(usize, usize)>) -> Record {
+    let mut cells = Cells::of(&recipe());
+    let added = cells.rows[0].len();
+    cells.header += ",a [rad],b [rad]";
+    for (index, row) in cells.rows.iter_mut().enumerate() {
+        let a = (200.0 * row[PHI_P]).round() / 200.0;
+        let still = (3000..=3400).contains(&index);
+        let flicker = if still {
+            0.0
+        } else {
+            0.005 * noise(index).round()
+        };
+        row.extend([a, flicker - a]);
+    }
+    if let Some((from, to)) = frozen {
+        cells.freeze(added + 1, from, to);
+    }
+    let text: Vec<String> = std::iter::once(cells.header.clone())
+        .chain(cells.rows.iter().map(|row| {
+            let cells: Vec<String> = row.iter().map(f64::to_string).collect();
+            cells.join(",")
+        }))
+        .collect();
+    let options = Options {
+        channels: vec![("stretch".into(), "a+b".into())],
+        ..Options::default()
+    };
+    parse(text.join("\n").as_bytes(), "r.csv", &options).unwrap()
+}
+
+#[test]
+fn a_sum_that_rests_while_its_columns_move_is_not_stuck() {
+    let record = counter_rotating(None);
+    let stretch = record.channel("stretch").unwrap();
+    assert_eq!(stretch.definition.as_deref(), Some("a + b"));
+    let rests = |range: std::ops::Range<usize>| {
+        let of = &stretch.values[range];
+        of.iter().all(|value| *value == of[0])
+    };
+    assert!(rests(3000..3400) && !rests(2900..3000));
+    assert_eq!(record.defects, []);
+    // Where the sensor of one of them is stuck, so is the sum.
+    let record = counter_rotating(Some((5000, 5200)));
+    let stuck = only(&record);
+    assert_named(stuck, DefectKind::Stuck, "stretch");
+    assert_eq!(stuck.ranges, [[line(5000), line(5200)]]);
+    let message = &stuck.message;
+    assert!(
+        message.starts_with("the second column of a + b is stuck once"),
+        "{message}"
+    );
+}

@@ -7,6 +7,7 @@
 //! * [`c_file`]: the model as a C header.
 //! * [`postcard_file`]: the bytes that firmware reads, and their checksum.
 //! * [`vector`]: the test vector beside each model.
+//! * [`definition`]: a channel that is the sum of two says so.
 //! * [`examples`]: the models in the repository, and the examples that run them.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
@@ -15,6 +16,7 @@ mod causal;
 mod clockwork;
 #[path = "../compiler/mod.rs"]
 mod compiler;
+mod definition;
 mod examples;
 mod invertible;
 mod postcard_file;

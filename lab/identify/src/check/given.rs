@@ -31,6 +31,9 @@ pub struct About {
     /// Units by name: `input`, `output`, and the channels.
     #[serde(default)]
     pub units: BTreeMap<String, String>,
+    /// How channels are computed, by name, where they are sums or differences of others.
+    #[serde(default)]
+    pub definitions: BTreeMap<String, String>,
     /// What the record has covered, by name: `input`, and the channels.
     #[serde(default)]
     pub ranges: BTreeMap<String, Seen>,

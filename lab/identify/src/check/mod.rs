@@ -131,7 +131,7 @@ impl Check {
             .iter()
             .find(|name| record.channel(name).is_none())
         {
-            return Err(play::missing(name));
+            return Err(play::missing(given, name));
         }
         convert(&mut record, given)?;
         let own = given.about.cutoff_hz;

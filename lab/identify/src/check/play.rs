@@ -21,7 +21,7 @@ pub(super) fn play(data: &Prepared, given: &Given, eta0: f64) -> Result<Solution
         .map(|term| {
             Ok(FitTerm {
                 effect: term.effect,
-                source: source(data, &given.file.channels, term.source)?,
+                source: source(data, given, term.source)?,
                 origin: term.origin,
                 start: [0.0; MOST_RECORDS],
             })
@@ -90,17 +90,24 @@ pub(super) fn play(data: &Prepared, given: &Given, eta0: f64) -> Result<Solution
 }
 
 /// What a term reads, by its name in the record.
-fn source(data: &Prepared, channels: &[String], own: Source) -> Result<Source, String> {
+fn source(data: &Prepared, given: &Given, own: Source) -> Result<Source, String> {
     let Source::Channel(index) = own else {
         return Ok(own);
     };
-    let name = channels.get(usize::from(index)).map_or("", String::as_str);
+    let names = &given.file.channels;
+    let name = names.get(usize::from(index)).map_or("", String::as_str);
     let place = data.channels.iter().position(|c| c.name == name);
     let place = place.and_then(|place| u8::try_from(place).ok());
-    place.map(Source::Channel).ok_or_else(|| missing(name))
+    place
+        .map(Source::Channel)
+        .ok_or_else(|| missing(given, name))
 }
 
 /// What is said where a channel is not there.
-pub(super) fn missing(name: &str) -> String {
-    format!("no channel `{name}`, which the model reads; --channel {name}=COL names its column")
+pub(super) fn missing(given: &Given, name: &str) -> String {
+    let fitted = given.about.definitions.get(name);
+    let fitted = fitted.map_or_else(String::new, |own| format!(" (it was fitted as {own})"));
+    format!(
+        "no channel `{name}`, which the model reads; --channel {name}=COL names its column{fitted}"
+    )
 }

@@ -40,6 +40,10 @@ pub struct About {
     pub not_identified: Vec<NotIdentified>,
     /// The unit of each parameter and of each source, by name.
     pub units: BTreeMap<String, String>,
+    /// How a channel is computed from other measured quantities, by its name, where it is none
+    /// itself: `stretch = "phi_p + phi_d"`. Whoever runs the model computes it the same way.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub definitions: BTreeMap<String, String>,
     /// 95 % intervals of the parameters that the record determines, by their names in the file.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub intervals: BTreeMap<String, [f64; 2]>,
@@ -138,6 +142,7 @@ impl About {
             rate_hz: data.rate,
             not_identified: refused.collect(),
             units: units(data, solution),
+            definitions: definitions(data),
             intervals,
             ranges: read(solution)
                 .filter_map(|source| {
@@ -180,6 +185,15 @@ impl About {
     /// The unit of a parameter or a source, `no unit` where the record has none.
     pub(super) fn unit(&self, name: &str) -> &str {
         self.units.get(name).map_or("no unit", String::as_str)
+    }
+
+    /// A channel with its unit, and how it is computed where it was not measured.
+    pub(super) fn channel(&self, name: &str) -> String {
+        let unit = self.unit(name);
+        match self.definitions.get(name) {
+            Some(definition) => format!("{name} = {definition} [{unit}]"),
+            None => format!("{name} [{unit}]"),
+        }
     }
 }
 
@@ -229,6 +243,11 @@ fn source_name(data: &Prepared, source: Source) -> String {
             .channel(source)
             .map_or_else(String::new, |c| c.name.clone()),
     }
+}
+
+fn definitions(data: &Prepared) -> BTreeMap<String, String> {
+    let defined = |c: &Channel| Some((c.name.clone(), c.definition.clone()?));
+    data.channels.iter().filter_map(defined).collect()
 }
 
 fn units(data: &Prepared, solution: &Solution) -> BTreeMap<String, String> {

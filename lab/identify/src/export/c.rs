@@ -124,11 +124,8 @@ impl ModelFile {
                 own = format!("{own}_{index}");
                 taken.insert(own.clone());
             }
-            let (name, unit) = (commented(name), commented(about.unit(name)));
-            line!(
-                out,
-                "#define {upper}_CHANNEL_{own} {index} /* {name} [{unit}] */"
-            );
+            let channel = commented(&about.channel(name));
+            line!(out, "#define {upper}_CHANNEL_{own} {index} /* {channel} */");
         }
         line!(out, "");
     }

@@ -120,7 +120,7 @@ impl ModelFile {
             .channels
             .iter()
             .enumerate()
-            .map(|(index, name)| format!("{index} {name} [{}]", about.unit(name)))
+            .map(|(index, name)| format!("{index} {}", about.channel(name)))
             .collect();
         match channels.is_empty() {
             true => line!(out, "//! Channels: none."),

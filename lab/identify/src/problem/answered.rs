@@ -31,6 +31,7 @@ impl Prepared {
                 values,
                 name: record.output.name.clone(),
                 unit: None,
+                definition: None,
             };
             let smoothed = smoother.apply(&uniform.signal(&bridged(record, &output)));
             let thinned = smoothed.iter().step_by(thinning).copied();

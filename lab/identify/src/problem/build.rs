@@ -344,7 +344,7 @@ impl Collected {
     ) -> Result<Prepared, String> {
         let columns = std::iter::once(&first.input).chain(&first.channels);
         let named = |(motion, column): (Vec<Motion<f64>>, &Column)| {
-            Channel::new(column.name.clone(), column.unit.clone(), motion, &self.seen)
+            Channel::new(column, motion, &self.seen)
         };
         let mut all = self.motion.into_iter().zip(columns).map(named);
         let input = all.next().ok_or("no record was given")?;

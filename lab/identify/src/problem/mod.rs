@@ -15,7 +15,7 @@
 //! ([`Prepared::joined`]). Whatever runs along time, a filter, the hysteresis, an effect
 //! with memory, begins anew with each of them.
 
-use crate::record::{Defect, Mode};
+use crate::record::{Column, Defect, Mode};
 use bowden::effect::Motion;
 use filter::{derivative, ZeroPhase};
 use std::ops::Range;
@@ -46,6 +46,8 @@ pub struct Channel {
     pub name: String,
     /// Unit of the position, where the record states one.
     pub unit: Option<String>,
+    /// How it is computed from other measured quantities, where it is none itself.
+    pub definition: Option<String>,
     /// Position, velocity and acceleration at each work sample.
     pub motion: Vec<Motion<f64>>,
     /// The origin from which effects measure the position: 0 or the mid-range.
@@ -60,12 +62,7 @@ pub struct Channel {
 
 impl Channel {
     /// A channel on the work grid; `used` is what the fit may see of it.
-    fn new(
-        name: String,
-        unit: Option<String>,
-        motion: Vec<Motion<f64>>,
-        used: &[Range<usize>],
-    ) -> Self {
+    fn new(column: &Column, motion: Vec<Motion<f64>>, used: &[Range<usize>]) -> Self {
         let inside = || used.iter().flat_map(|range| &motion[range.clone()]);
         let count = used.iter().map(ExactSizeIterator::len).sum::<usize>();
         let low = inside().map(|m| m.position).fold(f64::INFINITY, f64::min);
@@ -82,8 +79,9 @@ impl Channel {
         let speed =
             (inside().map(|m| m.velocity * m.velocity).sum::<f64>() / count.max(1) as f64).sqrt();
         Self {
-            name,
-            unit,
+            name: column.name.clone(),
+            unit: column.unit.clone(),
+            definition: column.definition.clone(),
             motion,
             origin,
             middle,

@@ -8,6 +8,7 @@ fn record(time: Vec<f64>, f: impl Fn(f64) -> f64) -> Record {
         name: name.to_owned(),
         unit: None,
         values,
+        definition: None,
     };
     let x: Vec<f64> = time
         .iter()

@@ -144,6 +144,7 @@ pub(crate) fn to_unit(
         name: column.name.clone(),
         unit: Some(unit.to_owned()),
         values: Vec::new(),
+        definition: None,
     };
     convert(&wanted, column, whence).map_err(|error| error.in_file(file))
 }

@@ -55,6 +55,7 @@ pub use error::RecordError;
 use header::Header;
 use kind::Kind;
 use roles::Roles;
+use series::Series;
 use source::Source;
 use std::path::Path;
 
@@ -120,6 +121,8 @@ pub struct Column {
     pub unit: Option<String>,
     /// One finite value a sample.
     pub values: Vec<f64>,
+    /// How it is computed from columns, `phi_p + phi_d`, where it is none itself.
+    pub definition: Option<String>,
 }
 
 /// A checked record: at least [`MIN_SAMPLES`] samples, every value finite.
@@ -200,6 +203,7 @@ pub fn parse(bytes: &[u8], label: &str, options: &Options) -> Result<Record, Rec
 ///     name: name.to_owned(),
 ///     unit: None,
 ///     values: (0..400).map(of).collect(),
+///     definition: None,
 /// };
 /// let mut columns = vec![
 ///     column("t", &|i| f64::from(i) * 1e-3),
@@ -281,18 +285,26 @@ fn record(
     checks::record(&table, header, &roles)?;
 
     let mut values = std::mem::take(&mut table.values).into_iter();
-    let mut column = |name: &str, index: usize| Column {
-        name: name.to_owned(),
-        unit: header.columns[index].unit.clone(),
-        values: values.next().unwrap_or_default(),
+    let mut column = |name: &str, series: Series| -> Result<Column, RecordError> {
+        Ok(Column {
+            name: name.to_owned(),
+            unit: header.columns[series.first()].unit.clone(),
+            values: values.next().unwrap_or_default(),
+            definition: series.definition(header, options)?,
+        })
     };
     let name = |index: usize| header.columns[index].name.as_str();
-    let input = column(name(roles.input), roles.input);
-    let output = column(name(roles.output), roles.output);
-    let channels: Vec<Column> = roles
+    let input = column(name(roles.input), Series::Column(roles.input))?;
+    let output = column(name(roles.output), Series::Column(roles.output))?;
+    let channels = roles
         .channels
         .iter()
-        .map(|(name, series)| column(name, series.first()))
+        .map(|(name, series)| column(name, *series))
+        .collect::<Result<Vec<Column>, RecordError>>()?;
+    let parts = roles
+        .channels
+        .iter()
+        .map(|(_, series)| values.by_ref().take(series.parts().count()).collect())
         .collect();
     let defects = defects::find(&defects::Measured {
         table: &table,
@@ -302,6 +314,7 @@ fn record(
             .map(name)
             .or((table.dropped > 0).then_some("row number")),
         columns: [&input, &output].into_iter().chain(&channels).collect(),
+        parts,
     });
     let mut notes = roles.notes;
     notes.extend(table.notes);

@@ -25,6 +25,12 @@ impl Roles {
             .chain(self.channels.iter().map(|(_, series)| *series))
     }
 
+    /// What the sums and differences are made of, channel by channel.
+    pub(super) fn parts(&self) -> impl Iterator<Item = Series> + '_ {
+        let parts = |(_, series): &(String, Series)| series.parts().map(Series::Column);
+        self.channels.iter().flat_map(parts)
+    }
+
     /// The columns that are read, but for the time.
     pub(super) fn read(&self) -> impl Iterator<Item = usize> + '_ {
         self.series().flat_map(Series::columns)

@@ -12,7 +12,7 @@ use super::{Options, MIN_SAMPLES};
 pub(super) struct Table {
     /// Time \[s\] since the first sample that was kept.
     pub(super) time: Vec<f64>,
-    /// One column a role, in the order of [`Roles::series`].
+    /// One column a role, in the order of [`Roles::series`], then those of [`Roles::parts`].
     pub(super) values: Vec<Vec<f64>>,
     /// Line of each sample.
     pub(super) lines: Vec<usize>,
@@ -152,6 +152,7 @@ pub(super) fn read(
 ) -> Result<Table, RecordError> {
     let series = roles
         .series()
+        .chain(roles.parts())
         .map(|series| Ok((series.first(), series.second(header)?)))
         .collect::<Result<Vec<_>, RecordError>>()?;
     let mut clock = Clock::new(header, roles.time, options)?;

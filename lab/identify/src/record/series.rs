@@ -29,6 +29,38 @@ impl Series {
         [Some(first), second].into_iter().flatten()
     }
 
+    /// The columns that are added or subtracted; none where it is a column itself.
+    pub(super) fn parts(self) -> impl Iterator<Item = usize> {
+        let sum = matches!(self, Self::Sum { .. });
+        self.columns().filter(move |_| sum)
+    }
+
+    /// A sum or difference in words: `phi_p + phi_d`, `s_p - 0.001 s_d` where the units differ.
+    /// Each column has its name in the file, or that of the channel that is read from it.
+    pub(super) fn definition(
+        self,
+        header: &Header,
+        options: &Options,
+    ) -> Result<Option<String>, RecordError> {
+        let Some((second, factor)) = self.second(header)? else {
+            return Ok(None);
+        };
+        let name = |index: usize| {
+            let own = header.columns[index].name.as_str();
+            let mut channels = options.channels.iter();
+            channels
+                .find(|(_, column)| header.find(column) == Some(index))
+                .map_or(own, |(channel, _)| channel)
+        };
+        let sign = if factor < 0.0 { '-' } else { '+' };
+        let size = match factor.abs() {
+            1.0 => String::new(),
+            other => format!("{other} "),
+        };
+        let (first, second) = (name(self.first()), name(second));
+        Ok(Some(format!("{first} {sign} {size}{second}")))
+    }
+
     /// The column whose name and unit it has.
     pub(super) fn first(self) -> usize {
         match self {

@@ -32,7 +32,10 @@ pub(super) fn of_mat(bytes: &[u8]) -> Result<Columns, RecordError> {
 
 /// Columns in memory; the whole name of one is that in the header of a text.
 pub(super) fn of_columns(columns: Vec<Column>) -> Result<Columns, RecordError> {
-    let named = |Column { name, unit, values }| {
+    let named = |column: Column| {
+        let Column {
+            name, unit, values, ..
+        } = column;
         let whole = match &unit {
             Some(unit) => format!("{name} [{unit}]"),
             None => name.clone(),

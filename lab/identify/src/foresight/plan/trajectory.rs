@@ -294,6 +294,7 @@ pub fn trajectory(data: &Prepared, kind: Kind) -> Trajectory {
                 name: channel.name.clone(),
                 unit: channel.unit.clone(),
                 values,
+                definition: channel.definition.clone(),
             })
             .collect(),
     }
@@ -314,6 +315,7 @@ impl Trajectory {
                 name: data.output_name.clone(),
                 unit: data.output_unit.clone(),
                 values: vec![0.0; samples],
+                definition: None,
             },
             input,
             channels: signals.collect(),

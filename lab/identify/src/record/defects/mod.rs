@@ -86,6 +86,8 @@ pub(super) struct Measured<'a> {
     pub(super) clock: Option<&'a str>,
     /// Input, output, channels.
     pub(super) columns: Vec<&'a Column>,
+    /// Of each channel what it is the sum or difference of; nothing where it is a column.
+    pub(super) parts: Vec<Vec<Vec<f64>>>,
 }
 
 /// All defects: time first, then column by column.
@@ -113,12 +115,11 @@ pub(super) fn find(measured: &Measured<'_>) -> Vec<Defect> {
             _ => (vec![&at_input, &at_output], &input.values),
         };
         let few = if index == 0 { GRAVE_INPUT } else { GRAVE };
-        let stuck = stuck::find(&column.values, &others, few);
+        let parts = index.checked_sub(2).and_then(|i| measured.parts.get(i));
+        let stuck = stuck(column, parts.map_or(&[], Vec::as_slice), &others, few);
         let spoilt = |plateau: &Range<usize>| {
-            let stuck = stuck.iter().flat_map(|found| &found.samples);
-            stuck
-                .clone()
-                .any(|s| s.start < plateau.end && plateau.start < s.end)
+            let mut stuck = stuck.iter().flat_map(|found| &found.samples);
+            stuck.any(|s| s.start < plateau.end && plateau.start < s.end)
         };
         let clipped = match index {
             0 | 1 => clipped(&column.values, other, few, spoilt),
@@ -129,8 +130,10 @@ pub(super) fn find(measured: &Measured<'_>) -> Vec<Defect> {
         let named = |kind, found: Option<Found>| {
             found.map(|found| Found { most, ..found }.named(kind, &column.name, lines))
         };
-        all.extend(named(DefectKind::Stuck, stuck));
-        all.extend(named(DefectKind::Clipping, clipped));
+        let clipped = named(DefectKind::Clipping, clipped);
+        let stuck = stuck.into_iter().map(Some);
+        all.extend(stuck.filter_map(|found| named(DefectKind::Stuck, found)));
+        all.extend(clipped);
         all.extend(named(DefectKind::Quantisation, coarse));
     }
     all
@@ -160,6 +163,23 @@ impl Found {
             samples: self.samples,
         }
     }
+}
+
+/// A sum or difference rests where what it is made of moves together: it is stuck where one of
+/// its columns is.
+fn stuck(column: &Column, parts: &[Vec<f64>], others: &[&Companion], few: f64) -> Vec<Found> {
+    let Some(definition) = &column.definition else {
+        return stuck::find(&column.values, others, few)
+            .into_iter()
+            .collect();
+    };
+    let found = |(part, which): (&Vec<f64>, &str)| {
+        let found = stuck::find(part, others, few)?;
+        let message = format!("the {which} column of {definition} is {}", found.message);
+        Some(Found { message, ..found })
+    };
+    let named = parts.iter().zip(["first", "second"]);
+    named.filter_map(found).collect()
 }
 
 /// Clipping too mild to be refused.
