@@ -1,14 +1,16 @@
 """Closes many records, each by itself, on worker processes of Dask: one row a record.
 
-    python fleet.py 'runs/*.parquet' --out rows.parquet --workers 2
+    python fleet.py 'runs/*.parquet' --out rows.parquet --workers 2 --declare bouc-wen
 
 Dask rather than Ray: it is plain Python, starts worker processes under a nanny that replaces
-one that dies, and the same client drives one machine or many. Each record is one task. Its row
-is kept in ``rows.parquet.part/`` under a name made of the hash of the record's name, its bytes
-and the version of bowden, written to a neighbour first and renamed: whatever is killed, a row
-is there whole or not at all, and a second run computes what is missing only.
-A record that cannot be closed becomes a row with its error. Exit status: 0 with all rows
-written, errors among them or not; 2 for bad use.
+one that dies, and the same client drives one machine or many (``--scheduler tcp://host:8786``
+with a folder that all of them reach). Each record is one task. Its row is kept in
+``rows.parquet.part/`` under the hash of the record's name and bytes, of the options and of the
+version of bowden, written to a neighbour first and renamed: whatever is killed, a row is there
+whole or not at all, and a second run computes what is missing only.
+
+A record that cannot be closed becomes a row with its error, as does one that ends several
+workers in turn. Exit status: 0 with all rows written, errors among them or not; 2 for bad use.
 """
 
 import argparse
@@ -37,6 +39,14 @@ SCHEMA = pa.schema(
 )
 """No times: the same records give the same bytes."""
 
+QUIET = {
+    "distributed.admin.log-length": 100,
+    "distributed.admin.low-level-log-length": 100,
+    "distributed.scheduler.dashboard.tasks.task-stream-length": 100,
+    "distributed.comm.timeouts.connect": "60s",
+}
+"""What the scheduler remembers of tasks that are done, or its memory grows with the records."""
+
 
 def failed(file, error):
     """The row of a record that could not be closed."""
@@ -47,12 +57,12 @@ def failed(file, error):
     return row
 
 
-def closed(file):
+def closed(file, options):
     """The row of a record."""
     import bowden
 
     try:
-        report = bowden.close(file, figures=False, threads=1)
+        report = bowden.close(file, figures=False, threads=1, **options)
         report = json.loads(report.json)
     except (KeyboardInterrupt, SystemExit):
         raise
@@ -73,6 +83,20 @@ def closed(file):
     return row
 
 
+def key(file, options):
+    """The name under which the row of a record as it now is belongs."""
+    import bowden
+
+    digest = hashlib.sha256(json.dumps([bowden.__version__, options, file]).encode())
+    try:
+        with open(file, "rb") as record:
+            while block := record.read(1 << 20):
+                digest.update(block)
+    except OSError as error:  # its row says so; once it can be read, the key is another one
+        digest.update(str(error).encode())
+    return digest.hexdigest()
+
+
 def keep(row, part):
     """Writes the part of a row, whole or not at all."""
     beside = f"{part}.{os.getpid()}.tmp"
@@ -80,82 +104,151 @@ def keep(row, part):
     os.replace(beside, part)
 
 
-def work(file, part):
-    """What a worker does."""
-    if not os.path.exists(part):
-        keep(closed(file), part)
+def work(file, folder, options):
+    """What a worker does: the name of the row's part, and whether it was computed now."""
+    name = key(file, options)
+    part = os.path.join(folder, f"{name}.parquet")
+    if os.path.exists(part):
+        return name, False
+    # Says which process has the record in hand: what stays behind was killed.
+    claim = Path(folder, f"{name}.claim")
+    claim.write_text(str(os.getpid()))
+    keep(closed(file, options), part)
+    claim.unlink(missing_ok=True)
+    return name, True
 
 
-def part_of(folder, file, version):
-    """Where the row of a record as it now is belongs."""
-    digest = hashlib.sha256(f"{version}\0{file}\0".encode())
-    digest.update(Path(file).read_bytes())
-    return str(folder / f"{digest.hexdigest()}.parquet")
-
-
-def join(parts, out):
-    """All rows in the order of the files, a few at a time."""
-    beside = f"{out}.{os.getpid()}.tmp"
+def join(folder, names, out):
+    """All rows in the order of the files, a few at a time; how many of them are errors."""
+    beside, errors = f"{out}.{os.getpid()}.tmp", 0
     with pq.ParquetWriter(beside, SCHEMA) as writer:
-        for at in range(0, len(parts), 256):
-            rows = [pq.read_table(part) for part in parts[at : at + 256]]
-            writer.write_table(pa.concat_tables(rows).combine_chunks())
+        for at in range(0, len(names), 256):
+            parts = (folder / f"{name}.parquet" for name in names[at : at + 256])
+            rows = [pq.read_table(part) for part in parts]
+            rows = pa.concat_tables(rows).combine_chunks()
+            errors += rows.column("status").to_pylist().count("error")
+            writer.write_table(rows)
     os.replace(beside, out)
+    return errors
 
 
-def fleet(pattern, out, workers):
-    """Closes all files of a pattern; the number of those that were computed now."""
-    import bowden
-    from dask.distributed import Client, LocalCluster, as_completed
+class Drive:
+    """Has files closed by the workers of a client."""
 
-    files = sorted(file for file in glob.glob(pattern) if os.path.isfile(file))
-    if not files:
-        raise SystemExit(f"fleet.py: {pattern}: no file has such a name")
-    folder = Path(f"{out}.part")
-    folder.mkdir(parents=True, exist_ok=True)
-    version = getattr(bowden, "__version__", "")
-    parts = [part_of(folder, file, version) for file in files]
-    todo = iter([(f, p) for f, p in zip(files, parts) if not os.path.exists(p)])
-    done = 0
-    with LocalCluster(
-        n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=None
-    ) as cluster, Client(cluster) as client:
-        of = {}
+    def __init__(self, client, files, folder, options):
+        self.client, self.files, self.folder, self.options = client, files, folder, options
+        self.names = [None] * len(files)
+        """Of their parts."""
+        self.computed = 0
+        """How many of them now."""
+
+    def run(self, indices, at_once, suspects=None):
+        """Has some of the files closed, so many at a time; those that ended their workers go to
+        ``suspects``, or become rows."""
+        from dask.distributed import as_completed
+
+        todo, of = iter(indices), {}
 
         def submit():
-            for file, part in todo:
-                future = client.submit(work, file, part, pure=False)
-                of[future.key] = (file, part)
+            for index in todo:
+                asked = self.files[index], str(self.folder), self.options
+                future = self.client.submit(work, *asked, pure=False)
+                of[future.key] = index
                 return future
 
-        # A few tasks a worker at any time: the scheduler's memory does not grow.
-        first = [future for _ in range(4 * workers) if (future := submit())]
-        running = as_completed(first)
-        first.clear()
+        running = as_completed([future for _ in range(at_once) if (future := submit())])
         for future in running:
-            file, part = of.pop(future.key)
-            # A record that ends several workers in turn is given up by Dask.
-            if future.status == "error" and not os.path.exists(part):
-                keep(failed(file, future.exception()), part)
-            done += 1
+            index = of.pop(future.key)
+            if future.status != "error":
+                self.names[index], new = future.result()
+                self.computed += new
+            elif suspects is not None:
+                suspects.append(index)
+            else:
+                self.fail(index, future.exception())
+            future.release()
             if following := submit():
                 running.add(following)
-    join(parts, out)
-    return done
+
+    def fail(self, index, error):
+        """Keeps the row of a record that ended its worker or whose part could not be kept."""
+        self.names[index] = key(self.files[index], self.options)
+        self.computed += 1
+        keep(failed(self.files[index], error), self.folder / f"{self.names[index]}.parquet")
+
+    def all(self, at_once):
+        """Has all files closed. The names of their parts, and how many were computed now."""
+        # A few tasks a worker at any time: the scheduler's memory does not grow. When a worker
+        # has died several times Dask gives up all tasks that it had then, so that those are tried
+        # again, one at a time: only the record that ends its worker alone is at fault.
+        suspects = []
+        self.run(range(len(self.files)), at_once, suspects)
+        self.run(sorted(suspects), 1)
+        return self.names, self.computed
+
+
+def fleet(files, out, workers, options, scheduler=None):
+    """Closes all files; how many were computed now, and how many of all are errors."""
+    import dask
+    from dask.distributed import Client, LocalCluster
+
+    folder = Path(f"{out}.part")
+    folder.mkdir(exist_ok=True)
+    with dask.config.set(QUIET):
+        if scheduler:
+            with Client(scheduler) as client:
+                at_once = 4 * max(1, sum(client.nthreads().values()))
+                names, computed = Drive(client, files, folder, options).all(at_once)
+        else:
+            local = {"threads_per_worker": 1, "processes": True, "dashboard_address": None}
+            with LocalCluster(n_workers=workers, **local) as cluster, Client(cluster) as client:
+                names, computed = Drive(client, files, folder, options).all(4 * workers)
+    return computed, join(folder, names, out)
+
+
+def refuse(line):
+    """Bad use: one line, and status 2."""
+    print(f"fleet.py: {line}", file=sys.stderr)
+    raise SystemExit(2)
 
 
 def main():
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("pattern")
-    parser.add_argument("--out", required=True)
-    parser.add_argument("--workers", type=int, default=2)
+    parser.add_argument("pattern", help="the records, such as 'runs/*.csv'")
+    parser.add_argument("--out", required=True, metavar="ROWS.parquet")
+    parser.add_argument("--workers", type=int, default=2, metavar="N")
+    parser.add_argument("--scheduler", metavar="URL", help="of a cluster that runs already")
+    parser.add_argument("--declare", metavar="A,B", help="as in `bowden close`")
+    parser.add_argument("--channel", action="append", default=[], metavar="NAME=COL")
+    parser.add_argument("--rounds", type=int, metavar="N")
     asked = parser.parse_args()
+    # Folders too: that one of that name is no record is said in its row.
+    files = sorted(glob.glob(asked.pattern))
+    if not files:
+        refuse(f"{asked.pattern}: no file has such a name")
+    if asked.workers < 1:
+        refuse(f"--workers {asked.workers}: at least 1 was expected")
+    if not Path(asked.out).absolute().parent.is_dir() or Path(asked.out).is_dir():
+        refuse(f"--out {asked.out}: a file in a folder that exists was expected")
+    channels = [pair.partition("=") for pair in asked.channel]
+    if wrong := [pair for pair, parts in zip(asked.channel, channels) if not all(parts)]:
+        refuse(f"--channel {wrong[0]}: NAME=COL was expected")
+    given = {
+        "declare": asked.declare.split(",") if asked.declare else None,
+        "channels": {name: column for name, _, column in channels} or None,
+        "rounds": asked.rounds,
+    }
+    options = {name: value for name, value in given.items() if value is not None}
     start = time.monotonic()
-    done = fleet(asked.pattern, asked.out, asked.workers)
+    computed, errors = fleet(files, asked.out, asked.workers, options, asked.scheduler)
     took = time.monotonic() - start
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-    print(f"{done} records in {took:.2f} s, peak of this process {peak:.0f} MiB", file=sys.stderr)
+    print(
+        f"{len(files)} records, {computed} of them closed now, in {took:.2f} s; rows with an error:"
+        f" {errors}; peak of this process {peak:.0f} MiB",
+        file=sys.stderr,
+    )
 
 
 if __name__ == "__main__":

@@ -45,9 +45,10 @@ def folder(tmp_path):
     return tmp_path
 
 
-def start(folder, out, workers=2):
-    command = [sys.executable, FLEET, str(folder / "r*.parquet"), "--out", out]
-    return subprocess.Popen([*map(str, command), "--workers", str(workers)], start_new_session=True)
+def start(folder, out, workers=2, *more, **env):
+    command = [sys.executable, FLEET, str(folder / "r*.parquet"), "--out", out, *more]
+    command = [*map(str, command), "--workers", str(workers)]
+    return subprocess.Popen(command, start_new_session=True, env={**os.environ, **env})
 
 
 def until_parts(out, count, run):
@@ -58,22 +59,29 @@ def until_parts(out, count, run):
         time.sleep(0.005)
 
 
-def workers_of(pid):
-    """The processes below one that a nanny has started (Linux)."""
-    found, below = [], [pid]
-    while below:
-        for task in Path(f"/proc/{below.pop()}/task").glob("*/children"):
-            children = [int(child) for child in task.read_text().split()]
-            below += children
-            found += children
-    return [p for p in found if b"spawn_main" in Path(f"/proc/{p}/cmdline").read_bytes()]
+def kill_at_work(out):
+    """Kills a worker that has a record in hand; the claim that it leaves behind."""
+    parts, end = Path(f"{out}.part"), time.monotonic() + 60
+    while time.monotonic() < end:
+        for claim in parts.glob("*.claim"):
+            try:
+                worker = int(claim.read_text())
+                os.kill(worker, signal.SIGSTOP)
+            except (OSError, ValueError):  # gone, or not yet written
+                continue
+            # It stands still: with its claim there and its row not, it is at work on it.
+            if claim.exists() and not claim.with_suffix(".parquet").exists():
+                os.kill(worker, signal.SIGKILL)
+                return claim
+            os.kill(worker, signal.SIGCONT)
+    raise AssertionError("no worker was seen at work")
 
 
-def check(out, folder):
+def check(out, folder, *more):
     rows = pq.read_table(out).to_pylist()
     assert [row["file"] for row in rows] == sorted(map(str, folder.glob("r*.parquet")))
     bad = [Path(row["file"]).name for row in rows if row["status"] == "error"]
-    assert bad == ["r03.parquet", "r05.parquet"]
+    assert bad == sorted(["r03.parquet", "r05.parquet", *more])
     assert all(row["error"] for row in rows if row["status"] == "error")
     assert all(row["verdict"] for row in rows if row["status"] == "ok")
 
@@ -85,11 +93,12 @@ def test_a_killed_worker_and_a_killed_run_lose_nothing(folder):
 
     run = start(folder, killed)
     until_parts(killed, 3, run)
-    worker = workers_of(run.pid)[0]
-    os.kill(worker, signal.SIGKILL)
-    assert len(list(Path(f"{killed}.part").glob("*.parquet"))) < RECORDS, "killed too late"
+    claim = kill_at_work(killed)
     assert run.wait(120) == 0
     assert killed.read_bytes() == plain.read_bytes()
+    # The record was closed by another one, once.
+    assert claim.with_suffix(".parquet").exists() and not claim.exists()
+    assert len(list(Path(f"{killed}.part").glob("*"))) == RECORDS
 
     run = start(folder, resumed)
     until_parts(resumed, 3, run)
@@ -100,3 +109,64 @@ def test_a_killed_worker_and_a_killed_run_lose_nothing(folder):
     assert start(folder, resumed).wait(120) == 0
     assert all(p.stat().st_mtime_ns == at for p, at in kept.items())
     assert resumed.read_bytes() == plain.read_bytes()
+
+
+POISON = """
+import os, signal, bowden
+close = bowden.close
+def poisoned(file, **options):
+    if str(file).endswith("r07.parquet"):
+        os.kill(os.getpid(), signal.SIGKILL)
+    return close(file, **options)
+bowden.close = poisoned
+"""
+
+
+def test_a_record_that_ends_every_worker_is_one_row_and_the_others_are_closed(folder):
+    site = folder / "site"
+    site.mkdir()
+    (site / "sitecustomize.py").write_text(POISON)
+    out = folder / "rows"
+    assert start(folder, out, PYTHONPATH=str(site)).wait(240) == 0
+    check(out, folder, "r07.parquet")
+    row = pq.read_table(out).to_pylist()[7]
+    assert "r07" in row["file"] and "worker" in row["error"].lower()
+
+
+def test_what_cannot_be_read_is_a_row_and_options_are_part_of_what_is_kept(folder):
+    for path in sorted(folder.glob("r*.parquet"))[4:]:
+        path.unlink()
+    (folder / "r99.parquet").mkdir()
+    out = folder / "rows"
+
+    def rows(*more):
+        assert start(folder, out, 1, *more).wait(120) == 0
+        return {Path(row["file"]).stem: row for row in pq.read_table(out).to_pylist()}
+
+    found = rows()
+    assert found["r99"]["status"] == "error" and "r99" in found["r99"]["error"]
+    assert found["r00"]["status"] == "ok" and found["r00"]["parameters"]
+    parts = len(list(Path(f"{out}.part").glob("*.parquet")))
+    bare = rows("--rounds", "0", "--declare", "bouc-wen,viscous")
+    assert "viscous" in bare["r00"]["parameters"] and "viscous" not in found["r00"]["parameters"]
+    assert len(list(Path(f"{out}.part").glob("*.parquet"))) == 2 * parts
+    assert rows() == found
+    # A record that was replaced is closed again.
+    record(folder / "r00.parquet", 77)
+    assert rows()["r00"] != found["r00"]
+
+
+@pytest.mark.parametrize(
+    ("asked", "line"),
+    [
+        (["no-such-*.csv", "--out", "rows"], "no-such-*.csv: no file has such a name"),
+        (["*", "--out", "rows", "--workers", "0"], "--workers 0: at least 1 was expected"),
+        (["*", "--out", "no/rows"], "--out no/rows: a file in a folder that exists was expected"),
+        (["*", "--out", "rows", "--channel", "x"], "--channel x: NAME=COL was expected"),
+    ],
+)
+def test_bad_use_is_one_line_and_status_2(folder, asked, line):
+    command = [sys.executable, str(FLEET), *asked]
+    ended = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stderr) == (2, f"fleet.py: {line}\n")
+    assert not (folder / "rows").exists() and not (folder / "rows.part").exists()

@@ -6,6 +6,8 @@
 ('explained', ['viscous'])
 """
 
+from importlib.metadata import version as _version
+
 from ._bowden import Record
 from ._check import check
 from ._close import close
@@ -15,6 +17,8 @@ from ._fields import Fields
 from ._model import Model
 from ._read import read
 from ._report import CheckReport, Report
+
+__version__ = _version("bowden")
 
 __all__ = [
     "PI",
