@@ -156,6 +156,23 @@ def test_what_cannot_be_read_is_a_row_and_options_are_part_of_what_is_kept(folde
     assert rows()["r00"] != found["r00"]
 
 
+def test_the_program_writes_the_same_rows(folder, program):
+    out, rows = folder / "rows", folder / "rows.parquet"
+    assert start(folder, out, 2, "--declare", "bouc-wen").wait(120) == 0
+    pattern = folder / "r*.parquet"
+    program("close", "--glob", pattern, "--out", rows, "--declare", "bouc-wen")
+    fleet, ours = pq.read_table(out), pq.read_table(rows)
+    assert [(f.name, str(f.type)) for f in fleet.schema] == [
+        (f.name, str(f.type)) for f in ours.schema
+    ]
+    # Messages speak of options, which have other names in Python.
+    assert fleet.drop_columns("error").to_pylist() == ours.drop_columns("error").to_pylist()
+    errors = [
+        [error is None for error in table.column("error").to_pylist()] for table in (fleet, ours)
+    ]
+    assert errors[0] == errors[1] and errors[0].count(False) == 2
+
+
 @pytest.mark.parametrize(
     ("asked", "line"),
     [

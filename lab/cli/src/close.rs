@@ -3,6 +3,7 @@
 use super::drawing::{provenance, Drawing};
 use super::progress::{progress, telling};
 use super::reading::{files, Reading};
+use super::rows::Rows;
 use super::{outputs, Failure};
 use crate::view::{cost_line, json, loop_text, terminal_width, text};
 use bowden_lab::facts::{
@@ -58,10 +59,20 @@ pub struct Close {
     /// verdict stay as they are.
     #[arg(long)]
     invertible: bool,
+    #[command(flatten)]
+    rows: Rows,
 }
 
 impl Close {
+    /// What is asked of each record.
+    pub fn asked(&self) -> Result<Asked, Failure> {
+        self.reading.asked()
+    }
+
     pub fn run(mut self) -> Result<(), Failure> {
+        if self.rows.is_wanted() {
+            return self.rows.run(&self);
+        }
         self.records = files(&self.records)?;
         let asked = self.reading.asked()?;
         if self.per_file.is_some() && self.records.len() < 2 {

@@ -17,6 +17,7 @@ mod plan;
 mod power;
 mod progress;
 mod reading;
+mod rows;
 pub mod view;
 
 pub use progress::share;
