@@ -64,14 +64,9 @@ pub struct Close {
 }
 
 impl Close {
-    /// What is asked of each record.
-    pub fn asked(&self) -> Result<Asked, Failure> {
-        self.reading.asked()
-    }
-
     pub fn run(mut self) -> Result<(), Failure> {
         if self.rows.is_wanted() {
-            return self.rows.run(&self);
+            return self.rows.run(&self.reading.asked()?);
         }
         self.records = files(&self.records)?;
         let asked = self.reading.asked()?;

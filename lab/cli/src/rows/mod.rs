@@ -8,11 +8,9 @@
 mod row;
 mod table;
 
-use crate::close::Close;
 use crate::view::json;
 use crate::{outputs, reading, Failure};
 use bowden_lab::facts::{close, Asked, Close as Question, Detail, Meter};
-use bowden_lab::record::read;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use row::Row;
@@ -52,10 +50,9 @@ impl Rows {
     }
 
     /// Closes the one record or all of them.
-    pub fn run(&self, close: &Close) -> Result<(), Failure> {
-        let asked = close.asked()?;
+    pub fn run(&self, asked: &Asked) -> Result<(), Failure> {
         if let Some(file) = &self.row {
-            return crate::say(&one(file, &asked).json()?);
+            return crate::say(&one(file, asked).json()?);
         }
         let (Some(pattern), Some(out)) = (&self.glob, &self.out) else {
             return Err("--glob and --out go together".to_owned());
@@ -78,7 +75,7 @@ impl Rows {
 fn one(file: &Path, asked: &Asked) -> Row {
     let meter = Meter::start();
     let name = file.to_string_lossy();
-    let record = match read(file, &asked.options) {
+    let record = match asked.read_or_refuse(file) {
         Ok(record) => record,
         Err(error) => return Row::refused(&name, &error),
     };

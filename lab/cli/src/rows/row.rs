@@ -1,6 +1,6 @@
 //! One row: what is kept of a record, from its JSON.
 
-use bowden_lab::record::RecordError;
+use bowden_lab::facts::RecordError;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 

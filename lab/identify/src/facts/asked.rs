@@ -4,7 +4,7 @@ use crate::ledger::Ledger;
 use crate::model::declared::structure;
 use crate::model::structure::Structure;
 use crate::problem::{HeldOut, Preparation, Prepared};
-use crate::record::{agree, parse, read, Options, Record};
+use crate::record::{agree, parse, read, Options, Record, RecordError};
 use crate::search::{close_within, Limits, MOST_NAMES};
 use std::path::{Path, PathBuf};
 
@@ -29,7 +29,15 @@ impl Asked {
     /// # Errors
     /// One line that names the file.
     pub fn read(&self, path: &Path) -> Result<Record, String> {
-        read(path, &self.options).map_err(|e| e.to_string())
+        self.read_or_refuse(path).map_err(|e| e.to_string())
+    }
+
+    /// Reads a record.
+    ///
+    /// # Errors
+    /// The refusal, with its place.
+    pub fn read_or_refuse(&self, path: &Path) -> Result<Record, RecordError> {
+        read(path, &self.options)
     }
 
     /// Reads a record that is in memory; `label` stands for the name of its file.

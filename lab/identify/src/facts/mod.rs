@@ -52,7 +52,7 @@ pub use crate::foresight::plan::{Aim, Experiment};
 pub use crate::foresight::power::{Answer, Question as PowerQuestion, SHARE, TRIALS, TRIALS_RANGE};
 pub use crate::ledger::{Gate, Grade};
 pub use crate::problem::cost::Counts;
-pub use crate::record::{Defect, Mode, Options, Record};
+pub use crate::record::{Defect, Mode, Options, Record, RecordError};
 pub use crate::score::autocorrelation::Autocorrelation;
 pub use crate::score::binned::{Bin, Mean};
 pub use crate::score::blocks::BLOCKS;
