@@ -132,6 +132,14 @@ def join(folder, names, out):
     return errors
 
 
+def tidy(folder, names):
+    """Removes what killed processes left of rows that are there: halves and claims."""
+    there = set(names)
+    for left in [*folder.glob("*.tmp"), *folder.glob("*.claim")]:
+        if left.name.partition(".")[0] in there:
+            left.unlink(missing_ok=True)
+
+
 class Drive:
     """Has files closed by the workers of a client."""
 
@@ -203,7 +211,9 @@ def fleet(files, out, workers, options, scheduler=None):
             local = {"threads_per_worker": 1, "processes": True, "dashboard_address": None}
             with LocalCluster(n_workers=workers, **local) as cluster, Client(cluster) as client:
                 names, computed = Drive(client, files, folder, options).all(4 * workers)
-    return computed, join(folder, names, out)
+    errors = join(folder, names, out)
+    tidy(folder, names)
+    return computed, errors
 
 
 def refuse(line):

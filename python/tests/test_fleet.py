@@ -105,10 +105,15 @@ def test_a_killed_worker_and_a_killed_run_lose_nothing(folder):
     os.killpg(run.pid, signal.SIGKILL)
     run.wait(10)
     kept = {p: p.stat().st_mtime_ns for p in Path(f"{resumed}.part").glob("*.parquet")}
+    # As a worker leaves it that is killed while it writes a row, and after it renamed one.
+    some = next(iter(kept))
+    some.with_suffix(".claim").write_text("1")
+    Path(f"{some}.1.tmp").write_bytes(some.read_bytes()[:100])
     assert 3 <= len(kept) < RECORDS and not resumed.exists()
     assert start(folder, resumed).wait(120) == 0
     assert all(p.stat().st_mtime_ns == at for p, at in kept.items())
     assert resumed.read_bytes() == plain.read_bytes()
+    assert len(list(Path(f"{resumed}.part").glob("*"))) == RECORDS
 
 
 POISON = """
