@@ -6,6 +6,9 @@
 //! **effects** that real rigs have beside it. `no_std`, no allocation, no unsafe code,
 //! generic over `f32` and `f64`; run-time dependencies `num-traits` and `libm`.
 //!
+//! A newcomer may read [the book](book) first: idea, equations, verdicts, controllers, and the
+//! way from the bench to the motor.
+//!
 //! | module | what it is | equations |
 //! |---|---|---|
 //! | [`hysteresis`] | the Bouc-Wen state, bounded for any step | (2), (7) |
@@ -46,6 +49,8 @@
 #[cfg(feature = "std")]
 extern crate std;
 
+#[cfg(any(doc, doctest))]
+pub mod book;
 pub mod bound;
 pub mod control;
 pub mod effect;

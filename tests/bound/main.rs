@@ -8,7 +8,6 @@ mod continuous;
 mod dyadic;
 mod figures;
 mod refused;
-mod rig;
 mod rounded;
 mod sampled;
 mod step;

@@ -7,11 +7,13 @@ mod certify;
 mod check;
 mod close;
 mod compare;
+mod completions;
 mod design;
 mod drawing;
 mod export;
 mod generate;
 mod help;
+mod man;
 mod outputs;
 mod plan;
 mod power;
@@ -63,6 +65,10 @@ enum Command {
     // `record` was the name up to 0.1 and stays for scripts; the help does not show it.
     #[command(alias = "record")]
     Generate(generate::Generate),
+    /// Print completions for a shell.
+    Completions(completions::Completions),
+    /// Print the manual, or a subcommand's page.
+    Man(man::Man),
     /// Explain a subcommand, or the words of the ledger: `bowden help terms`.
     Help(help::Help),
 }
@@ -83,6 +89,8 @@ pub fn run() -> Result<ExitCode, Failure> {
         Some(Command::Plan(plan)) => plan.run(),
         Some(Command::Export(export)) => export.run(),
         Some(Command::Generate(generate)) => generate.run(),
+        Some(Command::Completions(completions)) => completions.run(),
+        Some(Command::Man(man)) => man.run(),
         Some(Command::Help(help)) => help.run(),
     }?;
     Ok(ExitCode::SUCCESS)

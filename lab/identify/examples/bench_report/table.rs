@@ -242,7 +242,7 @@ pub fn document(measured: &Measured, limits: &[Limit], instrument: Instrument) -
         &record,
         &by_name("planted", &measured.names),
     );
-    let record = "The rows of [lab/README.md](../lab/README.md); their files are not part of the project.\n\n";
+    let record = "The rows of [docs/results/measured.md](../docs/results/measured.md); their files are not part of the project.\n\n";
     let mut rows = by_name("record", &measured.rows);
     for missing in &measured.missing {
         let _ = writeln!(rows, "\n{missing}.");

@@ -132,7 +132,7 @@ pub const TRIBOMETER: Row = Row {
     ..PLAIN
 };
 
-/// The ten rows of `lab/README.md`.
+/// The ten rows of `docs/results/measured.md`.
 pub const ROWS: [Row; 10] = [
     EMPS,
     EMPS_DECLARED,

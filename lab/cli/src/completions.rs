@@ -1,0 +1,19 @@
+//! `bowden completions`: what a shell needs to complete subcommands and options.
+
+use super::{Arguments, Failure};
+use clap::{Args, CommandFactory as _};
+use clap_complete::Shell;
+
+#[derive(Args)]
+pub struct Completions {
+    /// The shell that reads it.
+    shell: Shell,
+}
+
+impl Completions {
+    pub fn run(self) -> Result<(), Failure> {
+        let mut script = Vec::new();
+        clap_complete::generate(self.shell, &mut Arguments::command(), "bowden", &mut script);
+        super::pour(&script)
+    }
+}
