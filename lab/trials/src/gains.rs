@@ -25,6 +25,47 @@ pub struct GainsFile {
     /// The adaptive law in lag form without regressors, where gains are admissible.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adaptive: Option<AdaptiveSettings<f64, 0>>,
+    /// What `bowden certify` assumes of the plant of the adaptive law, where it is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plant: Option<Known>,
+}
+
+/// What is known of a plant: all that a certificate of the adaptive law needs beside its gains.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Known {
+    /// Least and greatest alpha \[N·m/command unit\].
+    pub alpha: [f64; 2],
+    /// Bound on the disturbance \[N·m\].
+    pub disturbance: f64,
+    /// Bound on its rate \[N·m/s\].
+    pub disturbance_rate: f64,
+    /// Bound on the reference \[N·m\].
+    pub reference: f64,
+    /// Bound on its rate \[N·m/s\].
+    pub reference_rate: f64,
+}
+
+impl Known {
+    /// The first number that is none of its kind: its key, and what was expected.
+    fn refused(&self) -> Option<(&'static str, String)> {
+        let [low, high] = self.alpha;
+        if !(low.is_finite() && high.is_finite() && 0.0 < low && low <= high) {
+            let what = "a box of two finite numbers above zero, the lower one first";
+            return Some(("alpha", format!("[{low}, {high}]: {what} was expected")));
+        }
+        let bounds = [
+            ("disturbance", self.disturbance),
+            ("disturbance_rate", self.disturbance_rate),
+            ("reference", self.reference),
+            ("reference_rate", self.reference_rate),
+        ];
+        let wrong = bounds.iter().find(|(_, x)| !(x.is_finite() && *x >= 0.0));
+        wrong.map(|(name, x)| {
+            let what = "a finite number, zero or above, was expected";
+            (*name, format!("{x}: {what}"))
+        })
+    }
 }
 
 /// What gains were designed for.
@@ -84,6 +125,10 @@ impl GainsFile {
         }
         if let Some(law) = gains.adaptive {
             Adaptive::try_new(law).map_err(|e| refused("adaptive", e))?;
+        }
+        if let Some((name, what)) = gains.plant.as_ref().and_then(Known::refused) {
+            let line = format!("[plant]: {name} {what}");
+            return Err(at(text, label, "plant", name, &line));
         }
         Ok(gains)
     }

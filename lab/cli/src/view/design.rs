@@ -98,7 +98,8 @@ Re L       least real part of the open loop: above -1 no sequence of slopes betw
            one it was designed for makes the loop unstable (circle criterion)
 reference  a faster one needs inputs that move faster than in the record of the model
 The plant is the transmission behind the delay. A joint that swings is not in it: try the gains
-with `bowden compare --model MODEL.toml --gains GAINS.toml`.
+with `bowden compare --model MODEL.toml --gains GAINS.toml`. `bowden certify GAINS.toml` proves the
+box of the adaptive law's error, roundings included, or says which gain or limit stands in the way.
 ";
 
 fn gains(own: &PidDesign) -> String {

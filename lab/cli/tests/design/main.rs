@@ -1,6 +1,7 @@
 //! `bowden design`: from a record to gains, to the rig of one's own model, to firmware.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod certified;
 #[path = "../compiler/mod.rs"]
 mod compiler;
 #[allow(dead_code)]

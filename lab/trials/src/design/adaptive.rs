@@ -8,7 +8,8 @@
 //! has, and k and delta_max/epsilon have one half of the gain each.
 
 use super::plant::Plant;
-use bowden::bound::{Interval, PeakSampled, Plant as Known};
+use crate::gains::Known;
+use bowden::bound::{Interval, PeakSampled, Plant as Bounds};
 use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Fallback, Form, Limits};
 use serde::Serialize;
 
@@ -44,6 +45,8 @@ pub struct AdaptiveDesign {
     pub certificate: Option<f64>,
     /// Why there is no certificate.
     pub uncertified: Option<String>,
+    /// What the certificate assumes of the plant, where it is known.
+    pub plant: Option<Known>,
     /// Names of the parameters whose box is ±10 %, since the model file has no interval.
     pub assumed: Vec<String>,
 }
@@ -119,20 +122,27 @@ pub(super) fn design(plant: &Plant, around: &Around) -> AdaptiveDesign {
         refused: None,
         certificate: None,
         uncertified: None,
+        plant: None,
         assumed: boxes.assumed.clone(),
     };
-    match settings(plant, around, &boxes, &found) {
-        Ok(settings) => match certificate(plant, around, &boxes, settings) {
-            Ok((value, settings)) => {
-                found.certificate = Some(value);
-                found.settings = Some(settings);
-            }
-            Err(why) => {
-                found.uncertified = Some(why);
-                found.settings = Some(settings);
-            }
-        },
-        Err(why) => found.refused = Some(why),
+    let settings = match settings(plant, around, &boxes, &found) {
+        Ok(settings) => settings,
+        Err(why) => {
+            found.refused = Some(why);
+            return found;
+        }
+    };
+    found.settings = Some(settings);
+    let certified = known(plant, around, &boxes).and_then(|known| {
+        found.plant = Some(known);
+        certificate(&known, settings)
+    });
+    match certified {
+        Ok((value, settings)) => {
+            found.certificate = Some(value);
+            found.settings = Some(settings);
+        }
+        Err(why) => found.uncertified = Some(why),
     }
     found
 }
@@ -202,13 +212,8 @@ fn settings(
     Ok(settings)
 }
 
-/// The sampled peak certificate, with an accumulated error that may be as large as it needs.
-fn certificate(
-    plant: &Plant,
-    around: &Around,
-    boxes: &Boxes,
-    settings: AdaptiveSettings<f64, 0>,
-) -> Result<(f64, AdaptiveSettings<f64, 0>), String> {
+/// What the model and its record say of the plant.
+fn known(plant: &Plant, around: &Around, boxes: &Boxes) -> Result<Known, String> {
     let super::Slopes { least, greatest } = plant.slopes;
     let Some(reference_rate) = around.reference_rate else {
         return Err(format!(
@@ -216,7 +221,6 @@ fn certificate(
         ));
     };
     let [low, high] = plant.output();
-    let reference = low.abs().max(high.abs());
     let cutoff = plant.about.cutoff_hz;
     if plant.effects > 0.0 && !(cutoff.is_finite() && cutoff > 0.0) {
         return Err("no about.cutoff_hz: the rate of the effects has no bound".to_owned());
@@ -226,23 +230,38 @@ fn certificate(
         true => std::f64::consts::TAU * cutoff * plant.effects,
         false => 0.0,
     };
-    let known = Known::<f64, 0> {
-        alpha: boxes.alpha,
-        delta_rate: (greatest - least) / least * reference_rate + effects,
-        reference,
+    Ok(Known {
+        alpha: [boxes.alpha.low, boxes.alpha.high],
+        disturbance: boxes.delta,
+        disturbance_rate: (greatest - least) / least * reference_rate + effects,
+        reference: low.abs().max(high.abs()),
         reference_rate,
-        ..Known::new(1.0, boxes.delta)
+    })
+}
+
+/// The sampled peak certificate, with an accumulated error that may be as large as it needs.
+fn certificate(
+    known: &Known,
+    settings: AdaptiveSettings<f64, 0>,
+) -> Result<(f64, AdaptiveSettings<f64, 0>), String> {
+    let [low, high] = known.alpha;
+    let bounds = Bounds::<f64, 0> {
+        alpha: Interval { low, high },
+        delta_rate: known.disturbance_rate,
+        reference: known.reference,
+        reference_rate: known.reference_rate,
+        ..Bounds::new(1.0, known.disturbance)
     };
     let free = AdaptiveSettings {
         z_limit: f64::MAX,
         ..settings
     };
     let law = Adaptive::try_new(free).map_err(|e| e.to_string())?;
-    let peak = PeakSampled::try_new(&law, &known).map_err(|e| e.to_string())?;
-    if peak.bound > reference {
+    let peak = PeakSampled::try_new(&law, &bounds).map_err(|e| e.to_string())?;
+    if peak.bound > known.reference {
         return Err(format!(
-            "the certificate is vacuous: {:.3} N·m, more than the greatest output {reference:.3} N·m",
-            peak.bound
+            "the certificate is vacuous: {:.3} N·m, more than the greatest output {:.3} N·m",
+            peak.bound, known.reference
         ));
     }
     let z_limit = settings.z_limit.max(1.01 * peak.s / settings.lambda);

@@ -280,6 +280,7 @@ pub fn design(text: &str, label: &str, asked: &Question) -> Result<Designed, Str
         pi: safety.settings(&pi).map_err(told)?,
         pid,
         adaptive: adaptive.settings,
+        plant: adaptive.plant,
     };
     Ok(Designed {
         slopes: plant.slopes,

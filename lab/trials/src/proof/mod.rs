@@ -1,5 +1,6 @@
 //! One's own gains: what is proved of the shipped step with them, every rounding included.
 
+mod designed;
 mod form;
 mod mend;
 mod written;
@@ -7,7 +8,7 @@ mod written;
 pub use form::Float;
 pub use written::{coq, gappa};
 
-use super::gains::{is_of_design, message};
+use super::gains::{is_of_design, message, GainsFile};
 use bowden::bound::{Dyadic, Inequality, Interval, Kind, Known, Named, PeakRounded, Plant};
 use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Limits};
 use bowden::{Error, Real};
@@ -215,16 +216,18 @@ pub fn prove(path: &Path) -> Result<Proof, String> {
 /// As [`prove`].
 pub fn parse(text: &str, label: &str) -> Result<Proof, String> {
     if is_of_design(text) {
-        return Err(format!(
-            "{label}: is a file of `bowden design`; certify needs the form of examples/data/gains_own.toml"
-        ));
+        let gains = GainsFile::parse(text, label)?;
+        return designed::prove(&gains).map_err(|e| format!("{label}: {e}"));
     }
     let form: Form = toml::from_str(text).map_err(|e| message(&e, text, label))?;
+    of_form(&form).map_err(|e| format!("{label}: {e}"))
+}
+
+fn of_form(form: &Form) -> Result<Proof, String> {
     match form.float {
-        Float::F32 => of_any::<f32>(&form),
-        Float::F64 => of_any::<f64>(&form),
+        Float::F32 => of_any::<f32>(form),
+        Float::F64 => of_any::<f64>(form),
     }
-    .map_err(|e| format!("{label}: {e}"))
 }
 
 fn of_any<T: Real>(form: &Form) -> Result<Proof, String> {

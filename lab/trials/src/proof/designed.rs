@@ -1,0 +1,65 @@
+//! A file of `bowden design` as gains that can be proved: its adaptive law, in `f32` as on the
+//! chip, on the plant that the design has assumed.
+
+use super::form::{Above, Float, Form, NotBelow, NotNegative, Plant, Positive};
+use super::{of_form, Named, Proof, Refusal};
+use crate::gains::{GainsFile, Known};
+use bowden::control::{self, AdaptiveSettings};
+
+/// What is proved of the adaptive law of a design.
+///
+/// # Errors
+/// Where the file has no law in lag form or nothing of its plant, or where a limit is zero.
+pub(super) fn prove(gains: &GainsFile) -> Result<Proof, String> {
+    let law = gains.adaptive.as_ref().ok_or(
+        "has no [adaptive]: the design found no admissible gains of the adaptive law (`bowden design` says why)",
+    )?;
+    let known = gains.plant.as_ref().ok_or(
+        "has no [plant], which certify needs: the model gives no bound on how fast the disturbance moves (`bowden design` says why); state alpha, disturbance, disturbance_rate, reference and reference_rate there",
+    )?;
+    let (low, high) = (law.limits.low(), law.limits.high());
+    let mut proof = of_form(&form(law, known)?)?;
+    // The law has the wider limits; where neither is met it is the same law.
+    if proof.proved && proof.may_meet_the_limit && low + high != 0.0 {
+        proof.proved = false;
+        proof.refused = Some(Refusal {
+            text: Named::Command.text(),
+            mend: format!(
+                "limits that are the same on both sides (they are {low} and {high}): where a limit is met, the proof is of such limits"
+            ),
+        });
+    }
+    Ok(proof)
+}
+
+fn form(law: &AdaptiveSettings<f64, 0>, known: &Known) -> Result<Form, String> {
+    let control::Form::Lag { step, .. } = law.form else {
+        return Err("[adaptive]: the lag form was expected".to_owned());
+    };
+    let (low, high) = (law.limits.low(), law.limits.high());
+    let command = high.min(-low);
+    if !(command.is_finite() && command > 0.0) {
+        return Err(format!(
+            "[adaptive]: limits {low} to {high}: finite ones on both sides of zero were expected"
+        ));
+    }
+    Ok(Form {
+        float: Float::F32,
+        k: Positive(law.gain),
+        lambda: Positive(law.lambda),
+        step: Positive(step),
+        epsilon: Positive(law.epsilon),
+        z_limit: Positive(law.z_limit),
+        command: Positive(command),
+        beta: Above([law.beta.low, law.beta.high]),
+        delta: NotBelow([law.delta.low, law.delta.high]),
+        plant: Plant {
+            alpha: Above(known.alpha),
+            disturbance: NotNegative(known.disturbance),
+            disturbance_rate: NotNegative(known.disturbance_rate),
+            reference: NotNegative(known.reference),
+            reference_rate: NotNegative(known.reference_rate),
+        },
+        regressor: Vec::new(),
+    })
+}
