@@ -1,6 +1,7 @@
 //! `docs/json.md` lists the fields that the program prints: each name, each type, none more.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+#[allow(dead_code)]
 mod shell;
 
 use serde_json::Value;

@@ -1,6 +1,7 @@
 //! Completions and manual pages are made of the commands that the program has.
 #![allow(clippy::unwrap_used)]
 
+#[allow(dead_code)]
 mod shell;
 
 use shell::{bowden, refused, said, text};
