@@ -180,6 +180,13 @@ impl<T: Real> Transmission<T> {
         }
     }
 
+    /// The same for a finite input.
+    #[inline]
+    pub(crate) fn step_finite(&self, state: &mut BoucWen<T>, input: T) -> T {
+        self.shape.step_finite(state, input);
+        self.output(input, state.eta())
+    }
+
     /// The greatest sigma with which this transmission has an inverse.
     ///
     /// `|gain|/(2·|kappa_eta|·rho)`, rounded down as far as [`inverse`](Self::inverse)

@@ -241,20 +241,26 @@ impl<T: Real> Shape<T> {
     #[inline]
     pub fn step(&self, state: &mut BoucWen<T>, input: T) -> T {
         if input.is_finite() {
-            if state.primed {
-                let change = input - state.input;
-                state.eta = if T::SHORT {
-                    self.bounded(state.eta, change)
-                } else {
-                    let most = T::max_value();
-                    self.advance(state.eta, crate::signal::clamp(change, -most, most))
-                };
-            } else {
-                state.primed = true;
-            }
-            state.input = input;
+            self.step_finite(state, input);
         }
         state.eta
+    }
+
+    /// The same where the input was checked before.
+    #[inline]
+    pub(crate) fn step_finite(&self, state: &mut BoucWen<T>, input: T) {
+        if state.primed {
+            let change = input - state.input;
+            state.eta = if T::SHORT {
+                self.bounded(state.eta, change)
+            } else {
+                let most = T::max_value();
+                self.advance(state.eta, crate::signal::clamp(change, -most, most))
+            };
+        } else {
+            state.primed = true;
+        }
+        state.input = input;
     }
 
     /// How much faster unloading starts than loading, less one.

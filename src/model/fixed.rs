@@ -4,8 +4,8 @@
 //! effects are types: the image holds those that are named, each knows its place in the sum,
 //! and a sample costs what the effects cost. Both give the same numbers, to the bit.
 
-use super::{motion, situation, Model, ModelState, Sample, Term};
-use crate::effect::{saturate, Effect, EffectState, Quantity, Regressor, Situation, Stage};
+use super::{motion, Model, ModelState, Sample, Term};
+use crate::effect::{saturate, Effect, EffectState, Motion, Quantity, Regressor, Situation, Stage};
 use crate::error::finite;
 use crate::transmission::Transmission;
 use crate::{Error, Real};
@@ -78,8 +78,14 @@ impl<T: Real, const N: usize, L: Terms<T, N>> FixedModel<T, N, L> {
     #[inline]
     #[must_use]
     pub fn accepts(&self, at: &Sample<T>) -> bool {
+        let motions = self.terms.motions(at);
+        motions.is_some_and(|motions| self.is_usable(at, &motions))
+    }
+
+    #[inline]
+    fn is_usable(&self, at: &Sample<T>, motions: &[&Motion<T>; N]) -> bool {
         // Zero times what is read: NaN where one number is not finite.
-        let mut nothing = at.dt * T::ZERO + self.terms.nothing(at);
+        let mut nothing = at.dt * T::ZERO + self.terms.nothing(at, motions);
         if self.transmission.is_some() {
             nothing += at.input.position * T::ZERO;
         }
@@ -104,25 +110,27 @@ impl<T: Real, const N: usize, L: Terms<T, N>> FixedModel<T, N, L> {
         at: &Sample<T>,
         mut share: impl FnMut(usize, T),
     ) -> T {
-        if !self.accepts(at) {
+        let Some(motions) = self.terms.motions(at) else {
+            return state.output;
+        };
+        if !self.is_usable(at, &motions) {
             return state.output;
         }
         state.tick(at.dt);
         let mut sum = Sum {
             at,
+            motions,
             time: state.time.value,
             eta: T::zero(),
             output: T::zero(),
         };
         if let Some(transmission) = &self.transmission {
             let moved = self.terms.moved(&mut state.effects, &sum);
-            sum.output = saturate(transmission.step(&mut state.hysteresis, moved));
+            sum.output = transmission.step_finite(&mut state.hysteresis, moved);
             sum.eta = state.hysteresis.eta();
         }
-        for stage in [Stage::Sum, Stage::Output] {
-            self.terms
-                .add(&mut state.effects, stage, &mut sum, &mut share);
-        }
+        self.terms.add(&mut state.effects, &mut sum, &mut share);
+        self.terms.correct(&mut state.effects, &mut sum, &mut share);
         state.output = sum.output;
         sum.output
     }
@@ -131,8 +139,10 @@ impl<T: Real, const N: usize, L: Terms<T, N>> FixedModel<T, N, L> {
 /// What the terms of one sample add to.
 #[derive(Debug)]
 #[doc(hidden)]
-pub struct Sum<'a, 's, T> {
+pub struct Sum<'a, 's, T, const N: usize> {
     at: &'a Sample<'s, T>,
+    /// What each term reads, by its source.
+    motions: [&'a Motion<T>; N],
     time: T,
     eta: T,
     output: T,
@@ -146,18 +156,28 @@ pub trait Terms<T, const N: usize>: sealed::Sealed {
     fn check(&self) -> Result<(), Error>;
     #[doc(hidden)]
     fn any(&self) -> [Term<T>; N];
+    /// What each term reads; nothing where a channel is missing.
     #[doc(hidden)]
-    fn nothing(&self, at: &Sample<T>) -> T;
+    fn motions<'a>(&self, at: &'a Sample<T>) -> Option<[&'a Motion<T>; N]>;
+    #[doc(hidden)]
+    fn nothing(&self, at: &Sample<T>, motions: &[&Motion<T>; N]) -> T;
     /// What the input stages make of the input.
     #[doc(hidden)]
-    fn moved(&self, memories: &mut [EffectState<T>; N], sum: &Sum<T>) -> T;
-    /// Adds the terms of one stage, in their order.
+    fn moved(&self, memories: &mut [EffectState<T>; N], sum: &Sum<T, N>) -> T;
+    /// Adds the terms of the sum, in their order; the output is finite after it.
     #[doc(hidden)]
     fn add(
         &self,
         memories: &mut [EffectState<T>; N],
-        stage: Stage,
-        sum: &mut Sum<T>,
+        sum: &mut Sum<T, N>,
+        share: &mut impl FnMut(usize, T),
+    );
+    /// Adds the output stages, in their order: each reads what those before it made.
+    #[doc(hidden)]
+    fn correct(
+        &self,
+        memories: &mut [EffectState<T>; N],
+        sum: &mut Sum<T, N>,
         share: &mut impl FnMut(usize, T),
     );
 }
@@ -181,12 +201,9 @@ impl<T: Real, E: Regressor<T> + Copy + Into<Effect<T>>> Term<T, E> {
         }
     }
 
-    /// Zero times all that the term reads of the sample; NaN where its channel is missing.
+    /// Zero times all that the term reads of the sample.
     #[inline]
-    fn nothing(&self, at: &Sample<T>) -> T {
-        let Some(motion) = motion(self.source, at) else {
-            return T::nan();
-        };
+    fn nothing(&self, at: &Sample<T>, motion: &Motion<T>) -> T {
         let read = |sum: T, quantity: &Quantity| {
             sum + T::ZERO
                 * match quantity {
@@ -202,17 +219,60 @@ impl<T: Real, E: Regressor<T> + Copy + Into<Effect<T>>> Term<T, E> {
         E::INFO.reads.iter().fold(T::ZERO, read)
     }
 
-    /// Gain times regressor, of a sample that was accepted; nothing at any other stage.
+    /// The regressor of a sample that was accepted: some float.
     #[inline]
-    fn part(&self, memory: &mut EffectState<T>, stage: Stage, sum: &Sum<T>) -> Option<T> {
-        if E::STAGE != stage {
-            return None;
-        }
-        let there = situation(self, sum.at, sum.time, sum.eta)?;
-        let output = sum.output;
-        let value = self.effect.value(memory, &Situation { output, ..there });
-        Some(self.gain * saturate(value))
+    fn value<const N: usize>(
+        &self,
+        memory: &mut EffectState<T>,
+        index: usize,
+        sum: &Sum<T, N>,
+    ) -> T {
+        let motion = sum.motions[index];
+        let there = Situation {
+            dt: sum.at.dt,
+            time: sum.time,
+            motion: Motion {
+                // A difference that overflows is a far place.
+                position: saturate(motion.position - self.origin),
+                ..*motion
+            },
+            input: sum.at.input,
+            load: sum.at.load,
+            eta: sum.eta,
+            output: sum.output,
+        };
+        self.effect.value(memory, &there)
     }
+
+    /// Gain times regressor, saturated.
+    #[inline]
+    fn part<const N: usize>(
+        &self,
+        memory: &mut EffectState<T>,
+        index: usize,
+        sum: &Sum<T, N>,
+    ) -> T {
+        saturate(self.gain * saturate(self.value(memory, index, sum)))
+    }
+}
+
+/// The sum of gains times values, saturated after each operation; the values become the parts.
+#[cold]
+#[inline(never)]
+fn saturated_sum<T: Real>(start: T, gains: &[T], values: &mut [T]) -> T {
+    let mut output = saturated(start);
+    for (value, gain) in values.iter_mut().zip(gains) {
+        *value = saturated(*gain * saturated(*value));
+        output = saturated(output + *value);
+    }
+    output
+}
+
+/// [`saturate`] where it is rare: one copy in an image, not three a term.
+#[cold]
+#[inline(never)]
+fn saturated<T: Real>(value: T) -> T {
+    saturate(value)
 }
 
 macro_rules! tuple {
@@ -230,17 +290,22 @@ macro_rules! tuple {
             }
 
             #[inline]
-            fn nothing(&self, at: &Sample<T>) -> T {
-                T::ZERO $(+ self.$i.nothing(at))*
+            fn motions<'a>(&self, at: &'a Sample<T>) -> Option<[&'a Motion<T>; $n]> {
+                Some([$(motion(self.$i.source, at)?),*])
+            }
+
+            #[inline]
+            fn nothing(&self, at: &Sample<T>, motions: &[&Motion<T>; $n]) -> T {
+                T::ZERO $(+ self.$i.nothing(at, motions[$i]))*
             }
 
             #[inline]
             #[allow(non_snake_case)]
-            fn moved(&self, [$($E),*]: &mut [EffectState<T>; $n], sum: &Sum<T>) -> T {
+            fn moved(&self, [$($E),*]: &mut [EffectState<T>; $n], sum: &Sum<T, $n>) -> T {
                 let mut moved = sum.at.input.position;
                 $(
-                    if let Some(part) = self.$i.part($E, Stage::Input, sum) {
-                        moved = saturate(moved + part);
+                    if $E::STAGE == Stage::Input {
+                        moved = saturate(moved + self.$i.part($E, $i, sum));
                     }
                 )*
                 moved
@@ -251,13 +316,49 @@ macro_rules! tuple {
             fn add(
                 &self,
                 [$($E),*]: &mut [EffectState<T>; $n],
-                stage: Stage,
-                sum: &mut Sum<T>,
+                sum: &mut Sum<T, $n>,
+                share: &mut impl FnMut(usize, T),
+            ) {
+                let mut values = [T::ZERO; $n];
+                let mut output = sum.output;
+                $(
+                    if $E::STAGE == Stage::Sum {
+                        values[$i] = self.$i.value($E, $i, sum);
+                        output += self.$i.gain * values[$i];
+                    }
+                )*
+                // One test: a number that is not finite leaves no finite sum.
+                if output.is_finite() {
+                    sum.output = output;
+                    $(
+                        if $E::STAGE == Stage::Sum {
+                            share($i, self.$i.gain * values[$i]);
+                        }
+                    )*
+                } else {
+                    // Minus one times the zero of another stage: minus zero changes no sum.
+                    let gain = |stage, gain| if stage == Stage::Sum { gain } else { -T::ONE };
+                    let gains = [$(gain($E::STAGE, self.$i.gain)),*];
+                    sum.output = saturated_sum(sum.output, &gains, &mut values);
+                    $(
+                        if $E::STAGE == Stage::Sum {
+                            share($i, values[$i]);
+                        }
+                    )*
+                }
+            }
+
+            #[inline]
+            #[allow(non_snake_case)]
+            fn correct(
+                &self,
+                [$($E),*]: &mut [EffectState<T>; $n],
+                sum: &mut Sum<T, $n>,
                 share: &mut impl FnMut(usize, T),
             ) {
                 $(
-                    if let Some(part) = self.$i.part($E, stage, sum) {
-                        let part = saturate(part);
+                    if $E::STAGE == Stage::Output {
+                        let part = self.$i.part($E, $i, sum);
                         sum.output = saturate(sum.output + part);
                         share($i, part);
                     }

@@ -74,7 +74,8 @@ impl<T: Real, const N: usize> ModelState<T, N> {
             return;
         }
         let time = self.time.plus(dt);
-        if time.value.is_finite() && time.carry.is_finite() {
+        // Where the sum overflows, what it lost is no number.
+        if time.carry.is_finite() {
             self.time = time;
         }
     }

@@ -13,6 +13,13 @@ pub(crate) fn transmission(sigma: f32) -> Result<Transmission<f32>, Error> {
     Transmission::torque(b, kappa_eta, t0, Shape::try_new(rho, sigma, n)?)
 }
 
+/// The same with numbers that the compiler knows.
+#[inline]
+pub(crate) fn fixed(sigma: f32) -> Result<Transmission<f32>, Error> {
+    let shape = Shape::try_new(0.09582, sigma, 3.871)?;
+    Transmission::torque(0.9978, 7.004, 0.05174, shape)
+}
+
 /// sigma as it was identified.
 const IDENTIFIED: f32 = 98.36;
 /// sigma within what has an inverse, B/(2·kappa_eta·rho) = 0.743.

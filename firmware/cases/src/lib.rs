@@ -141,6 +141,8 @@ cases! {
     "compensator": model::Compensated;
     "model-2": model::TwoEffects;
     "model-8": model::EightEffects;
+    "model-2-constant": model::TwoConstant;
+    "model-8-constant": model::EightConstant;
     "model-8-loaded": model::EightLoaded;
     "closed-loop": closed_loop::ClosedLoop;
 }

@@ -1,7 +1,7 @@
 //! Models: of effects that are types, as an export writes them, and one that is loaded, in
 //! which any effect of the catalogue may be.
 
-use crate::cable::{transmission, INVERTIBLE};
+use crate::cable::{fixed, transmission, INVERTIBLE};
 use crate::{Case, Output, Sample};
 use bowden::control::{Compensator, CompensatorInput, CompensatorState};
 use bowden::effect::{Backlash, Coulomb, Gravity, Inertia, Motion, Ripple};
@@ -24,9 +24,20 @@ type Of<E> = Term<f32, E>;
 type Two = (Of<Viscous>, Of<Coulomb<f32>>);
 
 /// Viscous and Coulomb friction of the pulley.
+#[inline]
+fn two_terms() -> Result<Two, Error> {
+    Ok((term(Viscous, -0.4), term(Coulomb::try_new(0.05)?, -0.8)))
+}
+
+/// The two effects, of which the compiler knows no number.
 fn two() -> Result<FixedModel<f32, 2, Two>, Error> {
-    let terms = (term(Viscous, -0.4), term(Coulomb::try_new(0.05)?, -0.8));
-    FixedModel::try_new(Some(transmission(INVERTIBLE)?), black_box(terms))
+    FixedModel::try_new(Some(transmission(INVERTIBLE)?), black_box(two_terms()?))
+}
+
+/// The same with the numbers in the function.
+#[inline]
+fn two_constant() -> Result<FixedModel<f32, 2, Two>, Error> {
+    FixedModel::try_new(Some(fixed(INVERTIBLE)?), two_terms()?)
 }
 
 type Eight = (
@@ -41,8 +52,9 @@ type Eight = (
 );
 
 /// What a bench may find on one joint, one effect with memory among them.
-fn eight() -> Result<FixedModel<f32, 8, Eight>, Error> {
-    let terms = (
+#[inline]
+fn eight_terms() -> Result<Eight, Error> {
+    Ok((
         term(Viscous, -0.4),
         term(Coulomb::try_new(0.05)?, -0.8),
         term(Stribeck::try_new(0.05, 0.2)?, -0.3),
@@ -51,8 +63,18 @@ fn eight() -> Result<FixedModel<f32, 8, Eight>, Error> {
         term(Gravity::try_new(0.1)?, 0.6),
         term(Ripple::try_new(6.0, 0.3)?, 0.1),
         term(Backlash::try_new(0.02)?, 0.5),
-    );
-    FixedModel::try_new(Some(transmission(INVERTIBLE)?), black_box(terms))
+    ))
+}
+
+/// The eight effects, of which the compiler knows no number.
+fn eight() -> Result<FixedModel<f32, 8, Eight>, Error> {
+    FixedModel::try_new(Some(transmission(INVERTIBLE)?), black_box(eight_terms()?))
+}
+
+/// The same with the numbers in the function.
+#[inline]
+fn eight_constant() -> Result<FixedModel<f32, 8, Eight>, Error> {
+    FixedModel::try_new(Some(fixed(INVERTIBLE)?), eight_terms()?)
 }
 
 fn pulley(at: &Sample) -> [Motion<f32>; 1] {
@@ -116,6 +138,41 @@ case! {
 case! {
     /// The same model, loaded: the image does not know which effects are in it.
     EightLoaded, 8: Model<f32, 8> = black_box(eight()?.to_model());
+}
+
+/// A model whose numbers stand in the source, as in the `model.rs` of an export: where the
+/// constructor is called beside the step, the compiler computes it.
+macro_rules! constant {
+    ($(#[$doc:meta])* $name:ident, $n:literal: $build:ident;) => {
+        $(#[$doc])*
+        #[derive(Debug)]
+        pub struct $name(ModelState<f32, $n>);
+
+        impl Case for $name {
+            fn try_new() -> Result<Self, Error> {
+                $build().map(|_| Self(ModelState::new()))
+            }
+
+            #[inline]
+            fn step(&mut self, at: &Sample) -> Output {
+                let channels = pulley(at);
+                match $build() {
+                    Ok(model) => Output::of(model.step(&mut self.0, &measured(at, &channels))),
+                    Err(_) => Output::default(),
+                }
+            }
+        }
+    };
+}
+
+constant! {
+    /// A model with two effects, as an export writes it.
+    TwoConstant, 2: two_constant;
+}
+
+constant! {
+    /// A model with eight effects, as an export writes it.
+    EightConstant, 8: eight_constant;
 }
 
 /// The model of two effects turned round; the value is tau_i.

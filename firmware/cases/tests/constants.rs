@@ -21,6 +21,8 @@ fn a_constant_configuration_gives_the_outputs_of_the_loaded_one() {
         "adaptive-2-lag-tanh",
         "adaptive-2-literal-clamp",
         "adaptive-2-literal-tanh",
+        "model-2",
+        "model-8",
     ] {
         let (loaded, fixed) = (outputs(name), outputs(&format!("{name}-constant")));
         let bits = |all: &[Output]| -> Vec<_> {
