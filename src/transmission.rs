@@ -361,11 +361,12 @@ impl<T: Real> Inverse<T> {
     /// The input [input unit] at which the forward model gives `desired_output`.
     ///
     /// The forward model then returns `desired_output` to 16 machine epsilons of the
-    /// magnitudes in its equation, the last input's included, or to the least normal number. Newton along the path inside
-    /// a bracket that always holds the answer: a handful of evaluations is usual, 100 the most. A
-    /// state that has seen no input keeps its eta in this step, as the forward model
-    /// does. A desired output that is not finite, or out of the reach of floats, leaves
-    /// the state and returns the last input (zero if there is none).
+    /// magnitudes in its equation, the last input's included, or to the least normal number.
+    /// The secant method along the path, begun with its slope, inside a bracket that always
+    /// holds the answer: one or two evaluations are usual, 100 the most. A state that has
+    /// seen no input keeps its eta in this step, as the forward model does. A desired output
+    /// that is not finite, or out of the reach of floats, leaves the state and returns the
+    /// last input (zero if there is none).
     pub fn step(&self, state: &mut BoucWen<T>, desired_output: T) -> T {
         let last = state.input();
         let target = self.sign * (desired_output - self.offset);
@@ -390,7 +391,7 @@ impl<T: Real> Inverse<T> {
     fn solve(&self, start: T, eta: T, target: T, lowest: T, highest: T) -> (T, T) {
         let mut tolerance = target.abs() + (self.gain * start).abs() + self.hysteresis.abs();
         tolerance *= T::of(4.0) * T::epsilon();
-        let error = self.gain * start + self.hysteresis * eta - target;
+        let mut error = self.gain * start + self.hysteresis * eta - target;
         // |eta| <= 1 bounds the answer, and the sign of the error says on which side of
         // the start it lies. The start itself may lie outside after a change of model.
         let (mut low, mut high) = (lowest, highest);
@@ -404,54 +405,58 @@ impl<T: Real> Inverse<T> {
         } else if error <= T::zero() && start > low {
             low = start;
         }
-        let (mut input, mut error, mut there) = (start, error, eta);
         let (mut best, mut best_error) = ((start, eta), error.abs());
-        // The whole curve bends one way, so that Newton's steps from one of its ends, the
-        // start or the other, do not pass the root.
-        let mut end = Some(if direction > T::zero() { high } else { low });
-        let mut is_halving = false;
+        if best_error <= tolerance {
+            return best;
+        }
+        let way = self.shape.way(eta, direction);
+        let mut slope = self.gain + self.hysteresis * way.slope();
+        let is_between = |at: T, low: T, high: T| at > low && at < high;
+        // The whole curve bends one way: where Newton's step leads out of the bracket, its other
+        // end is a better guess than its middle.
+        let (mut input, mut next) = (start, start - error / slope);
+        let is_far = !is_between(next, low, high);
+        if is_far {
+            next = if direction > T::zero() { high } else { low };
+        }
+        let (mut is_first, mut half) = (true, best_error * T::of(0.5));
         for _ in 0..MOST_EVALUATIONS {
-            if best_error <= tolerance {
-                break;
-            }
-            // Where Newton does not halve the error (a slope near zero): halve the bracket.
-            let newton = if is_halving {
-                low
-            } else {
-                input - error / self.slope(there, direction)
-            };
-            let is_inside = newton > low && newton < high;
-            let jump = if is_inside { None } else { end.take() };
-            let next = if is_inside {
-                newton
-            } else {
-                jump.unwrap_or(low + (high - low) * T::of(0.5))
-            };
             if next == input {
                 break;
             }
-            there = self.shape.advance(eta, next - start);
-            let previous = error.abs();
+            let (before, moved) = (error, next - input);
             input = next;
+            let there = way.after(input - start);
             error = self.gain * input + self.hysteresis * there - target;
+            if error.abs() < best_error {
+                best = (input, there);
+                best_error = error.abs();
+                if best_error <= tolerance {
+                    break;
+                }
+            }
             if error > T::zero() {
                 high = input;
             } else {
                 low = input;
             }
-            if error.abs() < best_error {
-                best = (input, there);
-                best_error = error.abs();
+            // The slope at the end of a parabola; from the third point on the secant's.
+            let secant = (error - before) / moved;
+            slope = if is_first {
+                secant + (secant - slope)
+            } else {
+                secant
+            };
+            next = input - error / slope;
+            // Where a step does not halve the error (a slope near zero): halve the bracket.
+            let is_slow = error.abs() > half && !(is_first && is_far);
+            if is_slow || !is_between(next, low, high) {
+                next = low + (high - low) * T::of(0.5);
             }
-            is_halving = jump.is_none() && error.abs() > previous * T::of(0.5);
+            half = error.abs() * T::of(0.5);
+            is_first = false;
         }
         best
-    }
-
-    /// Slope of the output in the input, in the direction of travel.
-    #[inline]
-    fn slope(&self, eta: T, direction: T) -> T {
-        self.gain + self.hysteresis * self.shape.slope(eta, direction)
     }
 }
 

@@ -365,6 +365,31 @@ proptest! {
         }
     }
 
+    /// The search in `f32` has a step of its own, which must be the forward model's to the bit.
+    #[test]
+    fn every_admissible_transmission_inverts_any_jump_in_f32(
+        gain in 0.1..5.0_f32,
+        kappa_eta in -10.0..10.0_f32,
+        rho in 1e-3..1.0_f32,
+        n in 1.0..8.0_f32,
+        margin in 0.0..1.0_f32,
+        outputs in prop::collection::vec(-50.0..50.0_f64, 2..20),
+    ) {
+        let most = gain / (2.0 * kappa_eta.abs() * rho);
+        prop_assume!(most > 0.5);
+        // Below the condition by more than its roundings.
+        let sigma = (0.5 + margin * (most.min(200.0) - 0.5)) * 0.999_99;
+        let shape = Shape::try_new(rho, sigma, n);
+        prop_assume!(shape.is_ok());
+        let shape = shape.unwrap();
+        for cable in [
+            Transmission::torque(gain, kappa_eta, 0.3, shape).unwrap(),
+            Transmission::displacement(-gain, kappa_eta, 0.3, shape).unwrap(),
+        ] {
+            prop_assert!(round_trip(&cable, &outputs) < 16.0);
+        }
+    }
+
     #[test]
     fn the_inverse_never_fails_on_any_float(outputs in prop::collection::vec(prop::num::f32::ANY, 1..30)) {
         let shape = Shape::try_new(0.095_82_f32, 0.7, 3.871).unwrap();

@@ -18,13 +18,22 @@ const SATURATED: f64 = 1e30;
 /// `c = 2·sigma - 1`. Any `p`, infinite included, ends in `[zeta, 1]`.
 #[inline]
 pub(super) fn follow<N: Number>(zeta: N, p: N, c: N, n: N) -> N {
-    let a = zeta.abs();
-    // Of a = 0 it is some number, and not used.
-    let powered = (n.shift(-N::Float::one()) * a.log2()).exp2();
+    follow_powered(zeta, p, powered(zeta, n), c, n)
+}
+
+/// `|zeta|^(n-1)`; of zero it is some number, and not used.
+#[inline]
+pub(super) fn powered<N: Number>(zeta: N, n: N) -> N {
+    (n.shift(-N::Float::one()) * zeta.abs().log2()).exp2()
+}
+
+/// The same path where [`powered`] is known.
+#[inline]
+pub(super) fn follow_powered<N: Number>(zeta: N, p: N, powered: N, c: N, n: N) -> N {
     if zeta.value() > N::Float::zero() {
         return load(zeta, p, powered, n);
     }
-    match unload(a, p, powered, c, n) {
+    match unload(zeta.abs(), p, powered, c, n) {
         Ok(forward) => zeta + forward,
         Err(left) => leave_zero(left, n),
     }

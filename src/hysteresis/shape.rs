@@ -263,10 +263,68 @@ impl<T: Real> Shape<T> {
         state.input = input;
     }
 
+    /// The paths from one state in one direction: the sign of `direction`.
+    #[inline]
+    pub(crate) fn way(&self, eta: T, direction: T) -> Way<T> {
+        let direction = if direction < T::ZERO { -T::ONE } else { T::ONE };
+        let zeta = direction * eta;
+        Way {
+            shape: *self,
+            direction,
+            eta,
+            zeta,
+            powered: if T::SHORT {
+                bounded::powered(zeta, self.n)
+            } else {
+                T::ZERO
+            },
+        }
+    }
+
     /// How much faster unloading starts than loading, less one.
     #[inline]
     fn c(&self) -> T {
         T::of(2.0) * self.sigma - T::one()
+    }
+}
+
+/// The paths from one state in one direction, for a search that tries many lengths: what they
+/// have in common is computed once.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Way<T> {
+    shape: Shape<T>,
+    direction: T,
+    eta: T,
+    zeta: T,
+    powered: T,
+}
+
+impl<T: Real> Way<T> {
+    /// The eta to which [`Shape::step`] leads after this change of the input, in the direction
+    /// of the way.
+    #[inline]
+    pub(crate) fn after(&self, input_change: T) -> T {
+        let shape = &self.shape;
+        if !T::SHORT {
+            return shape.advance(self.eta, input_change);
+        }
+        let path = shape.rho * input_change.abs();
+        self.direction * bounded::follow_powered(self.zeta, path, self.powered, shape.c(), shape.n)
+    }
+
+    /// [`Shape::slope`] where the way begins.
+    #[inline]
+    pub(crate) fn slope(&self) -> T {
+        let shape = &self.shape;
+        if !T::SHORT {
+            return shape.slope(self.zeta, T::ONE);
+        }
+        let f = if self.zeta < T::ZERO {
+            T::ONE - shape.c() * (self.zeta * self.powered)
+        } else {
+            T::ONE - self.zeta * self.powered
+        };
+        shape.rho * f
     }
 }
 
