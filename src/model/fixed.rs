@@ -224,10 +224,9 @@ impl<T: Real, E: Regressor<T> + Copy + Into<Effect<T>>> Term<T, E> {
     fn value<const N: usize>(
         &self,
         memory: &mut EffectState<T>,
-        index: usize,
+        motion: &Motion<T>,
         sum: &Sum<T, N>,
     ) -> T {
-        let motion = sum.motions[index];
         let there = Situation {
             dt: sum.at.dt,
             time: sum.time,
@@ -249,10 +248,10 @@ impl<T: Real, E: Regressor<T> + Copy + Into<Effect<T>>> Term<T, E> {
     fn part<const N: usize>(
         &self,
         memory: &mut EffectState<T>,
-        index: usize,
+        motion: &Motion<T>,
         sum: &Sum<T, N>,
     ) -> T {
-        saturate(self.gain * saturate(self.value(memory, index, sum)))
+        saturate(self.gain * saturate(self.value(memory, motion, sum)))
     }
 }
 
@@ -305,7 +304,7 @@ macro_rules! tuple {
                 let mut moved = sum.at.input.position;
                 $(
                     if $E::STAGE == Stage::Input {
-                        moved = saturate(moved + self.$i.part($E, $i, sum));
+                        moved = saturate(moved + self.$i.part($E, sum.motions[$i], sum));
                     }
                 )*
                 moved
@@ -323,7 +322,7 @@ macro_rules! tuple {
                 let mut output = sum.output;
                 $(
                     if $E::STAGE == Stage::Sum {
-                        values[$i] = self.$i.value($E, $i, sum);
+                        values[$i] = self.$i.value($E, sum.motions[$i], sum);
                         output += self.$i.gain * values[$i];
                     }
                 )*
@@ -358,7 +357,7 @@ macro_rules! tuple {
             ) {
                 $(
                     if $E::STAGE == Stage::Output {
-                        let part = self.$i.part($E, $i, sum);
+                        let part = self.$i.part($E, sum.motions[$i], sum);
                         sum.output = saturate(sum.output + part);
                         share($i, part);
                     }

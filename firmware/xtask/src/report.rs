@@ -25,9 +25,15 @@ pub struct Report {
 const A_TURN: u64 = 2;
 
 impl Report {
-    /// Parses an image's output, and checks that its clock counts what it should: `ticks`
-    /// is how many pass with one instruction, as a fraction.
-    pub fn parse(text: &str, ticks: (u64, u64)) -> Result<Self> {
+    /// Parses an image's output by the first of the rates at which its clock counts what it
+    /// should: `ticks` are how many pass with one instruction, as a fraction.
+    pub fn parse(text: &str, ticks: &[(u64, u64)]) -> Result<Self> {
+        let mut reports = ticks.iter().map(|&ticks| Self::parse_at(text, ticks));
+        let first = reports.next().context("a clock has a rate")?;
+        first.or_else(|refusal| reports.find_map(Result::ok).ok_or(refusal))
+    }
+
+    fn parse_at(text: &str, ticks: (u64, u64)) -> Result<Self> {
         let mut clock = Vec::new();
         let mut runs: Vec<(Signal, Vec<Step>)> = Vec::new();
         let mut ended = false;
@@ -97,12 +103,12 @@ mod tests {
         run sine\n3f800000 00000001 00000020 00000068 \nrun noise\nrun jumps\nrun faults\nend\n";
 
     fn refused(text: &str) -> String {
-        Report::parse(text, TICKS).unwrap_err().to_string()
+        Report::parse(text, &[TICKS]).unwrap_err().to_string()
     }
 
     #[test]
     fn a_sample_is_its_output_its_instructions_and_its_stack() {
-        let report = Report::parse(GOOD, TICKS).unwrap();
+        let report = Report::parse(GOOD, &[TICKS]).unwrap();
         let expected = Step {
             output: Output {
                 value: 1.0,
@@ -133,6 +139,14 @@ mod tests {
         );
         let error = refused(&GOOD.replace("clock 000003e8 00001913 \n", ""));
         assert!(error.contains("does not check its clock"), "{error}");
+    }
+
+    #[test]
+    fn a_clock_counts_at_one_of_the_rates_that_are_known() {
+        let of = |ticks: &[(u64, u64)]| Report::parse(GOOD, ticks);
+        assert_eq!(of(&[(1, 1), TICKS]).unwrap(), of(&[TICKS]).unwrap());
+        let error = of(&[(1, 1), (2, 1)]).unwrap_err().to_string();
+        assert!(error.contains("counts 12800 instructions"), "{error}");
     }
 
     #[test]

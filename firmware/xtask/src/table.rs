@@ -73,12 +73,15 @@ pub fn print(target: &Target, steps: &[(&str, Measured)], budgets: &Budgets, des
     }
     println!("\n{triple}: outputs against the host's, and what is in the image");
     for (step, measured) in steps {
-        println!("{step:<26}{}", remarks(measured));
+        println!("{step:<NAME$}{}", remarks(measured));
     }
 }
 
+/// Columns of a step's name: the longest one and a space.
+const NAME: usize = 34;
+
 fn line(step: &str, what: &str, [measured, budget, goal, before]: [&str; 4]) {
-    let text = format!("{step:<26}{what:<8}{measured:>18}{budget:>18}{goal:>12}{before:>18}");
+    let text = format!("{step:<NAME$}{what:<7}{measured:>15}{budget:>15}{goal:>12}{before:>14}");
     println!("{}", text.trim_end());
 }
 
@@ -134,6 +137,11 @@ pub fn with_table(text: &str, steps: &[(&str, Measured)]) -> Result<String> {
 mod tests {
     use super::*;
     use crate::measured::Run;
+
+    #[test]
+    fn no_name_runs_into_the_next_column() {
+        assert!(bowden_cases::NAMES.iter().all(|name| name.len() < NAME));
+    }
 
     #[test]
     fn remarks_say_what_is_and_not_what_is_not() {
