@@ -367,7 +367,7 @@ impl<T: Real, const N: usize> Model<T, N> {
                     output,
                     ..situation
                 };
-                let part = saturate(term.gain * term.effect.regressor(memory, &situation));
+                let part = term.effect.contribution(term.gain, memory, &situation);
                 output = saturate(output + part);
                 share(index, part);
             }

@@ -78,7 +78,7 @@ fn staged<T: Real>() -> Result<impl Terms<T, 16>, Error> {
 }
 
 /// With memories of their own.
-fn remembering<T: Real>() -> Result<impl Terms<T, 14>, Error> {
+fn remembering<T: Real>() -> Result<impl Terms<T, 16>, Error> {
     let one = T::of(0.7);
     Ok(terms![
         PositionFriction::try_new(one)?,
@@ -95,6 +95,8 @@ fn remembering<T: Real>() -> Result<impl Terms<T, 14>, Error> {
         SaturationLower::try_new(one)?,
         Tone::try_new(one, one)?,
         Viscous,
+        StretchLinear,
+        StretchCubic,
     ])
 }
 
@@ -148,10 +150,10 @@ proptest! {
     ) {
         same::<f64, 16, _>(plain(), &rows, with);
         same::<f64, 16, _>(staged().unwrap(), &rows, with);
-        same::<f64, 14, _>(remembering().unwrap(), &rows, with);
+        same::<f64, 16, _>(remembering().unwrap(), &rows, with);
         same::<f32, 16, _>(plain(), &rows, with);
         same::<f32, 16, _>(staged().unwrap(), &rows, with);
-        same::<f32, 14, _>(remembering().unwrap(), &rows, with);
+        same::<f32, 16, _>(remembering().unwrap(), &rows, with);
     }
 }
 

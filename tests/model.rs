@@ -93,8 +93,11 @@ fn by_hand(record: &Record, advance: impl Fn(f64, f64) -> f64) -> Vec<(f64, f64,
         });
         low = Some(level);
         let lagged = sum + 0.8 * (level - sum);
-        let late = lagged - 0.004 * before.map_or(0.0, |before: f64| (lagged - before) / at.dt);
-        before = Some(lagged);
+        let c = (at.dt - 0.004) / (at.dt + 0.004);
+        let late = before.map_or(lagged, |(before, late): (f64, f64)| {
+            before + c * (lagged - late)
+        });
+        before = Some((lagged, late));
         rows.push((late, eta, time));
     }
     rows
@@ -146,7 +149,6 @@ proptest! {
         let shape = *cable::<f64>().shape();
         let by_hand = by_hand(&record, |eta, change| shape.advance(eta, change));
         for (row, (late, eta, time)) in record.iter().zip(by_hand) {
-            // The delay divides rounding by dt: 1e-15·0.004/0.001.
             assert_relative_eq!(model.step(&mut state, &sample(row)), late, epsilon = 1e-12);
             assert_relative_eq!(state.eta(), eta);
             assert_relative_eq!(state.time(), time, epsilon = 1e-12);
@@ -376,9 +378,9 @@ fn output_stages_read_the_whole_sum_wherever_they_are_listed() {
         load: 0.0,
         channels: &[],
     };
-    // Ramp 0, 1, 2. Half a sample late: 0, 0.5, 1.5; then low-passed half-way, in any
+    // Ramp 0, 1, 2. Half a sample late, c = 1/3: 0, 1/3, 14/9; then low-passed half-way, in any
     // order, as both stages are linear.
-    let expected = [0.0, 0.25, 0.875];
+    let expected = [0.0, 1.0 / 6.0, 31.0 / 36.0];
     for terms in [
         [delay, drift, lag],
         [lag, delay, drift],

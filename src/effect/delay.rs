@@ -1,11 +1,20 @@
-//! A pure delay, to first order: the loop opens with frequency.
+//! A pure delay: the loop opens with frequency.
 //!
-//! Formula: `−d(output)/dt`, the backward difference; the gain is the delay \[s\]. 0 at
-//! the first sample. An output stage: it reads the sum of everything before it.
+//! The gain is the delay T \[s\]. The output comes late through a first-order all-pass,
+//! `z_k = y_{k−1} + c·(y_k − z_{k−1})` with `c = (dt − T)/(dt + T)`: its magnitude is 1 at every
+//! frequency, it is exact for `T = dt`, and its delay is T up to a share of `(w·T)²/12` or, for
+//! a T below dt, `(w·dt)²/12`. At the first sample nothing is late.
+//! A negative T advances the output by the first-order term of its Taylor series.
 //!
-//! Source: the Taylor expansion `y(t − T) = y − T·dy/dt`; K. J. Åström, R. M. Murray,
-//! *Feedback Systems*, 2008, chapter 9.
+//! Formula of the regressor, the slope at T = 0: `−d(output)/dt`, the backward difference. An
+//! output stage: it reads the sum of everything before it.
+//!
+//! Source: J. P. Thiran, "Recursive digital filters with maximally flat group delay", *IEEE
+//! Transactions on Circuit Theory* 18(6), 1971 (order 1); for the regressor, the Taylor
+//! expansion `y(t − T) = y − T·dy/dt`, K. J. Åström, R. M. Murray, *Feedback Systems*, 2008,
+//! chapter 9.
 
+use super::bounds::saturate;
 use super::info::{Info, Regressor};
 use super::Symmetry::{Neither, Odd};
 use super::{Delay, Dimension, EffectState, Family, Parity, Quantity, Situation};
@@ -29,13 +38,30 @@ impl<T: Real> Regressor<T> for Delay {
     #[inline]
     fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
         let Some([before, ..]) = state.memory else {
-            state.memory = Some([at.output, T::zero(), T::zero(), T::zero()]);
+            state.memory = Some([at.output, at.output, T::zero(), T::zero()]);
             return T::zero();
         };
         if at.dt == T::zero() {
             return T::zero();
         }
-        state.memory = Some([at.output, T::zero(), T::zero(), T::zero()]);
+        state.memory = Some([at.output, at.output, T::zero(), T::zero()]);
         (before - at.output) / at.dt
+    }
+
+    /// The late output, less the output.
+    #[inline]
+    fn contribution(&self, gain: T, state: &mut EffectState<T>, at: &Situation<T>) -> T {
+        let late = match state.memory {
+            Some([before, late, ..]) if gain > T::zero() => {
+                if at.dt == T::zero() {
+                    return late - before;
+                }
+                let c = (at.dt - gain) / (at.dt + gain);
+                saturate(before + c * saturate(at.output - late))
+            }
+            _ => return gain * saturate(self.value(state, at)),
+        };
+        state.memory = Some([at.output, late, T::zero(), T::zero()]);
+        late - at.output
     }
 }

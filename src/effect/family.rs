@@ -66,6 +66,7 @@ families! {
     Saturation = "saturation",
     Tone = "tone",
     Crosstalk = "crosstalk",
+    Stretch = "stretch",
 }
 
 impl Family {

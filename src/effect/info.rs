@@ -1,5 +1,6 @@
 //! What an effect says of itself: name, unit, parity, what it reads.
 
+use super::bounds::saturate;
 use super::{EffectState, Family, Situation};
 use crate::error::finite;
 use crate::{Error, Real};
@@ -224,6 +225,17 @@ pub trait Regressor<T>: sealed::Sealed {
     /// infinity, and be NaN where that means zero; memory must stay finite.
     #[doc(hidden)]
     fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T;
+
+    /// What a term of that gain adds, where all that it reads is finite: gain times
+    /// regressor, but for an output stage that is not linear in its gain. It may overflow.
+    #[doc(hidden)]
+    #[inline]
+    fn contribution(&self, gain: T, state: &mut EffectState<T>, at: &Situation<T>) -> T
+    where
+        T: Real,
+    {
+        gain * saturate(self.value(state, at))
+    }
 }
 
 pub(super) mod sealed {

@@ -45,6 +45,7 @@ pub mod rate;
 pub mod ripple;
 pub mod saturation;
 pub mod stiffness;
+pub mod stretch;
 pub mod stribeck;
 pub mod temperature;
 pub mod tone;
@@ -61,14 +62,9 @@ use info::sealed::Sealed;
 pub(crate) use info::Stage;
 use shaped::{Shaped, COUNT};
 
-/// The enum of all effects and the dispatch to each one's own file.
-macro_rules! effects {
-    (
-        plain { $($module:ident: $($plain:ident)+;)* }
-        shaped { $($shaped_module:ident: $($shaped:ident)+;)* }
-    ) => {
-        $($(pub use $shaped_module::$shaped;)+)*
-
+/// The types of effects without shapes.
+macro_rules! plain_types {
+    ($($module:ident: $($plain:ident)+;)*) => {
         $($(
             #[doc = concat!("One effect as a type, without shapes; formula and source: [`", stringify!($module), "`].")]
             #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -84,6 +80,21 @@ macro_rules! effects {
                 }
             }
         )+)*
+    };
+}
+
+/// The enum of all effects and the dispatch to each one's own file.
+///
+/// Compact forms store the place of an effect in the enum: what is added stands under `later`.
+macro_rules! effects {
+    (
+        plain { $($module:ident: $($plain:ident)+;)* }
+        shaped { $($shaped_module:ident: $($shaped:ident)+;)* }
+        later { $($later_module:ident: $($later:ident)+;)* }
+    ) => {
+        plain_types! { $($module: $($plain)+;)* $($later_module: $($later)+;)* }
+
+        $($(pub use $shaped_module::$shaped;)+)*
 
         $($(
             impl<T> Sealed for $shaped<T> {}
@@ -116,9 +127,10 @@ macro_rules! effects {
         pub enum Effect<T> {
             $($(#[doc = concat!("Without shapes; formula and source: [`", stringify!($module), "`].")] $plain,)+)*
             $($(#[doc = concat!("Formula and source: [`", stringify!($shaped_module), "`].")] $shaped($shaped_module::$shaped<T>),)+)*
+            $($(#[doc = concat!("Without shapes; formula and source: [`", stringify!($later_module), "`].")] $later,)+)*
         }
 
-        /// All effects, those without shapes first.
+        /// All effects, in the order in which compact forms number them.
         ///
         /// ```
         /// let with_memory = bowden::effect::CATALOGUE.iter().filter(|info| info.memory);
@@ -127,6 +139,7 @@ macro_rules! effects {
         pub const CATALOGUE: &[&Info] = &[
             $($(<$plain as Regressor<f64>>::INFO,)+)*
             $($(<$shaped_module::$shaped<f64> as Regressor<f64>>::INFO,)+)*
+            $($(<$later as Regressor<f64>>::INFO,)+)*
         ];
 
         impl<T: Real> Effect<T> {
@@ -136,6 +149,7 @@ macro_rules! effects {
                 match self {
                     $($(Self::$plain => <$plain as Regressor<T>>::INFO,)+)*
                     $($(Self::$shaped(_) => <$shaped_module::$shaped<T> as Regressor<T>>::INFO,)+)*
+                    $($(Self::$later => <$later as Regressor<T>>::INFO,)+)*
                 }
             }
 
@@ -144,6 +158,7 @@ macro_rules! effects {
                 match self {
                     $($(Self::$plain => <$plain as Regressor<T>>::STAGE,)+)*
                     $($(Self::$shaped(_) => <$shaped<T> as Regressor<T>>::STAGE,)+)*
+                    $($(Self::$later => <$later as Regressor<T>>::STAGE,)+)*
                 }
             }
 
@@ -153,6 +168,7 @@ macro_rules! effects {
                 match self {
                     $($(Self::$plain)|+ => &[],)*
                     $($(Self::$shaped(_) => <$shaped_module::$shaped<T>>::NAMES,)+)*
+                    $($(Self::$later)|+ => &[],)*
                 }
             }
 
@@ -162,6 +178,7 @@ macro_rules! effects {
                 match self {
                     $($(Self::$plain)|+ => &[],)*
                     $($(Self::$shaped(_) => <$shaped_module::$shaped<T>>::SHAPES,)+)*
+                    $($(Self::$later)|+ => &[],)*
                 }
             }
 
@@ -171,6 +188,7 @@ macro_rules! effects {
                 match self {
                     $($(Self::$plain)|+ => None,)*
                     $($(Self::$shaped(config) => config.shape(index),)+)*
+                    $($(Self::$later)|+ => None,)*
                 }
             }
 
@@ -183,6 +201,7 @@ macro_rules! effects {
                 match self {
                     $($(Self::$plain)|+ => Err(Error::OutOfRange("shape index")),)*
                     $($(Self::$shaped(config) => config.with_shape(index, value).map(Self::$shaped),)+)*
+                    $($(Self::$later)|+ => Err(Error::OutOfRange("shape index")),)*
                 }
             }
 
@@ -199,6 +218,7 @@ macro_rules! effects {
                     $($(name if name == <$shaped_module::$shaped<T> as Regressor<T>>::INFO.name => {
                         Shaped::try_from_shapes(shapes).map(Self::$shaped)
                     })+)*
+                    $($(name if name == <$later as Regressor<T>>::INFO.name => plain(Self::$later),)+)*
                     _ => Err(Error::OutOfRange("effect name")),
                 }
             }
@@ -215,6 +235,7 @@ macro_rules! effects {
                 match self {
                     $($(Self::$plain => record.for_each(|at| take(evaluate(&$plain, state, &at))),)+)*
                     $($(Self::$shaped(config) => record.for_each(|at| take(evaluate(config, state, &at))),)+)*
+                    $($(Self::$later => record.for_each(|at| take(evaluate(&$later, state, &at))),)+)*
                 }
             }
 
@@ -227,6 +248,7 @@ macro_rules! effects {
                 match self {
                     $($(Self::$plain => evaluate(&$plain, state, at),)+)*
                     $($(Self::$shaped(config) => evaluate(config, state, at),)+)*
+                    $($(Self::$later => evaluate(&$later, state, at),)+)*
                 }
             }
         }
@@ -268,6 +290,9 @@ effects! {
         temperature: Temperature;
         saturation: SaturationUpper SaturationLower;
         tone: Tone;
+    }
+    later {
+        stretch: StretchLinear StretchCubic;
     }
 }
 
@@ -313,6 +338,30 @@ impl<T: Real> Effect<T> {
     #[must_use]
     pub fn parity(&self) -> Parity {
         self.info().parity
+    }
+
+    /// What a term of that gain adds to the output: gain times regressor, but for a delay.
+    ///
+    /// The gain of a [`delay`] is a time, in which its output is not linear; the regressor is
+    /// the slope at no delay. Finite for finite input; where a number that the effect reads is
+    /// not finite, or a `dt` that it reads is negative: 0, and `state` stays.
+    ///
+    /// ```
+    /// use bowden::effect::{Effect, EffectState, Situation};
+    /// let (late, mut state) = (Effect::Delay, EffectState::default());
+    /// let at = |output| Situation { dt: 0.001, output, ..Situation::default() };
+    /// let y: [f64; 3] = [5.0, 2.0, 7.0].map(|y| y + late.contribution(0.001, &mut state, &at(y)));
+    /// assert_eq!(y, [5.0, 5.0, 2.0]); // one sample late
+    /// ```
+    #[inline]
+    pub fn contribution(&self, gain: T, state: &mut EffectState<T>, at: &Situation<T>) -> T {
+        let part = match self {
+            Self::Delay if at.is_usable(<Delay as Regressor<T>>::INFO.reads) => {
+                Delay.contribution(gain, state, at)
+            }
+            _ => gain * self.regressor(state, at),
+        };
+        saturate(part)
     }
 
     /// Whether it needs the hysteresis state.

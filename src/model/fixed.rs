@@ -219,15 +219,10 @@ impl<T: Real, E: Regressor<T> + Copy + Into<Effect<T>>> Term<T, E> {
         E::INFO.reads.iter().fold(T::ZERO, read)
     }
 
-    /// The regressor of a sample that was accepted: some float.
+    /// What the effect sees of a sample that was accepted.
     #[inline]
-    fn value<const N: usize>(
-        &self,
-        memory: &mut EffectState<T>,
-        motion: &Motion<T>,
-        sum: &Sum<T, N>,
-    ) -> T {
-        let there = Situation {
+    fn there<const N: usize>(&self, motion: &Motion<T>, sum: &Sum<T, N>) -> Situation<T> {
+        Situation {
             dt: sum.at.dt,
             time: sum.time,
             motion: Motion {
@@ -239,11 +234,21 @@ impl<T: Real, E: Regressor<T> + Copy + Into<Effect<T>>> Term<T, E> {
             load: sum.at.load,
             eta: sum.eta,
             output: sum.output,
-        };
-        self.effect.value(memory, &there)
+        }
     }
 
-    /// Gain times regressor, saturated.
+    /// The regressor of a sample that was accepted: some float.
+    #[inline]
+    fn value<const N: usize>(
+        &self,
+        memory: &mut EffectState<T>,
+        motion: &Motion<T>,
+        sum: &Sum<T, N>,
+    ) -> T {
+        self.effect.value(memory, &self.there(motion, sum))
+    }
+
+    /// What the term adds, saturated.
     #[inline]
     fn part<const N: usize>(
         &self,
@@ -251,7 +256,8 @@ impl<T: Real, E: Regressor<T> + Copy + Into<Effect<T>>> Term<T, E> {
         motion: &Motion<T>,
         sum: &Sum<T, N>,
     ) -> T {
-        saturate(self.gain * saturate(self.value(memory, motion, sum)))
+        let there = self.there(motion, sum);
+        saturate(self.effect.contribution(self.gain, memory, &there))
     }
 }
 

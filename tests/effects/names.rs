@@ -76,11 +76,28 @@ fn the_catalogue_names_no_effect_twice_and_every_family() {
         );
         assert_eq!(Family::from_name(&family.to_string()), Ok(family));
     }
-    assert_eq!(Family::ALL.len(), 29);
+    assert_eq!(Family::ALL.len(), 30);
     assert_eq!(
         Family::from_name("rust"),
         Err(Error::OutOfRange("family name"))
     );
+}
+
+/// Compact forms store an effect's place: what is added comes last, or old files would be read
+/// as other effects.
+#[test]
+fn effects_keep_the_places_that_older_files_have_stored() {
+    let place = |name: &str| names().position(|other| other == name);
+    for (name, at) in [
+        ("offset", 0),
+        ("crosstalk", 19),
+        ("coulomb", 20),
+        ("tone", 43),
+        ("stretch-linear", 44),
+        ("stretch-cubic", 45),
+    ] {
+        assert_eq!(place(name), Some(at), "{name}");
+    }
 }
 
 #[test]

@@ -219,7 +219,7 @@ impl<T: Real, const N: usize> Plant<T, N> {
                     eta,
                     output,
                 };
-                output = saturate(output + term.gain * term.effect.regressor(memory, &at));
+                output = saturate(output + term.effect.contribution(term.gain, memory, &at));
             }
         }
         output

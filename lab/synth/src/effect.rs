@@ -6,8 +6,8 @@ use super::rig::Channel;
 use super::{friction, memory, outside, shape};
 use rand_chacha::ChaCha8Rng;
 
-/// The last one needs an angle.
-const NAMES: [&str; 42] = [
+/// The last three need angles.
+const NAMES: [&str; 44] = [
     "offset",
     "gain",
     "viscous",
@@ -50,13 +50,15 @@ const NAMES: [&str; 42] = [
     "tone",
     "crosstalk",
     "gravity",
+    "stretch-linear",
+    "stretch-cubic",
 ];
 
 /// Names of the effects that can be planted in that mode.
 pub fn effects(mode: Mode) -> &'static [&'static str] {
     match mode {
         Mode::Torque => &NAMES,
-        Mode::Displacement => &NAMES[..NAMES.len() - 1],
+        Mode::Displacement => &NAMES[..NAMES.len() - 3],
     }
 }
 
@@ -69,6 +71,7 @@ pub(super) fn usual_channel(effect: &str, mode: Mode) -> Option<Channel> {
         ("bump-load", Mode::Displacement) => Some(Channel::Load),
         ("bump-load", Mode::Torque) => Some(Channel::Input),
         ("temperature", _) => Some(Channel::Temperature),
+        ("stretch-linear" | "stretch-cubic", _) => Some(Channel::Stretch),
         ("crosstalk", _) => Some(Channel::Auxiliary),
         ("gain", Mode::Displacement) => Some(Channel::Load),
         (_, Mode::Displacement) => Some(Channel::Input),

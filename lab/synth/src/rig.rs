@@ -28,16 +28,19 @@ pub(super) enum Channel {
     Input,
     Proximal,
     Distal,
+    /// What the pulley leads the joint by.
+    Stretch,
     Load,
     Temperature,
     Auxiliary,
 }
 
 impl Channel {
-    const ALL: [Self; 6] = [
+    const ALL: [Self; 7] = [
         Self::Input,
         Self::Proximal,
         Self::Distal,
+        Self::Stretch,
         Self::Load,
         Self::Temperature,
         Self::Auxiliary,
@@ -50,6 +53,7 @@ impl Channel {
             (Self::Input, Mode::Displacement) => Some(("x", "mm")),
             (Self::Proximal, Mode::Torque) => Some(("phi_p", "rad")),
             (Self::Distal, Mode::Torque) => Some(("phi_d", "rad")),
+            (Self::Stretch, Mode::Torque) => Some(("stretch", "rad")),
             (Self::Load, Mode::Displacement) => Some(("load", "N")),
             (Self::Temperature, _) => Some(("temperature", "°C")),
             (Self::Auxiliary, _) => Some(("aux", "V")),
@@ -68,6 +72,7 @@ impl Channel {
             Self::Input => moment.input,
             Self::Proximal => moment.proximal,
             Self::Distal => moment.distal,
+            Self::Stretch => moment.proximal.plus(moment.distal, -1.0),
             Self::Load => moment.load,
             Self::Temperature => moment.temperature,
             Self::Auxiliary => moment.auxiliary,

@@ -10,10 +10,14 @@ pub(super) fn build(effect: &str, extent: &Extent, rng: &mut ChaCha8Rng) -> Opti
     let (mean, reach, seconds) = (extent.mean, extent.reach, extent.seconds);
     let regressor = match effect {
         "offset" => Regressor::new(either, |_, _| 1.0),
-        "gain" | "stiffness-linear" | "crosstalk" => Regressor::new(either, |_, m| m.x),
+        "gain" | "stiffness-linear" | "stretch-linear" | "crosstalk" => {
+            Regressor::new(either, |_, m| m.x)
+        }
         "inertia" => Regressor::new(Sense::Loss, |_, m| m.a),
         "stiffness-quadratic" => Regressor::new(either, |_, m| m.x * m.x).with("x_0", mean),
-        "stiffness-cubic" => Regressor::new(either, |_, m| m.x.powi(3)).with("x_0", mean),
+        "stiffness-cubic" | "stretch-cubic" => {
+            Regressor::new(either, |_, m| m.x.powi(3)).with("x_0", mean)
+        }
         "stiffness-progressive" => Regressor::new(either, |_, m| m.x * m.x.abs()).with("x_0", mean),
         "hinge" => {
             let place = extent.quantile(rng.random_range(0.35..0.7));

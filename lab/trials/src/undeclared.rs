@@ -128,7 +128,7 @@ impl Undeclared {
 /// The pulley at the joint, where there is something to read.
 fn usual(name: &str) -> Option<Source> {
     match name {
-        "temperature" | "crosstalk" => None,
+        "temperature" | "crosstalk" | "stretch-linear" | "stretch-cubic" => None,
         "gain" | "rate" | "rate-symmetric" | "creep" | "saturation-upper" | "saturation-lower" => {
             Some(Source::Input)
         }

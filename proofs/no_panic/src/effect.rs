@@ -52,6 +52,10 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(effect_shape, effect.shape(black_box(0)));
     never_panics!(effect_with_shape, effect.with_shape(black_box(0), any()));
     never_panics!(effect_regressor, effect.regressor(&mut state, &situation));
+    never_panics!(
+        effect_contribution,
+        effect.contribution(any(), &mut state, &situation)
+    );
     never_panics!(effect_regressors, {
         let record = core::iter::once(situation);
         effect.regressors(&mut state, record, |value| _ = black_box(value));

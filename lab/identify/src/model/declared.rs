@@ -1,6 +1,7 @@
 //! What a `--declare` list means.
 
 use super::effects::{entry, first_of, Declared, Zero};
+use super::kind::{kind, Kind};
 use super::structure::{FitTerm, Structure};
 use crate::problem::{Prepared, MOST_RECORDS};
 use crate::record::Mode;
@@ -13,8 +14,8 @@ use bowden::model::Source;
 /// # Errors
 /// One sentence that lists what can be declared.
 pub fn declared(name: &str, data: &Prepared) -> Result<FitTerm, String> {
-    let (name, source) = match name.split_once('@') {
-        None => (name, default_source(data)),
+    let (name, given) = match name.split_once('@') {
+        None => (name, None),
         Some((name, channel)) => {
             let index = data.channels.iter().position(|c| c.name == channel);
             let source = match index {
@@ -26,7 +27,7 @@ pub fn declared(name: &str, data: &Prepared) -> Result<FitTerm, String> {
                     ))
                 }
             };
-            (name, source)
+            (name, Some(source))
         }
     };
     let unknown = || {
@@ -34,10 +35,18 @@ pub fn declared(name: &str, data: &Prepared) -> Result<FitTerm, String> {
         format!("--declare {name}: not an effect that can be declared; known: bouc-wen, {known}, or an effect of these families by its own name, such as play-in-series")
     };
     let entry = entry(name).or_else(|| first_of(name)).ok_or_else(unknown)?;
+    let source = match (given, entry.declared) {
+        (Some(source), _) => source,
+        (None, Declared::OnStretch) => stretch(data).ok_or_else(|| {
+            format!("--declare {name}: no channel of the record is a stretch; --channel stretch=phi_p-phi_d makes one")
+        })?,
+        (None, _) => default_source(data),
+    };
     let channel = data.channel(source).unwrap_or(&data.input);
     let (scales, source, origin) = match (entry.declared, entry.zero) {
         (Declared::OnChannel(scales), Zero::Channel) => (scales, source, channel.origin),
         (Declared::OnChannel(scales), Zero::Sensor) => (scales, source, 0.0),
+        (Declared::OnStretch, _) => (&[][..], source, channel.origin),
         (Declared::OnInput(scales), _) => (scales, Source::Input, 0.0),
         (Declared::Never, _) => return Err(unknown()),
     };
@@ -84,6 +93,14 @@ pub fn structure(list: &[String], data: &Prepared) -> Result<Structure, String> 
         structure.terms.retain(|t| t.effect.name() != "offset");
     }
     Ok(structure)
+}
+
+/// The first channel that is the stretch of a cable.
+fn stretch(data: &Prepared) -> Option<Source> {
+    let sources = (0..data.channels.len()).map(|i| Source::Channel(i as u8));
+    let mut named = sources.zip(&data.channels);
+    let found = named.find(|(source, c)| kind(data.mode, *source, c) == Kind::Stretch);
+    found.map(|(source, _)| source)
 }
 
 /// In torque mode motion effects read the distal angle, else the proximal one.

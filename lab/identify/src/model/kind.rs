@@ -12,6 +12,8 @@ pub(crate) enum Kind {
     /// The transmitted torque, input of the torque mode.
     Torque,
     Temperature,
+    /// The stretch of a cable: the difference of the angles at its ends.
+    Stretch,
     Load,
     Other,
 }
@@ -22,6 +24,7 @@ pub(crate) fn kind(mode: Mode, source: Source, channel: &Channel) -> Kind {
         (Source::Input, Mode::Torque) => Kind::Torque,
         _ if channel.name.starts_with("phi") || channel.name.starts_with("angle") => Kind::Motion,
         _ if channel.name.starts_with("temp") => Kind::Temperature,
+        _ if channel.name.starts_with("stretch") => Kind::Stretch,
         _ if channel.name == "load" => Kind::Load,
         _ => Kind::Other,
     }

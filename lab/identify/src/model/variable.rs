@@ -72,7 +72,7 @@ impl Variable {
         match self {
             Self::Position(source) => match data.channel(source) {
                 Some(channel) => match kind(data.mode, source, channel) {
-                    Kind::Motion => "position",
+                    Kind::Motion | Kind::Stretch => "position",
                     Kind::Torque | Kind::Load => "load",
                     Kind::Temperature => "temperature",
                     Kind::Other => "value",

@@ -11,6 +11,8 @@
 //! * [`delivered`]: the final model has seen all but what is held out, and is nearer to the truth.
 //! * [`unneeded`]: declared parts that the record does not need are told.
 //! * [`series`]: a play between the input and the transmission is found with its width.
+//! * [`late`]: a delay has its size at every cut-off.
+//! * [`stretch`]: the stretch of a cable is one name beside the two angles.
 //! * [`exported`]: what was fitted is what runs in firmware.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
@@ -18,9 +20,11 @@ mod beside;
 mod delivered;
 mod determinism;
 mod exported;
+mod late;
 mod nulls;
 mod planted;
 mod recovery;
 mod rig;
 mod series;
+mod stretch;
 mod unneeded;

@@ -20,8 +20,23 @@ pub struct Made {
 impl Made {
     /// Generates, writes as CSV, reads and prepares: the way of a user's record.
     pub fn new(recipe: &Recipe) -> Self {
+        let mut planted = recipe.effects.iter();
+        let stretched = planted.any(|p| p.effect.starts_with("stretch"));
+        Self::read(recipe, stretched)
+    }
+
+    /// The same with the stretch as a channel, whatever is planted.
+    pub fn with_stretch(recipe: &Recipe) -> Self {
+        Self::read(recipe, true)
+    }
+
+    fn read(recipe: &Recipe, stretched: bool) -> Self {
         let synthetic = generate(recipe).unwrap();
         let mut options = Options::default();
+        if stretched {
+            let difference = ("stretch".to_owned(), "phi_p-phi_d".to_owned());
+            options.channels.push(difference);
+        }
         if synthetic.column("aux").is_some() {
             options.channels.push(("aux".to_owned(), "aux".to_owned()));
         }

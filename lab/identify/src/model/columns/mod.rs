@@ -60,7 +60,7 @@ pub(crate) struct Beforehand<'a> {
 /// How the columns move with each free parameter: which columns, and their slopes.
 pub struct Moves(Vec<Vec<(usize, Vec<f64>)>>);
 
-/// What a stage adds for a gain of one.
+/// The regressor of a stage: what it adds for a small gain, over that gain.
 #[must_use]
 pub fn stage_column(data: &Prepared, effect: &Effect<f64>, output: &[f64]) -> Vec<f64> {
     Stages::none(data).alone(effect, output)

@@ -74,15 +74,40 @@ impl Stages {
         }
     }
 
-    /// What a stage adds for a gain of one.
+    /// The regressor of a stage: its slope in the gain at a gain of zero.
     pub(super) fn alone(&self, effect: &Effect<f64>, output: &[f64]) -> Vec<f64> {
-        let mut column = output.to_vec();
-        self.apply(effect, 1.0, &mut column);
-        column.iter().zip(output).map(|(a, b)| a - b).collect()
+        let mut column = Vec::with_capacity(output.len());
+        for record in &self.records {
+            let at = |output: &f64| Situation {
+                dt: self.dt,
+                output: *output,
+                ..Situation::default()
+            };
+            let samples = output[record.clone()].iter().map(at);
+            let push = |value| column.push(value);
+            effect.regressors(&mut EffectState::default(), samples, push);
+        }
+        column
+    }
+
+    /// The slope of a stage in its gain; of all but a delay it is the same at every gain.
+    fn slope(&self, effect: &Effect<f64>, gain: f64, output: &[f64]) -> Vec<f64> {
+        if *effect != Effect::Delay {
+            return self.alone(effect, output);
+        }
+        // A central difference errs by a share of 1e-8, and loses as many digits to rounding.
+        let h = 1e-4 * gain.abs().max(self.dt);
+        let at = |gain: f64| {
+            let mut column = output.to_vec();
+            self.apply(effect, gain, &mut column);
+            column
+        };
+        let pairs = at(gain + h).into_iter().zip(at(gain - h));
+        pairs.map(|(up, down)| (up - down) / (2.0 * h)).collect()
     }
 }
 
-/// output += gain · stage(output), along one record.
+/// output += what the stage adds at that gain, along one record.
 fn apply_stage(effect: &Effect<f64>, gain: f64, column: &mut [f64], dt: f64) {
     let mut state = EffectState::default();
     let mut at = Situation {
@@ -91,7 +116,7 @@ fn apply_stage(effect: &Effect<f64>, gain: f64, column: &mut [f64], dt: f64) {
     };
     for value in column {
         at.output = *value;
-        *value += gain * effect.regressor(&mut state, &at);
+        *value += effect.contribution(gain, &mut state, &at);
     }
 }
 
@@ -110,7 +135,7 @@ impl RawColumns {
         self.stages.through(&mut output, 0..position);
         let (term, gain) = &list[position];
         let mut part = match shape {
-            None => self.stages.alone(&term.effect, &output),
+            None => self.stages.slope(&term.effect, *gain, &output),
             Some(index) => {
                 let value = term.effect.shape(index).unwrap_or(0.0);
                 let h = 1e-5 * value.abs().max(1e-9);

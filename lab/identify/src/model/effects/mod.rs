@@ -79,6 +79,8 @@ pub(crate) enum Place {
     Joint,
     /// The input of the torque mode.
     Torque,
+    /// The stretch of a cable.
+    Stretch,
     /// A temperature.
     Temperature,
     /// Any other channel.
@@ -147,6 +149,8 @@ pub(crate) enum Declared {
     OnChannel(&'static [Scale]),
     /// On the input, from the sensor's zero, whatever channel is named.
     OnInput(&'static [Scale]),
+    /// On the channel that is the stretch of a cable; it has no shapes.
+    OnStretch,
     /// Its shapes are only found by a search.
     Never,
 }
@@ -257,6 +261,7 @@ impl Place {
                     && channel.reach > LEAST_SWING
             }
             Self::Torque => kind == Kind::Torque,
+            Self::Stretch => kind == Kind::Stretch,
             Self::Temperature => kind == Kind::Temperature,
             Self::Other => matches!(kind, Kind::Load | Kind::Other),
         }

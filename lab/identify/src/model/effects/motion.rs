@@ -10,6 +10,7 @@ use std::f64::consts::PI;
 // Motions that show several effects.
 const SLOW_STROKES: &str = "slow strokes over the whole range of position";
 const LOADS: &str = "the same motion under several loads";
+const HELD_END: &str = "motion of one end while the other is held, up to the largest load";
 
 /// Wider than this it is no dry friction any more but a bent viscous term.
 const SMOOTH_SIGN: Bounds = Bounds::Speed(1e-3, 0.15);
@@ -127,6 +128,23 @@ pub(super) const MOTION: &[Entry] = &[
         rank: 7,
         tried: &[on(Place::Motion, AS_IT_IS), on(Place::Torque, AS_IT_IS)],
         shown_by: SLOW_STROKES,
+        fitted_zero: FittedZero::Always,
+        ..PLAIN
+    },
+    Entry {
+        name: "stretch-linear",
+        rank: 7,
+        tried: &[on(Place::Stretch, AS_IT_IS)],
+        declared: Declared::OnStretch,
+        shown_by: HELD_END,
+        ..PLAIN
+    },
+    Entry {
+        name: "stretch-cubic",
+        rank: 7,
+        tried: &[on(Place::Stretch, AS_IT_IS)],
+        declared: Declared::OnStretch,
+        shown_by: HELD_END,
         fitted_zero: FittedZero::Always,
         ..PLAIN
     },

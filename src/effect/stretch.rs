@@ -1,0 +1,55 @@
+//! Stretch: the elasticity of a cable between its two ends.
+//!
+//! Formulas: `s` and `s³` (hardening) of a channel `s` that is the stretch, the difference of
+//! the angles at both ends, `phi_p − phi_d`. The channel is computed by the caller, with the
+//! signs and the gear ratio of the rig: where the ends turn against each other the stretch is
+//! their sum.
+//!
+//! Source: M. W. Spong, "Modeling and Control of Elastic Joint Robots", *Journal of Dynamic
+//! Systems, Measurement, and Control* 109(4), 1987, where the torque is `k·(q₁ − q₂)`; for the
+//! cubic, T. D. Tuttle, W. P. Seering, "A Nonlinear Model of a Harmonic Drive Gear
+//! Transmission", *IEEE Transactions on Robotics and Automation* 12(3), 1996.
+
+use super::info::{Info, Regressor};
+use super::Symmetry::{Even, Odd};
+use super::{
+    Dimension, EffectState, Family, Parity, Quantity, Situation, StretchCubic, StretchLinear,
+};
+use crate::Real;
+
+impl<T: Real> Regressor<T> for StretchLinear {
+    const INFO: &'static Info = &Info {
+        name: "stretch-linear",
+        family: Family::Stretch,
+        formula: "s",
+        dimension: Dimension::POSITION,
+        parity: Parity::new(Odd, Even),
+        reads: &[Quantity::Position],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        at.motion.position
+    }
+}
+
+impl<T: Real> Regressor<T> for StretchCubic {
+    const INFO: &'static Info = &Info {
+        name: "stretch-cubic",
+        family: Family::Stretch,
+        formula: "s³",
+        dimension: Dimension {
+            channel: 3,
+            ..Dimension::ONE
+        },
+        parity: Parity::new(Odd, Even),
+        reads: &[Quantity::Position],
+        memory: false,
+    };
+
+    #[inline]
+    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+        at.motion.position * at.motion.position * at.motion.position
+    }
+}
