@@ -5,11 +5,14 @@ use bowden::control::{Adaptive, AdaptiveInput, AdaptiveState};
 use bowden::effect::{Effect, CATALOGUE};
 use bowden::hysteresis::Shape;
 use bowden::model::{Model, ModelState, Source, Term};
+use bowden::signal::{Derivative, DerivativeState, GuardState, Plausible, PlausibleState};
+use bowden::signal::{Play, PlayState, RampState};
 use bowden::transmission::Transmission;
 use bowden::Real;
 use proptest::prelude::*;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use std::fmt::Debug;
 
 /// As `bowden close --model-out model.toml` writes it.
 const FILE: &str = r#"# Identified by bowden.
@@ -436,4 +439,42 @@ fn a_stored_adaptive_state_with_a_number_that_is_not_finite_is_refused() {
     }
     stored.insert("gap".to_owned(), (-1.0).into());
     assert!(read(&stored).is_err(), "a negative gap");
+}
+
+/// The state that was written, and refusals of it with each of its numbers not finite.
+fn reads_finite_numbers_only<S: Serialize + DeserializeOwned + PartialEq + Debug>(state: &S) {
+    let stored: toml::Table = toml::from_str(&toml::to_string(state).unwrap()).unwrap();
+    let read = |stored: &toml::Table| toml::from_str::<S>(&toml::to_string(stored).unwrap());
+    assert_eq!(&read(&stored).unwrap(), state);
+    let numbers = stored.iter().filter(|(_, value)| value.is_float());
+    let fields: Vec<_> = numbers.map(|(field, _)| field.clone()).collect();
+    assert!(!fields.is_empty());
+    for field in fields {
+        let mut broken = stored.clone();
+        broken.insert(field.clone(), f64::NAN.into());
+        assert!(read(&broken).is_err(), "{field} of {state:?}");
+    }
+}
+
+#[test]
+fn a_stored_state_of_a_signal_with_a_number_that_is_not_finite_is_refused() {
+    reads_finite_numbers_only(&RampState::at(2.0));
+    let mut play = PlayState::new();
+    Play::try_new(0.1).unwrap().step(&mut play, 1.0);
+    reads_finite_numbers_only(&play);
+    reads_finite_numbers_only(&GuardState::new(3.0));
+    let mut plausible = PlausibleState::new();
+    let range = Plausible::try_new(-5.0, 5.0).unwrap();
+    range.step(&mut plausible, 1.0, 1e-3, true);
+    reads_finite_numbers_only(&plausible);
+    let mut rate = DerivativeState::new();
+    Derivative::try_new(0.01)
+        .unwrap()
+        .step(&mut rate, 1.0, 1e-3);
+    reads_finite_numbers_only(&rate);
+    // One that has seen no sample, in a form that leaves out what is not there.
+    assert_eq!(
+        toml::from_str::<PlayState<f64>>("").unwrap(),
+        PlayState::new()
+    );
 }

@@ -40,10 +40,19 @@ pub struct Derivative<T> {
 
 /// State of a [`Derivative`]: the last good sample and the filtered rate.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct DerivativeState<T> {
+    #[cfg_attr(
+        feature = "serde",
+        serde(default, deserialize_with = "super::stored::optional")
+    )]
     last: Option<T>,
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::stored::number"))]
     rate: T,
 }
 

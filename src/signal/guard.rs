@@ -40,9 +40,14 @@ pub struct Guard<T> {
 
 /// State of a [`Guard`]: the last good sample and the count of bad ones.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct GuardState<T> {
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::stored::number"))]
     good: T,
     bad: u32,
 }

@@ -16,6 +16,8 @@ mod plausible;
 mod play;
 mod ramp;
 mod rates;
+#[cfg(feature = "serde")]
+mod stored;
 
 pub use clamp::clamp;
 pub(crate) use compensated::two_sum;

@@ -72,11 +72,20 @@ pub struct PlausibleOutput<T> {
 
 /// State of a [`Plausible`]: the last plausible sample, and for how long it is past.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PlausibleState<T> {
+    #[cfg_attr(
+        feature = "serde",
+        serde(default, deserialize_with = "super::stored::optional")
+    )]
     last: Option<T>,
     /// Time since `last`, without the present sample's own \[s\].
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::stored::number"))]
     gap: T,
     same: u32,
 }

@@ -42,9 +42,17 @@ pub struct Play<T> {
 
 /// State of a [`Play`]: its output, empty before the first sample.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PlayState<T> {
+    #[cfg_attr(
+        feature = "serde",
+        serde(default, deserialize_with = "super::stored::optional")
+    )]
     output: Option<T>,
 }
 

@@ -40,10 +40,16 @@ pub struct Ramp<T> {
 
 /// State of a [`Ramp`]: where the ramp is, and the rounded value.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RampState<T> {
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::stored::number"))]
     ramp: T,
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::stored::number"))]
     value: T,
 }
 
