@@ -27,20 +27,21 @@ ZERO_MOTION = numbers(0, 0, 0)
 SHAPE = numbers(0.096, 0.6, 3.871)
 CABLE = SHAPE + b"\x01" + numbers(0.998, 7.004, 0.052)
 LIMITS = b"\x00" + numbers(-30, 30) + b"\x01" + x(20)
+LONGEST = x(0.005)
 FALLBACK = b"\x03" + x(0)
 SAMPLES = [(k * 0.7, k * 0.5) for k in range(6)]
 
 
 def pid():
-    gains = b"\x02\x01" + numbers(30, 18, 2, 0.1, 1) + LIMITS + FALLBACK
+    gains = b"\x02\x01" + numbers(30, 18, 2, 0.1, 1) + LIMITS + LONGEST + FALLBACK
     steps = b"".join(b"\xff" + DT + numbers(r, y, 0, 0) for r, y in SAMPLES)
     return gains + gains + steps + b"\xff" + DT + x(1) + NAN + numbers(0, 0)
 
 
 def adaptive():
     estimator = b"\x01" + x(0.01) + numbers(0.005, 0, 0.5) + b"\x01" + numbers(0.1, 2)
-    law = b"\x01\x00" + DT + x(1) + b"\x01" + estimator * 4 + x(20) + b"\x00"
-    law += LIMITS + FALLBACK + numbers(24, 8, 0.2)
+    law = b"\x01\x00" + DT + x(1) + b"\x01" + estimator * 4 + x(20) + b"\x00\x00\x01"
+    law += LIMITS + LONGEST + FALLBACK + numbers(24, 8, 0.2)
     steps = b"".join(b"\xff" + DT + numbers(r, r, y, 0.1, 0.2, 0) for r, y in SAMPLES)
     return law + steps
 
@@ -65,6 +66,38 @@ def play_in_series():
 
 def inverse():
     return b"\x00" + CABLE + numbers(*(r for r, _ in SAMPLES))
+
+
+# States at rest are zeros in postcard, but for the count of the estimates theta.
+PID_STATE, BOUC_WEN, RATES_STATE, EFFECT_STATE = map(bytes, (23, 9, 23, 1))
+ADAPTIVE_STATE = bytes(37) + b"\x02" + bytes(26)
+
+
+def states():
+    samples = b"".join(DT + numbers(r, y, 0, 0) for r, y in SAMPLES)
+    gains = b"\x02\x01" + numbers(30, 18, 2, 0.1, 1) + LIMITS + LONGEST + FALLBACK
+    points = numbers(*(r for r, _ in SAMPLES))
+    return {
+        "pid": b"\x00" + PID_STATE + gains + samples,
+        "adaptive": b"\x01" + ADAPTIVE_STATE + adaptive()[1:],
+        "bouc_wen": b"\x02" + BOUC_WEN + SHAPE + points,
+        "rates": b"\x03" + RATES_STATE + x(0.01) + b"".join(x(r) + DT for r, _ in SAMPLES),
+        "effect": b"\x04" + EFFECT_STATE + b"\x02" + (DT + numbers(*range(10))) * 3,
+    }
+
+
+def constructors():
+    gains = b"\x01\x02\x01" + numbers(30, 18, 2, 0.1, 1) + LIMITS + LONGEST + FALLBACK
+    points = [r for r, _ in SAMPLES]
+    return {
+        "limits": b"\x00" + numbers(-20, 30, 5, *points),
+        "pid": b"\x01" + gains + gains,
+        "adaptive": b"\x01\x00" + adaptive()[1:],
+        "plausible": b"\x02" + numbers(-5, 5, 9) + b"\x03" + b"".join(x(r) + DT + b"\x01" for r in points),
+        "ramp": b"\x03" + numbers(20, 0.01, 0) + b"".join(x(r) + DT for r in points),
+        "rates": b"\x04" + numbers(0.01, 0.1, 6) + b"".join(x(r) + DT for r in points),
+        "fallback": b"\x05\x14\x04" + x(0),
+    }
 
 
 # Records: the first byte is the options, see src/record.rs.
@@ -151,3 +184,7 @@ parquet = here / "../../lab/cli/tests/reading/files/tiny.parquet"
 for make in (pid, adaptive, compensator, hysteresis, model, inverse):
     (here / make.__name__ / "start").write_bytes(make())
 (here / "model" / "play_in_series").write_bytes(play_in_series())
+for make in (states, constructors):
+    (here / make.__name__).mkdir(exist_ok=True)
+    for name, seed in make().items():
+        (here / make.__name__ / name).write_bytes(seed)

@@ -37,7 +37,8 @@ fn estimator(from: &mut Numbers) -> Option<Estimator<f32>> {
     })
 }
 
-fn law(from: &mut Numbers) -> Option<Adaptive<f32, 2>> {
+/// Any settings, accepted or not.
+pub fn settings(from: &mut Numbers) -> Option<AdaptiveSettings<f32, 2>> {
     let form = if from.flag()? {
         Form::Literal {
             time_constant: from.any()?,
@@ -53,7 +54,7 @@ fn law(from: &mut Numbers) -> Option<Adaptive<f32, 2>> {
     } else {
         SmoothSign::Clamp
     };
-    Adaptive::try_new(AdaptiveSettings {
+    Some(AdaptiveSettings {
         smooth_sign,
         beta: estimator(from)?,
         delta: estimator(from)?,
@@ -69,10 +70,15 @@ fn law(from: &mut Numbers) -> Option<Adaptive<f32, 2>> {
         fallback: from.fallback()?,
         ..AdaptiveSettings::unlimited(form, from.any()?, from.any()?, from.any()?)
     })
-    .ok()
 }
 
-fn sample(from: &mut Numbers) -> Option<AdaptiveInput<f32, 2>> {
+/// A law that its constructor accepts.
+pub fn law(from: &mut Numbers) -> Option<Adaptive<f32, 2>> {
+    Adaptive::try_new(settings(from)?).ok()
+}
+
+/// Any sample.
+pub fn sample(from: &mut Numbers) -> Option<AdaptiveInput<f32, 2>> {
     Some(AdaptiveInput {
         dt: from.dt()?,
         reference: from.any()?,

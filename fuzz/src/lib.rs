@@ -8,6 +8,7 @@
 
 pub mod adaptive;
 pub mod compensator;
+pub mod constructors;
 pub mod forms;
 pub mod hysteresis;
 pub mod inverse;
@@ -18,6 +19,7 @@ pub mod pid;
 #[path = "../../proofs/properties/mod.rs"]
 pub mod properties;
 pub mod record;
+pub mod states;
 
 #[cfg(test)]
 mod replay;

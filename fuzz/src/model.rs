@@ -59,20 +59,25 @@ fn run<T: Real>(from: &mut Numbers) -> Option<()> {
     }
 }
 
+/// Anything that an effect may read.
+pub fn situation(from: &mut Numbers) -> Option<Situation<f32>> {
+    Some(Situation {
+        dt: from.dt()?,
+        time: from.any()?,
+        motion: from.motion()?,
+        input: from.motion()?,
+        load: from.any()?,
+        eta: from.any()?,
+        output: from.any()?,
+    })
+}
+
 /// One effect without the model's check in front of it.
 fn alone(from: &mut Numbers) -> Option<()> {
     let effect = from.effect::<f32>()?;
     let mut state = EffectState::new();
     loop {
-        let at = Situation {
-            dt: from.dt()?,
-            time: from.any()?,
-            motion: from.motion()?,
-            input: from.motion()?,
-            load: from.any()?,
-            eta: from.any()?,
-            output: from.any()?,
-        };
+        let at = situation(from)?;
         assert!(
             a_regressor_is_finite(&effect, &mut state, &at),
             "{}",

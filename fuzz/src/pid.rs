@@ -10,7 +10,8 @@ pub fn check(data: &[u8]) {
     let _ = run(&mut Numbers::new(data));
 }
 
-fn pid(from: &mut Numbers) -> Option<Pid<f32>> {
+/// Any settings, accepted or not.
+pub fn settings(from: &mut Numbers) -> Option<PidSettings<f32>> {
     let anti_windup = match from.byte()? % 4 {
         0 => AntiWindup::None,
         1 => AntiWindup::Clamp,
@@ -27,7 +28,7 @@ fn pid(from: &mut Numbers) -> Option<Pid<f32>> {
             weight: from.any()?,
         },
     };
-    Pid::try_new(PidSettings {
+    Some(PidSettings {
         k_p: from.any()?,
         k_i: from.any()?,
         k_d: from.any()?,
@@ -39,10 +40,15 @@ fn pid(from: &mut Numbers) -> Option<Pid<f32>> {
         longest_dt: from.any()?,
         fallback: from.fallback()?,
     })
-    .ok()
 }
 
-fn sample(from: &mut Numbers) -> Option<PidInput<f32>> {
+/// A controller that its constructor accepts.
+pub fn pid(from: &mut Numbers) -> Option<Pid<f32>> {
+    Pid::try_new(settings(from)?).ok()
+}
+
+/// Any sample.
+pub fn sample(from: &mut Numbers) -> Option<PidInput<f32>> {
     Some(PidInput {
         dt: from.dt()?,
         reference: from.any()?,

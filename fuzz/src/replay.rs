@@ -23,4 +23,4 @@ macro_rules! replayed {
     )+};
 }
 
-replayed!(pid adaptive compensator hysteresis model inverse record forms);
+replayed!(pid adaptive compensator hysteresis model inverse record forms constructors states);

@@ -1,0 +1,119 @@
+//! Constructors: at run time, as a constant, and what they make.
+
+use crate::adaptive;
+use crate::numbers::Numbers;
+use crate::pid;
+use bowden::control::{Adaptive, Fallback, Limits, Pid};
+use bowden::signal::{Plausible, PlausibleState, Ramp, RampState, Rates, RatesState};
+
+/// Whatever the arguments: a constant is accepted where the run time accepts it, and refused
+/// in the same words; the blocks in front of a controller do what their docs say.
+pub fn check(data: &[u8]) {
+    let mut from = Numbers::new(data);
+    let _ = match from.byte().map(|byte| byte % 6) {
+        Some(0) => limits(&mut from),
+        Some(1) => laws(&mut from),
+        Some(2) => plausible(&mut from),
+        Some(3) => ramp(&mut from),
+        Some(4) => rates(&mut from),
+        _ => fallback(&mut from),
+    };
+}
+
+fn limits(from: &mut Numbers) -> Option<()> {
+    let (low, high, slew) = (from.any()?, from.any()?, from.any()?);
+    let range = Limits::<f32>::try_new(low, high);
+    assert!(range == Limits::<f32>::const_new(low, high));
+    assert!(range.is_ok() == (low.is_finite() && high.is_finite() && low < high));
+    let range = range.unwrap_or(Limits::unlimited());
+    let slewed = range.with_slew(slew);
+    assert!(slewed == range.const_with_slew(slew));
+    assert!(slewed.is_ok() == (slew.is_finite() && slew > 0.0));
+    let limits = slewed.unwrap_or(range);
+    loop {
+        let (last, wanted) = (from.any()?, from.any()?);
+        assert!(limits.contains(limits.confine(wanted)));
+        let out = limits.apply(last, wanted, 0.001);
+        assert!(limits.contains(out) || wanted.is_nan() || last.is_nan());
+    }
+}
+
+fn fallback(from: &mut Numbers) -> Option<()> {
+    let (after, weight) = (u32::from(from.byte()?), u32::from(from.byte()?));
+    let command: f32 = from.any()?;
+    let safe = Fallback::<f32>::try_new(after, command);
+    assert!(safe == Fallback::<f32>::const_new(after, command));
+    assert!(safe.is_ok() == (after > 0 && command.is_finite()));
+    let safe = safe.unwrap_or(Fallback::hold_for_ever());
+    let weighed = safe.with_weight(weight);
+    assert!(weighed.is_ok() == (weight > 0));
+    if let Ok(weighed) = weighed {
+        assert!(weighed.weight() == weight && weighed.command() == safe.command());
+        assert!(weighed.after() == safe.after());
+    }
+    Some(())
+}
+
+fn laws(from: &mut Numbers) -> Option<()> {
+    loop {
+        if from.flag()? {
+            let settings = pid::settings(from)?;
+            assert!(Pid::<f32>::const_new(settings) == Pid::try_new(settings));
+        } else {
+            let settings = adaptive::settings(from)?;
+            assert!(Adaptive::<f32, 2>::const_new(settings) == Adaptive::try_new(settings));
+        }
+    }
+}
+
+fn plausible(from: &mut Numbers) -> Option<()> {
+    let (low, high, rate) = (from.any()?, from.any()?, from.any()?);
+    let range = Plausible::<f32>::try_new(low, high);
+    assert!(range == Plausible::<f32>::const_new(low, high));
+    let range = range.ok()?;
+    let rated = range.with_rate(rate);
+    assert!(rated == range.const_with_rate(rate));
+    let plausible = rated
+        .unwrap_or(range)
+        .with_stuck_after(u32::from(from.byte()? % 4));
+    let mut state = PlausibleState::new();
+    loop {
+        let (sample, last) = (from.any()?, state.last());
+        let out = plausible.step(&mut state, sample, from.dt()?, from.flag()?);
+        assert!(out.value.is_nan() == out.fault.is_some());
+        if out.fault.is_none() {
+            assert!(out.value == sample && low <= sample && sample <= high);
+            assert!(state.last() == Some(sample));
+        } else {
+            assert!(state.last() == last);
+        }
+    }
+}
+
+fn ramp(from: &mut Numbers) -> Option<()> {
+    let ramp = Ramp::<f32>::try_new(from.any()?, from.any()?).ok()?;
+    let start: f32 = from.any()?;
+    let mut state = RampState::at(if start.is_finite() { start } else { 0.0 });
+    loop {
+        let (wanted, dt) = (from.any()?, from.dt()?);
+        let before = state;
+        assert!(ramp.step(&mut state, wanted, dt) == state.value());
+        assert!(state.value().is_finite());
+        if !(wanted.is_finite() && dt.is_finite() && dt > 0.0) {
+            assert!(state == before);
+        }
+    }
+}
+
+fn rates(from: &mut Numbers) -> Option<()> {
+    let rates = Rates::<f32>::try_new(from.any()?).ok()?;
+    let gapped = rates.with_longest_gap(from.any()?).unwrap_or(rates);
+    let rates = gapped.with_period(from.any()?).unwrap_or(gapped);
+    let mut state = RatesState::new();
+    loop {
+        let position = from.any()?;
+        let motion = rates.step(&mut state, position, from.dt()?).motion;
+        assert!(motion.position.is_finite());
+        assert!(motion.velocity.is_finite() && motion.acceleration.is_finite());
+    }
+}
