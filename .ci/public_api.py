@@ -260,7 +260,11 @@ def main():
         sys.exit(77)
     listing = Listing(crate)
     listing.walk(crate["root"], "")
-    print("\n".join(sorted(listing.lines)))
+    # A module of documentation alone cannot be used.
+    used = {line for line in listing.lines if not line.endswith(" (module)")}
+    modules = {line for line in listing.lines if line.endswith(" (module)")}
+    modules = {one for one in modules if any(line.startswith(one.split()[0] + "::") for line in used)}
+    print("\n".join(sorted(used | modules)))
 
 
 main()
