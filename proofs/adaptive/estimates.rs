@@ -29,6 +29,34 @@ fn estimate_in_its_box() {
     assert!(estimator.holds(&after) || !after.carry.is_finite());
 }
 
+/// Whether `lost` is no number where the sum is none and, of numbers within ±1e6, within ±1e8:
+/// far from what it is, and enough.
+fn may_be_lost<T: Real>(a: T, b: T, sum: T, lost: T) -> bool {
+    let small = |x: T, most: f64| x.abs() <= T::of(most);
+    let is_small = !(small(a, 1e6) && small(b, 1e6)) || small(lost, 1e8);
+    (sum.is_finite() || !lost.is_finite()) && is_small
+}
+
+/// K1. What a sum loses to rounding is no number where the sum is none, so that a step which
+/// looks at it sees both; of numbers within ±1e6 it is within ±1e8. (A sum that is finite may
+/// lose no number: MAX and one and a half of its last units do.)
+#[kani::proof]
+fn a_sum_and_what_it_lost() {
+    let (a, b) = (kani::any::<f32>(), kani::any());
+    let (sum, lost) = two_sum(a, b);
+    kani::cover!(lost > 0.0 && sum < -1.0);
+    kani::cover!(sum.is_finite() && !lost.is_finite());
+    kani::cover!(sum.is_infinite());
+    assert!(may_be_lost(a, b, sum, lost));
+}
+
+/// What `a_sum_and_what_it_lost` proves of a sum, and no more.
+pub(super) fn any_lost<T: Real>(a: T, b: T) -> (T, T) {
+    let (sum, lost) = (a + b, T::of(f64::from(kani::any::<f32>())));
+    kani::assume(may_be_lost(a, b, sum, lost));
+    (sum, lost)
+}
+
 /// Any estimate, and what rounding has dropped of it: less than rounding can see.
 fn any_estimate() -> Compensated<f32> {
     let sum = Compensated {

@@ -5,6 +5,7 @@
 //! all. So the claims rest on the checks of the step, not on its arithmetic.
 
 use super::super::{Adaptive, AdaptiveInput, AdaptiveTerms, Estimator, Form, SmoothSign};
+use super::estimates::any_lost;
 use super::state::{any_state, input, law, state};
 use crate::control::Limits;
 use crate::proofs::properties::control::{
@@ -12,7 +13,7 @@ use crate::proofs::properties::control::{
     follows,
 };
 use crate::proofs::{limited, stubs};
-use crate::signal::{Compensated, Derivative, DerivativeState};
+use crate::signal::{two_sum, Compensated, Derivative, DerivativeState};
 use crate::Real;
 
 /// What `estimate_in_its_box` proves of an update, and no more.
@@ -70,9 +71,11 @@ fn any_sample<const N: usize>(form: Form<f32>, smooth_sign: SmoothSign) {
 /// command or the safe one is out; none is good with dt ≤ 0 or a number that is not finite.
 ///
 /// Assumes: nothing of gains, sample or valid state; the update of an estimate as proved by
-/// estimate_in_its_box, the limits as by slew_limit_any_rate, any virtual command.
+/// estimate_in_its_box, what a sum loses as by a_sum_and_what_it_lost, the limits as by
+/// slew_limit_any_rate, any virtual command.
 #[kani::proof]
 #[kani::unwind(5)]
+#[kani::stub(two_sum, any_lost)]
 #[kani::stub(libm::tanhf, stubs::tanhf)]
 #[kani::stub(Estimator::update, any_update)]
 #[kani::stub(Adaptive::virtual_command, any_virtual_command)]
@@ -108,10 +111,11 @@ fn a_bad_rate_shows() {
 /// K1, K5. The literal form as the lag form above.
 ///
 /// Assumes: nothing of gains, sample, valid state or filtered rate; the update of an
-/// estimate as proved by estimate_in_its_box, the limits as by slew_limit_any_rate, the
-/// virtual command as by a_bad_rate_shows.
+/// estimate as proved by estimate_in_its_box, what a sum loses as by a_sum_and_what_it_lost, the
+/// limits as by slew_limit_any_rate, the virtual command as by a_bad_rate_shows.
 #[kani::proof]
 #[kani::unwind(5)]
+#[kani::stub(two_sum, any_lost)]
 #[kani::stub(libm::tanhf, stubs::tanhf)]
 #[kani::stub(Derivative::step, any_rate)]
 #[kani::stub(Estimator::update, any_update)]

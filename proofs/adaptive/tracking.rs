@@ -2,11 +2,13 @@
 
 use super::super::{Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, AdaptiveTerms};
 use super::super::{ErrorState, Estimator, Form, SmoothSign};
+use super::estimates::any_lost;
 use crate::control::status::Held;
+use crate::control::{Output, Status};
 use crate::proofs::any::within;
 use crate::proofs::properties::control::the_lag_does_not_pass_its_target;
 use crate::proofs::properties::tracking::{the_law_keeps_the_box, StaticPlant};
-use crate::signal::Compensated;
+use crate::signal::{two_sum, Compensated};
 use crate::Real;
 
 /// Table 2 in lag form at 1 kHz on a plant of known gain, estimates at rest.
@@ -24,13 +26,29 @@ fn paper() -> Adaptive<f32, 0> {
     })
 }
 
+/// A step that no sample leads to.
+fn never<T: Real, const N: usize>(
+    _: &Adaptive<T, N>,
+    state: &mut AdaptiveState<T, N>,
+    _: &AdaptiveInput<T, N>,
+) -> Output<T> {
+    kani::assert(false, "a sample is refused");
+    Output {
+        command: state.held.command,
+        status: Status::Good,
+    }
+}
+
 /// K2. The controller's step on a static plant with a sample of delay, as firmware runs it:
-/// |s| ≤ 0.43 N·m and |z| ≤ 0.43/lambda hold after it. One step, not an induction: rounding
-/// may owe something to z after it.
+/// |s| ≤ 0.43 N·m and |z| ≤ 0.43/lambda hold after it, and no sample is refused. One step, not
+/// an induction: rounding may owe something to z after it.
 ///
 /// Assumes: Table 2 at 1 kHz, g = 1, no regressor, delta_hat = 0, reference 0, a disturbance
-/// at rest of up to 8 N·m, nothing owed by rounding.
+/// at rest of up to 8 N·m, nothing owed by rounding; what a sum loses as by
+/// a_sum_and_what_it_lost.
 #[kani::proof]
+#[kani::stub(Adaptive::exception, never)]
+#[kani::stub(two_sum, any_lost)]
 fn slow_tracking_box_of_the_law() {
     let law = paper();
     let most = ErrorState {

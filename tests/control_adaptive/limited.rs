@@ -2,8 +2,8 @@
 
 use super::{lag, literal};
 use bowden::control::{
-    Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Fallback, Leakage, Limits,
-    Status,
+    Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Fallback, Fault, Leakage,
+    Limits, Status,
 };
 
 /// Room for the rounding of a few sums and products of numbers up to 100.
@@ -154,4 +154,27 @@ fn a_lag_that_resumes_on_a_bad_sample_goes_on_from_the_command_that_is_out() {
     let terms = law.step_with_terms(&mut state, &good).terms;
     let expected = lagged(25.0, terms.beta_hat, terms.virtual_command);
     assert!((terms.law - expected).abs() < ROUNDING, "{terms:?}");
+}
+
+/// A slew rate that cuts the command next to a feed-forward of the largest float's size: what the
+/// lag would hold is beyond the float. The same where its sum owes no number.
+#[test]
+fn a_sample_that_the_lag_cannot_hold_overflows_and_leaves_a_valid_state() {
+    let free = Limits::try_new(-1.7e308, 1.7e308).unwrap();
+    let [free, slewed] = [free, free.with_slew(1.0).unwrap()]
+        .map(|limits| Adaptive::try_new(AdaptiveSettings { limits, ..lag() }).unwrap());
+    let at_rest = AdaptiveInput::new(0.001, 0.0, 0.0, [0.0]);
+    let pushed = |feed_forward| AdaptiveInput {
+        feed_forward,
+        ..at_rest
+    };
+    let mut state = AdaptiveState::new(&free);
+    assert_eq!(
+        free.step(&mut state, &pushed(-1.7e308)).status,
+        Status::Good
+    );
+    let status = slewed.step(&mut state, &pushed(1.7e308)).status;
+    assert_eq!(status, Status::Held(Fault::Overflow));
+    assert!(slewed.is_valid(&state));
+    assert_eq!(slewed.step(&mut state, &at_rest).status, Status::Good);
 }

@@ -98,8 +98,8 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
             error_rate,
             mut lag,
         } = self.evaluated(state, input);
-        // The sums that the command does not hold; the carry of one that overflows is no number.
-        let mut all = terms.unlimited;
+        // The numbers that stay; the carry of a sum that overflows is none.
+        let mut all = terms.unlimited + lag.carry;
         let limits = &settings.limits;
         let mut command = terms.unlimited;
         let (mut z_waits, mut estimates_wait) = (false, frozen);
@@ -115,6 +115,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
             estimates_wait |= asks_more(terms.s);
             if command != terms.unlimited {
                 lag = Compensated::new(command - input.feed_forward);
+                all += lag.value;
             }
         }
         let mut z = state.z;
