@@ -1,7 +1,10 @@
 //! The box of the shipped step: its figures, and what each inequality refuses.
 
 use bowden::bound::{Interval, Kind, Known, Named, PeakRounded, PeakSampled, Plant};
-use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form, Limits};
+use bowden::control::{
+    Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Fault, Form, Leakage,
+    Limits, Status,
+};
 use bowden::{Error, Real};
 
 /// Table 2 at 1 kHz, as the proofs have it, over regressors that stay in `theta`.
@@ -224,6 +227,44 @@ fn what_overflows_is_refused() {
     let plant = own_plant();
     assert_eq!(refused(&sharp(own::<f32>()), &plant), Some(Named::Overflow));
     assert_eq!(refused(&sharp(own::<f64>()), &plant), None);
+}
+
+/// A law whose gains are `gain`, and which leaks at `leakage` \[1/s\].
+fn eager<T: Real>(gain: f64, leakage: f64) -> AdaptiveSettings<T, 2> {
+    let with = |own: Estimator<T>| own.adapting(T::of(gain), T::of(leakage));
+    let own = own::<T>();
+    AdaptiveSettings {
+        beta: with(own.beta),
+        delta: with(own.delta),
+        theta: own.theta.map(with),
+        ..own
+    }
+}
+
+/// The step of a law that is refused does overflow, in the update of an estimate.
+#[test]
+fn an_update_that_overflows_is_refused() {
+    let plant = own_plant();
+    for (gain, leakage) in [(1e37, 0.0), (0.0, 1e38)] {
+        let settings = eager::<f32>(gain, leakage);
+        assert_eq!(refused(&settings, &plant), Some(Named::Overflow));
+        assert_eq!(refused(&eager::<f64>(gain, leakage), &plant), None);
+        let law = Adaptive::try_new(settings).unwrap();
+        let mut state = AdaptiveState::new(&law);
+        let sample = AdaptiveInput::new(0.0005, 25.0, 24.0, [1.0; 2]);
+        let status = law.step(&mut state, &sample).status;
+        let overflows = status == Status::Held(Fault::Overflow);
+        assert_eq!(overflows, gain > 0.0, "{status:?}");
+    }
+    let modest = eager::<f32>(1e30, 1e30);
+    assert_eq!(refused(&modest, &plant), None);
+    // A distance over the bound of a switching leakage.
+    let mut switching = eager::<f32>(1.0, 0.0);
+    let leakage = |bound| Leakage::Switching { rate: 0.1, bound };
+    switching.delta.leakage = leakage(1e-39);
+    assert_eq!(refused(&switching, &plant), Some(Named::Overflow));
+    switching.delta.leakage = leakage(1.0);
+    assert_eq!(refused(&switching, &plant), None);
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! A law and a plant as exact numbers.
 
+use super::estimates::Adapts;
 use super::roundings::Word;
 use crate::bound::dyadic::Enclosure;
 use crate::bound::truth::range;
@@ -23,6 +24,7 @@ pub(super) struct Term {
     /// Greatest `|x|`.
     pub(super) magnitude: Enclosure,
     rate: Enclosure,
+    pub(super) adapts: Adapts,
 }
 
 /// Everything that the inequalities are made of.
@@ -52,6 +54,8 @@ pub(super) struct Gains {
     pub(super) xi: Enclosure,
     /// Greatest `|theta'x + D|`.
     pub(super) load: Enclosure,
+    /// How beta_hat and delta_hat adapt.
+    pub(super) adapts: [Adapts; 2],
     terms: [Option<Term>; MOST],
 }
 
@@ -110,6 +114,10 @@ impl Gains {
             w,
             xi,
             load,
+            adapts: [
+                Adapts::try_new(&settings.beta, settings.frozen, "beta")?,
+                Adapts::try_new(&settings.delta, settings.frozen, "delta")?,
+            ],
             terms,
         })
     }
@@ -193,6 +201,7 @@ fn terms<T: Real, const N: usize>(
             mismatch,
             magnitude: Enclosure::of(known.magnitude),
             rate: Enclosure::of(known.rate),
+            adapts: Adapts::try_new(estimator, settings.frozen, "theta")?,
         });
     }
     Ok(terms)

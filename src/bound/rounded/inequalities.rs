@@ -27,8 +27,8 @@ pub enum Named {
     ZLimit,
     /// `(r + S + lambda·Z + theta'x + D)/alpha⁻ <=` the limit of the command: it is not met.
     Command,
-    /// Twice the sum of what the step adds and multiplies `<=` the largest float; the update of
-    /// the estimates is not in it.
+    /// Twice the sum of what the step adds and multiplies, the updates of the estimates
+    /// included, `<=` the largest float.
     Overflow,
     /// `(r + theta'x + D + lambda·Z - S)/alpha⁻ <=` the limit of the command, which may be met.
     Reserve,
@@ -51,7 +51,7 @@ impl Named {
             Self::Owed => "what the sum of z owes reproduces itself",
             Self::ZLimit => "Z <= z_limit",
             Self::Command => "(r + S + lambda*Z + load)/alpha- <= limit of the command",
-            Self::Overflow => "no number of the step overflows, those of the estimates aside",
+            Self::Overflow => "no number of the step overflows, those of the estimates included",
             Self::Reserve => "(r + load + lambda*Z - S)/alpha- <= limit of the command",
             Self::Waiting => "h*lambda*(2 + g+*k) <= 1",
             Self::Slack => "lambda^2*Z <= lambda*S + 2*g-*Z",

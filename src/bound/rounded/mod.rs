@@ -1,5 +1,6 @@
 //! The box theorem for the shipped step: every rounding included.
 
+mod estimates;
 mod gains;
 mod inequalities;
 mod roundings;

@@ -96,8 +96,8 @@ pub struct Roundings {
     pub owed_after: Enclosure,
     /// What of `T(s/epsilon)` is not in proportion to s: underflow.
     pub smooth_sign: Enclosure,
-    /// More than any number of the step but those of the estimates: twice the sum of all that
-    /// it adds and multiplies, half of which is for rounding.
+    /// More than any number of the step, the updates of the estimates included: twice the sum of
+    /// all that it adds and multiplies, half of which is for rounding.
     pub largest: Enclosure,
 }
 
@@ -167,7 +167,18 @@ fn largest(
     for term in gains.regressors() {
         all = all + term.magnitude;
     }
-    (all + s / gains.epsilon + ubar * (one + gains.beta)) * Enclosure::power(1)
+    all = all + s / gains.epsilon + ubar * (one + gains.beta);
+    (all + updates(gains, gains.lambda * s, ubar)) * Enclosure::power(1)
+}
+
+/// The same of the estimates' updates, of which `lambda·s` and what it multiplies are the drives.
+fn updates(gains: &Gains, pull: Enclosure, ubar: Enclosure) -> Enclosure {
+    let [beta, delta] = &gains.adapts;
+    let mut all = pull + beta.numbers(pull * ubar, gains.step) + delta.numbers(pull, gains.step);
+    for term in gains.regressors() {
+        all = all + term.adapts.numbers(pull * term.magnitude, gains.step);
+    }
+    all
 }
 
 /// `sum(theta_hat_i·x_i)`: the first product is added to zero, which rounds nothing.

@@ -68,7 +68,7 @@ pub fn text(proof: &Proof, label: &str) -> String {
         let _ = writeln!(out, "{holds}  {left:>12} <= {right:<12}  {}", sides.text);
     }
     out.push_str("\nTo check:\n");
-    for assumption in proof.assumptions {
+    for assumption in &proof.assumptions {
         let _ = writeln!(out, "  - {assumption}");
     }
     out

@@ -58,7 +58,17 @@ def sides(c):
     # More than any number of the step, and the greatest float.
     big = 1 + h + r + (S + Es + lam * Z + plant["reference_rate"]) * (1 + h) + Z + U
     big += sum(each["magnitude"] for each in regressors)
-    big = 2 * (big + (S + Es) / gains["epsilon"] + ubar[0] * (1 + beta[1]))
+    big += (S + Es) / gains["epsilon"] + ubar[0] * (1 + beta[1])
+    # The estimates' updates: distance from the prior, drive, leakage, what a step takes of both.
+    pull = lam * (S + Es)
+    drives = [(beta, pull * ubar[0]), (gains["delta"], pull)]
+    drives += [(each["theta_hat"], pull * each["magnitude"]) for each in regressors]
+    big += pull
+    for (low, high), drive in drives:
+        m, sigma = (gains["adaptation"], gains["leakage"]) if low < high else (0, 0)
+        rate = m * drive + sigma * (high - low)
+        big += 1 + (high - low) + max(abs(low), abs(high)) + sigma * (1 + h) + drive + rate * (1 + h)
+    big = 2 * big
     top = (2 - 2 * u) * F(2) ** {"f32": 127, "f64": 1023}[c["float"]]
     over = lam * Z - S
     return [("step", h * lam, F(1)), ("steepness", h * lam * g[1] * (k + delta * q), F(1)),

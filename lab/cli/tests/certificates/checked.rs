@@ -81,12 +81,16 @@ impl Random {
         let mut left = self.within(0.0, 4.0);
         while left > 1.0 {
             left -= 1.0;
-            let (low, high) = (self.within(-2.0, 0.5), self.within(0.5, 3.0));
+            let (low, mut high) = (self.within(-2.0, 0.5), self.within(0.5, 3.0));
+            // An estimate that does not move.
+            if self.within(0.0, 1.0) < 0.2 {
+                high = low;
+            }
             let _ = write!(
                 text,
                 "[[regressor]]\ntheta_hat = [{low:e}, {high:e}]\ntheta = [{:e}, {:e}]\nmagnitude = {:e}\nrate = {:e}\n",
                 self.within(low, 0.5),
-                self.within(0.5, high),
+                self.within(0.5, high.max(0.5)),
                 self.within(0.0, 4.0),
                 self.within(0.0, 10.0),
             );

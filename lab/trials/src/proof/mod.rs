@@ -57,7 +57,7 @@ pub struct Proof {
     /// The first inequality that does not hold, and what would mend it.
     pub refused: Option<Refusal>,
     /// What the user must check.
-    pub assumptions: &'static [&'static str],
+    pub assumptions: Vec<&'static str>,
 }
 
 /// An exact number, and the nearest `f64`.
@@ -116,6 +116,10 @@ pub struct Exact {
     pub beta: [String; 2],
     /// Box of delta_hat \[N·m\].
     pub delta: [String; 2],
+    /// Greatest adaptation gain of an estimate.
+    pub adaptation: String,
+    /// Greatest leakage of an estimate \[1/s\].
+    pub leakage: String,
 }
 
 /// What is known of the plant.
@@ -200,6 +204,10 @@ pub struct Refusal {
 /// Most regressors of a file.
 const MOST: usize = 8;
 
+/// Up to which adaptation gain and which leakage \[1/s\] nothing overflows: a file states
+/// neither, and no law comes near.
+const MOST_ADAPTATION: f64 = 1_073_741_824.0;
+
 /// Reads a file of gains and examines them.
 ///
 /// # Errors
@@ -259,12 +267,17 @@ fn of<T: Real, const N: usize>(form: &Form) -> Result<Proof, String> {
 /// The nearest floats; the upper bound of alpha is not below it.
 fn settings<T: Real, const N: usize>(form: &Form) -> Result<AdaptiveSettings<T, N>, Error> {
     let moving = |[low, high]: [f64; 2]| {
-        let estimator = Estimator::free(T::of(low)).within(T::of(low), T::of(high));
-        if estimator.low == estimator.high {
-            estimator
+        let low = T::of(low);
+        let box_of = Estimator {
+            prior: low,
+            ..Estimator::free(low).within(low, T::of(high))
+        };
+        if box_of.low == box_of.high {
+            box_of
         } else {
-            // Any gain: the estimate is anywhere in its box.
-            estimator.adapting(T::ONE, T::ZERO)
+            // The estimate is anywhere in its box; the greatest overflow first.
+            let most = T::of(MOST_ADAPTATION);
+            box_of.adapting(most, most)
         }
     };
     let mut plant_gain = T::of(form.plant.alpha.0[1]);
@@ -338,6 +351,8 @@ fn proof<T: Real, const N: usize>(
             command: float(settings.limits.high()),
             beta: range(&settings.beta),
             delta: range(&settings.delta),
+            adaptation: real(MOST_ADAPTATION),
+            leakage: real(MOST_ADAPTATION),
         },
         plant: ExactPlant {
             alpha: [plant.alpha.low, plant.alpha.high].map(real),
@@ -373,10 +388,15 @@ fn proof<T: Real, const N: usize>(
             text: inequality.name.text(),
             mend: mend::words(form, inequality),
         }),
-        assumptions: bowden::bound::Certificate {
-            kind: Kind::PeakRounded,
-            value: 0.0,
-        }
-        .assumptions(),
+        assumptions: assumptions(),
     }
+}
+
+/// Those of the theorem, and what stands for the adaptation that a file does not state.
+fn assumptions() -> Vec<&'static str> {
+    let kind = Kind::PeakRounded;
+    let certificate = bowden::bound::Certificate { kind, value: 0.0 };
+    let mut all = certificate.assumptions().to_vec();
+    all.push("adaptation gains and leakages [1/s] are at most 2^30, each prior lies in its box");
+    all
 }
