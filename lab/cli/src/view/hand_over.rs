@@ -43,6 +43,7 @@ impl<'a> HandOverPart<'a> {
                     invertible: false,
                     because: Some(because.clone()),
                     nearest: None,
+                    caution: None,
                 }),
                 handed_over: None,
             },

@@ -8,7 +8,9 @@
 
 use super::causal::{causal, time_constant};
 use super::clockwork::{because, has_clockwork, is_clockwork, table_name, without};
-use super::invertible::{is_stage, nearest, obstacle, stages, without_stages, FeedForward};
+use super::invertible::{
+    caution, is_stage, nearest, obstacle, stages, without_stages, FeedForward,
+};
 use super::{About, LeftOut, ModelFile, NotIdentified};
 use crate::conclude::final_fit::FinalFit;
 use crate::conclude::intervals::term_name;
@@ -203,6 +205,10 @@ fn feed_forward(
     }
     Ok(FeedForward {
         invertible: because.is_none(),
+        caution: match because {
+            Some(_) => None,
+            None => files.iter().find_map(caution),
+        },
         nearest: match because {
             Some(_) => nearest(data, solution, files)?,
             None => None,

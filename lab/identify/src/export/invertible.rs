@@ -30,6 +30,9 @@ pub struct FeedForward {
     pub because: Option<String>,
     /// The nearest model that it takes, if not this one.
     pub nearest: Option<Nearest>,
+    /// What is not proved of its inverse in `f32`, where it has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub caution: Option<String>,
 }
 
 /// The nearest model that has an inverse, without a new fit.
@@ -42,12 +45,13 @@ pub struct Nearest {
 }
 
 impl FeedForward {
-    /// `yes`, or `no, because …`.
+    /// `yes`, with what is not proved, or `no, because …`.
     #[must_use]
     pub fn words(&self) -> String {
-        match &self.because {
-            None => "yes".to_owned(),
-            Some(because) => format!("no, because {because}"),
+        match (&self.because, &self.caution) {
+            (None, None) => "yes".to_owned(),
+            (None, Some(caution)) => format!("yes, but {caution}"),
+            (Some(because), _) => format!("no, because {because}"),
         }
     }
 }
@@ -94,6 +98,35 @@ pub fn obstacle(file: &ModelFile) -> Result<Option<String>, String> {
         three_digits(t.sigma),
         three_digits(bound)
     )))
+}
+
+/// Up to which n the slope of the `f32` step is proved, over the reals: `theorems/Slope.v`.
+const PROVED_N: f64 = 4.0;
+
+/// Up to which n it is measured to be as the inverse needs it, and by how much it is above that
+/// beyond: `tests/hysteresis/bounded.rs`.
+const MEASURED_N: f64 = 10.0;
+const ABOVE: f64 = 1.39;
+
+/// What is not proved of the inverse that a model has: that one input belongs to each output of
+/// the step that `f32` takes.
+#[must_use]
+pub fn caution(file: &ModelFile) -> Option<String> {
+    let t = file.transmission.as_ref()?;
+    let against = match file.mode.as_str() {
+        "torque" => t.kappa_eta,
+        _ => -t.kappa_eta,
+    };
+    let is_aided = t.kappa_eta == 0.0 || (against < 0.0) == (t.gain > 0.0);
+    if is_aided || t.n <= PROVED_N {
+        return None;
+    }
+    let n = three_digits(t.n);
+    let has_room = ABOVE * t.sigma <= bound(t.gain, t.kappa_eta, t.rho);
+    Some(match t.n <= MEASURED_N || has_room {
+        true => format!("with n = {n} it is measured, not proved, that the f32 step has one input for each output"),
+        false => format!("with n = {n} and sigma {} close to its bound the f32 step may have more than one input for an output", three_digits(t.sigma)),
+    })
 }
 
 fn accepted<T: Real + DeserializeOwned>(file: &ModelFile) -> Result<bool, String> {
@@ -227,4 +260,43 @@ fn left_by(
         .zip(&answered)
         .map(|(y, p)| y - p)
         .collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::TransmissionFile;
+    use super::{caution, ModelFile};
+
+    fn file(mode: &str, kappa_eta: f64, sigma: f64, n: f64) -> ModelFile {
+        ModelFile {
+            schema: "bowden.model/1".to_owned(),
+            mode: mode.to_owned(),
+            channels: Vec::new(),
+            transmission: Some(TransmissionFile {
+                gain: 1.0,
+                kappa_eta,
+                offset: 0.0,
+                rho: 0.1,
+                sigma,
+                n,
+            }),
+            terms: Vec::new(),
+            about: None,
+        }
+    }
+
+    /// The greatest sigma that has an inverse is 1/(2·7·0.1) = 0.714 here, 0.514 over 1.39.
+    #[test]
+    fn what_is_not_proved_of_an_inverse_is_said() {
+        let said = |n, sigma| caution(&file("torque", 7.0, sigma, n)).unwrap_or_default();
+        assert_eq!(said(4.0, 0.7), "");
+        assert!(said(4.1, 0.7).contains("n = 4.10 it is measured, not proved"));
+        assert!(said(10.0, 0.7).contains("measured, not proved"));
+        assert!(said(20.0, 0.51).contains("measured, not proved"));
+        assert!(said(20.0, 0.52).contains("may have more than one input"));
+        // A hysteresis that helps its gain needs no slope.
+        assert_eq!(caution(&file("torque", -7.0, 0.7, 20.0)), None);
+        assert_eq!(caution(&file("displacement", 7.0, 0.7, 20.0)), None);
+        assert!(caution(&file("displacement", -7.0, 0.7, 20.0)).is_some());
+    }
 }
