@@ -100,6 +100,12 @@ fn remembering<T: Real>() -> Result<impl Terms<T, 16>, Error> {
     ])
 }
 
+/// What there was no room for above.
+fn others<T: Real>() -> Result<impl Terms<T, 2>, Error> {
+    let one = T::of(0.7);
+    Ok(terms![Hardening::try_new(one, one)?, Viscous])
+}
+
 type Row = [f64; 8];
 
 /// Steps both models over the rows, and asks them for the same bits.
@@ -151,9 +157,11 @@ proptest! {
         same::<f64, 16, _>(plain(), &rows, with);
         same::<f64, 16, _>(staged().unwrap(), &rows, with);
         same::<f64, 16, _>(remembering().unwrap(), &rows, with);
+        same::<f64, 2, _>(others().unwrap(), &rows, with);
         same::<f32, 16, _>(plain(), &rows, with);
         same::<f32, 16, _>(staged().unwrap(), &rows, with);
         same::<f32, 16, _>(remembering().unwrap(), &rows, with);
+        same::<f32, 2, _>(others().unwrap(), &rows, with);
     }
 }
 
@@ -167,6 +175,7 @@ fn the_three_lists_above_hold_the_whole_catalogue() {
     all.extend(list(fixed(plain::<f64>()).terms()));
     all.extend(list(fixed(staged::<f64>().unwrap()).terms()));
     all.extend(list(fixed(remembering::<f64>().unwrap()).terms()));
+    all.extend(list(fixed(others::<f64>().unwrap()).terms()));
     let catalogue: BTreeSet<&str> = CATALOGUE.iter().map(|info| info.name).collect();
     assert_eq!(all, catalogue);
 }

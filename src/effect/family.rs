@@ -67,6 +67,7 @@ families! {
     Tone = "tone",
     Crosstalk = "crosstalk",
     Stretch = "stretch",
+    Hardening = "hardening",
 }
 
 impl Family {

@@ -33,6 +33,7 @@ pub mod drag;
 pub mod drift;
 pub mod gain;
 pub mod gravity;
+pub mod hardening;
 pub mod inertia;
 pub mod lag;
 pub mod load_friction;
@@ -91,10 +92,12 @@ macro_rules! effects {
         plain { $($module:ident: $($plain:ident)+;)* }
         shaped { $($shaped_module:ident: $($shaped:ident)+;)* }
         later { $($later_module:ident: $($later:ident)+;)* }
+        later_shaped { $($late_module:ident: $($late:ident)+;)* }
     ) => {
         plain_types! { $($module: $($plain)+;)* $($later_module: $($later)+;)* }
 
         $($(pub use $shaped_module::$shaped;)+)*
+        $($(pub use $late_module::$late;)+)*
 
         $($(
             impl<T> Sealed for $shaped<T> {}
@@ -102,6 +105,16 @@ macro_rules! effects {
             impl<T> From<$shaped<T>> for Effect<T> {
                 fn from(own: $shaped<T>) -> Self {
                     Self::$shaped(own)
+                }
+            }
+        )+)*
+
+        $($(
+            impl<T> Sealed for $late<T> {}
+
+            impl<T> From<$late<T>> for Effect<T> {
+                fn from(own: $late<T>) -> Self {
+                    Self::$late(own)
                 }
             }
         )+)*
@@ -128,18 +141,20 @@ macro_rules! effects {
             $($(#[doc = concat!("Without shapes; formula and source: [`", stringify!($module), "`].")] $plain,)+)*
             $($(#[doc = concat!("Formula and source: [`", stringify!($shaped_module), "`].")] $shaped($shaped_module::$shaped<T>),)+)*
             $($(#[doc = concat!("Without shapes; formula and source: [`", stringify!($later_module), "`].")] $later,)+)*
+            $($(#[doc = concat!("Formula and source: [`", stringify!($late_module), "`].")] $late($late_module::$late<T>),)+)*
         }
 
         /// All effects, in the order in which compact forms number them.
         ///
         /// ```
         /// let with_memory = bowden::effect::CATALOGUE.iter().filter(|info| info.memory);
-        /// assert_eq!(with_memory.count(), 8);
+        /// assert_eq!(with_memory.count(), 9);
         /// ```
         pub const CATALOGUE: &[&Info] = &[
             $($(<$plain as Regressor<f64>>::INFO,)+)*
             $($(<$shaped_module::$shaped<f64> as Regressor<f64>>::INFO,)+)*
             $($(<$later as Regressor<f64>>::INFO,)+)*
+            $($(<$late_module::$late<f64> as Regressor<f64>>::INFO,)+)*
         ];
 
         impl<T: Real> Effect<T> {
@@ -150,6 +165,7 @@ macro_rules! effects {
                     $($(Self::$plain => <$plain as Regressor<T>>::INFO,)+)*
                     $($(Self::$shaped(_) => <$shaped_module::$shaped<T> as Regressor<T>>::INFO,)+)*
                     $($(Self::$later => <$later as Regressor<T>>::INFO,)+)*
+                    $($(Self::$late(_) => <$late_module::$late<T> as Regressor<T>>::INFO,)+)*
                 }
             }
 
@@ -159,6 +175,7 @@ macro_rules! effects {
                     $($(Self::$plain => <$plain as Regressor<T>>::STAGE,)+)*
                     $($(Self::$shaped(_) => <$shaped<T> as Regressor<T>>::STAGE,)+)*
                     $($(Self::$later => <$later as Regressor<T>>::STAGE,)+)*
+                    $($(Self::$late(_) => <$late<T> as Regressor<T>>::STAGE,)+)*
                 }
             }
 
@@ -169,6 +186,7 @@ macro_rules! effects {
                     $($(Self::$plain)|+ => &[],)*
                     $($(Self::$shaped(_) => <$shaped_module::$shaped<T>>::NAMES,)+)*
                     $($(Self::$later)|+ => &[],)*
+                    $($(Self::$late(_) => <$late_module::$late<T>>::NAMES,)+)*
                 }
             }
 
@@ -179,6 +197,7 @@ macro_rules! effects {
                     $($(Self::$plain)|+ => &[],)*
                     $($(Self::$shaped(_) => <$shaped_module::$shaped<T>>::SHAPES,)+)*
                     $($(Self::$later)|+ => &[],)*
+                    $($(Self::$late(_) => <$late_module::$late<T>>::SHAPES,)+)*
                 }
             }
 
@@ -189,6 +208,7 @@ macro_rules! effects {
                     $($(Self::$plain)|+ => None,)*
                     $($(Self::$shaped(config) => config.shape(index),)+)*
                     $($(Self::$later)|+ => None,)*
+                    $($(Self::$late(config) => config.shape(index),)+)*
                 }
             }
 
@@ -202,6 +222,7 @@ macro_rules! effects {
                     $($(Self::$plain)|+ => Err(Error::OutOfRange("shape index")),)*
                     $($(Self::$shaped(config) => config.with_shape(index, value).map(Self::$shaped),)+)*
                     $($(Self::$later)|+ => Err(Error::OutOfRange("shape index")),)*
+                    $($(Self::$late(config) => config.with_shape(index, value).map(Self::$late),)+)*
                 }
             }
 
@@ -219,6 +240,9 @@ macro_rules! effects {
                         Shaped::try_from_shapes(shapes).map(Self::$shaped)
                     })+)*
                     $($(name if name == <$later as Regressor<T>>::INFO.name => plain(Self::$later),)+)*
+                    $($(name if name == <$late_module::$late<T> as Regressor<T>>::INFO.name => {
+                        Shaped::try_from_shapes(shapes).map(Self::$late)
+                    })+)*
                     _ => Err(Error::OutOfRange("effect name")),
                 }
             }
@@ -236,6 +260,7 @@ macro_rules! effects {
                     $($(Self::$plain => record.for_each(|at| take(evaluate(&$plain, state, &at))),)+)*
                     $($(Self::$shaped(config) => record.for_each(|at| take(evaluate(config, state, &at))),)+)*
                     $($(Self::$later => record.for_each(|at| take(evaluate(&$later, state, &at))),)+)*
+                    $($(Self::$late(config) => record.for_each(|at| take(evaluate(config, state, &at))),)+)*
                 }
             }
 
@@ -249,6 +274,7 @@ macro_rules! effects {
                     $($(Self::$plain => evaluate(&$plain, state, at),)+)*
                     $($(Self::$shaped(config) => evaluate(config, state, at),)+)*
                     $($(Self::$later => evaluate(&$later, state, at),)+)*
+                    $($(Self::$late(config) => evaluate(config, state, at),)+)*
                 }
             }
         }
@@ -293,6 +319,9 @@ effects! {
     }
     later {
         stretch: StretchLinear StretchCubic;
+    }
+    later_shaped {
+        hardening: Hardening;
     }
 }
 

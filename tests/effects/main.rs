@@ -18,6 +18,7 @@ fn make<T: Real>(name: &str) -> Effect<T> {
         "capstan" => &[0.7, 0.3],
         "ripple" => &[3.3, 0.4],
         "tone" => &[1.9, 0.8],
+        "hardening" => &[0.7, 0.4],
         _ => &[0.7],
     };
     let shapes: Vec<T> = shapes.iter().map(|&shape| T::of(shape)).collect();

@@ -1,7 +1,7 @@
 //! Closes the loop on the shared measured records and prints what was reached.
 //!
 //! `cargo run --release -p bowden-lab --example shared_records -- FOLDER [ROW…]`;
-//! the folder holds one sub-folder a record (`emps/emps_estimation.csv`, …). Rows whose
+//! the rows of a stretch only where they are named (`difference`, `sum`); the folder holds one sub-folder a record (`emps/emps_estimation.csv`, …). Rows whose
 //! file is absent are skipped and said so. After the ledgers comes a table: NRMSE of the
 //! filtered output [%] on the fit segment / held out.
 #![allow(clippy::unwrap_used)]
@@ -19,7 +19,7 @@ use bowden_lab::fit::Segments;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::search::{close, MOST_NAMES};
-use shared::{Row, ROWS};
+use shared::{Row, ROWS, STRETCHED};
 use std::path::{Path, PathBuf};
 
 /// The rounds with their errors, the parameters, the sentence; `bowden close` prints it all.
@@ -120,10 +120,10 @@ fn main() {
     };
     let only: Vec<String> = arguments.collect();
     let mut lines = Vec::new();
-    for row in ROWS
-        .iter()
-        .filter(|r| only.is_empty() || only.iter().any(|o| r.name.contains(o.as_str())))
-    {
+    let named = |row: &&Row| only.iter().any(|o| row.name.contains(o.as_str()));
+    let stretched = STRETCHED.iter().filter(named);
+    let rows = ROWS.iter().filter(|row| only.is_empty() || named(row));
+    for row in rows.chain(stretched) {
         let path = folder.join(row.file);
         if !path.exists() {
             println!("{}: skipped, {} is not there", row.name, path.display());

@@ -160,6 +160,7 @@ fn shapes(name: &str, reach: f64, speed: f64) -> Vec<f64> {
         "saturation-upper" => vec![0.7 * reach],
         "saturation-lower" => vec![-0.7 * reach],
         "tone" => vec![3.3, 0.4],
+        "hardening" => vec![0.3 / reach, 1.0 / reach],
         _ => Vec::new(),
     }
 }

@@ -37,6 +37,8 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(effect_shaped_try_new, Coulomb::<T>::try_new(any()));
     let coulomb = black_box(Coulomb::<T>::try_new(any())).ok()?;
     never_panics!(effect_shaped_field, coulomb.v_e());
+    let hardening = black_box(Hardening::<T>::try_new(any(), any())).ok()?;
+    never_panics!(effect_hardening_bound, hardening.bound(any()));
 
     let shapes = [T::one(), T::zero()];
     let shapes = black_box(&shapes[..]);

@@ -11,6 +11,7 @@
 //! * [`delivered`]: the final model has seen all but what is held out, and is nearer to the truth.
 //! * [`unneeded`]: declared parts that the record does not need are told.
 //! * [`series`]: a play between the input and the transmission is found with its width.
+//! * [`hardening`]: the benchmark of Noël and Schoukens comes back.
 //! * [`late`]: a delay has its size at every cut-off.
 //! * [`stretch`]: the stretch of a cable is one name beside the two angles.
 //! * [`exported`]: what was fitted is what runs in firmware.
@@ -20,6 +21,7 @@ mod beside;
 mod delivered;
 mod determinism;
 mod exported;
+mod hardening;
 mod late;
 mod nulls;
 mod planted;

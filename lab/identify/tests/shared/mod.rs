@@ -146,6 +146,36 @@ pub const ROWS: [Row; 10] = [
     TRIBOMETER,
 ];
 
+/// The da Vinci rows with a stretch, for the example alone. Drive and jaw turn against each
+/// other there, so that the sum is the stretch, and the difference an angle.
+pub const STRETCHED: [Row; 4] = [
+    stretched(DAVINCI_23, "davinci 4_23 difference", DIFFERENCE),
+    stretched(DAVINCI_23, "davinci 4_23 sum", SUM),
+    stretched(DAVINCI_03, "davinci 4_03 difference", DIFFERENCE),
+    stretched(DAVINCI_03, "davinci 4_03 sum", SUM),
+];
+
+type Channels = &'static [(&'static str, &'static str)];
+
+const DIFFERENCE: Channels = &[
+    ("phi_p", "drive_angle_rad"),
+    ("phi_d", "jaw_angle_rad"),
+    ("stretch", "phi_p-phi_d"),
+];
+const SUM: Channels = &[
+    ("phi_p", "drive_angle_rad"),
+    ("phi_d", "jaw_angle_rad"),
+    ("stretch", "phi_p+phi_d"),
+];
+
+const fn stretched(row: Row, name: &'static str, channels: Channels) -> Row {
+    Row {
+        name,
+        channels,
+        ..row
+    }
+}
+
 /// The folder of the records.
 pub fn folder() -> PathBuf {
     std::env::var_os("BOWDEN_SHARED_RECORDS").map_or_else(

@@ -379,6 +379,17 @@ pub(super) const MOTION: &[Entry] = &[
         shown_by: "small reversals inside large strokes",
         ..PLAIN
     },
+    // Only where asked for: on a record that saturates it is a worse Bouc-Wen.
+    Entry {
+        name: "hardening",
+        rank: 29,
+        declared: Declared::OnChannel(&[PerReach(0.3), PerReach(1.0)]),
+        bounds: &[Bounds::PerReach(1e-3, 10.0), Bounds::PerReach(1e-3, 30.0)],
+        on: &[On::Read, On::Reversal],
+        past: true,
+        shown_by: "strokes of several lengths, the longest over the whole range",
+        ..PLAIN
+    },
     Entry {
         name: "creep",
         rank: 24,
