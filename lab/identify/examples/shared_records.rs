@@ -1,8 +1,9 @@
 //! Closes the loop on the shared measured records and prints what was reached.
 //!
 //! `cargo run --release -p bowden-lab --example shared_records -- FOLDER [ROW…]`;
-//! the rows of a stretch only where they are named (`difference`, `sum`); the folder holds one sub-folder a record (`emps/emps_estimation.csv`, …). Rows whose
-//! file is absent are skipped and said so. After the ledgers comes a table: NRMSE of the
+//! the folder holds one sub-folder a record (`emps/emps_estimation.csv`, …). Rows whose
+//! file is absent are skipped and said so; those with a stretch are closed only where they are
+//! named (`difference`, `sum`). After the ledgers comes a table: NRMSE of the
 //! filtered output [%] on the fit segment / held out.
 #![allow(clippy::unwrap_used)]
 
