@@ -1,10 +1,13 @@
 //! A tone: a line in the residual's spectrum, a function of nothing measured.
 //!
 //! A peak is compared with the median of the bins around it, since a coloured residual has no
-//! common level (Fisher's g supposes one and rejects on every record). Lines of the input and
-//! their multiples are excluded: a static non-linearity also produces lines there.
+//! common level (Fisher's g supposes one and rejects on every record). The slope of the filter is
+//! divided out first, so that a line above the cut-off is found too: the filter passes half of
+//! the amplitude there. Lines of the input and their multiples are excluded: a static
+//! non-linearity also produces lines there.
 
 use crate::model::structure::FitTerm;
+use crate::problem::filter::gain;
 use crate::problem::spectrum::power_of_fit;
 use crate::problem::{Prepared, MOST_RECORDS};
 use bowden::effect::Effect;
@@ -16,8 +19,8 @@ use std::f64::consts::TAU;
 const LEVEL: f64 = 0.01;
 /// Bins on either side from which the noise level is taken.
 const AROUND: usize = 25;
-/// Above this share of the cut-off the filter itself shapes the spectrum.
-const HIGHEST: f64 = 0.95;
+/// Least gain of the filter at a frequency that is searched: up to 1.3 times the cut-off.
+const PASSED: f64 = 0.1;
 /// Multiples of the input's lines that count as its own ...
 const MULTIPLES: usize = 7;
 /// ... this many bins to either side; more of either leaves little to search ...
@@ -36,7 +39,7 @@ fn step(data: &Prepared) -> f64 {
 pub(crate) fn strongest(data: &Prepared, residual: &[f64]) -> Option<(f64, f64)> {
     let hann = |at: f64, n: f64| 0.5 - 0.5 * (TAU * at / n).cos();
     let power_of = |signal: &[f64]| power_of_fit(data, signal, hann);
-    let powers = power_of(residual)?;
+    let mut powers = power_of(residual)?;
     let position: Vec<f64> = data
         .input
         .motion
@@ -47,7 +50,12 @@ pub(crate) fn strongest(data: &Prepared, residual: &[f64]) -> Option<(f64, f64)>
     let own = lines(&power_of(&position)?);
     let bins = data.split.fit.last()? - data.split.fit.first()? + 1;
     let seconds = bins as f64 * step(data);
-    let highest = ((HIGHEST * data.cutoff * seconds) as usize).min(powers.len() - 1);
+    let passed = |k: &usize| gain(data.cutoff, 1.0 / data.dt, *k as f64 / seconds);
+    let passes = (0..powers.len()).take_while(|k| passed(k) >= PASSED);
+    let highest = passes.last()?;
+    for (k, power) in powers.iter_mut().enumerate().take(highest + 1) {
+        *power /= passed(&k).powi(2);
+    }
     let free: Vec<usize> = (2..highest)
         .filter(|&k| {
             !own.iter()

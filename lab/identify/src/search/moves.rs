@@ -87,6 +87,9 @@ impl Linear<'_> {
             .map(|kept| self.moves_from(&kept))
             .collect();
         let mut all: Vec<Move> = all.into_iter().flatten().collect();
+        if wanted.phase == Phase::Fewer {
+            all.extend(self.removals());
+        }
         all.retain(|m| match wanted.phase {
             Phase::Fewer => self.takes_names_out(m),
             Phase::Any | Phase::Curves => m.promise < wanted.below,
@@ -143,6 +146,34 @@ impl Linear<'_> {
         crowds.sort();
         crowds.dedup();
         crowds
+    }
+
+    /// Removals of three or more names. Several names may imitate one effect that a later move
+    /// has added; without any one or two of them the others do not.
+    fn removals(&self) -> Vec<Move> {
+        let names: Vec<usize> = (self.declared..self.now.structure.terms.len()).collect();
+        let sets =
+            (0..1_usize << names.len()).filter(|set| set.count_ones() as usize >= policy::MANY);
+        let of = |set: usize| {
+            let dropped = names.iter().enumerate();
+            let dropped = dropped.filter(|(bit, _)| set >> bit & 1 == 1);
+            let kept = Kept {
+                dropped: dropped.map(|(_, &index)| index).collect(),
+                table: self.has_table(),
+            };
+            let (target, unit) = self.target_of(&kept);
+            let sse = self
+                .grams
+                .squared_error(&self.columns_of(&kept), target)
+                .max(1e-14);
+            Move {
+                promise: (unit * sse).ln() + self.price_of(&kept),
+                kept,
+                added: Vec::new(),
+                p: Vec::new(),
+            }
+        };
+        sets.map(of).collect()
     }
 
     fn moves_from(&self, kept: &Kept) -> Vec<Move> {
@@ -227,15 +258,42 @@ impl Linear<'_> {
             let (target, _) = self.target_of(kept);
             let whole = self.completed(swept, target, &added, room);
             if whole.len() > added.len().max(2) {
-                let mut columns = self.columns_of(kept);
-                let before = self.grams.squared_error(&columns, target);
-                for &g in &whole {
-                    columns.extend(&self.groups[g].columns);
-                }
-                let gain = before - self.grams.squared_error(&columns, target);
+                let (whole, left) = self.pruned((kept, target), whole);
+                let gain = swept.at(target, target) - left;
                 moves.push(make(whole, gain));
             }
         }
+    }
+
+    /// Backward elimination after a forward selection: names are removed one at a time while the
+    /// criterion falls. Those that came first may only have stood for those that came later, and
+    /// would fail the sign-flip test for all of them. Returns the squared error as well.
+    fn pruned(&self, (kept, target): (&Kept, usize), mut added: Vec<usize>) -> (Vec<usize>, f64) {
+        let own = self.columns_of(kept);
+        let error = |names: &mut dyn Iterator<Item = usize>| {
+            let columns = names.flat_map(|g| &self.groups[g].columns);
+            let all: Vec<usize> = own.iter().chain(columns).copied().collect();
+            self.grams.squared_error(&all, target).max(1e-14)
+        };
+        let mut left = error(&mut added.iter().copied());
+        while added.len() > 1 {
+            let without = |out: usize| {
+                let others = added.iter().enumerate().filter(|(n, _)| *n != out);
+                error(&mut others.map(|(_, &g)| g))
+            };
+            let rises = (0..added.len()).map(|out| {
+                let sse = without(out);
+                ((sse / left).ln() - self.price(added[out]), out, sse)
+            });
+            match rises.min_by(|a, b| a.0.total_cmp(&b.0)) {
+                Some((rise, out, sse)) if rise < 0.0 => {
+                    added.remove(out);
+                    left = sse;
+                }
+                _ => break,
+            }
+        }
+        (added, left)
     }
 
     /// Tests the best moves by sign flips, each set of members once.
@@ -246,6 +304,16 @@ impl Linear<'_> {
             rejected: Vec::new(),
             is_cut: false,
         };
+        // Kinds of moves whose first-order promises are the least accurate: the best one of each
+        // is refitted whatever the others promise.
+        let stage = |m: &Move| self.is_one_stage(m);
+        let many = |m: &Move| m.kept.dropped.len() >= m.added.len() + policy::MANY;
+        let poor: &[&dyn Fn(&Move) -> bool] = match wanted.phase {
+            Phase::Fewer => &[&stage, &many],
+            Phase::Any | Phase::Curves => &[&stage],
+        };
+        let has =
+            |proposed: &Proposed, kind: &dyn Fn(&Move) -> bool| proposed.moves.iter().any(kind);
         let mut tested = 0;
         for mut one in all {
             let members = self.identities(&one.kept, &one.added);
@@ -270,7 +338,7 @@ impl Linear<'_> {
                 continue;
             }
             let is_full = proposed.moves.len() >= policy::REFITTED;
-            if is_full && !self.is_one_stage(&one) {
+            if is_full && !poor.iter().any(|kind| kind(&one) && !has(&proposed, kind)) {
                 continue;
             }
             tested += 1;
@@ -296,7 +364,7 @@ impl Linear<'_> {
             seen.push(members);
             proposed.moves.push(one);
             if proposed.moves.len() >= policy::REFITTED
-                && proposed.moves.iter().any(|m| self.is_one_stage(m))
+                && poor.iter().all(|kind| has(&proposed, kind))
             {
                 break;
             }

@@ -13,7 +13,7 @@ use crate::fit::settle::settle;
 use crate::fit::Solution;
 use crate::ledger::{reject, Grade, Ledger, Round, Unknown};
 use crate::model::catalogue::Candidate;
-use crate::model::structure::{Free, Structure};
+use crate::model::structure::{FitTerm, Free, Structure};
 use crate::model::Table;
 use crate::problem::Prepared;
 use crate::score::blocks::Regime;
@@ -223,7 +223,7 @@ impl Search<'_> {
         };
         let term = self.now.structure.terms[index];
         let known = self.entry(Identity::of(&term));
-        let (close, sse) = context.close(&kept, (term.effect.family(), term.source), known);
+        let (close, sse) = context.close(&kept, &term, known);
         let allowed = policy::allowed_to_a_rival(sse, context.full);
         let really: Vec<Option<(Candidate, f64)>> = close
             .into_par_iter()
@@ -244,6 +244,7 @@ impl Search<'_> {
             })
             .collect();
         let mut found: Vec<(Candidate, f64)> = really.into_iter().flatten().collect();
+        found.extend(self.stages_instead(context, index));
         found.sort_by(|a, b| a.1.total_cmp(&b.1));
         let mut rivals: Vec<Candidate> = Vec::new();
         for (rival, _) in found {
@@ -254,6 +255,45 @@ impl Search<'_> {
             }
         }
         rivals
+    }
+}
+
+impl Search<'_> {
+    /// Other stages of the model that without this one leave as little as this one without them.
+    /// Two stages may share one effect; then each is a rival of the other.
+    fn stages_instead(&self, context: &Context, index: usize) -> Vec<(Candidate, f64)> {
+        let linear = context.linear;
+        let terms = &self.now.structure.terms;
+        let stages = self.declared.structure.terms.len()..terms.len();
+        let stages = stages.filter(|&other| is_stage(&terms[other]));
+        if !is_stage(&terms[index]) {
+            return Vec::new();
+        }
+        let without = |dropped: Vec<usize>| Kept {
+            dropped,
+            table: linear.has_table(),
+        };
+        let refitted = |out: usize| {
+            let removal = Move {
+                kept: without(vec![out]),
+                added: Vec::new(),
+                promise: 0.0,
+                p: Vec::new(),
+            };
+            let grids = (self.coarse, context.moved);
+            let real = linear.refit(grids, &removal, STARTS, |_| true)?;
+            Some(real.sse / context.scale)
+        };
+        let rival = |other: usize| {
+            let neither = without(vec![index.min(other), index.max(other)]);
+            let (target, unit) = linear.target_of(&neither);
+            let columns = linear.columns_of(&neither);
+            let sse = unit * linear.grams.squared_error(&columns, target);
+            let (named, left) = (refitted(other)?, refitted(index)?);
+            let does = left <= policy::allowed_to_a_rival(sse, named);
+            does.then_some((Candidate::from(terms[other]), left))
+        };
+        stages.filter(|&o| o != index).filter_map(rival).collect()
     }
 }
 
@@ -308,10 +348,16 @@ impl Linear<'_> {
 
 /// Grade of a name from its recurrence and its rivals.
 fn grade(recurs: usize, rivals: &[Candidate]) -> Grade {
-    match 2 * recurs >= policy::RECURRENCES && rivals.is_empty() {
+    let least = policy::FIRM * policy::RECURRENCES as f64;
+    match recurs as f64 >= least && rivals.is_empty() {
         true => Grade::Firm,
         false => Grade::Weak,
     }
+}
+
+/// Whether an effect acts on the whole input or output.
+fn is_stage(term: &FitTerm) -> bool {
+    term.effect.is_input_stage() || term.effect.is_output_stage()
 }
 
 /// The final model, to first order and in fact.
@@ -325,13 +371,9 @@ struct Context<'a, 'b> {
 impl Context<'_, '_> {
     /// Candidates of another family or channel that to first order nearly meet the rule for
     /// rivals, or met it when the name was added, the best of each identity; and the squared
-    /// error without the name.
-    fn close(
-        &self,
-        kept: &Kept,
-        own: (bowden::effect::Family, bowden::model::Source),
-        known: Option<&Entry>,
-    ) -> (Vec<usize>, f64) {
+    /// error without the name. A stage acts on every column, so that its first-order gain is the
+    /// least accurate: all others are refitted in place of a stage.
+    fn close(&self, kept: &Kept, own: &FitTerm, known: Option<&Entry>) -> (Vec<usize>, f64) {
         let linear = self.linear;
         let swept = linear.without(kept);
         let (target, unit) = linear.target_of(kept);
@@ -341,14 +383,15 @@ impl Context<'_, '_> {
             let Some(candidate) = group.candidate() else {
                 continue;
             };
-            if (candidate.family, candidate.term.source) == own {
+            if (candidate.family, candidate.term.source) == (own.effect.family(), own.source) {
                 continue;
             }
             let gain = unit * swept.gain(&group.columns, target);
             // The gain at a trial shape predicts the gain at the fitted shape only roughly.
             let nearly = gain >= NEARLY * policy::RIVAL_SHARE * (sse - self.full);
             let was = known.is_some_and(|e| e.siblings.iter().any(|s| s.is_like(&candidate)));
-            if !nearly && !was {
+            let stages = is_stage(own) && is_stage(&candidate.term);
+            if !nearly && !was && !stages {
                 continue;
             }
             match close

@@ -8,6 +8,7 @@
 //! * [`nulls`]: where nothing is missing, nothing is added.
 //! * [`determinism`]: the same record gives the same result, on any number of threads.
 //! * [`beside`]: effects that are found only beside each other.
+//! * [`imitated`]: names that imitated an effect together leave again, all at once.
 //! * [`delivered`]: the final model has seen all but what is held out, and is nearer to the truth.
 //! * [`unneeded`]: declared parts that the record does not need are told.
 //! * [`series`]: a play between the input and the transmission is found with its width.
@@ -22,6 +23,7 @@ mod delivered;
 mod determinism;
 mod exported;
 mod hardening;
+mod imitated;
 mod late;
 mod nulls;
 mod planted;
