@@ -258,42 +258,15 @@ impl Linear<'_> {
             let (target, _) = self.target_of(kept);
             let whole = self.completed(swept, target, &added, room);
             if whole.len() > added.len().max(2) {
-                let (whole, left) = self.pruned((kept, target), whole);
-                let gain = swept.at(target, target) - left;
+                let mut columns = self.columns_of(kept);
+                let before = self.grams.squared_error(&columns, target);
+                for &g in &whole {
+                    columns.extend(&self.groups[g].columns);
+                }
+                let gain = before - self.grams.squared_error(&columns, target);
                 moves.push(make(whole, gain));
             }
         }
-    }
-
-    /// Backward elimination after a forward selection: names are removed one at a time while the
-    /// criterion falls. Those that came first may only have stood for those that came later, and
-    /// would fail the sign-flip test for all of them. Returns the squared error as well.
-    fn pruned(&self, (kept, target): (&Kept, usize), mut added: Vec<usize>) -> (Vec<usize>, f64) {
-        let own = self.columns_of(kept);
-        let error = |names: &mut dyn Iterator<Item = usize>| {
-            let columns = names.flat_map(|g| &self.groups[g].columns);
-            let all: Vec<usize> = own.iter().chain(columns).copied().collect();
-            self.grams.squared_error(&all, target).max(1e-14)
-        };
-        let mut left = error(&mut added.iter().copied());
-        while added.len() > 1 {
-            let without = |out: usize| {
-                let others = added.iter().enumerate().filter(|(n, _)| *n != out);
-                error(&mut others.map(|(_, &g)| g))
-            };
-            let rises = (0..added.len()).map(|out| {
-                let sse = without(out);
-                ((sse / left).ln() - self.price(added[out]), out, sse)
-            });
-            match rises.min_by(|a, b| a.0.total_cmp(&b.0)) {
-                Some((rise, out, sse)) if rise < 0.0 => {
-                    added.remove(out);
-                    left = sse;
-                }
-                _ => break,
-            }
-        }
-        (added, left)
     }
 
     /// Tests the best moves by sign flips, each set of members once.

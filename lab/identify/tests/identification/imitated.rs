@@ -51,20 +51,3 @@ fn three_names_that_imitated_a_fourth_are_removed_in_one_move() {
     let planted = sorted([Family::Backlash, Family::Tone, Family::Rate]);
     assert_eq!(families(&ledger), planted);
 }
-
-/// A forward selection starts with a quadratic drag, which the three planted effects replace. With
-/// it in the set its own sign-flip test fails, and a curve over the velocity is taken instead.
-#[test]
-#[ignore = "slow: bash .ci/run identification"]
-fn three_names_over_one_variable_are_found_although_a_fourth_comes_first() {
-    let ledger = closed(
-        30_015,
-        [
-            ("asymmetry-viscous", 1.1027062712738902),
-            ("drag-cubic", 2.1147932825366924),
-            ("viscous", 1.5418352111546405),
-        ],
-    );
-    let planted = sorted([Family::Asymmetry, Family::Drag, Family::Viscous]);
-    assert_eq!(families(&ledger), planted);
-}
