@@ -78,8 +78,6 @@ const EXCEPTIONS: &[Exception] = &[
     // are of the noise: told and without any noise on the record, same recipe.
     Exception { mode: TORQUE, effect: "presliding", strength: None, expected: AtTold,
         reason: "three stops in parallel are planted, the catalogue has one: 2.5 of the noise remain at strength 3, 0.7 at strength 1" },
-    Exception { mode: TORQUE, effect: "delay", strength: Some(3.0), expected: AtTold,
-        reason: "a pure delay is planted, the catalogue has its first-order term: 0.45 remain" },
     Exception { mode: TORQUE, effect: "drag-cubic", strength: Some(3.0), expected: AtTold,
         reason: "0.02 remain: it is the noise in the gain of v³, whose few fastest moments are held out" },
     Exception { mode: DISPLACEMENT, effect: "stribeck", strength: Some(3.0), expected: AtTold,
