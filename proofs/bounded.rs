@@ -173,3 +173,31 @@ fn eta_stays_within_1() {
         assert!(shape.advance(outside, change).abs() <= 1.0 || !change.is_finite());
     }
 }
+
+/// The same where the power is known.
+fn any_step_powered<N: Number>(zeta: N, p: N, _: N, c: N, n: N) -> N {
+    any_step(zeta, p, c, n)
+}
+
+/// K3. The paths that the inverse tries in `f32`, of any accepted shape: eta ends within ±1 and
+/// never moves against the direction of the search.
+///
+/// Assumes: eta ∈ \[-1, 1\], any direction, any finite change; the step as by bounded_joined,
+/// any power.
+#[kani::proof]
+#[kani::stub(follow_powered, any_step_powered)]
+#[kani::stub(crate::real::short::log2, stubs::garbage)]
+#[kani::stub(crate::real::short::exp2, stubs::garbage)]
+fn a_way_stays_within_1() {
+    let shape = Shape::<f32>::try_new(kani::any(), kani::any(), kani::any());
+    kani::assume(shape.is_ok());
+    if let Ok(shape) = shape {
+        let (eta, direction): (f32, f32) = (within(-1.0, 1.0), kani::any());
+        let next = shape.way(eta, direction).after(finite());
+        kani::cover!((direction > 0.0) & (next > eta));
+        kani::cover!((direction < 0.0) & (next < eta));
+        assert!(next.abs() <= 1.0);
+        assert!(direction < 0.0 || next >= eta);
+        assert!(!(direction < 0.0) || next <= eta);
+    }
+}
