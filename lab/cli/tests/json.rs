@@ -25,7 +25,7 @@ const SELDOM: [&str; 8] = [
 ];
 
 /// Optional fields that no record below needs to have: a fit that fails only without an effect.
-const SELDOM_FIELDS: [&str; 1] = ["round.not_refitted_without"];
+const SELDOM_FIELDS: [&str; 2] = ["feed-forward.caution", "round.not_refitted_without"];
 
 struct Field {
     name: String,
