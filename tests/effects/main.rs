@@ -3,6 +3,8 @@
 
 mod constructed;
 mod declared;
+mod hardening;
+mod late;
 mod memory;
 mod names;
 mod robust;
