@@ -128,7 +128,7 @@ fn over_the_paper(measured: &Measured) -> Limit {
             let by_instructions = own.instructions.zip(paper.instructions).map(|(a, b)| b / a);
             let ratio = by_instructions.unwrap_or(paper.seconds / own.seconds);
             let what = format!(
-                "{:.0} evaluations of theirs for {:.0} of ours; {:.1} times by processor time",
+                "{:.0} evaluations of theirs for {:.0} of ours; {:.1} times by the clock",
                 paper.evaluations,
                 own.evaluations,
                 paper.seconds / own.seconds

@@ -9,8 +9,7 @@
 //! paper's method and SciPy on the same record; and how far each figure is from its limit.
 //! `--largest SAMPLES` sets the longest record of the first series (10^6; 10^7 needs 1 GB of
 //! disk), `--rows NAME,…` the measured records (`none` for none), `--out FILE` another file,
-//! `--program FILE` a program that is built already, as of another version; `--uncounted` leaves
-//! out the instructions, whose count under valgrind takes fifty times as long as the run.
+//! `--program FILE` a program that is built already, as of another version.
 //! `BOWDEN_SHARED_RECORDS` names the folder of the measured records, `PYTHON` a Python with
 //! SciPy. What is not there, or was not asked for, is said in the file.
 #![allow(clippy::unwrap_used)]
@@ -40,7 +39,6 @@ struct Wanted {
     rows: Option<Vec<String>>,
     out: PathBuf,
     program: Option<PathBuf>,
-    uncounted: bool,
 }
 
 impl Wanted {
@@ -51,13 +49,11 @@ impl Wanted {
             rows: None,
             out: repository().join("benches/README.md"),
             program: None,
-            uncounted: false,
         };
         while let Some(word) = words.next() {
             let mut value = || words.next().ok_or(format!("{word}: a value was expected"));
             match word.as_str() {
                 "--quick" => wanted.quick = true,
-                "--uncounted" => wanted.uncounted = true,
                 "--largest" => {
                     let text = value()?;
                     let number = text.parse();
@@ -68,7 +64,7 @@ impl Wanted {
                 "--program" => wanted.program = Some(value()?.into()),
                 _ => {
                     return Err(format!(
-                        "{word}: --quick, --largest, --rows, --out, --program or --uncounted was expected"
+                        "{word}: --quick, --largest, --rows, --out or --program was expected"
                     ))
                 }
             }
@@ -167,10 +163,7 @@ fn between_marks(page: &str, text: &str) -> Option<String> {
 fn report(wanted: &Wanted) -> Result<(), String> {
     let program = Program {
         path: wanted.program.clone().map_or_else(program::build, Ok)?,
-        instrument: match wanted.uncounted {
-            true => Instrument::Unasked,
-            false => Instrument::of_this_machine(),
-        },
+        instrument: Instrument::of_this_machine(),
     };
     let folder = tempfile::tempdir().map_err(|e| e.to_string())?;
     let measured = measure(wanted, &program, folder.path())?;

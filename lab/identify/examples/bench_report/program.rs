@@ -14,8 +14,6 @@ pub enum Instrument {
     Perf,
     Cachegrind,
     Neither,
-    /// Counting was not asked for.
-    Unasked,
 }
 
 impl Instrument {
@@ -34,7 +32,6 @@ impl Instrument {
             Self::Cachegrind => {
                 "User instructions are those of `valgrind --tool=cachegrind --cache-sim=no`."
             }
-            Self::Unasked => "No instructions were counted (`--uncounted`).",
             Self::Neither => {
                 "**No instructions were counted**: neither `perf stat` nor `valgrind` can count them on this machine."
             }
@@ -59,7 +56,7 @@ impl Instrument {
                 valgrind.arg(format!("--log-file={}", log.display()));
                 valgrind
             }
-            Self::Neither | Self::Unasked => return None,
+            Self::Neither => return None,
         };
         command.arg(program).args(arguments);
         command.env("RAYON_NUM_THREADS", "1");
@@ -90,7 +87,7 @@ pub struct Outcome {
     pub jacobians: f64,
     pub columns: f64,
     pub searches: f64,
-    /// Processor time of the whole process \[s\].
+    /// Wall time of the whole process \[s\].
     pub seconds: f64,
     /// Share of the search in the stages' time.
     pub search_share: f64,
@@ -182,8 +179,7 @@ pub fn build() -> Result<PathBuf, String> {
     path.ok_or_else(|| "the program bowden could not be built".to_owned())
 }
 
-/// Standard output, processor time \[s\] and largest resident memory \[B\] of a command. Where
-/// the system does not tell processor time, it is the time by the clock.
+/// Standard output, wall time \[s\] and largest resident memory \[B\] of a command.
 pub fn timed(program: &Path, arguments: &[String]) -> Result<(String, f64, Option<f64>), String> {
     let named = |e: std::io::Error| format!("{}: {e}", program.display());
     let out = tempfile::NamedTempFile::new().map_err(named)?;
@@ -195,17 +191,15 @@ pub fn timed(program: &Path, arguments: &[String]) -> Result<(String, f64, Optio
         .stderr(Stdio::piped())
         .spawn()
         .map_err(named)?;
-    let (mut peak, mut spent) = (None, None);
+    let mut peak: Option<f64> = None;
     let status = loop {
-        // A process that has ended still has both until it is waited for.
-        spent = processor(child.id()).or(spent);
         peak = resident(child.id()).or(peak);
         if let Some(status) = child.try_wait().map_err(named)? {
             break status;
         }
         std::thread::sleep(Duration::from_millis(2));
     };
-    let seconds = spent.unwrap_or_else(|| begun.elapsed().as_secs_f64());
+    let seconds = begun.elapsed().as_secs_f64();
     if !status.success() {
         let message = child.wait_with_output().map_err(named)?.stderr;
         return Err(String::from_utf8_lossy(&message).trim().to_owned());
@@ -220,13 +214,4 @@ fn resident(process: u32) -> Option<f64> {
     let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;
     let kilobytes: f64 = line.split_whitespace().next()?.parse().ok()?;
     Some(1024.0 * kilobytes)
-}
-
-/// Processor time of a process so far \[s\], user and system; Linux tells it in hundredths.
-fn processor(process: u32) -> Option<f64> {
-    let stat = std::fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
-    // The second field is a name in brackets that may hold anything.
-    let (_, rest) = stat.rsplit_once(')')?;
-    let field = |number: usize| rest.split_whitespace().nth(number - 3)?.parse::<f64>().ok();
-    Some((field(14)? + field(15)?) / 100.0)
 }

@@ -149,7 +149,7 @@ fn peers((all, notes): &Peers) -> String {
     let rows = all.iter().map(|peer| {
         let ratio = own(peer.record).map(|own| match own.instructions.zip(peer.instructions) {
             Some((a, b)) => format!("{:.1} times", b / a),
-            None => format!("{:.1} times by processor time", peer.seconds / own.seconds),
+            None => format!("{:.1} times by the clock", peer.seconds / own.seconds),
         });
         vec![
             peer.record.to_owned(),
@@ -178,8 +178,8 @@ here. `--quick` measures what takes minutes.
 `bowden close RECORD --json` has these counts of each run under `cost`. An **evaluation** computes
 a model's columns, its gains and its residual over all samples of a grid; a **Jacobian** its
 derivatives by all shapes; a **search** is one run of Levenberg-Marquardt from one start. The counts
-repeat exactly, instructions to about 1e-4; seconds are processor time of one run with one thread,
-and depend on the machine. All figures are of the whole process: reading, preparing, fitting,
+repeat exactly, instructions to about 1e-4; seconds are of one run with one thread, and depend on the
+machine and on what else it does. All figures are of the whole process: reading, preparing, fitting,
 searching, the final fit and the report.
 
 ";
@@ -187,7 +187,7 @@ searching, the final fit and the report.
 const PEERS: &str = "\
 The paper minimises (8) by a genetic algorithm and then by Nelder-Mead, with fourth-order Runge-Kutta,
 and does not state its settings: here a population of 50 and the simplex's usual ones, small, so that
-the ratio is a lower bound (`lab/identify/examples/bench_report/paper.rs`, compiled by the same compiler). Its
+the ratio is a lower bound (`lab/examples/bench_report/paper.rs`, compiled by the same compiler). Its
 instructions are those of one evaluation times the evaluations. SciPy
 (`python3 benches/peers/bouc_wen_scipy.py RECORD.csv`) solves for the linear gains and gets every
 fifth sample, as a mean of five; its evaluations are of one parameter set each. Both fit the six

@@ -4,7 +4,6 @@
 //! | question | answer |
 //! |---|---|
 //! | What of a column lies outside a set of columns, and the gains of the set | [`Span`], [`take_off`] |
-//! | Products and sums of columns as slices | [`dot`], [`norm`], [`subtract`] |
 //! | The least-norm solution of a system, whatever its rank | [`least_norm`] |
 //! | The inverse of a positive definite matrix, and a root of that | [`inverse`], [`whitening`] |
 //! | The directions in which a positive semi-definite matrix has a size | [`directions`] |
@@ -13,10 +12,8 @@
 //! The sweep of Gram matrices, which grow by columns from round to round, is
 //! [`Grams`](crate::search::gram::Grams).
 
-mod slices;
 mod solve;
 mod span;
 
-pub(crate) use slices::{dot, norm, subtract};
 pub(crate) use solve::{directions, inverse, least_norm, line, whitening};
 pub(crate) use span::{imitated, take_off, Span};

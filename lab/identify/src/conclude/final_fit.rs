@@ -6,7 +6,7 @@
 //! where it is, on both segments. The held-out segment stays unseen.
 
 use super::intervals::term_title;
-use crate::fit::{refit, refit_once, Segments, Solution};
+use crate::fit::{refit, Segments, Solution};
 use crate::ledger::{Ledger, Round};
 use crate::model::structure::FitTerm;
 use crate::problem::Prepared;
@@ -35,21 +35,6 @@ impl FinalFit {
     /// The same of any solution.
     #[must_use]
     pub fn of(data: &Prepared, last: &Solution) -> Self {
-        Self::by(data, last, refit)
-    }
-
-    /// The same of a round that is not delivered, for less: it is searched again only
-    /// if the first search has gained a hundredth.
-    #[must_use]
-    pub(crate) fn of_round(data: &Prepared, round: &Solution) -> Self {
-        Self::by(data, round, refit_once)
-    }
-
-    fn by(
-        data: &Prepared,
-        last: &Solution,
-        refit: fn(&Prepared, &Solution) -> Option<Solution>,
-    ) -> Self {
         let wide = data.with_stop_fitted();
         let better = refit(&wide, last).filter(|one| {
             let error = |s: &Solution| Segments::of(&wide, &s.residual).fit;

@@ -135,7 +135,7 @@ pub(super) fn fits(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Vec<Rou
             model: match &ledger.unknown {
                 // The final model is that of the last round.
                 None if index + 1 == last => RoundModel::new(data, done),
-                _ => RoundModel::new(data, &FinalFit::of_round(data, &round.solution)),
+                _ => RoundModel::new(data, &FinalFit::of(data, &round.solution)),
             },
         }
     };

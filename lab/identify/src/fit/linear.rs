@@ -57,24 +57,21 @@ fn non_negative(
     mut active: Vec<usize>,
 ) -> Linear {
     let y = DVector::from_iterator(rows.len(), rows.iter().map(|&i| target[i]));
-    let column = |k: usize| DVector::from_iterator(rows.len(), rows.iter().map(|&i| columns[k][i]));
-    let mut span = Span::with_tolerance(SUM_OF_OTHERS);
-    let mut used: Vec<usize> = Vec::with_capacity(active.len());
-    let mut next = 0;
     loop {
-        let more = active[next..].iter().copied();
-        used.extend(more.filter(|&k| span.add(column(k))));
+        let mut span = Span::with_tolerance(SUM_OF_OTHERS);
+        let column =
+            |k: usize| DVector::from_iterator(rows.len(), rows.iter().map(|&i| columns[k][i]));
+        let used = active.iter().copied().filter(|&k| span.add(column(k)));
+        let used: Vec<usize> = used.collect();
         let gains = span.gains(&y);
-        let mut pairs = used.iter().zip(&gains);
-        let first = pairs.position(|(&k, gain)| kept[k] && *gain < 0.0);
-        match first.map(|place| (place, used[place])) {
-            Some((place, k)) => {
-                // What comes before it in the basis stays as it is.
-                span.truncate(place);
-                used.truncate(place);
-                next = active.iter().position(|&a| a == k).unwrap_or(0);
-                active.remove(next);
-            }
+        let worst = used
+            .iter()
+            .zip(&gains)
+            .filter(|(&k, g)| kept[k] && **g < 0.0)
+            .map(|(&k, _)| k)
+            .next();
+        match worst {
+            Some(k) => active.retain(|&a| a != k),
             None => {
                 let mut all = vec![0.0; columns.len()];
                 for (&k, &g) in used.iter().zip(&gains) {

@@ -5,7 +5,6 @@
 //! runs over rho, sigma, n, eta(0) and the effects' own shapes only. The hysteresis
 //! column comes with its exact sensitivities in the same pass.
 
-mod compressed;
 mod linear;
 pub(crate) mod projection;
 pub(crate) mod search;
@@ -16,7 +15,7 @@ mod tie;
 
 use crate::model::structure::{Free, Range, Role, Structure};
 use crate::problem::Prepared;
-use search::{descend, descend_from_optimum, descend_fully};
+use search::{descend, descend_fully};
 use settle::{choose, settle};
 pub use solution::{Segments, Solution};
 use starts::starts;
@@ -110,22 +109,10 @@ fn distinct(free: &[Free], reached: Vec<(f64, Vec<f64>)>) -> Vec<(f64, Vec<f64>)
 /// Searches the optimum again from a solution, on another split of its record.
 #[must_use]
 pub fn refit(data: &Prepared, from: &Solution) -> Option<Solution> {
-    searched(data, from, descend_fully)
-}
-
-/// As [`refit`], but a first search that gains less than a hundredth is the last one.
-pub(crate) fn refit_once(data: &Prepared, from: &Solution) -> Option<Solution> {
-    searched(data, from, descend_from_optimum)
-}
-
-/// From values of the free parameters to those of an optimum.
-type Search = fn(&Prepared, &Structure, &[Free], &[f64]) -> Option<Vec<f64>>;
-
-fn searched(data: &Prepared, from: &Solution, search: Search) -> Option<Solution> {
     let structure = &from.structure;
     let free = structure.free(data);
     let fine = data.for_search(false);
-    let values = search(&fine, structure, &free, &from.values)?;
+    let values = descend_fully(&fine, structure, &free, &from.values)?;
     settle(data, structure, &free, values)
 }
 

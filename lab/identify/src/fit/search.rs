@@ -1,9 +1,8 @@
 //! The search of the shapes from one start: Levenberg-Marquardt on the reduced problem.
 
-use super::compressed;
 use super::linear::{solve_linear, Linear};
 use super::tie::{slope, ties};
-use crate::algebra::{norm, take_off};
+use crate::algebra::take_off;
 use crate::model::columns::{raw_columns_knowing, Beforehand, RawColumns};
 use crate::model::structure::{Free, Range, Role, Structure};
 use crate::problem::cost::{EVALUATIONS, JACOBIANS, SEARCHES};
@@ -186,9 +185,7 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Reduced<'_> {
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
-        let now = self.now.as_ref()?;
-        let size = norm(now.residual.as_slice());
-        Some(compressed::residual(size, self.free.len()))
+        self.now.as_ref().map(|e| e.residual.clone())
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
@@ -198,14 +195,13 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Reduced<'_> {
         let tangents = now.tangents(self.data, self.structure, self.free, &self.values())?;
         let mut jacobian = DMatrix::zeros(rows.len(), self.free.len());
         for (j, (free, tangent)) in self.free.iter().zip(tangents).enumerate() {
-            let slope = -free.range.slope(self.line[j]);
-            for (value, &i) in jacobian.column_mut(j).as_mut_slice().iter_mut().zip(rows) {
-                *value = tangent[i] * slope;
-            }
+            let mut column = DVector::from_iterator(rows.len(), rows.iter().map(|&i| tangent[i]));
+            take_off(&now.linear.basis, &mut column);
+            column *= -free.range.slope(self.line[j]);
+            jacobian.set_column(j, &column);
         }
-        take_off(&now.linear.basis, &mut jacobian);
         let is_finite = jacobian.as_slice().iter().all(|v| v.is_finite());
-        is_finite.then(|| compressed::jacobian(now.residual.as_slice(), jacobian))
+        is_finite.then_some(jacobian)
     }
 }
 
@@ -253,29 +249,7 @@ pub(crate) fn descend_fully(
     free: &[Free],
     start: &[f64],
 ) -> Option<Vec<f64>> {
-    let reached = descend(data, structure, free, start, 30, 1e-7)?;
-    again(data, structure, free, reached)
-}
-
-/// The same from an optimum of nearly the same problem: a first search that gains little is the
-/// last one.
-pub(crate) fn descend_from_optimum(
-    data: &Prepared,
-    structure: &Structure,
-    free: &[Free],
-    start: &[f64],
-) -> Option<Vec<f64>> {
-    let begun = evaluate(data, structure, free, start, None)?;
-    let reached = (begun.residual.norm_squared(), start.to_vec());
-    again(data, structure, free, reached)
-}
-
-fn again(
-    data: &Prepared,
-    structure: &Structure,
-    free: &[Free],
-    (mut sse, mut values): (f64, Vec<f64>),
-) -> Option<Vec<f64>> {
+    let (mut sse, mut values) = descend(data, structure, free, start, 30, 1e-7)?;
     for _ in 0..AGAIN {
         let (less, better) = descend(data, structure, free, &values, 30, 1e-7)?;
         let gained = 1.0 - less / sse;

@@ -12,18 +12,14 @@ use crate::model::Variable;
 use crate::problem::{Channel, Piece, Prepared};
 use bowden::effect::{Effect, EffectState, Motion, Situation};
 use bowden::hysteresis::{Sensitivity, Shape};
-use closed::Slopes;
 use gathered::Gathered;
 use loops::{seen, trace, trajectory};
 use stages::Stages;
 use std::sync::Arc;
 use variation::Variation;
 
-mod closed;
 mod gathered;
 mod loops;
-mod low_pass;
-mod remembered;
 mod series;
 mod stages;
 mod variation;
@@ -73,45 +69,21 @@ pub fn stage_column(data: &Prepared, effect: &Effect<f64>, output: &[f64]) -> Ve
 /// The regressor of one effect along the work grid; `None` where its channel is missing.
 #[must_use]
 pub fn effect_column(data: &Prepared, term: &FitTerm, eta: &[f64]) -> Option<Vec<f64>> {
-    if let Some(levels) = remembered::creep(data, term) {
-        return Some(levels);
-    }
-    let mut column = Vec::with_capacity(eta.len());
-    for (mut state, samples) in situations(data, term, eta)? {
-        let push = |value| column.push(value);
-        term.effect.regressors(&mut state, samples, push);
-    }
-    Some(column)
-}
-
-/// What an effect reads along each record, with what it remembers at its beginning; `None` where
-/// its channel is missing.
-fn situations<'a>(
-    data: &'a Prepared,
-    term: &'a FitTerm,
-    eta: &'a [f64],
-) -> Option<
-    impl Iterator<
-        Item = (
-            EffectState<f64>,
-            impl Iterator<Item = Situation<f64>> + use<'a>,
-        ),
-    >,
-> {
     let channel = data.channel(term.source)?;
     let load = match (data.mode, data.load) {
         (_, Some(i)) => Some(&data.channels[i].motion),
         (crate::record::Mode::Torque, None) => Some(&data.input.motion),
         (crate::record::Mode::Displacement, None) => None,
     };
-    let of = move |(record, piece): (usize, &'a Piece)| {
-        let state = before(data, term, channel, record, piece);
+    let mut column = Vec::with_capacity(eta.len());
+    for (record, piece) in data.pieces.iter().enumerate() {
+        let mut state = before(data, term, channel, record, piece);
         // A moment counts from the first record on.
         let since = match term.has_moment() {
             true => piece.since,
             false => 0.0,
         };
-        let at = move |(k, i): (usize, usize)| {
+        let at = |(k, i): (usize, usize)| {
             let motion = &channel.motion[i];
             Situation {
                 dt: data.dt,
@@ -126,9 +98,11 @@ fn situations<'a>(
                 output: 0.0,
             }
         };
-        (state, piece.work.clone().enumerate().map(at))
-    };
-    Some(data.pieces.iter().enumerate().map(of))
+        let samples = piece.work.clone().enumerate().map(at);
+        let push = |value| column.push(value);
+        term.effect.regressors(&mut state, samples, push);
+    }
+    Some(column)
 }
 
 /// What an effect remembers at the beginning of a record.
@@ -336,18 +310,15 @@ impl RawColumns {
             if term.effect.is_output_stage() || term.effect.is_input_stage() {
                 continue;
             }
-            let column: &[f64] = &early(self)[k];
-            for (j, slope) in self.own_slopes(data, (id, term), (free, values), column)? {
-                moves[j].push((k, slope));
+            for (j, (f, &value)) in free.iter().zip(values).enumerate() {
+                if let Some(variation) = Variation::of(id, f.role) {
+                    let slope = variation.slope(data, term, value, &self.eta)?;
+                    moves[j].push((k, slope));
+                }
             }
             if term.effect.reads_eta() {
-                let direct = closed::in_eta(data, term, &self.eta);
                 for (j, s) in &sensitivities {
-                    let slope = match &direct {
-                        Some(direct) => direct.iter().zip(s).map(|(a, b)| a * b).collect(),
-                        None => eta_derivative(data, term, &self.eta, s)?,
-                    };
-                    moves[*j].push((k, slope));
+                    moves[*j].push((k, eta_derivative(data, term, &self.eta, s)?));
                 }
             }
             k += 1;
@@ -355,30 +326,6 @@ impl RawColumns {
         let mut moves = Moves(moves);
         moves.add_series(data, structure, free, values)?;
         Some(moves)
-    }
-
-    /// The slopes of a term's column in its own free parameters, by the place of each.
-    fn own_slopes(
-        &self,
-        data: &Prepared,
-        (id, term): (TermId, &FitTerm),
-        (free, values): (&[Free], &[f64]),
-        column: &[f64],
-    ) -> Option<Vec<(usize, Vec<f64>)>> {
-        let mut slopes = Vec::new();
-        let mut closed = None;
-        for (j, (f, &value)) in free.iter().zip(values).enumerate() {
-            let Some(by) = Variation::of(id, f.role) else {
-                continue;
-            };
-            let all = closed.get_or_insert_with(|| Slopes::of(data, term, &self.eta, column));
-            let slope = match all.as_mut().and_then(|all| all.take(data, &by)) {
-                Some(slope) => slope,
-                None => by.slope(data, term, value, &self.eta)?,
-            };
-            slopes.push((j, slope));
-        }
-        Some(slopes)
     }
 
     /// The slopes of the hysteresis in its free parameters, by the place of each parameter.
@@ -435,6 +382,3 @@ impl RawColumns {
         tangent
     }
 }
-
-#[cfg(test)]
-mod tests;

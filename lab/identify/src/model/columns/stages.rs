@@ -1,6 +1,5 @@
 //! Output stages: they act on the sum of all columns, so each acts on every column alike.
 
-use super::low_pass::LowPass;
 use super::{weighted, RawColumns};
 use crate::model::structure::{FitTerm, Free, Role, Terms};
 use crate::problem::Prepared;
@@ -75,32 +74,20 @@ impl Stages {
         }
     }
 
-    /// The slope in a shape of what a stage adds for a gain of one; no delay has a shape.
-    fn slope_in_shape(
-        &self,
-        effect: &Effect<f64>,
-        index: usize,
-        output: &[f64],
-    ) -> Option<Vec<f64>> {
-        if let Effect::Lag(own) = effect {
-            let low_pass = LowPass::new(own.tau(), self.dt);
-            let along = |record: &Range<usize>| {
-                low_pass.slope(None, output[record.clone()].iter().copied())
-            };
-            return Some(self.records.iter().flat_map(along).collect());
-        }
-        let value = effect.shape(index)?;
-        let h = 1e-5 * value.abs().max(1e-9);
-        let at = |value: f64| Some(self.alone(&effect.with_shape(index, value).ok()?, output));
-        let (up, down) = (at(value + h)?, at(value - h)?);
-        let pairs = up.iter().zip(&down);
-        Some(pairs.map(|(a, b)| (a - b) / (2.0 * h)).collect())
-    }
-
     /// The regressor of a stage: its slope in the gain at a gain of zero.
     pub(super) fn alone(&self, effect: &Effect<f64>, output: &[f64]) -> Vec<f64> {
-        let of = |record: &Range<usize>| along(effect, &output[record.clone()], self.dt);
-        self.records.iter().flat_map(of).collect()
+        let mut column = Vec::with_capacity(output.len());
+        for record in &self.records {
+            let at = |output: &f64| Situation {
+                dt: self.dt,
+                output: *output,
+                ..Situation::default()
+            };
+            let samples = output[record.clone()].iter().map(at);
+            let push = |value| column.push(value);
+            effect.regressors(&mut EffectState::default(), samples, push);
+        }
+        column
     }
 
     /// The slope of a stage in its gain; of all but a delay it is the same at every gain.
@@ -122,59 +109,15 @@ impl Stages {
 
 /// output += what the stage adds at that gain, along one record.
 fn apply_stage(effect: &Effect<f64>, gain: f64, column: &mut [f64], dt: f64) {
-    if *effect == Effect::Delay {
-        let mut state = EffectState::default();
-        let mut at = Situation {
-            dt,
-            ..Situation::default()
-        };
-        for value in column {
-            at.output = *value;
-            *value += effect.contribution(gain, &mut state, &at);
-        }
-        return;
-    }
-    let own = along(effect, column, dt);
-    for (value, own) in column.iter_mut().zip(own) {
-        *value += gain * own;
-    }
-}
-
-/// The regressor of a stage along one record of what it acts on.
-fn along(effect: &Effect<f64>, output: &[f64], dt: f64) -> Vec<f64> {
-    if *effect == Effect::Delay && dt > 0.0 {
-        // What is not finite the core leaves out or saturates.
-        let late = late(output, dt);
-        if late.iter().all(|v| v.is_finite()) {
-            return late;
-        }
-    }
-    if let Effect::Lag(own) = effect {
-        let levels = LowPass::new(own.tau(), dt).levels(None, output.iter().copied());
-        if let Some(mut levels) = levels {
-            for (level, value) in levels.iter_mut().zip(output) {
-                *level -= value;
-            }
-            return levels;
-        }
-    }
-    let at = |&output: &f64| Situation {
+    let mut state = EffectState::default();
+    let mut at = Situation {
         dt,
-        output,
         ..Situation::default()
     };
-    let mut all = Vec::with_capacity(output.len());
-    let situations = output.iter().map(at);
-    effect.regressors(&mut EffectState::default(), situations, |own| all.push(own));
-    all
-}
-
-/// −d(output)/dt as the core's delay has it.
-fn late(output: &[f64], dt: f64) -> Vec<f64> {
-    let mut own = Vec::with_capacity(output.len());
-    own.extend(output.first().map(|_| 0.0));
-    own.extend(output.windows(2).map(|pair| (pair[0] - pair[1]) / dt));
-    own
+    for value in column {
+        at.output = *value;
+        *value += effect.contribution(gain, &mut state, &at);
+    }
 }
 
 impl RawColumns {
@@ -194,10 +137,22 @@ impl RawColumns {
         let mut part = match shape {
             None => self.stages.slope(&term.effect, *gain, &output),
             Some(index) => {
-                let Some(slope) = self.stages.slope_in_shape(&term.effect, index, &output) else {
+                let value = term.effect.shape(index).unwrap_or(0.0);
+                let h = 1e-5 * value.abs().max(1e-9);
+                let (Ok(up), Ok(down)) = (
+                    term.effect.with_shape(index, value + h),
+                    term.effect.with_shape(index, value - h),
+                ) else {
                     return;
                 };
-                slope.iter().map(|s| gain * s).collect()
+                let (up, down) = (
+                    self.stages.alone(&up, &output),
+                    self.stages.alone(&down, &output),
+                );
+                up.iter()
+                    .zip(&down)
+                    .map(|(a, b)| gain * (a - b) / (2.0 * h))
+                    .collect()
             }
         };
         self.stages.through(&mut part, position + 1..list.len());
@@ -220,34 +175,4 @@ pub(crate) fn by_stage(raw: &RawColumns, mut output: Vec<f64>) -> Vec<Vec<f64>> 
         changes.push(change.collect());
     }
     changes
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn stages_are_those_of_the_core_bit_for_bit() {
-        let smooth = |i: usize| (0.1 * i as f64).sin() + 0.3 * (0.037 * i as f64).cos();
-        let mut output: Vec<f64> = (0..300).map(smooth).collect();
-        for (name, shapes) in [("delay", &[][..]), ("lag", &[0.02]), ("lag", &[7.0])] {
-            let effect = Effect::try_from_name(name, shapes).unwrap();
-            for spoiled in [None, Some(f64::NAN), Some(f64::MAX)] {
-                output[200] = spoiled.unwrap_or(output[200]);
-                let mut state = EffectState::default();
-                let step = |&output: &f64| {
-                    let at = Situation {
-                        dt: 0.01,
-                        output,
-                        ..Situation::default()
-                    };
-                    effect.regressor(&mut state, &at)
-                };
-                let expected: Vec<f64> = output.iter().map(step).collect();
-                let own = along(&effect, &output, 0.01);
-                assert_eq!(own, expected, "{name} {shapes:?} {spoiled:?}");
-            }
-            output[200] = smooth(200);
-        }
-    }
 }
