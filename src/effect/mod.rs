@@ -84,6 +84,23 @@ macro_rules! plain_types {
     };
 }
 
+/// What the types of effects with shapes have in common; each stands in its own file.
+macro_rules! shaped_types {
+    ($($module:ident: $($shaped:ident)+;)*) => {
+        $($(
+            pub use $module::$shaped;
+
+            impl<T> Sealed for $shaped<T> {}
+
+            impl<T> From<$shaped<T>> for Effect<T> {
+                fn from(own: $shaped<T>) -> Self {
+                    Self::$shaped(own)
+                }
+            }
+        )+)*
+    };
+}
+
 /// The enum of all effects and the dispatch to each one's own file.
 ///
 /// Compact forms store the place of an effect in the enum: what is added stands under `later`.
@@ -96,28 +113,7 @@ macro_rules! effects {
     ) => {
         plain_types! { $($module: $($plain)+;)* $($later_module: $($later)+;)* }
 
-        $($(pub use $shaped_module::$shaped;)+)*
-        $($(pub use $late_module::$late;)+)*
-
-        $($(
-            impl<T> Sealed for $shaped<T> {}
-
-            impl<T> From<$shaped<T>> for Effect<T> {
-                fn from(own: $shaped<T>) -> Self {
-                    Self::$shaped(own)
-                }
-            }
-        )+)*
-
-        $($(
-            impl<T> Sealed for $late<T> {}
-
-            impl<T> From<$late<T>> for Effect<T> {
-                fn from(own: $late<T>) -> Self {
-                    Self::$late(own)
-                }
-            }
-        )+)*
+        shaped_types! { $($shaped_module: $($shaped)+;)* $($late_module: $($late)+;)* }
 
         /// One effect, with its shapes.
         ///

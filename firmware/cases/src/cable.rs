@@ -6,18 +6,23 @@ use bowden::transmission::{Inverse as Inverted, Transmission};
 use bowden::Error;
 use core::hint::black_box;
 
+/// rho and n of the paper's first set.
+const SHAPE: (f32, f32) = (0.09582, 3.871);
+/// B, kappa_eta and T0 of the paper's first set.
+const GAINS: (f32, f32, f32) = (0.9978, 7.004, 0.05174);
+
 /// The paper's first set, with the sigma that is given.
 pub(crate) fn transmission(sigma: f32) -> Result<Transmission<f32>, Error> {
-    let (rho, sigma, n) = black_box((0.09582, sigma, 3.871));
-    let (b, kappa_eta, t0) = black_box((0.9978, 7.004, 0.05174));
+    let (rho, sigma, n) = black_box((SHAPE.0, sigma, SHAPE.1));
+    let (b, kappa_eta, t0) = black_box(GAINS);
     Transmission::torque(b, kappa_eta, t0, Shape::try_new(rho, sigma, n)?)
 }
 
 /// The same with numbers that the compiler knows.
 #[inline]
 pub(crate) fn fixed(sigma: f32) -> Result<Transmission<f32>, Error> {
-    let shape = Shape::try_new(0.09582, sigma, 3.871)?;
-    Transmission::torque(0.9978, 7.004, 0.05174, shape)
+    let ((rho, n), (b, kappa_eta, t0)) = (SHAPE, GAINS);
+    Transmission::torque(b, kappa_eta, t0, Shape::try_new(rho, sigma, n)?)
 }
 
 /// sigma as it was identified.

@@ -8,14 +8,13 @@
 
 use super::causal::{causal, time_constant};
 use super::clockwork::{because, has_clockwork, is_clockwork, table_name, without};
-use super::invertible::{
-    caution, is_stage, nearest, obstacle, stages, without_stages, FeedForward,
-};
+use super::invertible::{caution, nearest, obstacle, stages, without_stages, FeedForward};
 use super::{About, LeftOut, ModelFile, NotIdentified};
 use crate::conclude::final_fit::FinalFit;
 use crate::conclude::intervals::term_name;
 use crate::fit::{fit_from, Known, Segments, Solution};
 use crate::ledger::Ledger;
+use crate::model::kind::is_stage;
 use crate::problem::Prepared;
 use crate::record::Record;
 

@@ -11,11 +11,12 @@ use crate::conclude::final_fit::FinalFit;
 use crate::conclude::intervals::term_name;
 use crate::fit::{Segments, Solution};
 use crate::ledger::Ledger;
+pub use crate::model::kind::is_stage;
 use crate::model::structure::{Role, Structure};
 use crate::problem::Prepared;
 use crate::search::close;
 use bowden::control::{Changed, Compensator, Lowered};
-use bowden::effect::{Effect, Motion};
+use bowden::effect::Motion;
 use bowden::model::{Model, ModelState, Sample, Term};
 use bowden::Real;
 use serde::de::DeserializeOwned;
@@ -54,12 +55,6 @@ impl FeedForward {
             (Some(because), _) => format!("no, because {because}"),
         }
     }
-}
-
-/// Whether no compensator can have an effect among its terms.
-#[must_use]
-pub fn is_stage(effect: &Effect<f64>) -> bool {
-    effect.is_output_stage() || effect.is_input_stage()
 }
 
 /// What stands against turning a model round; `None` where nothing does.

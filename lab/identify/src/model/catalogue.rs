@@ -4,6 +4,7 @@
 //! `effects`. What is found is refitted with its shapes free, so the grid need only be close.
 
 use super::effects::{entry, rank, table, Entry, Place, Trials, Zero};
+use super::kind::is_stage;
 use super::structure::{FitTerm, Structure};
 use super::variable::Variable;
 use crate::problem::{Channel, Prepared, MOST_RECORDS};
@@ -107,7 +108,7 @@ impl Collector<'_> {
         if loops && !self.structure.hysteresis {
             return;
         }
-        if self.structure.no_stages && (effect.is_output_stage() || effect.is_input_stage()) {
+        if self.structure.no_stages && is_stage(&effect) {
             return;
         }
         let there = self

@@ -2,6 +2,7 @@
 
 use crate::problem::Channel;
 use crate::record::Mode;
+use bowden::effect::Effect;
 use bowden::model::Source;
 
 /// What a channel is to the effects, told from its name.
@@ -28,4 +29,10 @@ pub(crate) fn kind(mode: Mode, source: Source, channel: &Channel) -> Kind {
         _ if channel.name == "load" => Kind::Load,
         _ => Kind::Other,
     }
+}
+
+/// Whether an effect acts on the whole input or output; no compensator can have such a term.
+#[must_use]
+pub fn is_stage(effect: &Effect<f64>) -> bool {
+    effect.is_output_stage() || effect.is_input_stage()
 }

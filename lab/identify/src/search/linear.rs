@@ -398,6 +398,12 @@ impl<'a> Linear<'a> {
         self.grams.unit(self.target)
     }
 
+    /// Squared error of what is kept, to first order.
+    pub(super) fn left(&self, kept: &Kept) -> f64 {
+        let (target, unit) = self.target_of(kept);
+        unit * self.grams.squared_error(&self.columns_of(kept), target)
+    }
+
     /// Total price of the kept names and the kept curve.
     pub(super) fn price_of(&self, kept: &Kept) -> f64 {
         let names = self.terms.iter().enumerate().skip(self.declared);

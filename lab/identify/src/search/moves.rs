@@ -11,6 +11,7 @@ use super::linear::{Kept, Linear, Member};
 use super::policy;
 use crate::ledger::{reject, Gate, Rejection};
 use crate::model::catalogue::Candidate;
+use crate::model::kind::is_stage;
 use crate::model::Variable;
 use crate::score::blocks::Regime;
 
@@ -161,13 +162,8 @@ impl Linear<'_> {
                 dropped: dropped.map(|(_, &index)| index).collect(),
                 table: self.has_table(),
             };
-            let (target, unit) = self.target_of(&kept);
-            let sse = self
-                .grams
-                .squared_error(&self.columns_of(&kept), target)
-                .max(1e-14);
             Move {
-                promise: (unit * sse).ln() + self.price_of(&kept),
+                promise: self.left(&kept).max(1e-14).ln() + self.price_of(&kept),
                 kept,
                 added: Vec::new(),
                 p: Vec::new(),
@@ -350,7 +346,7 @@ impl Linear<'_> {
     pub(super) fn is_one_stage(&self, one: &Move) -> bool {
         let [only] = one.added[..] else { return false };
         let effect = self.groups[only].candidate().map(|c| c.term.effect);
-        effect.is_some_and(|e| e.is_input_stage() || e.is_output_stage())
+        effect.is_some_and(|e| is_stage(&e))
     }
 
     /// Whether the move reduces the number of names and leaves the curve as it is.

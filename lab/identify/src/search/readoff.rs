@@ -13,6 +13,7 @@ use crate::fit::settle::settle;
 use crate::fit::Solution;
 use crate::ledger::{reject, Grade, Ledger, Round, Unknown};
 use crate::model::catalogue::Candidate;
+use crate::model::kind::is_stage;
 use crate::model::structure::{FitTerm, Free, Structure};
 use crate::model::Table;
 use crate::problem::Prepared;
@@ -265,8 +266,9 @@ impl Search<'_> {
         let linear = context.linear;
         let terms = &self.now.structure.terms;
         let stages = self.declared.structure.terms.len()..terms.len();
-        let stages = stages.filter(|&other| is_stage(&terms[other]));
-        if !is_stage(&terms[index]) {
+        let others = stages.filter(|&other| other != index && is_stage(&terms[other].effect));
+        let others: Vec<usize> = others.collect();
+        if others.is_empty() || !is_stage(&terms[index].effect) {
             return Vec::new();
         }
         let without = |dropped: Vec<usize>| Kept {
@@ -284,16 +286,16 @@ impl Search<'_> {
             let real = linear.refit(grids, &removal, STARTS, |_| true)?;
             Some(real.sse / context.scale)
         };
+        let Some(left) = refitted(index) else {
+            return Vec::new();
+        };
         let rival = |other: usize| {
-            let neither = without(vec![index.min(other), index.max(other)]);
-            let (target, unit) = linear.target_of(&neither);
-            let columns = linear.columns_of(&neither);
-            let sse = unit * linear.grams.squared_error(&columns, target);
-            let (named, left) = (refitted(other)?, refitted(index)?);
+            let sse = linear.left(&without(vec![index.min(other), index.max(other)]));
+            let named = refitted(other)?;
             let does = left <= policy::allowed_to_a_rival(sse, named);
             does.then_some((Candidate::from(terms[other]), left))
         };
-        stages.filter(|&o| o != index).filter_map(rival).collect()
+        others.into_iter().filter_map(rival).collect()
     }
 }
 
@@ -334,8 +336,7 @@ impl Linear<'_> {
                     dropped: (self.declared..all).filter(out).collect(),
                     table: self.has_table(),
                 };
-                let (target, unit) = self.target_of(&kept);
-                unit * self.grams.squared_error(&self.columns_of(&kept), target)
+                self.left(&kept)
             };
             let left = (self.declared..all).filter(|i| !order.contains(i));
             let best = left.min_by(|&a, &b| error(a).total_cmp(&error(b)));
@@ -353,11 +354,6 @@ fn grade(recurs: usize, rivals: &[Candidate]) -> Grade {
         true => Grade::Firm,
         false => Grade::Weak,
     }
-}
-
-/// Whether an effect acts on the whole input or output.
-fn is_stage(term: &FitTerm) -> bool {
-    term.effect.is_input_stage() || term.effect.is_output_stage()
 }
 
 /// The final model, to first order and in fact.
@@ -390,7 +386,7 @@ impl Context<'_, '_> {
             // The gain at a trial shape predicts the gain at the fitted shape only roughly.
             let nearly = gain >= NEARLY * policy::RIVAL_SHARE * (sse - self.full);
             let was = known.is_some_and(|e| e.siblings.iter().any(|s| s.is_like(&candidate)));
-            let stages = is_stage(own) && is_stage(&candidate.term);
+            let stages = is_stage(&own.effect) && is_stage(&candidate.term.effect);
             if !nearly && !was && !stages {
                 continue;
             }

@@ -7,6 +7,7 @@
 //! is that since the record's beginning, as a rig warms up anew; only the step of the
 //! pretension counts from the first record on: what has slipped stays so in the next one.
 
+use crate::model::kind::is_stage;
 use crate::model::structure::{FitTerm, Free, Role, Structure, TermId, Terms};
 use crate::model::Variable;
 use crate::problem::{Channel, Piece, Prepared};
@@ -307,7 +308,7 @@ impl RawColumns {
             k = structure.base();
         }
         for (id, term) in self.terms.with_ids() {
-            if term.effect.is_output_stage() || term.effect.is_input_stage() {
+            if is_stage(&term.effect) {
                 continue;
             }
             for (j, (f, &value)) in free.iter().zip(values).enumerate() {
