@@ -262,6 +262,7 @@ impl Setup {
                     model.mode
                 ));
             }
+            crate::design::rises(model).map_err(|e| format!("{label}: {e}"))?;
         }
         let refused = |what: &str, e: bowden::Error| format!("{label}: [{what}]: {e}");
         let none: &[bowden::model::Term<f64>] = &[];

@@ -16,8 +16,8 @@ pub(super) struct Linear {
     pub(super) tied: Vec<Tie>,
 }
 
-/// Least squares on the fit segment with some gains constrained to be non-negative and others
-/// within their ties.
+/// Least squares on the fit segment with the sign of some gains given, 1 or −1, and others within
+/// their ties.
 ///
 /// A violated bound becomes an equation, and the two columns of its gains become one column. A
 /// bound that has become an equation stays one: with one record there is only one bound, so
@@ -26,7 +26,7 @@ pub(super) fn solve_linear(
     rows: &[usize],
     columns: &[Arc<Vec<f64>>],
     target: &[f64],
-    kept: &[bool],
+    signs: &[f64],
     ties: &[Tie],
 ) -> Linear {
     let mut tied: Vec<Tie> = Vec::new();
@@ -37,7 +37,7 @@ pub(super) fn solve_linear(
         }
         let free = |k: &usize| tied.iter().all(|tie| tie.gain != *k);
         let active = (0..columns.len()).filter(free).collect();
-        let mut linear = non_negative(rows, &columns, target, kept, active);
+        let mut linear = signed(rows, &columns, target, signs, active);
         for tie in &tied {
             linear.gains[tie.gain] = -tie.ratio * linear.gains[tie.hysteresis];
         }
@@ -48,12 +48,12 @@ pub(super) fn solve_linear(
     }
 }
 
-/// Least squares with some gains constrained to be non-negative.
-fn non_negative(
+/// Least squares with the sign of some gains given.
+fn signed(
     rows: &[usize],
     columns: &[Arc<Vec<f64>>],
     target: &[f64],
-    kept: &[bool],
+    signs: &[f64],
     mut active: Vec<usize>,
 ) -> Linear {
     let y = DVector::from_iterator(rows.len(), rows.iter().map(|&i| target[i]));
@@ -67,7 +67,7 @@ fn non_negative(
         let worst = used
             .iter()
             .zip(&gains)
-            .filter(|(&k, g)| kept[k] && **g < 0.0)
+            .filter(|(&k, g)| signs[k] * **g < 0.0)
             .map(|(&k, _)| k)
             .next();
         match worst {

@@ -39,7 +39,7 @@ pub(super) fn evaluate(
         &data.split.fit,
         &columns,
         &data.target,
-        &structure.sign_kept(data.mode),
+        &structure.signs(data),
         &ties(structure, free, values),
     );
     let rows = &data.split.fit;

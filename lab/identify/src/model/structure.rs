@@ -149,19 +149,28 @@ impl Structure {
         self.table.as_ref().map_or(0, |table| table.shapes.len())
     }
 
-    /// Whether a gain must not be negative.
+    /// Of each linear gain the sign that it must not lose, 1 or −1; 0 where it may be either.
     ///
     /// Only where the input is a displacement and the output a force: there friction
     /// takes energy out. In torque mode the sign follows the encoder's mounting.
     #[must_use]
-    pub fn sign_kept(&self, mode: Mode) -> Vec<bool> {
-        let mut kept = vec![false; self.base()];
+    pub fn signs(&self, data: &Prepared) -> Vec<f64> {
+        let mut signs = vec![0.0; self.base()];
         for term in self.terms.iter().filter(|t| t.is_linear()) {
-            let friction = entry(term.effect.name()).is_some_and(|entry| entry.takes_energy);
-            kept.push(friction && mode == Mode::Displacement && term.source == Source::Input);
+            signs.push(sign(data, term));
         }
-        kept.resize(kept.len() + self.table_gains(), false);
-        kept
+        signs.resize(signs.len() + self.table_gains(), 0.0);
+        signs
+    }
+}
+
+/// The sign that the gain of a term must not lose; 0 where it may be either.
+pub(crate) fn sign(data: &Prepared, term: &FitTerm) -> f64 {
+    let friction = entry(term.effect.name()).is_some_and(|entry| entry.takes_energy);
+    match (friction && term.source == Source::Input, data.mode) {
+        (true, Mode::Displacement) if data.against => -1.0,
+        (true, Mode::Displacement) => 1.0,
+        _ => 0.0,
     }
 }
 

@@ -1,11 +1,12 @@
 //! From records to their grids.
 
+use super::against::against;
 use super::blind::{blind, bridged};
 use super::spectrum;
 use super::uniform::{usual_step, Uniform};
 use super::MOST_RECORDS;
 use super::{filtered, motion, Channel, HeldOut, Piece, Preparation, Prepared, Split, ZeroPhase};
-use crate::record::{Column, Defect, Record};
+use crate::record::{Column, Defect, Mode, Record};
 use bowden::effect::Motion;
 use std::ops::Range;
 
@@ -363,8 +364,17 @@ impl Collected {
             return Err("gaps in time and defects leave too few samples to fit".to_owned());
         }
         let smoother = ZeroPhase::new(grid.cutoff, 1.0 / grid.dt);
+        let against = first.mode == Mode::Displacement
+            && against(&input, &self.output, &self.seen, grid.stride);
+        if against {
+            self.notes.push(format!(
+                "`{}` counts against the motion of `{}`: friction has a negative gain here",
+                first.output.name, input.name
+            ));
+        }
         Ok(Prepared {
             mode: first.mode,
+            against,
             samples: self.pieces.iter().map(|p| p.samples).sum(),
             rate: nine_digits(1.0 / grid.step),
             cutoff: grid.cutoff,

@@ -20,6 +20,7 @@ use bowden::effect::Motion;
 use filter::{derivative, ZeroPhase};
 use std::ops::Range;
 
+mod against;
 mod answered;
 mod blind;
 mod build;
@@ -185,6 +186,10 @@ pub struct Prepared {
     pub target_raw: Vec<f64>,
     /// Estimation samples of each segment.
     pub split: Split,
+    /// Whether the output counts against the motion of the input, so that what takes energy out
+    /// of it has a negative gain; not asked in torque mode, where the channels may be mounted
+    /// either way.
+    pub against: bool,
     /// Rms of the output's noise that passes the filter, taken as white.
     pub noise_floor: f64,
     /// The input range's travelled distance up to each estimation sample.

@@ -116,3 +116,43 @@ fn the_search_grid_sees_the_same_target() {
         assert!((coarse.target[i] - data.target[i]).abs() < 5e-3, "{i}");
     }
 }
+
+/// Of x = sin 2t + 0.5 sin 0.7t: the velocity and the acceleration tell a spring, a mass and a
+/// damper apart, and each of them from one whose force is measured with the other sign.
+#[test]
+fn a_force_with_the_other_sign_counts_against_the_motion() {
+    let x = |t: f64| (2.0 * t).sin() + 0.5 * (0.7 * t).sin();
+    let v = |t: f64| 2.0 * (2.0 * t).cos() + 0.35 * (0.7 * t).cos();
+    let a = |t: f64| -4.0 * (2.0 * t).sin() - 0.245 * (0.7 * t).sin();
+    let is_against = |f: &dyn Fn(f64) -> f64| {
+        let time = (0..6000).map(|i| f64::from(i) * 0.005).collect();
+        prepared(time, f).against
+    };
+    type Force<'a> = &'a dyn Fn(f64) -> f64;
+    let rigs: [(&str, Force); 3] = [
+        ("damper", &v),
+        ("spring and damper", &|t| 3.0 * x(t) + 0.3 * v(t)),
+        ("mass and dry friction", &|t| a(t) + 0.4 * v(t).signum()),
+    ];
+    for (rig, force) in rigs {
+        assert!(!is_against(force), "{rig}");
+        assert!(is_against(&|t| 5.0 - 7.0 * force(t)), "{rig}, turned");
+    }
+    let pole = |t: f64| a(t) - 2.0 * x(t) + 0.2 * v(t);
+    assert!(!is_against(&pole));
+    // A spring that is felt 50 ms late seems to give energy, but counts along; so does one that
+    // is turned, where nothing else tells.
+    assert!(!is_against(&|t| x(t - 0.05)));
+    assert!(!is_against(&|t| -x(t - 0.05)));
+    assert!(!is_against(&|_| 5.0));
+    assert!(!is_against(&|t| (1.3 * t).sin()));
+}
+
+#[test]
+fn in_torque_mode_nothing_counts_against_anything() {
+    let time = (0..6000).map(|i| f64::from(i) * 0.005).collect();
+    let mut turned = record(time, |t| -2.0 * (2.0 * t).cos());
+    turned.mode = Mode::Torque;
+    let data = Prepared::new(&turned, Preparation { cutoff: Some(5.0) }).unwrap();
+    assert!(!data.against && data.notes.is_empty());
+}

@@ -15,6 +15,7 @@
 //! * [`hardening`]: the benchmark of Noël and Schoukens comes back.
 //! * [`late`]: a delay has its size at every cut-off.
 //! * [`stretch`]: the stretch of a cable is one name beside the two angles.
+//! * [`turned`]: a sensor or a scale that was mounted the other way round changes signs, no names.
 //! * [`exported`]: what was fitted is what runs in firmware.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
@@ -31,4 +32,5 @@ mod recovery;
 mod rig;
 mod series;
 mod stretch;
+mod turned;
 mod unneeded;

@@ -46,6 +46,7 @@ use adaptive::Around;
 use bowden::control::{Damping, Fallback, Limits, Pid, PidSettings};
 use bowden_lab::export::ModelFile;
 use linear::Gains;
+pub(crate) use plant::rises;
 use plant::Plant;
 use serde::Serialize;
 

@@ -61,6 +61,26 @@ impl Slopes {
     }
 }
 
+/// Refuses a model whose output falls over a long way of the input, beyond what the hysteresis
+/// does after a reversal: a controller with gains above zero would drive it away.
+///
+/// # Errors
+/// One sentence without the file's name.
+pub(crate) fn rises(file: &ModelFile) -> Result<(), String> {
+    let Some(cable) = &file.transmission else {
+        return Ok(());
+    };
+    let is_share = |term: &&TermFile| term.effect == "gain" && term.source == "input";
+    let shares = file.terms.iter().filter(is_share).map(|term| term.gain);
+    let gain = cable.gain + shares.sum::<f64>();
+    if gain > 0.0 {
+        return Ok(());
+    }
+    Err(format!(
+        "the output falls where the input rises (gain {gain:.4}): change the sign of one of them in the record and fit again, and wire the drive or the sensor accordingly"
+    ))
+}
+
 /// A torque model as the plant of a loop.
 #[derive(Debug, Clone)]
 pub(super) struct Plant {
@@ -119,12 +139,7 @@ impl Plant {
         for term in &file.terms {
             plant.add(term)?;
         }
-        if plant.slopes.greatest <= 0.0 {
-            return Err(format!(
-                "the output never rises with the input (greatest slope {:.4}): turn the sign of one of them",
-                plant.slopes.greatest
-            ));
-        }
+        rises(file)?;
         Ok(plant)
     }
 

@@ -126,7 +126,14 @@ fn a_model_that_is_none_of_a_torque_loop_is_one_line() {
         &text
             .replace("gain = 0.9", "gain = -0.9")
             .replace("kappa_eta = 2.0", "kappa_eta = 0.1"),
-        "never rises",
+        "falls where the input rises (gain -0.9000)",
+    );
+    // The output rises after a reversal, and falls beyond: of a rig with its sensor turned.
+    expect(
+        &text
+            .replace("gain = 0.9", "gain = -0.9")
+            .replace("kappa_eta = 2.0", "kappa_eta = -20.0"),
+        "falls where the input rises (gain -0.9000)",
     );
 }
 

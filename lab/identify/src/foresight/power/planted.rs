@@ -1,7 +1,7 @@
 //! The user's record with an effect in it that was not there.
 
 use crate::fit::Solution;
-use crate::model::structure::FitTerm;
+use crate::model::structure::{sign, FitTerm};
 use crate::problem::Prepared;
 
 /// The model's prediction and what it leaves, on the work grid.
@@ -56,7 +56,7 @@ impl Trials {
 
 /// What an effect adds to the output.
 pub(super) struct Contribution {
-    /// For a gain that makes its rms one.
+    /// For a gain that makes its rms one, of the sign that the term keeps where it keeps one.
     pub(super) unit: Vec<f64>,
     /// Rms for a gain of one.
     pub(super) rms: f64,
@@ -70,7 +70,8 @@ pub(super) fn contribution(
 ) -> Option<Contribution> {
     let raw = solution.adds(data, term)?;
     let rms = spread(&raw);
-    let unit: Vec<f64> = raw.iter().map(|c| c / rms).collect();
+    let size = if sign(data, term) < 0.0 { -rms } else { rms };
+    let unit: Vec<f64> = raw.iter().map(|c| c / size).collect();
     unit.iter()
         .all(|c| c.is_finite())
         .then_some(Contribution { unit, rms })
