@@ -32,7 +32,8 @@ pub(super) fn options(options: &Options) -> Result<(), RecordError> {
     }
 }
 
-/// Refuses an input or output that stands still or was clipped heavily.
+/// Refuses an input or output that stands still or was clipped heavily, and one in place of the
+/// other.
 pub(super) fn record(table: &Table, header: &Header, roles: &Roles) -> Result<(), RecordError> {
     let [input, output, ..] = table.values.as_slice() else {
         return Ok(());
@@ -49,6 +50,14 @@ pub(super) fn record(table: &Table, header: &Header, roles: &Roles) -> Result<()
             let message = format!("the {role} is {low} in every sample, it has to move");
             return Err(RecordError::at(line, message).on(name(index)));
         }
+    }
+    if input == output {
+        let message = format!(
+            "the output is the input `{}`, number for number: the force or torque that answers it was expected",
+            name(roles.input)
+        );
+        let line = table.lines.first().copied().unwrap_or(header.line);
+        return Err(RecordError::at(line, message).on(name(roles.output)));
     }
     for (_, index, values, other) in ends {
         if let Some(clipped) = clipping::heavy(values, other) {

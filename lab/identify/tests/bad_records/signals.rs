@@ -98,6 +98,16 @@ fn an_end_that_stands_still_is_refused() {
     );
 }
 
+/// As where a column was exported twice: a perfect model of nothing.
+#[test]
+fn an_output_that_is_the_input_is_refused() {
+    refused(
+        of(f64::sin, f64::sin),
+        "r.csv:2: column `f`: the output is the input `x`, number for number: the force or torque \
+         that answers it was expected",
+    );
+}
+
 #[test]
 fn a_clipped_sensor_is_recognised() {
     let sine = |t: f64| 10.0 * (2.0 * t).sin();
