@@ -123,6 +123,24 @@ fn quoted_cells_hold_separators_quotes_and_line_ends() {
     }
 }
 
+/// Most programs write `time`; a `t` beside it is the time.
+#[test]
+fn the_time_may_be_called_time() {
+    let read = |names: &str, rows: &[String]| {
+        let text = csv(names, rows);
+        parse(text.as_bytes(), "r.csv", &Options::default()).unwrap()
+    };
+    let usual = read("t,x,f", &rows());
+    for names in ["time,x,f", "Time,x,f", "time_s,x,f", "Time [s],x,f"] {
+        assert_eq!(read(names, &rows()).time, usual.time, "{names}");
+    }
+    let milliseconds = read("Time [ms],x,f", &rows());
+    let step = |time: &[f64]| time[1] - time[0];
+    assert!((step(&milliseconds.time) / step(&usual.time) - 1e-3).abs() < 1e-9);
+    let both: Vec<String> = rows().iter().map(|row| format!("{row},7")).collect();
+    assert_eq!(read("t,x,f,time", &both).time, usual.time);
+}
+
 #[test]
 fn channels_are_read_by_their_own_name_or_by_the_given_one() {
     let rows: Vec<_> = rows()

@@ -106,6 +106,9 @@ pub(super) fn assign(header: &Header, options: &Options) -> Result<Roles, Record
     Ok(roles)
 }
 
+/// Usual names of the time, the first of which counts.
+const TIMES: [&str; 2] = ["t", "time"];
+
 /// The column of the time. `T` without a unit may as well be a temperature.
 fn time(header: &Header, options: &Options) -> Result<usize, RecordError> {
     let hint = "--time COL names another one, --rate HZ takes time from the row number";
@@ -113,14 +116,20 @@ fn time(header: &Header, options: &Options) -> Result<usize, RecordError> {
         let column = &header.columns[*index];
         let unit = column.unit.as_deref();
         column.name == "t"
+            || column.name.eq_ignore_ascii_case("time")
             || unit.is_some_and(|unit| unit.contains(':') || units::seconds(Some(unit)).is_some())
     };
     match &options.time {
         Some(name) => require(header, name, hint),
-        None => match header.find_usual("t").filter(usual) {
-            Some(index) => Ok(index),
-            None => Err(missing(header, "t", hint)),
-        },
+        None => {
+            let known = TIMES
+                .iter()
+                .find_map(|name| header.find_usual(name).filter(usual));
+            match known {
+                Some(index) => Ok(index),
+                None => Err(missing(header, "t", hint)),
+            }
+        }
     }
 }
 

@@ -165,8 +165,8 @@ fn a_header_that_is_none_is_refused() {
 #[test]
 fn a_missing_column_is_named_with_those_that_exist() {
     refused(
-        csv("time,x,f", &rows()),
-        "r.csv:1: column `t`: no such column among `time`, `x`, `f` (nearest: `time`); \
+        csv("tim,x,f", &rows()),
+        "r.csv:1: column `t`: no such column among `tim`, `x`, `f` (nearest: `tim`); \
          --time COL names another one, --rate HZ takes time from the row number",
     );
     refused(
