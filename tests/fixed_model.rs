@@ -103,7 +103,10 @@ fn remembering<T: Real>() -> Result<impl Terms<T, 16>, Error> {
 /// What there was no room for above.
 fn others<T: Real>() -> Result<impl Terms<T, 2>, Error> {
     let one = T::of(0.7);
-    Ok(terms![Hardening::try_new(one, one)?, Viscous])
+    Ok(terms![
+        Hardening::try_new(one, one)?,
+        PowerLaw::try_new(one)?
+    ])
 }
 
 type Row = [f64; 8];

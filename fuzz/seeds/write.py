@@ -181,6 +181,10 @@ for name, seed in RECORDS.items():
 # As another writer writes it.
 parquet = here / "../../lab/cli/tests/reading/files/tiny.parquet"
 (here / "record" / "parquet").write_bytes(b"\0" + parquet.read_bytes())
+hdf5 = here / "../../lab/cli/tests/reading/files/tiny_7_3.mat"
+(here / "record" / "mat_7_3").write_bytes(b"\0" + hdf5.read_bytes())
+cells = here / "../../lab/cli/tests/reading/files/cells_7_3.mat"
+(here / "record" / "mat_7_3_cells").write_bytes(b"\0" + cells.read_bytes())
 for make in (pid, adaptive, compensator, hysteresis, model, inverse):
     (here / make.__name__ / "start").write_bytes(make())
 (here / "model" / "play_in_series").write_bytes(play_in_series())

@@ -68,6 +68,7 @@ families! {
     Crosstalk = "crosstalk",
     Stretch = "stretch",
     Hardening = "hardening",
+    PowerLaw = "power-law",
 }
 
 impl Family {

@@ -40,6 +40,7 @@ pub mod load_friction;
 pub mod offset;
 pub mod pinching;
 pub mod position_friction;
+pub mod power_law;
 pub mod presliding;
 pub mod pretension;
 pub mod rate;
@@ -318,6 +319,7 @@ effects! {
     }
     later_shaped {
         hardening: Hardening;
+        power_law: PowerLaw;
     }
 }
 

@@ -21,6 +21,7 @@ fn closed_form(name: &str, at: &Situation<f64>) -> f64 {
         "drag-quadratic" => v.signum() * v.powi(2),
         "drag-cubic" => v.powi(3),
         "coulomb" => (v / w).tanh(),
+        "power-law" => v.signum() * v.abs().powf(w),
         "stribeck" => (v / 0.06).tanh() / (v.abs() / 0.6).powf(1.7).exp(),
         "asymmetry-viscous" => v.max(-v),
         "asymmetry-drag" => v.powi(2),
@@ -96,7 +97,8 @@ proptest! {
         path in prop::collection::vec(plausible(), 12),
         units in [0.2..5.0_f64, 0.2..5.0, 0.2..5.0, 0.2..5.0, 0.2..5.0],
     ) {
-        for name in names().filter(|&name| name != "gravity") { // its channel is in radians, no other
+        // Gravity's channel is in radians and no other; a power law's gain is the force at one unit.
+        for name in names().filter(|name| !["gravity", "power-law"].contains(name)) {
             let mut effect = make(name);
             for (index, shape) in effect.shape_info().iter().enumerate() {
                 let value = effect.shape(index).unwrap() * factor(shape.dimension, units);

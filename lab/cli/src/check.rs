@@ -17,7 +17,7 @@ pub struct Check {
     /// The model, a file of `close --model-out`.
     #[arg(value_name = "MODEL.toml")]
     model: PathBuf,
-    /// A record of the same rig that the model has not seen: CSV, .mat (v5) or Parquet.
+    /// A record of the same rig that the model has not seen: CSV, .mat (v5, v7.3) or Parquet.
     #[arg(value_name = "RECORD")]
     record: PathBuf,
     #[command(flatten)]

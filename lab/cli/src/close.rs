@@ -29,7 +29,7 @@ enum PerFile {
 
 #[derive(Args, Default)]
 pub struct Close {
-    /// Records: CSV, .mat (v5), Parquet, each also in gzip; several of one rig for one joint
+    /// Records: CSV, .mat (v5, v7.3), Parquet, each also in gzip; several of one rig for one joint
     /// model, or a pattern such as 'runs/*.csv'; the embedded record where none is given. Of
     /// three or more the last is held out as a whole.
     #[arg(value_name = "RECORD")]

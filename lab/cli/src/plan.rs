@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub struct Plan {
-    /// A record: CSV, .mat (v5) or Parquet.
+    /// A record: CSV, .mat (v5, v7.3) or Parquet.
     record: PathBuf,
     #[command(flatten)]
     reading: Reading,

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub struct Power {
-    /// A record: CSV, .mat (v5) or Parquet.
+    /// A record: CSV, .mat (v5, v7.3) or Parquet.
     record: PathBuf,
     #[command(flatten)]
     reading: Reading,

@@ -7,7 +7,7 @@ use super::{friction, memory, outside, shape};
 use rand_chacha::ChaCha8Rng;
 
 /// The last three need angles.
-const NAMES: [&str; 44] = [
+const NAMES: [&str; 45] = [
     "offset",
     "gain",
     "viscous",
@@ -49,6 +49,7 @@ const NAMES: [&str; 44] = [
     "saturation-lower",
     "tone",
     "crosstalk",
+    "power-law",
     "gravity",
     "stretch-linear",
     "stretch-cubic",

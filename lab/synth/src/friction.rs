@@ -17,6 +17,10 @@ pub(super) fn build(effect: &str, extent: &Extent, rng: &mut ChaCha8Rng) -> Opti
         "viscous" => Regressor::new(loss, |_, m| m.v),
         "drag-quadratic" => Regressor::new(loss, |_, m| m.v * m.v.abs()),
         "drag-cubic" => Regressor::new(loss, |_, m| m.v.powi(3)),
+        "power-law" => {
+            let power = rng.random_range(0.25..0.7);
+            Regressor::new(loss, move |_, m| m.v.abs().powf(power).copysign(m.v)).with("a", power)
+        }
         "coulomb" => Regressor::new(loss, move |_, m| smooth_sign(m.v, width)).with("v_e", width),
         "stribeck" => {
             let v_s = rng.random_range(0.15..0.4) * extent.speed;

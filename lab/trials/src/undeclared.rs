@@ -15,7 +15,7 @@ use bowden_rig::{Reference, RigConfig};
 pub fn usual_strength(name: &str) -> f64 {
     match name {
         "stribeck" => 0.1,
-        "viscous" | "drag-quadratic" | "drag-cubic" => 0.2,
+        "viscous" | "drag-quadratic" | "drag-cubic" | "power-law" => 0.2,
         _ => 0.5,
     }
 }
@@ -161,6 +161,7 @@ fn shapes(name: &str, reach: f64, speed: f64) -> Vec<f64> {
         "saturation-lower" => vec![-0.7 * reach],
         "tone" => vec![3.3, 0.4],
         "hardening" => vec![0.3 / reach, 1.0 / reach],
+        "power-law" => vec![0.4],
         _ => Vec::new(),
     }
 }

@@ -30,6 +30,7 @@ fn every_form_gives_the_same_answer_to_the_byte() {
         (folder.file("utf_16.csv", utf_16(&csv())), "UTF-16LE"),
         (folder.file("packed.csv.gz", packed), "unpacked from gzip"),
         (foreign("vectors.mat").display().to_string(), ""),
+        (foreign("vectors_7_3.mat").display().to_string(), ""),
         (foreign("snappy.parquet").display().to_string(), ""),
         (
             folder.file(
@@ -98,6 +99,9 @@ fn each_shape_of_a_mat_file_and_each_compression_of_parquet_holds_the_same_colum
         "cells.mat",
         "letters.mat",
         "trace.mat",
+        "structure_7_3.mat",
+        "cells_7_3.mat",
+        "trace_7_3.mat",
         "none.parquet",
         "gzip.parquet",
         "lz4.parquet",
@@ -128,9 +132,24 @@ fn each_shape_of_a_mat_file_and_each_compression_of_parquet_holds_the_same_colum
         input: Some("x_mm".into()),
         ..Options::default()
     };
-    let record = read(&foreign("structure.mat"), options);
-    assert_eq!(record.output.values, column(2));
-    assert_eq!(record.channel("count").unwrap().values[239], 239.0);
+    for name in ["structure.mat", "structure_7_3.mat"] {
+        let record = read(&foreign(name), options.clone());
+        assert_eq!(record.output.values, column(2));
+        assert_eq!(record.channel("count").unwrap().values[239], 239.0);
+    }
+    // Single precision in chunks with a checksum, and truths, of version 7.3.
+    let own = |name: &str| (name.to_owned(), name.to_owned());
+    let options = Options {
+        channels: vec![own("single"), own("moves")],
+        ..Options::default()
+    };
+    let record = read(&foreign("structure_7_3.mat"), options);
+    let single = |v: &f64| f64::from(*v as f32);
+    let singles: Vec<f64> = column(1).iter().map(single).collect();
+    assert_eq!(record.channel("single").unwrap().values, singles);
+    let moves = column(2).into_iter().map(|f| f64::from(u8::from(f > 0.0)));
+    let moves: Vec<f64> = moves.collect();
+    assert_eq!(record.channel("moves").unwrap().values, moves);
     // Points in time in µs, single precision, unsigned integers.
     let record = read(&foreign("stamps.parquet"), Options::default());
     let apart = record

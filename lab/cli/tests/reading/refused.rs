@@ -31,11 +31,13 @@ fn a_form_that_is_not_read_is_named_with_what_to_do_instead() {
         let line = line(&path, &[]);
         assert!(line.starts_with(": is ") && line.contains(says), "{line}");
     }
+    // A header with nothing behind it; what the rest says is the crate's that reads HDF5.
     let v7_3 = [b"MATLAB 7.3 MAT-file".as_slice(), &[b' '; 493]].concat();
-    assert_eq!(
-        line(&folder.file("r.mat", v7_3), &[]),
-        ": is a MATLAB file of version 7.3 (HDF5), which is not read; \
-         save it in MATLAB with `save -v7`"
+    let line_of = line(&folder.file("r.mat", v7_3), &[]);
+    assert!(
+        line_of.starts_with(": the file is damaged, or holds what is not read: ")
+            && line_of.ends_with("; save it in MATLAB with `save -v7`"),
+        "{line_of}"
     );
     let v4 = foreign("version_4.mat").display().to_string();
     assert_eq!(
@@ -52,11 +54,17 @@ fn a_damaged_file_is_refused() {
     assert!(short.starts_with(": the gzip file is damaged: "), "{short}");
     let twice = line(&folder.file("twice.gz", gzip(&packed)), &[]);
     assert_eq!(twice, ": is compressed by gzip twice; unpack it once");
-    for name in ["vectors.mat", "structure.mat", "snappy.parquet"] {
+    for name in [
+        "vectors.mat",
+        "structure.mat",
+        "vectors_7_3.mat",
+        "structure_7_3.mat",
+        "snappy.parquet",
+    ] {
         let bytes = std::fs::read(foreign(name)).unwrap();
         let path = folder.file(name, &bytes[..bytes.len() / 2]);
         let line = line(&path, &[]);
-        assert!(line.contains("damaged: "), "{name}: {line}");
+        assert!(line.contains(" file is damaged"), "{name}: {line}");
     }
 }
 
@@ -72,6 +80,10 @@ fn no_damage_to_a_foreign_file_does_more_than_a_refusal() {
         "structure.mat",
         "cells.mat",
         "trace.mat",
+        "vectors_7_3.mat",
+        "structure_7_3.mat",
+        "cells_7_3.mat",
+        "trace_7_3.mat",
         "gzip.parquet",
         "null.parquet",
     ] {
@@ -106,7 +118,13 @@ fn what_a_foreign_file_lacks_is_said_with_the_column() {
         foreign("lengths.mat", &[]),
         ": column `f`: has 239 values; 240 were expected, as `t` has"
     );
-    assert!(foreign("complex.mat", &[]).starts_with(": column `x`: no such column among `t`, `f`"));
+    for name in ["complex.mat", "complex_7_3.mat"] {
+        let line = foreign(name, &[]);
+        assert!(
+            line.starts_with(": column `x`: no such column among "),
+            "{name}: {line}"
+        );
+    }
     assert_eq!(
         foreign("vectors.mat", &["--header-line", "2"]),
         ": --header-line 2: the file has no lines; its columns have names already"

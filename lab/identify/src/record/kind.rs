@@ -8,6 +8,8 @@ pub(super) enum Kind {
     Text,
     Gzip,
     Mat,
+    /// Of version 7.3, which is HDF5.
+    MatHdf5,
     Parquet,
 }
 
@@ -97,7 +99,7 @@ pub(super) fn of(bytes: &[u8]) -> Result<Kind, RecordError> {
     }
     let behind = bytes.get(BEHIND_HEADER..).unwrap_or_default();
     if bytes.starts_with(b"MATLAB 7.3 MAT-file") || behind.starts_with(b"\x89HDF\r\n\x1a\n") {
-        return refuse("a MATLAB file of version 7.3 (HDF5)", V7);
+        return Ok(Kind::MatHdf5);
     }
     // The version and the order of its bytes, behind a text that anyone may have written.
     if matches!(bytes.get(124..128), Some(b"\x00\x01IM" | b"\x01\x00MI")) {
@@ -154,14 +156,17 @@ mod tests {
             assert_eq!(line, format!(": is {what}, which is not read; {instead}"));
         }
         let line = |bytes: &[u8]| of(bytes).unwrap_err().to_string();
-        let v7_3 = [b"MATLAB 7.3 MAT-file, Platform".as_slice(), &[b' '; 483]].concat();
-        assert!(line(&v7_3).contains("version 7.3 (HDF5)"));
-        assert!(
-            line(&[&[b' '; 512], b"\x89HDF\r\n\x1a\n".as_slice()].concat()).contains("save -v7")
-        );
         let v4 = b"\0\0\0\0\x02\0\0\0\x01\0\0\0\0\0\0\0\x02\0\0\0x\0";
         assert!(line(v4).contains("version 4"));
         assert!(line(b"PARE").contains("encrypted"));
+    }
+
+    #[test]
+    fn hdf5_behind_a_header_is_matlab_7_3() {
+        let v7_3 = [b"MATLAB 7.3 MAT-file, Platform".as_slice(), &[b' '; 483]].concat();
+        assert_eq!(of(&v7_3).unwrap(), Kind::MatHdf5);
+        let other = [&[b' '; 512], b"\x89HDF\r\n\x1a\n".as_slice()].concat();
+        assert_eq!(of(&other).unwrap(), Kind::MatHdf5);
     }
 
     #[test]

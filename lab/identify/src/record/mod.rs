@@ -255,6 +255,7 @@ fn unpacked_as(kind: Kind, bytes: &[u8], options: &Options) -> Result<Record, Re
     match kind {
         Kind::Text => text_record(bytes, options),
         Kind::Mat => sheet::record(sheet::of_mat(bytes)?, options),
+        Kind::MatHdf5 => sheet::record(sheet::of_mat_hdf5(bytes)?, options),
         Kind::Parquet => sheet::record(sheet::of_parquet(bytes)?, options),
         Kind::Gzip => Err(RecordError::new(
             "is compressed by gzip twice; unpack it once",

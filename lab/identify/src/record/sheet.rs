@@ -19,7 +19,14 @@ enum Stored {
 }
 
 pub(super) fn of_mat(bytes: &[u8]) -> Result<Columns, RecordError> {
-    let vectors = mat::read(bytes)?;
+    of_vectors(mat::read(bytes)?)
+}
+
+pub(super) fn of_mat_hdf5(bytes: &[u8]) -> Result<Columns, RecordError> {
+    of_vectors(mat::read_hdf5(bytes)?)
+}
+
+fn of_vectors(vectors: Vec<mat::Vector>) -> Result<Columns, RecordError> {
     let (names, values): (Vec<_>, Vec<_>) = vectors
         .into_iter()
         .map(|own| ((own.name, own.unit, own.path), own.values))

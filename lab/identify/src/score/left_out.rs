@@ -13,12 +13,7 @@ pub(crate) fn on_blocks(
     new: &Solution,
     regime: Regime,
 ) -> (usize, bool) {
-    let (before, after) = (left_out(data, old), left_out(data, new));
-    let ratios: Vec<f64> = before
-        .iter()
-        .zip(&after)
-        .map(|(b, a)| (b / a).ln())
-        .collect();
+    let ratios = ratios(data, old, new);
     let better = ratios.iter().filter(|r| **r > 0.0).count();
     let enough = match regime {
         Regime::Blocks => {
@@ -30,6 +25,13 @@ pub(crate) fn on_blocks(
         Regime::Effect => better >= 9,
     };
     (better, enough)
+}
+
+/// ln of the old model's loss over the new one's, on each left-out block.
+pub(crate) fn ratios(data: &Prepared, old: &Solution, new: &Solution) -> Vec<f64> {
+    let (before, after) = (left_out(data, old), left_out(data, new));
+    let both = before.iter().zip(&after);
+    both.map(|(b, a)| (b / a).ln()).collect()
 }
 
 /// Loss on each block with the gains fitted on the others, shapes frozen.

@@ -8,6 +8,7 @@
 //! (`recurrences`).
 
 use super::bank::{on_line, Identity};
+use super::exchange::stands_for;
 use super::linear::Linear;
 use super::policy;
 use crate::algebra::least_norm;
@@ -216,7 +217,8 @@ pub fn delivered(data: &Prepared, models: &[&Solution]) -> usize {
 }
 
 /// Number of half-records, of [`policy::RECURRENCES`], in which each name is found again: the
-/// mean of two forward selections, one linearised at the declared and one at the final model.
+/// mean of two forward selections, one linearised at the declared and one at the final model. The
+/// first one knows no power law: what such a name replaces stands for it.
 pub(super) fn recurrences(
     names: impl Iterator<Item = Identity>,
     from_declared: &[Vec<Identity>],
@@ -227,10 +229,12 @@ pub(super) fn recurrences(
         return Vec::new();
     }
     let from_last = last.found_on_halves();
-    let found = || from_declared.iter().chain(&from_last);
-    names
-        .map(|name| found().filter(|set| set.contains(&name)).count() / 2)
-        .collect()
+    let recurs = |name: Identity| {
+        let first = |set: &&Vec<Identity>| set.contains(&name) || stands_for(set, &name);
+        let last = |set: &&Vec<Identity>| set.contains(&name);
+        (from_declared.iter().filter(first).count() + from_last.iter().filter(last).count()) / 2
+    };
+    names.map(recurs).collect()
 }
 
 impl Linear<'_> {

@@ -13,6 +13,7 @@
 
 mod bank;
 pub mod carries_over;
+mod exchange;
 mod forward;
 pub mod gram;
 mod linear;

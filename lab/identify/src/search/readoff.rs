@@ -2,6 +2,7 @@
 
 use super::bank::Identity;
 use super::carries_over::{delivered, recurrences};
+use super::exchange::is_told_apart;
 use super::linear::{Kept, Linear};
 use super::moves::Move;
 use super::policy;
@@ -379,7 +380,9 @@ impl Context<'_, '_> {
             let Some(candidate) = group.candidate() else {
                 continue;
             };
-            if (candidate.family, candidate.term.source) == (own.effect.family(), own.source) {
+            if (candidate.family, candidate.term.source) == (own.effect.family(), own.source)
+                || is_told_apart(own, &candidate.term)
+            {
                 continue;
             }
             let gain = unit * swept.gain(&group.columns, target);

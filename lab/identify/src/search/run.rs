@@ -59,6 +59,8 @@ pub(super) struct Search<'a> {
     /// Start and length \[s\] of the time budget.
     budget: Option<(Instant, f64)>,
     visited: Vec<Vec<Identity>>,
+    /// Sets in which a power law has been tried in the place of named friction.
+    pub(super) exchanges: Vec<Vec<Identity>>,
     failures: usize,
     phase: Phase,
     /// Whether the final model has been fitted from all starts.
@@ -102,6 +104,7 @@ impl<'a> Search<'a> {
             most,
             budget: None,
             visited: Vec::new(),
+            exchanges: Vec::new(),
             failures: 0,
             phase: Phase::Any,
             is_last_anew: false,
@@ -225,7 +228,7 @@ impl<'a> Search<'a> {
         self.is_cut |= proposed.is_cut;
         reject(&mut self.rejected, proposed.rejected);
         if proposed.moves.is_empty() {
-            return self.exhausted();
+            return self.exhausted(standing);
         }
         let tried = self.refitted(standing, &proposed.moves, j);
         match chosen(&tried).map(|best| self.accepted(standing, best, &tried)) {
@@ -241,13 +244,14 @@ impl<'a> Search<'a> {
             }
             _ => {
                 self.failures += 1;
-                self.failures < policy::FAILURES || self.exhausted()
+                self.failures < policy::FAILURES || self.exhausted(standing)
             }
         }
     }
 
-    /// After the last name: first moves to fewer names, then curves at a lower price.
-    fn exhausted(&mut self) -> bool {
+    /// After the last name: first moves to fewer names, then a power law in the place of named
+    /// friction, then curves at a lower price.
+    fn exhausted(&mut self, standing: &Standing<'a>) -> bool {
         self.failures = 0;
         let names = self.now.structure.terms.len() - self.declared.structure.terms.len();
         if self.phase == Phase::Any && names > 1 {
@@ -255,6 +259,10 @@ impl<'a> Search<'a> {
             // Smaller sets that were refitted earlier may be tried again from this model.
             let all = self.now.structure.terms.len();
             self.visited.retain(|set| set.len() >= all);
+            return true;
+        }
+        if self.exchanged(standing) {
+            self.phase = Phase::Any;
             return true;
         }
         if self.phase == Phase::Curves || self.now.structure.table.is_some() {
@@ -356,7 +364,7 @@ impl<'a> Search<'a> {
     }
 
     /// The rejection of a term that a move removes.
-    fn out(&self, index: usize) -> Rejection {
+    pub(super) fn out(&self, index: usize) -> Rejection {
         let term = self.now.structure.terms[index];
         Rejection {
             candidate: term.into(),

@@ -13,6 +13,7 @@
 //! * [`unneeded`]: declared parts that the record does not need are told.
 //! * [`series`]: a play between the input and the transmission is found with its width.
 //! * [`hardening`]: the benchmark of Noël and Schoukens comes back.
+//! * [`power_law`]: a power law of the velocity is told from viscous and Coulomb friction.
 //! * [`late`]: a delay has its size at every cut-off.
 //! * [`stretch`]: the stretch of a cable is one name beside the two angles.
 //! * [`turned`]: a sensor or a scale that was mounted the other way round changes signs, no names.
@@ -28,6 +29,7 @@ mod imitated;
 mod late;
 mod nulls;
 mod planted;
+mod power_law;
 mod recovery;
 mod rig;
 mod series;

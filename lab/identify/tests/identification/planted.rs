@@ -39,8 +39,8 @@ enum Expected {
     AtTold,
     /// Falls short: found and named, but down to that many times the noise only.
     Reached(f64),
-    /// Falls short: down to the noise, but another family was named.
-    Misnamed,
+    /// Falls short: down to that many times the noise, but another family was named.
+    Misnamed(f64),
     /// Falls short: not found; the declared model is that many times above the noise
     /// at most, and no other name is given.
     Missed(f64),
@@ -97,8 +97,10 @@ const EXCEPTIONS: &[Exception] = &[
         reason: "1.5: named, but the joint refit stops beside its optimum; 1.0 if told" },
     Exception { mode: DISPLACEMENT, effect: "stiffness-progressive", strength: Some(3.0), expected: Reached(1.5),
         reason: "1.3: hinge and x³ stand for x·|x| beside kappa_x·x, three odd curves that are much alike" },
-    Exception { mode: DISPLACEMENT, effect: "dead-zone", strength: Some(1.0), expected: Misnamed,
+    Exception { mode: DISPLACEMENT, effect: "dead-zone", strength: Some(1.0), expected: Misnamed(DOWN_TO),
         reason: "an odd curve of x beside kappa_x·x: two ripples of long period are named" },
+    Exception { mode: TORQUE, effect: "power-law", strength: Some(1.0), expected: Misnamed(1.15),
+        reason: "1.11: coulomb and viscous, which err less on the stop-check; of 20 such records 13 are named (docs/results/catalogue.md)" },
 ];
 
 fn exception(mode: Mode, effect: &str, strength: f64) -> Option<&'static Exception> {
@@ -226,7 +228,7 @@ impl Outcome {
         match expected {
             Found | AtTold | Reached(_) => ask(names(own), format!("{own} not named")),
             FoundAs(other) => ask(names(other), format!("{other} not named")),
-            Misnamed => {}
+            Misnamed(_) => {}
             Missed(_) | Absorbed => ask(
                 self.families.iter().all(|f| *f == own),
                 "another name was given".to_owned(),
@@ -234,8 +236,8 @@ impl Outcome {
         }
         ask(!self.unknown, "said to have no name".to_owned());
         let reach = match expected {
-            Found | FoundAs(_) | AtTold | Misnamed | Absorbed => DOWN_TO * floor,
-            Reached(times) | Missed(times) => times * floor,
+            Found | FoundAs(_) | AtTold | Absorbed => DOWN_TO * floor,
+            Reached(times) | Missed(times) | Misnamed(times) => times * floor,
         };
         ask(
             self.last <= reach,

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes the records of this folder by SciPy and PyArrow: writers that are not ours.
+"""Writes the records of this folder by SciPy, PyArrow, h5py and hdf5storage: not our writers.
 
-    pip install numpy scipy pyarrow && python3 make.py
+    pip install numpy scipy pyarrow h5py hdf5storage && python3 make.py
 
 The record is that of `../record.rs`, made of sums, products and rounding alone, so that it is
 the same to the bit wherever it is computed.
@@ -10,6 +10,8 @@ the same to the bit wherever it is computed.
 import math
 import pathlib
 
+import h5py
+import hdf5storage
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
@@ -39,6 +41,40 @@ def record():
     return np.array(rows).T
 
 
+def class_of(data, name, **others):
+    data.attrs["MATLAB_class"] = np.bytes_(name)
+    for attribute, value in others.items():
+        data.attrs[attribute] = value
+
+
+class Hdf5:
+    """A file of version 7.3 by h5py, laid out as MATLAB does: a header of 512 bytes before it."""
+
+    def __init__(self, name):
+        self.path = FOLDER / name
+        self.file = h5py.File(self.path, "w", userblock_size=512, libver="earliest")
+
+    def numbers(self, where, values, name="double", **options):
+        """An array, its dimensions in reverse order."""
+        values = np.atleast_2d(values)
+        values = values.T if values.shape[0] == 1 else values
+        data = self.file.create_dataset(where, data=np.ascontiguousarray(values.T), **options)
+        class_of(data, name)
+        return data
+
+    def text(self, where, text):
+        data = self.file.create_dataset(where, data=np.array([[ord(c)] for c in text], np.uint16))
+        class_of(data, "char", MATLAB_int_decode=np.int32(2))
+        return data
+
+    def done(self):
+        self.file.close()
+        text = "MATLAB 7.3 MAT-file, Platform: h5py, HDF5 schema 1.00 ."
+        header = text.ljust(116).encode() + bytes(8) + b"\x00\x02IM"
+        with self.path.open("r+b") as file:
+            file.write(header.ljust(512, b"\0"))
+
+
 t, x, f, load = record()
 names = ["t", "x_mm", "f_N", "load_N"]
 
@@ -50,6 +86,13 @@ savemat(
     oned_as="row",
 )
 pq.write_table(pa.table([t, x, f, load], names), FOLDER / "snappy.parquet", row_group_size=2000)
+# The same in version 7.3: chunks, shuffled and compressed, as MATLAB writes long vectors.
+file = Hdf5("vectors_7_3.mat")
+for name, values in zip(names, [t, x, f, load]):
+    file.numbers(name, values, chunks=(1, 1000), compression=3, shuffle=True)
+file.numbers("rate", 256.0)
+file.text("who", "rig 3")
+file.done()
 
 # Its beginning in other shapes.
 t, x, f, load = t[:240], x[:240], f[:240], load[:240]
@@ -72,6 +115,34 @@ savemat(FOLDER / "lengths.mat", {"t": t, "x": x, "f": f[:-1]}, do_compression=Tr
 savemat(FOLDER / "complex.mat", {"t": t, "x": x * 1j, "f": f}, do_compression=True)
 savemat(FOLDER / "words.mat", {"who": "rig 3", "rate": 256.0})
 savemat(FOLDER / "version_4.mat", {"t": t[:9]}, format="4")
+
+# Version 7.3. A structure; beside it small integers, single precision, a truth, an empty array.
+file = Hdf5("structure_7_3.mat")
+run = file.file.create_group("run")
+class_of(run, "struct")
+for name, values in zip(names, [t, x, f, load]):
+    file.numbers(f"run/{name}", values)
+file.numbers("run/count", np.arange(240, dtype=np.int16), "int16")
+file.numbers("run/single", x.astype(np.float32), "single", fletcher32=True, chunks=(1, 100))
+file.numbers("run/moves", (f > 0).astype(np.uint8), "logical")
+empty = file.file.create_dataset("run/empty", data=np.zeros(2, np.uint64))
+class_of(empty, "double", MATLAB_empty=np.uint8(1))
+file.done()
+# A matrix whose columns are named by cells, and signals of a trace, by another writer.
+modern = {"format": "7.3", "store_python_metadata": False, "matlab_compatible": True}
+hdf5storage.savemat(FOLDER / "cells_7_3.mat", {"data": matrix.T, "names": cells}, **modern)
+hdf5storage.savemat(FOLDER / "trace_7_3.mat", {"trace": {"X": axis, "Y": signals}}, **modern)
+pairs = np.zeros((1, 240), dtype=[("real", float), ("imag", float)])
+file = Hdf5("complex_7_3.mat")
+file.numbers("t", t)
+class_of(file.file.create_dataset("x", data=pairs), "double")
+file.numbers("f", f)
+file.done()
+# A seed of the fuzz target.
+file = Hdf5("tiny_7_3.mat")
+for name, values in zip(["t", "x", "f"], [t[:9], x[95:104], f[:9]]):
+    file.numbers(name, values, chunks=(1, 9), compression=3)
+file.done()
 
 for codec in ["none", "gzip", "lz4", "zstd", "brotli"]:
     table = pa.table([t, x, f, load, ["rig"] * 240], names + ["who"])

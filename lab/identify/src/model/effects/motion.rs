@@ -46,6 +46,18 @@ pub(super) const MOTION: &[Entry] = &[
         shown_by: "speeds up to the highest that the rig allows",
         ..PLAIN
     },
+    // In no first scan: it lies between viscous and Coulomb friction, and the search asks of it
+    // where one of them is named (`search::exchange`).
+    Entry {
+        name: "power-law",
+        rank: 13,
+        declared: Declared::OnChannel(&[Number(0.5)]),
+        bounds: &[Bounds::Linear(0.1, 0.9)],
+        on: &[On::Read, On::Reversal],
+        shown_by: "speeds that vary tenfold",
+        takes_energy: true,
+        ..PLAIN
+    },
     Entry {
         name: "coulomb",
         rank: 3,

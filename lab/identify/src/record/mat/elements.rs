@@ -259,6 +259,11 @@ fn characters(element: &Element<'_>, order: Order, dims: &[usize]) -> Vec<String
         }
         _ => String::from_utf8_lossy(element.bytes).chars().collect(),
     };
+    rows_of(&letters, dims)
+}
+
+/// The rows of letters that stand column by column.
+pub(super) fn rows_of(letters: &[char], dims: &[usize]) -> Vec<String> {
     let rows = dims.first().copied().unwrap_or(0).min(letters.len());
     let row = |row: usize| {
         let own: String = letters.iter().skip(row).step_by(rows).collect();

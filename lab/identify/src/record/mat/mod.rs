@@ -1,11 +1,14 @@
-//! MATLAB's `.mat` files of version 5: variables in, columns out.
+//! MATLAB's `.mat` files of versions 5 and 7.3: variables in, columns out.
 //!
 //! A column is a vector; a field of a structure; a column of a matrix, by the name that a
 //! list of names in the same place gives it, or as `data(:,2)`; or the `Data` of a structure
-//! with a `Name`, as trace exports write it. The reader is our own: of the crates, `matfile`
-//! and `mat5` read neither structures nor cells, and `matrw` panics on damaged files.
+//! with a `Name`, as trace exports write it. The reader of version 5 is our own: of the crates,
+//! `matfile` and `mat5` read neither structures nor cells, and `matrw` panics on damaged files.
+//! Version 7.3 is HDF5, which the crate `hdf5-reader` reads; which others there are is in
+//! `docs/records.md`.
 
 mod elements;
+mod hdf5;
 
 use super::error::RecordError;
 use elements::Value;
@@ -25,9 +28,18 @@ pub(super) struct Vector {
     pub(super) values: Vec<f64>,
 }
 
-/// The columns of a file, each under a name of its own.
+/// The columns of a file of version 5, each under a name of its own.
 pub(super) fn read(bytes: &[u8]) -> Result<Vec<Vector>, RecordError> {
-    let variables = elements::variables(bytes).map_err(RecordError::new)?;
+    vectors(elements::variables(bytes))
+}
+
+/// The same of a file of version 7.3.
+pub(super) fn read_hdf5(bytes: &[u8]) -> Result<Vec<Vector>, RecordError> {
+    vectors(hdf5::variables(bytes))
+}
+
+fn vectors(variables: Result<Vec<(String, Value)>, String>) -> Result<Vec<Vector>, RecordError> {
+    let variables = variables.map_err(RecordError::new)?;
     let mut found = Vec::new();
     fields("", &variables, 0, &mut found);
     if found.is_empty() {

@@ -1,0 +1,245 @@
+//! Power-law drag in the place of friction that was named.
+//!
+//! `sgn(v)·|v|^a`, 0 < a < 1, lies between Coulomb (a towards 0) and viscous friction (a = 1). It
+//! fits a sum of the two nearly as well as they do, with one name instead of two, so that the
+//! price of a name would decide between them. It is therefore no candidate of the moves. Once no
+//! move is accepted any more, it is refitted in the place of the friction that was named on a
+//! channel, and so are viscous and Coulomb friction together, which have one parameter more. It
+//! is named only if it is better than what was named by the criterion, and errs less than this
+//! pair, by more than chance, on blocks that were left out of the fit of the gains. Where more
+//! than noise is left, every block repeats the same misfit: there it has to halve the squared error.
+
+use super::bank::Identity;
+use super::linear::Kept;
+use super::moves::is_same;
+use super::policy;
+use super::refit::{other_hystereses, FAIR, ROUGH};
+use super::run::{Entry, Search, Standing};
+use crate::fit::search::descend;
+use crate::fit::settle::settle;
+use crate::fit::Solution;
+use crate::ledger::Rejection;
+use crate::model::structure::{FitTerm, Role, Structure};
+use crate::model::Variable;
+use crate::problem::MOST_RECORDS;
+use crate::score::blocks::{sign_flip_p_above, Regime};
+use crate::score::left_out::ratios;
+use bowden::effect::Effect;
+use bowden::model::Source;
+use std::sync::Arc;
+
+/// The effect that takes their place.
+const POWER_LAW: &str = "power-law";
+/// The pair that it has to beat.
+const PAIR: [&str; 2] = ["viscous", "coulomb"];
+/// Friction between rest and fast motion, which it may replace.
+const FRICTION: &[&str] = &["viscous", "coulomb", "stribeck"];
+/// The same, and drag that grows faster than the velocity.
+const WITH_DRAG: &[&str] = &[
+    "viscous",
+    "coulomb",
+    "stribeck",
+    "drag-quadratic",
+    "drag-cubic",
+];
+/// Exponents from which its fit starts.
+const EXPONENTS: [f64; 2] = [0.3, 0.6];
+/// Widths of the sign, in units of the usual speed, from which Coulomb's fit starts: those of
+/// its trial shapes.
+const WIDTHS: [f64; 2] = [0.01, 0.08];
+/// Number of starts that are searched further.
+const FURTHER: usize = 2;
+
+/// Whether a name is a power law's, and another one of the friction on the same channel that it
+/// was compared with.
+pub(super) fn is_told_apart(own: &FitTerm, other: &FitTerm) -> bool {
+    own.effect.name() == POWER_LAW
+        && own.source == other.source
+        && PAIR.contains(&other.effect.name())
+}
+
+/// Whether a set that a search without power laws has found holds the friction that such a name
+/// replaces.
+pub(super) fn stands_for(set: &[Identity], name: &Identity) -> bool {
+    let Identity::Name(POWER_LAW, own) = name else {
+        return false;
+    };
+    set.iter().any(|member| match member {
+        Identity::Name(effect, source) => source == own && WITH_DRAG.contains(effect),
+        Identity::Curve(variable) => *variable == Variable::Velocity(*own),
+    })
+}
+
+/// What a power law would replace.
+struct Place {
+    source: Source,
+    kept: Kept,
+}
+
+impl Search<'_> {
+    /// Puts a power law in the place of named friction; returns whether one was put in.
+    pub(super) fn exchanged(&mut self, standing: &Standing) -> bool {
+        let linear = &standing.linear;
+        let here = linear.identities(&linear.everything(), &[]);
+        let is_new = !self.exchanges.iter().any(|known| is_same(known, &here));
+        if self.regime != Regime::Blocks || !is_new {
+            return false;
+        }
+        self.exchanges.push(here);
+        for place in self.places() {
+            if let Some((next, p)) = self.with_power_law(standing, &place) {
+                self.exchange(&place, next, p);
+                return true;
+            }
+        }
+        false
+    }
+
+    /// The channels with named friction, and the names that a power law would replace.
+    fn places(&self) -> Vec<Place> {
+        let terms = &self.now.structure.terms;
+        let own = self.declared.structure.terms.len();
+        let has = |range: &[FitTerm], source: Source, name: &str| {
+            let is = |t: &FitTerm| t.source == source && t.effect.name() == name;
+            range.iter().any(is)
+        };
+        let mut places: Vec<Place> = Vec::new();
+        for source in terms[own..].iter().map(|term| term.source) {
+            // Where both are declared, there is no pair to compare it with.
+            let both = PAIR.iter().all(|name| has(&terms[..own], source, name));
+            if both || has(terms, source, POWER_LAW) {
+                continue;
+            }
+            for replaced in [WITH_DRAG, FRICTION] {
+                let is = |t: &FitTerm| t.source == source && replaced.contains(&t.effect.name());
+                let dropped: Vec<usize> = (own..terms.len()).filter(|&i| is(&terms[i])).collect();
+                let table = self.now.structure.table.as_ref();
+                let table = table.is_some_and(|t| t.variable != Variable::Velocity(source));
+                let kept = Kept { dropped, table };
+                let known = |p: &Place| p.source == source && p.kept == kept;
+                if !kept.dropped.is_empty() && !places.iter().any(known) {
+                    places.push(Place { source, kept });
+                }
+            }
+        }
+        places
+    }
+
+    /// The model with a power law in that place, and the p-value of its comparison with the pair;
+    /// `None` where it is not accepted.
+    fn with_power_law(&self, standing: &Standing, place: &Place) -> Option<(Solution, f64)> {
+        let linear = &standing.linear;
+        let laws: Option<Vec<Structure>> = EXPONENTS
+            .iter()
+            .map(|&a| self.with(place, &[(POWER_LAW, &[a])]))
+            .collect();
+        let law = self.fitted(&laws?)?;
+        // Its gain and its exponent.
+        let price = linear.price_of(&place.kept) + linear.prices.of_name(2);
+        let new = law.sse(self.data).ln() + price;
+        let old = self.now.sse(self.data).ln() + linear.price_of(&linear.everything());
+        if new > old - policy::EQUAL || law.rmse.stop > policy::NOT_WORSE * self.now.rmse.stop {
+            return None;
+        }
+        let pair = self.pair(place)?;
+        let p = sign_flip_p_above(&ratios(self.data, &pair, &law));
+        let gained = (pair.sse(self.data) / law.sse(self.data)).ln();
+        // Above the noise every block repeats the same misfit, which no test among blocks sees.
+        let is_noise = law.rmse.fit <= policy::AT_FLOOR * self.data.noise_floor;
+        let (least, worst) = match is_noise {
+            true => (0.0, policy::NOT_WORSE),
+            false => (policy::MISFIT, 1.0),
+        };
+        let beats =
+            p <= policy::SHORTER && gained > least && law.rmse.stop <= worst * pair.rmse.stop;
+        beats.then_some((law, p))
+    }
+
+    /// The model with viscous and Coulomb friction in that place.
+    fn pair(&self, place: &Place) -> Option<Solution> {
+        let speed = self.data.channel(place.source)?.speed;
+        let own = self.declared.structure.terms.len();
+        let declared = &self.declared.structure.terms[..own];
+        let lacks = |name: &str| {
+            let is = |t: &FitTerm| t.source == place.source && t.effect.name() == name;
+            !declared.iter().any(is)
+        };
+        let made = |width: f64| {
+            let shapes = [width * speed];
+            let both: [(&str, &[f64]); 2] = [(PAIR[0], &[]), (PAIR[1], &shapes)];
+            let added: Vec<_> = both.into_iter().filter(|(name, _)| lacks(name)).collect();
+            self.with(place, &added)
+        };
+        let pairs: Option<Vec<Structure>> = WIDTHS.into_iter().map(made).collect();
+        self.fitted(&pairs?)
+    }
+
+    /// The present structure with other effects in that place.
+    fn with(&self, place: &Place, added: &[(&str, &[f64])]) -> Option<Structure> {
+        let mut structure = self.now.structure.clone();
+        let ids = self.now.structure.terms.ids();
+        for &index in &place.kept.dropped {
+            structure.terms.remove(*ids.get(index)?);
+        }
+        if !place.kept.table {
+            structure.table = None;
+        }
+        for (name, shapes) in added {
+            structure.terms.push(FitTerm {
+                effect: Effect::try_from_name(name, shapes).ok()?,
+                source: place.source,
+                origin: 0.0,
+                start: [0.0; MOST_RECORDS],
+            });
+        }
+        Some(structure)
+    }
+
+    /// The best fit from the shapes of some structures of the same effects, the other parameters
+    /// as they are, and from two other hystereses.
+    fn fitted(&self, structures: &[Structure]) -> Option<Solution> {
+        use rayon::prelude::*;
+        let structure = structures.first()?;
+        let free = structure.free(self.data);
+        let start = |from: &Structure| -> Vec<f64> {
+            let shape = |role: Role| match role {
+                Role::Shape { term, index } => from.terms.find(term)?.effect.shape(index),
+                _ => None,
+            };
+            let value = |role: Role| self.now.value(role).or_else(|| shape(role));
+            free.iter().map(|f| value(f.role).unwrap_or(0.5)).collect()
+        };
+        let mut starts: Vec<Vec<f64>> = structures.iter().map(start).collect();
+        if structure.hysteresis {
+            let present = starts[0].clone();
+            starts.extend(other_hystereses(self.data, &free, &present));
+        }
+        let search = |start: &[f64], (most, tolerance)| {
+            descend(self.coarse, structure, &free, start, most, tolerance)
+        };
+        let rough: Vec<_> = starts.par_iter().map(|s| search(s, ROUGH)).collect();
+        let mut rough: Vec<_> = rough.into_iter().flatten().collect();
+        rough.sort_by(|a, b| a.0.total_cmp(&b.0));
+        rough.truncate(FURTHER);
+        let fair: Vec<_> = rough.par_iter().map(|(_, s)| search(s, FAIR)).collect();
+        let fair = fair.into_iter().flatten();
+        let (_, start) = fair.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let (_, values) = descend(self.fine, structure, &free, &start, 30, 1e-6)?;
+        settle(self.data, structure, &free, values)
+    }
+
+    fn exchange(&mut self, place: &Place, next: Solution, p: f64) {
+        let dropped = place.kept.dropped.iter();
+        let dropped: Vec<Rejection> = dropped.map(|&index| self.out(index)).collect();
+        self.superseded.extend(dropped);
+        self.entries.push(Entry {
+            identity: Identity::Name(POWER_LAW, place.source),
+            p: Some(p),
+            siblings: Vec::new(),
+            q: 0.0,
+        });
+        self.rejected.clear();
+        self.now = Arc::new(next);
+        self.reached.push(Arc::clone(&self.now));
+    }
+}
