@@ -32,7 +32,7 @@ const REFERRED: &str = "#refs#";
 /// What a reference refers to.
 enum Object {
     Group(Group),
-    Data(Dataset),
+    Data(Box<Dataset>),
 }
 
 struct File {
@@ -67,7 +67,9 @@ pub(super) fn variables(bytes: &[u8]) -> Result<Vec<(String, Value)>, String> {
     if let Some(group) = groups.iter().find(|group| group.name() == REFERRED) {
         let (groups, data) = group.members().map_err(told)?;
         let groups = groups.into_iter().map(|g| (g.address(), Object::Group(g)));
-        let data = data.into_iter().map(|d| (d.address(), Object::Data(d)));
+        let data = data
+            .into_iter()
+            .map(|d| (d.address(), Object::Data(Box::new(d))));
         own.referred = groups.chain(data).collect();
     }
     let groups = groups.into_iter().filter(|g| !g.name().starts_with('#'));
