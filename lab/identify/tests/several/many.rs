@@ -40,7 +40,7 @@ fn of_as_many_files_as_are_allowed_one_model_finds_what_was_planted() {
     assert!(last.rmse.held_out < 1.3 * last.rmse.fit, "{:?}", last.rmse);
     assert!(ledger.declared.rmse.held_out > 3.0 * last.rmse.held_out);
     let all = parameters(&data, last);
-    let found = all.iter().find(|p| p.name == "viscous").unwrap();
+    let found = all.iter().find(|p| p.name == "viscous@phi_p").unwrap();
     let [low, high] = found.ci95.unwrap();
     // Twice the 95 % interval: four standard deviations to either side.
     let slack = 0.5 * (high - low);
