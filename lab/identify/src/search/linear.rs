@@ -22,7 +22,9 @@ const WORTH: f64 = 0.4;
 /// Number of best pairs whose members may get their slopes.
 const PAIRED: usize = 24;
 
-/// A candidate that is added as one piece.
+/// A candidate that is added as one piece. A name holds its starts in all files by value, as
+/// every term does: there are a few hundred members, half a kilobyte each.
+#[allow(clippy::large_enum_variant)]
 #[derive(Debug, Clone)]
 pub(super) enum Member {
     Name(Candidate),
