@@ -89,6 +89,21 @@ fn files_that_do_not_go_together_give_one_line_with_file_and_column() {
 }
 
 #[test]
+fn more_files_than_can_be_fitted_together_are_refused_before_any_is_read() {
+    let names: Vec<String> = (1..=65).map(|k| format!("{k}.csv")).collect();
+    let mut all = vec!["close"];
+    all.extend(names.iter().map(String::as_str));
+    let line = refused(&all);
+    assert!(
+        line.contains("65 records: at most 64 can be fitted together"),
+        "{line}"
+    );
+    // One less is read, and the first of these names is no file.
+    all.pop();
+    assert!(refused(&all).contains("1.csv"));
+}
+
+#[test]
 #[ignore = "slow: bash .ci/run identification"]
 fn a_file_in_other_units_of_the_same_kind_is_converted() {
     let folder = Folder::new();

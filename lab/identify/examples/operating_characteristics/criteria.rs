@@ -11,7 +11,7 @@
 use bowden::effect::Family;
 use bowden_lab::fit::Solution;
 use bowden_lab::model::catalogue::Candidate;
-use bowden_lab::problem::Prepared;
+use bowden_lab::problem::{Prepared, Stretch};
 use nalgebra::{DMatrix, DVector};
 
 /// Share of the residual's squares that the ERR rule asks of the next column.
@@ -43,14 +43,14 @@ pub struct Library<'a> {
     data: &'a Prepared,
     declared: &'a Solution,
     families: Vec<Family>,
-    columns: Vec<Vec<f64>>,
+    columns: Vec<Stretch>,
     order: Vec<usize>,
     /// Sum of squares before the first and after each of `order`.
     squares: Vec<f64>,
     base: usize,
 }
 
-fn on(rows: &[usize], column: &[f64]) -> DVector<f64> {
+fn on(rows: &[usize], column: &Stretch) -> DVector<f64> {
     DVector::from_iterator(rows.len(), rows.iter().map(|&i| column[i]))
 }
 
@@ -76,13 +76,13 @@ impl<'a> Library<'a> {
         let (mut families, mut columns) = (Vec::new(), Vec::new());
         for candidate in tried {
             if let Some(raw) = declared.adds(data, &candidate.term) {
-                columns.push(data.filtered(&raw));
+                columns.push(Stretch::from(data.filtered(&raw)));
                 families.push(candidate.family);
             }
         }
         let mut left: Vec<DVector<f64>> = columns.iter().map(|c| on(rows, c)).collect();
         let whole: Vec<f64> = left.iter().map(|v| v.norm_squared()).collect();
-        let mut residual = on(rows, &declared.residual);
+        let mut residual = on(rows, &declared.residual.clone().into());
         for q in &base {
             off(&mut residual, q);
             left.iter_mut().for_each(|v| off(v, q));
@@ -135,7 +135,7 @@ impl<'a> Library<'a> {
     /// All gains anew with the first `taken` columns; the error on held-out rows.
     fn chosen(&self, taken: usize, floor: f64) -> Chosen {
         let picked = &self.order[..taken];
-        let all: Vec<&Vec<f64>> = self
+        let all: Vec<&Stretch> = self
             .declared
             .columns
             .iter()
@@ -152,10 +152,10 @@ impl<'a> Library<'a> {
         };
         let gains = matrix(fit)
             .svd(true, true)
-            .solve(&on(fit, &self.declared.residual), 1e-9)
+            .solve(&on(fit, &self.declared.residual.clone().into()), 1e-9)
             .unwrap();
         let held_out = &self.data.split.held_out;
-        let rest = on(held_out, &self.declared.residual) - matrix(held_out) * gains;
+        let rest = on(held_out, &self.declared.residual.clone().into()) - matrix(held_out) * gains;
         let mut families: Vec<Family> = picked.iter().map(|&j| self.families[j]).collect();
         families.sort_unstable();
         families.dedup();

@@ -8,12 +8,15 @@
 //! | The inverse of a positive definite matrix, and a root of that | [`inverse`], [`whitening`] |
 //! | The directions in which a positive semi-definite matrix has a size | [`directions`] |
 //! | The line through points | [`line`] |
+//! | A column of one file among several | [`Stretch`] |
 //!
 //! The sweep of Gram matrices, which grow by columns from round to round, is
 //! [`Grams`](crate::search::gram::Grams).
 
 mod solve;
 mod span;
+mod stretch;
 
 pub(crate) use solve::{directions, inverse, least_norm, line, whitening};
 pub(crate) use span::{imitated, take_off, Span};
+pub use stretch::Stretch;

@@ -1,5 +1,6 @@
 //! What a column has that nothing in a set of columns can imitate.
 
+use super::Stretch;
 use nalgebra::{DMatrix, DVector};
 
 /// Below this share of its norm a column is a sum of others within rounding and the errors of
@@ -8,11 +9,14 @@ const DEPENDENT: f64 = 1e-6;
 
 /// Orthonormal basis of columns, by Gram-Schmidt that is repeated once, which is as good as
 /// Householder (Giraud, Langou and Rozložník, 2005).
+///
+/// A column that is zero outside of one file stays so if only columns of files were added
+/// before it: who adds these first pays for each on its own file alone.
 #[derive(Debug, Clone)]
 pub(crate) struct Span {
     /// Below this share of its norm a column lies in the span already.
     dependent: f64,
-    basis: Vec<DVector<f64>>,
+    basis: Vec<Stretch>,
     /// Each column that widened the span, in terms of the basis up to its own vector.
     upper: Vec<Vec<f64>>,
 }
@@ -35,48 +39,55 @@ impl Span {
     }
 
     /// Widens the span, unless the column lies in it already or is not finite; whether it did.
-    pub(crate) fn add(&mut self, column: DVector<f64>) -> bool {
+    pub(crate) fn add(&mut self, column: impl Into<Stretch>) -> bool {
+        self.add_with_parts(column.into()).0
+    }
+
+    /// The same, and the column in terms of the basis, its own vector included.
+    pub(crate) fn add_with_parts(&mut self, column: Stretch) -> (bool, Vec<f64>) {
         let norm = column.norm();
         if !(norm.is_finite() && norm > 0.0) {
-            return false;
+            return (false, Vec::new());
         }
         let (left, mut parts) = self.split(column);
         let rest = left.norm();
         let widens = rest > self.dependent * norm;
         if widens {
             parts.push(rest);
-            self.upper.push(parts);
-            self.basis.push(left / rest);
+            self.upper.push(parts.clone());
+            self.basis.push(left.divided(rest));
         }
-        widens
+        (widens, parts)
     }
 
     /// The orthonormal vectors.
-    pub(crate) fn basis(&self) -> &[DVector<f64>] {
+    pub(crate) fn basis(&self) -> &[Stretch] {
         &self.basis
     }
 
     /// The orthonormal vectors as the columns of a matrix of so many rows.
     pub(crate) fn matrix(&self, rows: usize) -> DMatrix<f64> {
-        match self.basis.is_empty() {
-            true => DMatrix::zeros(rows, 0),
-            false => DMatrix::from_columns(&self.basis),
+        let mut all = Vec::with_capacity(rows * self.basis.len());
+        for q in &self.basis {
+            q.push_to(&mut all, 0..rows, 1.0);
         }
+        DMatrix::from_vec(rows, self.basis.len(), all)
     }
 
     /// The column without its part in the span.
     pub(crate) fn off(&self, column: DVector<f64>) -> DVector<f64> {
-        self.split(column).0
+        let (left, _) = self.split(column.into());
+        DVector::from_column_slice(left.values())
     }
 
     /// The column without its part in the span, and that part in terms of the basis.
-    fn split(&self, mut column: DVector<f64>) -> (DVector<f64>, Vec<f64>) {
+    fn split(&self, mut column: Stretch) -> (Stretch, Vec<f64>) {
         let mut parts = vec![0.0; self.basis.len()];
         // Twice, against rounding.
         for _ in 0..2 {
             for (part, q) in parts.iter_mut().zip(&self.basis) {
                 let dot = q.dot(&column);
-                column.axpy(-dot, q, 1.0);
+                column.take_off(q, dot);
                 *part += dot;
             }
         }
@@ -84,7 +95,7 @@ impl Span {
     }
 
     /// Least-squares gains of the columns that widened the span.
-    pub(crate) fn gains(&self, target: &DVector<f64>) -> Vec<f64> {
+    pub(crate) fn gains(&self, target: &Stretch) -> Vec<f64> {
         let mut gains: Vec<f64> = self.basis.iter().map(|q| q.dot(target)).collect();
         for i in (0..gains.len()).rev() {
             gains[i] /= self.upper[i][i];
@@ -145,7 +156,7 @@ mod tests {
     fn gains_are_those_of_the_least_squares_fit() {
         // 2·(1, 1, 0) − 3·(1, 0, 1), and something along the normal, which no gain can reach.
         let target = column([-1.0, 2.0, -3.0]) + 7.0 * column([1.0, -1.0, -1.0]);
-        let gains = plane().gains(&target);
+        let gains = plane().gains(&target.into());
         // Rounding of a few operations on numbers of order ten.
         assert_relative_eq!(gains[0], 2.0, epsilon = 1e-11);
         assert_relative_eq!(gains[1], -3.0, epsilon = 1e-11);

@@ -26,7 +26,7 @@ mod ranges;
 use crate::conclude::trace::{csv, input, parts, Column};
 use crate::export::invertible::three_digits;
 use crate::fit::Solution;
-use crate::problem::{HeldOut, Preparation, Prepared};
+use crate::problem::{HeldOut, Preparation, Prepared, Stretch};
 use crate::record::{to_unit, Defect, Record};
 use crate::score::dependences::{dependences, Dependence};
 pub use given::{one_line, About, Errors, Given, Seen};
@@ -210,7 +210,7 @@ impl Check {
         }
         check.verdict = check.found(given);
         if check.verdict == Verdict::DoesNotHold {
-            let held = [moved, vec![1.0; check.data.target.len()]];
+            let held = [moved, vec![1.0; check.data.target.len()]].map(Stretch::from);
             let behind = Solution {
                 residual,
                 ..check.model.clone()

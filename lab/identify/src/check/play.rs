@@ -4,7 +4,7 @@ use super::given::{Given, MOST_TERMS};
 use crate::fit::{Segments, Solution};
 use crate::model::columns::{raw_columns, weighted};
 use crate::model::structure::{FitTerm, Free, Range, Role, Structure, Terms};
-use crate::problem::{Prepared, MOST_RECORDS};
+use crate::problem::{Prepared, Stretch, MOST_RECORDS};
 use crate::record::Mode;
 use bowden::model::{Model, Source};
 
@@ -65,9 +65,9 @@ pub(super) fn play(data: &Prepared, given: &Given, eta0: f64) -> Result<Solution
         .collect();
     let values: Vec<f64> = known.iter().map(|&(_, value)| value).collect();
     let raw = raw_columns(data, &structure, &free, &values).ok_or_else(nothing)?;
-    let columns: Vec<Vec<f64>> = raw.columns.iter().map(|c| data.filtered(c)).collect();
-    let filtered: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-    let prediction = weighted(&filtered, &gains, data.target.len());
+    let columns: Vec<&Stretch> = raw.columns.iter().map(|c| &**c).collect();
+    let columns = data.filtered_stretches(&columns);
+    let prediction = weighted(&columns, &gains, data.target.len());
     if !prediction.iter().all(|p| p.is_finite()) {
         return Err("the model runs away on this record".to_owned());
     }

@@ -2,7 +2,7 @@
 
 use super::intervals::{jackknife, quantile};
 use crate::fit::Solution;
-use crate::problem::Prepared;
+use crate::problem::{Prepared, Stretch};
 
 /// One point of the curve.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -30,11 +30,10 @@ pub fn curve(data: &Prepared, solution: &Solution) -> Vec<Knot> {
         .iter()
         .zip(&solution.on_bound)
         .filter(|(_, bound)| !**bound);
-    let columns: Vec<&[f64]> = solution.columns[first..]
+    let columns: Vec<&Stretch> = solution.columns[first..]
         .iter()
         .chain(&solution.columns[..first])
         .chain(moving.map(|(tangent, _)| tangent))
-        .map(Vec::as_slice)
         .collect();
     let steps = jackknife(data, solution, &columns);
     table

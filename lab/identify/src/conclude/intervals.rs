@@ -12,7 +12,7 @@ use crate::fit::Solution;
 use crate::model::effects::{entry, shown_by, ToldBy};
 use crate::model::structure::{FitTerm, Range, Role};
 use crate::model::units::Unit;
-use crate::problem::Prepared;
+use crate::problem::{Prepared, Stretch};
 use crate::record::Mode;
 use crate::score::blocks::{blocks, BLOCKS};
 use bowden::model::Source;
@@ -63,7 +63,7 @@ struct Entry<'a> {
     name: String,
     unit: Option<String>,
     value: f64,
-    column: &'a [f64],
+    column: &'a Stretch,
     shape: bool,
     /// "lower" or "upper", where it lies on one.
     bound: Option<&'static str>,
@@ -293,7 +293,7 @@ struct Design {
 }
 
 impl Design {
-    fn new(data: &Prepared, columns: &[&[f64]]) -> Self {
+    fn new(data: &Prepared, columns: &[&Stretch]) -> Self {
         let rows = &data.split.fit;
         let scale: Vec<f64> = columns
             .iter()
@@ -344,7 +344,7 @@ impl Design {
 pub(crate) fn jackknife(
     data: &Prepared,
     solution: &Solution,
-    columns: &[&[f64]],
+    columns: &[&Stretch],
 ) -> Option<Vec<Vec<f64>>> {
     let rows = &data.split.fit;
     let design = Design::new(data, columns);
@@ -390,7 +390,7 @@ pub(crate) fn quantile() -> Option<f64> {
 }
 
 /// Half-widths of the 95 % intervals; `None` where a column depends on the others.
-fn half_widths(data: &Prepared, solution: &Solution, columns: &[&[f64]]) -> Vec<Option<f64>> {
+fn half_widths(data: &Prepared, solution: &Solution, columns: &[&Stretch]) -> Vec<Option<f64>> {
     let (Some(steps), Some(quantile)) = (jackknife(data, solution, columns), quantile()) else {
         return vec![None; columns.len()];
     };
@@ -428,11 +428,11 @@ pub fn parameters(data: &Prepared, solution: &Solution) -> Vec<Parameter> {
     let moving: Vec<usize> = (0..entries.len())
         .filter(|&j| entries[j].bound.is_none())
         .collect();
-    let mut columns: Vec<&[f64]> = moving.iter().map(|&j| entries[j].column).collect();
+    let mut columns: Vec<&Stretch> = moving.iter().map(|&j| entries[j].column).collect();
     let partners = Design::new(data, &columns).partners();
     // A table beside them is no parameter, but they are no better known than beside it.
     let table = solution.columns.len() - solution.structure.table_gains();
-    columns.extend(solution.columns[table..].iter().map(Vec::as_slice));
+    columns.extend(&solution.columns[table..]);
     let widths = half_widths(data, solution, &columns);
     let mut of = vec![(None, None); entries.len()];
     for (k, &j) in moving.iter().enumerate() {

@@ -35,9 +35,7 @@ impl Shares {
         let sum = |indices: &mut dyn Iterator<Item = usize>| {
             let mut sum = vec![0.0; data.work_len()];
             for k in indices {
-                for (slot, value) in sum.iter_mut().zip(columns[k].iter()) {
-                    *slot += gains[k] * value;
-                }
+                columns[k].add_to(&mut sum, gains[k]);
             }
             sum
         };

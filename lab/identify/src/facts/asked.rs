@@ -3,7 +3,7 @@
 use crate::ledger::Ledger;
 use crate::model::declared::structure;
 use crate::model::structure::Structure;
-use crate::problem::{HeldOut, Preparation, Prepared};
+use crate::problem::{together, HeldOut, Preparation, Prepared};
 use crate::record::{agree, parse, read, Options, Record, RecordError};
 use crate::search::{close_within, Limits, MOST_NAMES};
 use std::path::{Path, PathBuf};
@@ -51,14 +51,15 @@ impl Asked {
     /// Reads several records of one rig, in common units.
     ///
     /// # Errors
-    /// One line that names the file; also if a file is given twice or if two files disagree on
-    /// their columns.
+    /// One line that names the file; also if a file is given twice, if two files disagree on
+    /// their columns, or if there are too many.
     pub fn read_together(&self, paths: &[PathBuf]) -> Result<Vec<Record>, String> {
         for (index, path) in paths.iter().enumerate() {
             if paths[..index].contains(path) {
                 return Err(format!("{}: given twice", path.display()));
             }
         }
+        together(paths.len())?;
         let mut records = paths
             .iter()
             .map(|path| self.read(path))

@@ -1,8 +1,7 @@
 //! Gains by least squares once the shapes are known.
 
 use super::tie::Tie;
-use crate::algebra::Span;
-use nalgebra::{DMatrix, DVector};
+use crate::algebra::{Span, Stretch};
 use std::sync::Arc;
 
 /// A column whose residual norm is below this share of its norm depends on the others.
@@ -11,7 +10,7 @@ const SUM_OF_OTHERS: f64 = 1e-9;
 /// Gains, and the orthonormal basis of their columns.
 pub(super) struct Linear {
     pub(super) gains: Vec<f64>,
-    pub(super) basis: DMatrix<f64>,
+    pub(super) basis: Span,
     /// The active bounds.
     pub(super) tied: Vec<Tie>,
 }
@@ -24,7 +23,7 @@ pub(super) struct Linear {
 /// that the result is the exact optimum.
 pub(super) fn solve_linear(
     rows: &[usize],
-    columns: &[Arc<Vec<f64>>],
+    columns: &[Arc<Stretch>],
     target: &[f64],
     signs: &[f64],
     ties: &[Tie],
@@ -51,16 +50,15 @@ pub(super) fn solve_linear(
 /// Least squares with the sign of some gains given.
 fn signed(
     rows: &[usize],
-    columns: &[Arc<Vec<f64>>],
+    columns: &[Arc<Stretch>],
     target: &[f64],
     signs: &[f64],
     mut active: Vec<usize>,
 ) -> Linear {
-    let y = DVector::from_iterator(rows.len(), rows.iter().map(|&i| target[i]));
+    let y = Stretch::from(rows.iter().map(|&i| target[i]).collect::<Vec<f64>>());
     loop {
         let mut span = Span::with_tolerance(SUM_OF_OTHERS);
-        let column =
-            |k: usize| DVector::from_iterator(rows.len(), rows.iter().map(|&i| columns[k][i]));
+        let column = |k: usize| columns[k].at_rows(rows);
         let used = active.iter().copied().filter(|&k| span.add(column(k)));
         let used: Vec<usize> = used.collect();
         let gains = span.gains(&y);
@@ -79,7 +77,7 @@ fn signed(
                 }
                 return Linear {
                     gains: all,
-                    basis: span.matrix(rows.len()),
+                    basis: span,
                     tied: Vec::new(),
                 };
             }

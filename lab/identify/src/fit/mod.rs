@@ -5,6 +5,7 @@
 //! runs over rho, sigma, n, eta(0) and the effects' own shapes only. The hysteresis
 //! column comes with its exact sensitivities in the same pass.
 
+mod compressed;
 mod linear;
 pub(crate) mod projection;
 pub(crate) mod search;

@@ -1,15 +1,21 @@
 //! Columns on the rows of the fit segment.
 
-pub(crate) use crate::algebra::Span;
+pub(crate) use crate::algebra::{Span, Stretch};
 use crate::problem::Prepared;
 use nalgebra::DVector;
 
 impl Span {
-    /// The span of columns on the estimation grid.
-    pub(crate) fn of<'a>(data: &Prepared, columns: impl Iterator<Item = &'a Vec<f64>>) -> Self {
+    /// The span of columns on the estimation grid. Those of single files are added first: they
+    /// stay short.
+    pub(crate) fn of<'a>(data: &Prepared, columns: impl Iterator<Item = &'a Stretch>) -> Self {
+        let own = columns.map(|column| column.at_rows(&data.split.fit));
+        let mut own: Vec<Stretch> = own.collect();
+        if data.pieces.len() > 1 {
+            own.sort_by_key(|column| column.values().len());
+        }
         let mut span = Self::default();
-        for column in columns {
-            span.add(rows(data, column));
+        for column in own {
+            span.add(column);
         }
         span
     }

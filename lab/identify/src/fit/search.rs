@@ -1,12 +1,13 @@
 //! The search of the shapes from one start: Levenberg-Marquardt on the reduced problem.
 
+use super::compressed;
 use super::linear::{solve_linear, Linear};
 use super::tie::{slope, ties};
 use crate::algebra::take_off;
 use crate::model::columns::{raw_columns_knowing, Beforehand, RawColumns};
 use crate::model::structure::{Free, Range, Role, Structure};
 use crate::problem::cost::{EVALUATIONS, JACOBIANS, SEARCHES};
-use crate::problem::Prepared;
+use crate::problem::{Prepared, Stretch};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};
@@ -16,7 +17,7 @@ use std::sync::Arc;
 /// Prediction and derivatives at one set of shapes.
 pub(super) struct Evaluation {
     pub(super) raw: RawColumns,
-    pub(super) columns: Vec<Arc<Vec<f64>>>,
+    pub(super) columns: Vec<Arc<Stretch>>,
     pub(super) linear: Linear,
     residual: DVector<f64>,
 }
@@ -46,9 +47,7 @@ pub(super) fn evaluate(
     let mut residual = DVector::<f64>::zeros(rows.len());
     for (column, gain) in columns.iter().zip(&linear.gains) {
         // As slices: the iterators of a matrix take five instructions more a number.
-        for (sum, &i) in residual.as_mut_slice().iter_mut().zip(rows) {
-            *sum += gain * column[i];
-        }
+        column.add_at_rows(residual.as_mut_slice(), rows, *gain);
     }
     for (sum, &i) in residual.as_mut_slice().iter_mut().zip(rows) {
         *sum = data.target[i] - *sum;
@@ -65,11 +64,11 @@ pub(super) fn evaluate(
 }
 
 /// The filtered columns; those that do not depend on the shapes are reused.
-fn filtered(data: &Prepared, raw: &RawColumns, last: Option<&Evaluation>) -> Vec<Arc<Vec<f64>>> {
+fn filtered(data: &Prepared, raw: &RawColumns, last: Option<&Evaluation>) -> Vec<Arc<Stretch>> {
     let kept = |k: usize| last.filter(|_| raw.fixed[k]).map(|l| &l.columns[k]);
     let moved = (0..raw.columns.len()).filter(|&k| kept(k).is_none());
-    let moved: Vec<&[f64]> = moved.map(|k| raw.columns[k].as_slice()).collect();
-    let mut anew = data.filtered_all(&moved).into_iter();
+    let moved: Vec<&Stretch> = moved.map(|k| &*raw.columns[k]).collect();
+    let mut anew = data.filtered_stretches(&moved).into_iter();
     (0..raw.columns.len())
         .filter_map(|k| kept(k).cloned().or_else(|| anew.next().map(Arc::new)))
         .collect()
@@ -83,15 +82,15 @@ impl Evaluation {
         structure: &Structure,
         free: &[Free],
         values: &[f64],
-    ) -> Option<Vec<Vec<f64>>> {
+    ) -> Option<Vec<Stretch>> {
         JACOBIANS.add(1);
         let (raw, gains) = (&self.raw, &self.linear.gains);
         let moves = raw.moves(data, structure, free, values)?;
-        let slopes: Vec<Vec<f64>> = (0..free.len())
+        let slopes: Vec<Stretch> = (0..free.len())
             .map(|j| raw.tangent(&moves, j, gains))
             .collect();
-        let slopes: Vec<&[f64]> = slopes.iter().map(Vec::as_slice).collect();
-        let mut tangents = data.filtered_all(&slopes);
+        let slopes: Vec<&Stretch> = slopes.iter().collect();
+        let mut tangents = data.filtered_stretches(&slopes);
         for (tangent, one) in tangents.iter_mut().zip(free) {
             self.add_tied(tangent, free, values, one.role);
         }
@@ -99,13 +98,27 @@ impl Evaluation {
     }
 
     /// Adds to a tangent the change of a gain that is tied to kappa_eta.
-    fn add_tied(&self, tangent: &mut [f64], free: &[Free], values: &[f64], role: Role) {
+    fn add_tied(&self, tangent: &mut Stretch, free: &[Free], values: &[f64], role: Role) {
+        if !matches!(role, Role::Rho | Role::Sigma) {
+            return;
+        }
         for tie in &self.linear.tied {
             let slope = -self.linear.gains[tie.hysteresis] * slope(free, values, role);
-            for (t, x) in tangent.iter_mut().zip(self.columns[tie.gain].iter()) {
-                *t += slope * x;
-            }
+            tangent.add(&self.columns[tie.gain], slope);
         }
+    }
+
+    /// The Jacobian of the residual in the unbounded parameters, on the rows of the fit segment.
+    fn jacobian(&self, rows: &[usize], tangents: &[Stretch], slopes: &[f64]) -> DMatrix<f64> {
+        let basis = self.linear.basis.matrix(rows.len());
+        let mut jacobian = DMatrix::zeros(rows.len(), tangents.len());
+        for (j, (tangent, slope)) in tangents.iter().zip(slopes).enumerate() {
+            let mut column = DVector::from_iterator(rows.len(), rows.iter().map(|&i| tangent[i]));
+            take_off(&basis, &mut column);
+            column *= *slope;
+            jacobian.set_column(j, &column);
+        }
+        jacobian
     }
 }
 
@@ -142,6 +155,12 @@ impl<'a> Reduced<'a> {
         };
         problem.set_params(&line);
         problem
+    }
+
+    /// Whether the solver is given few rows in place of all: of several files each has
+    /// parameters of its own, whose slopes are zero on the rows of all others.
+    fn is_compressed(&self) -> bool {
+        self.data.pieces.len() > 1
     }
 
     fn values(&self) -> Vec<f64> {
@@ -185,7 +204,11 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Reduced<'_> {
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
-        self.now.as_ref().map(|e| e.residual.clone())
+        let now = self.now.as_ref()?;
+        Some(match self.is_compressed() {
+            true => compressed::residual(now.residual.norm(), self.free.len()),
+            false => now.residual.clone(),
+        })
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
@@ -193,13 +216,19 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Reduced<'_> {
         self.stands.set(true);
         let rows = &self.data.split.fit;
         let tangents = now.tangents(self.data, self.structure, self.free, &self.values())?;
-        let mut jacobian = DMatrix::zeros(rows.len(), self.free.len());
-        for (j, (free, tangent)) in self.free.iter().zip(tangents).enumerate() {
-            let mut column = DVector::from_iterator(rows.len(), rows.iter().map(|&i| tangent[i]));
-            take_off(&now.linear.basis, &mut column);
-            column *= -free.range.slope(self.line[j]);
-            jacobian.set_column(j, &column);
-        }
+        let slopes = self.free.iter().zip(self.line.iter());
+        let slopes: Vec<f64> = slopes.map(|(f, &u)| -f.range.slope(u)).collect();
+        let jacobian = match self.is_compressed() {
+            true => {
+                if !tangents.iter().all(Stretch::is_finite) {
+                    return None;
+                }
+                let tangents: Vec<_> = tangents.iter().map(|t| t.at_rows(rows)).collect();
+                let residual = Vec::from(now.residual.data.clone()).into();
+                compressed::jacobian(&now.linear.basis, residual, tangents, &slopes)
+            }
+            false => now.jacobian(rows, &tangents, &slopes),
+        };
         let is_finite = jacobian.as_slice().iter().all(|v| v.is_finite());
         is_finite.then_some(jacobian)
     }

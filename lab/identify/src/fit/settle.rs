@@ -4,7 +4,7 @@ use super::search::{evaluate, Evaluation};
 use super::{Segments, Solution};
 use crate::model::columns::weighted;
 use crate::model::structure::{Free, Structure};
-use crate::problem::Prepared;
+use crate::problem::{Prepared, Stretch};
 use std::sync::Arc;
 
 /// Assembles the solution at the given values.
@@ -23,9 +23,8 @@ pub(crate) fn settle(
         ..
     } = evaluation;
     let gains = linear.gains;
-    let columns: Vec<Vec<f64>> = columns.into_iter().map(Arc::unwrap_or_clone).collect();
-    let filtered: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-    let prediction = weighted(&filtered, &gains, data.target.len());
+    let columns: Vec<Stretch> = columns.into_iter().map(Arc::unwrap_or_clone).collect();
+    let prediction = weighted(&columns, &gains, data.target.len());
     let unfiltered = raw.output(&gains);
     let residual: Vec<f64> = data
         .target

@@ -2,7 +2,7 @@
 
 use crate::model::columns::{effect_column, series_column, stage_column};
 use crate::model::structure::{FitTerm, Free, Role, Structure};
-use crate::problem::Prepared;
+use crate::problem::{Prepared, Stretch};
 
 /// Root mean square errors of the three segments, in the output's unit.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -76,9 +76,9 @@ pub struct Solution {
     /// not output stages.
     pub gains: Vec<f64>,
     /// Linear columns through the filter, on the estimation grid.
-    pub columns: Vec<Vec<f64>>,
+    pub columns: Vec<Stretch>,
     /// d prediction / d value for each of `free`, through the filter.
-    pub tangents: Vec<Vec<f64>>,
+    pub tangents: Vec<Stretch>,
     /// The prediction through the filter, on the estimation grid.
     pub prediction: Vec<f64>,
     /// The prediction before the filter, on the work grid.

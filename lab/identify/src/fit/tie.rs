@@ -9,6 +9,7 @@
 //! [`Transmission::inverse`]: bowden::transmission::Transmission::inverse
 
 use crate::model::structure::{Free, Role, Structure};
+use crate::problem::Stretch;
 use std::sync::Arc;
 
 /// Relative distance from the bound. Four numbers are rounded to `f32` and three products
@@ -34,10 +35,10 @@ impl Tie {
     }
 
     /// The common column of both if the gain is `−ratio` times that of the hysteresis.
-    pub(super) fn merged(&self, columns: &[Arc<Vec<f64>>]) -> Vec<f64> {
-        let (input, eta) = (&columns[self.gain], &columns[self.hysteresis]);
-        let pairs = eta.iter().zip(input.iter());
-        pairs.map(|(eta, x)| eta - self.ratio * x).collect()
+    pub(super) fn merged(&self, columns: &[Arc<Stretch>]) -> Stretch {
+        let mut merged = Stretch::clone(&columns[self.hysteresis]);
+        merged.add(&columns[self.gain], -self.ratio);
+        merged
     }
 }
 

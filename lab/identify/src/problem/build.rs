@@ -3,8 +3,8 @@
 use super::against::against;
 use super::blind::{blind, bridged};
 use super::spectrum;
+use super::together;
 use super::uniform::{usual_step, Uniform};
-use super::MOST_RECORDS;
 use super::{filtered, motion, Channel, HeldOut, Piece, Preparation, Prepared, Split, ZeroPhase};
 use crate::record::{Column, Defect, Mode, Record};
 use bowden::effect::Motion;
@@ -76,12 +76,7 @@ impl Prepared {
         held_out: HeldOut,
     ) -> Result<Self, String> {
         let first = records.first().ok_or("no record was given")?;
-        if records.len() > MOST_RECORDS {
-            return Err(format!(
-                "{} records: at most {MOST_RECORDS} can be fitted together",
-                records.len()
-            ));
-        }
+        together(records.len())?;
         let several = records.len() > 1;
         let named = |record: &Record, message: String| match several {
             true => format!("{}: {message}", record.path),

@@ -15,9 +15,11 @@
 //! ([`Prepared::joined`]). Whatever runs along time, a filter, the hysteresis, an effect
 //! with memory, begins anew with each of them.
 
+pub use crate::algebra::Stretch;
 use crate::record::{Column, Defect, Mode};
 use bowden::effect::Motion;
 use filter::{derivative, ZeroPhase};
+use rayon::prelude::*;
 use std::ops::Range;
 
 mod against;
@@ -30,8 +32,22 @@ mod search;
 pub mod spectrum;
 mod uniform;
 
-/// At most so many records are fitted together: each brings unknown states of its own.
-pub const MOST_RECORDS: usize = 16;
+/// At most so many records are fitted together. Each brings unknown states of its own, and every
+/// step of a search factors the matrix of all parameters, which takes the cube of their number.
+pub const MOST_RECORDS: usize = 64;
+
+/// Whether so many records can be fitted together.
+///
+/// # Errors
+/// One sentence with the limit where they are too many.
+pub fn together(records: usize) -> Result<(), String> {
+    match records > MOST_RECORDS {
+        true => Err(format!(
+            "{records} records: at most {MOST_RECORDS} can be fitted together; --glob PATTERN --out ROWS.parquet closes each by itself"
+        )),
+        false => Ok(()),
+    }
+}
 
 /// How the record is to be prepared.
 #[derive(Debug, Clone, Copy, Default)]
@@ -254,6 +270,13 @@ impl Prepared {
         filtered_all(&self.smoother, &self.pieces, self.stride, columns)
     }
 
+    /// Columns of the work grid through the filter, on the estimation grid: each on the records
+    /// alone on which it is not zero.
+    #[must_use]
+    pub fn filtered_stretches(&self, columns: &[&Stretch]) -> Vec<Stretch> {
+        filtered_stretches(&self.smoother, &self.pieces, self.stride, columns)
+    }
+
     /// Time of a row \[s\], with the records behind each other.
     #[must_use]
     pub fn moment(&self, row: usize) -> f64 {
@@ -295,12 +318,51 @@ fn filtered_all(
         return of(piece);
     }
     let mut all = vec![Vec::new(); columns.len()];
-    for piece in pieces {
-        for (column, own) in all.iter_mut().zip(of(piece)) {
+    for own in pieces.par_iter().map(of).collect::<Vec<_>>() {
+        for (column, own) in all.iter_mut().zip(own) {
             column.extend(own);
         }
     }
     all
+}
+
+/// The same of columns that are zero on some of the records, on which they stay so.
+fn filtered_stretches(
+    smoother: &ZeroPhase,
+    pieces: &[Piece],
+    stride: usize,
+    columns: &[&Stretch],
+) -> Vec<Stretch> {
+    cost::COLUMNS_FILTERED.add(columns.len());
+    let reached = |piece: &Piece, column: &Stretch| {
+        let range = column.range();
+        !piece.work.is_empty() && range.start <= piece.work.start && piece.work.end <= range.end
+    };
+    let of = |piece: &Piece| {
+        let own = columns.iter().filter(|c| reached(piece, c));
+        let own: Vec<&[f64]> = own.map(|c| c.on(&piece.work)).collect();
+        smoother.apply_all(&own, stride)
+    };
+    let mut by_piece: Vec<_> = match pieces {
+        [piece] => vec![of(piece)],
+        several => several.par_iter().map(of).collect(),
+    };
+    let mut by_piece: Vec<_> = by_piece.iter_mut().map(|own| own.drain(..)).collect();
+    let gather = |column: &&Stretch| {
+        let (mut start, mut values) = (None, Vec::new());
+        for (piece, own) in pieces.iter().zip(&mut by_piece) {
+            if reached(piece, column) {
+                start.get_or_insert(piece.rows.start);
+                let next = own.next().unwrap_or_default();
+                match values.is_empty() {
+                    true => values = next,
+                    false => values.extend(next),
+                }
+            }
+        }
+        Stretch::at(start.unwrap_or(0), values)
+    };
+    columns.iter().map(gather).collect()
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use super::hats::{is_phase, score, Scored, HATS};
 use crate::fit::projection::{rows, Span};
 use crate::fit::Solution;
 use crate::model::Variable;
-use crate::problem::Prepared;
+use crate::problem::{Prepared, Stretch};
 
 /// Level of the test, divided by the number of variables.
 const LEVEL: f64 = 0.01;
@@ -30,7 +30,7 @@ pub struct Dependence {
 
 /// The variables that a residual depends on jointly with the columns `held`, the strongest
 /// first: their curves pass the test and remove nearly as much as the best one.
-pub(crate) fn dependences(data: &Prepared, now: &Solution, held: &[Vec<f64>]) -> Vec<Dependence> {
+pub(crate) fn dependences(data: &Prepared, now: &Solution, held: &[Stretch]) -> Vec<Dependence> {
     let all = Variable::all(data, now.structure.hysteresis);
     let held = Span::of(data, held.iter());
     let found = curves(data, now, &held, &all);

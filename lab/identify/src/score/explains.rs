@@ -130,19 +130,18 @@ pub fn explained(data: &Prepared, solution: &Solution) -> Explained {
         .zip(&reads)
         .filter(|(_, reads)| **reads == Reads::Time)
     {
-        for (y, c) in timeless.iter_mut().zip(column) {
-            *y -= gain * c;
-        }
+        column.add_to(&mut timeless, -gain);
     }
     let whole = spread(&rows, &data.target).max(f64::MIN_POSITIVE);
     let rest = spread(&rows, &timeless);
     let share = |left: f64| ((rest - left) / whole).clamp(0.0, 1.0);
     let total = share(squares(&rows, &solution.residual));
     let columns = solution.columns.iter().zip(&reads);
-    let input: Vec<&[f64]> = columns
+    let input: Vec<_> = columns
         .filter(|(_, reads)| **reads == Reads::Input)
-        .map(|(column, _)| column.as_slice())
+        .map(|(column, _)| column.whole(data.target.len()))
         .collect();
+    let input: Vec<&[f64]> = input.iter().map(AsRef::as_ref).collect();
     let (left, _) = regression(&data.split.fit, &input, &timeless);
     let input = share(squares(&rows, &left)).min(total);
     Explained {

@@ -11,7 +11,7 @@ use crate::model::catalogue::{candidates, Candidate};
 use crate::model::structure::{FitTerm, Range, Role};
 use crate::model::Variable;
 use crate::problem::filter::ABREAST;
-use crate::problem::Prepared;
+use crate::problem::{Prepared, Stretch};
 use crate::score::hats::{hats, is_phase};
 use crate::score::tones;
 use bowden::effect::{Effect, Family};
@@ -57,11 +57,11 @@ pub(super) enum Own {
 pub(super) struct Slope {
     pub(super) own: Own,
     pub(super) range: Range,
-    pub(super) column: Arc<Vec<f64>>,
+    pub(super) column: Arc<Stretch>,
 }
 
 /// A variable and the filtered hat functions over it.
-pub(super) type Curve = (Variable, Vec<Arc<Vec<f64>>>);
+pub(super) type Curve = (Variable, Vec<Arc<Stretch>>);
 
 /// Keeps the columns that depend neither on the hysteresis state nor on the output.
 pub(super) struct Bank<'a> {
@@ -70,14 +70,14 @@ pub(super) struct Bank<'a> {
     /// The part of it that the fit sees; all columns are computed on it.
     pub(super) seen: &'a Prepared,
     variables: Vec<Variable>,
-    values: Vec<(FitTerm, Arc<Vec<f64>>)>,
+    values: Vec<(FitTerm, Arc<Stretch>)>,
     slopes: Vec<(FitTerm, Vec<Slope>)>,
     curves: Vec<Curve>,
     /// Candidates of the latest linearisation.
     asked: Vec<FitTerm>,
     /// Columns of the latest linearisation that are the same in the next one, with their
     /// products.
-    pub(super) products: (Vec<Arc<Vec<f64>>>, Grams),
+    pub(super) products: (Vec<Arc<Stretch>>, Grams),
 }
 
 /// A value on the unbounded scale of its range, clamped to where the map is not flat.
@@ -122,13 +122,13 @@ impl<'a> Bank<'a> {
         &mut self,
         now: &Solution,
         seen: &Solution,
-    ) -> Vec<(Candidate, Arc<Vec<f64>>)> {
+    ) -> Vec<(Candidate, Arc<Stretch>)> {
         let mut tried = candidates(self.data, &now.structure, &now.residual);
         tried.extend(steps(self.data, now, &tried));
         tried.extend(tone(self.data, now));
         self.asked = tried.iter().map(|c| c.term).collect();
         let known = |c: &Candidate| self.values.iter().find(|(t, _)| *t == c.term);
-        let mut made: Vec<Option<Arc<Vec<f64>>>> = tried
+        let mut made: Vec<Option<Arc<Stretch>>> = tried
             .iter()
             .map(|c| known(c).map(|(_, column)| Arc::clone(column)))
             .collect();
@@ -149,7 +149,7 @@ impl<'a> Bank<'a> {
 
     /// Keeps the columns that are the same for all models, with their products. Candidates that
     /// were not asked for are dropped: tones and steps belong to one residual.
-    pub(super) fn keep(&mut self, columns: &[Arc<Vec<f64>>], grams: &Grams) {
+    pub(super) fn keep(&mut self, columns: &[Arc<Stretch>], grams: &Grams) {
         self.values.retain(|(t, _)| self.asked.contains(t));
         self.slopes.retain(|(t, _)| self.asked.contains(t));
         let values = self.values.iter().map(|(_, column)| column);
@@ -210,7 +210,8 @@ impl<'a> Bank<'a> {
                 let raw: Vec<&[f64]> = raw.iter().map(|c| &c[..]).collect();
                 let columns = self.seen.filtered_all(&raw);
                 let is_usable = columns.iter().all(|c| is_finite(c));
-                is_usable.then(|| (v, columns.into_iter().map(Arc::new).collect()))
+                let columns = columns.into_iter().map(|c| Arc::new(c.into()));
+                is_usable.then(|| (v, columns.collect()))
             })
             .collect();
         let made: Vec<_> = made.into_iter().flatten().collect();
@@ -245,7 +246,7 @@ fn filtered<T: Sync>(
     data: &Prepared,
     wanted: &[T],
     raw: impl Fn(&T) -> Option<Vec<f64>> + Sync,
-) -> Vec<Option<Arc<Vec<f64>>>> {
+) -> Vec<Option<Arc<Stretch>>> {
     let few = |some: &[T]| {
         let raw: Vec<Option<Vec<f64>>> = some.iter().map(&raw).collect();
         let present: Vec<&[f64]> = raw.iter().flatten().map(Vec::as_slice).collect();
@@ -253,7 +254,7 @@ fn filtered<T: Sync>(
         let mut of = |is: bool| is.then(|| smooth.next()).flatten();
         let all: Vec<_> = raw.iter().map(|column| of(column.is_some())).collect();
         all.into_iter()
-            .map(|column| column.filter(|c| is_finite(c)).map(Arc::new))
+            .map(|column| column.filter(|c| is_finite(c)).map(|c| Arc::new(c.into())))
             .collect::<Vec<_>>()
     };
     let all: Vec<Vec<_>> = wanted.par_chunks(ABREAST).map(few).collect();

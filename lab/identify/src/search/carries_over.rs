@@ -13,7 +13,7 @@ use super::linear::Linear;
 use super::policy;
 use crate::algebra::least_norm;
 use crate::fit::Solution;
-use crate::problem::Prepared;
+use crate::problem::{Prepared, Stretch};
 use crate::score::blocks::{blocks, sign_flip_p_above};
 use nalgebra::{DMatrix, DVector};
 use rand::seq::SliceRandom;
@@ -51,15 +51,16 @@ struct Parts {
 impl Parts {
     fn new(data: &Prepared, solution: &Solution) -> Self {
         let rows = &data.split.fit;
-        let mut columns: Vec<Vec<f64>> = Vec::new();
+        let mut columns: Vec<Stretch> = Vec::new();
         let mut precision = Vec::new();
-        let squares = |c: &[f64]| rows.iter().map(|&i| c[i] * c[i]).sum::<f64>();
-        let residual = squares(&solution.residual);
+        let squares = |c: &Stretch| rows.iter().map(|&i| c[i] * c[i]).sum::<f64>();
+        let target = Stretch::from(solution.residual.clone());
+        let residual = squares(&target);
         let of_curve = of_curve(solution, &squares);
         for (index, column) in solution.columns.iter().enumerate() {
             let size = squares(column).sqrt();
             if size > 0.0 {
-                columns.push(column.iter().map(|v| v / size).collect());
+                columns.push(column.map(|v| v / size));
                 precision.push(if index < of_curve.first {
                     0.0
                 } else {
@@ -70,14 +71,14 @@ impl Parts {
         let free = solution.free.iter().zip(&solution.values);
         for ((f, &value), tangent) in free.zip(&solution.tangents) {
             let slope = f.range.slope(on_line(f.range, value));
-            let column: Vec<f64> = tangent.iter().map(|t| t * slope).collect();
+            let column = tangent.map(|t| t * slope);
             if squares(&column) > MOVES * residual {
                 columns.push(column);
                 // A normal prior of unit variance on each step.
                 precision.push(1.0);
             }
         }
-        columns.push(solution.residual.clone());
+        columns.push(target);
         let blocks = blocks(data);
         let gram = |block: &std::ops::Range<usize>| {
             let own = &rows[block.clone()];
@@ -126,7 +127,7 @@ struct OfCurve {
     precision: f64,
 }
 
-fn of_curve(solution: &Solution, squares: &dyn Fn(&[f64]) -> f64) -> OfCurve {
+fn of_curve(solution: &Solution, squares: &dyn Fn(&Stretch) -> f64) -> OfCurve {
     let hats = solution
         .structure
         .table

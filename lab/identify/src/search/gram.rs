@@ -7,7 +7,7 @@
 //! (Lehmann and Romano, 2005, section 15.2).
 
 use super::policy::EXCITED;
-use crate::algebra::directions;
+use crate::algebra::{directions, Stretch};
 use crate::score::blocks::flips;
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
@@ -53,7 +53,7 @@ const AT_A_TIME: usize = 64;
 fn multiply(
     part: &mut Vec<f64>,
     old: usize,
-    (columns, scale): (&[Arc<Vec<f64>>], &[f64]),
+    (columns, scale): (&[Arc<Stretch>], &[f64]),
     rows: &[usize],
 ) {
     let size = columns.len();
@@ -61,8 +61,7 @@ fn multiply(
     for (column, scale) in columns.iter().zip(scale) {
         let factor = scale.recip();
         for run in rows.chunk_by(|a, b| *b == a + 1) {
-            let own = &column[run[0]..=run[run.len() - 1]];
-            all.extend(own.iter().map(|v| v * factor));
+            column.push_to(&mut all, run[0]..run[run.len() - 1] + 1, factor);
         }
     }
     let all = DMatrix::from_vec(rows.len(), size, all);
@@ -85,7 +84,7 @@ fn multiply(
 }
 
 /// Root of the squared norm about the mean; of the whole where the column is constant.
-fn scale_of(column: &[f64], rows: &[usize]) -> f64 {
+fn scale_of(column: &Stretch, rows: &[usize]) -> f64 {
     let n = rows.len().max(1) as f64;
     let mean = rows.iter().map(|&i| column[i]).sum::<f64>() / n;
     let varying: f64 = rows.iter().map(|&i| (column[i] - mean).powi(2)).sum();
@@ -101,7 +100,7 @@ fn scale_of(column: &[f64], rows: &[usize]) -> f64 {
 impl Grams {
     /// Multiplies columns on the given rows; a block is a range of positions in `rows`.
     #[must_use]
-    pub fn new(columns: &[Arc<Vec<f64>>], rows: &[usize], blocks: &[Range<usize>]) -> Self {
+    pub fn new(columns: &[Arc<Stretch>], rows: &[usize], blocks: &[Range<usize>]) -> Self {
         let mut grams = Self::default();
         grams.extend(columns, rows, blocks);
         grams
@@ -109,7 +108,7 @@ impl Grams {
 
     /// Multiplies what `columns` has beyond those that are known, with each other and with
     /// the known ones.
-    pub fn extend(&mut self, columns: &[Arc<Vec<f64>>], rows: &[usize], blocks: &[Range<usize>]) {
+    pub fn extend(&mut self, columns: &[Arc<Stretch>], rows: &[usize], blocks: &[Range<usize>]) {
         use rayon::prelude::*;
         let (old, size) = (self.size, columns.len());
         self.often.clear();

@@ -8,7 +8,7 @@ use super::sought::{Choice, Sought};
 use crate::fit::Solution;
 use crate::model::catalogue::Candidate;
 use crate::model::Variable;
-use crate::problem::Prepared;
+use crate::problem::{Prepared, Stretch};
 use crate::score::blocks::{blocks, Regime};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::collections::HashMap;
@@ -22,7 +22,9 @@ const WORTH: f64 = 0.4;
 /// Number of best pairs whose members may get their slopes.
 const PAIRED: usize = 24;
 
-/// A candidate that is added as one piece.
+/// A candidate that is added as one piece. A name holds its starts in all files by value, as
+/// every term does: there are a few hundred members, half a kilobyte each.
+#[allow(clippy::large_enum_variant)]
 #[derive(Debug, Clone)]
 pub(super) enum Member {
     Name(Candidate),
@@ -67,20 +69,20 @@ impl Group {
 /// The columns, without repetition.
 #[derive(Default)]
 pub(super) struct Places {
-    pub(super) all: Vec<Arc<Vec<f64>>>,
+    pub(super) all: Vec<Arc<Stretch>>,
     /// Index by address.
     known: HashMap<usize, usize>,
 }
 
 impl Places {
-    fn of(all: Vec<Arc<Vec<f64>>>) -> Self {
+    fn of(all: Vec<Arc<Stretch>>) -> Self {
         let address = |(place, column)| (Arc::as_ptr(column) as usize, place);
         let known = all.iter().enumerate().map(address).collect();
         Self { all, known }
     }
 
     /// The index of a column, which is added if it is new.
-    fn place(&mut self, column: Arc<Vec<f64>>) -> usize {
+    fn place(&mut self, column: Arc<Stretch>) -> usize {
         let next = self.all.len();
         let place = *self
             .known

@@ -3,12 +3,12 @@
 use super::bank::on_line;
 use crate::fit::Solution;
 use crate::model::structure::Role;
-use crate::problem::Prepared;
+use crate::problem::{Prepared, Stretch};
 use std::sync::Arc;
 
 /// Columns of the present model, by the part of the model that they belong to.
 pub(super) struct Present {
-    pub(super) columns: Vec<Arc<Vec<f64>>>,
+    pub(super) columns: Vec<Arc<Stretch>>,
     pub(super) own: Vec<usize>,
     pub(super) terms: Vec<Vec<usize>>,
     pub(super) table: Vec<usize>,
@@ -19,7 +19,7 @@ pub(super) struct Present {
 
 impl Present {
     /// Appends the model's columns to those of the bank.
-    pub(super) fn new(mut columns: Vec<Arc<Vec<f64>>>, data: &Prepared, now: &Solution) -> Self {
+    pub(super) fn new(mut columns: Vec<Arc<Stretch>>, data: &Prepared, now: &Solution) -> Self {
         let first = columns.len();
         columns.extend(now.columns.iter().cloned().map(Arc::new));
         let mut next = first + now.structure.base();
@@ -43,10 +43,10 @@ impl Present {
                 Some(term) => terms[term].push(columns.len()),
                 None => own.push(columns.len()),
             }
-            columns.push(Arc::new(tangent.iter().map(|t| t * slope).collect()));
+            columns.push(Arc::new(tangent.map(|t| t * slope)));
         }
         let target = columns.len();
-        columns.push(Arc::new(data.target.clone()));
+        columns.push(Arc::new(data.target.clone().into()));
         let mut present = Self {
             columns,
             own,
@@ -63,9 +63,10 @@ impl Present {
     /// A stage acts on all columns, so it has no column of its own. A set without the stage has
     /// another target instead: the output plus the stage's value times its slope.
     fn unstage(&mut self, data: &Prepared, now: &Solution) {
-        let effect = |of: &Vec<f64>, i: usize| -> Vec<f64> {
-            let pairs = of.iter().zip(&now.tangents[i]);
-            pairs.map(|(y, t)| y + now.values[i] * t).collect()
+        let effect = |of: &[f64], i: usize| -> Vec<f64> {
+            let mut sum = of.to_vec();
+            now.tangents[i].add_to(&mut sum, now.values[i]);
+            sum
         };
         let terms = now.structure.terms.with_ids().enumerate();
         let stages: Vec<(usize, usize)> = terms
@@ -83,10 +84,10 @@ impl Present {
             let one = effect(&data.target, at);
             for &(other, also) in &stages[..k] {
                 self.unstaged.push((vec![other, term], self.columns.len()));
-                self.columns.push(Arc::new(effect(&one, also)));
+                self.columns.push(Arc::new(effect(&one, also).into()));
             }
             self.unstaged.push((vec![term], self.columns.len()));
-            self.columns.push(Arc::new(one));
+            self.columns.push(Arc::new(one.into()));
         }
     }
 }

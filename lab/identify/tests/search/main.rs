@@ -1,6 +1,7 @@
 //! The algebra of the search against direct computation on the samples.
 #![allow(clippy::unwrap_used)]
 
+use bowden_lab::problem::Stretch;
 use bowden_lab::score::blocks::{flips, sign_flip_p, sign_flip_p_above, BLOCKS};
 use bowden_lab::search::gram::Grams;
 use bowden_lab::search::partial::{Entries, Partial};
@@ -13,7 +14,7 @@ use std::sync::Arc;
 const ROWS: usize = 320;
 
 /// Random columns of very unlike size; the last one is the target.
-fn columns(count: usize, seed: u64) -> Vec<Arc<Vec<f64>>> {
+fn columns(count: usize, seed: u64) -> Vec<Arc<Stretch>> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     (0..count)
         .map(|k| {
@@ -33,17 +34,17 @@ fn blocks() -> Vec<Range<usize>> {
     (0..BLOCKS).map(|b| b * length..(b + 1) * length).collect()
 }
 
-fn matrix(columns: &[Arc<Vec<f64>>], chosen: &[usize]) -> DMatrix<f64> {
+fn matrix(columns: &[Arc<Stretch>], chosen: &[usize]) -> DMatrix<f64> {
     DMatrix::from_fn(ROWS, chosen.len(), |i, j| columns[chosen[j]][i])
 }
 
-fn vector(column: &Arc<Vec<f64>>) -> DVector<f64> {
-    DVector::from_column_slice(column)
+fn vector(column: &Arc<Stretch>) -> DVector<f64> {
+    DVector::from_column_slice(column.values())
 }
 
 /// Coefficients and residual of a direct least-squares solve on the samples.
 fn direct(
-    columns: &[Arc<Vec<f64>>],
+    columns: &[Arc<Stretch>],
     chosen: &[usize],
     target: usize,
 ) -> (DVector<f64>, DVector<f64>) {
@@ -101,7 +102,11 @@ fn the_gain_of_a_group_is_what_it_takes_of_the_error_of_a_direct_solve() {
 #[test]
 fn a_column_that_depends_on_the_set_gains_nothing() {
     let mut all = columns(4, 9);
-    let sum = all[0].iter().zip(all[1].iter()).map(|(a, b)| 3.0 * a - b);
+    let sum = all[0]
+        .values()
+        .iter()
+        .zip(all[1].values().iter())
+        .map(|(a, b)| 3.0 * a - b);
     all.insert(2, Arc::new(sum.collect()));
     let grams = Grams::new(&all, &rows(), &blocks());
     let swept = grams.without(&[0, 1]);
@@ -116,7 +121,7 @@ fn a_column_that_depends_on_the_set_gains_nothing() {
 }
 
 /// The target, less what `others` explain, scored by a column, less what they explain of it.
-fn scores(all: &[Arc<Vec<f64>>], own: usize, others: &[usize], target: usize) -> [f64; BLOCKS] {
+fn scores(all: &[Arc<Stretch>], own: usize, others: &[usize], target: usize) -> [f64; BLOCKS] {
     let (column, rest) = (direct(all, others, own).1, direct(all, others, target).1);
     let mut scores = [0.0; BLOCKS];
     for (score, block) in scores.iter_mut().zip(blocks()) {
@@ -126,13 +131,14 @@ fn scores(all: &[Arc<Vec<f64>>], own: usize, others: &[usize], target: usize) ->
 }
 
 /// A target that holds a share of column 0, so that p-values of all sizes come up.
-fn with_effect(seed: u64, size: f64) -> Vec<Arc<Vec<f64>>> {
+fn with_effect(seed: u64, size: f64) -> Vec<Arc<Stretch>> {
     let mut all = columns(6, seed);
-    let scale = all[5].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-    let own = all[0].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let scale = all[5].values().iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let own = all[0].values().iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let sum = all[5]
+        .values()
         .iter()
-        .zip(all[0].iter())
+        .zip(all[0].values().iter())
         .map(|(y, x)| y + size * scale / own * x);
     all[5] = Arc::new(sum.collect());
     all
@@ -183,10 +189,15 @@ fn two_columns_explain_together_what_neither_shows_alone() {
     let mut all = columns(4, 11);
     let size = |c: &[f64]| c.iter().map(|v| v * v).sum::<f64>().sqrt();
     let (a, n) = (Arc::clone(&all[0]), Arc::clone(&all[1]));
-    let part = 0.1 * size(&a) / size(&n);
-    let near: Vec<f64> = a.iter().zip(n.iter()).map(|(a, n)| a + part * n).collect();
-    let along = a.iter().zip(&near).map(|(a, b)| a - b).collect();
-    all[1] = Arc::new(near);
+    let part = 0.1 * size(a.values()) / size(n.values());
+    let near: Vec<f64> = a
+        .values()
+        .iter()
+        .zip(n.values())
+        .map(|(a, n)| a + part * n)
+        .collect();
+    let along = a.values().iter().zip(&near).map(|(a, b)| a - b).collect();
+    all[1] = Arc::new(near.into());
     all[3] = Arc::new(along);
     let grams = Grams::new(&all, &rows(), &blocks());
     let swept = grams.without(&[]);

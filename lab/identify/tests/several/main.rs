@@ -3,6 +3,7 @@
 
 mod grids;
 mod joint;
+mod many;
 mod measured;
 mod rig;
 #[allow(dead_code)]

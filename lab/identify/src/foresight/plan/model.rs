@@ -4,7 +4,7 @@ use crate::fit::projection::{rows, Span};
 use crate::fit::Solution;
 use crate::model::columns::{effect_column, raw_columns, series_column, stage_column};
 use crate::model::structure::{FitTerm, Free, Structure};
-use crate::problem::Prepared;
+use crate::problem::{Prepared, Stretch};
 use bowden::effect::Quantity;
 use nalgebra::DVector;
 
@@ -25,7 +25,7 @@ pub(super) struct Placed<'a> {
     /// The prediction on the work grid.
     output: Vec<f64>,
     /// Linear columns, then the slopes in the free parameters, through the filter.
-    pub(super) columns: Vec<Vec<f64>>,
+    pub(super) columns: Vec<Stretch>,
     /// All that the model can move.
     pub(super) span: Span,
 }
@@ -60,10 +60,10 @@ impl Model {
     pub(super) fn on<'a>(&self, data: &'a Prepared) -> Option<Placed<'a>> {
         let raw = raw_columns(data, &self.structure, &self.free, &self.values)?;
         let moves = raw.moves(data, &self.structure, &self.free, &self.values)?;
-        let mut columns: Vec<Vec<f64>> = raw.columns.iter().map(|c| data.filtered(c)).collect();
-        for j in 0..self.free.len() {
-            columns.push(data.filtered(&raw.tangent(&moves, j, &self.gains)));
-        }
+        let tangents = (0..self.free.len()).map(|j| raw.tangent(&moves, j, &self.gains));
+        let tangents: Vec<Stretch> = tangents.collect();
+        let all: Vec<&Stretch> = raw.columns.iter().map(|c| &**c).chain(&tangents).collect();
+        let columns = data.filtered_stretches(&all);
         let output = raw.output(&self.gains);
         Some(Placed {
             span: Span::of(data, columns.iter()),

@@ -2,12 +2,13 @@
 
 use super::series::early;
 use super::RawColumns;
+use crate::problem::Stretch;
 use std::sync::Arc;
 
 /// Columns before the output stages, in the order of their gains.
 pub(super) struct Gathered<'a> {
     last: Option<&'a RawColumns>,
-    pub(super) columns: Vec<Arc<Vec<f64>>>,
+    pub(super) columns: Vec<Arc<Stretch>>,
     /// Whether a column is the same for all values of the free parameters.
     pub(super) fixed: Vec<bool>,
 }
@@ -25,7 +26,7 @@ impl<'a> Gathered<'a> {
     pub(super) fn push(
         &mut self,
         fixed: bool,
-        column: impl FnOnce() -> Option<Vec<f64>>,
+        column: impl FnOnce() -> Option<Stretch>,
     ) -> Option<()> {
         self.push_all(fixed, 1, || Some(vec![column()?]))
     }
@@ -35,7 +36,7 @@ impl<'a> Gathered<'a> {
         &mut self,
         fixed: bool,
         count: usize,
-        columns: impl FnOnce() -> Option<Vec<Vec<f64>>>,
+        columns: impl FnOnce() -> Option<Vec<Stretch>>,
     ) -> Option<()> {
         let next = self.columns.len();
         let known = self.last.filter(|_| fixed).map(early);

@@ -10,11 +10,12 @@
 use crate::model::kind::is_stage;
 use crate::model::structure::{FitTerm, Free, Role, Structure, TermId, Terms};
 use crate::model::Variable;
-use crate::problem::{Channel, Piece, Prepared};
+use crate::problem::{Channel, Piece, Prepared, Stretch};
 use bowden::effect::{Effect, EffectState, Motion, Situation};
 use bowden::hysteresis::{Sensitivity, Shape};
 use gathered::Gathered;
 use loops::{seen, trace, trajectory};
+use rayon::prelude::*;
 use stages::Stages;
 use std::sync::Arc;
 use variation::Variation;
@@ -32,7 +33,7 @@ pub(crate) use stages::by_stage;
 /// Columns on the work grid, before the filter.
 pub struct RawColumns {
     /// One per linear gain: input, eta, constant, then the effects.
-    pub columns: Vec<Arc<Vec<f64>>>,
+    pub columns: Vec<Arc<Stretch>>,
     /// Whether a column is the same for all values of the free parameters.
     pub fixed: Vec<bool>,
     /// The hysteresis state.
@@ -59,7 +60,7 @@ pub(crate) struct Beforehand<'a> {
 }
 
 /// How the columns move with each free parameter: which columns, and their slopes.
-pub struct Moves(Vec<Vec<(usize, Vec<f64>)>>);
+pub struct Moves(Vec<Vec<(usize, Stretch)>>);
 
 /// The regressor of a stage: what it adds for a small gain, over that gain.
 #[must_use]
@@ -70,39 +71,49 @@ pub fn stage_column(data: &Prepared, effect: &Effect<f64>, output: &[f64]) -> Ve
 /// The regressor of one effect along the work grid; `None` where its channel is missing.
 #[must_use]
 pub fn effect_column(data: &Prepared, term: &FitTerm, eta: &[f64]) -> Option<Vec<f64>> {
+    if let [piece] = &data.pieces[..] {
+        return effect_on(data, term, 0, &eta[piece.work.clone()]);
+    }
+    let of =
+        |(record, piece): (usize, &Piece)| effect_on(data, term, record, &eta[piece.work.clone()]);
+    let all: Option<Vec<_>> = data.pieces.par_iter().enumerate().map(of).collect();
+    Some(all?.concat())
+}
+
+/// The same on one of the records, along which the hysteresis is `eta`.
+fn effect_on(data: &Prepared, term: &FitTerm, record: usize, eta: &[f64]) -> Option<Vec<f64>> {
     let channel = data.channel(term.source)?;
+    let piece = data.pieces.get(record)?;
     let load = match (data.mode, data.load) {
         (_, Some(i)) => Some(&data.channels[i].motion),
         (crate::record::Mode::Torque, None) => Some(&data.input.motion),
         (crate::record::Mode::Displacement, None) => None,
     };
+    let mut state = before(data, term, channel, record, piece);
+    // A moment counts from the first record on.
+    let since = match term.has_moment() {
+        true => piece.since,
+        false => 0.0,
+    };
+    let at = |(k, i): (usize, usize)| {
+        let motion = &channel.motion[i];
+        Situation {
+            dt: data.dt,
+            time: since + k as f64 * data.dt,
+            motion: Motion {
+                position: motion.position - term.origin,
+                ..*motion
+            },
+            input: data.input.motion[i],
+            load: load.map_or(0.0, |l| l[i].position),
+            eta: eta[k],
+            output: 0.0,
+        }
+    };
+    let samples = piece.work.clone().enumerate().map(at);
     let mut column = Vec::with_capacity(eta.len());
-    for (record, piece) in data.pieces.iter().enumerate() {
-        let mut state = before(data, term, channel, record, piece);
-        // A moment counts from the first record on.
-        let since = match term.has_moment() {
-            true => piece.since,
-            false => 0.0,
-        };
-        let at = |(k, i): (usize, usize)| {
-            let motion = &channel.motion[i];
-            Situation {
-                dt: data.dt,
-                time: since + k as f64 * data.dt,
-                motion: Motion {
-                    position: motion.position - term.origin,
-                    ..*motion
-                },
-                input: data.input.motion[i],
-                load: load.map_or(0.0, |l| l[i].position),
-                eta: eta[i],
-                output: 0.0,
-            }
-        };
-        let samples = piece.work.clone().enumerate().map(at);
-        let push = |value| column.push(value);
-        term.effect.regressors(&mut state, samples, push);
-    }
+    let push = |value| column.push(value);
+    term.effect.regressors(&mut state, samples, push);
     Some(column)
 }
 
@@ -182,12 +193,13 @@ pub(crate) fn raw_columns_knowing(
     }
     for (id, term) in terms.with_ids().filter(|(_, t)| t.is_linear()) {
         let fixed = !term.effect.reads_eta() && !is_searched(free, id);
-        gathered.push(fixed, || effect_column(data, term, &eta))?;
+        gathered.push(fixed, || Some(effect_column(data, term, &eta)?.into()))?;
     }
     if let Some(table) = &structure.table {
         // Its slopes in eta's parameters are left out: a search needs them only roughly.
         let fixed = table.variable != Variable::Eta;
-        gathered.push_all(fixed, table.shapes.len(), || table.columns(data, &eta))?;
+        let columns = || Some(table.columns(data, &eta)?.into_iter().map(Stretch::from));
+        gathered.push_all(fixed, table.shapes.len(), || Some(columns()?.collect()))?;
     }
     let Gathered {
         mut columns,
@@ -199,7 +211,7 @@ pub(crate) fn raw_columns_knowing(
         stages.before = columns.clone();
         fixed.fill(false);
         for column in &mut columns {
-            let column: &mut Vec<f64> = Arc::make_mut(column);
+            let column: &mut Stretch = Arc::make_mut(column);
             stages.through(column, 0..stages.list.len());
         }
     }
@@ -230,59 +242,61 @@ fn is_searched(free: &[Free], term: TermId) -> bool {
 }
 
 /// A column of the transmission: as it is, or on one record alone where each has its own.
-fn of_record(data: &Prepared, structure: &Structure, column: &[f64], record: usize) -> Vec<f64> {
+fn of_record(data: &Prepared, structure: &Structure, column: &[f64], record: usize) -> Stretch {
     if structure.own_gains == 0 {
-        return column.to_vec();
+        return column.to_vec().into();
     }
-    let mut own = vec![0.0; column.len()];
-    if let Some(piece) = data.pieces.get(record) {
-        own[piece.work.clone()].copy_from_slice(&column[piece.work.clone()]);
-    }
-    own
+    let work = data.pieces.get(record).map_or(0..0, |p| p.work.clone());
+    Stretch::at(work.start, column[work].to_vec())
 }
 
 /// The sum of columns times gains, `n` samples long.
-pub(crate) fn weighted(columns: &[&[f64]], gains: &[f64], n: usize) -> Vec<f64> {
-    let mut pairs = columns.iter().zip(gains);
+pub(crate) fn weighted<'a>(
+    columns: impl IntoIterator<Item = &'a Stretch>,
+    gains: &[f64],
+    n: usize,
+) -> Vec<f64> {
+    let mut pairs = columns.into_iter().zip(gains);
     let mut sum: Vec<f64> = match pairs.next() {
-        Some((column, gain)) => column.iter().map(|c| gain * c).collect(),
+        Some((column, gain)) => column.whole(n).iter().map(|c| gain * c).collect(),
         None => vec![0.0; n],
     };
     for (column, gain) in pairs {
-        for (slot, c) in sum.iter_mut().zip(*column) {
-            *slot += gain * c;
-        }
+        column.add_to(&mut sum, *gain);
     }
     sum
 }
 
-/// d column / d parameter through eta, by a central difference along its sensitivity.
+/// d column / d parameter through eta, by a central difference along its sensitivity: on the
+/// records alone on which that is not zero.
 fn eta_derivative(
     data: &Prepared,
     term: &FitTerm,
     eta: &[f64],
-    sensitivity: &[f64],
-) -> Option<Vec<f64>> {
-    let largest = sensitivity.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
+    sensitivity: &Stretch,
+) -> Option<Stretch> {
+    let values = sensitivity.values();
+    let largest = values.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
     if largest == 0.0 {
-        return Some(vec![0.0; eta.len()]);
+        return Some(sensitivity.map(|_| 0.0));
     }
     let h = 1e-5 / largest;
-    let at = |sign: f64| {
-        let moved: Vec<f64> = eta
-            .iter()
-            .zip(sensitivity)
-            .map(|(e, s)| e + sign * h * s)
-            .collect();
-        effect_column(data, term, &moved)
-    };
-    let (up, down) = (at(1.0)?, at(-1.0)?);
-    Some(
-        up.iter()
-            .zip(&down)
-            .map(|(a, b)| (a - b) / (2.0 * h))
-            .collect(),
-    )
+    let range = sensitivity.range();
+    let mut slope = Vec::with_capacity(range.len());
+    for (record, piece) in data.pieces.iter().enumerate() {
+        let own = sensitivity.on(&piece.work);
+        if own.is_empty() {
+            continue;
+        }
+        let at = |sign: f64| {
+            let pairs = eta[piece.work.clone()].iter().zip(own);
+            let moved: Vec<f64> = pairs.map(|(e, s)| e + sign * h * s).collect();
+            effect_on(data, term, record, &moved)
+        };
+        let (up, down) = (at(1.0)?, at(-1.0)?);
+        slope.extend(up.iter().zip(&down).map(|(a, b)| (a - b) / (2.0 * h)));
+    }
+    Some(Stretch::at(range.start, slope))
 }
 
 impl RawColumns {
@@ -295,14 +309,20 @@ impl RawColumns {
         free: &[Free],
         values: &[f64],
     ) -> Option<Moves> {
-        let mut moves: Vec<Vec<(usize, Vec<f64>)>> = vec![Vec::new(); free.len()];
+        let mut moves: Vec<Vec<(usize, Stretch)>> = vec![Vec::new(); free.len()];
         let sensitivities = self.sensitivities(data, free)?;
         let mut k = 0;
         if self.shape.is_some() {
             for (j, s) in &sensitivities {
-                for record in 0..structure.own_gains.max(1) {
-                    let own = of_record(data, structure, s, record);
-                    moves[*j].push((3 * record + 1, own));
+                if structure.own_gains == 0 {
+                    moves[*j].push((1, s.clone()));
+                    continue;
+                }
+                for (record, piece) in data.pieces.iter().enumerate().take(structure.own_gains) {
+                    let own = s.cut(piece.work.clone());
+                    if !own.values().is_empty() {
+                        moves[*j].push((3 * record + 1, own));
+                    }
                 }
             }
             k = structure.base();
@@ -330,7 +350,7 @@ impl RawColumns {
     }
 
     /// The slopes of the hysteresis in its free parameters, by the place of each parameter.
-    fn sensitivities(&self, data: &Prepared, free: &[Free]) -> Option<Vec<(usize, Vec<f64>)>> {
+    fn sensitivities(&self, data: &Prepared, free: &[Free]) -> Option<Vec<(usize, Stretch)>> {
         let Some((shape, eta0)) = &self.shape else {
             return Some(Vec::new());
         };
@@ -348,14 +368,13 @@ impl RawColumns {
                 Role::Eta0 { .. } => |s| s.d_eta0,
                 _ => continue,
             };
-            let mut slope: Vec<f64> = trajectory.iter().map(pick).collect();
-            if let Role::Eta0 { record } = f.role {
+            let own = match f.role {
                 // The state of one record moves no other.
-                let own = data.pieces.get(record).map_or(0..0, |p| p.work.clone());
-                slope[..own.start].fill(0.0);
-                slope[own.end..].fill(0.0);
-            }
-            all.push((j, slope));
+                Role::Eta0 { record } => data.pieces.get(record).map_or(0..0, |p| p.work.clone()),
+                _ => 0..trajectory.len(),
+            };
+            let slope = trajectory[own.clone()].iter().map(pick).collect();
+            all.push((j, Stretch::at(own.start, slope)));
         }
         Some(all)
     }
@@ -363,18 +382,15 @@ impl RawColumns {
     /// The output for the given gains, before the filter.
     #[must_use]
     pub fn output(&self, gains: &[f64]) -> Vec<f64> {
-        let columns: Vec<&[f64]> = self.columns.iter().map(|c| c.as_slice()).collect();
-        weighted(&columns, gains, self.eta.len())
+        weighted(self.columns.iter().map(Arc::as_ref), gains, self.eta.len())
     }
 
     /// d output / d free parameter `j` for the given gains, before the filter.
     #[must_use]
-    pub fn tangent(&self, moves: &Moves, j: usize, gains: &[f64]) -> Vec<f64> {
-        let mut tangent = vec![0.0; self.eta.len()];
+    pub fn tangent(&self, moves: &Moves, j: usize, gains: &[f64]) -> Stretch {
+        let mut tangent = Stretch::default();
         for (k, column) in &moves.0[j] {
-            for (t, c) in tangent.iter_mut().zip(column) {
-                *t += gains[*k] * c;
-            }
+            tangent.add(column, gains[*k]);
         }
         self.stages.through(&mut tangent, 0..self.stages.list.len());
         if let Some((position, shape)) = self.stages.owner[j] {

@@ -1,8 +1,9 @@
 //! Input stages: what they do to every column, found by differences.
 
 use super::{raw_columns, Moves, RawColumns};
-use crate::model::structure::{FitTerm, Free, Role, Structure};
-use crate::problem::Prepared;
+use crate::model::structure::{FitTerm, Free, Role, Structure, TermId};
+use crate::problem::{Prepared, Stretch};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// What an input stage adds to the output of a fitted model.
@@ -24,15 +25,61 @@ pub fn series_column(
 }
 
 /// The columns before the output stages.
-pub(crate) fn early(raw: &RawColumns) -> &[Arc<Vec<f64>>] {
+pub(crate) fn early(raw: &RawColumns) -> &[Arc<Stretch>] {
     match raw.stages.before.is_empty() {
         true => &raw.columns,
         false => &raw.stages.before,
     }
 }
 
+/// The columns before the output stages, a step up and down in some of the free parameters.
+struct Difference {
+    up: RawColumns,
+    down: RawColumns,
+    step: f64,
+}
+
+impl Difference {
+    fn of(
+        data: &Prepared,
+        structure: &Structure,
+        (free, values): (&[Free], &[f64]),
+        step: f64,
+        is_moved: impl Fn(usize, Role) -> bool,
+    ) -> Option<Self> {
+        let at = |sign: f64| {
+            let all = free.iter().zip(values).enumerate();
+            let moved = all.map(|(j, (f, value))| match is_moved(j, f.role) {
+                true => value + sign * step,
+                false => *value,
+            });
+            raw_columns(data, structure, free, &moved.collect::<Vec<f64>>())
+        };
+        Some(Self {
+            up: at(1.0)?,
+            down: at(-1.0)?,
+            step,
+        })
+    }
+
+    /// The slopes on some samples of the columns that move there.
+    fn slopes(&self, samples: &Range<usize>) -> Vec<(usize, Stretch)> {
+        let pairs = early(&self.up).iter().zip(early(&self.down));
+        let moving = pairs.enumerate().filter_map(|(k, (a, b))| {
+            let (a, b) = (a.cut(samples.clone()), b.cut(samples.clone()));
+            let pairs = a.values().iter().zip(b.values());
+            let slope = pairs.map(|(a, b)| (a - b) / (2.0 * self.step));
+            (a != b).then(|| (k, Stretch::at(a.range().start, slope.collect())))
+        });
+        moving.collect()
+    }
+}
+
 impl Moves {
     /// Adds the slopes in the shapes and states of the input stages.
+    ///
+    /// The state at the start of a record moves that record alone: one difference over all
+    /// records tells the slopes in the states of all of them.
     pub(super) fn add_series(
         &mut self,
         data: &Prepared,
@@ -40,27 +87,31 @@ impl Moves {
         free: &[Free],
         values: &[f64],
     ) -> Option<()> {
-        for (j, f) in free.iter().enumerate() {
-            let (term, step) = match f.role {
-                Role::Shape { term, .. } => (term, 1e-5 * values[j].abs().max(1e-9)),
-                Role::Start { term, .. } => (term, 1e-5 * data.input.reach),
-                _ => continue,
-            };
+        let is_input_stage = |term: TermId| {
             let own = structure.terms.find(term);
-            if !own.is_some_and(|own| own.effect.is_input_stage()) {
-                continue;
-            }
-            let at = |sign: f64| {
-                let mut moved = values.to_vec();
-                moved[j] += sign * step;
-                raw_columns(data, structure, free, &moved)
-            };
-            let (up, down) = (at(1.0)?, at(-1.0)?);
-            for (k, (a, b)) in early(&up).iter().zip(early(&down)).enumerate() {
-                if a != b {
-                    let slope = a.iter().zip(b.iter()).map(|(a, b)| (a - b) / (2.0 * step));
-                    self.0[j].push((k, slope.collect()));
+            own.is_some_and(|own| own.effect.is_input_stage())
+        };
+        let mut of_starts: Option<(TermId, Difference)> = None;
+        for (j, f) in free.iter().enumerate() {
+            match f.role {
+                Role::Shape { term, .. } if is_input_stage(term) => {
+                    let step = 1e-5 * values[j].abs().max(1e-9);
+                    let at = (free, values);
+                    let own = Difference::of(data, structure, at, step, |i, _| i == j)?;
+                    self.0[j].extend(own.slopes(&(0..data.work_len())));
                 }
+                Role::Start { term, record } if is_input_stage(term) => {
+                    if of_starts.as_ref().is_none_or(|(of, _)| *of != term) {
+                        let step = 1e-5 * data.input.reach;
+                        let is_start =
+                            |_, role| matches!(role, Role::Start { term: of, .. } if of == term);
+                        let all = Difference::of(data, structure, (free, values), step, is_start)?;
+                        of_starts = Some((term, all));
+                    }
+                    let (_, all) = of_starts.as_ref()?;
+                    self.0[j].extend(all.slopes(&data.pieces.get(record)?.work));
+                }
+                _ => {}
             }
         }
         Some(())

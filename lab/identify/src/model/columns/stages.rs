@@ -2,7 +2,7 @@
 
 use super::{weighted, RawColumns};
 use crate::model::structure::{FitTerm, Free, Role, Terms};
-use crate::problem::Prepared;
+use crate::problem::{Prepared, Stretch};
 use bowden::effect::{Effect, EffectState, Situation};
 use std::ops::Range;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ pub(super) struct Stages {
     /// The records on the work grid.
     records: Vec<Range<usize>>,
     /// The columns before the stages; empty where there is no stage.
-    pub(super) before: Vec<Arc<Vec<f64>>>,
+    pub(super) before: Vec<Arc<Stretch>>,
     /// Which free parameter belongs to which stage: its gain, or one of its shapes.
     pub(super) owner: Vec<Option<(usize, Option<usize>)>>,
 }
@@ -62,9 +62,21 @@ impl Stages {
         Some(stages)
     }
 
-    pub(super) fn through(&self, column: &mut [f64], which: Range<usize>) {
+    /// Sends a column through some of the stages; on a record on which it is zero it stays so.
+    pub(super) fn through(&self, column: &mut Stretch, which: Range<usize>) {
+        let own = column.range();
         for (term, gain) in &self.list[which] {
-            self.apply(&term.effect, *gain, column);
+            for record in &self.records {
+                if own.start <= record.start && record.end <= own.end {
+                    let place = record.start - own.start..record.end - own.start;
+                    apply_stage(
+                        &term.effect,
+                        *gain,
+                        &mut column.values_mut()[place],
+                        self.dt,
+                    );
+                }
+            }
         }
     }
 
@@ -124,18 +136,19 @@ impl RawColumns {
     /// The part of a tangent that comes from an output stage's own gain or shape.
     pub(super) fn add_stage_tangent(
         &self,
-        tangent: &mut [f64],
+        tangent: &mut Stretch,
         gains: &[f64],
         position: usize,
         shape: Option<usize>,
     ) {
         let Stages { list, before, .. } = &self.stages;
-        let before: Vec<&[f64]> = before.iter().map(|c| c.as_slice()).collect();
-        let mut output = weighted(&before, gains, tangent.len());
+        let before = before.iter().map(Arc::as_ref);
+        let mut output = Stretch::from(weighted(before, gains, self.eta.len()));
         self.stages.through(&mut output, 0..position);
+        let output = output.values();
         let (term, gain) = &list[position];
-        let mut part = match shape {
-            None => self.stages.slope(&term.effect, *gain, &output),
+        let part: Vec<f64> = match shape {
+            None => self.stages.slope(&term.effect, *gain, output),
             Some(index) => {
                 let value = term.effect.shape(index).unwrap_or(0.0);
                 let h = 1e-5 * value.abs().max(1e-9);
@@ -146,8 +159,8 @@ impl RawColumns {
                     return;
                 };
                 let (up, down) = (
-                    self.stages.alone(&up, &output),
-                    self.stages.alone(&down, &output),
+                    self.stages.alone(&up, output),
+                    self.stages.alone(&down, output),
                 );
                 up.iter()
                     .zip(&down)
@@ -155,22 +168,23 @@ impl RawColumns {
                     .collect()
             }
         };
+        let mut part = Stretch::from(part);
         self.stages.through(&mut part, position + 1..list.len());
-        for (t, p) in tangent.iter_mut().zip(part) {
-            *t += p;
-        }
+        tangent.add(&part, 1.0);
     }
 }
 
 /// What each output stage changes, in their order.
-pub(crate) fn by_stage(raw: &RawColumns, mut output: Vec<f64>) -> Vec<Vec<f64>> {
+pub(crate) fn by_stage(raw: &RawColumns, output: Vec<f64>) -> Vec<Vec<f64>> {
+    let mut output = Stretch::from(output);
     let mut changes = Vec::with_capacity(raw.stages.list.len());
     for stage in 0..raw.stages.list.len() {
         let before = output.clone();
         raw.stages.through(&mut output, stage..stage + 1);
         let change = output
+            .values()
             .iter()
-            .zip(&before)
+            .zip(before.values())
             .map(|(after, before)| after - before);
         changes.push(change.collect());
     }

@@ -1,8 +1,8 @@
 //! The slope of an effect's column in one of its own parameters.
 
-use super::effect_column;
+use super::{effect_column, effect_on};
 use crate::model::structure::{FitTerm, Role, TermId};
-use crate::problem::Prepared;
+use crate::problem::{Prepared, Stretch};
 
 /// A parameter of a term that its column depends on.
 pub(super) enum Variation {
@@ -44,17 +44,30 @@ impl Variation {
     }
 
     /// d column / d parameter by central differences: the effects' shapes are few and smooth.
+    /// What a record began with moves that record alone.
     pub(super) fn slope(
         &self,
         data: &Prepared,
         term: &FitTerm,
         value: f64,
         eta: &[f64],
-    ) -> Option<Vec<f64>> {
+    ) -> Option<Stretch> {
         let step = self.step(data, term, value)?;
-        let up = effect_column(data, &self.moved(term, value + step)?, eta)?;
-        let down = effect_column(data, &self.moved(term, value - step)?, eta)?;
+        let own = match *self {
+            Self::Start { record } => Some((record, data.pieces.get(record)?.work.clone())),
+            Self::Shape { .. } | Self::Origin => None,
+        };
+        let at = |value: f64| {
+            let moved = self.moved(term, value)?;
+            match &own {
+                Some((record, work)) => effect_on(data, &moved, *record, &eta[work.clone()]),
+                None => effect_column(data, &moved, eta),
+            }
+        };
+        let (up, down) = (at(value + step)?, at(value - step)?);
         let pairs = up.iter().zip(&down);
-        Some(pairs.map(|(a, b)| (a - b) / (2.0 * step)).collect())
+        let slope = pairs.map(|(a, b)| (a - b) / (2.0 * step));
+        let start = own.map_or(0, |(_, work)| work.start);
+        Some(Stretch::at(start, slope.collect()))
     }
 }

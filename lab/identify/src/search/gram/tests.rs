@@ -5,7 +5,7 @@ use super::*;
 #[test]
 fn products_are_the_same_prepared_or_not_and_grown_or_not() {
     let column = |k: usize| (0..48).map(move |i| ((i * (k + 3) + k) % 17) as f64 - 7.5);
-    let all: Vec<Arc<Vec<f64>>> = (0..80).map(|k| Arc::new(column(k).collect())).collect();
+    let all: Vec<Arc<Stretch>> = (0..80).map(|k| Arc::new(column(k).collect())).collect();
     let rows: Vec<usize> = (0..48).collect();
     let blocks: Vec<Range<usize>> = (0..4).map(|b| 12 * b..12 * (b + 1)).collect();
     let whole = Grams::new(&all, &rows, &blocks);

@@ -1,0 +1,154 @@
+//! A Jacobian of as few rows as it has parameters, for several files.
+//!
+//! Levenberg-Marquardt asks only for products of the residual and of the Jacobian's columns with
+//! each other. They are the same in any orthonormal basis of these columns. Two of them are used:
+//!
+//! - On all rows the slopes, the columns of the model and the residual are written in the basis
+//!   of their [`Span`]. What belongs to one file is added first and stays on its own rows, so
+//!   that this costs in proportion to the rows. In that basis the slopes lose their part in the
+//!   columns of the model (Kaufman, 1975).
+//! - The solver gets them in a basis whose first vector is the residual. There only the first
+//!   entry of the residual is not zero, whatever the Jacobian: so it is known before that is
+//!   asked for. The basis is found by modified Gram-Schmidt, whose triangle is as good as
+//!   Householder's (Björck, 1967).
+
+use crate::algebra::{take_off, Span, Stretch};
+use nalgebra::{DMatrix, DVector};
+
+/// A column below this share of its norm beside the others has no vector of its own: rounding.
+const ROUNDING: f64 = 1e-14;
+
+/// The residual in the solver's basis, for so many parameters.
+pub(super) fn residual(norm: f64, parameters: usize) -> DVector<f64> {
+    let mut small = DVector::zeros(parameters + 1);
+    small[0] = norm;
+    small
+}
+
+/// The Jacobian in the solver's basis: the slopes without their part in the orthonormal columns
+/// of the model, each times its factor.
+pub(super) fn jacobian(
+    model: &Span,
+    residual: Stretch,
+    slopes: Vec<Stretch>,
+    factors: &[f64],
+) -> DMatrix<f64> {
+    let (count, own) = (slopes.len(), model.basis().len());
+    let mut all: Vec<(usize, Stretch)> = slopes.into_iter().enumerate().collect();
+    all.extend(
+        model
+            .basis()
+            .iter()
+            .cloned()
+            .zip(count..)
+            .map(|(q, k)| (k, q)),
+    );
+    all.push((count + own, residual));
+    all.sort_by_key(|(_, column)| column.values().len());
+    let mut span = Span::with_tolerance(ROUNDING);
+    let mut parts = vec![Vec::new(); all.len()];
+    for (place, column) in all {
+        (_, parts[place]) = span.add_with_parts(column);
+    }
+    let size = span.basis().len();
+    let at = |i: usize, place: usize| parts[place].get(i).copied().unwrap_or(0.0);
+    let basis = DMatrix::from_fn(size, own, |i, k| at(i, count + k));
+    let residual = DVector::from_fn(size, |i, _| at(i, count + own));
+    let mut columns = DMatrix::from_fn(size, count, |i, j| at(i, j) * factors[j]);
+    for j in 0..count {
+        let mut column = columns.column(j).into_owned();
+        take_off(&basis, &mut column);
+        columns.set_column(j, &column);
+    }
+    triangle(&residual, columns)
+}
+
+/// Columns in a basis whose first vector is the residual.
+fn triangle(residual: &DVector<f64>, mut columns: DMatrix<f64>) -> DMatrix<f64> {
+    let count = columns.ncols();
+    let mut small = DMatrix::zeros(count + 1, count);
+    let norm = residual.norm();
+    if norm > 0.0 {
+        let first = residual / norm;
+        for j in 0..count {
+            let part = first.dot(&columns.column(j));
+            small[(0, j)] = part;
+            columns.column_mut(j).axpy(-part, &first, 1.0);
+        }
+    }
+    for k in 0..count {
+        let norm = columns.column(k).norm();
+        small[(k + 1, k)] = norm;
+        if norm > 0.0 {
+            let own = columns.column(k) / norm;
+            for j in k + 1..count {
+                let part = own.dot(&columns.column(j));
+                small[(k + 1, j)] = part;
+                columns.column_mut(j).axpy(-part, &own, 1.0);
+            }
+        }
+    }
+    small
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    const ROWS: usize = 60;
+
+    fn column(rows: std::ops::Range<usize>, seed: usize) -> Stretch {
+        let at = |i: usize| (0.3 * (i * (seed + 2)) as f64).sin() + 0.1 * seed as f64;
+        Stretch::at(rows.start, rows.map(at).collect())
+    }
+
+    fn matrix(columns: &[Stretch]) -> DMatrix<f64> {
+        let columns: Vec<_> = columns
+            .iter()
+            .map(|c| DVector::from_vec(c.whole(ROWS).to_vec()))
+            .collect();
+        DMatrix::from_columns(&columns)
+    }
+
+    /// Two files with a state each, and what they have in common.
+    fn slopes() -> Vec<Stretch> {
+        vec![
+            column(0..ROWS, 1),
+            column(0..25, 2),
+            column(25..ROWS, 3),
+            column(0..ROWS, 4),
+        ]
+    }
+
+    #[test]
+    fn all_products_are_those_of_the_projected_jacobian_on_all_rows() {
+        let mut model = Span::default();
+        assert!(model.add(column(0..ROWS, 5)) && model.add(column(0..ROWS, 6)));
+        let factors = [1.0, -2.0, 3.0, 0.5];
+        let projected: Vec<_> = (slopes().iter().zip(factors))
+            .map(|(slope, factor)| model.off(matrix(&[slope.map(|v| factor * v)]).column(0).into()))
+            .collect();
+        let projected = DMatrix::from_columns(&projected);
+        // The residual of a fit has no part in the columns of the model.
+        let rest = model.off(matrix(&[column(0..ROWS, 7)]).column(0).into());
+        for rest in [rest, DVector::zeros(ROWS)] {
+            let small = jacobian(&model, rest.clone().into(), slopes(), &factors);
+            let short = residual(rest.norm(), 4);
+            assert_eq!(small.shape(), (5, 4));
+            // Rounding of sixty products of numbers of order ten.
+            let (a, b) = (small.tr_mul(&small), projected.tr_mul(&projected));
+            assert_relative_eq!(a, b, epsilon = 1e-10);
+            let (a, b) = (small.tr_mul(&short), projected.tr_mul(&rest));
+            assert_relative_eq!(a, b, epsilon = 1e-10);
+        }
+    }
+
+    #[test]
+    fn slopes_that_vanish_or_repeat_are_borne() {
+        let all = vec![column(0..20, 1), column(0..20, 1), Stretch::default()];
+        let small = jacobian(&Span::default(), Stretch::default(), all, &[1.0; 3]);
+        assert!(small.iter().all(|v| v.is_finite()));
+        assert_eq!(small.shape(), (4, 3));
+    }
+}
