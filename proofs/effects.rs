@@ -5,6 +5,7 @@
 
 use super::*;
 use crate::proofs::any::finite;
+use crate::proofs::properties::effect::a_late_output_is_finite;
 use crate::proofs::stubs;
 
 /// All bit patterns.
@@ -140,6 +141,18 @@ fn lag_effect_is_finite() {
 #[kani::unwind(10)]
 fn delay_is_finite() {
     any_sample(Ok(Delay));
+}
+
+/// K14. What a delay of any length adds to the output, and its memory, are finite for any sample;
+/// one that it cannot read adds zero and leaves the memory.
+#[kani::proof]
+#[kani::unwind(10)]
+fn late_output_is_finite() {
+    let (gain, mut state, at) = (finite(), state(), situation());
+    let before = bits(&state);
+    let kept = a_late_output_is_finite(gain, &mut state, &at);
+    kani::cover!(gain > 0.0 && before.is_some() && before != bits(&state));
+    assert!(kept && remembers_finite_numbers(&state));
 }
 
 /// What `sum_is_finite` proves of a step of the sum, and no more.

@@ -371,6 +371,10 @@ proptest! {
                         motion, input: motion, dt: at[3], time: at[4], load: at[5], eta: at[6], output: at[7],
                     };
                     prop_assert!(effect::a_regressor_is_finite(&effect, &mut state, &at));
+                    if effect == Effect::Delay && at.output.is_finite() {
+                        prop_assert!(effect::a_late_output_is_finite(at.output, &mut state, &at));
+                        prop_assert!(effect::a_late_output_is_finite(0.002, &mut state, &at));
+                    }
                 }
             }
         }

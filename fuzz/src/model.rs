@@ -1,8 +1,8 @@
 //! The model, its effects and its transmission.
 
 use crate::numbers::Numbers;
-use crate::properties::effect::a_regressor_is_finite;
-use bowden::effect::{EffectState, Situation};
+use crate::properties::effect::{a_late_output_is_finite, a_regressor_is_finite};
+use bowden::effect::{Effect, EffectState, Situation};
 use bowden::model::{Model, ModelState, Sample, Term};
 use bowden::Real;
 
@@ -83,5 +83,10 @@ fn alone(from: &mut Numbers) -> Option<()> {
             "{}",
             effect.name()
         );
+        // A model takes finite gains only.
+        let gain = at.load;
+        if effect == Effect::Delay && gain.is_finite() {
+            assert!(a_late_output_is_finite(gain, &mut state, &at));
+        }
     }
 }

@@ -1,11 +1,12 @@
 //! K1, K4, K5: any sample, any gains, any valid state.
 //!
 //! [`estimates`](super::estimates) proves that one estimate keeps its box whatever drives it;
-//! here the update returns anything that this leaves, and the virtual command anything at
+//! here the update returns anything that this leaves, and s, the lag and the rate are anything at
 //! all. So the claims rest on the checks of the step, not on its arithmetic.
 
-use super::super::{Adaptive, AdaptiveInput, AdaptiveTerms, Estimator, Form, SmoothSign};
-use super::estimates::any_lost;
+use super::super::step::{Estimates, Evaluated};
+use super::super::{Adaptive, AdaptiveInput, AdaptiveState, AdaptiveTerms};
+use super::super::{Estimator, Form, SmoothSign};
 use super::state::{any_state, input, law, state};
 use crate::control::Limits;
 use crate::proofs::properties::control::{
@@ -13,7 +14,7 @@ use crate::proofs::properties::control::{
     follows,
 };
 use crate::proofs::{limited, stubs};
-use crate::signal::{two_sum, Compensated, Derivative, DerivativeState};
+use crate::signal::{Compensated, Derivative, DerivativeState};
 use crate::Real;
 
 /// What `estimate_in_its_box` proves of an update, and no more.
@@ -24,15 +25,6 @@ fn any_update<T: Real>(estimator: &Estimator<T>, _: Compensated<T>, _: T, _: T) 
     };
     kani::assume(estimator.holds(&sum) || !sum.carry.is_finite());
     sum
-}
-
-/// Any virtual command, NaN included.
-pub(super) fn any_virtual_command<T: Real, const N: usize>(
-    _: &Adaptive<T, N>,
-    _: &AdaptiveTerms<T, N>,
-    _: &AdaptiveInput<T, N>,
-) -> T {
-    T::of(kani::any())
 }
 
 /// Any rate, NaN included, and any finite last sample, for the filter keeps no other; or the
@@ -56,8 +48,235 @@ fn any_command_of_a_rate<T: Real, const N: usize>(
     command
 }
 
-fn any_sample<const N: usize>(form: Form<f32>, smooth_sign: SmoothSign) {
-    let law = law::<N>(form, smooth_sign);
+/// Any s, any lag and any filtered rate. Of what the law computes here, only the error is the
+/// step's, and so is what goes out: the lag and the feed-forward.
+fn any_law<T: Real, const N: usize>(
+    _: &Adaptive<T, N>,
+    state: &AdaptiveState<T, N>,
+    input: &AdaptiveInput<T, N>,
+) -> Evaluated<T, N> {
+    let lag = any_sum();
+    let mut error_rate = state.error_rate;
+    let _ = any_rate(
+        &Derivative::assumed(T::ONE),
+        &mut error_rate,
+        T::ONE,
+        T::ONE,
+    );
+    let terms = AdaptiveTerms {
+        error: input.measured - input.reference,
+        s: T::of(kani::any()),
+        law: lag.value,
+        unlimited: lag.value + input.feed_forward,
+        ..AdaptiveTerms::at_rest(state)
+    };
+    Evaluated {
+        terms,
+        error_rate,
+        lag,
+    }
+}
+
+/// The same of the lag form, which leaves the rate as it is.
+fn any_lag<T: Real, const N: usize>(
+    law: &Adaptive<T, N>,
+    state: &AdaptiveState<T, N>,
+    input: &AdaptiveInput<T, N>,
+) -> Evaluated<T, N> {
+    Evaluated {
+        error_rate: state.error_rate,
+        ..any_law(law, state, input)
+    }
+}
+
+/// The same of the literal form, as far as `a_command_has_a_rate` leaves it free.
+fn any_literal<T: Real, const N: usize>(
+    law: &Adaptive<T, N>,
+    state: &AdaptiveState<T, N>,
+    input: &AdaptiveInput<T, N>,
+) -> Evaluated<T, N> {
+    let of = any_law(law, state, input);
+    kani::assume(!of.terms.unlimited.is_finite() || of.error_rate.is_finite());
+    of
+}
+
+/// Any sum that, where it is no number, has lost none: that much `a_sum_and_what_it_lost` proves.
+fn any_plus<T: Real>(_: Compensated<T>, _: T) -> Compensated<T> {
+    let sum = any_sum::<T>();
+    kani::assume(sum.value.is_finite() || !sum.carry.is_finite());
+    sum
+}
+
+/// Any estimates that `any_update` admits.
+fn any_estimates<T: Real, const N: usize>(
+    law: &Adaptive<T, N>,
+    state: &AdaptiveState<T, N>,
+    _: &AdaptiveInput<T, N>,
+    _: &AdaptiveTerms<T, N>,
+) -> Estimates<T, N> {
+    let settings = &law.settings;
+    let any = |estimator| any_update(estimator, state.z, T::ZERO, T::ZERO);
+    let theta = core::array::from_fn(|i| any(&settings.theta[i]));
+    (any(&settings.beta), any(&settings.delta), theta)
+}
+
+/// Whether a command, and the state with it, is what `step` takes for good.
+fn is_good<const N: usize>(
+    law: &Adaptive<f32, N>,
+    [before, after]: [&AdaptiveState<f32, N>; 2],
+    input: &AdaptiveInput<f32, N>,
+    (frozen, command): (bool, f32),
+) -> bool {
+    let limits = &law.settings.limits;
+    let mut held = before.held;
+    held.good(command);
+    let waits = before.beta == after.beta && before.delta == after.delta;
+    let wait = waits && before.theta == after.theta;
+    can_be_used(law, input)
+        && limits.contains(command)
+        && follows(limits, before.held.command, command, input.dt)
+        && after.held == held
+        && (wait || !frozen)
+        && law.is_valid(after)
+}
+
+/// Whether every number of the sample is one, and `dt` one of the law's.
+fn can_be_used<T: Real, const N: usize>(law: &Adaptive<T, N>, input: &AdaptiveInput<T, N>) -> bool {
+    let numbers = [
+        input.reference,
+        input.next_reference,
+        input.measured,
+        input.feed_forward,
+    ];
+    let finite = |x: &T| x.is_finite();
+    input.dt > T::ZERO
+        && input.dt <= law.longest
+        && numbers.iter().all(finite)
+        && input.regressors.iter().all(finite)
+}
+
+/// The numbers of a state as bits.
+fn bits<const N: usize>(state: &AdaptiveState<f32, N>) -> (AdaptiveState<f32, N>, u32, u32) {
+    let Compensated { value, carry } = state.lag;
+    let lag = Compensated::new(0.0);
+    let rest = AdaptiveState { lag, ..*state };
+    (rest, value.to_bits(), carry.to_bits())
+}
+
+fn advance_any_sample(form: Form<f32>) {
+    let law = law::<2>(form, SmoothSign::Tanh);
+    // After a return from the safe command the lag may have overflowed.
+    let lag = any_sum();
+    let before = AdaptiveState { lag, ..state(&law) };
+    let (mut after, input, frozen) = (before, input(), kani::any());
+    let command = law.advance(&mut after, &input, frozen);
+    kani::cover!(command.is_some() && after.beta.value != before.beta.value);
+    kani::cover!(command.is_none() && can_be_used(&law, &input));
+    let kept = match command {
+        Some(command) => is_good(&law, [&before, &after], &input, (frozen, command)),
+        None => bits(&before) == bits(&after),
+    };
+    assert!(kept);
+}
+
+/// K1, K4, K5. Lag form, two regressors: a command that the law gives is of a sample whose numbers
+/// can be used, within the limits and the slew rate, and leaves a valid state, the estimates as
+/// they were where they are frozen; where it gives none, nothing has moved.
+///
+/// Assumes: nothing of gains, sample or valid state, whatever its lag; the update of an estimate
+/// as proved by estimate_in_its_box, what a sum loses as by a_sum_and_what_it_lost, the limits
+/// as by slew_limit_any_rate, any s and any lag after.
+#[kani::proof]
+#[kani::unwind(5)]
+#[kani::stub(Compensated::plus, any_plus)]
+#[kani::stub(Adaptive::evaluated, any_lag)]
+#[kani::stub(Adaptive::adapted, any_estimates)]
+#[kani::stub(Limits::apply, limited::apply)]
+#[kani::stub(follows, limited::follows)]
+fn lag_advance() {
+    let form = Form::Lag {
+        step: kani::any(),
+        plant_gain: kani::any(),
+    };
+    advance_any_sample(form);
+}
+
+/// K1, K5. The literal form as the lag form above.
+///
+/// Assumes: as lag_advance; the filtered rate as proved by a_command_has_a_rate.
+#[kani::proof]
+#[kani::unwind(5)]
+#[kani::stub(Compensated::plus, any_plus)]
+#[kani::stub(Adaptive::evaluated, any_literal)]
+#[kani::stub(Adaptive::adapted, any_estimates)]
+#[kani::stub(Limits::apply, limited::apply)]
+#[kani::stub(follows, limited::follows)]
+fn literal_advance() {
+    let time_constant = kani::any();
+    advance_any_sample(Form::Literal { time_constant });
+}
+
+/// What `lag_advance` and `literal_advance` prove, and no more.
+fn any_advance<T: Real, const N: usize>(
+    law: &Adaptive<T, N>,
+    state: &mut AdaptiveState<T, N>,
+    input: &AdaptiveInput<T, N>,
+    frozen: bool,
+) -> Option<T> {
+    if !can_be_used(law, input) || kani::any() {
+        return None;
+    }
+    let (limits, last) = (&law.settings.limits, state.held.command);
+    let asked = kani::any();
+    let wanted = T::of(f64::from(kani::any::<f32>()));
+    let command = if asked {
+        limits.apply(last, wanted, input.dt)
+    } else {
+        wanted
+    };
+    kani::assume(limits.contains(command) && (asked || limits.slew().is_none()));
+    let (beta, delta, theta) = if frozen {
+        (state.beta, state.delta, state.theta)
+    } else {
+        (any_sum(), any_sum(), core::array::from_fn(|_| any_sum()))
+    };
+    let rate = DerivativeState::at(T::of(kani::any()), T::of(kani::any()));
+    let mut held = state.held;
+    held.good(command);
+    *state = AdaptiveState {
+        z: any_sum(),
+        error_rate: if kani::any() {
+            rate
+        } else {
+            DerivativeState::new()
+        },
+        lag: any_sum(),
+        beta,
+        delta,
+        theta,
+        held,
+        gap: T::ZERO,
+    };
+    kani::assume(law.is_valid(state));
+    Some(command)
+}
+
+/// Where a return from the safe command starts: any z of its box, and any lag.
+fn any_start<T: Real, const N: usize>(
+    law: &Adaptive<T, N>,
+    state: &mut AdaptiveState<T, N>,
+    _: &AdaptiveInput<T, N>,
+) {
+    let z = T::of(kani::any());
+    kani::assume(z.abs() <= law.settings.z_limit);
+    state.z = Compensated::new(z);
+    state.error_rate = DerivativeState::new();
+    state.gap = T::ZERO;
+    state.lag = any_sum();
+}
+
+fn any_sample<const N: usize>(form: Form<f32>) {
+    let law = law::<N>(form, SmoothSign::Tanh);
     let (mut state, input) = (state(&law), input());
     let before = state;
     let kept = adaptive_commands_within_its_limits(&law, &mut state, &input);
@@ -70,15 +289,11 @@ fn any_sample<const N: usize>(form: Form<f32>, smooth_sign: SmoothSign) {
 /// limits and its slew rate, the state stays valid; a bad sample leaves the state, and the
 /// command or the safe one is out; none is good with dt ≤ 0 or a number that is not finite.
 ///
-/// Assumes: nothing of gains, sample or valid state; the update of an estimate as proved by
-/// estimate_in_its_box, what a sum loses as by a_sum_and_what_it_lost, the limits as by
-/// slew_limit_any_rate, any virtual command.
+/// Assumes: nothing of gains, sample or valid state; a command and its state as proved by
+/// lag_advance.
 #[kani::proof]
 #[kani::unwind(5)]
-#[kani::stub(two_sum, any_lost)]
-#[kani::stub(libm::tanhf, stubs::tanhf)]
-#[kani::stub(Estimator::update, any_update)]
-#[kani::stub(Adaptive::virtual_command, any_virtual_command)]
+#[kani::stub(Adaptive::advance, any_advance)]
 #[kani::stub(Limits::apply, limited::apply)]
 #[kani::stub(follows, limited::follows)]
 fn lag_any_sample() {
@@ -86,7 +301,7 @@ fn lag_any_sample() {
         step: kani::any(),
         plant_gain: kani::any(),
     };
-    any_sample::<2>(form, SmoothSign::Tanh);
+    any_sample::<2>(form);
 }
 
 /// K1. Literal form, two regressors: where the error's rate is not finite, the virtual
@@ -108,30 +323,47 @@ fn a_bad_rate_shows() {
     assert!(terms.error_rate.is_finite() || !command.is_finite());
 }
 
-/// K1, K5. The literal form as the lag form above.
+/// K1. Literal form, two regressors: where the law's command is finite, so is the filtered rate
+/// that stays.
 ///
-/// Assumes: nothing of gains, sample, valid state or filtered rate; the update of an
-/// estimate as proved by estimate_in_its_box, what a sum loses as by a_sum_and_what_it_lost, the
-/// limits as by slew_limit_any_rate, the virtual command as by a_bad_rate_shows.
+/// Assumes: nothing of gains or sample; a valid state, any filtered rate, the virtual command as
+/// by a_bad_rate_shows, beta_hat above zero as its box demands.
 #[kani::proof]
 #[kani::unwind(5)]
-#[kani::stub(two_sum, any_lost)]
 #[kani::stub(libm::tanhf, stubs::tanhf)]
 #[kani::stub(Derivative::step, any_rate)]
-#[kani::stub(Estimator::update, any_update)]
 #[kani::stub(Adaptive::virtual_command, any_command_of_a_rate)]
+fn a_command_has_a_rate() {
+    let time_constant = kani::any();
+    let law = law::<2>(Form::Literal { time_constant }, SmoothSign::Tanh);
+    let (state, input) = (state(&law), input());
+    kani::assume(law.settings.beta.low > 0.0);
+    let of = law.evaluated(&state, &input);
+    kani::cover!(of.error_rate != state.error_rate && of.terms.unlimited == 3.0);
+    kani::cover!(!of.error_rate.is_finite());
+    assert!(!of.terms.unlimited.is_finite() || of.error_rate.is_finite());
+}
+
+/// K1, K5. The literal form as lag_any_sample.
+///
+/// Assumes: nothing of gains, sample or valid state; a command and its state as proved by
+/// literal_advance; for where a return starts any z of its box, as by hand_over_literal.
+#[kani::proof]
+#[kani::unwind(5)]
+#[kani::stub(Adaptive::advance, any_advance)]
+#[kani::stub(Adaptive::settle, any_start)]
 #[kani::stub(Limits::apply, limited::apply)]
 #[kani::stub(follows, limited::follows)]
 fn literal_any_sample() {
     let time_constant = kani::any();
-    any_sample::<2>(Form::Literal { time_constant }, SmoothSign::Tanh);
+    any_sample::<2>(Form::Literal { time_constant });
 }
 
 /// Any z, NaN included, for what the search of a return finds.
 fn any_z<T: Real, const N: usize>(
     _: &Adaptive<T, N>,
     _: T,
-    _: &crate::control::AdaptiveState<T, N>,
+    _: &AdaptiveState<T, N>,
     _: &AdaptiveInput<T, N>,
 ) -> T {
     T::of(kani::any())
@@ -150,13 +382,13 @@ fn from_any_state(form: Form<f32>) {
 /// K15. Lag form, two regressors, from any state of whatever bits: the command is finite and
 /// within the limits, and a safe command that is latched stays out.
 ///
-/// Assumes: nothing of gains, sample or state; the limits as by slew_limit_any_rate, any
-/// virtual command, any sum of an estimate.
+/// Assumes: nothing of gains, sample or state; the limits as by slew_limit_any_rate, any s and
+/// any lag, any estimates.
 #[kani::proof]
 #[kani::unwind(5)]
-#[kani::stub(libm::tanhf, stubs::tanhf)]
-#[kani::stub(Estimator::update, any_sum)]
-#[kani::stub(Adaptive::virtual_command, any_virtual_command)]
+#[kani::stub(Compensated::plus, any_plus)]
+#[kani::stub(Adaptive::evaluated, any_lag)]
+#[kani::stub(Adaptive::adapted, any_sums)]
 #[kani::stub(Limits::apply, limited::apply)]
 fn lag_from_any_state() {
     let form = Form::Lag {
@@ -171,10 +403,9 @@ fn lag_from_any_state() {
 /// Assumes: as lag_from_any_state; any filtered rate, any z for the one that a return searches.
 #[kani::proof]
 #[kani::unwind(5)]
-#[kani::stub(libm::tanhf, stubs::tanhf)]
-#[kani::stub(Derivative::step, any_rate)]
-#[kani::stub(Estimator::update, any_sum)]
-#[kani::stub(Adaptive::virtual_command, any_virtual_command)]
+#[kani::stub(Compensated::plus, any_plus)]
+#[kani::stub(Adaptive::evaluated, any_law)]
+#[kani::stub(Adaptive::adapted, any_sums)]
 #[kani::stub(Adaptive::z_that_gives, any_z)]
 #[kani::stub(Limits::apply, limited::apply)]
 fn literal_from_any_state() {
@@ -183,9 +414,19 @@ fn literal_from_any_state() {
 }
 
 /// Any sum: more than an update can give.
-fn any_sum<T: Real>(_: &Estimator<T>, _: Compensated<T>, _: T, _: T) -> Compensated<T> {
+fn any_sum<T: Real>() -> Compensated<T> {
     Compensated {
         value: T::of(kani::any()),
         carry: T::of(kani::any()),
     }
+}
+
+/// Any estimates: more than their updates can give.
+fn any_sums<T: Real, const N: usize>(
+    _: &Adaptive<T, N>,
+    _: &AdaptiveState<T, N>,
+    _: &AdaptiveInput<T, N>,
+    _: &AdaptiveTerms<T, N>,
+) -> Estimates<T, N> {
+    (any_sum(), any_sum(), core::array::from_fn(|_| any_sum()))
 }

@@ -33,8 +33,8 @@ pub(super) fn estimator(leakage: Leakage<f32>) -> Estimator<f32> {
 }
 
 /// Any law of this form: more than the constructor accepts, for only the order of the
-/// boxes, the range, a safe command within it and a largest step that is a number are taken
-/// from its checks.
+/// boxes, the range, a safe command within it and a longest step above zero are taken from its
+/// checks.
 pub(super) fn law<const N: usize>(form: Form<f32>, smooth_sign: SmoothSign) -> Adaptive<f32, N> {
     let settings = AdaptiveSettings {
         form,
@@ -62,7 +62,7 @@ pub(super) fn law<const N: usize>(form: Form<f32>, smooth_sign: SmoothSign) -> A
     kani::assume(safe.is_none_or(|safe| settings.limits.contains(safe)));
     Adaptive {
         settings,
-        longest: kani::any_where(|longest: &f32| longest.is_finite()),
+        longest: kani::any_where(|longest: &f32| *longest > 0.0 && longest.is_finite()),
     }
 }
 

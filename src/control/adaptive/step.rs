@@ -77,7 +77,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     ///
     /// Not inlined: the exceptions call it too, and a copy is 2 KB of flash.
     #[inline(never)]
-    fn advance(
+    pub(super) fn advance(
         &self,
         state: &mut AdaptiveState<T, N>,
         input: &AdaptiveInput<T, N>,
@@ -260,7 +260,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
 
     /// The law (18), (19), (23), or its lag form, and where it leaves its two memories.
     #[inline]
-    fn evaluated(
+    pub(super) fn evaluated(
         &self,
         state: &AdaptiveState<T, N>,
         input: &AdaptiveInput<T, N>,
@@ -325,7 +325,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
 
     /// (24)-(26).
     #[inline]
-    fn adapted(
+    pub(super) fn adapted(
         &self,
         state: &AdaptiveState<T, N>,
         input: &AdaptiveInput<T, N>,
@@ -347,13 +347,14 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
 }
 
 /// beta_hat, delta_hat and theta_hat.
-type Estimates<T, const N: usize> = (Compensated<T>, Compensated<T>, [Compensated<T>; N]);
+pub(super) type Estimates<T, const N: usize> =
+    (Compensated<T>, Compensated<T>, [Compensated<T>; N]);
 
 /// The law on one sample, and where it leaves its memories.
-struct Evaluated<T, const N: usize> {
-    terms: AdaptiveTerms<T, N>,
-    error_rate: DerivativeState<T>,
-    lag: Compensated<T>,
+pub(super) struct Evaluated<T, const N: usize> {
+    pub(super) terms: AdaptiveTerms<T, N>,
+    pub(super) error_rate: DerivativeState<T>,
+    pub(super) lag: Compensated<T>,
 }
 
 impl<T: Real, const N: usize> AdaptiveTerms<T, N> {
