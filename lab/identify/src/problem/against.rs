@@ -1,7 +1,7 @@
 //! Whether a force counts against the motion: a load cell that was mounted the other way round.
 
 use super::Channel;
-use crate::algebra::Span;
+use crate::algebra::{Span, Stretch};
 use nalgebra::DVector;
 use std::ops::Range;
 
@@ -41,7 +41,8 @@ pub(super) fn against(
         return false;
     }
     span.add(centred(&|i| input.motion[i].acceleration));
-    let gains = span.gains(&output);
+    let size = output.norm();
+    let gains = span.gains(&Stretch::from(output));
     let [with_position, with_velocity] = [gains[0] * sizes[0], gains[1] * sizes[1]];
-    with_velocity < -PLAIN * output.norm() && with_position < -SPRING * with_velocity
+    with_velocity < -PLAIN * size && with_position < -SPRING * with_velocity
 }
