@@ -81,6 +81,12 @@ impl Stretch {
         &self.values
     }
 
+    /// The same, taken out.
+    #[must_use]
+    pub fn into_values(self) -> Vec<f64> {
+        self.values
+    }
+
     /// The values on [`range`](Self::range), to be changed.
     pub fn values_mut(&mut self) -> &mut [f64] {
         &mut self.values

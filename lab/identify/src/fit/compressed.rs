@@ -9,8 +9,7 @@
 //!   columns of the model (Kaufman, 1975).
 //! - The solver gets them in a basis whose first vector is the residual. There only the first
 //!   entry of the residual is not zero, whatever the Jacobian: so it is known before that is
-//!   asked for. The basis is found by modified Gram-Schmidt, whose triangle is as good as
-//!   Householder's (Björck, 1967).
+//!   asked for.
 
 use crate::algebra::{take_off, Span, Stretch};
 use nalgebra::{DMatrix, DVector};
@@ -60,35 +59,17 @@ pub(super) fn jacobian(
         take_off(&basis, &mut column);
         columns.set_column(j, &column);
     }
-    triangle(&residual, columns)
+    triangle(residual, &columns)
 }
 
 /// Columns in a basis whose first vector is the residual.
-fn triangle(residual: &DVector<f64>, mut columns: DMatrix<f64>) -> DMatrix<f64> {
-    let count = columns.ncols();
-    let mut small = DMatrix::zeros(count + 1, count);
-    let norm = residual.norm();
-    if norm > 0.0 {
-        let first = residual / norm;
-        for j in 0..count {
-            let part = first.dot(&columns.column(j));
-            small[(0, j)] = part;
-            columns.column_mut(j).axpy(-part, &first, 1.0);
-        }
-    }
-    for k in 0..count {
-        let norm = columns.column(k).norm();
-        small[(k + 1, k)] = norm;
-        if norm > 0.0 {
-            let own = columns.column(k) / norm;
-            for j in k + 1..count {
-                let part = own.dot(&columns.column(j));
-                small[(k + 1, j)] = part;
-                columns.column_mut(j).axpy(-part, &own, 1.0);
-            }
-        }
-    }
-    small
+fn triangle(residual: DVector<f64>, columns: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut span = Span::with_tolerance(ROUNDING);
+    span.add(residual);
+    let columns = columns.column_iter().map(DVector::from);
+    let parts: Vec<Vec<f64>> = columns.map(|c| span.add_with_parts(c.into()).1).collect();
+    let at = |i: usize, j: usize| parts[j].get(i).copied().unwrap_or(0.0);
+    DMatrix::from_fn(parts.len() + 1, parts.len(), at)
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 pub(crate) use crate::algebra::{Span, Stretch};
 use crate::problem::Prepared;
 use nalgebra::DVector;
+use std::ops::Index;
 
 impl Span {
     /// The span of columns on the estimation grid. Those of single files are added first: they
@@ -22,7 +23,10 @@ impl Span {
 }
 
 /// The rows of the fit segment of a column on the estimation grid.
-pub(crate) fn rows(data: &Prepared, column: &[f64]) -> DVector<f64> {
+pub(crate) fn rows<C>(data: &Prepared, column: &C) -> DVector<f64>
+where
+    C: Index<usize, Output = f64> + ?Sized,
+{
     let rows = &data.split.fit;
     DVector::from_iterator(rows.len(), rows.iter().map(|&i| column[i]))
 }

@@ -274,7 +274,9 @@ impl Prepared {
     /// alone on which it is not zero.
     #[must_use]
     pub fn filtered_stretches(&self, columns: &[&Stretch]) -> Vec<Stretch> {
-        filtered_stretches(&self.smoother, &self.pieces, self.stride, columns)
+        let columns = columns.iter().map(|c| (c.range().start, c.values()));
+        let columns: Vec<(usize, &[f64])> = columns.collect();
+        filtered_stretches(&self.smoother, &self.pieces, self.stride, &columns)
     }
 
     /// Time of a row \[s\], with the records behind each other.
@@ -309,38 +311,30 @@ fn filtered_all(
     stride: usize,
     columns: &[&[f64]],
 ) -> Vec<Vec<f64>> {
-    cost::COLUMNS_FILTERED.add(columns.len());
-    let of = |piece: &Piece| {
-        let own: Vec<&[f64]> = columns.iter().map(|c| &c[piece.work.clone()]).collect();
-        smoother.apply_all(&own, stride)
-    };
-    if let [piece] = pieces {
-        return of(piece);
-    }
-    let mut all = vec![Vec::new(); columns.len()];
-    for own in pieces.par_iter().map(of).collect::<Vec<_>>() {
-        for (column, own) in all.iter_mut().zip(own) {
-            column.extend(own);
-        }
-    }
-    all
+    let whole: Vec<(usize, &[f64])> = columns.iter().map(|&column| (0, column)).collect();
+    let all = filtered_stretches(smoother, pieces, stride, &whole);
+    all.into_iter().map(Stretch::into_values).collect()
 }
 
-/// The same of columns that are zero on some of the records, on which they stay so.
+/// The same of columns that begin at some sample and are zero on some of the records, on which
+/// they stay so.
 fn filtered_stretches(
     smoother: &ZeroPhase,
     pieces: &[Piece],
     stride: usize,
-    columns: &[&Stretch],
+    columns: &[(usize, &[f64])],
 ) -> Vec<Stretch> {
     cost::COLUMNS_FILTERED.add(columns.len());
-    let reached = |piece: &Piece, column: &Stretch| {
-        let range = column.range();
-        !piece.work.is_empty() && range.start <= piece.work.start && piece.work.end <= range.end
+    let reached = |piece: &Piece, (start, values): (usize, &[f64])| {
+        !piece.work.is_empty()
+            && start <= piece.work.start
+            && piece.work.end <= start + values.len()
     };
     let of = |piece: &Piece| {
-        let own = columns.iter().filter(|c| reached(piece, c));
-        let own: Vec<&[f64]> = own.map(|c| c.on(&piece.work)).collect();
+        let own = columns.iter().filter(|column| reached(piece, **column));
+        let own =
+            own.map(|(start, values)| &values[piece.work.start - start..piece.work.end - start]);
+        let own: Vec<&[f64]> = own.collect();
         smoother.apply_all(&own, stride)
     };
     let mut by_piece: Vec<_> = match pieces {
@@ -348,10 +342,10 @@ fn filtered_stretches(
         several => several.par_iter().map(of).collect(),
     };
     let mut by_piece: Vec<_> = by_piece.iter_mut().map(|own| own.drain(..)).collect();
-    let gather = |column: &&Stretch| {
+    let gather = |column: &(usize, &[f64])| {
         let (mut start, mut values) = (None, Vec::new());
         for (piece, own) in pieces.iter().zip(&mut by_piece) {
-            if reached(piece, column) {
+            if reached(piece, *column) {
                 start.get_or_insert(piece.rows.start);
                 let next = own.next().unwrap_or_default();
                 match values.is_empty() {

@@ -10,7 +10,7 @@
 //! than noise is left, every block repeats the same misfit: there it has to halve the squared error.
 
 use super::bank::Identity;
-use super::linear::Kept;
+use super::kept::Kept;
 use super::moves::is_same;
 use super::policy;
 use super::refit::{other_hystereses, FAIR, ROUGH};
@@ -70,6 +70,11 @@ pub(super) fn stands_for(set: &[Identity], name: &Identity) -> bool {
     })
 }
 
+fn has(terms: &[FitTerm], source: Source, name: &str) -> bool {
+    let mut terms = terms.iter();
+    terms.any(|t| t.source == source && t.effect.name() == name)
+}
+
 /// What a power law would replace.
 struct Place {
     source: Source,
@@ -99,14 +104,10 @@ impl Search<'_> {
     fn places(&self) -> Vec<Place> {
         let terms = &self.now.structure.terms;
         let own = self.declared.structure.terms.len();
-        let has = |range: &[FitTerm], source: Source, name: &str| {
-            let is = |t: &FitTerm| t.source == source && t.effect.name() == name;
-            range.iter().any(is)
-        };
         let mut places: Vec<Place> = Vec::new();
         for source in terms[own..].iter().map(|term| term.source) {
             // Where both are declared, there is no pair to compare it with.
-            let both = PAIR.iter().all(|name| has(&terms[..own], source, name));
+            let both = PAIR.iter().all(|name| self.declares(source, name));
             if both || has(terms, source, POWER_LAW) {
                 continue;
             }
@@ -123,6 +124,11 @@ impl Search<'_> {
             }
         }
         places
+    }
+
+    /// Whether the declared model has that effect on that channel.
+    fn declares(&self, source: Source, name: &str) -> bool {
+        has(&self.declared.structure.terms, source, name)
     }
 
     /// The model with a power law in that place, and the p-value of its comparison with the pair;
@@ -158,12 +164,7 @@ impl Search<'_> {
     /// The model with viscous and Coulomb friction in that place.
     fn pair(&self, place: &Place) -> Option<Solution> {
         let speed = self.data.channel(place.source)?.speed;
-        let own = self.declared.structure.terms.len();
-        let declared = &self.declared.structure.terms[..own];
-        let lacks = |name: &str| {
-            let is = |t: &FitTerm| t.source == place.source && t.effect.name() == name;
-            !declared.iter().any(is)
-        };
+        let lacks = |name: &str| !self.declares(place.source, name);
         let made = |width: f64| {
             let shapes = [width * speed];
             let both: [(&str, &[f64]); 2] = [(PAIR[0], &[]), (PAIR[1], &shapes)];
@@ -176,14 +177,7 @@ impl Search<'_> {
 
     /// The present structure with other effects in that place.
     fn with(&self, place: &Place, added: &[(&str, &[f64])]) -> Option<Structure> {
-        let mut structure = self.now.structure.clone();
-        let ids = self.now.structure.terms.ids();
-        for &index in &place.kept.dropped {
-            structure.terms.remove(*ids.get(index)?);
-        }
-        if !place.kept.table {
-            structure.table = None;
-        }
+        let mut structure = place.kept.of(&self.now.structure);
         for (name, shapes) in added {
             structure.terms.push(FitTerm {
                 effect: Effect::try_from_name(name, shapes).ok()?,

@@ -2,7 +2,8 @@
 
 use super::bank::Identity;
 use super::gram::Swept;
-use super::linear::{Kept, Linear};
+use super::kept::Kept;
+use super::linear::Linear;
 use super::partial::Partial;
 use super::policy;
 

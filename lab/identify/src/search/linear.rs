@@ -2,6 +2,7 @@
 
 use super::bank::{Bank, Identity, Slope};
 use super::gram::{Grams, Swept};
+use super::kept::Kept;
 use super::policy;
 use super::present::Present;
 use super::sought::{Choice, Sought};
@@ -93,13 +94,6 @@ impl Places {
         }
         place
     }
-}
-
-/// The part of a model that a move keeps.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Kept {
-    pub(super) dropped: Vec<usize>,
-    pub(super) table: bool,
 }
 
 /// Prices of the members of a set in the criterion.

@@ -7,7 +7,8 @@
 
 use super::bank::Identity;
 use super::gram::Swept;
-use super::linear::{Kept, Linear, Member};
+use super::kept::Kept;
+use super::linear::{Linear, Member};
 use super::policy;
 use crate::ledger::{reject, Gate, Rejection};
 use crate::model::catalogue::Candidate;

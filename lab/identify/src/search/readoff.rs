@@ -3,7 +3,8 @@
 use super::bank::Identity;
 use super::carries_over::{delivered, recurrences};
 use super::exchange::is_told_apart;
-use super::linear::{Kept, Linear};
+use super::kept::Kept;
+use super::linear::Linear;
 use super::moves::Move;
 use super::policy;
 use super::refit::{other_hystereses, Priced, FAIR, ROUGH};

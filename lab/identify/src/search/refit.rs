@@ -1,7 +1,8 @@
 //! The squared error of a move with all shapes refitted, started from its linear prediction.
 
 use super::bank::{on_line, Own};
-use super::linear::{Kept, Linear, Member};
+use super::kept::Kept;
+use super::linear::{Linear, Member};
 use super::moves::Move;
 use crate::fit::projection::Span;
 use crate::fit::search::descend;
@@ -121,15 +122,8 @@ impl Linear<'_> {
     }
 
     fn plan(&self, moved: &Span, one: &Move) -> Option<Plan> {
-        let mut structure = self.now.structure.clone();
+        let mut structure = one.kept.of(&self.now.structure);
         let mut added = Vec::new();
-        let ids = self.now.structure.terms.ids();
-        for &index in &one.kept.dropped {
-            structure.terms.remove(ids[index]);
-        }
-        if !one.kept.table {
-            structure.table = None;
-        }
         let mut curve = 0.0;
         for &g in &one.added {
             match self.groups[g].member {

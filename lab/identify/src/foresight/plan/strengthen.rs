@@ -5,11 +5,10 @@ use super::trajectory::{trajectory, Kind};
 use super::{best, describe, Aim, Experiment};
 use crate::algebra::imitated;
 use crate::conclude::intervals::parameters;
-use crate::fit::projection::Span;
+use crate::fit::projection::{rows, Span};
 use crate::fit::Solution;
 use crate::model::structure::Role;
 use crate::problem::Prepared;
-use nalgebra::DVector;
 
 /// An experiment is worth its while where a parameter shows this many times as strongly.
 const WORTH: f64 = 1.2;
@@ -18,8 +17,7 @@ const WORTH: f64 = 1.2;
 fn shows(placed: &Placed<'_>, data: &Prepared, j: usize) -> Option<(f64, f64)> {
     let others = placed.columns.iter().enumerate();
     let others = Span::of(data, others.filter(|(k, _)| *k != j).map(|(_, c)| c));
-    let rows = data.split.fit.iter();
-    let column = DVector::from_iterator(rows.len(), rows.map(|&i| placed.columns[j][i]));
+    let column = rows(data, &placed.columns[j]);
     let (whole, count) = (column.norm(), column.len() as f64);
     let rest = others.off(column).norm();
     (whole > 0.0).then(|| (rest / count.sqrt(), imitated(whole, rest)))
