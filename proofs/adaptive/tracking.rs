@@ -47,6 +47,7 @@ fn never<T: Real, const N: usize>(
 /// at rest of up to 8 N·m, nothing owed by rounding; what a sum loses as by
 /// a_sum_and_what_it_lost.
 #[kani::proof]
+#[kani::unwind(5)]
 #[kani::stub(Adaptive::exception, never)]
 #[kani::stub(two_sum, any_lost)]
 fn slow_tracking_box_of_the_law() {
