@@ -7,7 +7,7 @@
 //! creep", *IEE Proceedings — Control Theory and Applications* 148(3), 2001.
 
 use super::info::{Info, Regressor};
-use super::lag::low_pass;
+use super::lag::{held_share, low_pass};
 use super::shaped::shaped;
 use super::Symmetry::{Neither, Odd};
 use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
@@ -41,6 +41,16 @@ impl<T: Real> Regressor<T> for Creep<T> {
 
     #[inline]
     fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
-        low_pass(state, at.motion.position, self.tau, at.dt)
+        self.value_knowing(state, at, self.share(at.dt))
+    }
+
+    #[inline]
+    fn share(&self, dt: T) -> T {
+        held_share(self.tau, dt)
+    }
+
+    #[inline]
+    fn value_knowing(&self, state: &mut EffectState<T>, at: &Situation<T>, share: T) -> T {
+        low_pass(state, at.motion.position, share)
     }
 }

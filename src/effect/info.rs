@@ -226,6 +226,23 @@ pub trait Regressor<T>: sealed::Sealed {
     #[doc(hidden)]
     fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T;
 
+    /// What of [`value`](Self::value) depends on `dt` alone: of a record it is computed once.
+    #[doc(hidden)]
+    #[inline]
+    fn share(&self, _dt: T) -> T
+    where
+        T: Real,
+    {
+        T::zero()
+    }
+
+    /// [`value`](Self::value), where [`share`](Self::share) of the sample's `dt` is known.
+    #[doc(hidden)]
+    #[inline]
+    fn value_knowing(&self, state: &mut EffectState<T>, at: &Situation<T>, _share: T) -> T {
+        self.value(state, at)
+    }
+
     /// What a term of that gain adds, where all that it reads is finite: gain times
     /// regressor, but for an output stage that is not linear in its gain. It may overflow.
     #[doc(hidden)]

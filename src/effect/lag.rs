@@ -41,19 +41,32 @@ impl<T: Real> Regressor<T> for Lag<T> {
 
     #[inline]
     fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
-        low_pass(state, at.output, self.tau, at.dt) - at.output
+        self.value_knowing(state, at, self.share(at.dt))
+    }
+
+    #[inline]
+    fn share(&self, dt: T) -> T {
+        held_share(self.tau, dt)
+    }
+
+    #[inline]
+    fn value_knowing(&self, state: &mut EffectState<T>, at: &Situation<T>, share: T) -> T {
+        low_pass(state, at.output, share) - at.output
     }
 }
 
-/// First-order low-pass with held samples: `level += (1 − exp(−dt/tau))·(input − level)`.
+/// Share of the way to a held input that a first-order low-pass goes: `1 − exp(−dt/tau)`.
 #[inline]
-pub(super) fn low_pass<T: Real>(state: &mut EffectState<T>, input: T, tau: T, dt: T) -> T {
+pub(super) fn held_share<T: Real>(tau: T, dt: T) -> T {
+    -(-dt / tau).exp_m1()
+}
+
+/// First-order low-pass with held samples: `level += share·(input − level)`.
+#[inline]
+pub(super) fn low_pass<T: Real>(state: &mut EffectState<T>, input: T, share: T) -> T {
     let level = match state.memory {
         None => input,
-        Some([level, ..]) => {
-            let share = -(-dt / tau).exp_m1();
-            saturate(level + share * saturate(input - level))
-        }
+        Some([level, ..]) => saturate(level + share * saturate(input - level)),
     };
     state.memory = Some([level, T::zero(), T::zero(), T::zero()]);
     level

@@ -250,14 +250,14 @@ macro_rules! effects {
                 &self,
                 state: &mut EffectState<T>,
                 record: impl Iterator<Item = Situation<T>>,
-                mut take: impl FnMut(T),
+                take: impl FnMut(T),
             ) {
                 // Which effect it is, is asked once, not once a sample.
                 match self {
-                    $($(Self::$plain => record.for_each(|at| take(evaluate(&$plain, state, &at))),)+)*
-                    $($(Self::$shaped(config) => record.for_each(|at| take(evaluate(config, state, &at))),)+)*
-                    $($(Self::$later => record.for_each(|at| take(evaluate(&$later, state, &at))),)+)*
-                    $($(Self::$late(config) => record.for_each(|at| take(evaluate(config, state, &at))),)+)*
+                    $($(Self::$plain => along(&$plain, state, record, take),)+)*
+                    $($(Self::$shaped(config) => along(config, state, record, take),)+)*
+                    $($(Self::$later => along(&$later, state, record, take),)+)*
+                    $($(Self::$late(config) => along(config, state, record, take),)+)*
                 }
             }
 
@@ -336,6 +336,29 @@ fn evaluate<T: Real, R: Regressor<T>>(
     }
 }
 
+/// As [`evaluate`] at each sample.
+#[inline]
+fn along<T: Real, R: Regressor<T>>(
+    effect: &R,
+    state: &mut EffectState<T>,
+    record: impl Iterator<Item = Situation<T>>,
+    mut take: impl FnMut(T),
+) {
+    let mut known: Option<(T, T)> = None;
+    record.for_each(|at| {
+        let share = match known {
+            Some((dt, share)) if dt == at.dt => share,
+            _ => effect.share(at.dt),
+        };
+        known = Some((at.dt, share));
+        take(if at.is_usable(R::INFO.reads) {
+            saturate(effect.value_knowing(state, &at, share))
+        } else {
+            T::zero()
+        });
+    });
+}
+
 impl<T: Real> Effect<T> {
     /// The family that it belongs to.
     #[must_use]
@@ -389,6 +412,21 @@ impl<T: Real> Effect<T> {
             _ => gain * self.regressor(state, at),
         };
         saturate(part)
+    }
+
+    /// What a term of that gain adds along a record, one number a sample: each as by
+    /// [`contribution`](Self::contribution), bit for bit, for less on many samples.
+    pub fn contributions(
+        &self,
+        gain: T,
+        state: &mut EffectState<T>,
+        record: impl Iterator<Item = Situation<T>>,
+        mut take: impl FnMut(T),
+    ) {
+        match self {
+            Self::Delay => record.for_each(|at| take(self.contribution(gain, state, &at))),
+            _ => self.regressors(state, record, |value| take(saturate(gain * value))),
+        }
     }
 
     /// Whether it needs the hysteresis state.

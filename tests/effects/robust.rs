@@ -30,12 +30,32 @@ proptest! {
     fn a_whole_record_gives_the_regressors_of_its_samples_to_the_bit(
         path in prop::collection::vec(prop::array::uniform11(extreme()), 1..8),
     ) {
-        let path: Vec<Situation<f32>> = path.into_iter().map(situation).collect();
+        // Two samples of each dt: what depends on dt alone is computed anew where it changes.
+        let path = path.into_iter().map(situation);
+        let path: Vec<Situation<f32>> = path.flat_map(|at| [at, at]).collect();
         for name in names() {
             let (effect, mut state) = (make::<f32>(name), EffectState::default());
             let mut whole = Vec::new();
             effect.regressors(&mut state, path.iter().copied(), |value| whole.push(value.to_bits()));
             let each: Vec<u32> = along(&effect, &path).into_iter().map(f32::to_bits).collect();
+            prop_assert_eq!(whole, each, "{}", name);
+        }
+    }
+
+    #[test]
+    fn a_whole_record_gives_the_contributions_of_its_samples_to_the_bit(
+        path in prop::collection::vec(prop::array::uniform11(extreme()), 1..8),
+        gain in extreme(),
+    ) {
+        let path: Vec<Situation<f32>> = path.into_iter().map(situation).collect();
+        for name in names() {
+            let effect = make::<f32>(name);
+            let (mut state, mut whole) = (EffectState::default(), Vec::new());
+            let take = |value: f32| whole.push(value.to_bits());
+            effect.contributions(gain, &mut state, path.iter().copied(), take);
+            let mut state = EffectState::default();
+            let one = |at| effect.contribution(gain, &mut state, at).to_bits();
+            let each: Vec<u32> = path.iter().map(one).collect();
             prop_assert_eq!(whole, each, "{}", name);
         }
     }

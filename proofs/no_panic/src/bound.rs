@@ -74,7 +74,10 @@ fn rounded<T: Real>() -> Option<()> {
     let (law, plant) = (law::<T>()?, black_box(Plant::<f64, 2>::new(any(), any())));
     never_panics!(bound_rounded_try_new, PeakRounded::try_new(&law, &plant));
     let settings = law.settings();
-    never_panics!(bound_rounded_examine, PeakRounded::examine(settings, &plant));
+    never_panics!(
+        bound_rounded_examine,
+        PeakRounded::examine(settings, &plant)
+    );
     let peak = black_box(PeakRounded::examine(settings, &plant)).ok()?;
     never_panics!(bound_rounded_bound, peak.bound());
     never_panics!(bound_rounded_certificate, peak.certificate());

@@ -62,6 +62,10 @@ pub fn all<T: Real>() -> Option<()> {
         let record = core::iter::once(situation);
         effect.regressors(&mut state, record, |value| _ = black_box(value));
     });
+    never_panics!(effect_contributions, {
+        let record = core::iter::once(situation);
+        effect.contributions(any(), &mut state, record, |value| _ = black_box(value));
+    });
     never_panics!(effect_family, effect.family());
     never_panics!(effect_name, effect.name());
     never_panics!(effect_formula, effect.formula());

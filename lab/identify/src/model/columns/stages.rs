@@ -4,6 +4,7 @@ use super::{weighted, RawColumns};
 use crate::model::structure::{FitTerm, Free, Role, Terms};
 use crate::problem::{Prepared, Stretch};
 use bowden::effect::{Effect, EffectState, Situation};
+use std::cell::Cell;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -121,15 +122,25 @@ impl Stages {
 
 /// output += what the stage adds at that gain, along one record.
 fn apply_stage(effect: &Effect<f64>, gain: f64, column: &mut [f64], dt: f64) {
-    let mut state = EffectState::default();
-    let mut at = Situation {
+    let column = Cell::from_mut(column).as_slice_of_cells();
+    let at = |output: &Cell<f64>| Situation {
         dt,
+        output: output.get(),
         ..Situation::default()
     };
-    for value in column {
-        at.output = *value;
-        *value += effect.contribution(gain, &mut state, &at);
-    }
+    // Each sample is read just before its own part is added.
+    let mut own = column.iter();
+    let add = |part| {
+        if let Some(value) = own.next() {
+            value.set(value.get() + part);
+        }
+    };
+    effect.contributions(
+        gain,
+        &mut EffectState::default(),
+        column.iter().map(at),
+        add,
+    );
 }
 
 impl RawColumns {
