@@ -41,7 +41,7 @@ impl<T: Real> Regressor<T> for Creep<T> {
 
     #[inline]
     fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
-        self.value_knowing(state, at, self.share(at.dt))
+        low_pass(state, at.motion.position, || self.share(at.dt))
     }
 
     #[inline]
@@ -51,6 +51,6 @@ impl<T: Real> Regressor<T> for Creep<T> {
 
     #[inline]
     fn value_knowing(&self, state: &mut EffectState<T>, at: &Situation<T>, share: T) -> T {
-        low_pass(state, at.motion.position, share)
+        low_pass(state, at.motion.position, || share)
     }
 }

@@ -41,7 +41,7 @@ impl<T: Real> Regressor<T> for Lag<T> {
 
     #[inline]
     fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
-        self.value_knowing(state, at, self.share(at.dt))
+        low_pass(state, at.output, || self.share(at.dt)) - at.output
     }
 
     #[inline]
@@ -51,7 +51,7 @@ impl<T: Real> Regressor<T> for Lag<T> {
 
     #[inline]
     fn value_knowing(&self, state: &mut EffectState<T>, at: &Situation<T>, share: T) -> T {
-        low_pass(state, at.output, share) - at.output
+        low_pass(state, at.output, || share) - at.output
     }
 }
 
@@ -63,10 +63,14 @@ pub(super) fn held_share<T: Real>(tau: T, dt: T) -> T {
 
 /// First-order low-pass with held samples: `level += share·(input − level)`.
 #[inline]
-pub(super) fn low_pass<T: Real>(state: &mut EffectState<T>, input: T, share: T) -> T {
+pub(super) fn low_pass<T: Real>(
+    state: &mut EffectState<T>,
+    input: T,
+    share: impl FnOnce() -> T,
+) -> T {
     let level = match state.memory {
         None => input,
-        Some([level, ..]) => saturate(level + share * saturate(input - level)),
+        Some([level, ..]) => saturate(level + share() * saturate(input - level)),
     };
     state.memory = Some([level, T::zero(), T::zero(), T::zero()]);
     level

@@ -347,7 +347,8 @@ fn along<T: Real, R: Regressor<T>>(
     let mut known: Option<(T, T)> = None;
     record.for_each(|at| {
         let share = match known {
-            Some((dt, share)) if dt == at.dt => share,
+            // Zero equals its negative, whose share has the other sign.
+            Some((dt, share)) if dt == at.dt && dt != T::zero() => share,
             _ => effect.share(at.dt),
         };
         known = Some((at.dt, share));

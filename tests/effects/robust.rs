@@ -60,6 +60,26 @@ proptest! {
         }
     }
 
+    /// The share of a low-pass is zero for both, of either sign.
+    #[test]
+    fn no_time_forwards_is_not_no_time_backwards(position in select(vec![0.0, -0.0, 1.0])) {
+        let at = |dt| Situation {
+            dt,
+            motion: Motion { position, ..Motion::default() },
+            output: position,
+            ..Situation::default()
+        };
+        let path: [Situation<f32>; 4] = [at(-0.0), at(-0.0), at(0.0), at(0.0)];
+        for name in ["creep", "lag"] {
+            let effect = make::<f32>(name);
+            let mut whole = Vec::new();
+            let take = |value: f32| whole.push(value.to_bits());
+            effect.regressors(&mut EffectState::default(), path.into_iter(), take);
+            let each: Vec<u32> = along(&effect, &path).into_iter().map(f32::to_bits).collect();
+            prop_assert_eq!(whole, each, "{}", name);
+        }
+    }
+
     #[test]
     fn a_bad_number_that_is_read_gives_0_and_leaves_the_state(
         path in prop::collection::vec(plausible(), 0..5),
@@ -116,6 +136,7 @@ fn extreme() -> impl Strategy<Value = f32> {
         f32::MIN_POSITIVE,
         f32::from_bits(1),
         0.0,
+        -0.0,
         1e-3,
         -1.0,
     ];

@@ -91,12 +91,8 @@ impl Stages {
     pub(super) fn alone(&self, effect: &Effect<f64>, output: &[f64]) -> Vec<f64> {
         let mut column = Vec::with_capacity(output.len());
         for record in &self.records {
-            let at = |output: &f64| Situation {
-                dt: self.dt,
-                output: *output,
-                ..Situation::default()
-            };
-            let samples = output[record.clone()].iter().map(at);
+            let samples = output[record.clone()].iter();
+            let samples = samples.map(|&output| sample(self.dt, output));
             let push = |value| column.push(value);
             effect.regressors(&mut EffectState::default(), samples, push);
         }
@@ -120,14 +116,19 @@ impl Stages {
     }
 }
 
+/// One sample of what an output stage reads.
+fn sample(dt: f64, output: f64) -> Situation<f64> {
+    Situation {
+        dt,
+        output,
+        ..Situation::default()
+    }
+}
+
 /// output += what the stage adds at that gain, along one record.
 fn apply_stage(effect: &Effect<f64>, gain: f64, column: &mut [f64], dt: f64) {
     let column = Cell::from_mut(column).as_slice_of_cells();
-    let at = |output: &Cell<f64>| Situation {
-        dt,
-        output: output.get(),
-        ..Situation::default()
-    };
+    let samples = column.iter().map(|output| sample(dt, output.get()));
     // Each sample is read just before its own part is added.
     let mut own = column.iter();
     let add = |part| {
@@ -135,12 +136,7 @@ fn apply_stage(effect: &Effect<f64>, gain: f64, column: &mut [f64], dt: f64) {
             value.set(value.get() + part);
         }
     };
-    effect.contributions(
-        gain,
-        &mut EffectState::default(),
-        column.iter().map(at),
-        add,
-    );
+    effect.contributions(gain, &mut EffectState::default(), samples, add);
 }
 
 impl RawColumns {
