@@ -21,14 +21,15 @@
 mod settings;
 mod signals;
 pub(crate) mod state;
+mod step;
 
 pub use settings::{AntiWindup, Damping, PidSettings};
 pub use signals::{PidInput, PidOutput, PidTerms};
 pub use state::PidState;
 
-use super::status::{fault_of_dt, first_fault, Latch};
+use super::status::{fault_of_dt, first_fault};
 use super::{Fault, Output, Status};
-use crate::error::{is_usable, rarely};
+use crate::error::is_usable;
 use crate::signal::{clamp, Compensated, Derivative};
 use crate::{Error, Real};
 use state::Last;
@@ -146,8 +147,9 @@ impl<T: Real> Pid<T> {
     /// the state as it was, but for the score of bad ones and their time.
     #[inline]
     pub fn step(&self, state: &mut PidState<T>, at: &PidInput<T>) -> Output<T> {
+        let mut velocity = at.velocity;
         if state.held.is_closed() {
-            if let Some(command) = self.advance(state, at) {
+            if let Some(command) = self.advance(state, at, &mut velocity) {
                 let status = Status::Good;
                 return Output { command, status };
             }
@@ -157,7 +159,7 @@ impl<T: Real> Pid<T> {
             dt: at.dt,
             reference: at.reference,
             measured: at.measured,
-            velocity: at.velocity,
+            velocity,
             feed_forward: at.feed_forward,
         };
         self.exception(state, &sample)
@@ -267,118 +269,6 @@ impl<T: Real> Pid<T> {
         }
     }
 
-    /// The command of a good sample, which moves the state; `None`, and nothing has moved,
-    /// where a number cannot be used or the law overflows.
-    ///
-    /// One test at the end for all numbers of the sample: one that is not finite leaves no finite
-    /// sum. [`AntiWindup::Clamp`] would hide an infinite error.
-    #[inline(always)]
-    fn advance(&self, state: &mut PidState<T>, at: &PidInput<T>) -> Option<T> {
-        let s = &self.settings;
-        if !at.dt.positive_up_to(s.longest_dt) {
-            return None;
-        }
-        let mut last = Last::at(at);
-        let error = at.measured - at.reference;
-        let rate = self.rate(state, &last, at.dt);
-        let rest = self.rest(&last, rate);
-        let change = -s.k_i * error * at.dt;
-        let returned = self.returned(state, at.dt);
-        let moved = returned.map_or(change, |returned| change + returned);
-        let mut integral = self.confined(state.integral.plus(moved));
-        last.unlimited = rest + integral.value;
-        let mut all = last.unlimited + integral.carry;
-        if let AntiWindup::Clamp = s.anti_windup {
-            all += error;
-        }
-        if !is_usable(all + at.velocity) {
-            rarely();
-            if !is_usable(all + self.velocity(at)) {
-                return None;
-            }
-            last = last.with_known_velocity();
-        }
-        last.command = last.unlimited;
-        let inside = s.limits.contains(last.unlimited);
-        if !inside || s.limits.slew().is_some() {
-            rarely();
-            if !inside && self.asks_for_more(last.unlimited, change) {
-                integral = state.integral.plus(returned.unwrap_or(T::ZERO));
-                last.unlimited = rest + integral.value;
-                if !is_usable(last.unlimited + integral.carry + error) {
-                    return None;
-                }
-            }
-            last.command = s.limits.apply(state.command(), last.unlimited, at.dt);
-        }
-        state.integral = integral;
-        state.rate = rate;
-        state.gap = T::ZERO;
-        state.held.good(last.command);
-        state.last = Some(last);
-        Some(last.command)
-    }
-
-    /// Whether conditional integration leaves a change out: the limits are passed already, and
-    /// it would go further.
-    #[inline]
-    fn asks_for_more(&self, unlimited: T, change: T) -> bool {
-        let s = &self.settings;
-        if !matches!(s.anti_windup, AntiWindup::Conditional) {
-            return false;
-        }
-        if unlimited > s.limits.high() {
-            change > T::ZERO
-        } else {
-            unlimited < s.limits.low() && change < T::ZERO
-        }
-    }
-
-    /// A bad sample, a latched safe command, or the first good sample after one.
-    #[cold]
-    #[inline(never)]
-    fn exception(&self, state: &mut PidState<T>, at: &PidInput<T>) -> Output<T> {
-        let s = &self.settings;
-        let fault = self.fault(at);
-        let status = match (state.held.latched(&s.fallback), fault) {
-            (Some(safe), _) => safe,
-            (None, None) if !state.held.is_closed() => self.close(state, at),
-            (None, fault) => {
-                state.wait(at.dt, s.longest_dt);
-                state
-                    .held
-                    .bad(fault.unwrap_or(Fault::Overflow), &s.fallback)
-            }
-        };
-        Output {
-            // A state may come from anywhere.
-            command: s.limits.confine(state.command()),
-            status,
-        }
-    }
-
-    /// The first good sample after a safe command that was acknowledged.
-    fn close(&self, state: &mut PidState<T>, at: &PidInput<T>) -> Status {
-        let started = if self.settings.k_i == T::ZERO {
-            // An integral that nothing moves would stay in the command for ever.
-            self.without_integrating(state, at).map(|last| {
-                state.gap = T::ZERO;
-                state.held.good(last.command);
-                state.last = Some(last);
-            })
-        } else {
-            let started = self.started_at(state.command(), at);
-            started.map(|(last, integral)| state.start(last, integral))
-        };
-        match started {
-            Ok(()) => {
-                state.held.latch = Latch::Closed;
-                Status::Good
-            }
-            Err(fault) => state.held.bad(fault, &self.settings.fallback),
-        }
-    }
-
     /// The velocity that the law reads; zero where it reads none, and it may be no number.
     fn velocity(&self, at: &PidInput<T>) -> T {
         match self.settings.damping {
@@ -400,39 +290,22 @@ impl<T: Real> Pid<T> {
         })
     }
 
-    /// What the limits cut off the last command, as far as it flows back into the integral.
-    #[inline]
-    fn returned(&self, state: &PidState<T>, dt: T) -> Option<T> {
-        let (before, s) = (state.last.as_ref()?, &self.settings);
-        match s.anti_windup {
-            AntiWindup::BackCalculation { tracking_time } => {
-                Some((before.command - before.unlimited) * (dt / (tracking_time + dt)))
-            }
-            // T_t = k_p/k_i, without dividing by a gain that may be zero.
-            AntiWindup::Conditional if s.limits.slew().is_some() && s.k_i != T::ZERO => {
-                let wanted = clamp(before.unlimited, s.limits.low(), s.limits.high());
-                let share = s.k_i * dt / (s.k_p + s.k_i * dt);
-                Some((before.command - wanted) * share)
-            }
-            _ => None,
-        }
-    }
-
     /// Filtered rate of `y - c·y_r`, zero where it is not used.
     #[inline]
     fn rate(&self, state: &PidState<T>, now: &Last<T>, dt: T) -> T {
+        let Damping::Rate { weight } = self.settings.damping else {
+            return T::ZERO;
+        };
         if self.settings.k_d == T::ZERO {
             return T::ZERO;
         }
-        match (self.settings.damping, &state.last) {
-            (Damping::Rate { weight }, Some(before)) => {
-                // From the samples themselves: right also where the weight has changed.
-                let sample = |at: &Last<T>| at.measured - weight * at.reference;
-                let filter = Derivative::assumed(self.settings.derivative_time);
-                filter.after(state.rate, sample(now) - sample(before), dt + state.gap)
-            }
-            _ => T::ZERO,
-        }
+        let Some(before) = &state.last else {
+            return T::ZERO;
+        };
+        // From the samples themselves: right also where the weight has changed.
+        let sample = |at: &Last<T>| at.measured - weight * at.reference;
+        let filter = Derivative::assumed(self.settings.derivative_time);
+        filter.after(state.rate, sample(now) - sample(before), dt + state.gap)
     }
 
     #[inline]

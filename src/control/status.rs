@@ -1,6 +1,6 @@
 //! What a step did: a good one, or a bad sample and what was commanded instead.
 
-use crate::error::{must_be_finite, rarely};
+use crate::error::must_be_finite;
 use crate::{Error, Real};
 
 /// Which input of a step could not be used.
@@ -255,14 +255,21 @@ impl<T: Real> Held<T> {
         }
     }
 
-    /// Takes note of a good command.
+    /// Takes note of a good command, and returns it.
     #[inline]
-    pub(crate) fn good(&mut self, command: T) {
+    pub(crate) fn good(&mut self, command: T) -> T {
         self.command = command;
         if self.score != 0 {
-            rarely();
-            self.score -= 1;
+            self.forgive();
         }
+        self.command
+    }
+
+    /// Counts a good sample after bad ones. A call, so that the usual step has a jump alone.
+    #[cold]
+    #[inline(never)]
+    fn forgive(&mut self) {
+        self.score -= 1;
     }
 
     /// Whether nothing stands between a good sample and the command.

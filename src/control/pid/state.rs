@@ -217,6 +217,16 @@ impl<T: Real> PidState<T> {
             && self.last.is_none_or(|last| last.is_valid())
     }
 
+    /// Takes note of a good sample; its command.
+    #[inline(always)]
+    pub(super) fn moved_on(&mut self, last: Last<T>, integral: Compensated<T>, rate: T) -> T {
+        self.integral = integral;
+        self.rate = rate;
+        self.gap = T::ZERO;
+        self.last = Some(last);
+        self.held.good(last.command)
+    }
+
     /// Counts the time of a bad sample.
     pub(super) fn wait(&mut self, dt: T, longest: T) {
         self.gap = gap_after(self.gap, dt, longest);
