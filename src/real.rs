@@ -36,6 +36,8 @@ pub(crate) mod sealed {
         /// Whether it is above zero and at most `longest`, a number above zero: one comparison
         /// of bits, which those of negative numbers, infinities and NaN fail.
         fn positive_up_to(self, longest: Self) -> bool;
+        /// Whether it is above zero and below the highest float, likewise.
+        fn positive_below_highest(self) -> bool;
     }
 
     impl Sealed for f32 {
@@ -82,6 +84,10 @@ pub(crate) mod sealed {
         fn positive_up_to(self, longest: Self) -> bool {
             self.to_bits().wrapping_sub(1) < longest.to_bits()
         }
+        #[inline]
+        fn positive_below_highest(self) -> bool {
+            self.to_bits().wrapping_sub(1) < Self::MAX.to_bits() - 1
+        }
     }
 
     impl Sealed for f64 {
@@ -127,6 +133,10 @@ pub(crate) mod sealed {
         #[inline]
         fn positive_up_to(self, longest: Self) -> bool {
             self.to_bits().wrapping_sub(1) < longest.to_bits()
+        }
+        #[inline]
+        fn positive_below_highest(self) -> bool {
+            self.to_bits().wrapping_sub(1) < Self::MAX.to_bits() - 1
         }
     }
 
@@ -317,6 +327,13 @@ mod tests {
             }
             for x in [0.0, -0.0, f32::INFINITY, f32::NAN, -f32::NAN, f32::NEG_INFINITY] {
                 prop_assert!(!x.positive_up_to(f32::MAX) && !f64::from(x).positive_up_to(f64::MAX));
+            }
+            for x in [dt, f32::from_bits(bits), f32::MAX, f32::MAX.next_down(), 0.0, -0.0] {
+                let is_one = x > 0.0 && x < f32::MAX;
+                prop_assert_eq!(x.positive_below_highest(), is_one);
+            }
+            for x in [f64::MAX, f64::MAX.next_down(), f64::INFINITY, f64::NAN, -1.0, 1.0] {
+                prop_assert_eq!(x.positive_below_highest(), x > 0.0 && x < f64::MAX);
             }
             prop_assert!(f32::from_bits(1).positive_up_to(longest) && f64::from_bits(1).positive_up_to(1.0));
         }

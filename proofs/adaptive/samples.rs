@@ -37,6 +37,11 @@ fn any_rate<T: Real>(_: &Derivative<T>, state: &mut DerivativeState<T>, _: T, _:
     state.rate()
 }
 
+/// The same for the filter's own function.
+fn any_followed<T: Real>(filter: &Derivative<T>, state: &mut DerivativeState<T>, x: T, dt: T) {
+    let _ = any_rate(filter, state, x, dt);
+}
+
 /// What `a_bad_rate_shows` proves of the literal form's virtual command, and no more.
 fn any_command_of_a_rate<T: Real, const N: usize>(
     _: &Adaptive<T, N>,
@@ -326,18 +331,20 @@ fn a_bad_rate_shows() {
 /// K1. Literal form, two regressors: where the law's command is finite, so is the filtered rate
 /// that stays.
 ///
-/// Assumes: nothing of gains or sample; a valid state, any filtered rate, the virtual command as
-/// by a_bad_rate_shows, beta_hat above zero as its box demands.
+/// Assumes: nothing of gains; a sample whose error is finite, as the step demands before; a valid
+/// state, any filtered rate, the virtual command as by a_bad_rate_shows, beta_hat above zero as
+/// its box demands.
 #[kani::proof]
 #[kani::unwind(5)]
 #[kani::stub(libm::tanhf, stubs::tanhf)]
-#[kani::stub(Derivative::step, any_rate)]
+#[kani::stub(Derivative::follow, any_followed)]
 #[kani::stub(Adaptive::virtual_command, any_command_of_a_rate)]
 fn a_command_has_a_rate() {
     let time_constant = kani::any();
     let law = law::<2>(Form::Literal { time_constant }, SmoothSign::Tanh);
     let (state, input) = (state(&law), input());
     kani::assume(law.settings.beta.low > 0.0);
+    kani::assume((input.measured - input.reference).is_finite());
     let of = law.evaluated(&state, &input);
     kani::cover!(of.error_rate != state.error_rate && of.terms.unlimited == 3.0);
     kani::cover!(!of.error_rate.is_finite());

@@ -1,6 +1,6 @@
 //! A derivative that survives noise, jitter and bad samples.
 
-use crate::error::finite;
+use crate::error::{finite, rarely};
 use crate::{Error, Real};
 
 /// First-order filtered derivative with a time constant \[s\].
@@ -87,21 +87,29 @@ impl<T: Real> Derivative<T> {
     /// rate that overflows leaves the state and returns the rate that was.
     #[inline]
     pub fn step(&self, state: &mut DerivativeState<T>, sample: T, dt: T) -> T {
-        if !sample.is_finite() {
-            return state.rate;
+        if sample.is_finite() {
+            self.follow(state, sample, dt);
         }
+        state.rate
+    }
+
+    /// The same of a sample that is finite.
+    #[inline]
+    pub(crate) fn follow(&self, state: &mut DerivativeState<T>, sample: T, dt: T) {
         let Some(last) = state.last else {
             state.last = Some(sample);
-            return state.rate;
+            return;
         };
-        if dt > T::ZERO && dt.is_finite() {
-            let rate = self.after(state.rate, sample - last, dt);
+        if dt.positive_below_highest() {
+            let rate = self.quotient(state.rate, sample - last, dt);
             if rate.is_finite() {
                 state.rate = rate;
                 state.last = Some(sample);
             }
+        } else if dt == T::HIGHEST && state.rate.is_finite() {
+            rarely();
+            state.last = Some(sample);
         }
-        state.rate
     }
 
     /// The filtered rate after the signal has moved by `change` in `dt > 0`; the rate as it
@@ -109,10 +117,15 @@ impl<T: Real> Derivative<T> {
     #[inline]
     pub(crate) fn after(&self, rate: T, change: T, dt: T) -> T {
         if dt < T::HIGHEST {
-            (self.time_constant * rate + change) / (self.time_constant + dt)
+            self.quotient(rate, change, dt)
         } else {
             rate
         }
+    }
+
+    #[inline]
+    fn quotient(&self, rate: T, change: T, dt: T) -> T {
+        (self.time_constant * rate + change) / (self.time_constant + dt)
     }
 }
 

@@ -32,7 +32,16 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
                 return Output { command, status };
             }
         }
-        self.exception(state, input)
+        // Number by number, so that the sample of a good step stays in registers.
+        let sample = AdaptiveInput {
+            dt: input.dt,
+            reference: input.reference,
+            next_reference: input.next_reference,
+            measured: input.measured,
+            regressors: input.regressors,
+            feed_forward: input.feed_forward,
+        };
+        self.exception(state, &sample)
     }
 
     /// The same, and every term for telemetry: [`terms`](Self::terms) before the step.
@@ -75,8 +84,8 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// The command of a good sample, which moves the state; `None`, and nothing has moved,
     /// where a number cannot be used or the law overflows.
     ///
-    /// Not inlined: the exceptions call it too, and a copy is 2 KB of flash.
-    #[inline(never)]
+    /// Inlined where the usual step calls it; the exceptions have their own copy.
+    #[inline(always)]
     pub(super) fn advance(
         &self,
         state: &mut AdaptiveState<T, N>,
@@ -146,6 +155,18 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         Some(command)
     }
 
+    /// [`advance`](Self::advance) for the exceptions: one copy for all of them.
+    #[cold]
+    #[inline(never)]
+    fn advance_again(
+        &self,
+        state: &mut AdaptiveState<T, N>,
+        input: &AdaptiveInput<T, N>,
+        frozen: bool,
+    ) -> Option<T> {
+        self.advance(state, input, frozen)
+    }
+
     /// A bad sample, a dropped regressor, a latched safe command, or the first good sample
     /// after one.
     #[cold]
@@ -179,7 +200,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         let (live, dropped) = self.without_dropped(input)?;
         let frozen = self.settings.frozen || dropped.is_some();
         let command = if state.held.is_closed() {
-            self.advance(state, &live, frozen)
+            self.advance_again(state, &live, frozen)
         } else {
             self.close(state, &live, frozen)
         };
@@ -196,11 +217,17 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         live: &AdaptiveInput<T, N>,
         frozen: bool,
     ) -> Option<T> {
-        let mut next = self.returned(state, live);
-        let command = self.advance(&mut next, live, frozen)?;
-        next.held.latch = Latch::Closed;
-        *state = next;
-        Some(command)
+        let (z, error_rate) = (state.z, state.error_rate);
+        let (lag, gap, command) = (state.lag, state.gap, state.held.command);
+        self.go_back(state, live);
+        let next = self.advance_again(state, live, frozen);
+        if next.is_some() {
+            state.held.latch = Latch::Closed;
+        } else {
+            (state.z, state.error_rate) = (z, error_rate);
+            (state.lag, state.gap, state.held.command) = (lag, gap, command);
+        }
+        next
     }
 
     /// The state from which the first good sample after a safe command goes on.
@@ -210,15 +237,22 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         live: &AdaptiveInput<T, N>,
     ) -> AdaptiveState<T, N> {
         let mut next = *state;
-        next.held.command = self.settings.limits.confine(state.held.command);
+        self.go_back(&mut next, live);
+        next
+    }
+
+    /// Takes a state there: z, rate, lag, gap and command. A call, for its bisection needs a stack
+    /// of its own.
+    #[inline(never)]
+    fn go_back(&self, state: &mut AdaptiveState<T, N>, live: &AdaptiveInput<T, N>) {
+        state.held.command = self.settings.limits.confine(state.held.command);
         match self.settings.form {
-            Form::Literal { .. } => self.settle(&mut next, live),
+            Form::Literal { .. } => self.settle(state, live),
             Form::Lag { .. } => {
-                next.gap = T::ZERO;
-                next.lag = Compensated::new(next.held.command - live.feed_forward);
+                state.gap = T::ZERO;
+                state.lag = Compensated::new(state.held.command - live.feed_forward);
             }
         }
-        next
     }
 
     /// The sample without the regressors that may be dropped, and the first that was.
@@ -270,7 +304,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         let mut rate = state.error_rate;
         if let Form::Literal { time_constant } = settings.form {
             let filter = Derivative::assumed(time_constant);
-            filter.step(&mut rate, error, input.dt + state.gap);
+            filter.follow(&mut rate, error, input.dt + state.gap);
         }
         let mut terms = AdaptiveTerms {
             error,
