@@ -263,10 +263,36 @@ impl<T: Real, const N: usize> Model<T, N> {
     }
 
     /// The first term that cannot read what it needs from this sample.
+    #[inline]
     pub(crate) fn first_blind_term(&self, at: &Sample<T>) -> Option<usize> {
+        if self.sees_all(at) {
+            None
+        } else {
+            self.search_blind_term(at)
+        }
+    }
+
+    /// Whether every number that a term may read is finite. It is in the usual sample, and then
+    /// no effect has to be asked what it reads.
+    #[inline]
+    fn sees_all(&self, at: &Sample<T>) -> bool {
+        let mut sees = at.dt.is_finite() && at.dt >= T::ZERO && at.load.is_finite();
+        sees &= is_finite(&at.input);
+        for term in self.terms() {
+            sees &= motion(term.source, at).is_some_and(is_finite);
+        }
+        sees
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn search_blind_term(&self, at: &Sample<T>) -> Option<usize> {
+        let mut there = around(at, T::ZERO, T::ZERO);
         self.terms().iter().position(|term| {
-            !situation(term, at, T::zero(), T::zero())
-                .is_some_and(|situation| situation.is_usable(term.effect.info().reads))
+            !seen(term.source, term.origin, at).is_some_and(|motion| {
+                there.motion = motion;
+                there.is_usable(term.effect.info().reads)
+            })
         })
     }
 
@@ -283,14 +309,12 @@ impl<T: Real, const N: usize> Model<T, N> {
     ) -> [T; N] {
         let mut shares = [T::zero(); N];
         state.tick(at.dt);
+        let around = around(at, state.time.value, eta);
         let places = self.terms().iter().zip(&mut state.effects).enumerate();
         for ((index, (term, memory)), share) in places.zip(&mut shares) {
-            let seen = Term {
-                origin: T::zero(),
-                ..*term
-            };
-            if let Some(there) = situation(&seen, at, state.time.value, eta) {
-                let mut there = own(index, there);
+            // The origin is subtracted behind `own`.
+            if let Some(motion) = seen(term.source, T::ZERO, at) {
+                let mut there = own(index, Situation { motion, ..around });
                 there.motion.position = saturate(there.motion.position - term.origin);
                 *share = saturate(term.gain * term.effect.regressor(memory, &there));
             }
@@ -351,6 +375,7 @@ impl<T: Real, const N: usize> Model<T, N> {
             }
             None => (T::zero(), T::zero()),
         };
+        let mut there = around(at, state.time.value, eta);
         for stage in [Stage::Sum, Stage::Output] {
             if stage == Stage::Output && !self.stages.output {
                 break;
@@ -360,14 +385,11 @@ impl<T: Real, const N: usize> Model<T, N> {
                 if term.effect.stage() != stage {
                     continue;
                 }
-                let Some(situation) = situation(term, at, state.time.value, eta) else {
+                let Some(motion) = seen(term.source, term.origin, at) else {
                     continue;
                 };
-                let situation = Situation {
-                    output,
-                    ..situation
-                };
-                let part = term.effect.contribution(term.gain, memory, &situation);
+                (there.motion, there.output) = (motion, output);
+                let part = term.effect.contribution(term.gain, memory, &there);
                 output = saturate(output + part);
                 share(index, part);
             }
@@ -378,13 +400,15 @@ impl<T: Real, const N: usize> Model<T, N> {
 
     /// What the input stages make of the input.
     fn staged_input(&self, state: &mut ModelState<T, N>, at: &Sample<T>) -> T {
+        let mut there = around(at, state.time.value, T::ZERO);
         let places = self.terms().iter().zip(&mut state.effects);
         let stages = places.filter(|(term, _)| term.effect.is_input_stage());
         stages.fold(at.input.position, |moved, (term, memory)| {
-            match situation(term, at, state.time.value, T::zero()) {
-                Some(there) => saturate(moved + term.gain * term.effect.regressor(memory, &there)),
-                None => moved,
-            }
+            let Some(motion) = seen(term.source, term.origin, at) else {
+                return moved;
+            };
+            there.motion = motion;
+            saturate(moved + term.gain * term.effect.regressor(memory, &there))
         })
     }
 }
@@ -398,27 +422,33 @@ fn motion<'a, T>(source: Source, at: &'a Sample<T>) -> Option<&'a Motion<T>> {
     }
 }
 
-/// What one term sees of the sample, or nothing where its channel is missing.
+/// Whether each number of a motion is finite.
 #[inline]
-fn situation<T: Real, E>(
-    term: &Term<T, E>,
-    at: &Sample<T>,
-    time: T,
-    eta: T,
-) -> Option<Situation<T>> {
-    let mut motion = *motion(term.source, at)?;
+fn is_finite<T: Real>(motion: &Motion<T>) -> bool {
+    motion.position.is_finite() && motion.velocity.is_finite() && motion.acceleration.is_finite()
+}
+
+/// What one term's source says of the sample, or nothing where its channel is missing.
+#[inline]
+fn seen<T: Real>(source: Source, origin: T, at: &Sample<T>) -> Option<Motion<T>> {
+    let mut motion = *motion(source, at)?;
     // A difference that overflows is a far place; a bad position stays a bad one.
     if motion.position.is_finite() {
-        motion.position = saturate(motion.position - term.origin);
+        motion.position = saturate(motion.position - origin);
     }
-    let (dt, input, load) = (at.dt, at.input, at.load);
-    Some(Situation {
-        dt,
+    Some(motion)
+}
+
+/// What all terms see of the sample; the motion is each term's own.
+#[inline]
+fn around<T: Real>(at: &Sample<T>, time: T, eta: T) -> Situation<T> {
+    Situation {
+        dt: at.dt,
         time,
-        motion,
-        input,
-        load,
+        motion: at.input,
+        input: at.input,
+        load: at.load,
         eta,
-        output: T::zero(),
-    })
+        output: T::ZERO,
+    }
 }

@@ -268,10 +268,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         at: &CompensatorInput<T>,
     ) -> CompensatorOutput<T> {
         let (status, effects) = match self.advance(state, at) {
-            Ok((next, effects)) => {
-                *state = next;
-                (Status::Good, effects)
-            }
+            Ok(effects) => (Status::Good, effects),
             Err(fault) => {
                 state.bad = state.bad.saturating_add(1);
                 (Status::Held(fault), T::zero())
@@ -285,12 +282,13 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         }
     }
 
-    /// The state after a good sample and the share of the effects, or what is wrong.
+    /// Moves the state by a good sample and returns the share of the effects; or what is wrong, and
+    /// nothing has moved.
     fn advance(
         &self,
-        state: &CompensatorState<T, N>,
+        state: &mut CompensatorState<T, N>,
         at: &CompensatorInput<T>,
-    ) -> Result<(CompensatorState<T, N>, T), Fault> {
+    ) -> Result<T, Fault> {
         let (dt, desired) = (at.dt, at.desired);
         let fault = fault_of_dt(dt, self.longest_dt)
             .or_else(|| first_fault(&[(desired, Fault::Reference)]));
@@ -307,22 +305,24 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         if let Some(term) = self.effects.first_blind_term(&sample) {
             return Err(Fault::Regressor(u8::try_from(term).unwrap_or(u8::MAX)));
         }
-        let mut next = *state;
-        next.bad = 0;
+        let before = state.effects;
         let confine = |term, there| self.confined(term, there);
+        let eta = state.eta();
         let shares = self
             .effects
-            .effects(&mut next.effects, &sample, state.eta(), confine);
+            .effects(&mut state.effects, &sample, eta, confine);
         let effects = shares.iter().fold(T::zero(), |sum, &share| sum + share);
         let target = desired - effects;
         // The inverse holds what is out of the reach of floats; here that must be told.
         let cable = &self.transmission;
         let most = target.abs() + cable.offset().abs() + cable.kappa_eta().abs();
         if !(T::of(2.0) * most / cable.gain()).is_finite() {
+            state.effects = before;
             return Err(Fault::Overflow);
         }
-        self.inverse.step(&mut next.hysteresis, target);
-        Ok((next, effects))
+        self.inverse.step(&mut state.hysteresis, target);
+        state.bad = 0;
+        Ok(effects)
     }
 
     /// What a term sees, within the bench's ranges.
