@@ -24,7 +24,7 @@ use crate::ledger::{Ledger, Round};
 use crate::model::catalogue::Candidate;
 use crate::model::structure::FitTerm;
 use crate::problem::Prepared;
-use model::{Model, Placed};
+use model::{Beside, Model};
 use serde::Serialize;
 
 /// A planned experiment and what it is expected to show.
@@ -74,28 +74,22 @@ struct Apart {
     left: f64,
 }
 
-fn apart(
-    placed: &Placed<'_>,
-    term: &FitTerm,
-    rival: &FitTerm,
-    gain: impl Fn(f64) -> f64,
-) -> Option<Apart> {
-    let own = placed.span.off(placed.column(term)?);
-    let rest = placed.span_with(rival)?.off(own.clone());
-    let (whole, part) = (own.norm(), rest.norm());
+fn apart(effect: &Beside, rival: &Beside, gain: f64) -> Option<Apart> {
+    let rest = rival.span.off(effect.own.clone());
+    let (whole, part) = (effect.own.norm(), rest.norm());
     if whole.is_nan() || whole <= 0.0 {
         return None;
     }
     Some(Apart {
         correlation: imitated(whole, part),
-        left: gain(part) / (rest.len() as f64).sqrt(),
+        left: part * gain.abs() / (rest.len() as f64).sqrt(),
     })
 }
 
-/// The two directions of a pair, the worse of each figure.
-fn pair(placed: &Placed<'_>, a: (&FitTerm, f64), b: (&FitTerm, f64)) -> Option<Apart> {
-    let there = apart(placed, a.0, b.0, |n| n * a.1.abs())?;
-    let back = apart(placed, b.0, a.0, |n| n * b.1.abs())?;
+/// The two directions of a pair of effects with their gains, the worse of each figure.
+fn pair(a: (&Beside, f64), b: (&Beside, f64)) -> Option<Apart> {
+    let there = apart(a.0, b.0, a.1)?;
+    let back = apart(b.0, a.0, b.1)?;
     Some(Apart {
         correlation: there.correlation.max(back.correlation),
         left: there.left.min(back.left),
@@ -125,19 +119,22 @@ pub fn separate(data: &Prepared, round: &Round) -> Option<Experiment> {
     let named = &round.solution.structure.terms[last];
     let gain = round.solution.gain(last);
     let here = model.on(data)?;
-    let own = here.span.off(here.column(named)?);
+    let own = here.beside(named)?;
     // A rival is as large as it must be to look like the named one on this record.
     let rivals: Vec<(FitTerm, f64, Apart)> = round
         .rivals
         .iter()
         .filter_map(|rival| {
             let term = refined(data, round, rival)?;
-            let column = here.span.off(here.column(&term)?);
-            let size = gain * own.dot(&column) / column.norm_squared();
-            let now = pair(&here, (named, gain), (&term, size))?;
+            let rival = here.beside(&term)?;
+            let size = gain * own.own.dot(&rival.own) / rival.own.norm_squared();
+            let now = pair((&own, gain), (&rival, size))?;
             size.is_finite().then_some((term, size, now))
         })
         .collect();
+    if rivals.is_empty() {
+        return None;
+    }
     let noise = round.after.fit.max(f64::MIN_POSITIVE);
     let tried: Vec<Option<((usize, f64), Experiment)>> = Kind::ALL
         .par_iter()
@@ -147,8 +144,9 @@ pub fn separate(data: &Prepared, round: &Round) -> Option<Experiment> {
             let placed = model.on(&motion)?;
             let mut worst = f64::INFINITY;
             let mut aims = Vec::new();
+            let own = placed.beside(named)?;
             for (term, size, now) in &rivals {
-                let then = pair(&placed, (named, gain), (term, *size))?;
+                let then = pair((&own, gain), (&placed.beside(term)?, *size))?;
                 if then.left.is_nan() || then.left < SEPARATES * noise.max(now.left) {
                     continue;
                 }

@@ -30,6 +30,15 @@ pub(super) struct Placed<'a> {
     pub(super) span: Span,
 }
 
+/// An effect beside a model on a motion.
+pub(super) struct Beside {
+    /// What it adds for a gain of one that the model cannot imitate, on the rows of the fit
+    /// segment.
+    pub(super) own: DVector<f64>,
+    /// All that the model with it can move, its shapes and origin included.
+    pub(super) span: Span,
+}
+
 impl Model {
     /// A fitted model as it is.
     pub(super) fn whole(solution: &Solution) -> Self {
@@ -91,10 +100,19 @@ impl Placed<'_> {
         Some(rows(self.data, &self.data.filtered(&raw)))
     }
 
+    /// An effect beside the model.
+    pub(super) fn beside(&self, term: &FitTerm) -> Option<Beside> {
+        let column = self.column(term)?;
+        Some(Beside {
+            own: self.span.off(column.clone()),
+            span: self.span_with(term, column)?,
+        })
+    }
+
     /// All that the model with that effect can move, its shapes and origin included.
-    pub(super) fn span_with(&self, term: &FitTerm) -> Option<Span> {
+    fn span_with(&self, term: &FitTerm, column: DVector<f64>) -> Option<Span> {
         let mut span = self.span.clone();
-        span.add(self.column(term)?);
+        span.add(column);
         for index in 0..term.effect.shape_names().len() {
             let value = term.effect.shape(index)?;
             let h = 1e-4 * value.abs().max(1e-6);
