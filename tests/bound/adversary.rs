@@ -213,7 +213,7 @@ fn an_adversary_fills_nine_tenths_of_the_box_and_never_leaves_it() {
 }
 
 #[test]
-#[ignore = "slow: bash .ci/run core-tests"]
+#[ignore = "slow: bash .ci/run bound"]
 fn an_adversary_fills_the_box_for_a_million_steps_and_never_leaves_it() {
     both(1_000_000);
 }
@@ -262,7 +262,7 @@ fn an_adversary_that_meets_the_limit_fills_the_box_and_never_leaves_it() {
 }
 
 #[test]
-#[ignore = "slow: bash .ci/run core-tests"]
+#[ignore = "slow: bash .ci/run bound"]
 fn an_adversary_that_meets_the_limit_for_a_million_steps_never_leaves_the_box() {
     at_the_limit(1_000_000);
 }
