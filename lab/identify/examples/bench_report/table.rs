@@ -187,7 +187,7 @@ searching, the final fit and the report.
 const PEERS: &str = "\
 The paper minimises (8) by a genetic algorithm and then by Nelder-Mead, with fourth-order Runge-Kutta,
 and does not state its settings: here a population of 50 and the simplex's usual ones, small, so that
-the ratio is a lower bound (`lab/examples/bench_report/paper.rs`, compiled by the same compiler). Its
+the ratio is a lower bound (`lab/identify/examples/bench_report/paper.rs`, compiled by the same compiler). Its
 instructions are those of one evaluation times the evaluations. SciPy
 (`python3 benches/peers/bouc_wen_scipy.py RECORD.csv`) solves for the linear gains and gets every
 fifth sample, as a mean of five; its evaluations are of one parameter set each. Both fit the six
