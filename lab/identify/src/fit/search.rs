@@ -33,6 +33,7 @@ pub(super) fn evaluate(
     let known = Beforehand {
         last: last.map(|l| &l.raw),
         slopes: true,
+        ..Beforehand::default()
     };
     let raw = raw_columns_knowing(data, structure, free, values, known)?;
     let columns = filtered(data, &raw, last);

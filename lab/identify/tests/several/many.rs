@@ -60,9 +60,17 @@ fn of_as_many_files_as_are_allowed_one_model_finds_what_was_planted() {
     assert_eq!(one.prediction, other.prediction);
 }
 
-/// The transmission, and two effects that remember what was before the record.
+/// The transmission, two effects that remember what was before the record, one that follows the
+/// hysteresis, and a stage behind them all.
 fn with_memory(data: &Prepared) -> (Structure, Vec<Free>, Vec<f64>) {
-    let names = ["bouc-wen", "backlash", "play-in-series"].map(str::to_owned);
+    let names = [
+        "bouc-wen",
+        "backlash",
+        "play-in-series",
+        "asymmetry-eta",
+        "lag",
+    ];
+    let names = names.map(str::to_owned);
     let structure = structure(&names, data).unwrap();
     let free = structure.free(data);
     let value = |f: &Free| match f.role {
@@ -83,7 +91,7 @@ fn with_memory(data: &Prepared) -> (Structure, Vec<Free>, Vec<f64>) {
             let first = channel.motion[data.pieces[record].work.start].position - term.origin;
             -term.effect.shape(0).unwrap() * first.signum()
         }
-        Role::Stage { .. } => 1.0,
+        Role::Stage { .. } => 0.7,
     };
     let values = free.iter().map(value).collect();
     (structure, free, values)
@@ -93,6 +101,19 @@ fn with_memory(data: &Prepared) -> (Structure, Vec<Free>, Vec<f64>) {
 fn own_record(role: Role) -> Option<usize> {
     match role {
         Role::Eta0 { record } | Role::Start { record, .. } => Some(record),
+        _ => None,
+    }
+}
+
+/// The records that a parameter moves, where it is a state at the start or the gap of the play in
+/// series: their slopes are differences of trajectories.
+fn moved(data: &Prepared, structure: &Structure, role: Role) -> Option<std::ops::Range<usize>> {
+    match (role, own_record(role)) {
+        (_, Some(record)) => Some(data.pieces[record].work.clone()),
+        (Role::Shape { term, .. }, _) => {
+            let own = structure.terms.find(term).unwrap();
+            own.effect.is_input_stage().then(|| 0..data.work_len())
+        }
         _ => None,
     }
 }
@@ -108,15 +129,15 @@ fn the_slope_in_the_state_of_one_file_is_that_of_the_output_and_touches_no_other
         .collect();
     let (mut tried, mut moving) = (0, 0);
     for (j, f) in free.iter().enumerate() {
-        let Some(record) = own_record(f.role) else {
+        let Some(work) = moved(&data, &structure, f.role) else {
             continue;
         };
-        let work = data.pieces[record].work.clone();
         let slope = raw.tangent(&moves, j, &gains);
         let is_still = slope.values().is_empty();
         assert!(is_still || slope.range() == work, "{:?}", f.role);
         let step = match f.role {
             Role::Eta0 { .. } => 1e-6,
+            Role::Shape { .. } => 1e-5 * values[j],
             // As the slopes themselves: they are differences, and a play has corners.
             _ => 1e-5 * data.input.reach,
         };
@@ -140,7 +161,7 @@ fn the_slope_in_the_state_of_one_file_is_that_of_the_output_and_touches_no_other
         }
         tried += 1;
     }
-    assert_eq!(tried, 9, "eta0 and two starts of each file");
+    assert_eq!(tried, 10, "eta0 and two starts of each file, and a gap");
     assert_eq!(moving, tried, "each moves something");
 }
 

@@ -57,6 +57,9 @@ pub(crate) struct Beforehand<'a> {
     pub(crate) last: Option<&'a RawColumns>,
     /// Whether the slopes will be asked for as well: they come in one pass with the value.
     pub(crate) slopes: bool,
+    /// Whether only parameters of input stages differ from those of `last`, and the columns
+    /// are asked for as they are before the output stages.
+    pub(crate) behind_input: bool,
 }
 
 /// How the columns move with each free parameter: which columns, and their slopes.
@@ -192,7 +195,8 @@ pub(crate) fn raw_columns_knowing(
         shape = Some((bouc_wen, eta0));
     }
     for (id, term) in terms.with_ids().filter(|(_, t)| t.is_linear()) {
-        let fixed = !term.effect.reads_eta() && !is_searched(free, id);
+        let is_held = known.behind_input || !is_searched(free, id);
+        let fixed = !term.effect.reads_eta() && is_held;
         gathered.push(fixed, || Some(effect_column(data, term, &eta)?.into()))?;
     }
     if let Some(table) = &structure.table {
@@ -206,7 +210,10 @@ pub(crate) fn raw_columns_knowing(
         mut fixed,
         ..
     } = gathered;
-    let mut stages = Stages::of(data, &terms, free, values)?;
+    let mut stages = match known.behind_input {
+        true => Stages::none(data),
+        false => Stages::of(data, &terms, free, values)?,
+    };
     if !stages.list.is_empty() {
         stages.before = columns.clone();
         fixed.fill(false);
@@ -345,7 +352,7 @@ impl RawColumns {
             k += 1;
         }
         let mut moves = Moves(moves);
-        moves.add_series(data, structure, free, values)?;
+        moves.add_series(self, data, structure, (free, values))?;
         Some(moves)
     }
 

@@ -1,6 +1,6 @@
 //! Input stages: what they do to every column, found by differences.
 
-use super::{raw_columns, Moves, RawColumns};
+use super::{raw_columns, raw_columns_knowing, Beforehand, Moves, RawColumns};
 use crate::model::structure::{FitTerm, Free, Role, Structure, TermId};
 use crate::problem::{Prepared, Stretch};
 use std::ops::Range;
@@ -40,20 +40,28 @@ struct Difference {
 }
 
 impl Difference {
+    /// Around the columns `here`; only parameters of input stages may move.
     fn of(
+        here: &RawColumns,
         data: &Prepared,
         structure: &Structure,
         (free, values): (&[Free], &[f64]),
         step: f64,
         is_moved: impl Fn(usize, Role) -> bool,
     ) -> Option<Self> {
+        let known = Beforehand {
+            last: Some(here),
+            behind_input: true,
+            ..Beforehand::default()
+        };
         let at = |sign: f64| {
             let all = free.iter().zip(values).enumerate();
             let moved = all.map(|(j, (f, value))| match is_moved(j, f.role) {
                 true => value + sign * step,
                 false => *value,
             });
-            raw_columns(data, structure, free, &moved.collect::<Vec<f64>>())
+            let moved: Vec<f64> = moved.collect();
+            raw_columns_knowing(data, structure, free, &moved, known)
         };
         Some(Self {
             up: at(1.0)?,
@@ -64,8 +72,9 @@ impl Difference {
 
     /// The slopes on some samples of the columns that move there.
     fn slopes(&self, samples: &Range<usize>) -> Vec<(usize, Stretch)> {
-        let pairs = early(&self.up).iter().zip(early(&self.down));
-        let moving = pairs.enumerate().filter_map(|(k, (a, b))| {
+        let pairs = self.up.columns.iter().zip(&self.down.columns).enumerate();
+        let pairs = pairs.filter(|(_, (a, b))| !Arc::ptr_eq(a, b));
+        let moving = pairs.filter_map(|(k, (a, b))| {
             let (a, b) = (a.cut(samples.clone()), b.cut(samples.clone()));
             let pairs = a.values().iter().zip(b.values());
             let slope = pairs.map(|(a, b)| (a - b) / (2.0 * self.step));
@@ -82,10 +91,10 @@ impl Moves {
     /// records tells the slopes in the states of all of them.
     pub(super) fn add_series(
         &mut self,
+        here: &RawColumns,
         data: &Prepared,
         structure: &Structure,
-        free: &[Free],
-        values: &[f64],
+        (free, values): (&[Free], &[f64]),
     ) -> Option<()> {
         let is_input_stage = |term: TermId| {
             let own = structure.terms.find(term);
@@ -97,7 +106,7 @@ impl Moves {
                 Role::Shape { term, .. } if is_input_stage(term) => {
                     let step = 1e-5 * values[j].abs().max(1e-9);
                     let at = (free, values);
-                    let own = Difference::of(data, structure, at, step, |i, _| i == j)?;
+                    let own = Difference::of(here, data, structure, at, step, |i, _| i == j)?;
                     self.0[j].extend(own.slopes(&(0..data.work_len())));
                 }
                 Role::Start { term, record } if is_input_stage(term) => {
@@ -105,7 +114,8 @@ impl Moves {
                         let step = 1e-5 * data.input.reach;
                         let is_start =
                             |_, role| matches!(role, Role::Start { term: of, .. } if of == term);
-                        let all = Difference::of(data, structure, (free, values), step, is_start)?;
+                        let at = (free, values);
+                        let all = Difference::of(here, data, structure, at, step, is_start)?;
                         of_starts = Some((term, all));
                     }
                     let (_, all) = of_starts.as_ref()?;
