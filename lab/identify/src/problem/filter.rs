@@ -42,11 +42,16 @@ impl Section {
 
 /// Rows that go through one section before the other: few enough to stay in the nearest cache.
 const BLOCK: usize = 64;
-/// What a section remembers below this is taken for zero.
+/// What a recursion remembers below this is taken for zero.
 ///
 /// Where a signal is zero for long, it would otherwise decay to denormal floats, with which each
-/// operation takes many times as long. From here none gets there within a block.
+/// operation takes many times as long. From here no section gets there within a block.
 const SILENT: f64 = 1e-200;
+
+/// Whether a number is taken for zero where a recursion remembers it.
+pub(crate) fn is_silent(value: f64) -> bool {
+    value.abs() < SILENT
+}
 
 /// One section at work on `W` signals abreast.
 struct Running<const W: usize> {
@@ -77,7 +82,7 @@ impl<const W: usize> Running<W> {
             }
         }
         for z in u0.iter_mut().chain(&mut u1) {
-            if z.abs() < SILENT {
+            if is_silent(*z) {
                 *z = 0.0;
             }
         }

@@ -18,6 +18,7 @@
 pub use crate::algebra::Stretch;
 use crate::record::{Column, Defect, Mode};
 use bowden::effect::Motion;
+pub(crate) use filter::is_silent;
 use filter::{derivative, ZeroPhase};
 use rayon::prelude::*;
 use std::ops::Range;

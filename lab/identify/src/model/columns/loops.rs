@@ -2,7 +2,7 @@
 
 use super::effect_column;
 use crate::model::structure::FitTerm;
-use crate::problem::Prepared;
+use crate::problem::{is_silent, Prepared};
 use bowden::hysteresis::{Sensitivity, Shape};
 use rayon::prelude::*;
 
@@ -46,15 +46,24 @@ pub(super) fn trajectory(
 ) -> Vec<Sensitivity<f64>> {
     let mut all = vec![Sensitivity::start(0.0); data.work_len()];
     by_record(data, seen, &mut all, eta0, |seen, all, eta0| {
-        let mut state = Sensitivity::start(eta0);
-        let mut last = seen.first().copied().unwrap_or(0.0);
-        for (slot, &input) in all.iter_mut().zip(seen) {
-            state = shape.advance_with_sensitivity(state, input - last);
-            last = input;
-            *slot = state;
-        }
+        with_slopes(shape, seen, all, eta0);
     });
     all
+}
+
+/// The same along one record, from its state at the start.
+fn with_slopes(shape: &Shape<f64>, seen: &[f64], all: &mut [Sensitivity<f64>], eta0: f64) {
+    let mut state = Sensitivity::start(eta0);
+    let mut last = seen.first().copied().unwrap_or(0.0);
+    for (slot, &input) in all.iter_mut().zip(seen) {
+        state = shape.advance_with_sensitivity(state, input - last);
+        // What the state at the start still does fades along the path.
+        if is_silent(state.d_eta0) {
+            state.d_eta0 = 0.0;
+        }
+        last = input;
+        *slot = state;
+    }
 }
 
 /// Walks along each record by itself, several at a time: what it sees, what becomes of it, and
@@ -75,4 +84,28 @@ fn by_record<T: Send>(
     }
     own.into_par_iter()
         .for_each(|(seen, one, eta0)| walk(seen, one, eta0));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_state_at_the_start_fades_to_zero_and_not_to_denormal_floats() {
+        let shape = Shape::try_new(2.0, 0.8, 1.5).unwrap();
+        let seen: Vec<f64> = (0..90_000).map(|i| (0.01 * f64::from(i)).sin()).collect();
+        let mut all = vec![Sensitivity::start(0.0); seen.len()];
+        with_slopes(&shape, &seen, &mut all, 0.3);
+        assert!(all[0].d_eta0 == 1.0 && all[20].d_eta0 > 0.0);
+        assert!(all.iter().all(|s| !s.d_eta0.is_subnormal()));
+        assert_eq!(all[60_000].d_eta0, 0.0);
+        // Nothing else has changed.
+        let (mut state, mut last) = (Sensitivity::start(0.3), seen[0]);
+        for (slot, &input) in all.iter().zip(&seen) {
+            state = shape.advance_with_sensitivity(state, input - last);
+            last = input;
+            let slopes = |s: &Sensitivity<f64>| (s.eta, s.d_rho, s.d_sigma, s.d_n);
+            assert_eq!(slopes(slot), slopes(&state));
+        }
+    }
 }

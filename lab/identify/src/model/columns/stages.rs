@@ -2,7 +2,7 @@
 
 use super::{weighted, RawColumns};
 use crate::model::structure::{FitTerm, Free, Role, Terms};
-use crate::problem::{Prepared, Stretch};
+use crate::problem::{is_silent, Prepared, Stretch};
 use bowden::effect::{Effect, EffectState, Situation};
 use std::cell::Cell;
 use std::ops::Range;
@@ -89,12 +89,13 @@ impl Stages {
 
     /// The regressor of a stage: its slope in the gain at a gain of zero.
     pub(super) fn alone(&self, effect: &Effect<f64>, output: &[f64]) -> Vec<f64> {
-        let mut column = Vec::with_capacity(output.len());
+        let mut column = output.to_vec();
         for record in &self.records {
-            let samples = output[record.clone()].iter();
-            let samples = samples.map(|&output| sample(self.dt, output));
-            let push = |value| column.push(value);
-            effect.regressors(&mut EffectState::default(), samples, push);
+            in_blocks(&mut column[record.clone()], |state, block| {
+                let mut own = block.iter();
+                let take = |value| put(own.next(), |_| value);
+                effect.regressors(state, samples(block, self.dt), take);
+            });
         }
         column
     }
@@ -116,27 +117,52 @@ impl Stages {
     }
 }
 
-/// One sample of what an output stage reads.
-fn sample(dt: f64, output: f64) -> Situation<f64> {
-    Situation {
-        dt,
-        output,
-        ..Situation::default()
+/// output += what the stage adds at that gain, along one record.
+fn apply_stage(effect: &Effect<f64>, gain: f64, column: &mut [f64], dt: f64) {
+    in_blocks(column, |state, block| {
+        let mut own = block.iter();
+        let add = |part| put(own.next(), |output| output + part);
+        effect.contributions(gain, state, samples(block, dt), add);
+    });
+}
+
+/// Samples after which a stage is asked whether it is silent.
+const BLOCK: usize = 256;
+
+/// Sends a record through a stage block by block, and lets the stage forget what it remembers
+/// where it is silent: as in the filter, it would decay to denormal floats.
+fn in_blocks(record: &mut [f64], mut through: impl FnMut(&mut EffectState<f64>, &[Cell<f64>])) {
+    let is_all_silent = |block: &[Cell<f64>]| block.iter().all(|v| is_silent(v.get()));
+    let mut state = EffectState::default();
+    let mut rest = Cell::from_mut(record).as_slice_of_cells();
+    while !rest.is_empty() {
+        let (block, next) = rest.split_at(BLOCK.min(rest.len()));
+        let had_input = !is_all_silent(block);
+        through(&mut state, block);
+        // A stage that has seen no sample takes the first one for what has always been.
+        let has_input = next.first().is_some_and(|v| !is_silent(v.get()));
+        if !had_input && !has_input && is_all_silent(block) {
+            block.iter().for_each(|v| v.set(0.0));
+            state = EffectState::default();
+        }
+        rest = next;
     }
 }
 
-/// output += what the stage adds at that gain, along one record.
-fn apply_stage(effect: &Effect<f64>, gain: f64, column: &mut [f64], dt: f64) {
-    let column = Cell::from_mut(column).as_slice_of_cells();
-    let samples = column.iter().map(|output| sample(dt, output.get()));
-    // Each sample is read just before its own part is added.
-    let mut own = column.iter();
-    let add = |part| {
-        if let Some(value) = own.next() {
-            value.set(value.get() + part);
-        }
-    };
-    effect.contributions(gain, &mut EffectState::default(), samples, add);
+/// What an output stage reads of a block. Each sample is read just before it is replaced.
+fn samples(block: &[Cell<f64>], dt: f64) -> impl Iterator<Item = Situation<f64>> + '_ {
+    block.iter().map(move |output| Situation {
+        dt,
+        output: output.get(),
+        ..Situation::default()
+    })
+}
+
+/// Replaces one sample of a block.
+fn put(slot: Option<&Cell<f64>>, change: impl FnOnce(f64) -> f64) {
+    if let Some(slot) = slot {
+        slot.set(change(slot.get()));
+    }
 }
 
 impl RawColumns {
@@ -196,4 +222,71 @@ pub(crate) fn by_stage(raw: &RawColumns, output: Vec<f64>) -> Vec<Vec<f64>> {
         changes.push(change.collect());
     }
     changes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DT: f64 = 0.01;
+
+    /// A column that is zero for `silence` samples, between two stretches on which it is not.
+    fn interrupted(silence: usize) -> Vec<f64> {
+        let wave = |i: i32| 3.0 + (0.3 * f64::from(i)).sin();
+        let rest = std::iter::repeat_n(0.0, silence);
+        (0..100)
+            .map(wave)
+            .chain(rest)
+            .chain((0..100).map(wave))
+            .collect()
+    }
+
+    fn stages() -> impl Iterator<Item = (Effect<f64>, f64)> {
+        // From a decay within a few samples to one over a hundred, and one that alternates.
+        let lags = [0.004, 0.02, 1.0].map(|tau| Effect::try_from_name("lag", &[tau]).unwrap());
+        let lags = lags.into_iter().flat_map(|lag| [(lag, 1.0), (lag, 0.3)]);
+        let delays = [-0.004, 0.003, 0.01, 0.035].map(|gain| (Effect::Delay, gain));
+        lags.chain(delays)
+    }
+
+    #[test]
+    fn blocks_change_nothing_but_what_is_silent() {
+        // The second stretch begins at each place of a block.
+        for silence in 6000..6000 + BLOCK {
+            for (effect, gain) in stages() {
+                let column = interrupted(silence);
+                let mut state = EffectState::default();
+                let expected = column.iter().map(|&output| {
+                    let at = Situation {
+                        dt: DT,
+                        output,
+                        ..Situation::default()
+                    };
+                    output + effect.contribution(gain, &mut state, &at)
+                });
+                let expected: Vec<f64> = expected.collect();
+                let mut staged = column.clone();
+                apply_stage(&effect, gain, &mut staged, DT);
+                for (i, (a, b)) in staged.iter().zip(&expected).enumerate() {
+                    let is_equal = a == b || is_silent(*a) && is_silent(*b);
+                    assert!(
+                        is_equal,
+                        "{effect:?} {gain}, {silence}, at {i}: {a}, not {b}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn where_a_column_is_silent_a_stage_leaves_nothing_denormal() {
+        for (effect, gain) in stages() {
+            let mut column = interrupted(200_000);
+            apply_stage(&effect, gain, &mut column, DT);
+            let denormal = column.iter().filter(|v| v.is_subnormal()).count();
+            // A decay may reach them within the block in which it becomes silent.
+            assert!(denormal <= BLOCK, "{effect:?} {gain}: {denormal}");
+            assert_eq!(column[150_000], 0.0, "{effect:?} {gain}");
+        }
+    }
 }
