@@ -16,6 +16,7 @@
 //! * [`power_law`]: a power law of the velocity is told from viscous and Coulomb friction.
 //! * [`late`]: a delay has its size at every cut-off.
 //! * [`stretch`]: the stretch of a cable is one name beside the two angles.
+//! * [`torque_alone`]: without an angle in the record, viscous friction follows the torque's rate.
 //! * [`turned`]: a sensor or a scale that was mounted the other way round changes signs, no names.
 //! * [`exported`]: what was fitted is what runs in firmware.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
@@ -34,5 +35,6 @@ mod recovery;
 mod rig;
 mod series;
 mod stretch;
+mod torque_alone;
 mod turned;
 mod unneeded;

@@ -79,6 +79,9 @@ pub(crate) enum Place {
     Joint,
     /// The input of the torque mode.
     Torque,
+    /// The same, in a record of nothing that moves. With an elastic load the torque's rate is what
+    /// there is of a velocity.
+    TorqueAlone,
     /// The stretch of a cable.
     Stretch,
     /// A temperature.
@@ -241,6 +244,14 @@ fn info(name: &str) -> Option<&'static Info> {
 /// A joint that covers less than this about its middle does not show gravity \[rad\].
 const LEAST_SWING: f64 = 0.3;
 
+/// Whether anything in a record moves.
+fn moves(data: &Prepared) -> bool {
+    let is_motion = |(index, channel): (usize, &Channel)| {
+        kind(data.mode, Source::Channel(index as u8), channel) == Kind::Motion
+    };
+    data.channels.iter().enumerate().any(is_motion)
+}
+
 impl Place {
     /// Whether a channel of that kind is such a place.
     pub(crate) fn is(self, data: &Prepared, source: Source, channel: &Channel) -> bool {
@@ -261,6 +272,7 @@ impl Place {
                     && channel.reach > LEAST_SWING
             }
             Self::Torque => kind == Kind::Torque,
+            Self::TorqueAlone => kind == Kind::Torque && !moves(data),
             Self::Stretch => kind == Kind::Stretch,
             Self::Temperature => kind == Kind::Temperature,
             Self::Other => matches!(kind, Kind::Load | Kind::Other),

@@ -27,7 +27,10 @@ pub(super) const MOTION: &[Entry] = &[
     Entry {
         name: "viscous",
         rank: 2,
-        tried: &[on(Place::Motion, AS_IT_IS)],
+        tried: &[
+            on(Place::Motion, AS_IT_IS),
+            on(Place::TorqueAlone, AS_IT_IS),
+        ],
         shown_by: "speeds that vary tenfold",
         takes_energy: true,
         ..PLAIN
