@@ -1,5 +1,5 @@
 //! The closing sentence on files that a newcomer has: the wrong cable, the wrong column, a
-//! plant that integrates, a stretch that is like no other.
+//! plant that integrates, a stretch that is like no other, a model that firmware spoils.
 //!
 //! The records are made here or by the program's own generator, and altered here; neither
 //! shares code with the fit.
@@ -9,6 +9,7 @@ mod carries_over;
 mod compare;
 mod files;
 mod no_model;
+mod on_a_chip;
 mod reading;
 #[allow(dead_code)]
 #[path = "../shell/mod.rs"]

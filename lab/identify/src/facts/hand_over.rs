@@ -1,6 +1,7 @@
 //! The model for firmware: its parts, its errors there, its inverse.
 
 use super::model::effects;
+use crate::conclude::verdict::percent;
 use crate::export::hand_over::HandOver;
 use crate::export::invertible::FeedForward;
 use crate::export::LeftOut;
@@ -28,6 +29,25 @@ pub struct HandOverFacts {
     pub time_constant: f64,
     /// Whether it can serve as a feed-forward.
     pub feed_forward: FeedForward,
+}
+
+/// Share of the output's standard deviation from which an error of firmware is told ...
+const NOTABLE: f64 = 0.05;
+/// ... where it is so many times that of the fit. Both are a choice; three of the ten measured rows
+/// are told of, the positioning drive with its inertia and a cable tool.
+const OFF: f64 = 2.0;
+
+/// What somebody must know of a model in firmware who reads nothing but the verdict: the fit has
+/// velocities without phase, a chip has not.
+pub(super) fn warning(hand: &HandOver) -> Option<String> {
+    let (fit, firmware) = (hand.nrmse.held_out, hand.causal.held_out);
+    (firmware > NOTABLE && firmware > OFF * fit).then(|| {
+        format!(
+            "In firmware, sample by sample with causal velocities, the held-out error is {} instead of {}.",
+            percent(firmware),
+            percent(fit)
+        )
+    })
 }
 
 impl HandOverFacts {

@@ -1,6 +1,6 @@
 //! The facts of a closed record.
 
-use super::hand_over::HandOverFacts;
+use super::hand_over::{warning, HandOverFacts};
 use super::model::{FinalFacts, ModelFacts};
 use super::record::{channel_name, RecordFacts};
 use super::round::{fits, RoundFacts};
@@ -165,6 +165,10 @@ impl Facts {
             gate: r.gate,
         });
         let unknown = ledger.unknown.as_ref();
+        let found = verdict(data, ledger, done);
+        let is_model = !matches!(found, Verdict::NoModel | Verdict::DoesNotCarryOver);
+        let in_firmware = hand.ok().filter(|_| is_model).and_then(warning);
+        let words = std::iter::once(sentence(data, ledger, done)).chain(in_firmware);
         let mut rounds = rounds(data, ledger, done, &last, detail);
         let beyond = rounds.split_off(ledger.rounds.len());
         Self {
@@ -189,8 +193,8 @@ impl Facts {
             stopped_by_request: ledger.stopped_by_request,
             stopped_by_budget: ledger.stopped_by_budget,
             correlated_for: (ledger.regime == Regime::Effect).then_some(ledger.correlation_time),
-            verdict: verdict(data, ledger, done),
-            sentence: sentence(data, ledger, done),
+            verdict: found,
+            sentence: words.collect::<Vec<_>>().join(" "),
             last,
         }
     }
