@@ -36,8 +36,8 @@ fn what_firmware_loses_of_the_fit_is_told_with_both_errors() {
     let closed = moved(0.05);
     let error = |of: &str| 100.0 * closed.json["final"][of]["held_out"].as_f64().unwrap();
     let (fit, firmware) = (error("nrmse"), error("causal_nrmse"));
-    // Two low-passes in a row, whose cut-off is eight times the faster tone, hold it back by
-    // 2·atan(1/8) of a turn in radians: a quarter of the part of the mass.
+    // The acceleration passes two low-passes, whose cut-off is eight times the faster tone: it is
+    // late by 2·atan(1/8) = 0.25 rad, an error of a quarter of the inertial force.
     assert!(fit < 1.0 && firmware > 5.0, "{fit} {firmware}");
     closed.says(&[&format!(
         "In firmware, sample by sample with causal velocities, the held-out error is {firmware:.2} % instead of {fit:.2} %."

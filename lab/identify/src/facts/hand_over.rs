@@ -31,10 +31,11 @@ pub struct HandOverFacts {
     pub feed_forward: FeedForward,
 }
 
-/// Share of the output's standard deviation from which an error of firmware is told ...
+/// Least error in firmware that the sentence mentions, as a share of the output's standard
+/// deviation ...
 const NOTABLE: f64 = 0.05;
-/// ... where it is so many times that of the fit. Both are a choice; three of the ten measured rows
-/// are told of, the positioning drive with its inertia and a cable tool.
+/// ... and its least multiple of the error of the fit. Both are a choice: of the ten measured rows
+/// three get the warning, the positioning drive, whose force is mostly inertia, and a cable tool.
 const OFF: f64 = 2.0;
 
 /// What somebody must know of a model in firmware who reads nothing but the verdict: the fit has
