@@ -20,7 +20,10 @@ const LISTED: usize = 3;
 
 /// "tau_o stuck …: lines 120–480, …".
 fn defect_line(defect: &Defect) -> String {
-    let range = |[from, to]: &[usize; 2]| format!("{from}–{to}");
+    let range = |[from, to]: &[usize; 2]| match from == to {
+        true => from.to_string(),
+        false => format!("{from}–{to}"),
+    };
     let mut lines: Vec<String> = defect.ranges.iter().take(LISTED).map(range).collect();
     if defect.ranges.len() > LISTED {
         lines.push(format!("{} more", defect.ranges.len() - LISTED));
@@ -30,8 +33,12 @@ fn defect_line(defect: &Defect) -> String {
     } else {
         ""
     };
+    let noun = match defect.ranges.as_slice() {
+        [[from, to]] if from == to => "line",
+        _ => "lines",
+    };
     format!(
-        "{}: {}{out} (lines {})",
+        "{}: {}{out} ({noun} {})",
         defect.channel,
         defect.message,
         lines.join(", ")

@@ -7,6 +7,7 @@ use crate::export::invertible::FeedForward;
 use crate::export::LeftOut;
 use crate::fit::Segments;
 use crate::problem::Prepared;
+use crate::record::DefectKind;
 
 /// The model of `--model-out`.
 #[derive(Debug, Clone)]
@@ -40,15 +41,33 @@ const OFF: f64 = 2.0;
 
 /// What somebody must know of a model in firmware who reads nothing but the verdict: the fit has
 /// velocities without phase, a chip has not.
-pub(super) fn warning(hand: &HandOver) -> Option<String> {
+pub(super) fn warning(data: &Prepared, hand: &HandOver) -> Option<String> {
     let (fit, firmware) = (hand.nrmse.held_out, hand.causal.held_out);
     (firmware > NOTABLE && firmware > OFF * fit).then(|| {
         format!(
-            "In firmware, sample by sample with causal velocities, the held-out error is {} instead of {}.",
+            "In firmware, sample by sample with causal velocities{}, the held-out error is {} instead of {}.",
+            spikes(data),
             percent(firmware),
             percent(fit)
         )
     })
+}
+
+/// The columns whose spikes reach a model in firmware: no line stands in for them there.
+fn spikes(data: &Prepared) -> String {
+    let read = std::iter::once(&data.input).chain(&data.channels);
+    let spoilt = |name: &str| {
+        let mut spikes = data.defects.iter().filter(|d| d.kind == DefectKind::Spike);
+        spikes.any(|d| d.channel == name)
+    };
+    let names: Vec<&str> = read
+        .map(|channel| channel.name.as_str())
+        .filter(|name| spoilt(name))
+        .collect();
+    match names.is_empty() {
+        true => String::new(),
+        false => format!(" and the spikes of {}", names.join(", ")),
+    }
 }
 
 impl HandOverFacts {

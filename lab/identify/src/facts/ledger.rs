@@ -167,7 +167,8 @@ impl Facts {
         let unknown = ledger.unknown.as_ref();
         let found = verdict(data, ledger, done);
         let is_model = !matches!(found, Verdict::NoModel | Verdict::DoesNotCarryOver);
-        let in_firmware = hand.ok().filter(|_| is_model).and_then(warning);
+        let in_firmware = hand.ok().filter(|_| is_model);
+        let in_firmware = in_firmware.and_then(|hand| warning(data, hand));
         let words = std::iter::once(sentence(data, ledger, done)).chain(in_firmware);
         let mut rounds = rounds(data, ledger, done, &last, detail);
         let beyond = rounds.split_off(ledger.rounds.len());

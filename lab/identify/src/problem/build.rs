@@ -237,7 +237,8 @@ fn place(
     let per_estimation = thinning * stride;
     let period = (1.0 / (cutoff * dt * stride as f64)).ceil() as usize;
     let gaps = uniform.gaps(&record.time, cutoff).into_iter();
-    let blind = blind(record, period, edge)
+    let samples = 1.0 / (cutoff * record.step());
+    let blind = blind(record, (period, samples), edge)
         .map(|(stretch, guard)| (uniform.stretch(&record.time, &stretch), guard));
     // What stands in for a missing stretch is as wrong as the ends are.
     for (gap, guard) in gaps.map(|gap| (gap, edge)).chain(blind) {

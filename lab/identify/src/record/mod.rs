@@ -49,6 +49,7 @@ mod units;
 
 pub use agree::agree;
 pub(crate) use agree::to_unit;
+pub(crate) use defects::bridged;
 pub use defects::{Defect, DefectKind};
 pub use error::RecordError;
 

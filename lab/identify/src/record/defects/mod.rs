@@ -1,9 +1,9 @@
 //! Faults of the measurement that show before anything is fitted.
 //!
-//! A sensor that stands still while the rest moves, one at the end of its range, steps so
-//! coarse that they shape the signal, gaps in time, time stamps that jitter: each
-//! is named with the lines of the file that it spoils. Stretches that hold no measurement
-//! (stuck, clipped) are left out of the fit. A defect is *grave* where that does not save
+//! A sensor that stands still while the rest moves, one at the end of its range, samples that
+//! leap away and back, steps so coarse that they shape the signal, gaps in time, time stamps
+//! that jitter: each is named with the lines of the file that it spoils. Stretches that hold no
+//! measurement (stuck, clipped) are left out of the fit, and a straight line stands in for spikes. A defect is *grave* where that does not save
 //! the conclusion. What belongs to any sensor (noise, a converter's usual steps, a
 //! reference that rests) is no defect.
 
@@ -11,12 +11,15 @@ mod coarse;
 mod companion;
 mod gaps;
 mod jitter;
+mod spikes;
 mod stuck;
 
 use super::rows::Table;
 use super::{clipping, Column};
 use companion::Companion;
 use serde::Serialize;
+use spikes::Leaps;
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// What is wrong.
@@ -33,6 +36,8 @@ pub enum DefectKind {
     Gap,
     /// Bit for bit the same value, although the rest of the record moves.
     Stuck,
+    /// A few samples that leap away from the signal and back.
+    Spike,
 }
 
 impl DefectKind {
@@ -45,6 +50,7 @@ impl DefectKind {
             Self::Jitter => "jitter",
             Self::Gap => "gap",
             Self::Stuck => "stuck",
+            Self::Spike => "spike",
         }
     }
 }
@@ -91,7 +97,7 @@ pub(super) struct Measured<'a> {
 }
 
 /// All defects: time first, then column by column.
-pub(super) fn find(measured: &Measured<'_>) -> Vec<Defect> {
+pub(super) fn find<'a>(measured: &Measured<'a>) -> Vec<Defect> {
     let lines = &measured.table.lines;
     let mut all = Vec::new();
     if let Some(clock) = measured.clock {
@@ -104,39 +110,75 @@ pub(super) fn find(measured: &Measured<'_>) -> Vec<Defect> {
     let [input, output, ..] = measured.columns.as_slice() else {
         return all;
     };
-    let (at_input, at_output) = (
-        Companion::new(&input.values),
-        Companion::new(&output.values),
-    );
-    for (index, column) in measured.columns.iter().enumerate() {
+    let leaps = [Leaps::of(&input.values), Leaps::of(&output.values)];
+    let spikes: Vec<Option<Found>> = (0..measured.columns.len())
+        .map(|index| match index {
+            0 => leaps[0].spikes(&[&leaps[1]], GRAVE_INPUT),
+            1 => leaps[1].spikes(&[&leaps[0]], GRAVE),
+            _ => {
+                let own = Leaps::of(&measured.columns[index].values);
+                own.spikes(&[&leaps[0], &leaps[1]], GRAVE)
+            }
+        })
+        .collect();
+    let calm = |(column, spikes): (&&'a Column, &Option<Found>)| {
+        let stretches = spikes.iter().flat_map(|found| &found.samples);
+        bridged(&column.values, stretches)
+    };
+    let calm: Vec<Cow<[f64]>> = measured.columns.iter().zip(&spikes).map(calm).collect();
+    let (at_input, at_output) = (Companion::new(&calm[0]), Companion::new(&calm[1]));
+    for (index, (column, spikes)) in measured.columns.iter().zip(spikes).enumerate() {
         let (others, other) = match index {
-            0 => (vec![&at_output], &output.values),
-            1 => (vec![&at_input], &input.values),
-            _ => (vec![&at_input, &at_output], &input.values),
+            0 => (vec![&at_output], &calm[1]),
+            1 => (vec![&at_input], &calm[0]),
+            _ => (vec![&at_input, &at_output], &calm[0]),
         };
+        let values = &calm[index];
         let few = if index == 0 { GRAVE_INPUT } else { GRAVE };
         let parts = index.checked_sub(2).and_then(|i| measured.parts.get(i));
-        let stuck = stuck(column, parts.map_or(&[], Vec::as_slice), &others, few);
+        let parts = parts.map_or(&[][..], Vec::as_slice);
+        let stuck = stuck((column, values), parts, &others, few);
         let spoilt = |plateau: &Range<usize>| {
             let mut stuck = stuck.iter().flat_map(|found| &found.samples);
             stuck.any(|s| s.start < plateau.end && plateau.start < s.end)
         };
         let clipped = match index {
-            0 | 1 => clipped(&column.values, other, few, spoilt),
+            0 | 1 => clipped(values, other, few, spoilt),
             _ => None,
         };
-        let coarse = coarse::find(&column.values, others[0]);
+        let coarse = coarse::find(values, others[0]);
         let most = if index < 2 { 1.0 } else { MOST_OF_A_CHANNEL };
         let named = |kind, found: Option<Found>| {
             found.map(|found| Found { most, ..found }.named(kind, &column.name, lines))
         };
         let clipped = named(DefectKind::Clipping, clipped);
         let stuck = stuck.into_iter().map(Some);
+        all.extend(named(DefectKind::Spike, spikes));
         all.extend(stuck.filter_map(|found| named(DefectKind::Stuck, found)));
         all.extend(clipped);
         all.extend(named(DefectKind::Quantisation, coarse));
     }
     all
+}
+
+/// A signal with a line through some stretches.
+pub(crate) fn bridged<'a, 'b>(
+    signal: &'a [f64],
+    stretches: impl IntoIterator<Item = &'b Range<usize>>,
+) -> Cow<'a, [f64]> {
+    let mut values = Cow::Borrowed(signal);
+    for stretch in stretches {
+        let before = stretch.start.checked_sub(1).map(|i| signal[i]);
+        let after = signal.get(stretch.end).copied();
+        let (Some(from), Some(to)) = (before.or(after), after.or(before)) else {
+            continue;
+        };
+        let steps = (stretch.len() + 1) as f64;
+        for (k, value) in values.to_mut()[stretch.clone()].iter_mut().enumerate() {
+            *value = from + (to - from) * (k + 1) as f64 / steps;
+        }
+    }
+    values
 }
 
 /// A defect before it has a place in the file.
@@ -167,11 +209,14 @@ impl Found {
 
 /// A sum or difference rests where what it is made of moves together: it is stuck where one of
 /// its columns is.
-fn stuck(column: &Column, parts: &[Vec<f64>], others: &[&Companion], few: f64) -> Vec<Found> {
+fn stuck(
+    (column, values): (&Column, &[f64]),
+    parts: &[Vec<f64>],
+    others: &[&Companion],
+    few: f64,
+) -> Vec<Found> {
     let Some(definition) = &column.definition else {
-        return stuck::find(&column.values, others, few)
-            .into_iter()
-            .collect();
+        return stuck::find(values, others, few).into_iter().collect();
     };
     let found = |(part, which): (&Vec<f64>, &str)| {
         let found = stuck::find(part, others, few)?;

@@ -3,6 +3,8 @@
 //! The damage is done here, to the cells of generated records, by code of its own.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod spikes;
+
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::conclude::verdict::{sentence, verdict, Verdict};
 use bowden_lab::ledger::Ledger;
