@@ -2,6 +2,7 @@
 
 use super::against::against;
 use super::blind::{blind, bridged};
+use super::rest;
 use super::spectrum;
 use super::together;
 use super::uniform::{usual_step, Uniform};
@@ -48,6 +49,8 @@ struct Placed {
     /// What the fit may see, on the work grid.
     seen: Range<usize>,
     noise_floor: f64,
+    /// What is said of rest at the ends.
+    rest: Option<String>,
 }
 
 impl Prepared {
@@ -119,7 +122,7 @@ impl Prepared {
             };
             let placed = place(record, uniform, &inputs[index], &grid, last, shares)
                 .map_err(|m| named(record, m))?;
-            whole.note(record, uniform, several);
+            whole.note(record, uniform, placed.rest.as_ref(), several);
             whole.blame(record, several);
             whole.add(record, 1.0 / steps[index], placed, &grid);
         }
@@ -199,19 +202,13 @@ fn place(
         n_work -= n_work % stride;
     }
     let n_estimation = n_work.div_ceil(stride);
-    if n_estimation < 2 * edge + 160 {
+    if n_estimation < 2 * edge + rest::FEWEST {
         return Err(format!(
             "the record is too short: {:.3} s at a cut-off of {cutoff:.4} Hz; at least {:.3} s are needed, or a higher --cutoff",
             uniform.len as f64 * uniform.dt,
-            (2 * edge + 160) as f64 * dt * stride as f64
+            (2 * edge + rest::FEWEST) as f64 * dt * stride as f64
         ));
     }
-    let usable = n_estimation - 2 * edge;
-    let (fit_end, stop_end) = match shares {
-        Some((fit, stop)) => (edge + usable * fit / 100, edge + usable * stop / 100),
-        None => (edge, edge),
-    };
-
     let smooth = ZeroPhase::new(2.5 * cutoff, rate);
     let smoothed_output = smooth.apply(&output);
     let moving = |values: &[f64]| {
@@ -233,6 +230,12 @@ fn place(
     let mut raw = thinned(&output, thinning * stride);
     raw.truncate(n_estimation);
 
+    let noise_floor = noise_floor(&output, &smoothed_output, cutoff, rate);
+    let Range { start, end } = without_rest((&motion, &on_work), noise_floor, grid);
+    let row = dt * stride as f64;
+    let part = |share: usize| start + (end - start) * share / 100;
+    let (fit_end, stop_end) = shares.map_or((start, start), |(fit, stop)| (part(fit), part(stop)));
+
     let mut valid = vec![true; n_estimation];
     let per_estimation = thinning * stride;
     let period = (1.0 / (cutoff * dt * stride as f64)).ceil() as usize;
@@ -250,16 +253,35 @@ fn place(
     }
     let keep = |range: Range<usize>| -> Vec<usize> { range.filter(|&i| valid[i]).collect() };
     Ok(Placed {
-        noise_floor: noise_floor(&output, &smoothed_output, cutoff, rate),
+        noise_floor,
+        rest: rest::note(
+            (start > edge, start as f64 * row),
+            (end < n_estimation - edge, (n_estimation - end) as f64 * row),
+        ),
         motion,
         output: on_work,
         raw,
-        fit: keep(edge..fit_end),
+        fit: keep(start..fit_end),
         stop: keep(fit_end..stop_end),
-        held_out: keep(stop_end..n_estimation - edge),
+        held_out: keep(stop_end..end),
         // Shapes and origins are chosen on what the fit may see.
-        seen: edge * stride..fit_end * stride,
+        seen: start * stride..fit_end * stride,
     })
+}
+
+/// The rows of a record but for its ends and rest there.
+fn without_rest(
+    (motion, output): (&[Vec<Motion<f64>>], &[f64]),
+    noise_floor: f64,
+    grid: &Grid,
+) -> Range<usize> {
+    let by_row = |values: &Vec<Motion<f64>>| {
+        let rows = values.iter().step_by(grid.stride);
+        (rows.map(|m| m.position).collect(), 0.0)
+    };
+    let output = output.iter().step_by(grid.stride).copied().collect();
+    let signals = motion.iter().map(by_row).chain([(output, noise_floor)]);
+    rest::moving(&signals.collect::<Vec<(Vec<f64>, f64)>>(), grid.edge)
 }
 
 /// The records so far, behind each other.
@@ -279,7 +301,7 @@ struct Collected {
 }
 
 impl Collected {
-    fn note(&mut self, record: &Record, uniform: &Uniform, several: bool) {
+    fn note(&mut self, record: &Record, uniform: &Uniform, rest: Option<&String>, several: bool) {
         let stretched = (uniform.stretched > 0).then(|| {
             format!(
                 "time is not uniform: {} steps are longer than 1.5 samples; resampled at {:.6} Hz",
@@ -287,7 +309,7 @@ impl Collected {
                 1.0 / uniform.dt
             )
         });
-        let notes = record.notes.iter().cloned().chain(stretched);
+        let notes = record.notes.iter().chain(&stretched).chain(rest).cloned();
         self.notes.extend(notes.map(|note| match several {
             true => format!("{}: {note}", record.path),
             false => note,

@@ -29,6 +29,7 @@ mod blind;
 mod build;
 pub mod cost;
 pub mod filter;
+mod rest;
 mod search;
 pub mod spectrum;
 mod uniform;

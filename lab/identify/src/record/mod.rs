@@ -46,6 +46,7 @@ mod text;
 mod thousands;
 mod time;
 mod units;
+mod wrapping;
 
 pub use agree::agree;
 pub(crate) use agree::to_unit;
@@ -296,13 +297,14 @@ fn record(
         })
     };
     let name = |index: usize| header.columns[index].name.as_str();
-    let input = column(name(roles.input), Series::Column(roles.input))?;
+    let mut input = column(name(roles.input), Series::Column(roles.input))?;
     let output = column(name(roles.output), Series::Column(roles.output))?;
-    let channels = roles
+    let mut channels = roles
         .channels
         .iter()
         .map(|(name, series)| column(name, *series))
         .collect::<Result<Vec<Column>, RecordError>>()?;
+    let unwrapped = unwrapped(&mut input, &output, &mut channels);
     let parts = roles
         .channels
         .iter()
@@ -320,6 +322,7 @@ fn record(
     });
     let mut notes = roles.notes;
     notes.extend(table.notes);
+    notes.extend(unwrapped);
     Ok(Record {
         path: String::new(),
         mode: roles.mode,
@@ -331,4 +334,14 @@ fn record(
         defects,
         dropped: table.dropped,
     })
+}
+
+/// Takes the leaps out of angles that wrap around; returns what is to be said of it.
+fn unwrapped(input: &mut Column, output: &Column, channels: &mut [Column]) -> Vec<String> {
+    let own = wrapping::unwrap(&input.name, &mut input.values, &[&output.values]);
+    let others: [&[f64]; 2] = [&input.values, &output.values];
+    let channels = channels
+        .iter_mut()
+        .filter_map(|channel| wrapping::unwrap(&channel.name, &mut channel.values, &others));
+    own.into_iter().chain(channels).collect()
 }

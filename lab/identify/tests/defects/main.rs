@@ -3,6 +3,7 @@
 //! The damage is done here, to the cells of generated records, by code of its own.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod habits;
 mod spikes;
 
 use bowden_lab::conclude::final_fit::FinalFit;

@@ -1,0 +1,158 @@
+//! An angle that wraps around: a single-turn encoder leaps back by a turn.
+//!
+//! Each leap is as long as a turn that is known (2π, 360, a power of two of counts), the signal
+//! stays within one turn, and the other signals do not answer the leap, as they would that of a
+//! sawtooth or a switched reference.
+
+use std::f64::consts::TAU;
+
+/// A leap is this share of the signal's range.
+const LEAP: f64 = 0.5;
+/// Largest share of the range that the signal usually goes in one sample, up to this quantile.
+const SLOW: f64 = 0.1;
+const USUAL: f64 = 0.99;
+/// So many times the usual step a leap may differ from a turn.
+const NEAR: f64 = 4.0;
+/// Where a turn is known no better than this share of it, any length would do.
+const SHARP: f64 = 0.05;
+/// Samples on either side of a leap over which others are compared, and the multiple of their
+/// usual change from which they answer it.
+const BESIDE: usize = 5;
+const ANSWERS: f64 = 3.0;
+/// Resolutions of encoders in bits.
+const BITS: std::ops::RangeInclusive<i32> = 8..=24;
+
+/// Takes the leaps out of an angle; returns what is to be said of it.
+pub(super) fn unwrap(name: &str, angle: &mut [f64], others: &[&[f64]]) -> Option<String> {
+    let leaps = leaps(angle)?;
+    let (turn, shown) = turn(angle, &leaps)?;
+    if others.iter().any(|other| answers(other, &leaps)) {
+        return None;
+    }
+    let mut turns = 0.0;
+    let mut next = leaps.iter().peekable();
+    let mut before = angle[0];
+    for (i, value) in angle.iter_mut().enumerate() {
+        if next.next_if_eq(&&i).is_some() {
+            turns -= (*value - before).signum();
+        }
+        before = *value;
+        *value += turns * turn;
+    }
+    let times = match leaps.len() {
+        1 => "once".to_owned(),
+        count => format!("{count} times"),
+    };
+    Some(format!(
+        "`{name}` wraps around at {shown} {times}: unwrapped"
+    ))
+}
+
+/// The samples to which the signal leaps by most of its range.
+fn leaps(signal: &[f64]) -> Option<Vec<usize>> {
+    let (low, high) = super::clipping::range(signal);
+    let range = high - low;
+    let mut steps: Vec<f64> = signal.windows(2).map(|w| (w[1] - w[0]).abs()).collect();
+    let leaps: Vec<usize> = (1..signal.len())
+        .filter(|&i| steps[i - 1] > LEAP * range)
+        .collect();
+    let place = (USUAL * steps.len() as f64) as usize;
+    if leaps.is_empty() || place >= steps.len() {
+        return None;
+    }
+    let usual = *steps.select_nth_unstable_by(place, f64::total_cmp).1;
+    (usual < SLOW * range).then_some(leaps)
+}
+
+/// The known turn that all leaps have, and its name.
+fn turn(signal: &[f64], leaps: &[usize]) -> Option<(f64, String)> {
+    let (low, high) = super::clipping::range(signal);
+    let mut near = 0.0_f64;
+    let mut lengths = Vec::with_capacity(leaps.len());
+    for &i in leaps {
+        let before = i.checked_sub(2).map(|k| signal[i - 1] - signal[k]);
+        let after = signal.get(i + 1).map(|next| next - signal[i]);
+        let (before, after) = (before.or(after)?, after.or(before)?);
+        // A leap right behind another one is a spike.
+        if before.abs().max(after.abs()) > LEAP * (high - low) {
+            return None;
+        }
+        near = near.max(before.abs()).max(after.abs());
+        lengths.push((signal[i] - signal[i - 1] - 0.5 * (before + after)).abs());
+    }
+    let near = NEAR * near;
+    let whole = signal.iter().all(|value| value.fract() == 0.0);
+    let counts = BITS.map(|bits| (2.0_f64.powi(bits), format!("{} counts", 1_u32 << bits)));
+    let degrees = [(TAU, "2π".to_owned()), (360.0, "360".to_owned())];
+    let known = degrees.into_iter().chain(counts.filter(|_| whole));
+    known.into_iter().find(|(turn, _)| {
+        let near = near.max(1e-3 * turn).min(SHARP * turn);
+        high - low <= turn + near && lengths.iter().all(|length| (length - turn).abs() <= near)
+    })
+}
+
+/// Whether a signal changes around the leaps by more than elsewhere.
+fn answers(other: &[f64], leaps: &[usize]) -> bool {
+    let change =
+        |i: usize| Some((other.get(i + BESIDE)? - other[i.checked_sub(BESIDE + 1)?]).abs());
+    let mean = |all: &mut dyn Iterator<Item = f64>| {
+        let (mut sum, mut count) = (0.0, 0.0_f64);
+        all.for_each(|own| (sum, count) = (sum + own, count + 1.0));
+        sum / count.max(1.0)
+    };
+    let there = mean(&mut leaps.iter().filter_map(|&i| change(i)));
+    let usual = mean(&mut (0..other.len()).filter_map(change));
+    there > ANSWERS * usual
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn swing(row: usize) -> f64 {
+        9.0 * (0.004 * row as f64).sin() + 1.0
+    }
+
+    #[test]
+    fn turns_are_put_together_again_to_the_last_bits() {
+        for (turn, shown) in [(TAU, "2π"), (360.0, "360"), (4096.0, "4096 counts")] {
+            let scale = turn / TAU;
+            let round = |v: f64| if turn == 4096.0 { v.round() } else { v };
+            let angle: Vec<f64> = (0..4000).map(|row| round(scale * swing(row))).collect();
+            for from in [0.0, -0.5 * turn] {
+                let mut wrapped: Vec<f64> = angle
+                    .iter()
+                    .map(|a| (a - from).rem_euclid(turn) + from)
+                    .collect();
+                let said = unwrap("phi", &mut wrapped, &[&angle]).unwrap();
+                assert!(
+                    said.starts_with(&format!("`phi` wraps around at {shown} ")),
+                    "{said}"
+                );
+                let apart = wrapped[0] - angle[0];
+                for (own, true_one) in wrapped.iter().zip(&angle) {
+                    assert!((own - true_one - apart).abs() < 1e-9 * turn);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_sawtooth_a_switch_a_spike_and_another_length_stay_as_they_are() {
+        let of = |f: &dyn Fn(usize) -> f64| -> Vec<f64> { (0..4000).map(f).collect() };
+        let sawtooth = of(&|row| (0.01 * row as f64).rem_euclid(360.0 / 36.0) * 36.0);
+        let switched = of(&|row| if row / 500 % 2 == 0 { 0.0 } else { TAU });
+        let spike = of(&|row| 0.01 * swing(row) + if row == 777 { TAU } else { 0.0 });
+        let other = of(&|row| swing(row).rem_euclid(5.0));
+        for (signal, answer) in [
+            (&sawtooth, &sawtooth),
+            (&switched, &switched),
+            (&spike, &other),
+            (&other, &spike),
+        ] {
+            let mut own = signal.clone();
+            assert_eq!(unwrap("x", &mut own, &[answer]), None);
+            assert_eq!(&own, signal);
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! What loggers and encoders do to a sound record, and what must not come of it.
+
+use super::*;
+
+fn names(ledger: &Ledger) -> Vec<&str> {
+    let rounds = ledger.rounds.iter();
+    rounds.map(|r| r.candidate.term.effect.name()).collect()
+}
+
+/// A spring, a hysteresis and a damper that is not declared, moved for 20 s: at rest before
+/// and after that for so many seconds.
+fn moved(before: f64, after: f64) -> Record {
+    let (rate, mut z) = (500.0, 0.0);
+    let mut text = "t [s],x [mm],f [N]\n".to_owned();
+    let position = |t: f64| {
+        let s = (t - before).clamp(0.0, 20.0);
+        let fade = (s.min(20.0 - s) / 2.0).min(1.0);
+        let fade = fade * fade * (3.0 - 2.0 * fade);
+        fade * (8.0 * (3.1 * s).sin() + 5.0 * (1.3 * s).sin())
+    };
+    for row in 0..((before + 20.0 + after) * rate) as usize {
+        let t = row as f64 / rate;
+        let x = position(t);
+        // Ten steps of Euler's method a sample.
+        for k in 1..=10 {
+            let h = 0.1 / rate;
+            let end = t + f64::from(k) * h;
+            let dx = position(end) - position(end - h);
+            z += 0.8 * (dx - 0.7 * dx.abs() * z - 0.3 * dx * z.abs());
+        }
+        let v = (position(t + 1e-4) - position(t - 1e-4)) / 2e-4;
+        let f = 0.6 * x + 6.0 * z + 0.12 * v + 0.2 * noise(row);
+        text += &format!("{t},{x},{f}\n");
+    }
+    parse(text.as_bytes(), "r.csv", &Options::default()).unwrap()
+}
+
+#[test]
+fn a_logger_that_runs_on_changes_no_name_and_no_verdict() {
+    let sound = closed(&moved(1.0, 1.0));
+    assert_eq!(names(&sound.1)[..1], ["viscous"]);
+    for (before, after, said) in [(1.0, 20.0, "last 19."), (20.0, 1.0, "first 19.")] {
+        let (data, ledger) = closed(&moved(before, after));
+        let said = format!("nothing moves in the {said}");
+        let is_said = |note: &String| note.starts_with(&said);
+        assert!(data.notes.iter().any(is_said), "{:?}", data.notes);
+        assert_eq!(names(&ledger), names(&sound.1));
+        assert_eq!(verdict_of(&data, &ledger), verdict_of(&sound.0, &sound.1));
+    }
+}
+
+#[test]
+fn an_encoder_that_wraps_around_changes_no_name() {
+    use std::f64::consts::TAU;
+    let sound = closed(&Cells::of(&recipe()).read());
+    let mut cells = Cells::of(&recipe());
+    let (low, high) = cells.low_and_high(PHI_P);
+    // A motor that turns three times behind its gear.
+    let ratio = 3.0 * TAU / (high - low);
+    for row in &mut cells.rows {
+        row[PHI_P] = (ratio * row[PHI_P]).rem_euclid(TAU);
+    }
+    let record = cells.read();
+    assert_eq!(record.defects, []);
+    let said = |note: &String| note.starts_with("`phi_p` wraps around at 2π");
+    assert!(record.notes.iter().any(said), "{:?}", record.notes);
+    let (data, ledger) = closed(&record);
+    assert_eq!(names(&ledger), names(&sound.1));
+    assert_eq!(verdict_of(&data, &ledger), verdict_of(&sound.0, &sound.1));
+}
