@@ -139,9 +139,11 @@ impl Search<'_> {
             .iter()
             .map(|&a| self.with(place, &[(POWER_LAW, &[a])]))
             .collect();
-        let law = self.fitted(&laws?)?;
         // Its gain and its exponent.
         let price = linear.price_of(&place.kept) + linear.prices.of_name(2);
+        let present = standing.sse.ln() + linear.price_of(&linear.everything());
+        let is_hopeless = |rough: f64| rough.ln() + price > present + policy::HOPELESS;
+        let law = self.fitted(&laws?, is_hopeless)?;
         let new = law.sse(self.data).ln() + price;
         let old = self.now.sse(self.data).ln() + linear.price_of(&linear.everything());
         if new > old - policy::EQUAL || law.rmse.stop > policy::NOT_WORSE * self.now.rmse.stop {
@@ -172,7 +174,7 @@ impl Search<'_> {
             self.with(place, &added)
         };
         let pairs: Option<Vec<Structure>> = WIDTHS.into_iter().map(made).collect();
-        self.fitted(&pairs?)
+        self.fitted(&pairs?, |_| false)
     }
 
     /// The present structure with other effects in that place.
@@ -190,8 +192,13 @@ impl Search<'_> {
     }
 
     /// The best fit from the shapes of some structures of the same effects, the other parameters
-    /// as they are, and from two other hystereses.
-    fn fitted(&self, structures: &[Structure]) -> Option<Solution> {
+    /// as they are, and from two other hystereses. `None` where the squared error of the best
+    /// rough search on the coarse grid is hopeless.
+    fn fitted(
+        &self,
+        structures: &[Structure],
+        is_hopeless: impl Fn(f64) -> bool,
+    ) -> Option<Solution> {
         use rayon::prelude::*;
         let structure = structures.first()?;
         let free = structure.free(self.data);
@@ -214,6 +221,9 @@ impl Search<'_> {
         let rough: Vec<_> = starts.par_iter().map(|s| search(s, ROUGH)).collect();
         let mut rough: Vec<_> = rough.into_iter().flatten().collect();
         rough.sort_by(|a, b| a.0.total_cmp(&b.0));
+        if rough.first().is_none_or(|(sse, _)| is_hopeless(*sse)) {
+            return None;
+        }
         rough.truncate(FURTHER);
         let fair: Vec<_> = rough.par_iter().map(|(_, s)| search(s, FAIR)).collect();
         let fair = fair.into_iter().flatten();

@@ -7,7 +7,7 @@
 //! (Lehmann and Romano, 2005, section 15.2).
 
 use super::policy::EXCITED;
-use crate::algebra::{directions, Stretch};
+use crate::algebra::{add, directions, subtract, Stretch};
 use crate::score::blocks::flips;
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
@@ -129,9 +129,7 @@ impl Grams {
         for i in old..size {
             let row = &mut whole[i * size..=i * size + i];
             for part in &self.parts {
-                for (sum, v) in row.iter_mut().zip(&part[place(i, 0)..]) {
-                    *sum += v;
-                }
+                add(row, &part[place(i, 0)..]);
             }
             for j in 0..i {
                 whole[j * size + i] = whole[i * size + j];
@@ -227,9 +225,7 @@ impl Grams {
         if let Some((_, rows)) = self.often.iter().find(|(own, _)| *own == column) {
             let mut row = rows[*first][..count].to_vec();
             for &b in others {
-                for (sum, v) in row.iter_mut().zip(&rows[b]) {
-                    *sum += v;
-                }
+                add(&mut row, &rows[b]);
             }
             return row;
         }
@@ -240,9 +236,7 @@ impl Grams {
         row.extend(below().map(|at| self.parts[*first][at]));
         for &b in others {
             let (before, after) = row.split_at_mut(count.min(column + 1));
-            for (sum, v) in before.iter_mut().zip(own(b)) {
-                *sum += v;
-            }
+            add(before, own(b));
             let part = &self.parts[b];
             for (sum, at) in after.iter_mut().zip(below()) {
                 *sum += part[at];
@@ -393,10 +387,7 @@ impl Swept {
             for i in 0..k {
                 let factor = row[i] / pivot;
                 if factor != 0.0 {
-                    let own = &mut self.entries[i * k + i..(i + 1) * k];
-                    for (v, r) in own.iter_mut().zip(&row[i..]) {
-                        *v -= factor * r;
-                    }
+                    subtract(&mut self.entries[i * k + i..(i + 1) * k], factor, &row[i..]);
                 }
             }
         }
@@ -444,14 +435,26 @@ pub(super) fn gain(
     right: impl Fn(usize) -> f64,
     d: usize,
 ) -> f64 {
-    let (mut small, mut large) = ([0.0; SMALL * (SMALL + 1)], Vec::new());
-    let a: &mut [f64] = match d <= SMALL {
-        true => &mut small[..d * (d + 1)],
-        false => {
-            large.resize(d * (d + 1), 0.0);
-            &mut large
-        }
-    };
+    match d {
+        0 => 0.0,
+        1 => match upper(0, 0) {
+            pivot if pivot < SLOPE => 0.0,
+            pivot => right(0) * right(0) / pivot,
+        },
+        2 => gain_in(&mut [0.0; 6], upper, right, d),
+        3 => gain_in(&mut [0.0; 12], upper, right, d),
+        4..=SMALL => gain_in(&mut [0.0; SMALL * (SMALL + 1)], upper, right, d),
+        _ => gain_in(&mut vec![0.0; d * (d + 1)], upper, right, d),
+    }
+}
+
+/// The same, with room for a matrix of `d` rows and one more column.
+fn gain_in(
+    a: &mut [f64],
+    upper: impl Fn(usize, usize) -> f64,
+    right: impl Fn(usize) -> f64,
+    d: usize,
+) -> f64 {
     let m = d + 1;
     for i in 0..d {
         for j in i..d {

@@ -6,6 +6,7 @@
 
 use super::gram::{gain, Grams, Swept, DEPENDENT};
 use super::policy::EXCITED;
+use crate::algebra::{subtract, subtract_products};
 use std::ops::Range;
 
 /// Positions of the entries that a selection among groups of columns reads.
@@ -14,10 +15,8 @@ pub struct Entries {
     /// The columns of all groups, one after the other.
     columns: Vec<usize>,
     groups: Vec<Range<usize>>,
-    /// Products within the groups: the upper triangle of each by rows.
-    inner: Vec<(usize, usize)>,
-    /// Where those of each group begin.
-    begin: Vec<usize>,
+    /// Number of columns of the largest group.
+    largest: usize,
     /// Number of columns up to the last one of a group.
     reach: usize,
 }
@@ -32,11 +31,9 @@ impl Entries {
             let first = entries.columns.len();
             entries.columns.extend(group);
             entries.groups.push(first..entries.columns.len());
-            entries.begin.push(entries.inner.len());
-            for (n, &i) in group.iter().enumerate() {
-                entries.inner.extend(group[n..].iter().map(|&j| (i, j)));
-                entries.reach = entries.reach.max(i + 1);
-            }
+            entries.largest = entries.largest.max(group.len());
+            let last = group.iter().max().map_or(0, |last| last + 1);
+            entries.reach = entries.reach.max(last);
         }
         entries
     }
@@ -61,7 +58,10 @@ pub struct Partial<'a> {
     source: Source<'a>,
     entries: &'a Entries,
     target: usize,
-    inner: Vec<f64>,
+    /// Products within the groups. The first row has those of each column with itself, the
+    /// next one those with the column behind it, and so on; what crosses from one group to the
+    /// next is not read.
+    inner: Vec<Vec<f64>>,
     with_target: Vec<f64>,
     rest: f64,
     /// One row for each column of the set: its residual products with the first columns, given
@@ -93,8 +93,17 @@ impl<'a> Partial<'a> {
     }
 
     fn new(source: Source<'a>, entries: &'a Entries, target: usize) -> Self {
-        let at = |&(i, j): &(usize, usize)| source.at(i, j);
-        let inner = entries.inner.iter().map(at).collect();
+        let count = entries.columns.len();
+        let mut inner: Vec<Vec<f64>> = (0..entries.largest)
+            .map(|apart| vec![0.0; count - apart])
+            .collect();
+        for group in &entries.groups {
+            for (apart, row) in inner.iter_mut().enumerate().take(group.len()) {
+                for n in group.start..group.end - apart {
+                    row[n] = source.at(entries.columns[n], entries.columns[n + apart]);
+                }
+            }
+        }
         let columns = entries.columns.iter();
         let with_target = columns.map(|&c| source.at(c, target)).collect();
         let rest = source.at(target, target);
@@ -126,21 +135,11 @@ impl<'a> Partial<'a> {
             let Some(row) = self.row(s) else { continue };
             own.clear();
             own.extend(self.entries.columns.iter().map(|&c| row[c]));
-            let mut inner = self.inner.as_mut_slice();
-            for group in &self.entries.groups {
-                let own = &own[group.clone()];
-                for (n, first) in own.iter().enumerate() {
-                    let (triangle, rest) = inner.split_at_mut(own.len() - n);
-                    for (v, second) in triangle.iter_mut().zip(&own[n..]) {
-                        *v -= first * second;
-                    }
-                    inner = rest;
-                }
+            for (apart, inner) in self.inner.iter_mut().enumerate() {
+                subtract_products(inner, &own, &own[apart..]);
             }
             let to_target = row[self.target];
-            for (v, own) in self.with_target.iter_mut().zip(&own) {
-                *v -= own * to_target;
-            }
+            subtract(&mut self.with_target, to_target, &own);
             self.rest -= to_target * to_target;
             self.set.push(s);
             self.swept.push(row);
@@ -152,10 +151,7 @@ impl<'a> Partial<'a> {
     fn row(&self, s: usize) -> Option<Vec<f64>> {
         let mut row = self.source.row(s, self.reach);
         for before in &self.swept {
-            let factor = before[s];
-            for (v, r) in row.iter_mut().zip(before) {
-                *v -= factor * r;
-            }
+            subtract(&mut row, before[s], before);
         }
         let pivot = row[s];
         if pivot < DEPENDENT {
@@ -186,18 +182,13 @@ impl<'a> Partial<'a> {
     /// As [`Swept::gain`].
     #[must_use]
     pub fn gain(&self, group: usize) -> f64 {
-        let columns = self.entries.groups[group].clone();
-        let (d, inner) = (columns.len(), &self.inner[self.entries.begin[group]..]);
-        match inner.first() {
-            Some(&own) if d > 0 && own > EXCITED => {
-                let right = &self.with_target[columns];
-                // Row i of the triangle begins after i rows of d, d - 1, … entries.
-                gain(
-                    |i, j| inner[i * (2 * d + 1 - i) / 2 + j - i],
-                    |i| right[i],
-                    d,
-                )
-            }
+        let Range { start, end } = self.entries.groups[group];
+        match self.inner.first().and_then(|own| own[..end].get(start)) {
+            Some(&own) if own > EXCITED => gain(
+                |i, j| self.inner[j - i][start + i],
+                |i| self.with_target[start + i],
+                end - start,
+            ),
             _ => 0.0,
         }
     }
