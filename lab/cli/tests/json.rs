@@ -162,6 +162,21 @@ fn changed(path: &Path, change: impl Fn(usize, f64, f64) -> f64) {
     std::fs::write(path, out).unwrap();
 }
 
+/// Adds noise to the input, so that it turns the hysteresis sample by sample.
+fn shake(path: &Path) {
+    let text = std::fs::read_to_string(path).unwrap();
+    let line = |(row, line): (usize, &str)| {
+        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        if row > 0 {
+            let noise = ((row as f64 * 12.9898).sin() * 43758.5453).rem_euclid(1.0) - 0.5;
+            cells[1] = (cells[1].parse::<f64>().unwrap() + 0.3 * noise).to_string();
+        }
+        cells.join(",") + "\n"
+    };
+    let shaken: String = text.lines().enumerate().map(line).collect();
+    std::fs::write(path, shaken).unwrap();
+}
+
 /// Records of every kind that the schemas tell apart, and what the program says of them.
 fn all(folder: &Path) -> Vec<(&'static str, Value)> {
     let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
@@ -188,6 +203,9 @@ fn all(folder: &Path) -> Vec<(&'static str, Value)> {
     ];
     said(&plant);
     said(&["close", &straight, "--model-out", &model]);
+    let shaky = path("shaky.csv");
+    said(&["generate", "--mode", "torque", "--out", &shaky]);
+    shake(Path::new(&shaky));
     let close = |more: &[&str]| {
         (
             "bowden.close/2",
@@ -216,6 +234,7 @@ fn all(folder: &Path) -> Vec<(&'static str, Value)> {
         close(&[&stuck]),
         close(&[&bump]),
         close(&[&hidden]),
+        close(&[&shaky]),
         checked(&later),
         checked(&bent),
         checked(&stuck),

@@ -1,6 +1,6 @@
 //! The model for firmware: its errors there, and whether it is a feed-forward.
 
-use bowden_lab::facts::{three_digits, FeedForward, HandOverFacts, LeftOut, Segments};
+use bowden_lab::facts::{three_digits, Calmed, FeedForward, HandOverFacts, LeftOut, Segments};
 use serde::Serialize;
 use std::borrow::Cow;
 use std::fmt::Write as _;
@@ -20,6 +20,8 @@ struct HandedOver<'a> {
     left_out: &'a [LeftOut],
     within_inverse: bool,
     nrmse: Segments,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    calmed: Option<Calmed>,
     rates_time_constant_s: f64,
 }
 
@@ -34,6 +36,7 @@ impl<'a> HandOverPart<'a> {
                     left_out: &hand.left_out,
                     within_inverse: hand.within_inverse,
                     nrmse: hand.nrmse,
+                    calmed: hand.calmed,
                     rates_time_constant_s: hand.time_constant,
                 }),
             },
@@ -53,6 +56,9 @@ impl<'a> HandOverPart<'a> {
 
 /// A share in per cent, with at most three digits.
 fn per_cent(share: f64) -> String {
+    if share > 10.0 {
+        return "over 1000 %".to_owned();
+    }
     format!("{:.2} %", 100.0 * share)
 }
 
@@ -88,6 +94,13 @@ pub(super) fn text(hand: &Result<HandOverFacts, String>) -> String {
         three_digits(1e3 * hand.time_constant),
         per_cent(hand.nrmse.held_out)
     ));
+    if let Some(calmed) = &hand.calmed {
+        line(format!(
+            "held out {} with the input behind signal::Play of half-width {}: its noise turns the hysteresis",
+            per_cent(calmed.causal_nrmse.held_out),
+            three_digits(calmed.half_width)
+        ));
+    }
     let mend = match (&hand.feed_forward.because, &hand.feed_forward.nearest) {
         (None, _) => String::new(),
         (Some(_), None) => "; --invertible fits one that can be inverted".to_owned(),

@@ -6,6 +6,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod carries_over;
+mod changed;
 mod compare;
 mod files;
 mod no_model;

@@ -53,3 +53,44 @@ fn where_firmware_loses_nothing_it_is_not_told() {
         closed.sentence()
     );
 }
+
+/// A hysteresis between torques whose input is measured with that noise.
+fn cable(of_input: f64) -> Closed {
+    let (mut z, mut before) = (0.0_f64, 0.0);
+    let row = |i: usize| {
+        let t = 0.001 * i as f64;
+        let tau = 6.0 + 4.0 * (2.3 * t).sin() + 2.0 * (0.9 * t + 1.0).sin();
+        for _ in 0..4 {
+            let step = 0.25 * (tau - before);
+            z += 0.6 * (step - 0.8 * step.abs() * z - 0.2 * step * z.abs());
+        }
+        before = tau;
+        let measured = tau + of_input * noise(i + 31_337);
+        vec![t, measured, 0.85 * tau + 0.9 * z + 0.01 * noise(i + 99_991)]
+    };
+    Rows {
+        header: "t,tau_i [N·m],tau_o [N·m]".to_owned(),
+        rows: (0..20_000).map(row).collect(),
+    }
+    .close(&[])
+}
+
+#[test]
+fn noise_that_turns_the_hysteresis_is_told_with_the_play_that_stops_it() {
+    let closed = cable(0.02);
+    let error = |of: &str| closed.json.pointer(of).and_then(|v| v.as_f64()).unwrap();
+    let firmware = error("/final/causal_nrmse/held_out");
+    let calmed = error("/final/handed_over/calmed/causal_nrmse/held_out");
+    assert!(calmed < 0.5 * firmware, "{firmware} {calmed}");
+    closed
+        .says(&["the noise of `tau_i` turns the hysteresis. Behind `signal::Play` of half-width"]);
+    // Four standard deviations.
+    let half_width = error("/final/handed_over/calmed/half_width");
+    assert!((half_width / 0.08 - 1.0).abs() < 0.1, "{half_width}");
+    let quiet = cable(0.0);
+    assert!(
+        !quiet.sentence().contains("hysteresis"),
+        "{}",
+        quiet.sentence()
+    );
+}

@@ -1,6 +1,7 @@
 //! What a search is worth: the final refit, intervals, the verdict, shares and traces.
 
 pub mod by_file;
+mod changes;
 pub mod curve;
 mod excitation;
 pub mod final_fit;

@@ -4,6 +4,7 @@
 //! the figures that stand above it, and says what the model must not be used for.
 
 use super::by_file::worse;
+use super::changes::{begins, has_unseen_motion, lead, other_rig, stands_for_output};
 use super::final_fit::FinalFit;
 use super::intervals::term_title;
 use crate::fit::Solution;
@@ -22,7 +23,8 @@ use bowden::model::Source;
 pub enum Verdict {
     /// The input explains less than half of the output, or the output integrates it.
     NoModel,
-    /// The delivered model predicts held-out data worse than the declared one.
+    /// The delivered model predicts held-out data worse than the declared one, worse than a
+    /// constant, or with many times the error of the fit segment.
     DoesNotCarryOver,
     /// The residual is the sensor's noise, on the fit segment and held out.
     Explained,
@@ -69,6 +71,8 @@ const LEAST_EXPLAINED: f64 = 0.5;
 /// why the curve was preferred. A choice: a reader who is told "95 %" asks why there is no name.
 const NEARLY_ALL: f64 = 0.9;
 
+/// Multiple of the noise floor from which the sentence says that motion was not seen.
+const UNSEEN: f64 = 3.0;
 /// Defects that spoil what was concluded: grave ones of time, input, output, and of the
 /// channels that the model reads.
 fn spoils<'a>(data: &'a Prepared, last: &'a Solution) -> impl Iterator<Item = &'a Defect> {
@@ -99,6 +103,15 @@ fn judged(shares: Explained, declared: &Solution) -> f64 {
         true => shares.input,
         false => shares.input + shares.channels,
     }
+}
+
+/// The share of the output that the declared model explains by the input alone, where a channel
+/// stands for the output in the delivered one.
+fn stood_in_for(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Option<f64> {
+    let shares = explained(data, &done.solution);
+    let alone = explained(data, &ledger.declared).input;
+    let is = reads_input(&ledger.declared) && shares.channels > shares.time;
+    (is && alone >= LEAST_EXPLAINED).then_some(alone)
 }
 
 /// By how much the delivered model's held-out error exceeds that of the declared one.
@@ -146,7 +159,10 @@ pub fn verdict(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Verdict {
         Verdict::DataDefect
     } else if ledger.integrates || share < LEAST_EXPLAINED {
         Verdict::NoModel
-    } else if held_out_ratio(ledger, done) > RISES || worse_than_a_constant(data, done) {
+    } else if held_out_ratio(ledger, done) > RISES
+        || worse_than_a_constant(data, done)
+        || other_rig(data, done).is_some()
+    {
         Verdict::DoesNotCarryOver
     } else if ledger.unknown.is_some() && !untested {
         Verdict::Unknown
@@ -239,6 +255,13 @@ fn no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
         );
     }
     let shares = explained(data, &done.solution);
+    if let Some(alone) = stood_in_for(data, ledger, done) {
+        return format!(
+            "This is no model of the transmission: {}, although the declared model alone explains {} by the input. A channel stands for the output, as the angle behind a spring does: leave its column out.",
+            explains(data, shares),
+            share_of(alone)
+        );
+    }
     format!(
         "There is no model here: {}. Is `{input}` the right input, in the right file, and is its sensor connected?",
         explains(data, shares)
@@ -285,6 +308,20 @@ fn nothing_found(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
 
 fn rises(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     let ratio = held_out_ratio(ledger, done);
+    if let (true, false, Some((fit, held_out))) = (
+        ratio <= RISES,
+        worse_than_a_constant(data, done),
+        other_rig(data, done),
+    ) {
+        let since = begins(data, done).map(|t| format!(", from {t:.3} s on"));
+        return format!(
+            "The model does not carry over: its error is {} of the output's standard deviation on the fit segment and {} held out{}. Something differs there that the fit has not seen: do not use this model on other data.{}",
+            percent(fit),
+            percent(held_out),
+            since.unwrap_or_default(),
+            so_far(ledger, done)
+        );
+    }
     if ratio <= RISES {
         return format!(
             "On the held-out part the model is worse than a constant: its error goes {}. Do not use this model on other data.",
@@ -306,6 +343,15 @@ fn rises(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
         };
     }
     text
+}
+
+/// What was added to a model that does not carry over.
+fn so_far(ledger: &Ledger, done: &FinalFit) -> String {
+    let added = names(ledger, done);
+    match added.is_empty() {
+        true => String::new(),
+        false => format!(" Added were {}.", added.join(", then ")),
+    }
 }
 
 /// "14 times the noise floor on the fit segment and 34 times held out".
@@ -355,8 +401,11 @@ fn rest(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -> St
         Verdict::Unknown => unknown_words(data, ledger).unwrap_or_default(),
         Verdict::Confounded => confounded(data, ledger, done),
         Verdict::UnderExcited => {
-            "The record has too few independent stretches for a test: take the names as proposals."
-                .to_owned()
+            let names = match ledger.rounds.is_empty() {
+                true => "an effect would have to be large to be found",
+                false => "take the names as proposals",
+            };
+            format!("The record has too few independent stretches for a test: {names}.")
         }
         Verdict::DataDefect => {
             let list: Vec<String> = spoils(data, ledger.last())
@@ -385,6 +434,24 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
                 all.extend(multiples(data, done).map(|size| format!("The residual is {size}.")));
             }
         }
+    }
+    let is_left = floors(data, done).is_some_and(|(fit, _)| fit > UNSEEN);
+    if is_left && done.solution.structure.hysteresis && has_unseen_motion(data) {
+        all.push(format!(
+            "What `{}` did where it was not measured is not known, and acts on through the hysteresis.",
+            data.input.name
+        ));
+    }
+    if let Some(channel) = stands_for_output(data, &ledger.declared, &done.solution) {
+        all.push(format!(
+            "Nearly all of the output is made of `{channel}` here, although the declared model does without it: does it measure the output, as the angle behind a spring does? Then leave its column out."
+        ));
+    }
+    if let Some(lead) = lead(data, &done.solution) {
+        all.push(format!(
+            "The output comes {:.3} ms before the input that it answers, which no transmission does: were both logged on one clock?",
+            1e3 * lead
+        ));
     }
     all.extend(ledger.stopped_words());
     if segments_differ(data) {

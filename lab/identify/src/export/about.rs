@@ -19,6 +19,9 @@ pub struct About {
     pub by: String,
     /// Names of the files that were fitted, without folders.
     pub records: Vec<String>,
+    /// The verdict of `bowden close` on the record: with `no-model` it is not to be used.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub verdict: Option<String>,
     /// Which of them has the gains of this model, where each has its own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gains_of: Option<String>,
@@ -34,6 +37,9 @@ pub struct About {
     pub feed_forward: String,
     /// Errors of this model, as shares of the output's standard deviation.
     pub nrmse: Errors,
+    /// Play before the hysteresis, where the error with causal rates is large without it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub play: Option<PlayBefore>,
     /// Parts of the fitted model that are not in this one.
     pub left_out: Vec<LeftOut>,
     /// Parameters that the record does not determine.
@@ -64,6 +70,15 @@ pub struct Errors {
     pub held_out_causal: Option<f64>,
     /// Held out, with all that is not in this model.
     pub held_out_as_fitted: f64,
+}
+
+/// Play between the measured input and the hysteresis, which the input's noise would turn.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct PlayBefore {
+    /// Half-width for `bowden::signal::Play`, in the input's unit.
+    pub half_width: f64,
+    /// The held-out error with it, sample by sample.
+    pub held_out_causal: f64,
 }
 
 /// A part of the fitted model that is not handed over.
@@ -120,6 +135,19 @@ impl Span {
 }
 
 impl About {
+    /// What somebody has to know before the model is used, where its verdict forbids that.
+    #[must_use]
+    pub fn warning(&self) -> Option<&'static str> {
+        match self.verdict.as_deref() {
+            Some("no-model") => Some("NOT TO BE USED: its verdict is `no-model`."),
+            Some("does-not-carry-over") => {
+                Some("NOT TO BE USED: its verdict is `does-not-carry-over`.")
+            }
+            Some("data-defect") => Some("NOT TO BE USED: its verdict is `data-defect`."),
+            _ => None,
+        }
+    }
+
     /// What a record says of a solution; what else there is to say is the caller's.
     #[must_use]
     pub fn new(data: &Prepared, solution: &Solution) -> Self {

@@ -14,7 +14,7 @@ use crate::problem::Prepared;
 use crate::record::Record;
 use bowden::effect::Motion;
 use bowden::model::{Model, ModelState, Sample};
-use bowden::signal::{Rates, RatesState};
+use bowden::signal::{Play, PlayState, Rates, RatesState};
 
 /// The time constant for the rates of a fit with this cut-off \[s\].
 ///
@@ -27,7 +27,8 @@ pub fn time_constant(cutoff: f64) -> Result<f64, String> {
 
 /// The errors with causal rates, as shares of the output's standard deviation.
 ///
-/// `files` are the models: one for all records, or one for each.
+/// `files` are the models: one for all records, or one for each. `half_width` is that of the
+/// [`Play`] through which the input passes, if it does.
 ///
 /// # Errors
 /// One sentence where the model cannot be built or the grids not be laid again.
@@ -36,12 +37,13 @@ pub fn causal(
     data: &Prepared,
     files: &[ModelFile],
     time_constant: f64,
+    half_width: Option<f64>,
 ) -> Result<Segments, String> {
     let mut answered = Vec::with_capacity(records.len());
     for (index, record) in records.iter().enumerate() {
         let file = files.get(index).or(files.first());
         let file = file.ok_or("no model was handed over")?;
-        answered.push(answers(data, record, file, time_constant)?);
+        answered.push(answers(data, record, file, time_constant, half_width)?);
     }
     let answered = data.answered(records, answered)?;
     let pairs = data.target.iter().zip(&answered);
@@ -55,8 +57,11 @@ fn answers(
     record: &Record,
     file: &ModelFile,
     time_constant: f64,
+    half_width: Option<f64>,
 ) -> Result<Vec<f64>, String> {
     let model: Model<f32, MOST_TERMS> = file.model_in()?;
+    let play = half_width.map(|r| Play::try_new(r as f32)).transpose();
+    let (play, mut held) = (play.map_err(|e| e.to_string())?, PlayState::new());
     let rates = Rates::try_new(time_constant as f32).map_err(|e| e.to_string())?;
     let mut state = ModelState::new();
     let columns = || std::iter::once(&record.input).chain(&record.channels);
@@ -68,7 +73,12 @@ fn answers(
         let dt = (time - before) as f32;
         before = time;
         motions.clear();
-        let measured = columns().map(|c| c.values[i] as f32).zip(&mut past);
+        let measured = columns().map(|c| c.values[i] as f32).enumerate();
+        let measured = measured.map(|(index, x)| match (index, play) {
+            (0, Some(play)) => play.step(&mut held, x),
+            _ => x,
+        });
+        let measured = measured.zip(&mut past);
         motions.extend(measured.map(|(x, own)| rates.step(own, x, dt).motion));
         let (input, channels) = (motions[0], &motions[1..]);
         let sample = Sample {
@@ -80,4 +90,19 @@ fn answers(
         answers.push(f64::from(model.step(&mut state, &sample)));
     }
     Ok(answers)
+}
+
+/// The standard deviation of the noise of a column, sample by sample, from its second
+/// differences: of the smooth motion they see next to nothing, and of spikes their median.
+#[must_use]
+pub fn noise(column: &[f64]) -> f64 {
+    let bend = |w: &[f64]| (w[2] - 2.0 * w[1] + w[0]).abs();
+    let mut bends: Vec<f64> = column.windows(3).map(bend).collect();
+    if bends.is_empty() {
+        return 0.0;
+    }
+    let middle = bends.len() / 2;
+    let median = *bends.select_nth_unstable_by(middle, f64::total_cmp).1;
+    // The median of |N(0, 1)| is 0.6745; a second difference has six times the variance.
+    median / (0.6745 * 6.0_f64.sqrt())
 }

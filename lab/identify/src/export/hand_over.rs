@@ -6,17 +6,30 @@
 //! ([`invertible`](crate::export::invertible)). Whatever is left out, the rest is fitted again on
 //! the same segments, and the errors that are said are those of the model that is written.
 
-use super::causal::{causal, time_constant};
+use super::causal::{causal, noise, time_constant};
 use super::clockwork::{because, has_clockwork, is_clockwork, table_name, without};
 use super::invertible::{caution, nearest, obstacle, stages, without_stages, FeedForward};
-use super::{About, LeftOut, ModelFile, NotIdentified};
+use super::{About, LeftOut, ModelFile, NotIdentified, PlayBefore};
 use crate::conclude::final_fit::FinalFit;
 use crate::conclude::intervals::term_name;
+use crate::conclude::verdict::{verdict, Verdict};
 use crate::fit::{fit_from, Known, Segments, Solution};
 use crate::ledger::Ledger;
 use crate::model::kind::is_stage;
 use crate::problem::Prepared;
 use crate::record::Record;
+
+/// Least error in firmware that the sentence mentions, as a share of the output's standard
+/// deviation ...
+const NOTABLE: f64 = 0.05;
+/// ... and its least multiple of the error of the fit. Both are a choice: of the ten measured rows
+/// three get the warning, the positioning drive, whose force is mostly inertia, and a cable tool.
+const OFF: f64 = 2.0;
+/// Half-width of the play before the hysteresis, in standard deviations of the input's noise: see
+/// [`Play`](bowden::signal::Play).
+const PLAY: f64 = 4.0;
+/// Share of the error in firmware to which play has to reduce it to be told of.
+const HELPS: f64 = 0.5;
 
 /// Why a stage is not handed over.
 const NO_INVERSE: &str = "--invertible: it has no inverse";
@@ -38,13 +51,48 @@ pub struct HandOver {
     pub causal: Segments,
     /// Time constant of the causal rates \[s\].
     pub time_constant: f64,
+    /// The same with play before the hysteresis, where the input's noise is what makes the
+    /// error.
+    pub calmed: Option<Calmed>,
     /// Whether it was to be fitted within what can be inverted.
     pub within_inverse: bool,
     /// Whether it can be a feed-forward.
     pub feed_forward: FeedForward,
 }
 
+/// A model with play between the measured input and the hysteresis.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Calmed {
+    /// Half-width of the play, in the input's unit.
+    pub half_width: f64,
+    /// Errors sample by sample with causal rates, as shares of the output's standard deviation.
+    pub causal_nrmse: Segments,
+}
+
 impl HandOver {
+    /// Whether firmware errs so much more than the fit that the sentence has to say it.
+    #[must_use]
+    pub fn is_off(&self) -> bool {
+        let (fit, firmware) = (self.nrmse.held_out, self.causal.held_out);
+        firmware > NOTABLE && firmware > OFF * fit
+    }
+
+    /// With play before the hysteresis, where that helps.
+    fn calmed(&self, records: &[Record], data: &Prepared) -> Result<Option<Calmed>, String> {
+        let noise = records.iter().map(|record| noise(&record.input.values));
+        let half_width = PLAY * noise.fold(0.0, f64::max);
+        if !self.is_off() || !self.solution.structure.hysteresis || half_width <= 0.0 {
+            return Ok(None);
+        }
+        let play = Some(half_width);
+        let causal_nrmse = causal(records, data, &self.files, self.time_constant, play)?;
+        let helps = causal_nrmse.held_out < HELPS * self.causal.held_out;
+        Ok(helps.then_some(Calmed {
+            half_width,
+            causal_nrmse,
+        }))
+    }
+
     /// What is handed over of a final model. `invertible`: fit within what can be inverted.
     ///
     /// # Errors
@@ -94,7 +142,8 @@ impl HandOver {
         let mut own = Self {
             nrmse: share(&Segments::of(data, &solution.residual)),
             as_fitted: share(&done.rmse),
-            causal: causal(records, data, &files, time_constant)?,
+            causal: causal(records, data, &files, time_constant, None)?,
+            calmed: None,
             feed_forward: feed_forward(data, &solution, &files)?,
             within_inverse: invertible,
             solution,
@@ -108,17 +157,23 @@ impl HandOver {
                 own.feed_forward.words()
             ));
         }
-        own.describe(data, &base.data);
+        own.calmed = own.calmed(records, data)?;
+        own.describe(data, &base.data, verdict(data, ledger, done));
         Ok(own)
     }
 
     /// Gives each file its table `about`.
-    fn describe(&mut self, data: &Prepared, fitted: &Prepared) {
+    fn describe(&mut self, data: &Prepared, fitted: &Prepared, verdict: Verdict) {
         let several = self.files.len() > 1;
         let mut about = About {
+            verdict: Some(verdict.name().to_owned()),
             rates_time_constant_s: self.time_constant,
             fitted_invertible: self.within_inverse,
             feed_forward: self.feed_forward.words(),
+            play: self.calmed.map(|calmed| PlayBefore {
+                half_width: calmed.half_width,
+                held_out_causal: calmed.causal_nrmse.held_out,
+            }),
             left_out: self.left_out.clone(),
             ..About::new(fitted, &self.solution)
         }

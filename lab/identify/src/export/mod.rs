@@ -14,7 +14,7 @@ pub mod invertible;
 mod rust;
 pub mod vector;
 
-pub use about::{About, Errors, LeftOut, NotIdentified, Span};
+pub use about::{About, Errors, LeftOut, NotIdentified, PlayBefore, Span};
 pub use firmware::{postcard, CHECKSUM};
 
 use crate::fit::Solution;

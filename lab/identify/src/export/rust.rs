@@ -35,6 +35,10 @@ pub(super) fn origin(about: &About) -> String {
         "//! Fitted below {cutoff} Hz to a record of {rate} samples a second."
     );
     line!(out, "//!");
+    if let Some(warning) = about.warning() {
+        line!(out, "//! {warning}");
+        line!(out, "//!");
+    }
     let errors = &about.nrmse;
     line!(
         out,
@@ -47,6 +51,14 @@ pub(super) fn origin(about: &About) -> String {
             out,
             "//! Held out sample by sample, with the rates as below: {}.",
             per_cent(causal)
+        );
+    }
+    if let Some(play) = &about.play {
+        line!(
+            out,
+            "//! The same with the input behind `signal::Play` of half-width {}: {}.",
+            number(play.half_width),
+            per_cent(play.held_out_causal)
         );
     }
     for part in &about.left_out {

@@ -2,8 +2,8 @@
 
 use super::model::effects;
 use crate::conclude::verdict::percent;
-use crate::export::hand_over::HandOver;
-use crate::export::invertible::FeedForward;
+use crate::export::hand_over::{Calmed, HandOver};
+use crate::export::invertible::{three_digits, FeedForward};
 use crate::export::LeftOut;
 use crate::fit::Segments;
 use crate::problem::Prepared;
@@ -26,31 +26,39 @@ pub struct HandOverFacts {
     pub as_fitted: Segments,
     /// Its errors sample by sample with causal rates, likewise.
     pub causal: Segments,
+    /// The same with play before the hysteresis, where the input's noise makes the error.
+    pub calmed: Option<Calmed>,
     /// Time constant of the causal rates \[s\].
     pub time_constant: f64,
     /// Whether it can serve as a feed-forward.
     pub feed_forward: FeedForward,
 }
 
-/// Least error in firmware that the sentence mentions, as a share of the output's standard
-/// deviation ...
-const NOTABLE: f64 = 0.05;
-/// ... and its least multiple of the error of the fit. Both are a choice: of the ten measured rows
-/// three get the warning, the positioning drive, whose force is mostly inertia, and a cable tool.
-const OFF: f64 = 2.0;
-
 /// What somebody must know of a model in firmware who reads nothing but the verdict: the fit has
-/// velocities without phase, a chip has not.
+/// velocities without phase and a smooth input, a chip has not.
 pub(super) fn warning(data: &Prepared, hand: &HandOver) -> Option<String> {
-    let (fit, firmware) = (hand.nrmse.held_out, hand.causal.held_out);
-    (firmware > NOTABLE && firmware > OFF * fit).then(|| {
-        format!(
-            "In firmware, sample by sample with causal velocities{}, the held-out error is {} instead of {}.",
-            spikes(data),
-            percent(firmware),
-            percent(fit)
-        )
-    })
+    let errors = format!(
+        "the held-out error is {} instead of {}",
+        percent(hand.causal.held_out),
+        percent(hand.nrmse.held_out)
+    );
+    let said = || match &hand.calmed {
+        Some(calmed) => {
+            let unit = data.input.unit.as_ref().map(|unit| format!(" {unit}"));
+            format!(
+                "In firmware, sample by sample, {errors}: the noise of `{}` turns the hysteresis. Behind `signal::Play` of half-width {}{} it is {}.",
+                data.input.name,
+                three_digits(calmed.half_width),
+                unit.unwrap_or_default(),
+                percent(calmed.causal_nrmse.held_out)
+            )
+        }
+        None => format!(
+            "In firmware, sample by sample with causal velocities{}, {errors}.",
+            spikes(data)
+        ),
+    };
+    hand.is_off().then(said)
 }
 
 /// The columns whose spikes reach a model in firmware: no line stands in for them there.
@@ -80,6 +88,7 @@ impl HandOverFacts {
             nrmse: hand.nrmse,
             as_fitted: hand.as_fitted,
             causal: hand.causal,
+            calmed: hand.calmed,
             time_constant: hand.time_constant,
             feed_forward: hand.feed_forward.clone(),
         }

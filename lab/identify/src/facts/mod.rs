@@ -45,6 +45,7 @@ pub use crate::conclude::signals::{File, Part, Segment, Signals, Worst};
 pub use crate::conclude::trace::Column;
 pub use crate::conclude::unneeded::Unneeded;
 pub use crate::conclude::verdict::{percent, Verdict};
+pub use crate::export::hand_over::Calmed;
 pub use crate::export::invertible::{three_digits, FeedForward, Nearest};
 pub use crate::export::{LeftOut, ModelFile};
 pub use crate::fit::Segments;

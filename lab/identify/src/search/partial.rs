@@ -99,8 +99,10 @@ impl<'a> Partial<'a> {
             .collect();
         for group in &entries.groups {
             for (apart, row) in inner.iter_mut().enumerate().take(group.len()) {
-                for n in group.start..group.end - apart {
-                    row[n] = source.at(entries.columns[n], entries.columns[n + apart]);
+                let pairs = entries.columns[group.clone()].iter();
+                let pairs = pairs.zip(&entries.columns[group.start + apart..group.end]);
+                for (entry, (&i, &j)) in row[group.start..].iter_mut().zip(pairs) {
+                    *entry = source.at(i, j);
                 }
             }
         }

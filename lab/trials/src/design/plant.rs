@@ -67,6 +67,15 @@ impl Slopes {
 /// # Errors
 /// One sentence without the file's name.
 pub(crate) fn rises(file: &ModelFile) -> Result<(), String> {
+    let verdict = file
+        .about
+        .as_ref()
+        .and_then(|about| about.verdict.as_deref());
+    if verdict == Some("no-model") {
+        return Err(
+            "its verdict is `no-model`: its input does not explain its output, and nothing can be derived from it; `bowden close` says what to do".to_owned(),
+        );
+    }
     let Some(cable) = &file.transmission else {
         return Ok(());
     };

@@ -1,0 +1,107 @@
+//! A rig that changed, clocks that are apart, an angle that measures the output, motion that was
+//! not seen: what the boss reads must be that.
+
+use crate::files::{noise, Closed, Rows};
+
+/// A spring with a hysteresis, moved by tones; `slip` is taken from the true motion after the time
+/// given, and the force is logged as many samples early.
+fn spring(slip: (f64, f64), early: usize) -> Rows {
+    let (rate, mut z, mut before) = (500.0, 0.0, 0.0);
+    let x = |t: f64| 2.0 * (5.3 * t).sin() + 1.1 * (2.1 * t + 0.4).sin() + 0.6 * (9.7 * t).sin();
+    let mut rows = Vec::new();
+    for i in 0..12_000 {
+        let t = i as f64 / rate;
+        let own = x(t) - if t > slip.0 { slip.1 } else { 0.0 };
+        for k in 1..=10 {
+            let dx = (own - before) / 10.0;
+            z += 0.9 * (dx - 0.8 * dx.abs() * z - 0.2 * dx * z.abs());
+            if k == 10 {
+                before = own;
+            }
+        }
+        rows.push(vec![t, x(t), 1.5 * own + 4.0 * z + 0.02 * noise(i)]);
+    }
+    let forces: Vec<f64> = rows.iter().skip(early).map(|row| row[2]).collect();
+    rows.truncate(forces.len());
+    rows.iter_mut().zip(forces).for_each(|(row, f)| row[2] = f);
+    Rows {
+        header: "t,x [mm],f [N]".to_owned(),
+        rows,
+    }
+}
+
+#[test]
+fn a_rig_that_slips_in_the_held_out_part_does_not_carry_over_from_then_on() {
+    // The held-out part begins at 18 s of 24.
+    let closed = spring((21.0, 1.5), 0).close(&[]);
+    assert_eq!(closed.json["verdict"], "does-not-carry-over");
+    closed.says(&[
+        "The model does not carry over: its error is ",
+        "from 21.",
+        "do not use",
+    ]);
+    let sound = spring((99.0, 0.0), 0).close(&[]);
+    assert!(
+        !sound.sentence().contains("carry over"),
+        "{}",
+        sound.sentence()
+    );
+}
+
+#[test]
+fn an_output_that_comes_before_its_input_is_a_question_of_clocks() {
+    let closed = spring((99.0, 0.0), 5).close(&[]);
+    closed.says(&[
+        "ms before the input that it answers",
+        "logged on one clock?",
+    ]);
+    let told = closed.sentence();
+    let ms = told.split("The output comes ").nth(1).unwrap();
+    let ms: f64 = ms.split(' ').next().unwrap().parse().unwrap();
+    // Five samples of 2 ms.
+    assert!((ms - 10.0).abs() < 0.5, "{told}");
+}
+
+#[test]
+fn motion_in_a_gap_is_said_to_act_on() {
+    let mut rows = spring((99.0, 0.0), 0);
+    rows.rows.drain(4000..4600);
+    let closed = rows.close(&[]);
+    closed.says(&["What `x` did where it was not measured is not known"]);
+    let sound = spring((99.0, 0.0), 0).close(&[]);
+    assert!(!sound.sentence().contains("not measured"));
+}
+
+/// A cable of parallel slipping springs, which Bouc-Wen does not quite describe, on a joint with a
+/// spring, whose angle is recorded.
+fn joint() -> Closed {
+    let mut forces = [0.0_f64; 4];
+    let mut before = 0.0;
+    let row = |i: usize| {
+        let t = i as f64 / 500.0;
+        let tau_i = 5.0 + 4.0 * (3.1 * t).sin() + 1.5 * (7.3 * t + 1.0).sin();
+        let step = tau_i - before;
+        before = tau_i;
+        for (k, force) in forces.iter_mut().enumerate() {
+            let most = 0.25 * (k + 1) as f64;
+            *force = (*force + 0.5 * step).clamp(-most, most);
+        }
+        let tau_o = 0.85 * tau_i - forces.iter().sum::<f64>() + 0.01 * noise(i);
+        let phi_d = tau_o / 8.0 + 1e-4 * noise(i + 7);
+        vec![t, tau_i, tau_o, phi_d]
+    };
+    Rows {
+        header: "t,tau_i [N·m],tau_o [N·m],phi_d [rad]".to_owned(),
+        rows: (0..12_000).map(row).collect(),
+    }
+    .close(&[])
+}
+
+#[test]
+fn an_angle_behind_a_spring_is_said_to_stand_for_the_output() {
+    let closed = joint();
+    closed.says(&[
+        "Nearly all of the output is made of `phi_d`",
+        "does it measure the output, as the angle behind a spring does?",
+    ]);
+}

@@ -1,0 +1,103 @@
+//! What a held-out part shows that the fit could not see: a rig that changed, or clocks that
+//! are apart.
+
+use super::final_fit::FinalFit;
+use crate::fit::Solution;
+use crate::problem::Prepared;
+use crate::record::DefectKind;
+use bowden::model::Source;
+
+/// A held-out error of this share of the output's standard deviation, and of this multiple of
+/// the error on the fit segment, is that of another rig than the one that was fitted. Both are a
+/// choice: of the ten measured rows none has more than 8 % or 2.2 times.
+const OTHER_RIG: (f64, f64) = (0.1, 4.0);
+/// The change begins where this share of the held-out squared error lies behind it ...
+const BEFORE: f64 = 0.01;
+/// ... and is told if that is later than this share of the held-out part.
+const LATE: f64 = 0.05;
+
+/// The terms of a channel stand for the output where their sum has this share of its standard
+/// deviation, although the declared model errs by less than the other one. Both are a choice: a
+/// term that is there for what the declared model lacks is about as large as that.
+const STANDS_FOR: (f64, f64) = (0.9, 0.3);
+
+/// The error on the fit segment and the held-out one, as shares of the output's standard
+/// deviation on each, where the held-out one is that of another rig.
+pub(super) fn other_rig(data: &Prepared, done: &FinalFit) -> Option<(f64, f64)> {
+    let error = done.rmse.normalised(data, &data.target);
+    let (least, times) = OTHER_RIG;
+    (error.held_out > least && error.held_out > times * error.fit)
+        .then_some((error.fit, error.held_out))
+}
+
+/// The time \[s\] from which on the held-out error is large, if that is within the held-out part.
+pub(super) fn begins(data: &Prepared, done: &FinalFit) -> Option<f64> {
+    let rows = &data.split.held_out;
+    let square = |row: &usize| done.solution.residual[*row].powi(2);
+    let all: f64 = rows.iter().map(square).sum();
+    let mut sum = 0.0;
+    let first = rows.iter().position(|row| {
+        sum += square(row);
+        sum >= BEFORE * all
+    })?;
+    (first as f64 > LATE * rows.len() as f64).then(|| data.moment(rows[first]))
+}
+
+/// By how much \[s\] a delay and lags together put the output before the input; `None` where they
+/// do not, by at least a sample.
+pub(super) fn lead(data: &Prepared, solution: &Solution) -> Option<f64> {
+    let terms = solution.structure.terms.iter().enumerate();
+    let behind = terms.map(|(index, term)| match term.effect.name() {
+        "delay" => solution.gain(index),
+        // `gain` times of what a lag of `tau` takes away, which for slow motion is a delay.
+        "lag" => solution.gain(index) * term.effect.shape(0).unwrap_or(0.0),
+        _ => 0.0,
+    });
+    let lead = -behind.sum::<f64>();
+    (lead * data.rate >= 1.0).then_some(lead)
+}
+
+/// The channel that stands for the output in the delivered model: its terms make up nearly
+/// all of the output, although the declared model explains nearly all of it by the input.
+pub(super) fn stands_for_output<'a>(
+    data: &'a Prepared,
+    declared: &Solution,
+    done: &Solution,
+) -> Option<&'a str> {
+    let (most, nearly_all) = STANDS_FOR;
+    let error = declared.rmse.normalised(data, &data.target).held_out;
+    let terms = done.structure.terms.iter().filter(|t| t.is_linear());
+    let gains = done.columns.iter().zip(&done.gains);
+    let gains = terms.zip(gains.skip(done.structure.base()));
+    let rows = &data.split.held_out;
+    let spread = |values: &[f64]| {
+        let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
+        values
+            .iter()
+            .map(|v| (v - mean).powi(2))
+            .sum::<f64>()
+            .sqrt()
+    };
+    let output: Vec<f64> = rows.iter().map(|&row| data.target[row]).collect();
+    let of = |channel: usize| {
+        let own = gains
+            .clone()
+            .filter(|(term, _)| term.source == Source::Channel(channel as u8));
+        let at = |&row: &usize| own.clone().map(|(_, (column, g))| g * column[row]).sum();
+        let made: Vec<f64> = rows.iter().map(at).collect();
+        (spread(&made) / spread(&output), channel)
+    };
+    let all = (0..data.channels.len()).map(of);
+    let (share, channel) = all.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    (error < nearly_all && share > most).then(|| data.channels[channel].name.as_str())
+}
+
+/// Whether some of the motion of the input is not known: what it did acts on through the
+/// hysteresis.
+pub(super) fn has_unseen_motion(data: &Prepared) -> bool {
+    data.defects.iter().any(|defect| match defect.kind {
+        DefectKind::Gap => true,
+        DefectKind::Stuck | DefectKind::Clipping => defect.channel == data.input.name,
+        _ => false,
+    })
+}
