@@ -2,6 +2,7 @@
 //! not seen: what the boss reads must be that.
 
 use crate::files::{noise, Closed, Rows};
+use crate::shell::bowden;
 
 /// A spring with a hysteresis, moved by tones; `slip` is taken from the true motion after the time
 /// given, and the force is logged as many samples early.
@@ -104,4 +105,34 @@ fn an_angle_behind_a_spring_is_said_to_stand_for_the_output() {
         "Nearly all of the output is made of `phi_d`",
         "does it measure the output, as the angle behind a spring does?",
     ]);
+}
+
+/// The sentence of `check` with a model of the spring, on that spring with another factor of
+/// its force.
+fn checked(of_force: f64) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let first = spring((99.0, 0.0), 0).write(&folder, "first.csv");
+    let model = folder.path().join("model.toml").display().to_string();
+    let made = bowden(&["close", &first, "--model-out", &model]);
+    assert!(made.status.success(), "{made:?}");
+    let mut other = spring((99.0, 0.0), 0);
+    for (i, row) in other.rows.iter_mut().enumerate() {
+        row[2] = of_force * (row[2] + 0.02 * noise(i + 50_000));
+    }
+    let other = other.write(&folder, "other.csv");
+    let output = bowden(&["check", &model, &other, "--json"]);
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    json["sentence"].as_str().unwrap().to_owned()
+}
+
+#[test]
+fn a_sign_that_was_turned_is_named_by_check() {
+    let told = checked(-1.0);
+    assert!(
+        told.contains("With the sign of the output changed (gain -1.0"),
+        "{told}"
+    );
+    assert!(told.contains("connected the other way round?"), "{told}");
+    let told = checked(1.0);
+    assert!(told.starts_with("The model holds"), "{told}");
 }

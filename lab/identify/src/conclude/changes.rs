@@ -95,9 +95,22 @@ pub(super) fn stands_for_output<'a>(
 /// Whether some of the motion of the input is not known: what it did acts on through the
 /// hysteresis.
 pub(super) fn has_unseen_motion(data: &Prepared) -> bool {
-    data.defects.iter().any(|defect| match defect.kind {
-        DefectKind::Gap => true,
-        DefectKind::Stuck | DefectKind::Clipping => defect.channel == data.input.name,
-        _ => false,
-    })
+    let split = &data.split;
+    let rows = || {
+        [&split.fit, &split.stop, &split.held_out]
+            .into_iter()
+            .flatten()
+    };
+    let span = rows()
+        .max()
+        .zip(rows().min())
+        .map_or(0, |(last, first)| last + 1 - first);
+    // Short gaps are bridged, and nothing is left out for them.
+    let is_left_out = data.pieces.len() > 1 || span > rows().count();
+    is_left_out
+        && data.defects.iter().any(|defect| match defect.kind {
+            DefectKind::Gap => true,
+            DefectKind::Stuck | DefectKind::Clipping => defect.channel == data.input.name,
+            _ => false,
+        })
 }

@@ -230,7 +230,10 @@ fn place(
     let mut raw = thinned(&output, thinning * stride);
     raw.truncate(n_estimation);
 
-    let noise_floor = noise_floor(&output, &smoothed_output, cutoff, rate);
+    let noise_floor = match record.held.contains(&record.output.name) {
+        true => 0.0,
+        false => noise_floor(&output, &smoothed_output, cutoff, rate),
+    };
     let Range { start, end } = without_rest((&motion, &on_work), noise_floor, grid);
     let row = dt * stride as f64;
     let part = |share: usize| start + (end - start) * share / 100;

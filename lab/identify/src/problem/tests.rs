@@ -24,6 +24,7 @@ fn record(time: Vec<f64>, f: impl Fn(f64) -> f64) -> Record {
         notes: Vec::new(),
         defects: Vec::new(),
         dropped: 0,
+        held: Vec::new(),
         time,
     }
 }

@@ -32,6 +32,7 @@ mod error;
 mod file;
 mod gzip;
 mod header;
+mod held;
 mod kind;
 mod layout;
 mod mat;
@@ -148,6 +149,9 @@ pub struct Record {
     pub defects: Vec<Defect>,
     /// Rows that were left out as asked ([`Options::drop_bad`]).
     pub dropped: usize,
+    /// Columns that were sampled and held by the log: a curve stands in for their stairs, in
+    /// which nothing is left of their noise.
+    pub held: Vec<String>,
 }
 
 impl Record {
@@ -298,13 +302,15 @@ fn record(
     };
     let name = |index: usize| header.columns[index].name.as_str();
     let mut input = column(name(roles.input), Series::Column(roles.input))?;
-    let output = column(name(roles.output), Series::Column(roles.output))?;
+    let mut output = column(name(roles.output), Series::Column(roles.output))?;
     let mut channels = roles
         .channels
         .iter()
         .map(|(name, series)| column(name, *series))
         .collect::<Result<Vec<Column>, RecordError>>()?;
-    let unwrapped = unwrapped(&mut input, &output, &mut channels);
+    let mut mended = unwrapped(&mut input, &output, &mut channels);
+    let (held, said) = without_stairs(&table.time, &mut input, &mut output, &mut channels);
+    mended.extend(said);
     let parts = roles
         .channels
         .iter()
@@ -322,7 +328,7 @@ fn record(
     });
     let mut notes = roles.notes;
     notes.extend(table.notes);
-    notes.extend(unwrapped);
+    notes.extend(mended);
     Ok(Record {
         path: String::new(),
         mode: roles.mode,
@@ -333,6 +339,7 @@ fn record(
         notes,
         defects,
         dropped: table.dropped,
+        held,
     })
 }
 
@@ -344,4 +351,21 @@ fn unwrapped(input: &mut Column, output: &Column, channels: &mut [Column]) -> Ve
         .iter_mut()
         .filter_map(|channel| wrapping::unwrap(&channel.name, &mut channel.values, &others));
     own.into_iter().chain(channels).collect()
+}
+
+/// Takes the stairs out of columns that are sampled and held; returns their names and what is to
+/// be said of it.
+fn without_stairs(
+    time: &[f64],
+    input: &mut Column,
+    output: &mut Column,
+    channels: &mut [Column],
+) -> (Vec<String>, Vec<String>) {
+    let step = time::median_step(time);
+    let all = [input, output].into_iter().chain(channels);
+    all.filter_map(|column| {
+        let said = held::smooth(&column.name, &mut column.values, step)?;
+        Some((column.name.clone(), said))
+    })
+    .unzip()
 }

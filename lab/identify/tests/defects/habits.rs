@@ -68,3 +68,37 @@ fn an_encoder_that_wraps_around_changes_no_name() {
     assert_eq!(names(&ledger), names(&sound.1));
     assert_eq!(verdict_of(&data, &ledger), verdict_of(&sound.0, &sound.1));
 }
+
+#[test]
+fn a_log_that_samples_and_holds_changes_no_name() {
+    let sound = closed(&moved(1.0, 1.0));
+    for (column, name) in [(1, "x"), (2, "f")] {
+        let record = moved(1.0, 1.0);
+        let mut rows: Vec<[f64; 3]> = (0..record.samples())
+            .map(|i| {
+                [
+                    record.time[i],
+                    record.input.values[i],
+                    record.output.values[i],
+                ]
+            })
+            .collect();
+        for i in 0..rows.len() {
+            rows[i][column] = rows[i / 8 * 8][column];
+        }
+        let line = |[t, x, f]: &[f64; 3]| format!("{t},{x},{f}\n");
+        let text: String = rows.iter().map(line).collect();
+        let text = format!("t [s],x [mm],f [N]\n{text}");
+        let record = parse(text.as_bytes(), "r.csv", &Options::default()).unwrap();
+        assert_eq!(record.held, [name]);
+        let said = format!("`{name}` changes in every 8th row only (62.5 Hz)");
+        assert!(
+            record.notes.iter().any(|n| n.starts_with(&said)),
+            "{:?}",
+            record.notes
+        );
+        let (_, ledger) = closed(&record);
+        assert_eq!(names(&ledger), names(&sound.1));
+    }
+    assert_eq!(moved(1.0, 1.0).held, [""; 0]);
+}

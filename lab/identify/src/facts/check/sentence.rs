@@ -1,9 +1,12 @@
 //! The verdict of a check in one or two sentences.
 
 use super::CheckFacts;
-use crate::check::{Fitted, Line, Verdict};
+use crate::check::{Fitted, Line, Verdict, HOLDS};
 use crate::facts::numbers::{number, share as percent, with_interval};
 use std::fmt::Write as _;
+
+/// Share of the output's standard deviation that noise may be without a word.
+const LITTLE: f64 = 0.2;
 
 /// Gain and offset are mentioned with a model that holds where they leave less than this
 /// share of its error.
@@ -27,17 +30,25 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
         |own| format!("{} on what was held out of its own record", percent(own)),
     );
     let mut text = match check.verdict {
-        Verdict::Holds if check.reference.is_some() => format!(
+        Verdict::Holds if check.reference.is_some_and(|own| check.rmse <= HOLDS * own * check.deviation) => format!(
             "The model holds: it misses {as_it_is} of this record's output, as against {came}; nothing was refitted."
         ),
         Verdict::Holds => format!(
-            "The model holds: the {as_it_is} of this record's output that it misses are the sensor's noise; nothing was refitted."
+            "The model holds: the {as_it_is} of this record's output that it misses are the sensor's noise; nothing was refitted.{}",
+            hardly_moves(check)
         ),
         Verdict::GainOrOffsetMoved => format!(
             "{}: the model as it is misses {as_it_is} of this record's output, with that corrected {}, as against {came}.",
             moved(check),
             share(check.rmse_corrected)
         ),
+        Verdict::DoesNotHold if is_inverted(check) => {
+            return format!(
+                "The model does not hold: it misses {as_it_is} of this record's output. With the sign of the output changed (gain {}) it misses {}, as against {came}: is a sensor or the drive connected the other way round?",
+                fitted(&check.line.gain),
+                share(check.rmse_gain_offset)
+            )
+        }
         Verdict::DoesNotHold => format!(
             "The model does not hold: it misses {as_it_is} of this record's output, as against {came}, and another gain and offset leave {}.",
             share(check.rmse_gain_offset)
@@ -66,6 +77,22 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
         );
     }
     text
+}
+
+/// Whether the model holds but for the sign of the output.
+fn is_inverted(check: &CheckFacts) -> bool {
+    let within = check
+        .allowed
+        .is_some_and(|most| check.rmse_gain_offset <= most);
+    within && check.line.gain.value < 0.0
+}
+
+/// What somebody has to know of a record on which the noise is most of what is missed.
+fn hardly_moves(check: &CheckFacts) -> String {
+    match check.rmse > LITTLE * check.deviation {
+        true => " The output hardly moves here: a record with more motion says more.".to_owned(),
+        false => String::new(),
+    }
 }
 
 fn moved(check: &CheckFacts) -> String {

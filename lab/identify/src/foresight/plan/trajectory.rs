@@ -322,6 +322,7 @@ impl Trajectory {
             notes: Vec::new(),
             defects: Vec::new(),
             dropped: 0,
+            held: Vec::new(),
         };
         let cutoff = Some(data.cutoff);
         Prepared::new(&record, Preparation { cutoff }).ok()

@@ -1,0 +1,142 @@
+//! A column that changes in every k-th row only: a slower sensor, sampled and held by the log.
+//!
+//! As recorded it lags by half of its own step, which a search would call a delay, a lag or friction. Its
+//! updates are true samples; a curve through them stands in for the stairs. A converter's steps
+//! look alike where the motion is even, but then all are one count.
+
+/// Shortest period of the updates [rows].
+const SHORTEST: f64 = 4.0;
+/// Fewest updates from which their period is taken.
+const FEWEST: usize = 60;
+/// Share of updates that have to lie on the period, to a row.
+const REGULAR: f64 = 0.95;
+/// Largest share of steps of one count, which a held signal of a fine sensor rarely has.
+const ONE_COUNT: f64 = 0.5;
+/// Beyond so many periods without an update the signal rested, and stays a line.
+const RESTED: f64 = 1.5;
+
+/// Replaces stairs by a curve through their edges; returns what is to be said of it. `step` is
+/// the time of one row \[s\].
+pub(super) fn smooth(name: &str, values: &mut [f64], step: f64) -> Option<String> {
+    let edges: Vec<usize> = (1..values.len())
+        .filter(|&i| values[i] != values[i - 1])
+        .collect();
+    let period = period(&edges)?;
+    let sizes: Vec<f64> = edges
+        .iter()
+        .map(|&i| (values[i] - values[i - 1]).abs())
+        .collect();
+    let count = sizes.iter().copied().fold(f64::INFINITY, f64::min);
+    let ones = sizes.iter().filter(|size| **size < 1.5 * count).count();
+    if ones as f64 > ONE_COUNT * sizes.len() as f64 {
+        return None;
+    }
+    let at: Vec<f64> = edges.iter().map(|&i| values[i]).collect();
+    // The slope at an edge, by the edges beside it.
+    let slope = |k: usize| -> f64 {
+        let (before, after) = (k.saturating_sub(1), (k + 1).min(edges.len() - 1));
+        let rests = |a: usize, b: usize| (edges[b] - edges[a]) as f64 > RESTED * period;
+        match before == after || rests(before, k) || rests(k, after) {
+            true => 0.0,
+            false => (at[after] - at[before]) / (edges[after] - edges[before]) as f64,
+        }
+    };
+    for k in 0..edges.len() - 1 {
+        let (from, to) = (edges[k], edges[k + 1]);
+        let length = (to - from) as f64;
+        if length > RESTED * period {
+            // It rested until one period before the next update.
+            let last = to - period.round() as usize;
+            for (i, value) in values[last + 1..to].iter_mut().enumerate() {
+                let u = (i + 1) as f64 / (to - last) as f64;
+                *value = at[k] + u * (at[k + 1] - at[k]);
+            }
+            continue;
+        }
+        let (a, b) = (slope(k) * length, slope(k + 1) * length);
+        for (i, value) in values[from + 1..to].iter_mut().enumerate() {
+            let u = (i + 1) as f64 / length;
+            let (u2, u3) = (u * u, u * u * u);
+            *value = (2.0 * u3 - 3.0 * u2 + 1.0) * at[k]
+                + (u3 - 2.0 * u2 + u) * a
+                + (3.0 * u2 - 2.0 * u3) * at[k + 1]
+                + (u3 - u2) * b;
+        }
+    }
+    Some(format!(
+        "`{name}` changes in every {}th row only ({:.1} Hz), which makes it {:.3} ms late: a curve through its updates stands in",
+        three_digits(period),
+        1.0 / (period * step),
+        500.0 * (period - 1.0) * step
+    ))
+}
+
+/// The period of the updates [rows]; `None` where they have none.
+fn period(edges: &[usize]) -> Option<f64> {
+    let mut gaps: Vec<usize> = edges.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    if gaps.len() < FEWEST {
+        return None;
+    }
+    let all = gaps.clone();
+    let middle = gaps.len() / 2;
+    let usual = *gaps.select_nth_unstable(middle).1 as f64;
+    let near = all.iter().map(|gap| *gap as f64);
+    let near: Vec<f64> = near.filter(|gap| (gap - usual).abs() <= 1.0).collect();
+    let period = near.iter().sum::<f64>() / near.len().max(1) as f64;
+    let is_regular = |gap: &&usize| {
+        let gap = **gap as f64;
+        let steps = (gap / period).round().max(1.0);
+        (gap - steps * period).abs() <= 1.0 + 0.02 * steps
+    };
+    let regular = all.iter().filter(is_regular).count() as f64;
+    (period >= SHORTEST && regular >= REGULAR * all.len() as f64).then_some(period)
+}
+
+fn three_digits(value: f64) -> f64 {
+    (value * 100.0).round() / 100.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn signal(row: f64) -> f64 {
+        3.0 * (0.004 * row).sin() + (0.0093 * row + 1.0).sin()
+    }
+
+    #[test]
+    fn stairs_of_any_period_become_the_signal_again() {
+        for period in [5.0, 16.667, 20.0, 50.0] {
+            let held = |row: usize| signal(((row as f64 / period).floor() * period).ceil());
+            let mut values: Vec<f64> = (0..8000).map(held).collect();
+            let late = values.clone();
+            let said = smooth("f", &mut values, 1e-3).unwrap();
+            assert!(said.contains(" Hz)"), "{said}");
+            let error = |all: &[f64]| {
+                let rows = 100..7900;
+                let squares = rows.map(|row| (all[row] - signal(row as f64)).powi(2));
+                squares.sum::<f64>().sqrt()
+            };
+            // The rows of an update are true; a cubic through them errs by the fourth derivative.
+            assert!(error(&values) < 0.05 * error(&late), "{period}");
+        }
+    }
+
+    #[test]
+    fn even_motion_of_an_encoder_noise_and_slow_signals_stay_as_they_are() {
+        // A triangle whose counts come every 25 rows.
+        let triangle = |row: usize| {
+            let phase = (row % 4000) as f64 / 2000.0;
+            (80.0 * (1.0 - (phase - 1.0).abs())).floor()
+        };
+        let noisy = |row: usize| ((row as f64 * 12.9898).sin() * 43758.5453).rem_euclid(1.0);
+        let counts = |row: usize| (40.0 * signal(row as f64)).round();
+        let all: [&dyn Fn(usize) -> f64; 3] = [&triangle, &noisy, &counts];
+        for of in all {
+            let signal: Vec<f64> = (0..16_000).map(of).collect();
+            let mut own = signal.clone();
+            assert_eq!(smooth("f", &mut own, 1e-3), None);
+            assert_eq!(own, signal);
+        }
+    }
+}
