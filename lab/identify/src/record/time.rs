@@ -35,6 +35,10 @@ pub(super) enum Stamp {
 /// samples a second or fewer say nothing of hysteresis in motion.
 const LONG_STEP: f64 = 0.5;
 
+/// A mean step without a unit below which stamps are not taken for seconds \[s\]: spreadsheets
+/// count days, and nobody samples a cable a million times a second.
+const SHORT_STEP: f64 = 1e-6;
+
 enum Source {
     Column {
         index: usize,
@@ -60,7 +64,7 @@ impl Clock {
                 let scale = units::seconds(unit).ok_or_else(|| {
                     let unit = shown(unit.unwrap_or_default(), NAME_LENGTH);
                     let message = format!(
-                        "unit `{unit}` is not a time, one of s, ms, us, ns, min was expected"
+                        "unit `{unit}` is not a time, one of s, ms, us, ns, min, h, d was expected"
                     );
                     RecordError::at(header.line, message).on(&column.name)
                 })?;
@@ -153,8 +157,25 @@ impl Clock {
         self.rows
     }
 
-    /// Refuses time stamps that repeat, and says what they look like.
+    /// Refuses time stamps that repeat, and says what they look like; and such without a unit
+    /// that cannot be seconds.
     pub(super) fn finish(&self, header: &Header) -> Result<(), RecordError> {
+        if let Source::Column {
+            index,
+            unitless: true,
+            ..
+        } = self.source
+        {
+            let step = self.last / self.rows.saturating_sub(1).max(1) as f64;
+            if step > 0.0 && step < SHORT_STEP {
+                let name = &header.columns[index].name;
+                let message = format!(
+                    "no unit is stated, and there are {:.3e} rows a second if it is s: `{name} [d]` for days, `{name} [h]` for hours, or `{name} [s]` was expected",
+                    1.0 / step
+                );
+                return Err(RecordError::at(header.line, message).on(name));
+            }
+        }
         let (Some((line, cell)), Source::Column { index, .. }) = (&self.first_repeat, &self.source)
         else {
             return Ok(());
@@ -165,7 +186,12 @@ impl Clock {
         let name = &header.columns[*index].name;
         let cell = shown(cell, 24);
         let message = if self.repeated * 100 >= self.rows && self.last > 0.0 {
-            let rate = (self.rows - 1) as f64 / self.last;
+            let stamps = (self.rows - self.repeated).max(2) as f64;
+            let rate = match 2 * self.repeated > self.rows {
+                // The last of few stamps stands for as long as the others.
+                true => self.rows as f64 / (self.last * stamps / (stamps - 1.0)),
+                false => (self.rows - 1) as f64 / self.last,
+            };
             format!(
                 "time stands still at {cell}, as at {} of {} rows: the stamps are rounded; \
                  --rate HZ takes time from the row number (about {rate:.1} Hz), --drop-bad leaves such rows out",

@@ -131,6 +131,8 @@ pub(super) fn seconds(unit: Option<&str>) -> Option<f64> {
         Some("us" | "µs" | "μs") => Some(1e-6),
         Some("ns") => Some(1e-9),
         Some("min") => Some(60.0),
+        Some("h") => Some(3600.0),
+        Some("d" | "day" | "days") => Some(86_400.0),
         Some(_) => None,
     }
 }

@@ -73,8 +73,29 @@ fn the_unit_of_time_is_converted() {
     assert_eq!(record.notes, ["time converted from ms to s"]);
     refused(
         csv("t [V],x,f", &rows()),
-        "r.csv:1: column `t`: unit `V` is not a time, one of s, ms, us, ns, min was expected",
+        "r.csv:1: column `t`: unit `V` is not a time, one of s, ms, us, ns, min, h, d was expected",
     );
+}
+
+#[test]
+fn days_without_a_unit_are_not_taken_for_seconds() {
+    let day = |i: usize| format!("{:.12}", 45_000.0 + i as f64 * 1e-3 / 86_400.0);
+    refused(
+        with_time("t,x,f", day),
+        "r.csv:1: column `t`: no unit is stated, and there are 8.640e7 rows a second if it is s: `t [d]` for days, `t [h]` for hours, or `t [s]` was expected",
+    );
+    let record = accepted(with_time("t [d],x,f", day));
+    // A day's twelfth digit is a tenth of a microsecond.
+    assert!((record.time[399] - 0.399).abs() < 1e-6);
+}
+
+#[test]
+fn whole_seconds_give_the_rate_between_them() {
+    let error = refusal(
+        with_time("t,x,f", |i| (i / 40).to_string()),
+        &Options::default(),
+    );
+    assert!(error.contains("(about 40.0 Hz)"), "{error}");
 }
 
 #[test]
