@@ -136,3 +136,29 @@ fn a_sign_that_was_turned_is_named_by_check() {
     let told = checked(1.0);
     assert!(told.starts_with("The model holds"), "{told}");
 }
+
+#[test]
+fn a_file_with_another_zero_is_not_the_wrong_input() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut files: Vec<String> = Vec::new();
+    for (index, zero) in [0.0, 0.0, 30.0].into_iter().enumerate() {
+        let mut rows = spring((99.0, 0.0), 0);
+        for (i, row) in rows.rows.iter_mut().enumerate() {
+            row[2] += zero + 0.02 * noise(i + 20_000 * (index + 1));
+        }
+        files.push(rows.write(&folder, &format!("{index}.csv")));
+    }
+    let [a, b, c] = [&*files[0], &*files[1], &*files[2]];
+    let closed = Closed::of(&[a, b, c]);
+    assert_eq!(closed.json["verdict"], "does-not-carry-over");
+    closed.says(&[
+        "A gain of 1.00",
+        "and an offset of 30.0",
+        "2.csv",
+        "`--per-file gains`",
+    ]);
+    // The advice works.
+    let mended = Closed::of(&[a, b, c, "--per-file", "gains"]);
+    assert_ne!(mended.json["verdict"], "does-not-carry-over");
+    assert_ne!(mended.json["verdict"], "no-model");
+}

@@ -21,6 +21,13 @@ const LATE: f64 = 0.05;
 /// term that is there for what the declared model lacks is about as large as that.
 const STANDS_FOR: (f64, f64) = (0.9, 0.3);
 
+/// Multiple of the noise floor from which the sentence says that motion was not seen.
+const UNSEEN: f64 = 3.0;
+
+/// Share of the error on a file that was held out as a whole which another gain and offset may
+/// leave, to be told as its cause. A choice.
+const LINE_LEAVES: f64 = 0.25;
+
 /// The error on the fit segment and the held-out one, as shares of the output's standard
 /// deviation on each, where the held-out one is that of another rig.
 pub(super) fn other_rig(data: &Prepared, done: &FinalFit) -> Option<(f64, f64)> {
@@ -55,6 +62,37 @@ pub(super) fn lead(data: &Prepared, solution: &Solution) -> Option<f64> {
     });
     let lead = -behind.sum::<f64>();
     (lead * data.rate >= 1.0).then_some(lead)
+}
+
+/// Whether a file that was held out as a whole is not described by the model of the others.
+pub(super) fn is_other_file(data: &Prepared, done: &FinalFit) -> bool {
+    data.pieces.last().is_some_and(|piece| !piece.fitted) && other_rig(data, done).is_some()
+}
+
+/// What is to be said of a file that was held out as a whole and differs from the others by gain
+/// and offset alone.
+pub(super) fn other_line(data: &Prepared, done: &FinalFit) -> Option<String> {
+    let file = data.pieces.last().filter(|_| is_other_file(data, done))?;
+    let rows = &data.split.held_out;
+    let of = |signal: &[f64]| rows.iter().map(|&row| signal[row]).collect::<Vec<f64>>();
+    let (x, y) = (of(&done.solution.prediction), of(&data.target));
+    let n = rows.len() as f64;
+    let (mx, my) = (x.iter().sum::<f64>() / n, y.iter().sum::<f64>() / n);
+    let sum = |f: &dyn Fn(f64, f64) -> f64| x.iter().zip(&y).map(|(x, y)| f(*x, *y)).sum::<f64>();
+    let gain = sum(&|x, y| (x - mx) * (y - my)) / sum(&|x, _| (x - mx).powi(2));
+    let offset = my - gain * mx;
+    let left = sum(&|x, y| (y - gain * x - offset).powi(2));
+    let error = (left / sum(&|_, y| (y - my).powi(2))).sqrt();
+    let now = done.rmse.normalised(data, &data.target).held_out;
+    (error < LINE_LEAVES * now).then(|| {
+        let unit = data.output_unit.as_ref().map(|unit| format!(" {unit}"));
+        format!(
+            " A gain of {gain:.4} and an offset of {offset:.4}{} would leave {:.2} % on {}: is its unit, its sign or its zero another one? `--per-file gains` fits both for each file.",
+            unit.unwrap_or_default(),
+            100.0 * error,
+            file.path
+        )
+    })
 }
 
 /// The channel that stands for the output in the delivered model: its terms make up nearly
@@ -92,9 +130,20 @@ pub(super) fn stands_for_output<'a>(
     (error < nearly_all && share > most).then(|| data.channels[channel].name.as_str())
 }
 
-/// Whether some of the motion of the input is not known: what it did acts on through the
-/// hysteresis.
-pub(super) fn has_unseen_motion(data: &Prepared) -> bool {
+/// What is to be said where some of the motion of the input is not known, and more than noise is
+/// left.
+pub(super) fn unseen_motion(data: &Prepared, done: &FinalFit) -> Option<String> {
+    let is_left = data.noise_floor > 0.0 && done.rmse.fit > UNSEEN * data.noise_floor;
+    let is = is_left && done.solution.structure.hysteresis && has_unseen_motion(data);
+    is.then(|| {
+        format!(
+            "What `{}` did where it was not measured is not known, and acts on through the hysteresis.",
+            data.input.name
+        )
+    })
+}
+
+fn has_unseen_motion(data: &Prepared) -> bool {
     let split = &data.split;
     let rows = || {
         [&split.fit, &split.stop, &split.held_out]

@@ -4,7 +4,7 @@
 //! the figures that stand above it, and says what the model must not be used for.
 
 use super::by_file::worse;
-use super::changes::{begins, has_unseen_motion, lead, other_rig, stands_for_output};
+use super::changes::{begins, lead, other_line, other_rig, stands_for_output, unseen_motion};
 use super::final_fit::FinalFit;
 use super::intervals::term_title;
 use crate::fit::Solution;
@@ -71,8 +71,6 @@ const LEAST_EXPLAINED: f64 = 0.5;
 /// why the curve was preferred. A choice: a reader who is told "95 %" asks why there is no name.
 const NEARLY_ALL: f64 = 0.9;
 
-/// Multiple of the noise floor from which the sentence says that motion was not seen.
-const UNSEEN: f64 = 3.0;
 /// Defects that spoil what was concluded: grave ones of time, input, output, and of the
 /// channels that the model reads.
 fn spoils<'a>(data: &'a Prepared, last: &'a Solution) -> impl Iterator<Item = &'a Defect> {
@@ -157,7 +155,7 @@ pub fn verdict(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Verdict {
     let only_fitted = ledger.is_stopped() && ledger.rounds.is_empty();
     if spoils(data, last).next().is_some() {
         Verdict::DataDefect
-    } else if ledger.integrates || share < LEAST_EXPLAINED {
+    } else if ledger.integrates || (share < LEAST_EXPLAINED && other_line(data, done).is_none()) {
         Verdict::NoModel
     } else if held_out_ratio(ledger, done) > RISES
         || worse_than_a_constant(data, done)
@@ -435,13 +433,7 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
             }
         }
     }
-    let is_left = floors(data, done).is_some_and(|(fit, _)| fit > UNSEEN);
-    if is_left && done.solution.structure.hysteresis && has_unseen_motion(data) {
-        all.push(format!(
-            "What `{}` did where it was not measured is not known, and acts on through the hysteresis.",
-            data.input.name
-        ));
-    }
+    all.extend(unseen_motion(data, done));
     if let Some(channel) = stands_for_output(data, &ledger.declared, &done.solution) {
         all.push(format!(
             "Nearly all of the output is made of `{channel}` here, although the declared model does without it: does it measure the output, as the angle behind a spring does? Then leave its column out."
@@ -492,7 +484,9 @@ pub fn sentence(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     let found = verdict(data, ledger, done);
     let mut all = match found {
         Verdict::NoModel => return no_model(data, ledger, done),
-        Verdict::DoesNotCarryOver => vec![rises(data, ledger, done)],
+        Verdict::DoesNotCarryOver => {
+            vec![rises(data, ledger, done) + &other_line(data, done).unwrap_or_default()]
+        }
         _ => vec![lacks(data, ledger, done), rest(data, ledger, done, found)],
     };
     all.extend(warnings(data, ledger, done, found));
