@@ -57,7 +57,7 @@ fn an_output_that_comes_before_its_input_is_a_question_of_clocks() {
         "logged on one clock?",
     ]);
     let told = closed.sentence();
-    let ms = told.split("The output comes ").nth(1).unwrap();
+    let ms = told.split("The output comes about ").nth(1).unwrap();
     let ms: f64 = ms.split(' ').next().unwrap().parse().unwrap();
     // Five samples of 2 ms.
     assert!((ms - 10.0).abs() < 0.5, "{told}");

@@ -51,7 +51,8 @@ pub(super) fn begins(data: &Prepared, done: &FinalFit) -> Option<f64> {
 }
 
 /// By how much \[s\] a delay and lags together put the output before the input; `None` where they
-/// do not, by at least a sample.
+/// do not, by at least a sample. A damper's force comes before the displacement too, but viscous
+/// friction is the simpler name and is preferred where it does as well.
 pub(super) fn lead(data: &Prepared, solution: &Solution) -> Option<f64> {
     let terms = solution.structure.terms.iter().enumerate();
     let behind = terms.map(|(index, term)| match term.effect.name() {
@@ -84,15 +85,19 @@ pub(super) fn other_line(data: &Prepared, done: &FinalFit) -> Option<String> {
     let left = sum(&|x, y| (y - gain * x - offset).powi(2));
     let error = (left / sum(&|_, y| (y - my).powi(2))).sqrt();
     let now = done.rmse.normalised(data, &data.target).held_out;
-    (error < LINE_LEAVES * now).then(|| {
-        let unit = data.output_unit.as_ref().map(|unit| format!(" {unit}"));
-        format!(
-            " A gain of {gain:.4} and an offset of {offset:.4}{} would leave {:.2} % on {}: is its unit, its sign or its zero another one? `--per-file gains` fits both for each file.",
-            unit.unwrap_or_default(),
-            100.0 * error,
-            file.path
-        )
-    })
+    if error >= LINE_LEAVES * now {
+        let structure = &done.solution.structure;
+        let may_help = structure.hysteresis && structure.own_gains == 0;
+        let said = " `--per-file gains` tells whether more than the gains differs there.";
+        return may_help.then(|| said.to_owned());
+    }
+    let unit = data.output_unit.as_ref().map(|unit| format!(" {unit}"));
+    Some(format!(
+        " A gain of {gain:.4} and an offset of {offset:.4}{} would leave {:.2} % on {}: is its unit, its sign or its zero another one? `--per-file gains` fits both for each file.",
+        unit.unwrap_or_default(),
+        100.0 * error,
+        file.path
+    ))
 }
 
 /// The channel that stands for the output in the delivered model: its terms make up nearly

@@ -4,7 +4,9 @@
 //! the figures that stand above it, and says what the model must not be used for.
 
 use super::by_file::worse;
-use super::changes::{begins, lead, other_line, other_rig, stands_for_output, unseen_motion};
+use super::changes::{
+    begins, is_other_file, lead, other_line, other_rig, stands_for_output, unseen_motion,
+};
 use super::final_fit::FinalFit;
 use super::intervals::term_title;
 use crate::fit::Solution;
@@ -155,7 +157,7 @@ pub fn verdict(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Verdict {
     let only_fitted = ledger.is_stopped() && ledger.rounds.is_empty();
     if spoils(data, last).next().is_some() {
         Verdict::DataDefect
-    } else if ledger.integrates || (share < LEAST_EXPLAINED && other_line(data, done).is_none()) {
+    } else if ledger.integrates || (share < LEAST_EXPLAINED && !is_other_file(data, done)) {
         Verdict::NoModel
     } else if held_out_ratio(ledger, done) > RISES
         || worse_than_a_constant(data, done)
@@ -438,10 +440,9 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
         all.push(format!(
             "Nearly all of the output is made of `{channel}` here, although the declared model does without it: does it measure the output, as the angle behind a spring does? Then leave its column out."
         ));
-    }
-    if let Some(lead) = lead(data, &done.solution) {
+    } else if let Some(lead) = lead(data, &done.solution) {
         all.push(format!(
-            "The output comes {:.3} ms before the input that it answers, which no transmission does: were both logged on one clock?",
+            "The output comes about {:.1} ms before the input that it answers, which no transmission does: were both logged on one clock?",
             1e3 * lead
         ));
     }
