@@ -91,18 +91,3 @@ fn answers(
     }
     Ok(answers)
 }
-
-/// The standard deviation of the noise of a column, sample by sample, from its second
-/// differences: of the smooth motion they see next to nothing, and of spikes their median.
-#[must_use]
-pub fn noise(column: &[f64]) -> f64 {
-    let bend = |w: &[f64]| (w[2] - 2.0 * w[1] + w[0]).abs();
-    let mut bends: Vec<f64> = column.windows(3).map(bend).collect();
-    if bends.is_empty() {
-        return 0.0;
-    }
-    let middle = bends.len() / 2;
-    let median = *bends.select_nth_unstable_by(middle, f64::total_cmp).1;
-    // The median of |N(0, 1)| is 0.6745; a second difference has six times the variance.
-    median / (0.6745 * 6.0_f64.sqrt())
-}

@@ -6,7 +6,7 @@
 //! ([`invertible`](crate::export::invertible)). Whatever is left out, the rest is fitted again on
 //! the same segments, and the errors that are said are those of the model that is written.
 
-use super::causal::{causal, noise, time_constant};
+use super::causal::{causal, time_constant};
 use super::clockwork::{because, has_clockwork, is_clockwork, table_name, without};
 use super::invertible::{caution, nearest, obstacle, stages, without_stages, FeedForward};
 use super::{About, LeftOut, ModelFile, NotIdentified, PlayBefore};
@@ -16,6 +16,7 @@ use crate::conclude::verdict::{verdict, Verdict};
 use crate::fit::{fit_from, Known, Segments, Solution};
 use crate::ledger::Ledger;
 use crate::model::kind::is_stage;
+use crate::problem::still::noise;
 use crate::problem::Prepared;
 use crate::record::Record;
 

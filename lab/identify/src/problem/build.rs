@@ -2,11 +2,11 @@
 
 use super::against::against;
 use super::blind::{blind, bridged};
-use super::rest;
 use super::spectrum;
 use super::together;
 use super::uniform::{usual_step, Uniform};
 use super::{filtered, motion, Channel, HeldOut, Piece, Preparation, Prepared, Split, ZeroPhase};
+use super::{rest, still};
 use crate::record::{Column, Defect, Mode, Record};
 use bowden::effect::Motion;
 use std::ops::Range;
@@ -196,11 +196,9 @@ fn place(
     } = grid;
     let output = uniform.signal(&bridged(record, &record.output));
     let rate = 1.0 / grid.step;
-    let mut n_work = uniform.len.div_ceil(thinning);
+    let n_work = uniform.len.div_ceil(thinning);
     // The next record begins on the estimation grid.
-    if !last {
-        n_work -= n_work % stride;
-    }
+    let n_work = n_work - if last { 0 } else { n_work % stride };
     let n_estimation = n_work.div_ceil(stride);
     if n_estimation < 2 * edge + rest::FEWEST {
         return Err(format!(
@@ -211,17 +209,18 @@ fn place(
     }
     let smooth = ZeroPhase::new(2.5 * cutoff, rate);
     let smoothed_output = smooth.apply(&output);
-    let moving = |values: &[f64]| {
-        let mut all = motion(&smooth.apply(values), thinning, uniform.dt);
+    let moving = |smoothed: &[f64]| {
+        let mut all = motion(smoothed, thinning, uniform.dt);
         all.truncate(n_work);
         all
     };
-    let mut motion = vec![moving(input)];
+    let (smoothed_input, rested) = still::smoothed(&smooth, input, rate / cutoff);
+    let mut motion = vec![moving(&smoothed_input)];
     motion.extend(
         record
             .channels
             .iter()
-            .map(|c| moving(&uniform.signal(&bridged(record, c)))),
+            .map(|c| moving(&smooth.apply(&uniform.signal(&bridged(record, c))))),
     );
     let thinned =
         |values: &[f64], by: usize| -> Vec<f64> { values.iter().step_by(by).copied().collect() };
@@ -260,6 +259,7 @@ fn place(
         rest: rest::note(
             (start > edge, start as f64 * row),
             (end < n_estimation - edge, (n_estimation - end) as f64 * row),
+            rested as f64 * uniform.dt,
         ),
         motion,
         output: on_work,

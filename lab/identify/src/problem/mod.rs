@@ -32,6 +32,7 @@ pub mod filter;
 mod rest;
 mod search;
 pub mod spectrum;
+pub mod still;
 mod uniform;
 
 /// At most so many records are fitted together. Each brings unknown states of its own, and every

@@ -48,8 +48,9 @@ fn resting(signals: &[(Vec<f64>, f64)], edge: usize, row: impl Fn(usize) -> usiz
     signals.iter().map(of).min().unwrap_or(0)
 }
 
-/// What is said of rest that is left out at the start and at the end \[s\].
-pub(super) fn note(first: (bool, f64), last: (bool, f64)) -> Option<String> {
+/// What is said of rest that is left out at the start and at the end \[s\], and of how long
+/// \[s\] the input rests within its noise.
+pub(super) fn note(first: (bool, f64), last: (bool, f64), still: f64) -> Option<String> {
     let said = |(is, seconds): (bool, f64), which: &str| {
         is.then(|| format!("in the {which} {seconds:.3} s"))
     };
@@ -57,7 +58,16 @@ pub(super) fn note(first: (bool, f64), last: (bool, f64)) -> Option<String> {
         .into_iter()
         .flatten()
         .collect();
-    (!ends.is_empty()).then(|| format!("nothing moves {}: left out", ends.join(" and ")))
+    let left_out = format!("nothing moves {}: left out", ends.join(" and "));
+    let line = format!(
+        "the input rests within its noise for {still:.3} s: a straight line stands in, lest the noise turn the hysteresis"
+    );
+    let said = [(!ends.is_empty(), left_out), (still > 0.0, line)];
+    let said: Vec<String> = said
+        .into_iter()
+        .filter_map(|(is, words)| is.then_some(words))
+        .collect();
+    (!said.is_empty()).then(|| said.join("; "))
 }
 
 #[cfg(test)]

@@ -1,0 +1,137 @@
+//! An input that rests: noise on it must not turn the hysteresis.
+//!
+//! The state of a hysteresis moves with the way that the input goes, and noise goes a long way in a
+//! rest of seconds: what it does to the state then looks like play or presliding. Where the
+//! smoothed input stays within its own noise for long, a straight line stands in for it.
+
+use super::ZeroPhase;
+
+/// A rest stays within this many standard deviations of the smoothed noise, to either side ...
+const NOISE: f64 = 4.0;
+/// ... for at least so many periods of the cut-off. In fewer the noise goes no way that matters.
+const LONG: f64 = 10.0;
+
+/// ... and has a standard deviation of at most so many of the noise's: of the fifty values or more
+/// that are independent, three standard deviations of theirs.
+const ALONE: f64 = 1.3;
+/// With less noise than this share of it a rest needs no line.
+const LEAST: f64 = 0.4;
+
+/// The standard deviation of the noise of a column, sample by sample, from its fourth
+/// differences: of the smooth motion they see next to nothing, and of spikes their median.
+#[must_use]
+pub fn noise(column: &[f64]) -> f64 {
+    let bend = |w: &[f64]| (w[0] - 4.0 * w[1] + 6.0 * w[2] - 4.0 * w[3] + w[4]).abs();
+    let mut bends: Vec<f64> = column.windows(5).map(bend).collect();
+    if bends.is_empty() {
+        return 0.0;
+    }
+    let middle = bends.len() / 2;
+    let median = *bends.select_nth_unstable_by(middle, f64::total_cmp).1;
+    // The median of |N(0, 1)| is 0.6745; a fourth difference has 70 times the variance.
+    median / (0.6745 * 70.0_f64.sqrt())
+}
+
+fn spread(values: &[f64]) -> f64 {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / n).sqrt()
+}
+
+/// Whether a stretch is noise of that standard deviation, and so is each quarter of it.
+fn is_noise(stretch: &[f64], noise: f64) -> bool {
+    let within = |values: &[f64], most: f64| (LEAST..most).contains(&(spread(values) / noise));
+    let mut quarters = stretch.chunks(stretch.len().div_ceil(4));
+    within(stretch, ALONE) && quarters.all(|own| within(own, ALONE * ALONE))
+}
+
+/// The input behind the smoother, with a line in the place of long rests; and the samples at rest.
+pub(super) fn smoothed(smooth: &ZeroPhase, input: &[f64], period: f64) -> (Vec<f64>, usize) {
+    let mut smoothed = smooth.apply(input);
+    let rested = still(&mut smoothed, smooth.noise_gain() * noise(input), period);
+    (smoothed, rested)
+}
+
+/// Puts a line in the place of long rests of a smoothed signal, whose noise has that standard
+/// deviation; `period` is that of the cut-off \[samples\]. Returns the samples at rest.
+fn still(smoothed: &mut [f64], noise: f64, period: f64) -> usize {
+    let (most, long) = (2.0 * NOISE * noise, (LONG * period).ceil() as usize);
+    let edge = period.ceil() as usize;
+    let (mut start, mut rested) = (0, 0);
+    while noise > 0.0 && start + long < smoothed.len() {
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        let within = |value: &&f64| {
+            low = low.min(**value);
+            high = high.max(**value);
+            high - low <= most
+        };
+        let length = smoothed[start..].iter().take_while(within).count();
+        // Motion as small as that has more spread than noise; a rest without noise needs no line.
+        if length < long || !is_noise(&smoothed[start..start + length], noise) {
+            start += (length / 2).max(1);
+            continue;
+        }
+        let (from, to) = (start + edge, start + length - edge);
+        let (first, last) = (smoothed[from], smoothed[to - 1]);
+        let steps = (to - 1 - from).max(1) as f64;
+        for (k, value) in smoothed[from..to].iter_mut().enumerate() {
+            *value = first + (last - first) * k as f64 / steps;
+        }
+        rested += to - from;
+        start += length;
+    }
+    rested
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn hash(row: usize) -> f64 {
+        let one = |k: usize| (((row + k) as f64 * 12.9898).sin() * 43758.5453).rem_euclid(1.0);
+        // Of unit variance.
+        (0..12).map(|k| one(7919 * k)).sum::<f64>() - 6.0
+    }
+
+    fn way(signal: &[f64]) -> f64 {
+        signal.windows(2).map(|w| (w[1] - w[0]).abs()).sum()
+    }
+
+    #[test]
+    fn noise_goes_no_way_at_rest_and_motion_stays_as_it_is() {
+        let at = |row: usize| match row {
+            0..1000 | 3000.. => (0.01 * row as f64).sin(),
+            _ => (10.0_f64).sin() + 0.005 * hash(row),
+        };
+        let before: Vec<f64> = (0..4000).map(at).collect();
+        let mut after = before.clone();
+        let rested = still(&mut after, 0.005, 20.0);
+        assert!((1900..2000).contains(&rested), "{rested}");
+        assert!(way(&after[1100..2900]) < 0.05 && way(&before[1100..2900]) > 5.0);
+        assert_eq!(after[..950], before[..950]);
+        assert_eq!(after[3050..], before[3050..]);
+        // Motion within the same band is none.
+        let small = |row: usize| match row {
+            0..1000 | 3000.. => (0.01 * row as f64).sin(),
+            _ => (10.0_f64).sin() + 0.015 * (0.03 * row as f64).sin(),
+        };
+        let mut own: Vec<f64> = (0..4000).map(small).collect();
+        assert_eq!(still(&mut own, 0.005, 20.0), 0);
+        // Without noise nothing rests but what is still.
+        let mut own = before.clone();
+        assert_eq!(still(&mut own, 0.0, 20.0), 0);
+        assert_eq!(own, before);
+    }
+
+    #[test]
+    fn the_noise_is_that_of_the_samples_whatever_the_motion() {
+        let column: Vec<f64> = (0..20_000)
+            .map(|row| 5.0 * (0.01 * row as f64).sin() + 0.02 * hash(row))
+            .collect();
+        assert!(
+            (noise(&column) / 0.02 - 1.0).abs() < 0.05,
+            "{}",
+            noise(&column)
+        );
+    }
+}
