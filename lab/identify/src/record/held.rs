@@ -65,7 +65,7 @@ pub(super) fn smooth(name: &str, values: &mut [f64], step: f64) -> Option<String
     }
     Some(format!(
         "`{name}` changes in every {}th row only ({:.1} Hz), which makes it {:.3} ms late: a curve through its updates stands in",
-        three_digits(period),
+        two_decimals(period),
         1.0 / (period * step),
         500.0 * (period - 1.0) * step
     ))
@@ -92,7 +92,7 @@ fn period(edges: &[usize]) -> Option<f64> {
     (period >= SHORTEST && regular >= REGULAR * all.len() as f64).then_some(period)
 }
 
-fn three_digits(value: f64) -> f64 {
+fn two_decimals(value: f64) -> f64 {
     (value * 100.0).round() / 100.0
 }
 
