@@ -1,6 +1,7 @@
 //! Files in which there is no model to be found: the verdict must say so.
 
 use crate::files::{noise, Rows, PHI_P, T, TAU_I, TAU_O};
+use crate::shell::bowden;
 use std::f64::consts::TAU;
 
 fn sound() -> Rows {
@@ -112,4 +113,37 @@ fn where_only_the_channels_explain_the_output_the_input_is_asked_about() {
         "the other channels",
         "right input",
     ]);
+}
+
+#[test]
+fn the_files_of_no_model_say_so_and_no_gains_are_derived_from_it() {
+    let mut rows = sound();
+    rows.set(TAU_O, |i, _| noise(i));
+    let folder = tempfile::tempdir().unwrap();
+    let record = rows.write(&folder, "record.csv");
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let (toml, rust) = (path("m.toml"), path("m.rs"));
+    for out in [&toml, &rust] {
+        assert!(bowden(&["close", &record, "--model-out", out])
+            .status
+            .success());
+    }
+    let read = |name: &str| std::fs::read_to_string(name).unwrap();
+    assert!(
+        read(&toml).contains("verdict = \"no-model\""),
+        "{}",
+        read(&toml)
+    );
+    let warning = "NOT TO BE USED: its verdict is `no-model`.";
+    assert!(read(&rust).contains(warning), "{}", read(&rust));
+    let header = bowden(&["export", "--c", &toml]);
+    assert!(
+        String::from_utf8_lossy(&header.stdout).contains(warning),
+        "{header:?}"
+    );
+    let design = bowden(&["design", &toml, "--rate", "1000", "--delay", "0.006"]);
+    assert_eq!(design.status.code(), Some(2));
+    let said = String::from_utf8_lossy(&design.stderr);
+    assert!(said.contains("its verdict is `no-model`"), "{said}");
+    assert_eq!(said.trim_end().lines().count(), 1, "{said}");
 }

@@ -2,7 +2,9 @@
 //! are apart.
 
 use super::final_fit::FinalFit;
-use crate::fit::Solution;
+use crate::algebra::line;
+use crate::fit::{Segments, Solution};
+use crate::model::structure::FitTerm;
 use crate::problem::Prepared;
 use crate::record::DefectKind;
 use bowden::model::Source;
@@ -74,17 +76,13 @@ pub(super) fn is_other_file(data: &Prepared, done: &FinalFit) -> bool {
 /// and offset alone.
 pub(super) fn other_line(data: &Prepared, done: &FinalFit) -> Option<String> {
     let file = data.pieces.last().filter(|_| is_other_file(data, done))?;
-    let rows = &data.split.held_out;
-    let of = |signal: &[f64]| rows.iter().map(|&row| signal[row]).collect::<Vec<f64>>();
-    let (x, y) = (of(&done.solution.prediction), of(&data.target));
-    let n = rows.len() as f64;
-    let (mx, my) = (x.iter().sum::<f64>() / n, y.iter().sum::<f64>() / n);
-    let sum = |f: &dyn Fn(f64, f64) -> f64| x.iter().zip(&y).map(|(x, y)| f(*x, *y)).sum::<f64>();
-    let gain = sum(&|x, y| (x - mx) * (y - my)) / sum(&|x, _| (x - mx).powi(2));
-    let offset = my - gain * mx;
-    let left = sum(&|x, y| (y - gain * x - offset).powi(2));
-    let error = (left / sum(&|_, y| (y - my).powi(2))).sqrt();
-    let now = done.rmse.normalised(data, &data.target).held_out;
+    let (prediction, target) = (&done.solution.prediction, &data.target);
+    let rows = data.split.held_out.iter();
+    let (gain, offset) = line(rows.map(|&row| (prediction[row], target[row])));
+    let pairs = target.iter().zip(prediction);
+    let left: Vec<f64> = pairs.map(|(y, x)| y - gain * x - offset).collect();
+    let share = |rmse: Segments| rmse.normalised(data, target).held_out;
+    let (error, now) = (share(Segments::of(data, &left)), share(done.rmse));
     if error >= LINE_LEAVES * now {
         let structure = &done.solution.structure;
         let may_help = structure.hysteresis && structure.own_gains == 0;
@@ -113,22 +111,16 @@ pub(super) fn stands_for_output<'a>(
     let gains = done.columns.iter().zip(&done.gains);
     let gains = terms.zip(gains.skip(done.structure.base()));
     let rows = &data.split.held_out;
-    let spread = |values: &[f64]| {
-        let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
-        values
-            .iter()
-            .map(|v| (v - mean).powi(2))
-            .sum::<f64>()
-            .sqrt()
-    };
-    let output: Vec<f64> = rows.iter().map(|&row| data.target[row]).collect();
+    let spread = |signal: &[f64]| Segments::deviation(data, signal).held_out;
     let of = |channel: usize| {
-        let own = gains
-            .clone()
-            .filter(|(term, _)| term.source == Source::Channel(channel as u8));
-        let at = |&row: &usize| own.clone().map(|(_, (column, g))| g * column[row]).sum();
-        let made: Vec<f64> = rows.iter().map(at).collect();
-        (spread(&made) / spread(&output), channel)
+        let mut made = vec![0.0; data.target.len()];
+        let reads = |term: &FitTerm| term.source == Source::Channel(channel as u8);
+        for (_, (column, gain)) in gains.clone().filter(|(term, _)| reads(term)) {
+            for &row in rows {
+                made[row] += gain * column[row];
+            }
+        }
+        (spread(&made) / spread(&data.target), channel)
     };
     let all = (0..data.channels.len()).map(of);
     let (share, channel) = all.max_by(|a, b| a.0.total_cmp(&b.0))?;

@@ -137,15 +137,10 @@ impl Span {
 impl About {
     /// What somebody has to know before the model is used, where its verdict forbids that.
     #[must_use]
-    pub fn warning(&self) -> Option<&'static str> {
-        match self.verdict.as_deref() {
-            Some("no-model") => Some("NOT TO BE USED: its verdict is `no-model`."),
-            Some("does-not-carry-over") => {
-                Some("NOT TO BE USED: its verdict is `does-not-carry-over`.")
-            }
-            Some("data-defect") => Some("NOT TO BE USED: its verdict is `data-defect`."),
-            _ => None,
-        }
+    pub fn warning(&self) -> Option<String> {
+        let forbids = |v: &&str| matches!(*v, "no-model" | "does-not-carry-over" | "data-defect");
+        let verdict = self.verdict.as_deref().filter(forbids)?;
+        Some(format!("NOT TO BE USED: its verdict is `{verdict}`."))
     }
 
     /// What a record says of a solution; what else there is to say is the caller's.

@@ -8,9 +8,8 @@ use super::ZeroPhase;
 
 /// A rest stays within this many standard deviations of the smoothed noise, to either side ...
 const NOISE: f64 = 4.0;
-/// ... for at least so many periods of the cut-off. In fewer the noise goes no way that matters.
+/// ... for at least so many periods of the cut-off (in fewer the noise goes no way that matters) ...
 const LONG: f64 = 10.0;
-
 /// ... and has a standard deviation of at most so many of the noise's: of the fifty values or more
 /// that are independent, three standard deviations of theirs.
 const ALONE: f64 = 1.3;

@@ -3,9 +3,9 @@
 //! A sensor that stands still while the rest moves, one at the end of its range, samples that
 //! leap away and back, steps so coarse that they shape the signal, gaps in time, time stamps
 //! that jitter: each is named with the lines of the file that it spoils. Stretches that hold no
-//! measurement (stuck, clipped) are left out of the fit, and a straight line stands in for spikes. A defect is *grave* where that does not save
-//! the conclusion. What belongs to any sensor (noise, a converter's usual steps, a
-//! reference that rests) is no defect.
+//! measurement (stuck, clipped) are left out of the fit, and a straight line stands in for spikes.
+//! A defect is *grave* where that does not save the conclusion. What belongs to any sensor (noise,
+//! a converter's usual steps, a reference that rests) is no defect.
 
 mod coarse;
 mod companion;
