@@ -11,7 +11,7 @@ fn any_shares<T: Real, const N: usize>(
     _: &mut ModelState<T, N>,
     _: &Sample<T>,
     _: T,
-    _: impl Fn(usize, Situation<T>) -> Situation<T>,
+    _: impl Fn(usize, &mut Situation<T>),
 ) -> [T; N] {
     core::array::from_fn(|_| T::of(kani::any()))
 }

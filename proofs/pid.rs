@@ -30,12 +30,14 @@ fn pid(anti_windup: AntiWindup<f32>, damping: Damping<f32>) -> Pid<f32> {
     pid.unwrap_or(Pid::paper_pi())
 }
 
-/// The loop closed, the safe command out for any fault, or the way back.
+/// The loop closed, with bad samples remembered or not, the safe command out for any fault, or
+/// the way back.
 pub(crate) fn latch() -> Latch {
     match kani::any::<u8>() {
         0 => Latch::Closed,
         1 => Latch::Returning,
-        fault => Latch::Safe(if fault == 2 {
+        2 => Latch::Counting,
+        fault => Latch::Safe(if fault == 3 {
             Fault::Dt
         } else {
             Fault::Measured
@@ -183,16 +185,20 @@ fn pid_from_any_state() {
 fn score_keeps_up() {
     let fallback = fallback();
     let (score, margin, is_bad) = (kani::any(), kani::any(), kani::any());
-    let latch = Latch::Closed;
-    let mut held = Held {
+    let latch = if kani::any() {
+        Latch::Counting
+    } else {
+        Latch::Closed
+    };
+    let raw = Held {
         command: 1.0,
         score,
         latch,
     };
+    let mut held = raw.remembering();
+    assert!(held.may_step());
     if is_bad {
-        held.bad(Fault::Measured, &fallback);
-    } else {
-        held.good(1.0);
+        held.bad_after_step(Fault::Measured, &fallback);
     }
     kani::cover!(score < fallback.most() && score >= margin && margin > 3 && is_bad);
     assert!(the_score_keeps_up(

@@ -298,23 +298,25 @@ impl<T: Real, const N: usize> Model<T, N> {
 
     /// Advances the effects by one good sample; each share, for models without stages.
     ///
-    /// `eta` is the caller's. `own` gives what a term reads in place of the sample's: its
+    /// `eta` is the caller's. `own` changes what a term reads of the sample: its
     /// motion, the input and the load.
     pub(crate) fn effects(
         &self,
         state: &mut ModelState<T, N>,
         at: &Sample<T>,
         eta: T,
-        own: impl Fn(usize, Situation<T>) -> Situation<T>,
+        own: impl Fn(usize, &mut Situation<T>),
     ) -> [T; N] {
         let mut shares = [T::zero(); N];
         state.tick(at.dt);
-        let around = around(at, state.time.value, eta);
+        let time = state.time.value;
         let places = self.terms().iter().zip(&mut state.effects).enumerate();
         for ((index, (term, memory)), share) in places.zip(&mut shares) {
             // The origin is subtracted behind `own`.
             if let Some(motion) = seen(term.source, T::ZERO, at) {
-                let mut there = own(index, Situation { motion, ..around });
+                let mut there = around(at, time, eta);
+                there.motion = motion;
+                own(index, &mut there);
                 there.motion.position = saturate(there.motion.position - term.origin);
                 *share = saturate(term.gain * term.effect.regressor(memory, &there));
             }
@@ -363,23 +365,10 @@ impl<T: Real, const N: usize> Model<T, N> {
             return state.output;
         }
         state.tick(at.dt);
-        let (mut output, eta) = match &self.transmission {
-            Some(transmission) => {
-                let moved = if self.stages.input {
-                    self.staged_input(state, at)
-                } else {
-                    at.input.position
-                };
-                let force = transmission.step(&mut state.hysteresis, moved);
-                (saturate(force), state.hysteresis.eta())
-            }
-            None => (T::zero(), T::zero()),
-        };
+        let (mut output, eta) = self.transmitted(state, at);
         let mut there = around(at, state.time.value, eta);
-        for stage in [Stage::Sum, Stage::Output] {
-            if stage == Stage::Output && !self.stages.output {
-                break;
-            }
+        let mut stage = Stage::Sum;
+        loop {
             let places = self.terms().iter().zip(&mut state.effects).enumerate();
             for (index, (term, memory)) in places {
                 if term.effect.stage() != stage {
@@ -393,9 +382,30 @@ impl<T: Real, const N: usize> Model<T, N> {
                 output = saturate(output + part);
                 share(index, part);
             }
+            if stage == Stage::Output || !self.stages.output {
+                break;
+            }
+            stage = Stage::Output;
         }
         state.output = output;
         output
+    }
+
+    /// What the transmission makes of the input, and its hysteresis state.
+    ///
+    /// A call: its stack shall not add to that of the effects.
+    #[inline(never)]
+    fn transmitted(&self, state: &mut ModelState<T, N>, at: &Sample<T>) -> (T, T) {
+        let Some(transmission) = &self.transmission else {
+            return (T::zero(), T::zero());
+        };
+        let moved = if self.stages.input {
+            self.staged_input(state, at)
+        } else {
+            at.input.position
+        };
+        let force = transmission.step(&mut state.hysteresis, moved);
+        (saturate(force), state.hysteresis.eta())
     }
 
     /// What the input stages make of the input.

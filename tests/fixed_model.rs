@@ -10,8 +10,13 @@ use proptest::prelude::*;
 use std::collections::BTreeSet;
 
 fn cable<T: Real>() -> Option<Transmission<T>> {
+    cable_of_gain(0.9)
+}
+
+/// With a gain above one the output of a huge input overflows before any effect is added.
+fn cable_of_gain<T: Real>(gain: f64) -> Option<Transmission<T>> {
     let shape = Shape::try_new(T::of(0.6), T::of(2.0), T::of(1.5)).unwrap();
-    Transmission::torque(T::of(0.9), T::of(1.2), T::of(0.05), shape).ok()
+    Transmission::torque(T::of(gain), T::of(1.2), T::of(0.05), shape).ok()
 }
 
 /// A tuple of terms in turn on the input and on two channels, each from an origin of its own.
@@ -109,11 +114,22 @@ fn others<T: Real>() -> Result<impl Terms<T, 2>, Error> {
     ])
 }
 
+/// Nothing that is added to the sum: an input stage and two output stages.
+fn stages<T: Real>() -> Result<impl Terms<T, 3>, Error> {
+    let one = T::of(0.7);
+    Ok(terms![
+        Delay,
+        PlayInSeries::try_new(one)?,
+        Lag::try_new(one)?
+    ])
+}
+
 type Row = [f64; 8];
 
-/// Steps both models over the rows, and asks them for the same bits.
-fn same<T: Real, const N: usize, L: Terms<T, N>>(terms: L, rows: &[Row], with: bool) {
-    let transmission = if with { cable() } else { None };
+/// Steps both models over the rows, and asks them for the same bits; `gain` is the cable's, where
+/// there is one.
+fn same<T: Real, const N: usize, L: Terms<T, N>>(terms: L, rows: &[Row], gain: Option<f64>) {
+    let transmission = gain.and_then(cable_of_gain);
     let fixed = FixedModel::try_new(transmission, terms).unwrap();
     let any = fixed.to_model();
     let (mut a, mut b) = (ModelState::new(), ModelState::new());
@@ -155,17 +171,25 @@ proptest! {
     #[test]
     fn it_has_the_bits_of_the_model_that_holds_any_effect(
         rows in prop::collection::vec(row(), 1..40),
-        with in any::<bool>(),
+        with in prop_oneof![Just(None), Just(Some(0.9)), Just(Some(3.0))],
     ) {
         same::<f64, 16, _>(plain(), &rows, with);
         same::<f64, 16, _>(staged().unwrap(), &rows, with);
         same::<f64, 16, _>(remembering().unwrap(), &rows, with);
         same::<f64, 2, _>(others().unwrap(), &rows, with);
+        same::<f64, 3, _>(stages().unwrap(), &rows, with);
         same::<f32, 16, _>(plain(), &rows, with);
         same::<f32, 16, _>(staged().unwrap(), &rows, with);
         same::<f32, 16, _>(remembering().unwrap(), &rows, with);
         same::<f32, 2, _>(others().unwrap(), &rows, with);
+        same::<f32, 3, _>(stages().unwrap(), &rows, with);
     }
+}
+
+#[test]
+fn an_output_that_overflows_where_no_effect_is_added_to_it_is_finite() {
+    let rows = [0.01, 2e38, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    same::<f32, 3, _>(stages().unwrap(), &[rows, rows], Some(3.0));
 }
 
 #[test]

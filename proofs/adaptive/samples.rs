@@ -134,7 +134,7 @@ fn is_good<const N: usize>(
 ) -> bool {
     let limits = &law.settings.limits;
     let mut held = before.held;
-    held.good(command);
+    held.command = command;
     let waits = before.beta == after.beta && before.delta == after.delta;
     let wait = waits && before.theta == after.theta;
     can_be_used(law, input)
@@ -247,7 +247,7 @@ fn any_advance<T: Real, const N: usize>(
     };
     let rate = DerivativeState::at(T::of(kani::any()), T::of(kani::any()));
     let mut held = state.held;
-    held.good(command);
+    held.command = command;
     *state = AdaptiveState {
         z: any_sum(),
         error_rate: if kani::any() {
@@ -285,7 +285,7 @@ fn any_sample<const N: usize>(form: Form<f32>) {
     let (mut state, input) = (state(&law), input());
     let before = state;
     let kept = adaptive_commands_within_its_limits(&law, &mut state, &input);
-    kani::cover!(state.held.is_closed() && state.beta.value != before.beta.value);
+    kani::cover!(!state.held.is_latched() && state.beta.value != before.beta.value);
     kani::cover!(input.measured.is_nan() && state.held.command != before.held.command);
     assert!(kept);
 }

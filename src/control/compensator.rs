@@ -13,7 +13,7 @@
 //! model. Feed it with the reference, not with the measured output: a noisy desired
 //! output destroys the hysteresis state ([`transmission`](crate::transmission)).
 
-use super::status::{fault_of_dt, first_fault};
+use super::status::{fault_of_dt, unless_finite};
 use super::{Fault, Status};
 use crate::effect::{Effect, Motion, Situation};
 use crate::error::finite;
@@ -290,8 +290,8 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         at: &CompensatorInput<T>,
     ) -> Result<T, Fault> {
         let (dt, desired) = (at.dt, at.desired);
-        let fault = fault_of_dt(dt, self.longest_dt)
-            .or_else(|| first_fault(&[(desired, Fault::Reference)]));
+        let fault =
+            fault_of_dt(dt, self.longest_dt).or_else(|| unless_finite(desired, Fault::Reference));
         if let Some(fault) = fault {
             return Err(fault);
         }
@@ -306,7 +306,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
             return Err(Fault::Regressor(u8::try_from(term).unwrap_or(u8::MAX)));
         }
         let before = state.effects;
-        let confine = |term, there| self.confined(term, there);
+        let confine = |term, there: &mut Situation<T>| self.confine(term, there);
         let eta = state.eta();
         let shares = self
             .effects
@@ -325,8 +325,8 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         Ok(effects)
     }
 
-    /// What a term sees, within the bench's ranges.
-    fn confined(&self, term: usize, mut there: Situation<T>) -> Situation<T> {
+    /// Takes what a term sees into the bench's ranges.
+    fn confine(&self, term: usize, there: &mut Situation<T>) {
         if let Some(Some(range)) = self.term_ranges.get(term) {
             there.motion = range.confine(there.motion);
         }
@@ -336,7 +336,6 @@ impl<T: Real, const N: usize> Compensator<T, N> {
                 there.load = clamp(there.load, range.low.position, range.high.position);
             }
         }
-        there
     }
 }
 

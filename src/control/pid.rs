@@ -27,7 +27,7 @@ pub use settings::{AntiWindup, Damping, PidSettings};
 pub use signals::{PidInput, PidOutput, PidTerms};
 pub use state::PidState;
 
-use super::status::{fault_of_dt, first_fault};
+use super::status::{fault_of_dt, unless_finite};
 use super::{Fault, Output, Status};
 use crate::error::is_usable;
 use crate::signal::{clamp, Compensated, Derivative};
@@ -148,7 +148,7 @@ impl<T: Real> Pid<T> {
     #[inline]
     pub fn step(&self, state: &mut PidState<T>, at: &PidInput<T>) -> Output<T> {
         let mut velocity = at.velocity;
-        if state.held.is_closed() {
+        if state.held.may_step() {
             if let Some(command) = self.advance(state, at, &mut velocity) {
                 let status = Status::Good;
                 return Output { command, status };
@@ -238,7 +238,7 @@ impl<T: Real> Pid<T> {
 
     /// The sample and the integral with which the terms give `output` there, from rest.
     fn started_at(&self, output: T, at: &PidInput<T>) -> Result<(Last<T>, T), Fault> {
-        if let Some(fault) = first_fault(&[(output, Fault::Command)]).or_else(|| self.fault(at)) {
+        if let Some(fault) = unless_finite(output, Fault::Command).or_else(|| self.fault(at)) {
             return Err(fault);
         }
         let mut last = Last::at(at).with_known_velocity();
@@ -279,15 +279,12 @@ impl<T: Real> Pid<T> {
 
     /// What is wrong with a sample, where something is; not whether the law overflows on it.
     fn fault(&self, at: &PidInput<T>) -> Option<Fault> {
-        fault_of_dt(at.dt, self.settings.longest_dt).or_else(|| {
-            first_fault(&[
-                (at.reference, Fault::Reference),
-                (at.measured, Fault::Measured),
-                (self.velocity(at), Fault::Velocity),
-                (at.feed_forward, Fault::FeedForward),
-                (at.measured - at.reference, Fault::Overflow),
-            ])
-        })
+        fault_of_dt(at.dt, self.settings.longest_dt)
+            .or_else(|| unless_finite(at.reference, Fault::Reference))
+            .or_else(|| unless_finite(at.measured, Fault::Measured))
+            .or_else(|| unless_finite(self.velocity(at), Fault::Velocity))
+            .or_else(|| unless_finite(at.feed_forward, Fault::FeedForward))
+            .or_else(|| unless_finite(at.measured - at.reference, Fault::Overflow))
     }
 
     /// Filtered rate of `y - c·y_r`, zero where it is not used.

@@ -1,6 +1,6 @@
 //! What a step did: a good one, or a bad sample and what was commanded instead.
 
-use crate::error::must_be_finite;
+use crate::error::{must_be_finite, rarely};
 use crate::{Error, Real};
 
 /// Which input of a step could not be used.
@@ -221,18 +221,24 @@ impl<T: Real> Fallback<T> {
 pub(crate) const OUTSIDE: &str = "the safe command lies within the limits";
 
 /// Whether the loop is closed.
+///
+/// `repr(u8)`: the tag has a byte of its own, and the usual step compares it with zero. Folded
+/// into the bytes of the fault it would have to be worked out first.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[repr(u8)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) enum Latch {
-    /// It is.
+    /// It is, and no bad sample is remembered.
     #[default]
     Closed,
     /// The safe command is out, for this fault, until it is acknowledged.
     Safe(Fault),
     /// It was acknowledged: the next good sample starts from the command that is out.
     Returning,
+    /// It is closed, and a good sample makes up for a bad one: [`Held::may_step`].
+    Counting,
 }
 
 /// The command that is out, the score of the bad samples, and whether the loop is closed.
@@ -255,27 +261,49 @@ impl<T: Real> Held<T> {
         }
     }
 
-    /// Takes note of a good command, and returns it.
+    /// Whether nothing stands between a good sample and the command; where bad samples are
+    /// remembered, this one is taken for good, until
+    /// [`bad_after_step`](Self::bad_after_step) says otherwise.
+    ///
+    /// So the usual step looks at the latch alone, and not at the score.
     #[inline]
-    pub(crate) fn good(&mut self, command: T) -> T {
-        self.command = command;
-        if self.score != 0 {
-            self.forgive();
+    pub(crate) fn may_step(&mut self) -> bool {
+        if self.latch == Latch::Closed {
+            return true;
         }
-        self.command
+        rarely();
+        if self.latch != Latch::Counting {
+            return false;
+        }
+        if self.score == 0 {
+            self.latch = Latch::Closed;
+        } else {
+            self.score -= 1;
+        }
+        true
     }
 
-    /// Counts a good sample after bad ones. A call, so that the usual step has a jump alone.
-    #[cold]
-    #[inline(never)]
-    fn forgive(&mut self) {
-        self.score -= 1;
+    /// Whether the next good sample is the first one after a safe command.
+    pub(crate) fn is_returning(&self) -> bool {
+        self.latch == Latch::Returning
     }
 
-    /// Whether nothing stands between a good sample and the command.
-    #[inline]
-    pub(crate) fn is_closed(&self) -> bool {
-        self.latch == Latch::Closed
+    /// Closes the loop with a good sample, after a safe command.
+    pub(crate) fn close(&mut self) {
+        self.score = self.score.saturating_sub(1);
+        self.latch = Latch::Closed;
+        *self = self.remembering();
+    }
+
+    /// The same where the latch says whether bad samples are remembered, as it may not in a
+    /// state that was stored.
+    #[must_use]
+    pub(crate) fn remembering(self) -> Self {
+        let latch = match self.latch {
+            Latch::Closed if self.score > 0 => Latch::Counting,
+            latch => latch,
+        };
+        Self { latch, ..self }
     }
 
     /// Whether the safe command is out until it is acknowledged.
@@ -292,11 +320,18 @@ impl<T: Real> Held<T> {
         Some(Status::Safe(fault))
     }
 
-    /// Counts a bad sample, and lets the safe command out when there were enough.
+    /// [`bad`](Self::bad) of a sample for which [`may_step`](Self::may_step) was asked: what it
+    /// has counted there is taken back.
+    pub(crate) fn bad_after_step(&mut self, fault: Fault, fallback: &Fallback<T>) -> Status {
+        self.score = self
+            .score
+            .saturating_add(u32::from(self.latch == Latch::Counting));
+        self.bad(fault, fallback)
+    }
+
+    /// Counts a bad sample, and lets the safe command out when there were enough; not where it
+    /// is latched already.
     pub(crate) fn bad(&mut self, fault: Fault, fallback: &Fallback<T>) -> Status {
-        if let Some(safe) = self.latched(fallback) {
-            return safe;
-        }
         let most = fallback.most();
         self.score = self.score.saturating_add(fallback.weight).min(most);
         match fallback.command {
@@ -305,7 +340,12 @@ impl<T: Real> Held<T> {
                 self.latch = Latch::Safe(fault);
                 Status::Safe(fault)
             }
-            _ => Status::Held(fault),
+            _ => {
+                if self.latch == Latch::Closed {
+                    self.latch = Latch::Counting;
+                }
+                Status::Held(fault)
+            }
         }
     }
 
@@ -331,10 +371,9 @@ pub(crate) fn fault_of_dt<T: Real>(dt: T, longest: T) -> Option<Fault> {
     }
 }
 
-/// The first of these numbers that is not finite.
-pub(crate) fn first_fault<T: Real>(numbers: &[(T, Fault)]) -> Option<Fault> {
-    let bad = numbers.iter().find(|(number, _)| !number.is_finite());
-    bad.map(|&(_, fault)| fault)
+/// What is wrong with a number that is not finite.
+pub(crate) fn unless_finite<T: Real>(number: T, fault: Fault) -> Option<Fault> {
+    (!number.is_finite()).then_some(fault)
 }
 
 /// What is read before it is checked.

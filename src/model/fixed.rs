@@ -6,7 +6,7 @@
 
 use super::{motion, Model, ModelState, Sample, Term};
 use crate::effect::{saturate, Effect, EffectState, Motion, Quantity, Regressor, Situation, Stage};
-use crate::error::finite;
+use crate::error::{finite, rarely};
 use crate::transmission::Transmission;
 use crate::{Error, Real};
 
@@ -261,16 +261,13 @@ impl<T: Real, E: Regressor<T> + Copy + Into<Effect<T>>> Term<T, E> {
     }
 }
 
-/// The sum of gains times values, saturated after each operation; the values become the parts.
+/// An output with a gain times a value added, saturated after each operation; the value becomes
+/// the part.
 #[cold]
 #[inline(never)]
-fn saturated_sum<T: Real>(start: T, gains: &[T], values: &mut [T]) -> T {
-    let mut output = saturated(start);
-    for (value, gain) in values.iter_mut().zip(gains) {
-        *value = saturated(*gain * saturated(*value));
-        output = saturated(output + *value);
-    }
-    output
+fn saturated_with<T: Real>(output: T, gain: T, value: &mut T) -> T {
+    *value = saturated(gain * saturated(*value));
+    saturated(saturated(output) + *value)
 }
 
 /// [`saturate`] where it is rare: one copy in an image, not three a term.
@@ -341,12 +338,13 @@ macro_rules! tuple {
                         }
                     )*
                 } else {
-                    // Minus one times the zero of another stage: minus zero changes no sum.
-                    let gain = |stage, gain| if stage == Stage::Sum { gain } else { -T::ONE };
-                    let gains = [$(gain($E::STAGE, self.$i.gain)),*];
-                    sum.output = saturated_sum(sum.output, &gains, &mut values);
+                    rarely();
+                    if !($($E::STAGE == Stage::Sum)||*) {
+                        sum.output = saturated(sum.output);
+                    }
                     $(
                         if $E::STAGE == Stage::Sum {
+                            sum.output = saturated_with(sum.output, self.$i.gain, &mut values[$i]);
                             share($i, values[$i]);
                         }
                     )*

@@ -7,6 +7,7 @@ mod adaptive;
 mod inputs;
 mod latch;
 mod pid;
+mod score;
 
 use bowden::control::{AdaptiveSettings, Estimator, Fallback, Form, Limits, PidSettings};
 

@@ -248,7 +248,7 @@ impl<T: Real, const N: usize> TryFrom<Unchecked<T, N>> for AdaptiveState<T, N> {
             beta: raw.beta,
             delta: raw.delta,
             theta: raw.theta,
-            held: raw.held,
+            held: raw.held.remembering(),
             gap: raw.gap,
         })
     }

@@ -2,7 +2,7 @@
 
 use super::{Adaptive, AdaptiveInput, AdaptiveOutput, AdaptiveState, AdaptiveTerms};
 use super::{Form, Missing};
-use crate::control::status::{fault_of_dt, first_fault, Latch};
+use crate::control::status::{fault_of_dt, unless_finite, Latch};
 use crate::control::{Fault, Output, Status};
 use crate::error::{is_usable, rarely};
 use crate::signal::{Compensated, Derivative, DerivativeState};
@@ -26,14 +26,14 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// one that was stored or that belongs to another law included.
     #[inline]
     pub fn step(&self, state: &mut AdaptiveState<T, N>, input: &AdaptiveInput<T, N>) -> Output<T> {
-        if state.held.is_closed() {
+        if state.held.may_step() {
             if let Some(command) = self.advance(state, input, self.settings.frozen) {
                 let status = Status::Good;
                 return Output { command, status };
             }
         }
         // Number by number, so that the sample of a good step stays in registers.
-        let sample = AdaptiveInput {
+        let mut sample = AdaptiveInput {
             dt: input.dt,
             reference: input.reference,
             next_reference: input.next_reference,
@@ -41,7 +41,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
             regressors: input.regressors,
             feed_forward: input.feed_forward,
         };
-        self.exception(state, &sample)
+        self.exception(state, &mut sample)
     }
 
     /// The same, and every term for telemetry: [`terms`](Self::terms) before the step.
@@ -151,7 +151,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         state.lag = lag;
         (state.beta, state.delta, state.theta) = estimates;
         state.gap = T::ZERO;
-        state.held.good(command);
+        state.held.command = command;
         Some(command)
     }
 
@@ -168,10 +168,14 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     }
 
     /// A bad sample, a dropped regressor, a latched safe command, or the first good sample
-    /// after one.
+    /// after one. What may be dropped of the sample becomes zero in it.
     #[cold]
     #[inline(never)]
-    fn exception(&self, state: &mut AdaptiveState<T, N>, input: &AdaptiveInput<T, N>) -> Output<T> {
+    fn exception(
+        &self,
+        state: &mut AdaptiveState<T, N>,
+        input: &mut AdaptiveInput<T, N>,
+    ) -> Output<T> {
         let fallback = &self.settings.fallback;
         let status = match state.held.latched(fallback) {
             Some(safe) => safe,
@@ -180,7 +184,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
                 Ok(Some(dropped)) => Status::Degraded(dropped),
                 Err(fault) => {
                     state.wait(input.dt, self.longest);
-                    state.held.bad(fault, fallback)
+                    state.held.bad_after_step(fault, fallback)
                 }
             },
         };
@@ -195,14 +199,14 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     fn live(
         &self,
         state: &mut AdaptiveState<T, N>,
-        input: &AdaptiveInput<T, N>,
+        input: &mut AdaptiveInput<T, N>,
     ) -> Result<Option<Fault>, Fault> {
-        let (live, dropped) = self.without_dropped(input)?;
+        let dropped = self.drop_missing(input)?;
         let frozen = self.settings.frozen || dropped.is_some();
-        let command = if state.held.is_closed() {
-            self.advance_again(state, &live, frozen)
+        let command = if state.held.is_returning() {
+            self.close(state, input, frozen)
         } else {
-            self.close(state, &live, frozen)
+            self.advance_again(state, input, frozen)
         };
         command.map(|_| dropped).ok_or(Fault::Overflow)
     }
@@ -222,7 +226,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         self.go_back(state, live);
         let next = self.advance_again(state, live, frozen);
         if next.is_some() {
-            state.held.latch = Latch::Closed;
+            state.held.close();
         } else {
             (state.z, state.error_rate) = (z, error_rate);
             (state.lag, state.gap, state.held.command) = (lag, gap, command);
@@ -255,22 +259,21 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         }
     }
 
-    /// The sample without the regressors that may be dropped, and the first that was.
-    fn without_dropped(
-        &self,
-        input: &AdaptiveInput<T, N>,
-    ) -> Result<(AdaptiveInput<T, N>, Option<Fault>), Fault> {
-        let (mut live, mut dropped) = (*input, None);
+    /// Takes the regressors that may be dropped out of a sample; the first that was.
+    ///
+    /// In place: a second sample would be on the stack of the deepest call.
+    fn drop_missing(&self, input: &mut AdaptiveInput<T, N>) -> Result<Option<Fault>, Fault> {
+        let mut dropped = None;
         let policies = &self.settings.missing;
-        for ((i, x), missing) in live.regressors.iter_mut().enumerate().zip(policies) {
+        for ((i, x), missing) in input.regressors.iter_mut().enumerate().zip(policies) {
             if !x.is_finite() && *missing == Missing::Drop {
                 *x = T::ZERO;
                 dropped = dropped.or(Some(Fault::Regressor(u8::try_from(i).unwrap_or(u8::MAX))));
             }
         }
-        match self.fault(&live) {
+        match self.fault(input) {
             Some(fault) => Err(fault),
-            None => Ok((live, dropped)),
+            None => Ok(dropped),
         }
     }
 
@@ -278,18 +281,14 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     pub(super) fn fault(&self, input: &AdaptiveInput<T, N>) -> Option<Fault> {
         let bad = |x: &T| !x.is_finite();
         fault_of_dt(input.dt, self.longest)
-            .or_else(|| {
-                first_fault(&[
-                    (input.reference, Fault::Reference),
-                    (input.next_reference, Fault::Reference),
-                    (input.measured, Fault::Measured),
-                ])
-            })
+            .or_else(|| unless_finite(input.reference, Fault::Reference))
+            .or_else(|| unless_finite(input.next_reference, Fault::Reference))
+            .or_else(|| unless_finite(input.measured, Fault::Measured))
             .or_else(|| {
                 let first = input.regressors.iter().position(bad)?;
                 Some(Fault::Regressor(u8::try_from(first).unwrap_or(u8::MAX)))
             })
-            .or_else(|| first_fault(&[(input.feed_forward, Fault::FeedForward)]))
+            .or_else(|| unless_finite(input.feed_forward, Fault::FeedForward))
     }
 
     /// The law (18), (19), (23), or its lag form, and where it leaves its two memories.
@@ -342,19 +341,19 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         input: &AdaptiveInput<T, N>,
     ) -> T {
         let settings = &self.settings;
-        let rate = match settings.form {
-            Form::Literal { .. } => -terms.error_rate,
-            Form::Lag { .. } => (input.next_reference - input.reference) / input.dt,
-        };
         let mut compensation = T::zero();
         for (theta, x) in terms.theta_hat.iter().zip(&input.regressors) {
             compensation += *theta * *x;
         }
-        -settings.gain * terms.s
-            + input.reference
-            + (rate - terms.z) / settings.lambda
-            + compensation
-            - terms.delta_hat * terms.smooth_sign
+        let proportional = -settings.gain * terms.s + input.reference;
+        let damped = match settings.form {
+            Form::Literal { .. } => proportional - (terms.error_rate + terms.z) / settings.lambda,
+            Form::Lag { .. } => {
+                let rate = (input.next_reference - input.reference) / input.dt;
+                proportional + (rate - terms.z) / settings.lambda
+            }
+        };
+        damped + compensation - terms.delta_hat * terms.smooth_sign
     }
 
     /// (24)-(26).

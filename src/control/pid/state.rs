@@ -224,7 +224,8 @@ impl<T: Real> PidState<T> {
         self.rate = rate;
         self.gap = T::ZERO;
         self.last = Some(last);
-        self.held.good(last.command)
+        self.held.command = last.command;
+        last.command
     }
 
     /// Counts the time of a bad sample.
@@ -273,7 +274,10 @@ impl<T: Real> PidState<T> {
 impl<T: Real> TryFrom<Unchecked<T>> for PidState<T> {
     type Error = crate::Error;
     fn try_from(raw: Unchecked<T>) -> Result<Self, crate::Error> {
-        let state = Self::assumed(raw);
+        let state = Self::assumed(Unchecked {
+            held: raw.held.remembering(),
+            ..raw
+        });
         if state.is_valid() {
             Ok(state)
         } else {

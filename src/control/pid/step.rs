@@ -2,7 +2,6 @@
 
 use super::state::Last;
 use super::{AntiWindup, Pid, PidInput, PidState};
-use crate::control::status::Latch;
 use crate::control::{Fault, Output, Status};
 use crate::error::{is_usable, rarely};
 use crate::signal::clamp;
@@ -130,17 +129,16 @@ impl<T: Real> Pid<T> {
     #[inline(never)]
     pub(super) fn exception(&self, state: &mut PidState<T>, at: &PidInput<T>) -> Output<T> {
         let s = &self.settings;
-        let fault = self.fault(at);
-        let status = match (state.held.latched(&s.fallback), fault) {
-            (Some(safe), _) => safe,
-            (None, None) if !state.held.is_closed() => self.close(state, at),
-            (None, fault) => {
-                state.wait(at.dt, s.longest_dt);
-                state
-                    .held
-                    .bad(fault.unwrap_or(Fault::Overflow), &s.fallback)
+        let status = state.held.latched(&s.fallback).unwrap_or_else(|| {
+            let fault = self.fault(at);
+            if fault.is_none() && state.held.is_returning() {
+                return self.close(state, at);
             }
-        };
+            state.wait(at.dt, s.longest_dt);
+            state
+                .held
+                .bad_after_step(fault.unwrap_or(Fault::Overflow), &s.fallback)
+        });
         Output {
             // A state may come from anywhere.
             command: s.limits.confine(state.command()),
@@ -161,7 +159,7 @@ impl<T: Real> Pid<T> {
         };
         match started {
             Ok(()) => {
-                state.held.latch = Latch::Closed;
+                state.held.close();
                 Status::Good
             }
             Err(fault) => state.held.bad(fault, &self.settings.fallback),

@@ -1,0 +1,127 @@
+//! The score of bad samples, against one that is counted openly.
+
+use super::{law, pi};
+use bowden::control::{
+    Adaptive, AdaptiveInput, AdaptiveState, Fallback, Pid, PidInput, PidSettings, PidState, Status,
+};
+use proptest::prelude::*;
+
+/// What happens between two looks at the score.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Event {
+    Good,
+    Nan,
+    Overflow,
+    Acknowledged,
+}
+
+fn event() -> impl Strategy<Value = Event> {
+    prop_oneof![
+        6 => Just(Event::Good),
+        3 => Just(Event::Nan),
+        1 => Just(Event::Overflow),
+        1 => Just(Event::Acknowledged),
+    ]
+}
+
+fn measured(event: Event) -> f64 {
+    match event {
+        Event::Nan => f64::NAN,
+        Event::Overflow => f64::MAX,
+        _ => 24.5,
+    }
+}
+
+/// The score as the docs of `Fallback` have it, without a thought for speed.
+struct Open {
+    fallback: Fallback<f64>,
+    score: u32,
+    latched: bool,
+    returning: bool,
+}
+
+impl Open {
+    fn new(fallback: Fallback<f64>) -> Self {
+        let (score, latched, returning) = (0, false, false);
+        Self {
+            fallback,
+            score,
+            latched,
+            returning,
+        }
+    }
+
+    /// `anew`: the first good sample after a safe command forgets every bad one before it.
+    fn take(&mut self, event: Event, anew: bool) {
+        match event {
+            Event::Acknowledged if self.latched => {
+                (self.score, self.latched, self.returning) = (0, false, true);
+            }
+            _ if self.latched => {}
+            Event::Acknowledged => {}
+            Event::Good if self.returning && anew => (self.score, self.returning) = (0, false),
+            Event::Good => {
+                self.score = self.score.saturating_sub(1);
+                self.returning = false;
+            }
+            Event::Nan | Event::Overflow => {
+                let most = self.fallback.most();
+                self.score = most.min(self.score + self.fallback.weight());
+                self.latched = self.score == most;
+            }
+        }
+    }
+}
+
+fn any_fallback() -> impl Strategy<Value = Fallback<f64>> {
+    (1_u32..12, 1_u32..6).prop_map(|(after, weight)| {
+        let fallback = Fallback::try_new(after, 0.0).unwrap();
+        fallback.with_weight(weight).unwrap()
+    })
+}
+
+proptest! {
+    #[test]
+    fn of_a_pi_is_what_an_open_count_says(
+        events in prop::collection::vec(event(), 1..200),
+        fallback in any_fallback(),
+    ) {
+        // A reference of -MAX beside a measurement of MAX: every number is one, their
+        // difference is none.
+        let pid = Pid::try_new(PidSettings { fallback, ..pi() }).unwrap();
+        let (mut state, mut open) = (PidState::new(), Open::new(fallback));
+        for event in events {
+            if event == Event::Acknowledged {
+                state.acknowledge();
+            } else {
+                let reference = if event == Event::Overflow { -f64::MAX } else { 25.0 };
+                let out = pid.step(&mut state, &PidInput::new(1e-3, reference, measured(event)));
+                prop_assert_eq!(out.status == Status::Good, event == Event::Good && !open.latched);
+            }
+            open.take(event, true);
+            prop_assert_eq!((state.bad_score(), state.is_latched()), (open.score, open.latched));
+        }
+    }
+
+    #[test]
+    fn of_the_adaptive_law_is_what_an_open_count_says(
+        events in prop::collection::vec(event(), 1..200),
+        fallback in any_fallback(),
+        lag in any::<bool>(),
+    ) {
+        let settings = bowden::control::AdaptiveSettings { fallback, ..law(lag, 60.0) };
+        let law = Adaptive::try_new(settings).unwrap();
+        let (mut state, mut open) = (AdaptiveState::new(&law), Open::new(fallback));
+        for event in events {
+            if event == Event::Acknowledged {
+                state.acknowledge();
+            } else {
+                let input = AdaptiveInput::new(1e-3, 25.0, measured(event), [0.2]);
+                let out = law.step(&mut state, &input);
+                prop_assert_eq!(out.status == Status::Good, event == Event::Good && !open.latched);
+            }
+            open.take(event, false);
+            prop_assert_eq!((state.bad_score(), state.is_latched()), (open.score, open.latched));
+        }
+    }
+}
