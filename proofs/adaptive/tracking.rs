@@ -30,7 +30,7 @@ fn paper() -> Adaptive<f32, 0> {
 fn never<T: Real, const N: usize>(
     _: &Adaptive<T, N>,
     state: &mut AdaptiveState<T, N>,
-    _: &AdaptiveInput<T, N>,
+    _: &mut AdaptiveInput<T, N>,
 ) -> Output<T> {
     kani::assert(false, "a sample is refused");
     Output {
