@@ -118,6 +118,8 @@ pub struct Ledger {
     pub correlation_time: f64,
     /// Whether the output follows the integral of the input: then no effect is sought.
     pub integrates: bool,
+    /// Files in which the output is another multiple of the input than in the others.
+    pub apart: Vec<FileApart>,
     /// The requested number of effects if it ended the search: further effects may be missing.
     /// `None` if the search ended by itself.
     pub stopped_by_request: Option<usize>,
@@ -138,6 +140,7 @@ impl Ledger {
             regime: Regime::Blocks,
             correlation_time: 0.0,
             integrates: false,
+            apart: Vec::new(),
             stopped_by_request: None,
             stopped_by_budget: None,
         }
@@ -180,6 +183,23 @@ impl Ledger {
     pub fn named(&self) -> &Solution {
         self.rounds.last().map_or(&self.declared, |r| &r.solution)
     }
+}
+
+/// A file whose output is a multiple of what the gains of another one say.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct FileApart {
+    /// The file.
+    pub path: String,
+    /// The file whose gains it is compared with.
+    pub than: String,
+    /// By what the output of those gains is to be multiplied.
+    pub gain: f64,
+    /// What is to be added to it, in the output's unit.
+    pub offset: f64,
+    /// The error of those gains on the file, as a share of its output's standard deviation.
+    pub before: f64,
+    /// The same with gain and offset.
+    pub after: f64,
 }
 
 /// A dependence of the residual that no effect of the catalogue explains.

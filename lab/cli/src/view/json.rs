@@ -3,9 +3,9 @@
 use super::curve::UnknownPart;
 use super::hand_over::HandOverPart;
 use bowden_lab::facts::{
-    CostFacts, Defect, Experiment, Explained, Facts, FileErrors, FinalFacts, Gate, Grade,
-    HeldOutOf, ModelFacts, Parameter, RejectedFacts, RivalFacts, RoundFacts, RoundModel, Segments,
-    Unneeded, Worse, HALVES,
+    CostFacts, Defect, Experiment, Explained, Facts, FileApart, FileErrors, FinalFacts, Gate,
+    Grade, HeldOutOf, ModelFacts, Parameter, RejectedFacts, RivalFacts, RoundFacts, RoundModel,
+    Segments, Unneeded, Worse, HALVES,
 };
 use serde::Serialize;
 
@@ -34,6 +34,8 @@ struct Report<'a> {
     /// Shares of the held-out output's variance.
     explains: Explained,
     integrates: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    files_apart: Option<&'a [FileApart]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     worse_files: Option<&'a [Worse]>,
     /// The requested number of effects, if it ended the search.
@@ -296,6 +298,7 @@ pub fn json(facts: &Facts, cost: Option<&CostFacts>) -> Result<String, serde_jso
         deviation: facts.deviation,
         explains: facts.explains,
         integrates: facts.integrates,
+        files_apart: several.then_some(&facts.apart[..]),
         worse_files: several.then_some(&facts.worse[..]),
         stopped_by_request: facts.stopped_by_request,
         stopped_by_budget: facts.stopped_by_budget,

@@ -6,9 +6,16 @@ use crate::shell::bowden;
 
 /// A spring with a hysteresis, moved by tones; `slip` is taken from the true motion after the time
 /// given, and the force is logged as many samples early.
-fn spring(slip: (f64, f64), early: usize) -> Rows {
+pub fn spring(slip: (f64, f64), early: usize) -> Rows {
+    spring_moved_by(1.0, slip, early)
+}
+
+/// The same moved by so many times the tones.
+pub fn spring_moved_by(times: f64, slip: (f64, f64), early: usize) -> Rows {
     let (rate, mut z, mut before) = (500.0, 0.0, 0.0);
-    let x = |t: f64| 2.0 * (5.3 * t).sin() + 1.1 * (2.1 * t + 0.4).sin() + 0.6 * (9.7 * t).sin();
+    let x = |t: f64| {
+        times * (2.0 * (5.3 * t).sin() + 1.1 * (2.1 * t + 0.4).sin() + 0.6 * (9.7 * t).sin())
+    };
     let mut rows = Vec::new();
     for i in 0..12_000 {
         let t = i as f64 / rate;

@@ -5,6 +5,7 @@
 //! shares code with the fit.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod apart;
 mod carries_over;
 mod changed;
 mod compare;

@@ -4,26 +4,26 @@
 //! the figures that stand above it, and says what the model must not be used for.
 
 use super::by_file::worse;
-use super::changes::{
-    begins, is_other_file, lead, other_line, other_rig, stands_for_output, unseen_motion,
-};
+use super::changes::{begins, lead, other_line, other_rig, stands_for_output, unseen_motion};
+use super::files_apart::another_zero;
 use super::final_fit::FinalFit;
 use super::intervals::term_title;
+use super::no_model::{is_no_model, no_model};
 use crate::fit::Solution;
 use crate::ledger::{Ledger, Round};
 use crate::problem::Prepared;
 use crate::record::Defect;
 use crate::score::blocks::Regime;
-use crate::score::explains::{deviations, explained, segments_differ, Explained};
+use crate::score::explains::{deviations, segments_differ};
 use crate::score::whiteness::is_white;
 use crate::search::policy::AT_FLOOR;
-use bowden::model::Source;
 
 /// What the run amounts to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
-    /// The input explains less than half of the output, or the output integrates it.
+    /// The input explains less than half of the output, the output integrates it, or one file has
+    /// another gain than the others.
     NoModel,
     /// The delivered model predicts held-out data worse than the declared one, worse than a
     /// constant, or with many times the error of the fit segment.
@@ -66,9 +66,6 @@ impl Verdict {
 /// difference of less than a twentieth does not show in two digits.
 pub const RISES: f64 = 1.05;
 
-/// Least share of the held-out output that the input explains of a model worth the name.
-const LEAST_EXPLAINED: f64 = 0.5;
-
 /// Least share of an unmodelled curve, taken by names to first order, at which the sentence says
 /// why the curve was preferred. A choice: a reader who is told "95 %" asks why there is no name.
 const NEARLY_ALL: f64 = 0.9;
@@ -88,30 +85,6 @@ fn spoils<'a>(data: &'a Prepared, last: &'a Solution) -> impl Iterator<Item = &'
         let name = defect.channel.as_str();
         defect.grave && (data.channels.iter().all(|c| c.name != name) || reads(name))
     })
-}
-
-/// Whether the declared model reads the input at all: one that was declared over other
-/// channels alone is judged by those.
-fn reads_input(declared: &Solution) -> bool {
-    let structure = &declared.structure;
-    structure.hysteresis || structure.terms.iter().any(|t| t.source == Source::Input)
-}
-
-/// The share of the output that must be explained by what the model is a model of.
-fn judged(shares: Explained, declared: &Solution) -> f64 {
-    match reads_input(declared) {
-        true => shares.input,
-        false => shares.input + shares.channels,
-    }
-}
-
-/// The share of the output that the declared model explains by the input alone, where a channel
-/// stands for the output in the delivered one.
-fn stood_in_for(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Option<f64> {
-    let shares = explained(data, &done.solution);
-    let alone = explained(data, &ledger.declared).input;
-    let is = reads_input(&ledger.declared) && shares.channels > shares.time;
-    (is && alone >= LEAST_EXPLAINED).then_some(alone)
 }
 
 /// By how much the delivered model's held-out error exceeds that of the declared one.
@@ -152,12 +125,11 @@ fn floors(data: &Prepared, done: &FinalFit) -> Option<(f64, f64)> {
 pub fn verdict(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Verdict {
     let last = ledger.last();
     let untested = ledger.rounds.iter().any(|r| r.p.is_none());
-    let share = judged(explained(data, &done.solution), &ledger.declared);
     // Where nothing was looked for there are no names that a test could be too weak for.
     let only_fitted = ledger.is_stopped() && ledger.rounds.is_empty();
     if spoils(data, last).next().is_some() {
         Verdict::DataDefect
-    } else if ledger.integrates || (share < LEAST_EXPLAINED && !is_other_file(data, done)) {
+    } else if is_no_model(data, ledger, done) {
         Verdict::NoModel
     } else if held_out_ratio(ledger, done) > RISES
         || worse_than_a_constant(data, done)
@@ -207,12 +179,6 @@ pub fn percent(share: f64) -> String {
     format!("{:.digits$} %", 100.0 * share)
 }
 
-/// A share of the output's variance, "63 %", "0.4 %", "0 %".
-fn share_of(share: f64) -> String {
-    let digits = if (0.001..0.1).contains(&share) { 1 } else { 0 };
-    format!("{:.digits$} %", 100.0 * share)
-}
-
 /// "from 2.23 % to 0.14 % of the output's standard deviation", as on the line of errors.
 fn from_to(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     let held_out = |rmse: &crate::fit::Segments| rmse.normalised(data, &data.target).held_out;
@@ -226,46 +192,6 @@ fn from_to(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
 /// The names in the order in which they came.
 fn names(ledger: &Ledger, done: &FinalFit) -> Vec<String> {
     ledger.rounds.iter().map(|r| done.title_of(r)).collect()
-}
-
-/// What the input, the other channels and functions of time explain, in one clause.
-fn explains(data: &Prepared, shares: Explained) -> String {
-    let mut text = format!(
-        "the input `{}` explains {} of the held-out output",
-        data.input.name,
-        share_of(shares.input)
-    );
-    if shares.channels >= 0.005 {
-        text += &format!(", the other channels {}", share_of(shares.channels));
-    }
-    if shares.time >= 0.005 {
-        text += &format!(
-            ", and tones and drifts, which are functions of nothing measured, {}",
-            share_of(shares.time)
-        );
-    }
-    text
-}
-
-fn no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
-    let (input, output) = (&data.input.name, &data.output_name);
-    if ledger.integrates {
-        return format!(
-            "The output integrates the input: the rate of `{output}` follows `{input}`, not `{output}` itself. No effect was looked for. Differentiate `{output}` first, or swap the columns if they were taken for each other."
-        );
-    }
-    let shares = explained(data, &done.solution);
-    if let Some(alone) = stood_in_for(data, ledger, done) {
-        return format!(
-            "This is no model of the transmission: {}, although the declared model alone explains {} by the input. A channel stands for the output, as the angle behind a spring does: leave its column out.",
-            explains(data, shares),
-            share_of(alone)
-        );
-    }
-    format!(
-        "There is no model here: {}. Is `{input}` the right input, in the right file, and is its sensor connected?",
-        explains(data, shares)
-    )
 }
 
 /// What the added effects do to the held-out error.
@@ -436,6 +362,7 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
         }
     }
     all.extend(unseen_motion(data, done));
+    all.extend(another_zero(data, &done.solution));
     if let Some(channel) = stands_for_output(data, &ledger.declared, &done.solution) {
         all.push(format!(
             "Nearly all of the output is made of `{channel}` here, although the declared model does without it: does it measure the output, as the angle behind a spring does? Then leave its column out."

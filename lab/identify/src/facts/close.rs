@@ -4,12 +4,12 @@ use super::asked::Asked;
 use super::cost::{CostFacts, Meter, Stage};
 use super::figures::Figures;
 use super::ledger::{Detail, Facts};
+use crate::conclude::files_apart::{files_apart, with_own_gains, OTHER_CONFIGURATION};
 use crate::conclude::final_fit::FinalFit;
 use crate::conclude::trace::trace;
 use crate::export::hand_over::HandOver;
 use crate::export::{postcard, vector, ModelFile};
-use crate::fit::{fit, Solution};
-use crate::model::structure::Structure;
+use crate::fit::Solution;
 use crate::problem::{HeldOut, Prepared};
 use crate::record::Record;
 use std::cell::Cell;
@@ -125,17 +125,21 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
         meter.told();
         heard.set(meter);
     };
-    let ledger = asked
+    let mut ledger = asked
         .search(&data, &structure, &hear)
         .map_err(|message| format!("{label}: {message}"))?;
     let mut meter = heard.get();
+    let mut own = None;
     if !question.own_gains && records.len() > 1 {
         tell("trying each file with gains of its own");
-        data.notes.extend(hint(&data, &ledger.declared));
+        own = with_own_gains(&data, &ledger.declared);
+        let hint = own.as_ref().and_then(|own| hint(&ledger.declared, own));
+        data.notes.extend(hint);
     }
     meter.begins(Stage::Concluding);
     tell("fitting the final model");
     let done = FinalFit::new(&data, &ledger);
+    ledger.apart = own.map_or_else(Vec::new, |own| files_apart(&data, &own, &done));
     let hand = HandOver::new(records, &data, &ledger, &done, question.invertible, tell);
     // The result stands even if nothing can be handed over to firmware.
     let hand = match hand {
@@ -189,24 +193,14 @@ fn handed(data: &Prepared, hand: &HandOver) -> Vec<Handed> {
         .collect()
 }
 
-/// Files are taken for several configurations if gains of their own reduce the error of the
-/// declared model below this share.
-const OTHER_CONFIGURATION: f64 = 0.5;
-
-/// A hint if the files do not seem to be of one configuration.
-fn hint(data: &Prepared, declared: &Solution) -> Option<String> {
-    if !declared.structure.hysteresis {
-        return None;
-    }
-    let structure = Structure {
-        own_gains: data.pieces.len(),
-        ..declared.structure.clone()
-    };
-    let own = fit(data, &structure, None, 0.0)?.rmse.fit / declared.rmse.fit;
-    (own < OTHER_CONFIGURATION).then(|| {
+/// A hint if the files do not seem to be of one configuration: `own` is the declared model with
+/// gains of its own for each.
+fn hint(declared: &Solution, own: &Solution) -> Option<String> {
+    let left = own.rmse.fit / declared.rmse.fit;
+    (left < OTHER_CONFIGURATION).then(|| {
         format!(
             "with gains of its own for each file the declared model leaves {:.0} % of this error on the fit segments: try --per-file gains",
-            100.0 * own
+            100.0 * left
         )
     })
 }

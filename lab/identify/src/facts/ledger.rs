@@ -12,7 +12,7 @@ use crate::conclude::unneeded::{unneeded, Unneeded};
 use crate::conclude::verdict::{falls_up_to, sentence, unknown_words, verdict, Verdict};
 use crate::export::hand_over::HandOver;
 use crate::fit::Segments;
-use crate::ledger::{Gate, Ledger, Unknown};
+use crate::ledger::{FileApart, Gate, Ledger, Unknown};
 use crate::problem::Prepared;
 use crate::score::blocks::{Regime, BLOCKS};
 use crate::score::explains::{explained, segments_differ, Explained};
@@ -53,6 +53,8 @@ pub struct Facts {
     pub explains: Explained,
     /// Whether the output follows the integral of the input.
     pub integrates: bool,
+    /// Files in which the output is another multiple of the input than in the others.
+    pub apart: Vec<FileApart>,
     /// Files on which the final model is worse than the declared one.
     pub worse: Vec<Worse>,
     /// The requested number of effects, if it ended the search.
@@ -190,6 +192,7 @@ impl Facts {
             segments_differ: segments_differ(data),
             explains: explained(data, &done.solution),
             integrates: ledger.integrates,
+            apart: ledger.apart.clone(),
             worse: worse(data, &ledger.declared, &done.solution),
             stopped_by_request: ledger.stopped_by_request,
             stopped_by_budget: ledger.stopped_by_budget,

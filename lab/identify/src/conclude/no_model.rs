@@ -1,0 +1,93 @@
+//! Where there is no model of the input: whether, and in which words.
+
+use super::changes::is_other_file;
+use super::files_apart::apart_words;
+use super::final_fit::FinalFit;
+use crate::fit::Solution;
+use crate::ledger::Ledger;
+use crate::problem::Prepared;
+use crate::score::explains::{explained, Explained};
+use bowden::model::Source;
+
+/// Least share of the held-out output that the input explains of a model worth the name.
+const LEAST_EXPLAINED: f64 = 0.5;
+
+/// Whether the declared model reads the input at all: one that was declared over other
+/// channels alone is judged by those.
+fn reads_input(declared: &Solution) -> bool {
+    let structure = &declared.structure;
+    structure.hysteresis || structure.terms.iter().any(|t| t.source == Source::Input)
+}
+
+/// The share of the output that must be explained by what the model is a model of.
+fn judged(shares: Explained, declared: &Solution) -> f64 {
+    match reads_input(declared) {
+        true => shares.input,
+        false => shares.input + shares.channels,
+    }
+}
+
+/// The share of the output that the declared model explains by the input alone, where a channel
+/// stands for the output in the delivered one.
+fn stood_in_for(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Option<f64> {
+    let shares = explained(data, &done.solution);
+    let alone = explained(data, &ledger.declared).input;
+    let is = reads_input(&ledger.declared) && shares.channels > shares.time;
+    (is && alone >= LEAST_EXPLAINED).then_some(alone)
+}
+
+/// Whether there is no model of the input, or none of all files.
+pub(super) fn is_no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> bool {
+    let share = judged(explained(data, &done.solution), &ledger.declared);
+    let little = share < LEAST_EXPLAINED && !is_other_file(data, done);
+    ledger.integrates || !ledger.apart.is_empty() || little
+}
+
+/// A share of the output's variance, "63 %", "0.4 %", "0 %".
+fn share_of(share: f64) -> String {
+    let digits = if (0.001..0.1).contains(&share) { 1 } else { 0 };
+    format!("{:.digits$} %", 100.0 * share)
+}
+
+/// What the input, the other channels and functions of time explain, in one clause.
+fn explains(data: &Prepared, shares: Explained) -> String {
+    let mut text = format!(
+        "the input `{}` explains {} of the held-out output",
+        data.input.name,
+        share_of(shares.input)
+    );
+    if shares.channels >= 0.005 {
+        text += &format!(", the other channels {}", share_of(shares.channels));
+    }
+    if shares.time >= 0.005 {
+        text += &format!(
+            ", and tones and drifts, which are functions of nothing measured, {}",
+            share_of(shares.time)
+        );
+    }
+    text
+}
+
+pub(super) fn no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
+    let (input, output) = (&data.input.name, &data.output_name);
+    if ledger.integrates {
+        return format!(
+            "The output integrates the input: the rate of `{output}` follows `{input}`, not `{output}` itself. No effect was looked for. Differentiate `{output}` first, or swap the columns if they were taken for each other."
+        );
+    }
+    if let Some(words) = apart_words(data, &ledger.apart) {
+        return words;
+    }
+    let shares = explained(data, &done.solution);
+    if let Some(alone) = stood_in_for(data, ledger, done) {
+        return format!(
+            "This is no model of the transmission: {}, although the declared model alone explains {} by the input. A channel stands for the output, as the angle behind a spring does: leave its column out.",
+            explains(data, shares),
+            share_of(alone)
+        );
+    }
+    format!(
+        "There is no model here: {}. Is `{input}` the right input, in the right file, and is its sensor connected?",
+        explains(data, shares)
+    )
+}
