@@ -108,6 +108,20 @@ fn a_residual_of_many_floors_is_not_explained_however_white_it_is() {
     ]);
 }
 
+/// Both names are right; five seconds of noise alone have 1.23 floors here. In 115 such records
+/// four errors of right names were above 1.2, and none above 1.26.
+#[test]
+fn noise_that_is_a_little_larger_on_a_short_held_out_part_is_noise() {
+    let options = ["--effect", "viscous", "--effect", "coulomb"];
+    let rows = Rows::generated(&[&options[..], &["--seed", "419"]].concat());
+    let closed = rows.close(&["--declare", "bouc-wen"]);
+    let held_out = closed.json["final"]["rmse"]["held_out"].as_f64().unwrap();
+    assert!(held_out > 1.2 * closed.json["noise_floor"].as_f64().unwrap());
+    assert_eq!(closed.names(), ["coulomb", "viscous"]);
+    assert_eq!(closed.verdict(), "explained");
+    closed.says(&["The residual is the sensor's noise."]);
+}
+
 #[test]
 fn a_sound_record_is_explained_and_the_sentence_has_the_figures_of_the_line_above_it() {
     let closed = Closed::of(&[]);

@@ -120,6 +120,20 @@ fn floors(data: &Prepared, done: &FinalFit) -> Option<(f64, f64)> {
     (floor > 0.0).then(|| (done.rmse.fit / floor, done.rmse.held_out / floor))
 }
 
+/// Of noise alone the rms over a held-out part exceeds this many of its standard deviations in one
+/// record of twenty.
+const SCATTER: f64 = 1.645;
+
+/// Whether the errors, in multiples of the noise floor, are noise. Nothing was fitted to the
+/// held-out part, and it is short: the rms over `n` independent values of noise has a relative
+/// standard deviation of `1/sqrt(2n)`.
+fn is_noise(data: &Prepared, (fit, held_out): (f64, f64)) -> bool {
+    let seconds = data.split.held_out.len() as f64 * data.dt * data.stride as f64;
+    let independent = (2.0 * data.cutoff * seconds).max(1.0);
+    let scatter = SCATTER / (2.0 * independent).sqrt();
+    fit <= AT_FLOOR && held_out <= AT_FLOOR * (1.0 + scatter)
+}
+
 /// The verdict on a ledger and the model that it delivers.
 #[must_use]
 pub fn verdict(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Verdict {
@@ -142,7 +156,7 @@ pub fn verdict(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Verdict {
         Verdict::UnderExcited
     } else if ledger.rounds.iter().any(|r| !r.rivals.is_empty()) {
         Verdict::Confounded
-    } else if floors(data, done).is_some_and(|(fit, held)| fit.max(held) <= AT_FLOOR) {
+    } else if floors(data, done).is_some_and(|errors| is_noise(data, errors)) {
         Verdict::Explained
     } else if ledger.is_stopped() {
         Verdict::Stopped
@@ -355,10 +369,8 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
         found,
         Verdict::Unknown | Verdict::Confounded | Verdict::UnderExcited
     ) {
-        if let Some((fit, held_out)) = floors(data, done) {
-            if fit.max(held_out) > AT_FLOOR {
-                all.extend(multiples(data, done).map(|size| format!("The residual is {size}.")));
-            }
+        if floors(data, done).is_some_and(|errors| !is_noise(data, errors)) {
+            all.extend(multiples(data, done).map(|size| format!("The residual is {size}.")));
         }
     }
     all.extend(unseen_motion(data, done));
