@@ -5,6 +5,9 @@
 //! `x − clamp(x, −r, r)`, a spring with a gap around zero. In series the same play acts
 //! on the transmission's input: hysteresis and gain then see `play(x; r)` instead of x.
 //!
+//! `play(x; r) − x` is `−stop(x; r)`: with the opposite sign, and r times as large, it is
+//! [`presliding`](super::presliding), and no record tells one from the other.
+//!
 //! Source: M. Nordin, P.-O. Gutman, "Controlling mechanical systems with backlash
 //! — a survey", *Automatica* 38(10), 2002; for the play, M. A. Krasnosel'skii,
 //! A. V. Pokrovskii, *Systems with Hysteresis*, 1989.

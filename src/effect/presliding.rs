@@ -2,7 +2,8 @@
 //!
 //! Formula: `s/r` with `s ← clamp(s + dx, −r, r)`, Prandtl's stop (elastic, perfectly
 //! plastic). Each cycle wider than 2·r dissipates; the loop's area is
-//! `4·(X − r)` for a cycle of amplitude X > r, and 0 below. It starts at s = 0.
+//! `4·(X − r)` for a cycle of amplitude X > r, and 0 below. It starts at s = 0. With the
+//! opposite sign it is the [`backlash`](super::backlash) of the same r.
 //!
 //! The second, `dahl(x; r)`, bends instead of slipping: `dz/dx = (1 − z·sgn dx)/r`,
 //! Dahl's equation with exponent 1. Between two samples x runs one way, and the step

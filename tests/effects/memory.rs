@@ -2,7 +2,7 @@
 
 use crate::{along, make};
 use approx::assert_relative_eq;
-use bowden::effect::{EffectState, Motion, Situation};
+use bowden::effect::{Backlash, Effect, EffectState, Motion, Presliding, Situation};
 use bowden::Real;
 use proptest::prelude::*;
 
@@ -45,6 +45,24 @@ fn backlash_is_flat_over_the_gap_after_each_reversal() {
         );
     }
     assert!(play[301..=441].iter().all(|&value| close(value, 3.0 - r)));
+}
+
+proptest! {
+    /// `play(x) − x = −stop(x)`: what the search calls presliding is backlash of the opposite sign.
+    #[test]
+    fn backlash_is_presliding_with_the_opposite_sign(
+        path in prop::collection::vec(-3.0..3.0_f64, 2..60),
+        r in 0.05..2.0_f64,
+    ) {
+        let at = stroke(path.iter().copied(), 0.01);
+        let of = |effect: Effect<f64>| along(&effect, &at);
+        let backlash = of(Backlash::try_new(r).unwrap().into());
+        let presliding = of(Presliding::try_new(r).unwrap().into());
+        for (a, b) in backlash.iter().zip(presliding) {
+            // The stop adds up differences of positions, the play does not: rounding.
+            prop_assert!((a + r * b).abs() <= 1e-13);
+        }
+    }
 }
 
 #[test]

@@ -28,11 +28,19 @@ impl Plan {
         let bar = progress();
         bar.set_message("reading");
         let record = asked.read(&path)?;
-        let planned = plan(&record, &asked, &telling(&bar))?;
+        let found = plan(&record, &asked, &telling(&bar))?;
         bar.finish_and_clear();
-        let Some(planned) = planned else {
+        let open = found.inseparable.join("; nor ");
+        let (first, experiment) = match open.is_empty() {
+            true => ("nothing is confounded".to_owned(), "is needed"),
+            false => (
+                format!("no planned motion would tell {open}"),
+                "of this kind helps",
+            ),
+        };
+        let Some(planned) = found.planned else {
             anstream::eprintln!(
-                "nothing is confounded, and no planned motion would show an unknown parameter better: no experiment is needed"
+                "{first}, and none would show an unknown parameter better: no experiment {experiment}"
             );
             return Ok(());
         };
@@ -42,7 +50,7 @@ impl Plan {
         }
         let experiment = &planned.experiment;
         if !planned.confounded {
-            anstream::eprintln!("nothing is confounded; for what the record does not identify:");
+            anstream::eprintln!("{first}; for what the record does not identify:");
         }
         anstream::eprintln!(
             "{}; {:.1} s, speeds up to {:.2} times the recorded ones",

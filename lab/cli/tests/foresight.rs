@@ -77,6 +77,31 @@ fn a_plan_is_a_table_of_motion_and_names_what_it_is_for() {
     assert!(experiment["trajectory"].is_string(), "{experiment}");
 }
 
+/// Presliding is backlash of the opposite sign: no motion tells them apart, and what is open is not
+/// called settled.
+#[test]
+fn what_no_motion_tells_apart_is_said_and_not_called_settled() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = made(&folder, "b.csv", &["--seed", "325", "--effect", "backlash"]);
+    let declared = ["--declare", "bouc-wen"];
+    let plan = bowden(&[&["plan", &path], &declared[..]].concat());
+    assert!(plan.status.success() && plan.stdout.is_empty());
+    let told = String::from_utf8(plan.stderr).unwrap();
+    assert!(
+        told.contains("would tell presliding from backlash"),
+        "{told}"
+    );
+    assert!(!told.contains("nothing is confounded"), "{told}");
+    let closed = bowden(&[&["close", &path], &declared[..]].concat()).stdout;
+    let closed = String::from_utf8(closed).unwrap();
+    for text in [
+        "Presliding and backlash are one function with opposite signs",
+        "with the other one slack",
+    ] {
+        assert!(closed.contains(text), "{closed}");
+    }
+}
+
 #[test]
 fn bad_use_gives_one_line_and_status_two_and_leaves_nothing_behind() {
     let folder = tempfile::tempdir().unwrap();

@@ -11,12 +11,14 @@ use super::intervals::term_title;
 use super::no_model::{is_no_model, no_model};
 use crate::fit::Solution;
 use crate::ledger::{Ledger, Round};
+use crate::model::structure::FitTerm;
 use crate::problem::Prepared;
-use crate::record::Defect;
+use crate::record::{Defect, Mode};
 use crate::score::blocks::Regime;
 use crate::score::explains::{deviations, segments_differ};
 use crate::score::whiteness::is_white;
 use crate::search::policy::AT_FLOOR;
+use bowden::model::Source;
 
 /// What the run amounts to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
@@ -333,6 +335,22 @@ fn confounded(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     format!("This record cannot tell {}.", rivals.join("; nor "))
 }
 
+/// `backlash`, `play(x) - x`, is `presliding`, `(x - play(x))/r`, with another factor: what is to be
+/// said of either.
+fn one_function(data: &Prepared, done: &FinalFit) -> Option<String> {
+    let is_either = |t: &&FitTerm| ["backlash", "presliding"].contains(&t.effect.name());
+    let term = done.solution.structure.terms.iter().find(is_either)?;
+    let own = match (data.mode, term.source) {
+        (Mode::Displacement, Source::Input) => {
+            ": with the sign of kappa_x a presliding is a spring that slips, with the other one slack"
+        }
+        _ => "",
+    };
+    Some(format!(
+        "Presliding and backlash are one function with opposite signs, so that no record tells one from the other{own}."
+    ))
+}
+
 /// What goes with a verdict, after the sentence on the held-out error.
 fn rest(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -> String {
     match found {
@@ -375,6 +393,7 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
     }
     all.extend(unseen_motion(data, done));
     all.extend(another_zero(data, &done.solution));
+    all.extend(one_function(data, done));
     if let Some(channel) = stands_for_output(data, &ledger.declared, &done.solution) {
         all.push(format!(
             "Nearly all of the output is made of `{channel}` here, although the declared model does without it: does it measure the output, as the angle behind a spring does? Then leave its column out."

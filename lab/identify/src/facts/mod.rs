@@ -30,7 +30,7 @@ pub use hand_over::HandOverFacts;
 pub use ledger::{Detail, Facts, RejectedFacts, UnknownFacts};
 pub use model::{FinalFacts, GainsOfFile, ModelFacts};
 pub use numbers::{number, share, with_interval};
-pub use plan::{plan, Planned};
+pub use plan::{plan, Plan, Planned};
 pub use power::{power, PowerFacts, PowerRow, ShapeFacts};
 pub use record::{FileFacts, HeldOutOf, RecordFacts};
 pub use round::{RivalFacts, RoundFacts, RoundFit, RoundModel, Size};
