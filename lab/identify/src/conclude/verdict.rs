@@ -32,7 +32,7 @@ pub enum Verdict {
     DoesNotCarryOver,
     /// The residual is the sensor's noise, on the fit segment and held out.
     Explained,
-    /// The residual is more than that, but a function of nothing in the catalogue.
+    /// The residual is more than that, and no effect of the catalogue was found in it.
     ExplainedColoured,
     /// The residual depends on something measured, in a way that has no name.
     Unknown,
@@ -318,7 +318,7 @@ fn coloured(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
         true => {
             format!("{size}; it looks like white noise, and depends on nothing that was measured.")
         }
-        false => format!("{size}; it is coloured, but nothing in the catalogue explains it."),
+        false => format!("{size}; it is coloured, but no effect of the catalogue was found in it."),
     }
 }
 
