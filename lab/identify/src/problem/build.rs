@@ -6,7 +6,7 @@ use super::spectrum;
 use super::together;
 use super::uniform::{usual_step, Uniform};
 use super::{filtered, motion, Channel, HeldOut, Piece, Preparation, Prepared, Split, ZeroPhase};
-use super::{rest, still};
+use super::{floor, rest, still};
 use crate::record::{Column, Defect, Mode, Record};
 use bowden::effect::Motion;
 use std::ops::Range;
@@ -231,7 +231,8 @@ fn place(
 
     let noise_floor = match record.held.contains(&record.output.name) {
         true => 0.0,
-        false => noise_floor(&output, &smoothed_output, cutoff, rate),
+        false if uniform.is_finer() => floor::of_slower(record, uniform, cutoff)?,
+        false => floor::of(&output, &smoothed_output, cutoff, rate),
     };
     let Range { start, end } = without_rest((&motion, &on_work), noise_floor, grid);
     let row = dt * stride as f64;
@@ -461,23 +462,4 @@ fn common_floor(noise: &[(f64, usize)]) -> f64 {
 /// What is beyond nine digits is rounding.
 fn nine_digits(value: f64) -> f64 {
     format!("{value:.9e}").parse().unwrap_or(value)
-}
-
-/// Rms of white noise behind the filter at `cutoff`, estimated from what the
-/// smoother at 2.5 times that took away.
-fn noise_floor(output: &[f64], smoothed: &[f64], cutoff: f64, rate: f64) -> f64 {
-    // Differences of neighbours see the noise at the top of the band and not the signal.
-    let n = output.len();
-    let removed: Vec<f64> = output.iter().zip(smoothed).map(|(a, b)| a - b).collect();
-    let passed = ZeroPhase::new(2.5 * cutoff, rate).noise_gain();
-    // What is left of white noise after taking away its smoothed part: 1 − 2 h0 + sum h².
-    let mut impulse = vec![0.0; 4001];
-    impulse[2000] = 1.0;
-    let centre = ZeroPhase::new(2.5 * cutoff, rate).apply(&impulse)[2000];
-    let share = 1.0 - 2.0 * centre + passed * passed;
-    if share <= 0.02 {
-        return 0.0;
-    }
-    let variance = removed.iter().map(|v| v * v).sum::<f64>() / n as f64 / share;
-    variance.sqrt() * ZeroPhase::new(cutoff, rate).noise_gain()
 }

@@ -29,6 +29,7 @@ mod blind;
 mod build;
 pub mod cost;
 pub mod filter;
+mod floor;
 mod rest;
 mod search;
 pub mod spectrum;

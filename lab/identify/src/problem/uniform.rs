@@ -71,6 +71,16 @@ impl Uniform {
         })
     }
 
+    /// Whether the grid is finer than the record.
+    pub(super) fn is_finer(&self) -> bool {
+        self.own / self.dt > 1.0 + SAME_RATE
+    }
+
+    /// A grid over the same record at its own rate.
+    pub(super) fn at_own_rate(&self, time: &[f64]) -> Result<Self, String> {
+        Self::new(time, self.own, self.own)
+    }
+
     /// Gaps longer than half a period of the cut-off: they hide motion that matters.
     pub(super) fn gaps(&self, time: &[f64], cutoff: f64) -> Vec<Range<usize>> {
         let longest = (5.0 * self.own).max(0.5 / cutoff);

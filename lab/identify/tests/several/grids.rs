@@ -44,6 +44,41 @@ fn each_record_has_the_target_that_it_has_alone() {
     }
 }
 
+/// The top of the band of a slower record is empty on the common grid: its noise was taken for
+/// half of what it is, and a right model told to leave more than noise.
+#[test]
+fn the_noise_of_a_slower_record_is_not_underestimated() {
+    let slow = Recipe {
+        rate: 250.0,
+        ..on(Base::CABLE, Mode::Torque, 3)
+    };
+    let files = Files::new(&[on(Base::CABLE, Mode::Torque, 1), slow]);
+    let data = files.joined(HeldOut::Trailing);
+    let cutoff = Some(data.cutoff);
+    let alone = |record| {
+        let data = Prepared::new(record, Preparation { cutoff }).unwrap();
+        (
+            data.noise_floor,
+            data.split.fit.len() as f64 * data.dt * data.stride as f64,
+        )
+    };
+    let own: Vec<(f64, f64)> = files.records.iter().map(alone).collect();
+    // A quarter of the rate: four times the noise power in the band.
+    assert!((own[1].0 / own[0].0 - 2.0).abs() < 0.1, "{own:?}");
+    let seconds: f64 = own.iter().map(|(_, seconds)| seconds).sum();
+    let squares: f64 = own
+        .iter()
+        .map(|(floor, seconds)| floor * floor * seconds)
+        .sum();
+    let expected = (squares / seconds).sqrt();
+    // The cut ends are a few rows more or less on another grid.
+    assert!(
+        (data.noise_floor / expected - 1.0).abs() < 0.01,
+        "{} {expected}",
+        data.noise_floor
+    );
+}
+
 #[test]
 fn no_block_straddles_two_records_and_all_have_about_the_same_path() {
     let data = three().joined(HeldOut::Trailing);
