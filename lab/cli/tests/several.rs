@@ -73,6 +73,9 @@ fn files_that_do_not_go_together_give_one_line_with_file_and_column() {
     let line = refused(&["close", &a, &folder.path("none.csv")]);
     assert!(line.contains("none.csv"), "{line}");
     assert!(refused(&["close", &a, &a]).contains("given twice"));
+    let copy = folder.renamed(&a, "copy.csv", str::to_owned);
+    let line = refused(&["close", &a, &copy]);
+    assert!(line.contains("copy.csv: the same samples as in"), "{line}");
     let line = refused(&["close", &a, "--per-file", "gains"]);
     assert!(line.contains("more than one file"), "{line}");
     let b = folder.record("b.csv", &["--seed", "2"]);

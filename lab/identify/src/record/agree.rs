@@ -70,13 +70,26 @@ pub(super) fn factor(from: &str, to: &str) -> Option<f64> {
 /// Brings all records to the channels and the units of the first one.
 ///
 /// # Errors
-/// One line with file and column where a mode, a channel or a unit differs.
+/// One line with file and column where a mode, a channel or a unit differs, or where two files hold
+/// the same samples: counted twice they would look like two experiments that agree.
 pub fn agree(records: &mut [Record]) -> Result<(), RecordError> {
     let Some((first, others)) = records.split_first_mut() else {
         return Ok(());
     };
     for other in others {
         follow(first, other).map_err(|error| error.in_file(&other.path))?;
+    }
+    let same = |a: &Record, b: &Record| {
+        a.output.values == b.output.values && a.input.values == b.input.values
+    };
+    for (index, later) in records.iter().enumerate() {
+        if let Some(earlier) = records[..index].iter().find(|earlier| same(earlier, later)) {
+            let error = RecordError::new(format!(
+                "the same samples as in {}; each record once was expected",
+                earlier.path
+            ));
+            return Err(error.in_file(&later.path));
+        }
     }
     Ok(())
 }
