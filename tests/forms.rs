@@ -1,7 +1,7 @@
 //! The model as a file, `bowden.model/1`, and as bytes.
 #![allow(clippy::unwrap_used, clippy::cast_possible_truncation)]
 
-use bowden::control::{Adaptive, AdaptiveInput, AdaptiveState, Pid, PidInput, PidState};
+use bowden::control::{Adaptive, AdaptiveInput, AdaptiveState};
 use bowden::effect::{Effect, CATALOGUE};
 use bowden::hysteresis::Shape;
 use bowden::model::{Model, ModelState, Source, Term};
@@ -439,23 +439,6 @@ fn a_stored_adaptive_state_with_a_number_that_is_not_finite_is_refused() {
     }
     stored.insert("gap".to_owned(), (-1.0).into());
     assert!(read(&stored).is_err(), "a negative gap");
-}
-
-/// A state that was stored while bad samples were remembered, and one that earlier versions stored
-/// as merely closed: a good sample takes one off the score of both.
-#[test]
-fn a_stored_state_goes_on_with_its_score() {
-    let pid = Pid::paper_pi();
-    let mut state = PidState::<f64>::new();
-    let at = PidInput::new(1e-3, 1.0, 0.5);
-    pid.step(&mut state, &PidInput { dt: 0.0, ..at });
-    let stored = serde_json::to_string(&state).unwrap();
-    for text in [stored.clone(), stored.replace("counting", "closed")] {
-        let mut read: PidState<f64> = serde_json::from_str(&text).unwrap();
-        assert_eq!((read, read.bad_score()), (state, 4));
-        pid.step(&mut read, &at);
-        assert_eq!(read.bad_score(), 3);
-    }
 }
 
 /// The state that was written, and refusals of it with each of its numbers not finite.

@@ -306,6 +306,20 @@ impl<T: Real> Held<T> {
         Self { latch, ..self }
     }
 
+    /// The same without the bad samples that it remembers.
+    #[must_use]
+    pub(crate) fn forgotten(self) -> Self {
+        let latch = match self.latch {
+            Latch::Counting => Latch::Closed,
+            latch => latch,
+        };
+        Self {
+            score: 0,
+            latch,
+            ..self
+        }
+    }
+
     /// Whether the safe command is out until it is acknowledged.
     pub(crate) fn is_latched(&self) -> bool {
         matches!(self.latch, Latch::Safe(_))

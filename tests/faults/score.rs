@@ -80,6 +80,16 @@ fn any_fallback() -> impl Strategy<Value = Fallback<f64>> {
     })
 }
 
+#[test]
+fn a_reset_leaves_no_trace_of_a_bad_sample() {
+    let pid = Pid::try_new(pi()).unwrap();
+    let mut state = PidState::new();
+    pid.step(&mut state, &PidInput::new(1e-3, 25.0, f64::NAN));
+    assert_eq!(state.bad_score(), 4);
+    state.reset();
+    assert_eq!(state, PidState::new());
+}
+
 proptest! {
     #[test]
     fn of_a_pi_is_what_an_open_count_says(

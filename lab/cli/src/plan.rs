@@ -40,7 +40,7 @@ impl Plan {
         };
         let Some(planned) = found.planned else {
             anstream::eprintln!(
-                "{first}, and none would show an unknown parameter better: no experiment {experiment}"
+                "{first}, and no planned motion would show an unknown parameter better: no experiment {experiment}"
             );
             return Ok(());
         };

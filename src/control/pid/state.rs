@@ -163,10 +163,7 @@ impl<T: Real> PidState<T> {
     /// state that knows of no command, assign [`PidState::new`].
     pub fn reset(&mut self) {
         *self = Self {
-            held: Held {
-                score: 0,
-                ..self.held
-            },
+            held: self.held.forgotten(),
             ..Self::new()
         };
     }

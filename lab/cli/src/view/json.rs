@@ -29,6 +29,9 @@ struct Report<'a> {
     unneeded: &'a [Unneeded],
     unknown: Option<UnknownPart<'a>>,
     noise_floor: f64,
+    /// The noise floor over what is held out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    held_out_floor: Option<f64>,
     /// Standard deviation of the filtered output on each segment.
     deviation: Segments,
     /// Shares of the held-out output's variance.
@@ -295,6 +298,7 @@ pub fn json(facts: &Facts, cost: Option<&CostFacts>) -> Result<String, serde_jso
         unneeded: &facts.unneeded,
         unknown: facts.unknown.as_ref().map(UnknownPart::new),
         noise_floor: facts.record.noise_floor,
+        held_out_floor: several.then_some(facts.record.held_out_floor),
         deviation: facts.deviation,
         explains: facts.explains,
         integrates: facts.integrates,

@@ -46,16 +46,16 @@ fn defect_line(defect: &Defect) -> String {
 }
 
 /// An error and its multiple of the noise floor.
-fn with_floor(record: &RecordFacts, rmse: f64) -> [String; 2] {
-    let floor = record.floors(rmse);
+fn with_floor(rmse: f64, floor: Option<f64>) -> [String; 2] {
     let floor = floor.map_or_else(|| "–".to_owned(), |times| format!("{times:.1}"));
     [number(rmse, Some(0.05 * rmse)), floor]
 }
 
 /// The cells fit, × floor, stop, held out, × floor.
 fn cells(record: &RecordFacts, rmse: &Segments) -> [String; 5] {
-    let [fit, fit_floor] = with_floor(record, rmse.fit);
-    let [held_out, held_out_floor] = with_floor(record, rmse.held_out);
+    let [fit, fit_floor] = with_floor(rmse.fit, record.floors(rmse.fit));
+    let times = record.held_out_floors(rmse.held_out);
+    let [held_out, held_out_floor] = with_floor(rmse.held_out, times);
     let stop = number(rmse.stop, Some(0.05 * rmse.stop));
     [fit, fit_floor, stop, held_out, held_out_floor]
 }

@@ -47,13 +47,14 @@ rejected      What was tried and turned down. not significant: p too large. not 
               blocks: it helps on fewer than 10 of 16. worse on the stop-check. superseded by
               later ones.
 
-verdict       explained            fit and held-out error are within 1.2 times the noise floor
-              explained-coloured   the residual is larger, but a function of nothing measured
+verdict       explained            fit and held-out error are within what noise leaves
+              explained-coloured   the residual is larger, and no effect was found in it
               confounded           the record cannot tell an added effect from its rivals
               unknown              the residual depends on something measured, with no name
               under-excited        too few independent stretches for a test: names are proposals
               does-not-carry-over  the held-out error rises: the model fits this stretch only
-              no-model             the input explains less than half of the output
+              no-model             the input explains less than half of the output, or the files
+                                   contradict each other
               stopped              the search ended at --rounds N, and more than noise is left
               data-defect          the measurement is spoilt where a conclusion rests on it
 ";

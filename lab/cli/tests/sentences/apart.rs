@@ -1,25 +1,34 @@
 //! Several files of which one has another sign, unit or zero: the sentence names it.
 
 use crate::changed::{spring, spring_moved_by};
-use crate::files::{Closed, Rows};
+use crate::files::{noise, Closed, Rows};
+use tempfile::TempDir;
 
-/// Two records of one spring with a hysteresis, the output of the second as `changed` says.
-fn two_files(changed: impl Fn(f64) -> f64) -> (Closed, tempfile::TempDir) {
+/// Records of one spring with a hysteresis behind each other, as many as there are names, the
+/// output of each as `changed` says of its place.
+fn files(names: &[&str], changed: impl Fn(usize, usize, f64) -> f64) -> (Vec<String>, TempDir) {
     let whole = spring((99.0, 0.0), 0);
-    let (first, second) = whole.rows.split_at(whole.rows.len() / 2);
-    let begin = second[0][0];
-    let part = |rows: &[Vec<f64>]| Rows {
-        header: whole.header.clone(),
-        rows: rows.to_vec(),
-    };
-    let mut second = part(second);
-    second.rows.iter_mut().for_each(|row| row[0] -= begin);
-    second.set(2, |_, row| changed(row[2]));
     let folder = tempfile::tempdir().unwrap();
-    let paths = [
-        part(first).write(&folder, "morning.csv"),
-        second.write(&folder, "evening.csv"),
-    ];
+    let length = whole.rows.len() / names.len();
+    let written = names.iter().enumerate().map(|(place, name)| {
+        let mut part = Rows {
+            header: whole.header.clone(),
+            rows: whole.rows[place * length..(place + 1) * length].to_vec(),
+        };
+        let begin = part.rows[0][0];
+        part.rows.iter_mut().for_each(|row| row[0] -= begin);
+        part.set(2, |i, row| changed(place, i, row[2]));
+        part.write(&folder, name)
+    });
+    (written.collect(), folder)
+}
+
+fn two_files(changed: impl Fn(f64) -> f64) -> (Closed, TempDir) {
+    let of = |place, _, force| match place {
+        0 => force,
+        _ => changed(force),
+    };
+    let (paths, folder) = files(&["morning.csv", "evening.csv"], of);
     (Closed::of(&[&paths[0], &paths[1]]), folder)
 }
 
@@ -62,6 +71,53 @@ fn another_zero_in_one_file_is_a_pretension_that_steps_there() {
     assert!(closed.json["files_apart"].as_array().unwrap().is_empty());
     assert_eq!(closed.names().first(), Some(&"pretension"));
     closed.says(&["The pretension steps where", "evening.csv", "zero"]);
+}
+
+/// Most files count: the first one is the odd one here. The last of four is held out whole.
+#[test]
+fn of_several_files_the_one_that_differs_from_most_is_named() {
+    let names = ["one.csv", "two.csv", "three.csv", "four.csv"];
+    let (paths, _folder) = files(&names, |place, _, force| match place {
+        0 => -force,
+        _ => force,
+    });
+    let paths: Vec<&str> = paths.iter().map(String::as_str).collect();
+    let closed = Closed::of(&paths);
+    assert_eq!(closed.verdict(), "no-model");
+    let all = closed.json["files_apart"].as_array().unwrap();
+    assert_eq!(all.len(), 1, "{all:?}");
+    assert!(all[0]["path"].as_str().unwrap().ends_with("one.csv"));
+    closed.says(&["one.csv", "another sign there?"]);
+}
+
+/// Noise has no gain.
+#[test]
+fn a_sensor_that_is_dead_in_one_file_is_not_called_another_unit() {
+    let (paths, _folder) = files(
+        &["morning.csv", "evening.csv"],
+        |place, i, force| match place {
+            0 => force,
+            _ => noise(i),
+        },
+    );
+    let closed = Closed::of(&[&paths[0], &paths[1]]);
+    assert!(closed.json["files_apart"].as_array().unwrap().is_empty());
+    assert!(!closed.sentence().contains("another unit"));
+}
+
+/// What the search has not tried may describe all files.
+#[test]
+fn a_search_that_was_not_made_says_nothing_of_files_that_are_apart() {
+    let (paths, _folder) = files(
+        &["morning.csv", "evening.csv"],
+        |place, _, force| match place {
+            0 => force,
+            _ => -force,
+        },
+    );
+    let closed = Closed::of(&[&paths[0], &paths[1], "--rounds", "0"]);
+    assert!(closed.json["files_apart"].as_array().unwrap().is_empty());
+    assert!(!closed.sentence().contains("No one model"));
 }
 
 #[test]

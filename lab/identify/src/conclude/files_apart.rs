@@ -11,11 +11,14 @@ use crate::problem::{Piece, Prepared};
 /// Files are of several configurations if gains of their own reduce the error of the declared
 /// model below this share.
 pub(crate) const OTHER_CONFIGURATION: f64 = 0.5;
-/// A gain and an offset are said of a file if they leave at most this share of its error ...
+/// The gains of another file describe a file that errs by at most this share of its output's
+/// standard deviation with them ...
+const SAME_ERROR: f64 = 0.1;
+/// ... and with a gain and an offset, one that then errs by at most this share of that error ...
 const LINE_LEAVES: f64 = 0.25;
-/// ... which itself is at least this share of its output's standard deviation. A choice, as the
-/// one before.
-const LEAST_ERROR: f64 = 0.1;
+/// ... and of its standard deviation: what the model does not describe at all has no gain. All
+/// three are a choice.
+const LINE_ERROR: f64 = 0.5;
 /// Gains that differ by less than this are one gain. A choice: sensors are calibrated to that.
 const SAME_GAIN: f64 = 0.05;
 
@@ -31,20 +34,47 @@ pub(crate) fn with_own_gains(data: &Prepared, declared: &Solution) -> Option<Sol
     fit(data, &structure, None, 0.0)
 }
 
+/// A file beside the gains of another one.
+enum Beside {
+    /// They describe it, but for an offset.
+    Same,
+    /// Another gain describes it.
+    Apart(FileApart),
+    /// Nothing of that kind.
+    Other,
+}
+
 /// The files with another gain, where gains of their own make the declared model better than all
-/// that was added to it; most files have the gain that the others are compared with.
+/// that was added to it. They are compared with the gains that describe the most files.
 pub(crate) fn files_apart(data: &Prepared, own: &Solution, done: &FinalFit) -> Vec<FileApart> {
     if own.rmse.fit >= OTHER_CONFIGURATION * done.rmse.fit {
         return Vec::new();
     }
-    let fitted = || (0..data.pieces.len()).filter(|&k| !rows_of(data, k).is_empty());
-    let with_gain_of = |one: usize| -> Vec<FileApart> {
-        let others = fitted().filter(|&k| k != one);
-        let apart = others.filter_map(|k| compared(data, own, k, one));
-        apart.collect()
+    let fitted: Vec<usize> = (0..data.pieces.len())
+        .filter(|&k| !rows_of(data, k).is_empty())
+        .collect();
+    let with_gains_of = |one: usize| {
+        let (mut same, mut apart) = (0, Vec::new());
+        for &file in fitted.iter().filter(|&&k| k != one) {
+            match beside(data, own, file, one) {
+                Beside::Same => same += 1,
+                Beside::Apart(file) => apart.push(file),
+                Beside::Other => {}
+            }
+        }
+        (same, apart)
     };
-    let all = fitted().map(with_gain_of);
-    all.min_by_key(Vec::len).unwrap_or_default()
+    let known = fitted.iter().filter(|&&one| is_described(data, own, one));
+    let all = known.map(|&one| with_gains_of(one));
+    // Of equals the first one: the earlier file is the one that others are compared with.
+    let best = all.reduce(|best, next| {
+        let rank = |(same, apart): &(usize, Vec<FileApart>)| (*same, apart.len());
+        match rank(&next) > rank(&best) {
+            true => next,
+            false => best,
+        }
+    });
+    best.map_or_else(Vec::new, |(_, apart)| apart)
 }
 
 /// The rows of a file that the fit sees.
@@ -56,8 +86,21 @@ fn rows_of(data: &Prepared, record: usize) -> &[usize] {
     &fit[begin..end]
 }
 
-/// A file beside the gains of another one, if its output is a multiple of what they say.
-fn compared(data: &Prepared, own: &Solution, file: usize, than: usize) -> Option<FileApart> {
+/// Whether the gains of a file describe the file itself: those of a dead sensor say nothing.
+fn is_described(data: &Prepared, own: &Solution, file: usize) -> bool {
+    let rows = rows_of(data, file);
+    let n = rows.len() as f64;
+    let mean = rows.iter().map(|&row| data.target[row]).sum::<f64>() / n;
+    let square = |of: &dyn Fn(usize) -> f64| rows.iter().map(|&row| of(row).powi(2)).sum::<f64>();
+    let (error, all) = (
+        square(&|row| own.residual[row]),
+        square(&|row| data.target[row] - mean),
+    );
+    error <= LINE_ERROR * LINE_ERROR * all
+}
+
+/// How the output of a file goes with what the gains of another one say.
+fn beside(data: &Prepared, own: &Solution, file: usize, than: usize) -> Beside {
     let rows = rows_of(data, file);
     let shared = own.structure.base()..own.gains.len();
     let with_gains_of_the_other = |row: usize| -> f64 {
@@ -81,15 +124,22 @@ fn compared(data: &Prepared, own: &Solution, file: usize, than: usize) -> Option
         rms(&|x, y| y - x) / deviation,
         rms(&|x, y| y - gain * x - offset) / deviation,
     );
-    let is = (gain - 1.0).abs() > SAME_GAIN && before > LEAST_ERROR && after < LINE_LEAVES * before;
-    is.then(|| FileApart {
-        path: data.pieces[file].path.clone(),
-        than: data.pieces[than].path.clone(),
-        gain,
-        offset,
-        before,
-        after,
-    })
+    if before <= SAME_ERROR {
+        return Beside::Same;
+    }
+    let is_line = after <= LINE_LEAVES * before && after <= LINE_ERROR;
+    match (is_line, (gain - 1.0).abs() <= SAME_GAIN) {
+        (true, true) => Beside::Same,
+        (true, false) => Beside::Apart(FileApart {
+            path: data.pieces[file].path.clone(),
+            than: data.pieces[than].path.clone(),
+            gain,
+            offset,
+            before,
+            after,
+        }),
+        (false, _) => Beside::Other,
+    }
 }
 
 /// A step of the pretension this near to the beginning of a file is its beginning, as a share of
@@ -106,34 +156,53 @@ pub(super) fn another_zero(data: &Prepared, done: &Solution) -> Option<String> {
         moments.iter().any(|t_s| (t_s - piece.since).abs() <= near)
     };
     let piece = data.pieces.iter().skip(1).find(begins)?;
+    let may_help = done.structure.hysteresis && done.structure.own_gains == 0;
+    let gains = match may_help {
+        true => " `--per-file gains` fits one for each file.",
+        false => "",
+    };
     Some(format!(
-        "The pretension steps where `{}` begins: is the zero of a sensor another one there? `--per-file gains` fits one for each file.",
+        "The pretension steps where `{}` begins: is the zero of a sensor another one there?{gains}",
         piece.path
     ))
+}
+
+/// A number with four digits.
+fn four_digits(value: f64) -> String {
+    let rounded = format!("{value:.3e}").parse().unwrap_or(value);
+    let rounded: f64 = rounded;
+    rounded.to_string()
 }
 
 /// What is to be said of such files; `None` where there are none.
 pub(super) fn apart_words(data: &Prepared, apart: &[FileApart]) -> Option<String> {
     let (first, others) = apart.split_first()?;
     let unit = data.output_unit.as_ref().map(|unit| format!(" {unit}"));
-    let asked = match first.gain < 0.0 {
-        true => "Has a sensor another sign there?",
-        false => "Has a sensor another unit or calibration there, or is the rig another one?",
+    let where_it_is = match data.pieces.iter().filter(|p| p.fitted).count() {
+        2 => "in one of the two",
+        _ => "there",
     };
-    let also = match others.len() {
-        0 => String::new(),
-        1 => format!(
-            " So it is in `{}`, with a gain of {:.4}.",
-            others[0].path, others[0].gain
+    let asked = match first.gain < 0.0 {
+        true => format!("Has a sensor another sign {where_it_is}?"),
+        false => format!(
+            "Has a sensor another unit or calibration {where_it_is}, or is the rig another one?"
         ),
-        more => format!(" So it is in {more} more files."),
+    };
+    let also = match others {
+        [] => String::new(),
+        [second] => format!(
+            " In `{}` the gain is {}.",
+            second.path,
+            four_digits(second.gain)
+        ),
+        more => format!(" {} more files have another gain.", more.len()),
     };
     Some(format!(
-        "No one model describes these files: in `{}` the output is {:.4} times what the gains of `{}` say, and {:.4}{} more, which leaves {:.1} % of its standard deviation in place of {:.0} %.{also} {asked} Mend the file, or give each one its gains with `--per-file gains`.",
+        "No one model describes these files: in `{}` the output is {} times what the gains of `{}` say, with an offset of {}{}. An error of {:.1} % of its standard deviation remains with that, {:.0} % without.{also} {asked} Mend the file, or give each one its gains with `--per-file gains`.",
         first.path,
-        first.gain,
+        four_digits(first.gain),
         first.than,
-        first.offset,
+        four_digits(first.offset),
         unit.unwrap_or_default(),
         100.0 * first.after,
         100.0 * first.before

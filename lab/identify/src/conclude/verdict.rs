@@ -5,7 +5,7 @@
 
 use super::by_file::worse;
 use super::changes::{begins, lead, other_line, other_rig, stands_for_output, unseen_motion};
-use super::files_apart::another_zero;
+use super::files_apart::{another_zero, apart_words};
 use super::final_fit::FinalFit;
 use super::intervals::term_title;
 use super::no_model::{is_no_model, no_model};
@@ -118,8 +118,9 @@ pub fn falls_up_to(ledger: &Ledger) -> usize {
 /// Fit and held-out error in multiples of the noise floor; `None` where the record has no
 /// estimate of it.
 fn floors(data: &Prepared, done: &FinalFit) -> Option<(f64, f64)> {
-    let floor = data.noise_floor;
-    (floor > 0.0).then(|| (done.rmse.fit / floor, done.rmse.held_out / floor))
+    let (fit, held_out) = (data.noise_floor, data.held_out_floor);
+    let are_known = fit > 0.0 && held_out > 0.0;
+    are_known.then(|| (done.rmse.fit / fit, done.rmse.held_out / held_out))
 }
 
 /// Of noise alone the rms over a held-out part exceeds this many of its standard deviations in one
@@ -340,11 +341,12 @@ fn confounded(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
 fn one_function(data: &Prepared, done: &FinalFit) -> Option<String> {
     let is_either = |t: &&FitTerm| ["backlash", "presliding"].contains(&t.effect.name());
     let term = done.solution.structure.terms.iter().find(is_either)?;
-    let own = match (data.mode, term.source) {
-        (Mode::Displacement, Source::Input) => {
-            ": with the sign of kappa_x a presliding is a spring that slips, with the other one slack"
+    let is_on_the_spring = data.mode == Mode::Displacement && term.source == Source::Input;
+    let own = match is_on_the_spring && done.solution.structure.hysteresis {
+        true => {
+            "; a presliding of the sign of kappa_x is a spring that slips, one of the other sign is slack"
         }
-        _ => "",
+        false => "",
     };
     Some(format!(
         "Presliding and backlash are one function with opposite signs, so that no record tells one from the other{own}."
@@ -390,6 +392,9 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
         if floors(data, done).is_some_and(|errors| !is_noise(data, errors)) {
             all.extend(multiples(data, done).map(|size| format!("The residual is {size}.")));
         }
+    }
+    if found == Verdict::DataDefect {
+        all.extend(apart_words(data, &ledger.apart));
     }
     all.extend(unseen_motion(data, done));
     all.extend(another_zero(data, &done.solution));

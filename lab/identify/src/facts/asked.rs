@@ -51,8 +51,8 @@ impl Asked {
     /// Reads several records of one rig, in common units.
     ///
     /// # Errors
-    /// One line that names the file; also if a file is given twice, if two files disagree on
-    /// their columns, or if there are too many.
+    /// One line that names the file; also if a file, or one with the same samples, is given
+    /// twice, if two files disagree on their columns, or if there are too many.
     pub fn read_together(&self, paths: &[PathBuf]) -> Result<Vec<Record>, String> {
         for (index, path) in paths.iter().enumerate() {
             if paths[..index].contains(path) {

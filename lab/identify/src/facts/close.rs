@@ -139,6 +139,8 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
     meter.begins(Stage::Concluding);
     tell("fitting the final model");
     let done = FinalFit::new(&data, &ledger);
+    // A search that was cut short has not tried what else might describe all files.
+    let own = own.filter(|_| !ledger.is_stopped());
     ledger.apart = own.map_or_else(Vec::new, |own| files_apart(&data, &own, &done));
     let hand = HandOver::new(records, &data, &ledger, &done, question.invertible, tell);
     // The result stands even if nothing can be handed over to firmware.

@@ -30,6 +30,8 @@ pub struct RecordFacts {
     pub cutoff: f64,
     /// The sensor's noise behind the filter, rms in the output's unit; 0 where unknown.
     pub noise_floor: f64,
+    /// The same over what is held out.
+    pub held_out_floor: f64,
     /// Remarks on how the columns were read.
     pub notes: Vec<String>,
     /// Defects of the measurement.
@@ -83,6 +85,7 @@ impl RecordFacts {
             },
             cutoff: data.cutoff,
             noise_floor: data.noise_floor,
+            held_out_floor: data.held_out_floor,
             notes: data.notes.clone(),
             defects: data.defects.clone(),
         }
@@ -92,6 +95,12 @@ impl RecordFacts {
     #[must_use]
     pub fn floors(&self, rmse: f64) -> Option<f64> {
         (self.noise_floor > 0.0).then(|| rmse / self.noise_floor)
+    }
+
+    /// A held-out error as a multiple of the noise floor there; likewise.
+    #[must_use]
+    pub fn held_out_floors(&self, rmse: f64) -> Option<f64> {
+        (self.held_out_floor > 0.0).then(|| rmse / self.held_out_floor)
     }
 }
 

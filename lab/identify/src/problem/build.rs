@@ -298,8 +298,8 @@ struct Collected {
     raw: Vec<f64>,
     split: Split,
     seen: Vec<Range<usize>>,
-    /// Noise floor and fit samples of each record.
-    noise: Vec<(f64, usize)>,
+    /// Noise floor of each record, and its samples that are fitted and held out.
+    noise: Vec<(f64, usize, usize)>,
     notes: Vec<String>,
     defects: Vec<Defect>,
 }
@@ -351,7 +351,8 @@ impl Collected {
         self.output.extend(placed.output);
         self.raw.extend(placed.raw);
         let moved = |rows: Vec<usize>| rows.into_iter().map(move |i| row + i);
-        self.noise.push((placed.noise_floor, placed.fit.len()));
+        self.noise
+            .push((placed.noise_floor, placed.fit.len(), placed.held_out.len()));
         self.split.fit.extend(moved(placed.fit));
         self.split.stop.extend(moved(placed.stop));
         self.split.held_out.extend(moved(placed.held_out));
@@ -411,7 +412,8 @@ impl Collected {
             output: self.output,
             target_raw: self.raw,
             split: self.split,
-            noise_floor: common_floor(&self.noise),
+            noise_floor: common_floor(self.noise.iter().map(|(floor, fit, _)| (*floor, *fit))),
+            held_out_floor: common_floor(self.noise.iter().map(|(floor, _, out)| (*floor, *out))),
             path,
             notes: self.notes,
             defects: self.defects,
@@ -449,14 +451,24 @@ fn settled(piece: &Piece, path: &[f64], distance: f64) -> usize {
         .unwrap_or(most)
 }
 
-/// Rms of the noise of all records, each as long as the fit sees it.
-fn common_floor(noise: &[(f64, usize)]) -> f64 {
-    if let [(floor, _)] = noise {
-        return *floor;
+/// Rms of the noise of all records over their samples, of those whose noise is known.
+fn common_floor(noise: impl Iterator<Item = (f64, usize)>) -> f64 {
+    let mut known = noise.filter(|(floor, n)| *floor > 0.0 && *n > 0);
+    let Some((first, n)) = known.next() else {
+        return 0.0;
+    };
+    let (mut squares, mut samples) = (first * first * n as f64, n);
+    let mut is_one = true;
+    for (floor, n) in known {
+        is_one = false;
+        squares += floor * floor * n as f64;
+        samples += n;
     }
-    let samples = noise.iter().map(|(_, n)| n).sum::<usize>().max(1);
-    let squares = noise.iter().map(|(floor, n)| floor * floor * *n as f64);
-    (squares.sum::<f64>() / samples as f64).sqrt()
+    // Of one record its own, to the last digit.
+    match is_one {
+        true => first,
+        false => (squares / samples as f64).sqrt(),
+    }
 }
 
 /// What is beyond nine digits is rounding.

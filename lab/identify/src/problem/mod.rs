@@ -212,6 +212,8 @@ pub struct Prepared {
     pub against: bool,
     /// Rms of the output's noise that passes the filter, taken as white.
     pub noise_floor: f64,
+    /// The same over what is held out, which may be a file with another rate.
+    pub held_out_floor: f64,
     /// The input range's travelled distance up to each estimation sample.
     pub path: Vec<f64>,
     /// Remarks for the user.

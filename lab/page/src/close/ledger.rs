@@ -22,7 +22,7 @@ fn grade(grade: Grade) -> &'static str {
 /// The cells fit, stop, held out, and held out in noise floors.
 fn errors(facts: &Facts, rmse: &Segments) -> Markup {
     let cell = |v: f64| data(v, &number(v, Some(0.05 * v)));
-    let floors = facts.record.floors(rmse.held_out);
+    let floors = facts.record.held_out_floors(rmse.held_out);
     html! {
         td class="number" { (cell(rmse.fit)) }
         td class="number" { (cell(rmse.stop)) }

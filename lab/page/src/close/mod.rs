@@ -100,7 +100,7 @@ fn colour(verdict: Verdict) -> &'static str {
 /// The error before and after.
 fn numbers(facts: &Facts) -> Markup {
     let (before, after) = (&facts.declared.nrmse, &facts.last.nrmse);
-    let floors = facts.record.floors(facts.last.rmse.held_out);
+    let floors = facts.record.held_out_floors(facts.last.rmse.held_out);
     let pair = |before: f64, after: f64| {
         html! {
             span class="was" { (data(before, &percent(before))) }

@@ -73,7 +73,7 @@ pub(crate) fn rises(file: &ModelFile) -> Result<(), String> {
         .and_then(|about| about.verdict.as_deref());
     if verdict == Some("no-model") {
         return Err(
-            "its verdict is `no-model`: its input does not explain its output, and nothing can be derived from it; `bowden close` says what to do".to_owned(),
+            "its verdict is `no-model`: it does not describe its records, and nothing can be derived from it; `bowden close` says what to do".to_owned(),
         );
     }
     let Some(cable) = &file.transmission else {
