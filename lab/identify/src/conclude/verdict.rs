@@ -385,13 +385,12 @@ fn rest(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -> St
 /// What else somebody must know who reads nothing but the sentence.
 fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -> Vec<String> {
     let mut all = Vec::new();
-    if matches!(
+    let says_no_size = matches!(
         found,
         Verdict::Unknown | Verdict::Confounded | Verdict::UnderExcited
-    ) {
-        if floors(data, done).is_some_and(|errors| !is_noise(data, errors)) {
-            all.extend(multiples(data, done).map(|size| format!("The residual is {size}.")));
-        }
+    );
+    if says_no_size && floors(data, done).is_some_and(|errors| !is_noise(data, errors)) {
+        all.extend(multiples(data, done).map(|size| format!("The residual is {size}.")));
     }
     if found == Verdict::DataDefect {
         all.extend(apart_words(data, &ledger.apart));
