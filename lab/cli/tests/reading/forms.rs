@@ -174,7 +174,11 @@ fn each_shape_of_a_mat_file_and_each_compression_of_parquet_holds_the_same_colum
 fn a_pattern_stands_for_its_files_by_name() {
     let folder = Folder::new();
     for name in ["b.csv", "a.csv", "c.txt"] {
-        folder.file(name, csv());
+        // Each of its own: the same samples twice are refused.
+        let text = csv();
+        let kept = text.lines().count() - usize::from(name.as_bytes()[0] - b'a');
+        let lines: Vec<&str> = text.lines().take(kept).collect();
+        folder.file(name, lines.join("\n"));
     }
     let json = said(&["close", &folder.path("*.csv"), "--rounds", "0", "--json"]);
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();

@@ -9,7 +9,7 @@ use super::structure::{FitTerm, Structure};
 use super::variable::Variable;
 use crate::problem::{Channel, Prepared, MOST_RECORDS};
 use crate::record::Mode;
-use bowden::effect::{Effect, Family, Quantity, CATALOGUE};
+use bowden::effect::{Backlash, Effect, Family, Presliding, Quantity, CATALOGUE};
 use bowden::model::Source;
 use std::ops::Range;
 
@@ -30,6 +30,19 @@ impl From<FitTerm> for Candidate {
 }
 
 impl Candidate {
+    /// The effect that is the same function with the opposite sign, of whatever motion:
+    /// `play(x) - x` of a backlash is `-r` times the `(x - play(x))/r` of a presliding.
+    #[must_use]
+    pub fn twin(term: &FitTerm) -> Option<Self> {
+        let r = term.effect.shape(0)?;
+        let effect: Effect<f64> = match term.effect.name() {
+            "backlash" => Presliding::try_new(r).ok()?.into(),
+            "presliding" => Backlash::try_new(r).ok()?.into(),
+            _ => return None,
+        };
+        Some(Self::from(FitTerm { effect, ..*term }))
+    }
+
     /// What the effect is a function of, or stands for.
     #[must_use]
     pub fn variables(&self) -> Vec<Variable> {

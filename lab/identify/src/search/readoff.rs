@@ -249,7 +249,8 @@ impl Search<'_> {
         let mut found: Vec<(Candidate, f64)> = really.into_iter().flatten().collect();
         found.extend(self.stages_instead(context, index));
         found.sort_by(|a, b| a.1.total_cmp(&b.1));
-        let mut rivals: Vec<Candidate> = Vec::new();
+        // One function under two names: no refit is needed to know that it does as well.
+        let mut rivals: Vec<Candidate> = Candidate::twin(&term).into_iter().collect();
         for (rival, _) in found {
             let same =
                 |o: &Candidate| (o.family, o.term.source) == (rival.family, rival.term.source);
