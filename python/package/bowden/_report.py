@@ -164,6 +164,8 @@ class Report(_Found):
         deviation: parts.Segments
         explains: parts.Fields
         integrates: bool
+        held_out_floor: float
+        files_apart: list[parts.Fields]
         worse_files: list[parts.Fields]
         stopped_by_request: Optional[int]
         stopped_by_budget: Optional[float]
