@@ -108,8 +108,7 @@ fn a_residual_of_many_floors_is_not_explained_however_white_it_is() {
     ]);
 }
 
-/// Both names are right; five seconds of noise alone have 1.23 floors here. In 115 such records
-/// four errors of right names were above 1.2, and none above 1.26.
+/// Both names are right, and five seconds of noise alone have more than 1.2 floors here.
 #[test]
 fn noise_that_is_a_little_larger_on_a_short_held_out_part_is_noise() {
     let options = ["--effect", "viscous", "--effect", "coulomb"];

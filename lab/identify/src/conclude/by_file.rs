@@ -30,9 +30,8 @@ fn by_file(data: &Prepared, of: impl Fn(&[usize]) -> f64) -> Option<Vec<FileErro
         return None;
     }
     let own = |piece: &Piece, rows: &[usize]| {
-        let begin = rows.partition_point(|&row| row < piece.rows.start);
-        let end = rows.partition_point(|&row| row < piece.rows.end);
-        (begin < end).then(|| of(&rows[begin..end]))
+        let rows = rows_of(piece, rows);
+        (!rows.is_empty()).then(|| of(rows))
     };
     let all = data.pieces.iter().map(|piece| FileErrors {
         path: piece.path.clone(),
@@ -41,6 +40,13 @@ fn by_file(data: &Prepared, of: impl Fn(&[usize]) -> f64) -> Option<Vec<FileErro
         held_out: own(piece, &data.split.held_out),
     });
     Some(all.collect())
+}
+
+/// The rows of a segment that lie in a file.
+pub(super) fn rows_of<'a>(piece: &Piece, rows: &'a [usize]) -> &'a [usize] {
+    let begin = rows.partition_point(|&row| row < piece.rows.start);
+    let end = rows.partition_point(|&row| row < piece.rows.end);
+    &rows[begin..end]
 }
 
 fn rms(signal: &[f64], rows: &[usize], about: f64) -> f64 {

@@ -1,6 +1,7 @@
 //! Files that no one model can describe, because in one of them the output is a multiple of what
 //! it is in the others: another sign, unit or calibration.
 
+use super::by_file::{nrmse_by_file, rows_of};
 use super::final_fit::FinalFit;
 use crate::algebra::line;
 use crate::fit::{fit, Solution};
@@ -50,12 +51,13 @@ pub(crate) fn files_apart(data: &Prepared, own: &Solution, done: &FinalFit) -> V
     if own.rmse.fit >= OTHER_CONFIGURATION * done.rmse.fit {
         return Vec::new();
     }
-    let fitted: Vec<usize> = (0..data.pieces.len())
-        .filter(|&k| !rows_of(data, k).is_empty())
-        .collect();
+    // Of each file the error of its own gains; none where the fit sees nothing of it.
+    let errors = nrmse_by_file(data, own).unwrap_or_default();
+    let errors = errors.iter().map(|file| file.fit).enumerate();
+    let fitted: Vec<(usize, f64)> = errors.filter_map(|(k, e)| Some((k, e?))).collect();
     let with_gains_of = |one: usize| {
         let (mut same, mut apart) = (0, Vec::new());
-        for &file in fitted.iter().filter(|&&k| k != one) {
+        for &(file, _) in fitted.iter().filter(|(k, _)| *k != one) {
             match beside(data, own, file, one) {
                 Beside::Same => same += 1,
                 Beside::Apart(file) => apart.push(file),
@@ -64,8 +66,9 @@ pub(crate) fn files_apart(data: &Prepared, own: &Solution, done: &FinalFit) -> V
         }
         (same, apart)
     };
-    let known = fitted.iter().filter(|&&one| is_described(data, own, one));
-    let all = known.map(|&one| with_gains_of(one));
+    // The gains of a dead sensor do not even describe its own file.
+    let known = fitted.iter().filter(|(_, error)| *error <= LINE_ERROR);
+    let all = known.map(|(one, _)| with_gains_of(*one));
     // Of equals the first one: the earlier file is the one that others are compared with.
     let best = all.reduce(|best, next| {
         let rank = |(same, apart): &(usize, Vec<FileApart>)| (*same, apart.len());
@@ -77,31 +80,9 @@ pub(crate) fn files_apart(data: &Prepared, own: &Solution, done: &FinalFit) -> V
     best.map_or_else(Vec::new, |(_, apart)| apart)
 }
 
-/// The rows of a file that the fit sees.
-fn rows_of(data: &Prepared, record: usize) -> &[usize] {
-    let Piece { rows, .. } = &data.pieces[record];
-    let fit = &data.split.fit;
-    let begin = fit.partition_point(|&row| row < rows.start);
-    let end = fit.partition_point(|&row| row < rows.end);
-    &fit[begin..end]
-}
-
-/// Whether the gains of a file describe the file itself: those of a dead sensor say nothing.
-fn is_described(data: &Prepared, own: &Solution, file: usize) -> bool {
-    let rows = rows_of(data, file);
-    let n = rows.len() as f64;
-    let mean = rows.iter().map(|&row| data.target[row]).sum::<f64>() / n;
-    let square = |of: &dyn Fn(usize) -> f64| rows.iter().map(|&row| of(row).powi(2)).sum::<f64>();
-    let (error, all) = (
-        square(&|row| own.residual[row]),
-        square(&|row| data.target[row] - mean),
-    );
-    error <= LINE_ERROR * LINE_ERROR * all
-}
-
 /// How the output of a file goes with what the gains of another one say.
 fn beside(data: &Prepared, own: &Solution, file: usize, than: usize) -> Beside {
-    let rows = rows_of(data, file);
+    let rows = rows_of(&data.pieces[file], &data.split.fit);
     let shared = own.structure.base()..own.gains.len();
     let with_gains_of_the_other = |row: usize| -> f64 {
         let cable = (0..3).map(|j| own.gains[3 * than + j] * own.columns[3 * file + j][row]);

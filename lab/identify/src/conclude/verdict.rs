@@ -11,7 +11,7 @@ use super::intervals::term_title;
 use super::no_model::{is_no_model, no_model};
 use crate::fit::Solution;
 use crate::ledger::{Ledger, Round};
-use crate::model::structure::FitTerm;
+use crate::model::catalogue::Candidate;
 use crate::problem::Prepared;
 use crate::record::{Defect, Mode};
 use crate::score::blocks::Regime;
@@ -339,8 +339,8 @@ fn confounded(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
 /// `backlash`, `play(x) - x`, is `presliding`, `(x - play(x))/r`, with another factor: what is to be
 /// said of either.
 fn one_function(data: &Prepared, done: &FinalFit) -> Option<String> {
-    let is_either = |t: &&FitTerm| ["backlash", "presliding"].contains(&t.effect.name());
-    let term = done.solution.structure.terms.iter().find(is_either)?;
+    let mut terms = done.solution.structure.terms.iter();
+    let term = terms.find(|term| Candidate::twin(term).is_some())?;
     let is_on_the_spring = data.mode == Mode::Displacement && term.source == Source::Input;
     let own = match is_on_the_spring && done.solution.structure.hysteresis {
         true => {

@@ -453,21 +453,16 @@ fn settled(piece: &Piece, path: &[f64], distance: f64) -> usize {
 
 /// Rms of the noise of all records over their samples, of those whose noise is known.
 fn common_floor(noise: impl Iterator<Item = (f64, usize)>) -> f64 {
-    let mut known = noise.filter(|(floor, n)| *floor > 0.0 && *n > 0);
-    let Some((first, n)) = known.next() else {
-        return 0.0;
-    };
-    let (mut squares, mut samples) = (first * first * n as f64, n);
-    let mut is_one = true;
-    for (floor, n) in known {
-        is_one = false;
-        squares += floor * floor * n as f64;
-        samples += n;
-    }
-    // Of one record its own, to the last digit.
-    match is_one {
-        true => first,
-        false => (squares / samples as f64).sqrt(),
+    let known: Vec<(f64, usize)> = noise.filter(|(floor, n)| *floor > 0.0 && *n > 0).collect();
+    match known[..] {
+        [] => 0.0,
+        // Its own, to the last digit.
+        [(floor, _)] => floor,
+        _ => {
+            let samples: usize = known.iter().map(|(_, n)| n).sum();
+            let squares = known.iter().map(|(floor, n)| floor * floor * *n as f64);
+            (squares.sum::<f64>() / samples as f64).sqrt()
+        }
     }
 }
 
