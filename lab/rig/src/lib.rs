@@ -253,7 +253,11 @@ impl<T: Real, const N: usize> Rig<T, N> {
         let Some(h) = T::from(count).map(|count| dt / count) else {
             return state.sample;
         };
-        let was = *state;
+        // All that changes before it is known whether the motion stays finite.
+        let was = (
+            (state.plant, state.drift, state.noise),
+            (state.output, state.input),
+        );
         let (b, kappa_eta, t0) = state.drift.step(
             self.config.drift.as_ref(),
             &self.config,
@@ -264,7 +268,10 @@ impl<T: Real, const N: usize> Rig<T, N> {
         let share = -(-h / self.config.sensor_lag).exp_m1();
         for _ in 0..count {
             if !self.plant.step(&mut state.plant, drive, load, h) {
-                *state = was;
+                (
+                    (state.plant, state.drift, state.noise),
+                    (state.output, state.input),
+                ) = was;
                 state.sample.diverged = true;
                 return state.sample;
             }
@@ -309,9 +316,9 @@ impl<T: Real, const N: usize> Rig<T, N> {
                 .copied()
                 .unwrap_or_else(T::zero),
         };
-        state.commands.rotate_right(1);
-        if let Some(first) = state.commands.first_mut() {
-            *first = command;
+        let mut moved = command;
+        for place in &mut state.commands {
+            core::mem::swap(place, &mut moved);
         }
         out
     }

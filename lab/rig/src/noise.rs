@@ -17,10 +17,14 @@ use bowden::Real;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Noise {
     state: u64,
-    /// Deviates come in pairs; the second one waits here.
-    spare: Option<f64>,
+    /// Deviates come in pairs; the second one is still to come from the state that is here.
+    spare: Option<u64>,
 }
 
+/// From one state to the next: 2^64 over the golden ratio.
+const STEP: u64 = 0x9E37_79B9_7F4A_7C15;
+/// 2^-53.
+const LEAST: f64 = 1.0 / 9_007_199_254_740_992.0;
 /// Pairs to try before giving up; each fails with probability 1 − pi/4.
 const MOST_TRIES: u32 = 64;
 
@@ -36,33 +40,57 @@ impl Noise {
 
     /// The next 64 random bits.
     pub fn bits(&mut self) -> u64 {
-        self.state = self.state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
+        self.state = self.state.wrapping_add(STEP);
+        mixed(self.state)
     }
 
     /// Uniform in [0, 1), 53 bits.
-    #[allow(clippy::cast_precision_loss)] // 53 bits are exact
     pub fn uniform(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
+        uniform(self.bits())
     }
 
     /// Normal with mean zero and variance one, finite: at most 8.6 away from zero.
+    ///
+    /// Computed in `T` throughout: in `f32` it is that of `f64` but for rounding, which near
+    /// zero may be 3e-4. A point on the circle's edge may fall on its other side (once in ten
+    /// million); from there on the deviates are others.
     pub fn normal<T: Real>(&mut self) -> T {
-        if let Some(spare) = self.spare.take() {
-            return T::of(spare);
+        if let Some(state) = self.spare.take() {
+            if let Some((_, second)) = pair(state) {
+                return second;
+            }
         }
         for _ in 0..MOST_TRIES {
-            let (x, y) = (2.0 * self.uniform() - 1.0, 2.0 * self.uniform() - 1.0);
-            let square = x * x + y * y;
-            if square > 0.0 && square < 1.0 {
-                let factor = Real::sqrt(-2.0 * Real::ln(square) / square);
-                self.spare = Some(y * factor);
-                return T::of(x * factor);
+            self.state = self.state.wrapping_add(STEP.wrapping_mul(2));
+            if let Some((first, _)) = pair(self.state) {
+                self.spare = Some(self.state);
+                return first;
             }
         }
         T::zero() // once in 1e43 calls
     }
+}
+
+/// The bits of a state.
+fn mixed(state: u64) -> u64 {
+    let mut z = state;
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
+}
+
+/// In [0, 1), exact in `f64`.
+fn uniform<T: Real>(bits: u64) -> T {
+    T::from(bits >> 11).map_or_else(T::zero, |count| count * T::of(LEAST))
+}
+
+/// Two deviates of the last two states, where their point lies in the circle.
+fn pair<T: Real>(state: u64) -> Option<(T, T)> {
+    let place = |state: u64| T::of(2.0) * uniform::<T>(mixed(state)) - T::one();
+    let (x, y) = (place(state.wrapping_sub(STEP)), place(state));
+    let square = x * x + y * y;
+    (square > T::zero() && square < T::one()).then(|| {
+        let factor = (T::of(-2.0) * square.ln() / square).sqrt();
+        (x * factor, y * factor)
+    })
 }

@@ -33,6 +33,31 @@ fn the_noise_is_normal_and_white() {
 }
 
 #[test]
+fn single_precision_has_the_same_deviates_rounded() {
+    let (mut single, mut double) = (Noise::new(11), Noise::new(11));
+    let n = 100_000;
+    let mut sum = 0.0;
+    for k in 0..n {
+        let (a, b) = (single.normal::<f32>(), double.normal::<f64>());
+        let difference = (f64::from(a) - b).abs();
+        // A square within 2^-24 of 1 loses its logarithm: sqrt(2)·2^-12.
+        assert!(difference < 3.5e-4, "{k}: {a} and {b}");
+        sum += difference;
+    }
+    // A deviate of size 1 is rounded to 6e-8, a few times.
+    assert!(sum / f64::from(n) < 5e-7, "{}", sum / f64::from(n));
+}
+
+#[test]
+fn a_deviate_that_waits_is_the_same_after_other_draws() {
+    let (mut one, mut other) = (Noise::new(3), Noise::new(3));
+    let (first, second) = (one.normal::<f64>(), one.normal::<f64>());
+    assert_eq!(other.normal::<f64>(), first);
+    other.bits();
+    assert_eq!(other.normal::<f64>(), second);
+}
+
+#[test]
 fn the_integers_are_those_of_the_published_generator() {
     // First outputs of SplitMix64 from seed 1234567, as in its reference implementation.
     let mut noise = Noise::new(1_234_567);
