@@ -5,15 +5,15 @@ use crate::hysteresis::Shape;
 use crate::proofs::any::{finite, within};
 use crate::proofs::properties::control::compensator_commands_are_finite;
 
-/// Any shares of the effects, NaN included.
-fn any_shares<T: Real, const N: usize>(
+/// Any share of the effects, NaN included.
+fn any_share<T: Real, const N: usize>(
     _: &Model<T, N>,
     _: &mut ModelState<T, N>,
     _: &Sample<T>,
-    _: T,
+    _: (T, T),
     _: impl Fn(usize, &mut Situation<T>),
-) -> [T; N] {
-    core::array::from_fn(|_| T::of(kani::any()))
+) -> T {
+    T::of(kani::any())
 }
 
 /// Any term, or none, that cannot read what it needs.
@@ -47,11 +47,11 @@ fn compensator() -> Result<Compensator<f32, 1>, Error> {
 /// K1. The compensator: for any sample the command is finite and eta within ±1, and a bad
 /// sample leaves both.
 ///
-/// Assumes: nothing of transmission, sample or valid state; any shares of the effects, any
+/// Assumes: nothing of transmission, sample or valid state; any share of the effects, any
 /// root of the inverse, a step of the hysteresis as the rows of K3 prove it.
 #[kani::proof]
 #[kani::unwind(6)]
-#[kani::stub(Model::effects, any_shares)]
+#[kani::stub(Model::effects, any_share)]
 #[kani::stub(Model::first_blind_term, any_blind_term)]
 #[kani::stub(Inverse::solve, any_root)]
 #[kani::stub(Shape::advance, any_eta)]

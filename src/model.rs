@@ -259,69 +259,75 @@ impl<T: Real, const N: usize> Model<T, N> {
         at.dt.is_finite()
             && at.dt > T::zero()
             && (!input_is_read || at.input.position.is_finite())
-            && self.first_blind_term(at).is_none()
+            && (self.sees_all(at, |source| motion(source, at).is_some_and(is_finite))
+                || self.sees_enough(at))
     }
 
     /// The first term that cannot read what it needs from this sample.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn first_blind_term(&self, at: &Sample<T>) -> Option<usize> {
-        if self.sees_all(at) {
+        let sees = |source| motion_of(source, at).is_some_and(|motion| is_finite(&motion));
+        if self.sees_all(at, sees) {
             None
         } else {
             self.search_blind_term(at)
         }
     }
 
-    /// Whether every number that a term may read is finite. It is in the usual sample, and then
-    /// no effect has to be asked what it reads.
-    #[inline]
-    fn sees_all(&self, at: &Sample<T>) -> bool {
-        let mut sees = at.dt.is_finite() && at.dt >= T::ZERO && at.load.is_finite();
-        sees &= is_finite(&at.input);
-        for term in self.terms() {
-            sees &= motion(term.source, at).is_some_and(is_finite);
-        }
-        sees
-    }
-
-    #[cold]
-    #[inline(never)]
+    #[inline(always)]
     fn search_blind_term(&self, at: &Sample<T>) -> Option<usize> {
         let mut there = around(at, T::ZERO, T::ZERO);
         self.terms().iter().position(|term| {
-            !seen(term.source, term.origin, at).is_some_and(|motion| {
-                there.motion = motion;
+            !motion_of(term.source, at).is_some_and(|motion| {
+                there.motion = counted_from(term.origin, motion);
                 there.is_usable(term.effect.info().reads)
             })
         })
     }
 
-    /// Advances the effects by one good sample; each share, for models without stages.
+    /// Whether every number that a term may read is finite. It is in the usual sample, and then
+    /// no effect has to be asked what it reads.
+    #[inline]
+    fn sees_all(&self, at: &Sample<T>, sees_source: impl Fn(Source) -> bool) -> bool {
+        let mut sees = at.dt.is_finite() && at.dt >= T::ZERO && at.load.is_finite();
+        sees &= is_finite(&at.input);
+        for term in self.terms() {
+            sees &= sees_source(term.source);
+        }
+        sees
+    }
+
+    /// Whether the numbers that the terms do read are finite.
+    #[cold]
+    #[inline(never)]
+    fn sees_enough(&self, at: &Sample<T>) -> bool {
+        self.search_blind_term(at).is_none()
+    }
+
+    /// Advances the memories of the effects by one good sample, for models without stages;
+    /// the sum of their shares. The clock is left as it is.
     ///
-    /// `eta` is the caller's. `own` changes what a term reads of the sample: its
+    /// `time` and `eta` are the caller's. `own` changes what a term reads of the sample: its
     /// motion, the input and the load.
     pub(crate) fn effects(
         &self,
         state: &mut ModelState<T, N>,
         at: &Sample<T>,
-        eta: T,
+        (time, eta): (T, T),
         own: impl Fn(usize, &mut Situation<T>),
-    ) -> [T; N] {
-        let mut shares = [T::zero(); N];
-        state.tick(at.dt);
-        let time = state.time.value;
-        let places = self.terms().iter().zip(&mut state.effects).enumerate();
-        for ((index, (term, memory)), share) in places.zip(&mut shares) {
+    ) -> T {
+        let mut sum = T::ZERO;
+        for (index, (term, memory)) in self.terms().iter().zip(&mut state.effects).enumerate() {
             // The origin is subtracted behind `own`.
-            if let Some(motion) = seen(term.source, T::ZERO, at) {
+            if let Some(motion) = motion_of(term.source, at) {
                 let mut there = around(at, time, eta);
                 there.motion = motion;
                 own(index, &mut there);
                 there.motion.position = saturate(there.motion.position - term.origin);
-                *share = saturate(term.gain * term.effect.regressor(memory, &there));
+                sum += saturate(term.gain * term.effect.regressor(memory, &there));
             }
         }
-        shares
+        sum
     }
 
     /// Advances by one sample and returns the predicted output.
@@ -432,6 +438,15 @@ fn motion<'a, T>(source: Source, at: &'a Sample<T>) -> Option<&'a Motion<T>> {
     }
 }
 
+/// The same as a value: a sample that a caller puts together need not be in memory for it.
+#[inline]
+fn motion_of<T: Real>(source: Source, at: &Sample<T>) -> Option<Motion<T>> {
+    match source {
+        Source::Input => Some(at.input),
+        Source::Channel(index) => at.channels.get(usize::from(index)).copied(),
+    }
+}
+
 /// Whether each number of a motion is finite.
 #[inline]
 fn is_finite<T: Real>(motion: &Motion<T>) -> bool {
@@ -441,12 +456,17 @@ fn is_finite<T: Real>(motion: &Motion<T>) -> bool {
 /// What one term's source says of the sample, or nothing where its channel is missing.
 #[inline]
 fn seen<T: Real>(source: Source, origin: T, at: &Sample<T>) -> Option<Motion<T>> {
-    let mut motion = *motion(source, at)?;
+    Some(counted_from(origin, *motion(source, at)?))
+}
+
+/// The same motion, its position from the origin.
+#[inline]
+fn counted_from<T: Real>(origin: T, mut motion: Motion<T>) -> Motion<T> {
     // A difference that overflows is a far place; a bad position stays a bad one.
     if motion.position.is_finite() {
         motion.position = saturate(motion.position - origin);
     }
-    Some(motion)
+    motion
 }
 
 /// What all terms see of the sample; the motion is each term's own.

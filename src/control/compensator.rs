@@ -305,21 +305,20 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         if let Some(term) = self.effects.first_blind_term(&sample) {
             return Err(Fault::Regressor(u8::try_from(term).unwrap_or(u8::MAX)));
         }
-        let before = state.effects;
         let confine = |term, there: &mut Situation<T>| self.confine(term, there);
-        let eta = state.eta();
-        let shares = self
-            .effects
-            .effects(&mut state.effects, &sample, eta, confine);
-        let effects = shares.iter().fold(T::zero(), |sum, &share| sum + share);
+        let memories = &mut state.effects;
+        let (before, clock) = (memories.memories(), memories.ticked(dt));
+        let now = (clock.value, state.hysteresis.eta());
+        let effects = self.effects.effects(memories, &sample, now, confine);
         let target = desired - effects;
         // The inverse holds what is out of the reach of floats; here that must be told.
         let cable = &self.transmission;
         let most = target.abs() + cable.offset().abs() + cable.kappa_eta().abs();
         if !(T::of(2.0) * most / cable.gain()).is_finite() {
-            state.effects = before;
+            state.effects.restore(before);
             return Err(Fault::Overflow);
         }
+        state.effects.set_clock(clock);
         self.inverse.step(&mut state.hysteresis, target);
         state.bad = 0;
         Ok(effects)

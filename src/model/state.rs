@@ -79,6 +79,33 @@ impl<T: Real, const N: usize> ModelState<T, N> {
             self.time = time;
         }
     }
+
+    /// The clock as [`tick`](Self::tick) would leave it.
+    #[inline]
+    pub(crate) fn ticked(&self, dt: T) -> Compensated<T> {
+        let mut clock = *self;
+        clock.tick(dt);
+        clock.time
+    }
+
+    /// Sets the clock to what [`ticked`](Self::ticked) said.
+    #[inline]
+    pub(crate) fn set_clock(&mut self, time: Compensated<T>) {
+        self.time = time;
+        self.started = true;
+    }
+
+    /// What the effects remember, apart from the clock.
+    #[inline]
+    pub(crate) fn memories(&self) -> [EffectState<T>; N] {
+        self.effects
+    }
+
+    /// Takes the memories back to what they were.
+    #[inline]
+    pub(crate) fn restore(&mut self, memories: [EffectState<T>; N]) {
+        self.effects = memories;
+    }
 }
 
 impl<T: Real, const N: usize> Default for ModelState<T, N> {
