@@ -22,6 +22,26 @@ fn any_number<N: Number>(admitted: impl Fn(N::Float) -> bool) -> N {
     N::constant(x)
 }
 
+/// A shape: of what is computed from its parameters any float at all, but for the state after
+/// the path 1, of which `bounded_from_zero` proves that it lies within \[0, 1\].
+fn any_shape() -> Constants<f32> {
+    Constants {
+        c: within(0.0, 2e9),
+        n: within(1.0, 1e9),
+        root: kani::any(),
+        size: kani::any(),
+        series: any_series(),
+        after_1: within(0.0, 1.0),
+    }
+}
+
+fn any_series() -> Series<f32> {
+    Series {
+        first: kani::any(),
+        second: kani::any(),
+    }
+}
+
 /// K3, bounded. The approach to 1 ends between its start and 1.
 ///
 /// Assumes: zeta ∈ \[0, 1\], any r but one below zero, any turn.
@@ -54,24 +74,31 @@ fn bounded_loading() {
     assert!(zeta <= next && next <= 1.0);
 }
 
-/// K3, bounded. A path from zero ends within \[0, 1\].
+/// K3, bounded. A path from zero ends within \[0, 1\], the one of length 1 from which longer
+/// ones go on among them.
 ///
-/// Assumes: n ∈ [1, 1e9], any path or none that is a number, any power; the approach as by
-/// bounded_approach.
+/// Assumes: n ∈ [1, 1e9], any path or none that is a number, any power, any series; the approach
+/// as by bounded_approach.
 #[kani::proof]
 #[kani::stub(approach, any_approach)]
 #[kani::stub(crate::real::short::coarse_power, stubs::garbage_of_two)]
 fn bounded_from_zero() {
     let p: f32 = kani::any();
     kani::assume(!(p < 0.0));
-    let next = leave_zero(p, within(1.0, 1e9));
+    let next = leave_zero(p, &any_shape());
     kani::cover!((p < 1.0) & (next > 0.0) & (next < p));
     kani::cover!((p > 1.0) & (next < 1.0));
     assert!((0.0..=1.0).contains(&next));
+    assert!((0.0..=1.0).contains(&any_series().turned_round(1.0, 1.0)));
 }
 
 /// Any share of a path, NaN included.
 fn any_share<N: Number>(_: N, _: N) -> N {
+    any_number(|_| true)
+}
+
+/// The same where the shape is at hand.
+fn any_steep_share<N: Number>(_: N, _: &Constants<N>) -> N {
     any_number(|_| true)
 }
 
@@ -86,12 +113,12 @@ fn any_shares<N: Number>(_: N, _: N) -> (N, N) {
 /// Assumes: zeta ∈ [-1, 0], c ∈ [0, 2e9], n ∈ [1, 1e9], any path, any power, any length of
 /// the path to zero.
 #[kani::proof]
-#[kani::stub(steep_share, any_share)]
+#[kani::stub(steep_share, any_steep_share)]
 #[kani::stub(flat_share, any_shares)]
 #[kani::stub(inverse_power, any_share)]
 fn bounded_unloading() {
-    let (a, c, n) = (within(0.0, 1.0), within(0.0, 2e9), within(1.0, 1e9));
-    match unload(a, path(), kani::any(), c, n) {
+    let a = within(0.0, 1.0);
+    match unload(a, path(), kani::any(), &any_shape()) {
         Ok(forward) => {
             kani::cover!((forward > 0.0) & (forward < a));
             assert!(-a <= forward - a && forward - a <= 0.0);
@@ -109,7 +136,7 @@ fn any_load<N: Number>(zeta: N, _: N, _: N, _: N) -> N {
 }
 
 /// What `bounded_unloading` proves, and no more.
-fn any_unload<N: Number>(a: N, _: N, _: N, _: N, _: N) -> Result<N, N> {
+fn any_unload<N: Number>(a: N, _: N, _: N, _: &Constants<N>) -> Result<N, N> {
     let zero = N::Float::of(0.0);
     if kani::any() {
         Ok(any_number(|forward| {
@@ -121,7 +148,7 @@ fn any_unload<N: Number>(a: N, _: N, _: N, _: N, _: N) -> Result<N, N> {
 }
 
 /// What `bounded_from_zero` proves, and no more.
-fn any_from_zero<N: Number>(p: N, _: N) -> N {
+fn any_from_zero<N: Number>(p: N, _: &Constants<N>) -> N {
     let (zero, one) = (N::Float::of(0.0), N::Float::of(1.0));
     assert!(!(p.value() < zero));
     any_number(|next| zero <= next && next <= one)
@@ -139,14 +166,14 @@ fn any_from_zero<N: Number>(p: N, _: N) -> N {
 #[kani::stub(crate::real::short::exp2, stubs::garbage)]
 fn bounded_joined() {
     let zeta = within(-1.0, 1.0);
-    let next = follow(zeta, path(), within(0.0, 2e9), within(1.0, 1e9));
+    let next = follow(zeta, path(), &any_shape());
     kani::cover!((zeta < -0.5) & (next > 0.5) & (next < 1.0));
     kani::cover!((zeta < -0.5) & (next < 0.0) & (next > zeta));
     assert!(zeta <= next && next <= 1.0);
 }
 
 /// What `bounded_joined` proves, and no more.
-fn any_step<N: Number>(zeta: N, _: N, _: N, _: N) -> N {
+fn any_step<N: Number>(zeta: N, _: N, _: &Constants<N>) -> N {
     any_number(|next| zeta.value() <= next && next <= N::Float::of(1.0))
 }
 
@@ -175,8 +202,8 @@ fn eta_stays_within_1() {
 }
 
 /// The same where the power is known.
-fn any_step_powered<N: Number>(zeta: N, p: N, _: N, c: N, n: N) -> N {
-    any_step(zeta, p, c, n)
+fn any_step_powered<N: Number>(zeta: N, p: N, _: N, shape: &Constants<N>) -> N {
+    any_step(zeta, p, shape)
 }
 
 /// K3. The paths that the inverse tries in `f32`, of any accepted shape: eta ends within ±1 and

@@ -186,7 +186,7 @@ impl<T: Real> Transmission<T> {
     /// The same for a finite input.
     #[inline]
     pub(crate) fn step_finite(&self, state: &mut BoucWen<T>, input: T) -> T {
-        self.shape.step_finite(state, input);
+        self.shape.step(state, input);
         self.output(input, state.eta())
     }
 

@@ -54,19 +54,19 @@
 #define BOWDEN_HYSTERESIS_F32_WORDS 8
 
 // Room of a bowden_hysteresis_f64, in words of 64 bits.
-#define BOWDEN_HYSTERESIS_F64_WORDS 12
+#define BOWDEN_HYSTERESIS_F64_WORDS 14
 
 // Room of a bowden_cable_f32, in words of 64 bits.
 #define BOWDEN_CABLE_F32_WORDS 10
 
 // Room of a bowden_cable_f64, in words of 64 bits.
-#define BOWDEN_CABLE_F64_WORDS 16
+#define BOWDEN_CABLE_F64_WORDS 20
 
 // Room of a bowden_inverse_f32, in words of 64 bits.
 #define BOWDEN_INVERSE_F32_WORDS 10
 
 // Room of a bowden_inverse_f64, in words of 64 bits.
-#define BOWDEN_INVERSE_F64_WORDS 16
+#define BOWDEN_INVERSE_F64_WORDS 20
 
 // Most terms of a model.
 #define BOWDEN_TERMS 16

@@ -18,15 +18,15 @@ pub enum bowden_mode {
 /// Room of a bowden_hysteresis_f32, in words of 64 bits.
 pub const BOWDEN_HYSTERESIS_F32_WORDS: usize = 8;
 /// Room of a bowden_hysteresis_f64, in words of 64 bits.
-pub const BOWDEN_HYSTERESIS_F64_WORDS: usize = 12;
+pub const BOWDEN_HYSTERESIS_F64_WORDS: usize = 14;
 /// Room of a bowden_cable_f32, in words of 64 bits.
 pub const BOWDEN_CABLE_F32_WORDS: usize = 10;
 /// Room of a bowden_cable_f64, in words of 64 bits.
-pub const BOWDEN_CABLE_F64_WORDS: usize = 16;
+pub const BOWDEN_CABLE_F64_WORDS: usize = 20;
 /// Room of a bowden_inverse_f32, in words of 64 bits.
 pub const BOWDEN_INVERSE_F32_WORDS: usize = 10;
 /// Room of a bowden_inverse_f64, in words of 64 bits.
-pub const BOWDEN_INVERSE_F64_WORDS: usize = 16;
+pub const BOWDEN_INVERSE_F64_WORDS: usize = 20;
 
 /// Of a step that is fed one number: a good sample or a held one.
 fn good(is_good: bool) -> bowden_result {

@@ -13,12 +13,67 @@ const STEEP: f64 = 3.0;
 /// Beyond this `1/(1 + most)` is zero to rounding.
 const SATURATED: f64 = 1e30;
 
+/// What the step needs of a shape: it is computed once, not with every sample.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Constants<N> {
+    /// How much faster unloading starts than loading, less one: `2·sigma - 1`.
+    pub c: N,
+    pub n: N,
+    /// `-1/n`.
+    root: N,
+    /// `0.6·n·(n + 1)`.
+    size: N,
+    /// Of the path from zero.
+    series: Series<N>,
+    /// The state after the path 1 from zero.
+    after_1: N,
+}
+
+/// `1/(n + 1)` and `(1 + n - n²)/((2n + 1)·(n + 1)²)`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Series<N> {
+    first: N,
+    second: N,
+}
+
+impl<N: Number> Constants<N> {
+    pub(super) fn of(c: N, n: N) -> Self {
+        let (of, one) = (N::Float::of, N::constant(N::Float::one()));
+        let n1 = n + one;
+        let first = one / n1;
+        let second = (n1 - n * n) / n.scale(of(2.0)).shift(of(1.0)) * first * first;
+        let series = Series { first, second };
+        Self {
+            c,
+            n,
+            root: -one / n,
+            size: (n * n1).scale(of(0.6)),
+            series,
+            after_1: series.turned_round(one, one),
+        }
+    }
+}
+
+impl<N: Number> Series<N> {
+    /// `zeta` after the path p from zero, `p <= 1`: that of
+    /// `p = zeta·(1 + zeta^n/(n + 1) + zeta^(2n)/(2n + 1) + …)`; y is `p^n`.
+    #[inline]
+    fn turned_round(&self, p: N, y: N) -> N {
+        let below = y * (self.first + y * self.second);
+        if below.value() > N::Float::zero() {
+            p / below.shift(N::Float::one())
+        } else {
+            p
+        }
+    }
+}
+
 /// `zeta` after the path `p >= 0`, for `zeta` in `[-1, 1]`, in one go.
 ///
-/// `c = 2·sigma - 1`. Any `p`, infinite included, ends in `[zeta, 1]`.
+/// Any `p`, infinite included, ends in `[zeta, 1]`.
 #[inline]
-pub(super) fn follow<N: Number>(zeta: N, p: N, c: N, n: N) -> N {
-    follow_powered(zeta, p, powered(zeta, n), c, n)
+pub(super) fn follow<N: Number>(zeta: N, p: N, shape: &Constants<N>) -> N {
+    follow_powered(zeta, p, powered(zeta, shape.n), shape)
 }
 
 /// `|zeta|^(n-1)`; of zero it is some number, and not used.
@@ -29,13 +84,13 @@ pub(super) fn powered<N: Number>(zeta: N, n: N) -> N {
 
 /// The same path where [`powered`] is known.
 #[inline]
-pub(super) fn follow_powered<N: Number>(zeta: N, p: N, powered: N, c: N, n: N) -> N {
+pub(super) fn follow_powered<N: Number>(zeta: N, p: N, powered: N, shape: &Constants<N>) -> N {
     if zeta.value() > N::Float::zero() {
-        return load(zeta, p, powered, n);
+        return load(zeta, p, powered, shape.n);
     }
-    match unload(zeta.abs(), p, powered, c, n) {
+    match unload(zeta.abs(), p, powered, shape) {
         Ok(forward) => zeta + forward,
-        Err(left) => leave_zero(left, n),
+        Err(left) => leave_zero(left, shape),
     }
 }
 
@@ -53,29 +108,20 @@ pub(super) fn load<N: Number>(zeta: N, p: N, powered: N, n: N) -> N {
     }
 }
 
-/// The path from zero: `p = zeta·(1 + zeta^n/(n + 1) + zeta^(2n)/(2n + 1) + …)` turned round.
+/// The path from zero.
 #[inline]
-pub(super) fn leave_zero<N: Number>(p: N, n: N) -> N {
-    let (of, one) = (N::Float::of, N::Float::one());
-    let bend = (n - n * n).shift(one) / n.scale(of(2.0)).shift(one);
-    let after = |h: N, powered: N| {
-        let y = powered / n.shift(one);
-        let below = y * (y * bend).shift(one);
-        if below.value() > N::Float::zero() {
-            h / below.shift(one)
-        } else {
-            h
-        }
-    };
+pub(super) fn leave_zero<N: Number>(p: N, shape: &Constants<N>) -> N {
+    let one = N::Float::one();
     if p.value() < one {
-        return after(p, p * p.coarse_power(n.shift(-one)));
+        let powered = p.coarse_power(shape.n.shift(-one));
+        return shape.series.turned_round(p, p * powered);
     }
-    let zeta = after(N::constant(one), N::constant(one));
+    let zeta = shape.after_1;
     // From here on at the rate of saturation.
     approach(
         zeta,
         (-zeta).shift(one),
-        n * p.shift(-one),
+        shape.n * p.shift(-one),
         N::constant(one),
     )
 }
@@ -104,13 +150,14 @@ fn approach<N: Number>(zeta: N, w: N, r: N, turn: N) -> N {
 
 /// How far the path leads from `a` below zero towards it, or the path that is left at zero.
 #[inline]
-pub(super) fn unload<N: Number>(a: N, p: N, powered: N, c: N, n: N) -> Result<N, N> {
+pub(super) fn unload<N: Number>(a: N, p: N, powered: N, shape: &Constants<N>) -> Result<N, N> {
     let (of, one) = (N::Float::of, N::Float::one());
-    let x = c * (a * powered);
+    let n = shape.n;
+    let x = shape.c * (a * powered);
     let (f, nx) = (x.shift(one), n * x);
     let is_steep = nx.value() > of(STEEP);
     let (share, inverse) = if is_steep {
-        (steep_share(f, n), f)
+        (steep_share(f, shape), f)
     } else {
         flat_share(x, n)
     };
@@ -165,10 +212,8 @@ fn flat_share<N: Number>(x: N, n: N) -> (N, N) {
 
 /// The same to 7 % where x is large: `f^(-1/n)` for `f = 1 + x`, times what it lacks.
 #[inline]
-fn steep_share<N: Number>(f: N, n: N) -> N {
-    let (of, one) = (N::Float::of, N::Float::one());
-    let log = f.coarse_log2().shift(-one);
-    let size = (n * n.shift(one)).scale(of(0.6));
-    let lacks = log / (size * log.shift(one) - log);
-    f.coarse_power(N::constant(-one) / n) * lacks.shift(one)
+fn steep_share<N: Number>(f: N, shape: &Constants<N>) -> N {
+    let log = f.coarse_log2();
+    let size = shape.size * log;
+    f.coarse_power(shape.root) * size / (size - log).shift(N::Float::one())
 }

@@ -1,10 +1,12 @@
 //! The shape of the loop, and the step that follows it.
 
+use super::bounded::{self, Constants};
 use super::number::Dual;
 use super::state::{BoucWen, Sensitivity};
-use super::{bounded, closed, path, stages};
+use super::{closed, path, stages};
 use crate::error::finite;
 use crate::{Error, Real};
+use core::fmt;
 
 /// Shape of a Bouc-Wen loop: rho [1/input unit], sigma, n. Equations (2), (7).
 ///
@@ -23,13 +25,13 @@ use crate::{Error, Real};
 /// # Ok(())
 /// # }
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[derive(Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(
-        try_from = "Unchecked<T>",
+        try_from = "Parameters<T>",
+        into = "Parameters<T>",
         bound(
             serialize = "T: Real + serde::Serialize",
             deserialize = "T: Real + serde::Deserialize<'de>"
@@ -39,7 +41,26 @@ use crate::{Error, Real};
 pub struct Shape<T> {
     rho: T,
     sigma: T,
-    n: T,
+    /// n among them.
+    constants: Constants<T>,
+}
+
+impl<T: fmt::Debug> fmt::Debug for Shape<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut parameters = f.debug_struct("Shape");
+        parameters.field("rho", &self.rho);
+        parameters.field("sigma", &self.sigma);
+        parameters.field("n", &self.constants.n);
+        parameters.finish()
+    }
+}
+
+#[cfg(feature = "defmt")]
+impl<T: defmt::Format> defmt::Format for Shape<T> {
+    fn format(&self, f: defmt::Formatter<'_>) {
+        let (rho, sigma, n) = (&self.rho, &self.sigma, &self.constants.n);
+        defmt::write!(f, "Shape {{ rho: {}, sigma: {}, n: {} }}", rho, sigma, n);
+    }
 }
 
 impl<T: Real> Shape<T> {
@@ -59,7 +80,12 @@ impl<T: Real> Shape<T> {
         if finite(n, "n")? < T::one() || n > most {
             return Err(Error::OutOfRange("n"));
         }
-        Ok(Self { rho, sigma, n })
+        let constants = Constants::of(T::of(2.0) * sigma - T::one(), n);
+        Ok(Self {
+            rho,
+            sigma,
+            constants,
+        })
     }
 
     /// Slope of eta at eta = 0 [1/input unit].
@@ -80,7 +106,7 @@ impl<T: Real> Shape<T> {
     #[inline]
     #[must_use]
     pub fn n(&self) -> T {
-        self.n
+        self.constants.n
     }
 
     /// The state after one increment of the input, of any size.
@@ -115,7 +141,7 @@ impl<T: Real> Shape<T> {
         let one = T::one();
         let direction = if input_change < T::zero() { -one } else { one };
         let path = self.rho * input_change.abs();
-        direction * bounded::follow(direction * eta, path, self.c(), self.n)
+        direction * bounded::follow(direction * eta, path, &self.constants)
     }
 
     /// The same increment, split where it is long, so that any jump is accurate.
@@ -125,12 +151,12 @@ impl<T: Real> Shape<T> {
     #[must_use]
     pub fn advance_split(&self, eta: T, input_change: T) -> T {
         self.along(eta, input_change, |zeta, p, c| {
-            if self.n == T::one() {
+            if self.constants.n == T::one() {
                 closed::linear(zeta, p, c)
-            } else if self.n == T::of(2.0) {
+            } else if self.constants.n == T::of(2.0) {
                 closed::quadratic(zeta, p, c)
             } else {
-                path::follow(zeta, p, c, self.n)
+                path::follow(zeta, p, c, self.constants.n)
             }
         })
     }
@@ -142,7 +168,7 @@ impl<T: Real> Shape<T> {
     #[must_use]
     pub fn advance_four_stage(&self, eta: T, input_change: T) -> T {
         self.along(eta, input_change, |zeta, p, c| {
-            stages::follow(zeta, p, c, self.n)
+            stages::follow(zeta, p, c, self.constants.n)
         })
     }
 
@@ -195,11 +221,11 @@ impl<T: Real> Shape<T> {
             by: [zero, T::of(2.0), zero, zero],
         };
         let n = Dual {
-            value: self.n,
+            value: self.constants.n,
             by: [zero, zero, one, zero],
         };
         let next = if T::SHORT {
-            bounded::follow(zeta, p, c, n)
+            bounded::follow(zeta, p, &Constants::of(c, n))
         } else {
             path::follow(zeta, p, c, n)
         };
@@ -222,9 +248,9 @@ impl<T: Real> Shape<T> {
         let zeta = if direction < T::zero() { -eta } else { eta };
         let a = zeta.abs();
         let power = if T::SHORT {
-            (self.n * a.log2()).exp2()
+            (self.constants.n * a.log2()).exp2()
         } else {
-            a.pow(self.n)
+            a.pow(self.constants.n)
         };
         let f = if zeta < T::zero() {
             T::one() + self.c() * power
@@ -240,41 +266,34 @@ impl<T: Real> Shape<T> {
     /// leaves the state untouched and returns the eta that was.
     #[inline]
     pub fn step(&self, state: &mut BoucWen<T>, input: T) -> T {
-        if input.is_finite() {
-            self.step_finite(state, input);
+        let mut change = input - state.input;
+        if !change.is_finite() {
+            match unusual(state, input) {
+                Some(longest) => change = longest,
+                None => return state.eta,
+            }
         }
-        state.eta
-    }
-
-    /// The same where the input was checked before.
-    #[inline]
-    pub(crate) fn step_finite(&self, state: &mut BoucWen<T>, input: T) {
-        if state.primed {
-            let change = input - state.input;
-            state.eta = if T::SHORT {
-                self.bounded(state.eta, change)
-            } else {
-                let most = T::max_value();
-                self.advance(state.eta, crate::signal::clamp(change, -most, most))
-            };
+        state.eta = if T::SHORT {
+            self.bounded(state.eta, change)
         } else {
-            state.primed = true;
-        }
+            self.advance(state.eta, change)
+        };
         state.input = input;
+        state.eta
     }
 
     /// The paths from one state in one direction: the sign of `direction`.
     #[inline]
-    pub(crate) fn way(&self, eta: T, direction: T) -> Way<T> {
+    pub(crate) fn way(&self, eta: T, direction: T) -> Way<'_, T> {
         let direction = if direction < T::ZERO { -T::ONE } else { T::ONE };
         let zeta = direction * eta;
         Way {
-            shape: *self,
+            shape: self,
             direction,
             eta,
             zeta,
             powered: if T::SHORT {
-                bounded::powered(zeta, self.n)
+                bounded::powered(zeta, self.constants.n)
             } else {
                 T::ZERO
             },
@@ -284,38 +303,53 @@ impl<T: Real> Shape<T> {
     /// How much faster unloading starts than loading, less one.
     #[inline]
     fn c(&self) -> T {
-        T::of(2.0) * self.sigma - T::one()
+        self.constants.c
     }
+}
+
+/// The change that stands for one that is no finite number; none for a bad sample, nor for the
+/// first one, which only says where the input is.
+#[cold]
+fn unusual<T: Real>(state: &mut BoucWen<T>, input: T) -> Option<T> {
+    if !input.is_finite() {
+        return None;
+    }
+    if state.input().is_none() {
+        state.input = input;
+        return None;
+    }
+    let most = T::max_value();
+    Some(if input < T::ZERO { -most } else { most })
 }
 
 /// The paths from one state in one direction, for a search that tries many lengths: what they
 /// have in common is computed once.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Way<T> {
-    shape: Shape<T>,
+pub(crate) struct Way<'a, T> {
+    shape: &'a Shape<T>,
     direction: T,
     eta: T,
     zeta: T,
     powered: T,
 }
 
-impl<T: Real> Way<T> {
+impl<T: Real> Way<'_, T> {
     /// The eta to which [`Shape::step`] leads after this change of the input, in the direction
     /// of the way.
     #[inline]
     pub(crate) fn after(&self, input_change: T) -> T {
-        let shape = &self.shape;
+        let shape = self.shape;
         if !T::SHORT {
             return shape.advance(self.eta, input_change);
         }
         let path = shape.rho * input_change.abs();
-        self.direction * bounded::follow_powered(self.zeta, path, self.powered, shape.c(), shape.n)
+        self.direction * bounded::follow_powered(self.zeta, path, self.powered, &shape.constants)
     }
 
     /// [`Shape::slope`] where the way begins.
     #[inline]
     pub(crate) fn slope(&self) -> T {
-        let shape = &self.shape;
+        let shape = self.shape;
         if !T::SHORT {
             return shape.slope(self.zeta, T::ONE);
         }
@@ -328,19 +362,30 @@ impl<T: Real> Way<T> {
     }
 }
 
-/// What is read before it is checked.
+/// The shape as it is stored.
 #[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-struct Unchecked<T> {
+#[derive(serde::Serialize, serde::Deserialize)]
+struct Parameters<T> {
     rho: T,
     sigma: T,
     n: T,
 }
 
 #[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Unchecked<T>> for Shape<T> {
+impl<T: Real> From<Shape<T>> for Parameters<T> {
+    fn from(shape: Shape<T>) -> Self {
+        Self {
+            rho: shape.rho,
+            sigma: shape.sigma,
+            n: shape.constants.n,
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> TryFrom<Parameters<T>> for Shape<T> {
     type Error = Error;
-    fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
-        Self::try_new(raw.rho, raw.sigma, raw.n)
+    fn try_from(stored: Parameters<T>) -> Result<Self, Error> {
+        Self::try_new(stored.rho, stored.sigma, stored.n)
     }
 }

@@ -14,13 +14,14 @@ use crate::{Error, Real};
 /// assert_eq!(BoucWen::with_eta(-0.5).map(|s| s.eta()), Ok(-0.5));
 /// assert!(BoucWen::with_eta(1.5).is_err());
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(
-        try_from = "Unchecked<T>",
+        try_from = "Stored<T>",
+        into = "Stored<T>",
         bound(
             serialize = "T: Real + serde::Serialize",
             deserialize = "T: Real + serde::Deserialize<'de>"
@@ -29,8 +30,9 @@ use crate::{Error, Real};
 )]
 pub struct BoucWen<T> {
     pub(super) eta: T,
+    /// Infinite before the first sample: the change to that is no number, and a step need not
+    /// look for a sign that it is the first.
     pub(super) input: T,
-    pub(super) primed: bool,
 }
 
 impl<T: Real> BoucWen<T> {
@@ -40,8 +42,7 @@ impl<T: Real> BoucWen<T> {
     pub fn new() -> Self {
         Self {
             eta: T::zero(),
-            input: T::zero(),
-            primed: false,
+            input: T::infinity(),
         }
     }
 
@@ -76,29 +77,46 @@ impl<T: Real> BoucWen<T> {
     #[inline]
     #[must_use]
     pub fn input(&self) -> Option<T> {
-        self.primed.then_some(self.input)
+        self.input.is_finite().then_some(self.input)
     }
 }
 
-/// What is read before it is checked.
+impl<T: Real> Default for BoucWen<T> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// The state as it is stored.
 #[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-struct Unchecked<T> {
+#[derive(serde::Serialize, serde::Deserialize)]
+struct Stored<T> {
     eta: T,
     input: T,
     primed: bool,
 }
 
 #[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Unchecked<T>> for BoucWen<T> {
+impl<T: Real> From<BoucWen<T>> for Stored<T> {
+    fn from(state: BoucWen<T>) -> Self {
+        Self {
+            eta: state.eta,
+            input: state.input().unwrap_or_else(T::zero),
+            primed: state.input().is_some(),
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> TryFrom<Stored<T>> for BoucWen<T> {
     type Error = Error;
-    fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
-        let state = Self::with_eta(raw.eta)?;
-        Ok(Self {
-            input: finite(raw.input, "input")?,
-            primed: raw.primed,
-            ..state
-        })
+    fn try_from(stored: Stored<T>) -> Result<Self, Error> {
+        let input = finite(stored.input, "input")?;
+        let mut state = Self::with_eta(stored.eta)?;
+        if stored.primed {
+            state.input = input;
+        }
+        Ok(state)
     }
 }
 
