@@ -120,6 +120,8 @@ pub struct Ledger {
     pub integrates: bool,
     /// Files in which the output is another multiple of the input than in the others.
     pub apart: Vec<FileApart>,
+    /// A channel that was logged otherwise in one of the files.
+    pub channel_apart: Option<ChannelApart>,
     /// The requested number of effects if it ended the search: further effects may be missing.
     /// `None` if the search ended by itself.
     pub stopped_by_request: Option<usize>,
@@ -141,6 +143,7 @@ impl Ledger {
             correlation_time: 0.0,
             integrates: false,
             apart: Vec::new(),
+            channel_apart: None,
             stopped_by_request: None,
             stopped_by_budget: None,
         }
@@ -199,6 +202,24 @@ pub struct FileApart {
     /// The error of those gains on the file, as a share of its output's standard deviation.
     pub before: f64,
     /// The same with gain and offset.
+    pub after: f64,
+}
+
+/// A channel that in one file counts the other way than in the others, or stands in the place of
+/// another one.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct ChannelApart {
+    /// The file.
+    pub path: String,
+    /// The channel.
+    pub channel: String,
+    /// The channel whose place it has; `None` where it counts the other way.
+    pub swapped_with: Option<String>,
+    /// What is missing once that is mended, as it is named there.
+    pub names: Vec<String>,
+    /// The error on the fit segment, as a share of the output's standard deviation there.
+    pub before: f64,
+    /// The same once that is mended.
     pub after: f64,
 }
 

@@ -166,6 +166,7 @@ class Report(_Found):
         integrates: bool
         held_out_floor: float
         files_apart: list[parts.Fields]
+        channel_apart: Optional[parts.Fields]
         worse_files: list[parts.Fields]
         stopped_by_request: Optional[int]
         stopped_by_budget: Optional[float]

@@ -3,9 +3,9 @@
 use super::curve::UnknownPart;
 use super::hand_over::HandOverPart;
 use bowden_lab::facts::{
-    CostFacts, Defect, Experiment, Explained, Facts, FileApart, FileErrors, FinalFacts, Gate,
-    Grade, HeldOutOf, ModelFacts, Parameter, RejectedFacts, RivalFacts, RoundFacts, RoundModel,
-    Segments, Unneeded, Worse, HALVES,
+    ChannelApart, CostFacts, Defect, Experiment, Explained, Facts, FileApart, FileErrors,
+    FinalFacts, Gate, Grade, HeldOutOf, ModelFacts, Parameter, RejectedFacts, RivalFacts,
+    RoundFacts, RoundModel, Segments, Unneeded, Worse, HALVES,
 };
 use serde::Serialize;
 
@@ -39,6 +39,8 @@ struct Report<'a> {
     integrates: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     files_apart: Option<&'a [FileApart]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    channel_apart: Option<Option<&'a ChannelApart>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     worse_files: Option<&'a [Worse]>,
     /// The requested number of effects, if it ended the search.
@@ -303,6 +305,7 @@ pub fn json(facts: &Facts, cost: Option<&CostFacts>) -> Result<String, serde_jso
         explains: facts.explains,
         integrates: facts.integrates,
         files_apart: several.then_some(&facts.apart[..]),
+        channel_apart: several.then_some(facts.channel_apart.as_ref()),
         worse_files: several.then_some(&facts.worse[..]),
         stopped_by_request: facts.stopped_by_request,
         stopped_by_budget: facts.stopped_by_budget,

@@ -8,6 +8,7 @@
 mod apart;
 mod carries_over;
 mod changed;
+mod channels;
 mod compare;
 mod files;
 mod no_model;

@@ -2,6 +2,7 @@
 
 pub mod by_file;
 mod changes;
+pub mod channel_apart;
 pub mod curve;
 mod excitation;
 pub mod files_apart;

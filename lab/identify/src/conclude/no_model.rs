@@ -1,6 +1,7 @@
 //! Where there is no model of the input: whether, and in which words.
 
 use super::changes::is_other_file;
+use super::channel_apart::channel_words;
 use super::files_apart::apart_words;
 use super::final_fit::FinalFit;
 use crate::fit::Solution;
@@ -40,7 +41,7 @@ fn stood_in_for(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Option<f64
 pub(super) fn is_no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> bool {
     let share = judged(explained(data, &done.solution), &ledger.declared);
     let little = share < LEAST_EXPLAINED && !is_other_file(data, done);
-    ledger.integrates || !ledger.apart.is_empty() || little
+    ledger.integrates || !ledger.apart.is_empty() || ledger.channel_apart.is_some() || little
 }
 
 /// A share of the output's variance, "63 %", "0.4 %", "0 %".
@@ -77,6 +78,9 @@ pub(super) fn no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Str
     }
     if let Some(words) = apart_words(data, &ledger.apart) {
         return words;
+    }
+    if let Some(apart) = &ledger.channel_apart {
+        return channel_words(apart);
     }
     let shares = explained(data, &done.solution);
     if let Some(alone) = stood_in_for(data, ledger, done) {

@@ -5,6 +5,7 @@
 
 use super::by_file::worse;
 use super::changes::{begins, lead, other_line, other_rig, stands_for_output, unseen_motion};
+use super::channel_apart::channel_words;
 use super::files_apart::{another_zero, apart_words};
 use super::final_fit::FinalFit;
 use super::intervals::term_title;
@@ -385,6 +386,8 @@ fn rest(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -> St
 /// What else somebody must know who reads nothing but the sentence.
 fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -> Vec<String> {
     let mut all = Vec::new();
+    // What a channel of the wrong sign has brought in says nothing about clocks.
+    let is_mended = ledger.channel_apart.is_some();
     let says_no_size = matches!(
         found,
         Verdict::Unknown | Verdict::Confounded | Verdict::UnderExcited
@@ -394,6 +397,7 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
     }
     if found == Verdict::DataDefect {
         all.extend(apart_words(data, &ledger.apart));
+        all.extend(ledger.channel_apart.as_ref().map(channel_words));
     }
     all.extend(unseen_motion(data, done));
     all.extend(another_zero(data, &done.solution));
@@ -402,7 +406,7 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
         all.push(format!(
             "Nearly all of the output is made of `{channel}` here, although the declared model does without it: does it measure the output, as the angle behind a spring does? Then leave its column out."
         ));
-    } else if let Some(lead) = lead(data, &done.solution) {
+    } else if let Some(lead) = lead(data, &done.solution).filter(|_| !is_mended) {
         all.push(format!(
             "The output comes about {:.1} ms before the input that it answers, which no transmission does: were both logged on one clock?",
             1e3 * lead

@@ -4,6 +4,7 @@ use super::asked::Asked;
 use super::cost::{CostFacts, Meter, Stage};
 use super::figures::Figures;
 use super::ledger::{Detail, Facts};
+use crate::conclude::channel_apart::channel_apart;
 use crate::conclude::files_apart::{files_apart, with_own_gains, OTHER_CONFIGURATION};
 use crate::conclude::final_fit::FinalFit;
 use crate::conclude::trace::trace;
@@ -142,6 +143,13 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
     // A search that was cut short has not tried what else might describe all files.
     let own = own.filter(|_| !ledger.is_stopped());
     ledger.apart = own.map_or_else(Vec::new, |own| files_apart(&data, &own, &done));
+    let has_time = asked.budget.is_none() && !ledger.is_stopped();
+    if records.len() > 1 && ledger.apart.is_empty() && has_time {
+        tell("trying each channel the other way in each file");
+        ledger.channel_apart = channel_apart(&data, &ledger, &done, |mended| {
+            asked.search(mended, &structure, &|_| {}).ok()
+        });
+    }
     let hand = HandOver::new(records, &data, &ledger, &done, question.invertible, tell);
     // The result stands even if nothing can be handed over to firmware.
     let hand = match hand {

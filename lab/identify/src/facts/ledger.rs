@@ -12,7 +12,7 @@ use crate::conclude::unneeded::{unneeded, Unneeded};
 use crate::conclude::verdict::{falls_up_to, sentence, unknown_words, verdict, Verdict};
 use crate::export::hand_over::HandOver;
 use crate::fit::Segments;
-use crate::ledger::{FileApart, Gate, Ledger, Unknown};
+use crate::ledger::{ChannelApart, FileApart, Gate, Ledger, Unknown};
 use crate::problem::Prepared;
 use crate::score::blocks::{Regime, BLOCKS};
 use crate::score::explains::{explained, segments_differ, Explained};
@@ -55,6 +55,8 @@ pub struct Facts {
     pub integrates: bool,
     /// Files in which the output is another multiple of the input than in the others.
     pub apart: Vec<FileApart>,
+    /// A channel that was logged otherwise in one of the files.
+    pub channel_apart: Option<ChannelApart>,
     /// Files on which the final model is worse than the declared one.
     pub worse: Vec<Worse>,
     /// The requested number of effects, if it ended the search.
@@ -193,6 +195,7 @@ impl Facts {
             explains: explained(data, &done.solution),
             integrates: ledger.integrates,
             apart: ledger.apart.clone(),
+            channel_apart: ledger.channel_apart.clone(),
             worse: worse(data, &ledger.declared, &done.solution),
             stopped_by_request: ledger.stopped_by_request,
             stopped_by_budget: ledger.stopped_by_budget,

@@ -17,6 +17,7 @@
 
 pub use crate::algebra::Stretch;
 use crate::record::{Column, Defect, Mode};
+pub use altered::Alteration;
 use bowden::effect::Motion;
 pub(crate) use filter::is_silent;
 use filter::{derivative, ZeroPhase};
@@ -24,6 +25,7 @@ use rayon::prelude::*;
 use std::ops::Range;
 
 mod against;
+mod altered;
 mod answered;
 mod blind;
 mod build;
@@ -84,8 +86,23 @@ pub struct Channel {
 impl Channel {
     /// A channel on the work grid; `used` is what the fit may see of it.
     fn new(column: &Column, motion: Vec<Motion<f64>>, used: &[Range<usize>]) -> Self {
-        let inside = || used.iter().flat_map(|range| &motion[range.clone()]);
-        let count = used.iter().map(ExactSizeIterator::len).sum::<usize>();
+        let named = Self {
+            name: column.name.clone(),
+            unit: column.unit.clone(),
+            definition: column.definition.clone(),
+            motion: Vec::new(),
+            origin: 0.0,
+            middle: 0.0,
+            reach: 0.0,
+            speed: 0.0,
+        };
+        let used: Vec<usize> = used.iter().cloned().flatten().collect();
+        Self::over(&named, motion, &used)
+    }
+
+    /// A channel of the same name with another motion; the fit may see these samples of it.
+    fn over(named: &Self, motion: Vec<Motion<f64>>, used: &[usize]) -> Self {
+        let inside = || used.iter().map(|&i| &motion[i]);
         let low = inside().map(|m| m.position).fold(f64::INFINITY, f64::min);
         let high = inside()
             .map(|m| m.position)
@@ -97,17 +114,16 @@ impl Channel {
         } else {
             middle
         };
-        let speed =
-            (inside().map(|m| m.velocity * m.velocity).sum::<f64>() / count.max(1) as f64).sqrt();
+        let squares: f64 = inside().map(|m| m.velocity * m.velocity).sum();
         Self {
-            name: column.name.clone(),
-            unit: column.unit.clone(),
-            definition: column.definition.clone(),
-            motion,
+            name: named.name.clone(),
+            unit: named.unit.clone(),
+            definition: named.definition.clone(),
             origin,
             middle,
             reach,
-            speed,
+            speed: (squares / used.len().max(1) as f64).sqrt(),
+            motion,
         }
     }
 }

@@ -44,6 +44,18 @@ impl Linear<'_> {
         all
     }
 
+    /// Squared error that a forward selection from the present set leaves, in units of the output's
+    /// squared scale.
+    pub(super) fn left_by_names(&self) -> f64 {
+        let all = self.everything();
+        let (target, unit) = self.target_of(&all);
+        let mut columns = self.columns_of(&all);
+        for g in self.greedy(&all, &[], policy::MOST_NAMES) {
+            columns.extend(&self.groups[g].columns);
+        }
+        unit * self.grams.squared_error(&columns, target)
+    }
+
     /// Forward selection on some blocks, from the declared model, among the candidates and the
     /// names of the present model.
     pub(super) fn found_on(&self, blocks: &[usize]) -> Vec<Identity> {

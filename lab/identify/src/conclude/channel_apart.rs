@@ -1,0 +1,122 @@
+//! A channel that was logged otherwise in one of several files: it counts the other way there, or
+//! two channels stand in each other's place.
+//!
+//! An effect of that channel then has another sign, or another place, in that file. One gain for
+//! all files is near zero, and what is missing is put down to other effects.
+
+use super::final_fit::FinalFit;
+use crate::fit::Segments;
+use crate::ledger::{ChannelApart, Ledger};
+use crate::problem::{Alteration, Prepared};
+use crate::search::left_by_names;
+use crate::search::policy::AT_FLOOR;
+
+/// More ways to alter a file than this are not tried. Each costs as much as one linearisation of
+/// the declared model. Four files with two channels have twelve.
+const MOST_WAYS: usize = 12;
+/// With an alteration names leave to first order at most this share of the squared error that they
+/// leave without: then it is searched with.
+const PROMISED: f64 = 0.8;
+/// And the search then ends with at most this share of the error, and with no more names. Both
+/// are a choice.
+const KEPT: f64 = 0.8;
+
+/// The ways in which one channel of one file may differ.
+fn ways(data: &Prepared) -> Vec<(usize, Alteration)> {
+    let channels = data.channels.len();
+    let turned = (0..channels).map(Alteration::Turned);
+    let pairs = (0..channels).flat_map(|i| (i + 1..channels).map(move |j| (i, j)));
+    let swapped = pairs.map(|(i, j)| Alteration::Swapped(i, j));
+    let alterations: Vec<Alteration> = turned.chain(swapped).collect();
+    let files = data.pieces.iter().enumerate();
+    let fitted: Vec<usize> = files.filter_map(|(k, p)| p.fitted.then_some(k)).collect();
+    // Of two files either one may be meant: the later one is named.
+    let altered = match fitted.as_slice() {
+        [] | [_] => &[],
+        [_, second] => std::slice::from_ref(second),
+        all => all,
+    };
+    altered
+        .iter()
+        .flat_map(|&file| alterations.iter().map(move |&a| (file, a)))
+        .collect()
+}
+
+/// The channel of one file that was logged otherwise, if the model leaves more than noise and
+/// much less once that is mended. `search` closes the loop on the mended files.
+pub(crate) fn channel_apart(
+    data: &Prepared,
+    ledger: &Ledger,
+    done: &FinalFit,
+    search: impl FnOnce(&Prepared) -> Option<Ledger>,
+) -> Option<ChannelApart> {
+    let ways = ways(data);
+    let is_much = done.rmse.fit > AT_FLOOR * data.noise_floor;
+    if !is_much || ways.len() > MOST_WAYS {
+        return None;
+    }
+    let left = left_by_names(data, &ledger.declared)?;
+    let promise = |(file, way): (usize, Alteration)| {
+        let left = left_by_names(&data.altered(file, way), &ledger.declared)?;
+        Some((left, file, way))
+    };
+    let best = ways.into_iter().filter_map(promise);
+    let (least, file, way) = best.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    if least > PROMISED * left {
+        return None;
+    }
+    let mended = data.altered(file, way);
+    let other = search(&mended)?;
+    let fitted = FinalFit::new(&mended, &other);
+    let after = fitted.rmse.fit;
+    let has_more = other.rounds.len() > ledger.rounds.len()
+        || (other.unknown.is_some() && ledger.unknown.is_none());
+    if after > KEPT * done.rmse.fit || has_more {
+        return None;
+    }
+    let name = |channel: usize| data.channels[channel].name.clone();
+    let (channel, swapped_with) = match way {
+        Alteration::Turned(channel) => (name(channel), None),
+        Alteration::Swapped(one, second) => (name(one), Some(name(second))),
+    };
+    let deviation = Segments::deviation(data, &data.target).fit;
+    Some(ChannelApart {
+        path: data.pieces[file].path.clone(),
+        channel,
+        swapped_with,
+        names: other.rounds.iter().map(|r| fitted.title_of(r)).collect(),
+        before: done.rmse.fit / deviation,
+        after: after / deviation,
+    })
+}
+
+/// What is to be said of such a channel.
+pub(super) fn channel_words(apart: &ChannelApart) -> String {
+    let ChannelApart {
+        path,
+        channel,
+        swapped_with,
+        names,
+        before,
+        after,
+    } = apart;
+    let (asked, mended) = match swapped_with {
+        None => (
+            format!("Does `{channel}` count the other way in `{path}`?"),
+            "turned there",
+        ),
+        Some(other) => (
+            format!("Do `{channel}` and `{other}` stand in each other's place in `{path}`?"),
+            "exchanged there",
+        ),
+    };
+    let what = match names.as_slice() {
+        [] => "nothing is missing".to_owned(),
+        names => format!("what is missing is {}", names.join(", then ")),
+    };
+    format!(
+        "{asked} With it {mended} {what}, and the error of the fit is {:.2} % of the output's standard deviation in place of {:.2} %: what is named here are other effects that stand in for that. Mend the file first.",
+        100.0 * after,
+        100.0 * before
+    )
+}
