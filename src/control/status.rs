@@ -306,20 +306,6 @@ impl<T: Real> Held<T> {
         Self { latch, ..self }
     }
 
-    /// The same without the bad samples that it remembers.
-    #[must_use]
-    pub(crate) fn forgotten(self) -> Self {
-        let latch = match self.latch {
-            Latch::Counting => Latch::Closed,
-            latch => latch,
-        };
-        Self {
-            score: 0,
-            latch,
-            ..self
-        }
-    }
-
     /// Whether the safe command is out until it is acknowledged.
     pub(crate) fn is_latched(&self) -> bool {
         matches!(self.latch, Latch::Safe(_))
@@ -410,9 +396,12 @@ const fn usual() -> u32 {
 impl<T: Real> TryFrom<Unchecked<T>> for Fallback<T> {
     type Error = Error;
     fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
+        let hold = Self::hold_for_ever();
         match raw.command {
             Some(command) => Self::try_new(raw.after, command)?.with_weight(raw.weight),
-            None => Ok(Self::hold_for_ever()),
+            None if (raw.after, raw.weight) == (hold.after, hold.weight) => Ok(hold),
+            // A line that was lost must not take the safe command away.
+            None => Err(Error::Inadmissible("a fallback has a safe command")),
         }
     }
 }

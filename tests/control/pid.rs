@@ -255,6 +255,20 @@ fn settings_and_states_are_read_through_their_checks() {
         assert_eq!(serde_json::from_str::<Pid<f64>>(&text).unwrap(), pid);
     }
     assert!(serde_json::from_str::<Pid<f64>>(r#"{"k_p": 30.0, "k_i": -18.0}"#).is_err());
+    // A line that was lost must not turn a safe command into none.
+    let fallback = |text: &str| serde_json::from_str::<Fallback<f64>>(text);
+    for lost in [
+        r#"{"after": 20}"#,
+        r#"{"after": 20, "weight": 0}"#,
+        r#"{"after": 4294967295, "weight": 1}"#,
+    ] {
+        assert!(fallback(lost).is_err(), "{lost}");
+    }
+    let hold = Fallback::<f64>::hold_for_ever();
+    assert_eq!(
+        fallback(&serde_json::to_string(&hold).unwrap()).unwrap(),
+        hold
+    );
     assert!(serde_json::from_str::<Pid<f64>>(r#"{"k_p": 1, "k_i": 1, "kd": 1}"#).is_err());
 
     let mut state = PidState::new();

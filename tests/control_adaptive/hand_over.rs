@@ -124,11 +124,48 @@ fn after_the_safe_command_both_forms_go_on_from_it() {
 }
 
 #[test]
-fn a_reset_is_a_new_state() {
-    let law = Adaptive::try_new(literal()).unwrap();
-    let mut state = AdaptiveState::new(&law);
-    law.step(&mut state, &AdaptiveInput::new(0.001, 3.0, 1.0, [1.0]));
-    assert_ne!(state, AdaptiveState::new(&law));
-    state.reset(&law);
-    assert_eq!(state, AdaptiveState::new(&law));
+fn a_reset_is_a_new_state_at_the_command_that_is_out() {
+    for form in [literal(), lag()] {
+        let limits = Limits::try_new(-60.0, 60.0).unwrap();
+        let limits = limits.with_slew(100.0).unwrap();
+        let fallback = Fallback::try_new(3, 40.0).unwrap();
+        let settings = AdaptiveSettings {
+            limits,
+            fallback,
+            ..form
+        };
+        let law = Adaptive::try_new(settings).unwrap();
+        let mut state = AdaptiveState::new(&law);
+        let good = AdaptiveInput::new(0.001, 3.0, 1.0, [1.0]);
+        let bad = AdaptiveInput::new(0.001, 3.0, f64::NAN, [1.0]);
+        for _ in 0..300 {
+            law.step(&mut state, &good);
+        }
+        let out = state.command();
+        assert!(out > 10.0, "{out}");
+        state.reset(&law);
+        let fresh = AdaptiveState::new(&law);
+        assert_eq!(state.accumulated_error(), 0.0);
+        assert_eq!(state.theta_hat(), fresh.theta_hat());
+        assert_eq!(state.beta_hat(), fresh.beta_hat());
+        // A bad sample holds it, a good one goes on from it at the slew rate.
+        let held = law.step(&mut state, &bad);
+        assert_eq!(
+            (held.status, held.command),
+            (Status::Held(Fault::Measured), out)
+        );
+        let next = law.step(&mut state, &good).command;
+        assert!((next - out).abs() <= 0.2 + 1e-12, "{next} after {out}");
+        // An acknowledged fault is still one.
+        for _ in 0..4 {
+            law.step(&mut state, &bad);
+        }
+        assert_eq!(state.command(), 40.0);
+        state.acknowledge();
+        state.reset(&law);
+        let next = law.step(&mut state, &good).command;
+        assert!((next - 40.0).abs() <= 0.1 + 1e-12, "{next}");
+        state = AdaptiveState::new(&law);
+        assert_eq!(state, fresh);
+    }
 }

@@ -2,7 +2,8 @@
 
 use super::{law, pi};
 use bowden::control::{
-    Adaptive, AdaptiveInput, AdaptiveState, Fallback, Pid, PidInput, PidSettings, PidState, Status,
+    Adaptive, AdaptiveInput, AdaptiveState, Fallback, Fault, Pid, PidInput, PidSettings, PidState,
+    Status,
 };
 use proptest::prelude::*;
 
@@ -80,14 +81,25 @@ fn any_fallback() -> impl Strategy<Value = Fallback<f64>> {
     })
 }
 
+/// Who resets whenever a sample is bad, against wind-up, must not reset the way to safety.
 #[test]
-fn a_reset_leaves_no_trace_of_a_bad_sample() {
+fn a_reset_at_every_bad_sample_does_not_keep_the_safe_command_back() {
     let pid = Pid::try_new(pi()).unwrap();
     let mut state = PidState::new();
-    pid.step(&mut state, &PidInput::new(1e-3, 25.0, f64::NAN));
-    assert_eq!(state.bad_score(), 4);
-    state.reset();
-    assert_eq!(state, PidState::new());
+    pid.step(&mut state, &PidInput::new(1e-3, 25.0, 24.0));
+    let after = pid.settings().fallback.after();
+    for k in 1..=after {
+        let out = pid.step(&mut state, &PidInput::new(1e-3, 25.0, f64::NAN));
+        assert_eq!(
+            out.status == Status::Safe(Fault::Measured),
+            k == after,
+            "{k}"
+        );
+        state.reset();
+        assert_eq!(state.bad_score(), 4 * k);
+    }
+    assert!(state.is_latched());
+    assert_eq!(Some(state.command()), pid.settings().fallback.command());
 }
 
 proptest! {

@@ -143,13 +143,17 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
         }
     }
 
-    /// Back to the start, as [`new`](Self::new); a safe command that is latched stays so.
+    /// Back to the start, as [`new`](Self::new), but the command that is out stays known, and
+    /// with it the score of the bad samples and whether the safe command is out.
+    ///
+    /// A slew rate goes on from there, a bad sample holds it, and the next good one after an
+    /// acknowledged fault starts from it. For a state that knows of no command, assign
+    /// [`AdaptiveState::new`].
     pub fn reset(&mut self, law: &Adaptive<T, N>) {
-        let held = self.held;
-        *self = Self::new(law);
-        if held.is_latched() {
-            self.held = held;
-        }
+        *self = Self {
+            held: self.held,
+            ..Self::new(law)
+        };
     }
 
     /// Takes note that somebody has seen the fault: the loop may be closed again.

@@ -159,11 +159,12 @@ impl<T: Real> PidState<T> {
 
     /// Forgets integral, rate and samples; the command that is out stays known.
     ///
-    /// A slew rate goes on from there, and a safe command that is latched stays so. For a
-    /// state that knows of no command, assign [`PidState::new`].
+    /// A slew rate goes on from there, and a safe command that is latched stays so. So does the
+    /// score of the bad samples: whoever resets at each of them still gets the safe command. For
+    /// a state that knows of no command, assign [`PidState::new`].
     pub fn reset(&mut self) {
         *self = Self {
-            held: self.held.forgotten(),
+            held: self.held,
             ..Self::new()
         };
     }
