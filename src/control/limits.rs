@@ -108,6 +108,9 @@ impl<T: Real> Limits<T> {
     /// between samples, rate: samples per second) cuts off what the noise asks for, and the
     /// loop may oscillate: choose a greater one, or a smaller gain.
     ///
+    /// The command moves in floats: where `slew·dt` is below the distance of two of them, about
+    /// 1.2e-7 of the command in `f32`, it moves by one of these steps in a sample or by none.
+    ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"slew"`.
     pub fn with_slew(self, slew: T) -> Result<Self, Error> {

@@ -84,7 +84,9 @@ impl<T: Real> Derivative<T> {
     /// The filtered rate [signal unit/s] after a sample that came `dt` \[s\] later.
     ///
     /// A sample that is not finite, a `dt` that is not positive and finite, or a
-    /// rate that overflows leaves the state and returns the rate that was.
+    /// rate that overflows leaves the state and returns the rate that was. The time of a bad
+    /// sample is not remembered: add it to the `dt` of the next good one, or the rate of a signal
+    /// that has moved meanwhile is too high. [`Rates`](crate::signal::Rates) does that.
     #[inline]
     pub fn step(&self, state: &mut DerivativeState<T>, sample: T, dt: T) -> T {
         if sample.is_finite() {

@@ -41,6 +41,7 @@ pub struct Plausible<T> {
     high: T,
     rate: Option<T>,
     stuck_after: u32,
+    longest_dt: T,
 }
 
 /// Why a sample cannot be true.
@@ -92,13 +93,14 @@ pub struct PlausibleState<T> {
 
 /// The range after its checks, for any float and for constants.
 macro_rules! range {
-    ($low:ident, $high:ident) => {{
+    ($low:ident, $high:ident, $highest:expr) => {{
         ordered!($low, $high);
         Ok(Self {
             low: $low,
             high: $high,
             rate: None,
             stuck_after: 0,
+            longest_dt: $highest,
         })
     }};
 }
@@ -122,7 +124,7 @@ macro_rules! constant {
             /// # Errors
             /// As [`try_new`](Self::try_new).
             pub const fn const_new(low: $float, high: $float) -> Result<Self, Error> {
-                range!(low, high)
+                range!(low, high, <$float>::MAX)
             }
 
             /// [`with_rate`](Self::with_rate) at compile time.
@@ -145,7 +147,7 @@ impl<T: Real> Plausible<T> {
     /// [`Error::NonFinite`] with `"low"` or `"high"`; [`Error::Inadmissible`] unless
     /// `low < high`.
     pub fn try_new(low: T, high: T) -> Result<Self, Error> {
-        range!(low, high)
+        range!(low, high, T::HIGHEST)
     }
 
     /// The same where the signal moves by at most `rate` \[signal unit/s\], above zero.
@@ -171,6 +173,23 @@ impl<T: Real> Plausible<T> {
         }
     }
 
+    /// The same where a `dt` longer than this one \[s\] counts as this one.
+    ///
+    /// A counter that wrapped says that an hour has passed, in which any signal may have moved
+    /// anywhere: one spike is believed then, and every true sample after it is too fast.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"longest_dt"`.
+    pub fn with_longest_dt(self, longest_dt: T) -> Result<Self, Error> {
+        if !longest_dt.is_finite() {
+            return Err(Error::NonFinite("longest_dt"));
+        }
+        if longest_dt <= T::ZERO {
+            return Err(Error::OutOfRange("longest_dt"));
+        }
+        Ok(Self { longest_dt, ..self })
+    }
+
     /// Checks a sample that came `dt` \[s\] after the one before.
     ///
     /// `moves`: whether the machine moves, so that the signal has to: the command changes, or
@@ -184,6 +203,11 @@ impl<T: Real> Plausible<T> {
         dt: T,
         moves: bool,
     ) -> PlausibleOutput<T> {
+        let dt = if dt > self.longest_dt && dt.is_finite() {
+            self.longest_dt
+        } else {
+            dt
+        };
         let elapsed = gap_after(state.gap, dt, T::HIGHEST);
         let fault = self.fault(state, sample, elapsed, moves);
         match fault {
@@ -253,20 +277,32 @@ impl<T: Real> PlausibleState<T> {
 /// What is read before it is checked.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(
+    deny_unknown_fields,
+    bound(deserialize = "T: Real + serde::Deserialize<'de>")
+)]
 struct Unchecked<T> {
     low: T,
     high: T,
     rate: Option<T>,
     #[serde(default)]
     stuck_after: u32,
+    #[serde(default = "any_dt")]
+    longest_dt: T,
+}
+
+#[cfg(feature = "serde")]
+fn any_dt<T: Real>() -> T {
+    T::HIGHEST
 }
 
 #[cfg(feature = "serde")]
 impl<T: Real> TryFrom<Unchecked<T>> for Plausible<T> {
     type Error = Error;
     fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
-        let range = Self::try_new(raw.low, raw.high)?.with_stuck_after(raw.stuck_after);
+        let range = Self::try_new(raw.low, raw.high)?
+            .with_stuck_after(raw.stuck_after)
+            .with_longest_dt(raw.longest_dt)?;
         raw.rate.map_or(Ok(range), |rate| range.with_rate(rate))
     }
 }

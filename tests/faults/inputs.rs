@@ -234,3 +234,59 @@ fn a_constant_is_refused_with_the_words_of_the_run_time() {
         assert_eq!(refused, Adaptive::try_new(settings));
     }
 }
+
+/// The controller refuses a counter's wrap; the reference before it must not have moved on.
+#[test]
+fn a_wrapped_counter_moves_neither_the_ramp_nor_what_is_plausible() {
+    let ramp = Ramp::try_new(50.0, 0.02).unwrap();
+    let mut state = RampState::at(0.0);
+    // Without a longest dt the ramp arrives.
+    assert!(ramp.step(&mut state, 25.0, 4295.0) > 24.9);
+    let ramp = ramp.with_longest_dt(0.005).unwrap();
+    let mut state = RampState::at(0.0);
+    ramp.step(&mut state, 25.0, 0.001);
+    let before = state;
+    ramp.step(&mut state, 25.0, 4295.0);
+    assert_eq!(state, before);
+    assert!(ramp.with_longest_dt(0.0).is_err() && ramp.with_longest_dt(f64::NAN).is_err());
+
+    let plausible = Plausible::try_new(-100.0, 100.0)
+        .and_then(|p| p.with_rate(50.0))
+        .and_then(|p| p.with_longest_dt(0.005))
+        .unwrap();
+    let mut state = PlausibleState::new();
+    for k in 0..50 {
+        let sample = 0.5 + 1e-3 * f64::from(k);
+        assert_eq!(plausible.step(&mut state, sample, 0.001, true).fault, None);
+    }
+    let spike = plausible.step(&mut state, 95.0, 4295.0, true);
+    assert_eq!(spike.fault, Some(Implausible::TooFast));
+    assert_eq!(plausible.step(&mut state, 0.55, 0.001, true).fault, None);
+}
+
+/// At 10 kHz a step of the ramp is below half a unit in the last place of an `f32`.
+#[test]
+fn a_slow_ramp_of_single_precision_keeps_its_rate() {
+    for (rate, start, dt, seconds) in [
+        (0.011_f32, 25.0_f32, 1e-4_f32, 60.0_f64),
+        (0.005, 25.0, 1e-4, 600.0),
+        (0.07, 200.0, 1e-4, 10.0),
+        (0.01, 200.0, 1e-3, 100.0),
+    ] {
+        let ramp = Ramp::try_new(rate, 0.02).unwrap();
+        let mut state = RampState::at(start);
+        let steps = (seconds / f64::from(dt)).round() as u32;
+        for _ in 0..steps {
+            ramp.step(&mut state, 1e3, dt);
+        }
+        let lag = f64::from(rate) * 0.02;
+        let wanted = f64::from(start) + f64::from(rate) * f64::from(steps) * f64::from(dt) - lag;
+        let moved = f64::from(rate) * seconds;
+        // The carry is a float too: it loses 6e-8 of itself a step.
+        let error = (f64::from(state.value()) - wanted).abs();
+        assert!(
+            error < 1e-3 * moved + 2.0 * f64::from(start) * 1.2e-7,
+            "{rate} from {start}: {error}"
+        );
+    }
+}

@@ -13,11 +13,12 @@ const PAGE: &str = include_str!("../../../docs/json.md");
 
 /// Tables whose fields no record below needs to have: what the search finds of rivals, curves and
 /// motions may change with it. Where they do occur they are compared like all others.
-const SELDOM: [&str; 9] = [
+const SELDOM: [&str; 10] = [
     "experiment",
     "aim",
     "unknown",
     "knot",
+    "channel apart",
     "file apart",
     "worse file",
     "left out",

@@ -3,9 +3,7 @@
 use crate::close::{loops_of_files, noise_of, of_files, over_all, parts};
 use crate::document::{data, page, table, Opening, Provenance, Section};
 use crate::words::{in_brackets, quantity};
-use bowden_lab::facts::{
-    number, percent, with_interval, CheckFacts, CheckVerdict, Figures, HOLDS, NOISE,
-};
+use bowden_lab::facts::{number, percent, with_interval, CheckFacts, CheckVerdict, Figures};
 use maud::{html, Markup};
 
 /// What the page shows.
@@ -118,8 +116,7 @@ fn errors(facts: &CheckFacts) -> Markup {
         (table("Errors on this record", &head, 1..4, &rows))
         @if let Some(allowed) = facts.allowed {
             p class="note" {
-                "The model holds up to " (percent(allowed / facts.deviation)) ": " (HOLDS)
-                " times the held-out error that it came with, or " (NOISE) " times the noise floor."
+                "The model holds up to " (percent(allowed / facts.deviation)) ": " (facts.rule()) "."
             }
         }
         @for note in &record.notes { p class="note" { (note) } }

@@ -125,10 +125,11 @@ pub fn compare(question: &Question<'_>) -> Result<Compared, String> {
         (None, true) => question.gains,
         (None, false) => question.gains.or(question.setup),
     };
+    let is_given = is_model;
     // A model alone is fed forward on the reference rig.
     let is_model = is_model && (question.gains.is_some() || question.rig != RigChanges::default());
     let effect = question.effect.map(Undeclared::parse).transpose()?;
-    if effect.is_some() && (is_model || gains.is_some()) {
+    if effect.is_some() && (is_given || gains.is_some()) {
         return Err(
             "--effect: is hidden in the reference rig and found with the paper's gains; it goes with neither a model nor the gains of `bowden design`"
                 .to_owned(),

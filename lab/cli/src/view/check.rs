@@ -5,7 +5,7 @@ use super::words::table;
 use anstyle::{AnsiColor, Style};
 use bowden_lab::facts::{
     number, share as percent, with_interval, CheckFacts, CheckVerdict as Verdict, Defect, Errors,
-    Fitted, Line, Outside, HOLDS, NOISE,
+    Fitted, Line, Outside,
 };
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -159,10 +159,9 @@ pub fn check_text(model: &str, path: &str, check: &CheckFacts) -> String {
     if let Some(allowed) = check.allowed {
         line!(
             out,
-            "{dim}holds up to {}: {} times the held-out error that the model came with, or {} times the noise floor{dim:#}",
+            "{dim}holds up to {}: {}{dim:#}",
             percent(allowed / check.deviation),
-            HOLDS,
-            NOISE
+            check.rule()
         );
     }
     for one in &check.outside {

@@ -420,3 +420,45 @@ fn one_drive_gain_has_one_explanation() {
         assert!(help.contains(default), "{help}");
     }
 }
+
+/// In mN·m the limits would be a thousand times too wide, and nothing would look wrong.
+#[test]
+fn a_model_in_another_unit_of_torque_is_refused() {
+    let place = Place::new();
+    let model = text(&place.model());
+    let options = ["--rate", "500", "--delay", "0.006"];
+    for end in ["input", "output"] {
+        let mut table: toml::Table = toml::from_str(&model).unwrap();
+        let units = table["about"]["units"].as_table_mut().unwrap();
+        assert_eq!(units[end].as_str(), Some("N·m"));
+        // The same unit in other letters.
+        units.insert(end.to_owned(), "Nm".into());
+        let same = place.write("same.toml", &toml::to_string(&table).unwrap());
+        said(&[["design", &same].as_slice(), &options].concat());
+        let units = table["about"]["units"].as_table_mut().unwrap();
+        units.insert(end.to_owned(), "mN·m".into());
+        let other = place.write("milli.toml", &toml::to_string(&table).unwrap());
+        for arguments in [
+            [["design", &other].as_slice(), &options].concat(),
+            vec!["compare", "--model", &other, "--inertia", "0.002"],
+        ] {
+            let line = refused(&arguments);
+            let wanted = format!("its {end} is in mN·m: N·m was expected");
+            assert!(
+                line.contains("milli.toml") && line.contains(&wanted),
+                "{line}"
+            );
+        }
+    }
+}
+
+#[test]
+fn an_effect_is_hidden_in_the_reference_rig_and_not_in_that_of_a_model() {
+    let place = Place::new();
+    let model = place.model();
+    let line = refused(&["compare", "--effect", "viscous", "--model", &model]);
+    assert!(
+        line.contains("it goes with neither a model nor the gains"),
+        "{line}"
+    );
+}

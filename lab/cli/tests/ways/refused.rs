@@ -199,3 +199,20 @@ fn a_model_that_cannot_be_written_is_refused_before_the_record_is_read() {
     refuses("gains.toml", &[&two, "--per-file", "gains"]);
     assert_eq!(folder.names(), before);
 }
+
+/// A model that describes nothing holds nowhere, on its own record neither.
+#[test]
+fn a_model_whose_verdict_is_no_model_is_refused() {
+    let folder = Folder::new();
+    let (model, record) = model(&folder, Mode::Displacement, "bouc-wen");
+    let mut table: toml::Table = toml::from_str(&folder.read("model.toml")).unwrap();
+    let about = table["about"].as_table_mut().unwrap();
+    about.insert("verdict".to_owned(), "no-model".into());
+    let none = folder.file("none.toml", toml::to_string(&table).unwrap().as_bytes());
+    let line = refused(&["check", &none, &record]);
+    assert!(
+        line.contains("none.toml: its verdict is `no-model`"),
+        "{line}"
+    );
+    said(&["check", &model, &record]);
+}

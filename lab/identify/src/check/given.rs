@@ -39,6 +39,8 @@ pub struct About {
     pub ranges: BTreeMap<String, Seen>,
     /// Errors of the model as shares of the output's standard deviation.
     pub nrmse: Option<Errors>,
+    /// The verdict with which it was written.
+    pub verdict: Option<String>,
 }
 
 /// What a record has covered of one motion.

@@ -40,8 +40,9 @@ pub use ranges::Outside;
 pub const HOLDS: f64 = 2.0;
 /// Error that is noise, as a multiple of the floor: as for the verdict `explained`.
 pub const NOISE: f64 = 1.2;
-/// From this share of the output's standard deviation on a model explains nothing.
-pub const NOTHING: f64 = 0.9;
+/// From this share of the output's standard deviation on a model explains less than half of the
+/// output's variance, as one whose verdict is `no-model`.
+pub const NOTHING: f64 = 0.7;
 /// An output whose standard deviation is below this many noise floors shows nothing.
 const QUIET: f64 = 2.0;
 /// The unknown state before the record is mentioned from this share of the error on.
@@ -143,7 +144,10 @@ impl Check {
             HeldOut::Nothing,
         );
         let mut data = prepared.map_err(|message| match (cutoff, own) {
-            (None, Some(_)) => message.replace("--cutoff", "the model's cut-off,"),
+            (None, Some(_)) => message.replace(
+                "a higher --cutoff",
+                "--cutoff with a higher one than the model's",
+            ),
             _ => message,
         })?;
         if !given.file.channels.iter().any(|c| c == "load") {

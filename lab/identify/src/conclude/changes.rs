@@ -4,9 +4,12 @@
 use super::final_fit::FinalFit;
 use crate::algebra::line;
 use crate::fit::{Segments, Solution};
+use crate::ledger::{Ledger, Round};
+use crate::model::catalogue::Candidate;
 use crate::model::structure::FitTerm;
 use crate::problem::Prepared;
 use crate::record::DefectKind;
+use bowden::effect::Family;
 use bowden::model::Source;
 
 /// A held-out error of this share of the output's standard deviation, and of this multiple of
@@ -53,14 +56,27 @@ pub(super) fn begins(data: &Prepared, done: &FinalFit) -> Option<f64> {
 }
 
 /// By how much \[s\] a delay and lags together put the output before the input; `None` where they
-/// do not, by at least a sample. A damper's force comes before the displacement too, but viscous
-/// friction is the simpler name and is preferred where it does as well.
-pub(super) fn lead(data: &Prepared, solution: &Solution) -> Option<f64> {
+/// do not, by at least a sample.
+///
+/// A damper's force comes before the displacement too, but viscous friction is the simpler name and
+/// is preferred where it does as well. A stage in whose place a creep does as well is the rig's own
+/// doing and says nothing of clocks; nor does one whose lead a viscous term takes back.
+pub(super) fn lead(data: &Prepared, ledger: &Ledger, solution: &Solution) -> Option<f64> {
+    let is_stage = |round: &&Round| matches!(round.term().effect.name(), "delay" | "lag");
+    let is_creep = |rival: &Candidate| rival.family == Family::Creep;
+    let mut stages = ledger.rounds.iter().filter(is_stage);
+    if stages.any(|round| round.rivals.iter().any(is_creep)) {
+        return None;
+    }
     let terms = solution.structure.terms.iter().enumerate();
-    let behind = terms.map(|(index, term)| match term.effect.name() {
-        "delay" => solution.gain(index),
+    let behind = terms.map(|(index, term)| match (term.effect.name(), term.source) {
+        ("delay", _) => solution.gain(index),
         // `gain` times of what a lag of `tau` takes away, which for slow motion is a delay.
-        "lag" => solution.gain(index) * term.effect.shape(0).unwrap_or(0.0),
+        ("lag", _) => solution.gain(index) * term.effect.shape(0).unwrap_or(0.0),
+        // For slow motion a rate of the input is a lead by its gain over the input's.
+        ("viscous", Source::Input) if solution.structure.hysteresis => {
+            f64::max(0.0, -solution.gain(index) / solution.gains[0])
+        }
         _ => 0.0,
     });
     let lead = -behind.sum::<f64>();

@@ -8,6 +8,7 @@ use crate::fit::Solution;
 use crate::ledger::Ledger;
 use crate::problem::Prepared;
 use crate::score::explains::{explained, Explained};
+use bowden::effect::Family;
 use bowden::model::Source;
 
 /// Least share of the held-out output that the input explains of a model worth the name.
@@ -21,11 +22,34 @@ fn reads_input(declared: &Solution) -> bool {
 }
 
 /// The share of the output that must be explained by what the model is a model of.
-fn judged(shares: Explained, declared: &Solution) -> f64 {
-    match reads_input(declared) {
+///
+/// Friction of a joint that moves under a nearly constant load is no spring that stands for the
+/// output: what such effects of the channels explain counts.
+fn judged(shares: Explained, declared: &Solution, done: &Solution) -> f64 {
+    match reads_input(declared) && !is_friction_alone(done) {
         true => shares.input,
         false => shares.input + shares.channels,
     }
+}
+
+/// Whether all that a model reads of the channels is friction, and it reads any of it.
+fn is_friction_alone(solution: &Solution) -> bool {
+    let terms = solution.structure.terms.iter();
+    let mut read = terms.filter(|t| t.source != Source::Input).peekable();
+    let is_friction = |family: Family| {
+        matches!(
+            family,
+            Family::Viscous
+                | Family::Drag
+                | Family::Coulomb
+                | Family::Stribeck
+                | Family::Presliding
+                | Family::PowerLaw
+                | Family::PositionFriction
+                | Family::LoadFriction
+        )
+    };
+    read.peek().is_some() && read.all(|t| is_friction(t.effect.family()))
 }
 
 /// The share of the output that the declared model explains by the input alone, where a channel
@@ -39,7 +63,11 @@ fn stood_in_for(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Option<f64
 
 /// Whether there is no model of the input, or none of all files.
 pub(super) fn is_no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> bool {
-    let share = judged(explained(data, &done.solution), &ledger.declared);
+    let share = judged(
+        explained(data, &done.solution),
+        &ledger.declared,
+        &done.solution,
+    );
     let little = share < LEAST_EXPLAINED && !is_other_file(data, done);
     ledger.integrates || !ledger.apart.is_empty() || ledger.channel_apart.is_some() || little
 }
@@ -57,7 +85,7 @@ fn explains(data: &Prepared, shares: Explained) -> String {
         data.input.name,
         share_of(shares.input)
     );
-    if shares.channels >= 0.005 {
+    if shares.channels >= 0.005 && !data.channels.is_empty() {
         text += &format!(", the other channels {}", share_of(shares.channels));
     }
     if shares.time >= 0.005 {

@@ -247,7 +247,11 @@ fn nothing_found(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
             percent(share)
         );
     }
-    "The declared model lacks no effect that this record could show.".to_owned()
+    // What is left is more than noise: the model lacks something all the same.
+    match floors(data, done).is_some_and(|errors| !is_noise(data, errors)) {
+        true => "No effect of the catalogue explains what the declared model leaves.".to_owned(),
+        false => "The declared model lacks no effect that this record could show.".to_owned(),
+    }
 }
 
 fn rises(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
@@ -406,7 +410,7 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
         all.push(format!(
             "Nearly all of the output is made of `{channel}` here, although the declared model does without it: does it measure the output, as the angle behind a spring does? Then leave its column out."
         ));
-    } else if let Some(lead) = lead(data, &done.solution).filter(|_| !is_mended) {
+    } else if let Some(lead) = lead(data, ledger, &done.solution).filter(|_| !is_mended) {
         all.push(format!(
             "The output comes about {:.1} ms before the input that it answers, which no transmission does: were both logged on one clock?",
             1e3 * lead

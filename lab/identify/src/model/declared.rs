@@ -48,7 +48,11 @@ pub fn declared(name: &str, data: &Prepared) -> Result<FitTerm, String> {
         (Declared::OnChannel(scales), Zero::Sensor) => (scales, source, 0.0),
         (Declared::OnStretch, _) => (&[][..], source, channel.origin),
         (Declared::OnInput(scales), _) => (scales, Source::Input, 0.0),
-        (Declared::Never, _) => return Err(unknown()),
+        (Declared::Never, _) => {
+            return Err(format!(
+                "--declare {name}: it is looked for, and cannot be declared; leave it out"
+            ))
+        }
     };
     let shapes: Vec<f64> = scales.iter().map(|scale| scale.on(data, channel)).collect();
     let effect = Effect::try_from_name(entry.name, &shapes).map_err(|_| unknown())?;

@@ -67,6 +67,12 @@ pub(super) fn factor(from: &str, to: &str) -> Option<f64> {
         .find_map(|kind| Some(size(kind, from)? / size(kind, to)?))
 }
 
+/// Whether two texts name one unit, `Nm` and `N·m` for example.
+#[must_use]
+pub fn is_same_unit(one: &str, other: &str) -> bool {
+    one == other || factor(one, other) == Some(1.0)
+}
+
 /// Brings all records to the channels and the units of the first one.
 ///
 /// # Errors

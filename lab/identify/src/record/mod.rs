@@ -49,8 +49,8 @@ mod time;
 mod units;
 mod wrapping;
 
-pub use agree::agree;
 pub(crate) use agree::to_unit;
+pub use agree::{agree, is_same_unit};
 pub(crate) use defects::bridged;
 pub use defects::{Defect, DefectKind};
 pub use error::RecordError;

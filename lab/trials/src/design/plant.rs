@@ -2,6 +2,7 @@
 
 use bowden::transmission::{Mode, Transmission};
 use bowden_lab::export::{About, ModelFile, TermFile};
+use bowden_lab::record::is_same_unit;
 use serde::Serialize;
 
 /// Least and greatest slope of the output in the input.
@@ -76,6 +77,7 @@ pub(crate) fn rises(file: &ModelFile) -> Result<(), String> {
             "its verdict is `no-model`: it does not describe its records, and nothing can be derived from it; `bowden close` says what to do".to_owned(),
         );
     }
+    in_newton_metres(file)?;
     let Some(cable) = &file.transmission else {
         return Ok(());
     };
@@ -88,6 +90,24 @@ pub(crate) fn rises(file: &ModelFile) -> Result<(), String> {
     Err(format!(
         "the output falls where the input rises (gain {gain:.4}): change the sign of one of them in the record and fit again, and wire the drive or the sensor accordingly"
     ))
+}
+
+/// The unit of torque in which noise, limits and gains are.
+const TORQUE: &str = "N·m";
+
+/// Refuses a torque model in another unit: in mN·m its limits would be a thousand times too wide.
+fn in_newton_metres(file: &ModelFile) -> Result<(), String> {
+    let units = file.about.as_ref().map(|about| &about.units);
+    let stated = |end: &str| units.and_then(|units| units.get(end));
+    for end in ["input", "output"] {
+        let other = stated(end).filter(|unit| !is_same_unit(unit, TORQUE));
+        if let Some(unit) = other.filter(|_| file.mode == "torque") {
+            return Err(format!(
+                "its {end} is in {unit}: {TORQUE} was expected, the unit of noise, limits and gains; convert the columns of the record and fit again"
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// A torque model as the plant of a loop.

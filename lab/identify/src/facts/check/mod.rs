@@ -108,6 +108,12 @@ impl ModelOfFile {
     /// One sentence on the first error in it.
     pub fn parse(text: &str) -> Result<Self, String> {
         let given = Given::parse(text)?;
+        if given.about.verdict.as_deref() == Some("no-model") {
+            return Err(
+                "its verdict is `no-model`: it does not describe its own records, so that there is nothing that could hold; `bowden close` says what to do"
+                    .to_owned(),
+            );
+        }
         let mode = given.mode()?;
         Ok(Self { given, mode })
     }
@@ -171,6 +177,12 @@ fn named(label: &str, message: String) -> String {
 }
 
 impl CheckFacts {
+    /// What the error is up to which the model holds, in words.
+    #[must_use]
+    pub fn rule(&self) -> String {
+        sentence::rule(self)
+    }
+
     /// The facts of a check.
     #[must_use]
     pub fn new(check: &Check) -> Self {

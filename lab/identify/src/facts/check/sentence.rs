@@ -1,7 +1,7 @@
 //! The verdict of a check in one or two sentences.
 
 use super::CheckFacts;
-use crate::check::{Fitted, Line, Verdict, HOLDS};
+use crate::check::{Fitted, Line, Verdict, HOLDS, NOISE, NOTHING};
 use crate::facts::numbers::{number, share as percent, with_interval};
 use std::fmt::Write as _;
 
@@ -21,6 +21,29 @@ fn unit(check: &CheckFacts) -> String {
     unit.map_or_else(String::new, |unit| format!(" {unit}"))
 }
 
+/// What the error is up to which a model holds.
+pub(super) fn rule(check: &CheckFacts) -> String {
+    match check.reference.is_some_and(|own| HOLDS * own > NOTHING) {
+        true => format!(
+            "less than {HOLDS} times the held-out error that the model came with, since it then explains less than half of the output; or {NOISE} times the noise floor"
+        ),
+        false => format!(
+            "{HOLDS} times the held-out error that the model came with, or {NOISE} times the noise floor"
+        ),
+    }
+}
+
+/// A model that missed this share of its own record's output is a poor one. A choice.
+const POOR: f64 = 0.2;
+
+/// That a poor model is no better for holding.
+fn was_poor(check: &CheckFacts) -> &'static str {
+    match check.reference.is_some_and(|own| own >= POOR) {
+        true => " It is as poor here as it was there: holding does not make it good.",
+        false => "",
+    }
+}
+
 /// The check in one or two sentences.
 pub(super) fn sentence(check: &CheckFacts) -> String {
     let share = |rmse: f64| percent(rmse / check.deviation);
@@ -31,7 +54,8 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
     );
     let mut text = match check.verdict {
         Verdict::Holds if check.reference.is_some_and(|own| check.rmse <= HOLDS * own * check.deviation) => format!(
-            "The model holds: it misses {as_it_is} of this record's output, as against {came}; nothing was refitted."
+            "The model holds: it misses {as_it_is} of this record's output, as against {came}; nothing was refitted.{}",
+            was_poor(check)
         ),
         Verdict::Holds => format!(
             "The model holds: the {as_it_is} of this record's output that it misses are the sensor's noise; nothing was refitted.{}",
