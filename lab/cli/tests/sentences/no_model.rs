@@ -147,3 +147,57 @@ fn the_files_of_no_model_say_so_and_no_gains_are_derived_from_it() {
     assert!(said.contains("its verdict is `no-model`"), "{said}");
     assert_eq!(said.trim_end().lines().count(), 1, "{said}");
 }
+
+/// A joint under gravity, driven through so many times a friction: the output is the torque of the
+/// load.
+fn load_on_a_joint(friction: f64) -> Rows {
+    let tones = [(0.9, 0.7, 0.0), (0.5, 1.9, 0.3), (0.15, 4.1, 0.0)];
+    let row = |i: usize| {
+        let t = i as f64 / 500.0;
+        let angle: f64 = tones.iter().map(|(a, w, p)| a * (w * t + p).sin()).sum();
+        let rate: f64 = tones
+            .iter()
+            .map(|(a, w, p)| a * w * (w * t + p).cos())
+            .sum();
+        let load = 3.0 * angle.sin();
+        let lost = friction * (2.0 * (rate / 0.05).tanh() + 1.2 * rate);
+        vec![t, load + lost, load + 0.02 * noise(i), angle]
+    };
+    Rows {
+        header: "t,tau_i [N·m],tau_o [N·m],phi_p [rad]".to_owned(),
+        rows: (0..12_000).map(row).collect(),
+    }
+}
+
+/// Where the load follows the angle alone, a model of the load is found and none of the cable.
+#[test]
+fn a_model_of_the_load_that_reads_no_torque_is_called_one_of_the_load() {
+    let closed = load_on_a_joint(2.0).close(&["--mode", "torque"]);
+    assert_eq!(closed.names(), ["gravity"]);
+    closed.says(&[
+        "Nearly all of the output is made of `phi_p` here and nothing of `tau_i`",
+        "It will not hold with another load",
+    ]);
+}
+
+/// A cable under a nearly constant load on a joint that moves: friction is all that there is.
+#[test]
+fn friction_under_a_constant_load_is_a_model() {
+    let mut rows = load_on_a_joint(0.0);
+    let tones = [(0.63, 0.7, 0.0), (0.95, 1.9, 0.3), (0.615, 4.1, 0.0)];
+    rows.set(TAU_I, |i, _| 10.0 + 0.25 * (1.3 * i as f64 / 500.0).sin());
+    rows.set(TAU_O, |i, row| {
+        let t = i as f64 / 500.0;
+        let rate: f64 = tones.iter().map(|(a, w, p)| a * (w * t + p).cos()).sum();
+        0.95 * row[TAU_I] - 1.5 * (rate / 0.05).tanh() - 0.4 * rate + 0.02 * noise(i)
+    });
+    let closed = rows.close(&["--mode", "torque"]);
+    assert_ne!(closed.verdict(), "no-model");
+    assert!(closed.explains("input") < 0.5);
+    let names = closed.names();
+    assert!(
+        names.contains(&"coulomb") && names.contains(&"viscous"),
+        "{names:?}"
+    );
+    assert!(!closed.sentence().contains("sensor connected"));
+}

@@ -123,6 +123,31 @@ pub(super) fn stands_for_output<'a>(
 ) -> Option<&'a str> {
     let (most, nearly_all) = STANDS_FOR;
     let error = declared.rmse.normalised(data, &data.target).held_out;
+    let (share, channel) = made_of_channel(data, done)?;
+    (error < nearly_all && share > most).then(|| data.channels[channel].name.as_str())
+}
+
+/// A transmission whose part has less than this share of the output's standard deviation transmits
+/// nothing. A choice.
+const TRANSMITS: f64 = 0.05;
+
+/// The channel that nearly all of the output is made of in a model that does not read its input.
+pub(super) fn made_without_input<'a>(data: &'a Prepared, done: &Solution) -> Option<&'a str> {
+    if !done.structure.hysteresis || done.structure.own_gains > 0 {
+        return None;
+    }
+    let (columns, gains) = (&done.columns, &done.gains);
+    let part = |row: usize| gains[0] * columns[0][row] + gains[1] * columns[1][row];
+    let part: Vec<f64> = (0..data.target.len()).map(part).collect();
+    let spread = |signal: &[f64]| Segments::deviation(data, signal).held_out;
+    let transmits = spread(&part) >= TRANSMITS * spread(&data.target);
+    let (share, channel) = made_of_channel(data, done)?;
+    (!transmits && share > STANDS_FOR.0).then(|| data.channels[channel].name.as_str())
+}
+
+/// The channel whose terms make up most of the held-out output, and the share that their standard
+/// deviation has of the output's.
+fn made_of_channel(data: &Prepared, done: &Solution) -> Option<(f64, usize)> {
     let terms = done.structure.terms.iter().filter(|t| t.is_linear());
     let gains = done.columns.iter().zip(&done.gains);
     let gains = terms.zip(gains.skip(done.structure.base()));
@@ -139,8 +164,7 @@ pub(super) fn stands_for_output<'a>(
         (spread(&made) / spread(&data.target), channel)
     };
     let all = (0..data.channels.len()).map(of);
-    let (share, channel) = all.max_by(|a, b| a.0.total_cmp(&b.0))?;
-    (error < nearly_all && share > most).then(|| data.channels[channel].name.as_str())
+    all.max_by(|a, b| a.0.total_cmp(&b.0))
 }
 
 /// What is to be said where some of the motion of the input is not known, and more than noise is

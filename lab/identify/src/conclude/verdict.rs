@@ -4,7 +4,8 @@
 //! the figures that stand above it, and says what the model must not be used for.
 
 use super::by_file::worse;
-use super::changes::{begins, lead, other_line, other_rig, stands_for_output, unseen_motion};
+use super::changes::{begins, lead, other_line, other_rig, unseen_motion};
+use super::changes::{made_without_input, stands_for_output};
 use super::channel_apart::channel_words;
 use super::files_apart::{another_zero, apart_words};
 use super::final_fit::FinalFit;
@@ -409,6 +410,11 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
     if let Some(channel) = stands_for_output(data, &ledger.declared, &done.solution) {
         all.push(format!(
             "Nearly all of the output is made of `{channel}` here, although the declared model does without it: does it measure the output, as the angle behind a spring does? Then leave its column out."
+        ));
+    } else if let Some(channel) = made_without_input(data, &done.solution) {
+        all.push(format!(
+            "Nearly all of the output is made of `{channel}` here and nothing of `{}`: in this record the load follows `{channel}`, and the model is one of the load. It will not hold with another load; record with one, or declare what the transmission does.",
+            data.input.name
         ));
     } else if let Some(lead) = lead(data, ledger, &done.solution).filter(|_| !is_mended) {
         all.push(format!(
