@@ -2,8 +2,8 @@
 
 use super::{fallback, law, limits, pi, DT, LONGEST};
 use bowden::control::{
-    Adaptive, AdaptiveSettings, Controller, Damping, Fallback, Fault, LoopSample, Pid, PidSettings,
-    Status,
+    Adaptive, AdaptiveSettings, Controller, Damping, Fallback, Fault, LoopSample, Pid, PidInput,
+    PidSettings, PidState, Status,
 };
 use proptest::prelude::*;
 
@@ -245,4 +245,33 @@ fn settings_that_break_the_promise_are_refused_by_name() {
         .to_string()
         .contains("longest_dt"));
     assert!(LONGEST > DT && limits(60.0).contains(0.0));
+}
+
+/// What the output did before the fault says nothing of what it does after it.
+#[test]
+fn after_a_fault_a_pd_starts_without_the_rate_from_before_it() {
+    let pid = Pid::try_new(PidSettings {
+        k_p: 1.0,
+        k_i: 0.0,
+        k_d: 0.1,
+        damping: Damping::on_measurement(),
+        derivative_time: 0.02,
+        ..pi()
+    })
+    .unwrap();
+    let mut state = PidState::new();
+    for k in 0..200 {
+        // 300 a second, ahead of which the reference stays.
+        let y = 0.3 * f64::from(k);
+        pid.step(&mut state, &PidInput::new(1e-3, y, y));
+    }
+    for _ in 0..10_000 {
+        pid.step(&mut state, &PidInput::new(1e-3, 0.0, f64::NAN));
+    }
+    assert!(state.is_latched());
+    state.acknowledge();
+    let out = pid.step(&mut state, &PidInput::new(1e-3, 0.0, 0.0));
+    assert_eq!((out.status, out.command), (Status::Good, 0.0));
+    let out = pid.step(&mut state, &PidInput::new(1e-3, 0.0, 0.0));
+    assert_eq!((out.status, out.command), (Status::Good, 0.0));
 }

@@ -149,9 +149,14 @@ impl<T: Real> Pid<T> {
     /// The first good sample after a safe command that was acknowledged.
     fn close(&self, state: &mut PidState<T>, at: &PidInput<T>) -> Status {
         let started = if self.settings.k_i == T::ZERO {
-            // An integral that nothing moves would stay in the command for ever.
-            self.without_integrating(state, at).map(|last| {
-                state.moved_on(last, state.integral, state.rate);
+            // An integral that nothing moves would stay in the command for ever. The rate is that
+            // of a motion before the fault.
+            let at_rest = PidState {
+                rate: T::ZERO,
+                ..*state
+            };
+            self.without_integrating(&at_rest, at).map(|last| {
+                state.moved_on(last, state.integral, T::ZERO);
             })
         } else {
             let started = self.started_at(state.command(), at);
