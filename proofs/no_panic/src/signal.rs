@@ -34,6 +34,10 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(signal_plausible_new, PlausibleState::<T>::new());
     let mut state = black_box(PlausibleState::<T>::new());
     never_panics!(
+        signal_plausible_with_longest_dt,
+        plausible.with_longest_dt(any())
+    );
+    never_panics!(
         signal_plausible_step,
         plausible.step(&mut state, any(), any(), black_box(true))
     );
@@ -41,6 +45,7 @@ pub fn all<T: Real>() -> Option<()> {
 
     never_panics!(signal_ramp_try_new, Ramp::<T>::try_new(any(), any()));
     let ramp = black_box(Ramp::<T>::try_new(any(), any())).ok()?;
+    never_panics!(signal_ramp_with_longest_dt, ramp.with_longest_dt(any()));
     never_panics!(signal_ramp_at, RampState::<T>::at(any()));
     let mut state = black_box(RampState::<T>::at(any()));
     never_panics!(signal_ramp_step, ramp.step(&mut state, any(), any()));
