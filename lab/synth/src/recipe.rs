@@ -178,7 +178,9 @@ impl Recipe {
         ];
         for (name, value) in positive {
             if !(value > 0.0 && value <= 1e6) {
-                return refuse(format!("{name} {value}: a positive number was expected"));
+                return refuse(format!(
+                    "{name} {value}: a number above 0, at most a million, was expected"
+                ));
             }
         }
         let sizes = [
@@ -190,7 +192,9 @@ impl Recipe {
         ];
         for (name, value) in sizes {
             if !(0.0..=1e6).contains(&value) {
-                return refuse(format!("{name} {value}: a number from 0 up was expected"));
+                return refuse(format!(
+                    "{name} {value}: a number from 0 to a million was expected"
+                ));
             }
         }
         if !(0.0..1.0).contains(&self.colour) {
