@@ -25,7 +25,7 @@ fn unit(check: &CheckFacts) -> String {
 pub(super) fn rule(check: &CheckFacts) -> String {
     match check.reference.is_some_and(|own| HOLDS * own > NOTHING) {
         true => format!(
-            "less than {HOLDS} times the held-out error that the model came with, since it then explains less than half of the output; or {NOISE} times the noise floor"
+            "less than {HOLDS} times the held-out error that the model came with, since beyond that it explains less than half of the output; or {NOISE} times the noise floor"
         ),
         false => format!(
             "{HOLDS} times the held-out error that the model came with, or {NOISE} times the noise floor"
@@ -39,7 +39,7 @@ const POOR: f64 = 0.2;
 /// That a poor model is no better for holding.
 fn was_poor(check: &CheckFacts) -> &'static str {
     match check.reference.is_some_and(|own| own >= POOR) {
-        true => " It is as poor here as it was there: holding does not make it good.",
+        true => " It missed much where it came from, too: holding does not make it good.",
         false => "",
     }
 }
