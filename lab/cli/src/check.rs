@@ -43,6 +43,7 @@ impl Check {
         let of_model = |message: String| format!("{}: {message}", self.model.display());
         let asked = self.columns.asked()?;
         let given = ModelOfFile::parse(&load(&self.model)?).map_err(of_model)?;
+        given.could_hold().map_err(of_model)?;
         let mode = self.columns.mode.map(ModeName::mode);
         if mode.is_some_and(|mode| mode != given.mode()) {
             return Err(of_model(format!(

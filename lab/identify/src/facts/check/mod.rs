@@ -108,14 +108,22 @@ impl ModelOfFile {
     /// One sentence on the first error in it.
     pub fn parse(text: &str) -> Result<Self, String> {
         let given = Given::parse(text)?;
-        if given.about.verdict.as_deref() == Some("no-model") {
-            return Err(
-                "its verdict is `no-model`: it does not describe its own records, so that there is nothing that could hold; `bowden close` says what to do"
-                    .to_owned(),
-            );
-        }
         let mode = given.mode()?;
         Ok(Self { given, mode })
+    }
+
+    /// Refuses a model that does not describe the records that it came from.
+    ///
+    /// # Errors
+    /// One sentence where its verdict is `no-model`.
+    pub fn could_hold(&self) -> Result<(), String> {
+        match self.given.about.verdict.as_deref() {
+            Some("no-model") => Err(
+                "its verdict is `no-model`: it does not describe its own records, so that there is nothing that could hold; `bowden close` says what to do"
+                    .to_owned(),
+            ),
+            _ => Ok(()),
+        }
     }
 
     /// The mode of the model.
@@ -151,6 +159,7 @@ pub fn check_record(
     record: Record,
     question: &CheckQuestion,
 ) -> Result<Checked, String> {
+    model.could_hold()?;
     let label = record.path.clone();
     let check = Check::new(record, &model.given, question.asked.cutoff)
         .map_err(|message| named(&label, message))?;
