@@ -181,12 +181,7 @@ impl<T: Real> Plausible<T> {
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"longest_dt"`.
     pub fn with_longest_dt(self, longest_dt: T) -> Result<Self, Error> {
-        if !longest_dt.is_finite() {
-            return Err(Error::NonFinite("longest_dt"));
-        }
-        if longest_dt <= T::ZERO {
-            return Err(Error::OutOfRange("longest_dt"));
-        }
+        above_zero!(longest_dt, T::ZERO, "longest_dt");
         Ok(Self { longest_dt, ..self })
     }
 
@@ -287,13 +282,8 @@ struct Unchecked<T> {
     rate: Option<T>,
     #[serde(default)]
     stuck_after: u32,
-    #[serde(default = "any_dt")]
+    #[serde(default = "super::stored::any_dt")]
     longest_dt: T,
-}
-
-#[cfg(feature = "serde")]
-fn any_dt<T: Real>() -> T {
-    T::HIGHEST
 }
 
 #[cfg(feature = "serde")]

@@ -167,13 +167,8 @@ impl<T: Real> RampState<T> {
 struct Unchecked<T> {
     rate: T,
     time_constant: T,
-    #[serde(default = "any_dt")]
+    #[serde(default = "super::stored::any_dt")]
     longest_dt: T,
-}
-
-#[cfg(feature = "serde")]
-fn any_dt<T: Real>() -> T {
-    T::HIGHEST
 }
 
 #[cfg(feature = "serde")]

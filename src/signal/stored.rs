@@ -30,3 +30,8 @@ where
         Err(D::Error::custom(Error::NonFinite("state")))
     }
 }
+
+/// The longest dt of what was stored without one: any.
+pub(super) fn any_dt<T: Real>() -> T {
+    T::HIGHEST
+}

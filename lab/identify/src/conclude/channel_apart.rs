@@ -103,11 +103,11 @@ pub(super) fn channel_words(apart: &ChannelApart) -> String {
     let (asked, mended) = match swapped_with {
         None => (
             format!("Does `{channel}` count the other way in `{path}`?"),
-            "turned there",
+            "it turned there",
         ),
         Some(other) => (
             format!("Do `{channel}` and `{other}` stand in each other's place in `{path}`?"),
-            "exchanged there",
+            "them exchanged there",
         ),
     };
     let what = match names.as_slice() {
@@ -115,7 +115,7 @@ pub(super) fn channel_words(apart: &ChannelApart) -> String {
         names => format!("what is missing is {}", names.join(", then ")),
     };
     format!(
-        "{asked} With it {mended} {what}, and the error of the fit is {:.2} % of the output's standard deviation in place of {:.2} %: what is named here are other effects that stand in for that. Mend the file first.",
+        "{asked} With {mended} {what}, and the error of the fit is {:.2} % of the output's standard deviation in place of {:.2} %: what is named here are other effects that stand in for that. Mend the file first.",
         100.0 * after,
         100.0 * before
     )

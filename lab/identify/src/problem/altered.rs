@@ -1,6 +1,6 @@
 //! Records as they would be if a channel of one of them had been logged otherwise.
 
-use super::{Channel, Prepared};
+use super::Prepared;
 use bowden::effect::Motion;
 
 /// What may have been done to the channels of one record.
@@ -52,8 +52,7 @@ impl Prepared {
         }
         let used = self.used();
         for index in alteration.channels() {
-            let motion = std::mem::take(&mut all.channels[index].motion);
-            all.channels[index] = Channel::over(&self.channels[index], motion, &used);
+            all.channels[index].measure(used.iter().copied());
         }
         all
     }

@@ -86,45 +86,37 @@ pub struct Channel {
 impl Channel {
     /// A channel on the work grid; `used` is what the fit may see of it.
     fn new(column: &Column, motion: Vec<Motion<f64>>, used: &[Range<usize>]) -> Self {
-        let named = Self {
+        let mut channel = Self {
             name: column.name.clone(),
             unit: column.unit.clone(),
             definition: column.definition.clone(),
-            motion: Vec::new(),
+            motion,
             origin: 0.0,
             middle: 0.0,
             reach: 0.0,
             speed: 0.0,
         };
-        let used: Vec<usize> = used.iter().cloned().flatten().collect();
-        Self::over(&named, motion, &used)
+        channel.measure(used.iter().cloned().flatten());
+        channel
     }
 
-    /// A channel of the same name with another motion; the fit may see these samples of it.
-    fn over(named: &Self, motion: Vec<Motion<f64>>, used: &[usize]) -> Self {
-        let inside = || used.iter().map(|&i| &motion[i]);
+    /// Takes origin, range and speed from the samples that the fit may see.
+    fn measure(&mut self, used: impl Iterator<Item = usize> + Clone) {
+        let inside = || used.clone().map(|i| &self.motion[i]);
         let low = inside().map(|m| m.position).fold(f64::INFINITY, f64::min);
         let high = inside()
             .map(|m| m.position)
             .fold(f64::NEG_INFINITY, f64::max);
         let (middle, reach) = (0.5 * (low + high), 0.5 * (high - low));
+        let squares: f64 = inside().map(|m| m.velocity * m.velocity).sum();
+        self.speed = (squares / used.count().max(1) as f64).sqrt();
+        (self.middle, self.reach) = (middle, reach);
         // An axis that is nearly centred keeps its own zero: that is where its physics is.
-        let origin = if middle.abs() < 0.1 * reach {
+        self.origin = if middle.abs() < 0.1 * reach {
             0.0
         } else {
             middle
         };
-        let squares: f64 = inside().map(|m| m.velocity * m.velocity).sum();
-        Self {
-            name: named.name.clone(),
-            unit: named.unit.clone(),
-            definition: named.definition.clone(),
-            origin,
-            middle,
-            reach,
-            speed: (squares / used.len().max(1) as f64).sqrt(),
-            motion,
-        }
     }
 }
 

@@ -118,16 +118,25 @@ fn independence(data: &Prepared, solution: &Solution) -> (Regime, f64) {
     (regime, samples * data.dt * data.stride as f64)
 }
 
-/// The squared error that names leave of a model, to first order, as a forward selection finds
-/// them; in a unit of the output's own. `None` if the model cannot be evaluated.
-pub(crate) fn left_by_names(data: &Prepared, solution: &Solution) -> Option<f64> {
+/// A question to the linearisation of a model. `None` if the model cannot be evaluated.
+fn asked_of<R>(
+    data: &Prepared,
+    solution: &Solution,
+    question: impl FnOnce(&Linear) -> R,
+) -> Option<R> {
     let declared = solution.structure.terms.len();
     let fine = data.for_search(false);
     let seen = on(&fine, data, solution)?;
     let mut bank = Bank::new((data, &fine), solution);
     let price = policy::CURVE_AGAINST_NAMES;
     let linear = Linear::new(&mut bank, (solution, seen), declared, price);
-    Some(linear.left_by_names())
+    Some(question(&linear))
+}
+
+/// The squared error that names leave of a model, to first order, as a forward selection finds
+/// them; in a unit of the output's own. `None` if the model cannot be evaluated.
+pub(crate) fn left_by_names(data: &Prepared, solution: &Solution) -> Option<f64> {
+    asked_of(data, solution, |linear| linear.left_by_names())
 }
 
 /// Whether the blocks of the record are long enough for the tests of a search from this model,
@@ -135,13 +144,8 @@ pub(crate) fn left_by_names(data: &Prepared, solution: &Solution) -> Option<f64>
 ///
 /// [`Regime::Effect`] if the model cannot be evaluated.
 pub(crate) fn tests(data: &Prepared, solution: &Solution) -> (Regime, f64) {
-    let declared = solution.structure.terms.len();
-    let fine = data.for_search(false);
-    let Some(seen) = on(&fine, data, solution) else {
-        return (Regime::Effect, policy::LEVEL);
-    };
-    let mut bank = Bank::new((data, &fine), solution);
-    let price = policy::CURVE_AGAINST_NAMES;
-    let linear = Linear::new(&mut bank, (solution, seen), declared, price);
-    (linear.regime, linear.prices.level)
+    asked_of(data, solution, |linear| {
+        (linear.regime, linear.prices.level)
+    })
+    .unwrap_or((Regime::Effect, policy::LEVEL))
 }
