@@ -15,6 +15,13 @@ pub(crate) fn subtract(from: &mut [f64], factor: f64, other: &[f64]) {
     Arch::new().dispatch(Subtract(from, factor, other));
 }
 
+/// Sum of the products of two columns of one length.
+///
+/// Eight sums run side by side and are added at the end, in the order of nalgebra's `dot`.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    Arch::new().dispatch(Dot(a, b))
+}
+
 /// `from -= a · b`, element by element.
 pub(crate) fn subtract_products(from: &mut [f64], a: &[f64], b: &[f64]) {
     Arch::new().dispatch(SubtractProducts(from, a, b));
@@ -47,6 +54,31 @@ impl WithSimd for Subtract<'_> {
     }
 }
 
+struct Dot<'a>(&'a [f64], &'a [f64]);
+
+impl WithSimd for Dot<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> f64 {
+        let (a, a_rest) = self.0.as_chunks::<8>();
+        let (b, b_rest) = self.1.as_chunks::<8>();
+        let mut sums = [0.0; 8];
+        for (a, b) in a.iter().zip(b) {
+            // By place: the iterators of the lanes would not be inlined here.
+            for lane in 0..8 {
+                sums[lane] += a[lane] * b[lane];
+            }
+        }
+        let [a0, a1, a2, a3, b0, b1, b2, b3] = sums;
+        let mut sum = (a0 + b0) + (a1 + b1) + (a2 + b2) + (a3 + b3);
+        for (a, b) in a_rest.iter().zip(b_rest) {
+            sum += a * b;
+        }
+        sum
+    }
+}
+
 struct SubtractProducts<'a>(&'a mut [f64], &'a [f64], &'a [f64]);
 
 impl WithSimd for SubtractProducts<'_> {
@@ -63,6 +95,7 @@ impl WithSimd for SubtractProducts<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::DVectorView;
 
     #[test]
     fn each_element_is_that_of_the_plain_loop_to_the_last_bit() {
@@ -85,5 +118,10 @@ mod tests {
         let mut own = a.clone();
         subtract_products(&mut own, &b, &c);
         check(own, &|i| a[i] - b[i] * c[i]);
+        for length in 0..=37 {
+            let (a, b) = (&a[..length], &b[..length]);
+            let plain = DVectorView::from_slice(a, length).dot(&DVectorView::from_slice(b, length));
+            assert_eq!(dot(a, b).to_bits(), plain.to_bits(), "{length}");
+        }
     }
 }

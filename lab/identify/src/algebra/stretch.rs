@@ -4,7 +4,8 @@
 //! slope in its state at the start, is zero on all others: it is kept, filtered and multiplied
 //! on its own samples alone. A column of a single file is one stretch from end to end.
 
-use nalgebra::{DVector, DVectorView};
+use super::lanes;
+use nalgebra::DVector;
 use std::borrow::Cow;
 use std::ops::{Index, Range};
 
@@ -198,14 +199,14 @@ impl Stretch {
     }
 
     /// Euclidean norm.
-    pub(super) fn norm(&self) -> f64 {
-        view(&self.values).norm()
+    pub(crate) fn norm(&self) -> f64 {
+        lanes::dot(&self.values, &self.values).sqrt()
     }
 
     /// Sum of the products with another column.
     pub(super) fn dot(&self, other: &Self) -> f64 {
         let both = common(&self.range(), &other.range());
-        view(self.on(&both)).dot(&view(other.on(&both)))
+        lanes::dot(self.on(&both), other.on(&both))
     }
 
     /// Takes off another column times a factor; the stretch grows where that one goes beyond it.
@@ -213,9 +214,7 @@ impl Stretch {
         if !common(&self.range(), &other.range()).is_empty() {
             self.widen(&other.range());
             let from = other.start - self.start;
-            let own = &mut self.values[from..from + other.values.len()];
-            let mut own = nalgebra::DVectorViewMut::from_slice(own, other.values.len());
-            own.axpy(-factor, &view(&other.values), 1.0);
+            lanes::subtract(&mut self.values[from..], factor, &other.values);
         }
     }
 
@@ -224,10 +223,6 @@ impl Stretch {
         self.values.iter_mut().for_each(|v| *v /= by);
         self
     }
-}
-
-fn view(values: &[f64]) -> DVectorView<'_, f64> {
-    DVectorView::from_slice(values, values.len())
 }
 
 #[cfg(test)]

@@ -3,7 +3,6 @@
 use super::compressed;
 use super::linear::{solve_linear, Linear};
 use super::tie::{slope, ties};
-use crate::algebra::take_off;
 use crate::model::columns::{raw_columns_knowing, Beforehand, RawColumns};
 use crate::model::structure::{Free, Range, Role, Structure};
 use crate::problem::cost::{EVALUATIONS, JACOBIANS, SEARCHES};
@@ -87,9 +86,7 @@ impl Evaluation {
         JACOBIANS.add(1);
         let (raw, gains) = (&self.raw, &self.linear.gains);
         let moves = raw.moves(data, structure, free, values)?;
-        let slopes: Vec<Stretch> = (0..free.len())
-            .map(|j| raw.tangent(&moves, j, gains))
-            .collect();
+        let slopes = raw.tangents(&moves, gains);
         let slopes: Vec<&Stretch> = slopes.iter().collect();
         let mut tangents = data.filtered_stretches(&slopes);
         for (tangent, one) in tangents.iter_mut().zip(free) {
@@ -111,15 +108,12 @@ impl Evaluation {
 
     /// The Jacobian of the residual in the unbounded parameters, on the rows of the fit segment.
     fn jacobian(&self, rows: &[usize], tangents: &[Stretch], slopes: &[f64]) -> DMatrix<f64> {
-        let basis = self.linear.basis.matrix(rows.len());
-        let mut jacobian = DMatrix::zeros(rows.len(), tangents.len());
-        for (j, (tangent, slope)) in tangents.iter().zip(slopes).enumerate() {
-            let mut column = DVector::from_iterator(rows.len(), rows.iter().map(|&i| tangent[i]));
-            take_off(&basis, &mut column);
-            column *= *slope;
-            jacobian.set_column(j, &column);
+        let mut all = Vec::with_capacity(rows.len() * tangents.len());
+        for (tangent, slope) in tangents.iter().zip(slopes) {
+            let left = self.linear.basis.once_off(tangent.at_rows(rows));
+            left.push_to(&mut all, 0..rows.len(), *slope);
         }
-        jacobian
+        DMatrix::from_vec(rows.len(), tangents.len(), all)
     }
 }
 

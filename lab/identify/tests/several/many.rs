@@ -127,12 +127,12 @@ fn the_slope_in_the_state_of_one_file_is_that_of_the_output_and_touches_no_other
     let gains: Vec<f64> = (0..structure.linear())
         .map(|k| 1.0 + 0.3 * k as f64)
         .collect();
+    let slopes = raw.tangents(&moves, &gains);
     let (mut tried, mut moving) = (0, 0);
-    for (j, f) in free.iter().enumerate() {
+    for ((j, f), slope) in free.iter().enumerate().zip(&slopes) {
         let Some(work) = moved(&data, &structure, f.role) else {
             continue;
         };
-        let slope = raw.tangent(&moves, j, &gains);
         let is_still = slope.values().is_empty();
         assert!(is_still || slope.range() == work, "{:?}", f.role);
         let step = match f.role {

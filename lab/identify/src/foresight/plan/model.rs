@@ -69,8 +69,7 @@ impl Model {
     pub(super) fn on<'a>(&self, data: &'a Prepared) -> Option<Placed<'a>> {
         let raw = raw_columns(data, &self.structure, &self.free, &self.values)?;
         let moves = raw.moves(data, &self.structure, &self.free, &self.values)?;
-        let tangents = (0..self.free.len()).map(|j| raw.tangent(&moves, j, &self.gains));
-        let tangents: Vec<Stretch> = tangents.collect();
+        let tangents = raw.tangents(&moves, &self.gains);
         let all: Vec<&Stretch> = raw.columns.iter().map(|c| &**c).chain(&tangents).collect();
         let columns = data.filtered_stretches(&all);
         let output = raw.output(&self.gains);

@@ -20,6 +20,7 @@ use stages::Stages;
 use std::sync::Arc;
 use variation::Variation;
 
+mod abreast;
 mod gathered;
 mod loops;
 mod series;
@@ -217,10 +218,7 @@ pub(crate) fn raw_columns_knowing(
     if !stages.list.is_empty() {
         stages.before = columns.clone();
         fixed.fill(false);
-        for column in &mut columns {
-            let column: &mut Stretch = Arc::make_mut(column);
-            stages.through(column, 0..stages.list.len());
-        }
+        stages.through(columns.iter_mut().map(Arc::make_mut), 0..stages.list.len());
     }
     Some(RawColumns {
         columns,
@@ -392,17 +390,24 @@ impl RawColumns {
         weighted(self.columns.iter().map(Arc::as_ref), gains, self.eta.len())
     }
 
-    /// d output / d free parameter `j` for the given gains, before the filter.
+    /// d output / d free parameter for the given gains, before the filter, for each of them.
     #[must_use]
-    pub fn tangent(&self, moves: &Moves, j: usize, gains: &[f64]) -> Stretch {
-        let mut tangent = Stretch::default();
-        for (k, column) in &moves.0[j] {
-            tangent.add(column, gains[*k]);
+    pub fn tangents(&self, moves: &Moves, gains: &[f64]) -> Vec<Stretch> {
+        let before = moves.0.iter().map(|own| {
+            let mut tangent = Stretch::default();
+            for (k, column) in own {
+                tangent.add(column, gains[*k]);
+            }
+            tangent
+        });
+        let mut tangents: Vec<Stretch> = before.collect();
+        self.stages
+            .through(&mut tangents, 0..self.stages.list.len());
+        for (tangent, owner) in tangents.iter_mut().zip(&self.stages.owner) {
+            if let Some((position, shape)) = *owner {
+                self.add_stage_tangent(tangent, gains, position, shape);
+            }
         }
-        self.stages.through(&mut tangent, 0..self.stages.list.len());
-        if let Some((position, shape)) = self.stages.owner[j] {
-            self.add_stage_tangent(&mut tangent, gains, position, shape);
-        }
-        tangent
+        tangents
     }
 }

@@ -1,5 +1,6 @@
 //! Output stages: they act on the sum of all columns, so each acts on every column alike.
 
+use super::abreast::{self, BLOCK};
 use super::{weighted, RawColumns};
 use crate::model::structure::{FitTerm, Free, Role, Terms};
 use crate::problem::{is_silent, Prepared, Stretch};
@@ -63,27 +64,32 @@ impl Stages {
         Some(stages)
     }
 
-    /// Sends a column through some of the stages; on a record on which it is zero it stays so.
-    pub(super) fn through(&self, column: &mut Stretch, which: Range<usize>) {
-        let own = column.range();
-        for (term, gain) in &self.list[which] {
+    /// Sends columns through some of the stages; on a record on which one is zero it stays so.
+    pub(super) fn through<'a>(
+        &self,
+        columns: impl IntoIterator<Item = &'a mut Stretch>,
+        which: Range<usize>,
+    ) {
+        let stages = &self.list[which];
+        if stages.is_empty() {
+            return;
+        }
+        let mut columns: Vec<&mut Stretch> = columns.into_iter().collect();
+        for (term, gain) in stages {
             for record in &self.records {
-                if own.start <= record.start && record.end <= own.end {
-                    let place = record.start - own.start..record.end - own.start;
-                    apply_stage(
-                        &term.effect,
-                        *gain,
-                        &mut column.values_mut()[place],
-                        self.dt,
-                    );
-                }
+                let own = columns.iter_mut().filter_map(|column| {
+                    let own = column.range();
+                    let place = record.start.checked_sub(own.start)?..record.end - own.start;
+                    column.values_mut().get_mut(place)
+                });
+                apply_stage(&term.effect, *gain, &mut own.collect::<Vec<_>>(), self.dt);
             }
         }
     }
 
     fn apply(&self, effect: &Effect<f64>, gain: f64, column: &mut [f64]) {
         for record in &self.records {
-            apply_stage(effect, gain, &mut column[record.clone()], self.dt);
+            apply_stage(effect, gain, &mut [&mut column[record.clone()]], self.dt);
         }
     }
 
@@ -117,17 +123,19 @@ impl Stages {
     }
 }
 
-/// output += what the stage adds at that gain, along one record.
-fn apply_stage(effect: &Effect<f64>, gain: f64, column: &mut [f64], dt: f64) {
-    in_blocks(column, |state, block| {
-        let mut own = block.iter();
-        let add = |part| put(own.next(), |output| output + part);
-        effect.contributions(gain, state, samples(block, dt), add);
-    });
+/// output += what the stage adds at that gain, along one record, for each column of it.
+fn apply_stage(effect: &Effect<f64>, gain: f64, columns: &mut [&mut [f64]], dt: f64) {
+    if abreast::through(effect, gain, columns, dt) {
+        return;
+    }
+    for column in columns {
+        in_blocks(column, |state, block| {
+            let mut own = block.iter();
+            let add = |part| put(own.next(), |output| output + part);
+            effect.contributions(gain, state, samples(block, dt), add);
+        });
+    }
 }
-
-/// Samples after which a stage is asked whether it is silent.
-const BLOCK: usize = 256;
 
 /// Sends a record through a stage block by block, and lets the stage forget what it remembers
 /// where it is silent: as in the filter, it would decay to denormal floats.
@@ -177,7 +185,7 @@ impl RawColumns {
         let Stages { list, before, .. } = &self.stages;
         let before = before.iter().map(Arc::as_ref);
         let mut output = Stretch::from(weighted(before, gains, self.eta.len()));
-        self.stages.through(&mut output, 0..position);
+        self.stages.through([&mut output], 0..position);
         let output = output.values();
         let (term, gain) = &list[position];
         let part: Vec<f64> = match shape {
@@ -202,7 +210,7 @@ impl RawColumns {
             }
         };
         let mut part = Stretch::from(part);
-        self.stages.through(&mut part, position + 1..list.len());
+        self.stages.through([&mut part], position + 1..list.len());
         tangent.add(&part, 1.0);
     }
 }
@@ -213,7 +221,7 @@ pub(crate) fn by_stage(raw: &RawColumns, output: Vec<f64>) -> Vec<Vec<f64>> {
     let mut changes = Vec::with_capacity(raw.stages.list.len());
     for stage in 0..raw.stages.list.len() {
         let before = output.clone();
-        raw.stages.through(&mut output, stage..stage + 1);
+        raw.stages.through([&mut output], stage..stage + 1);
         let change = output
             .values()
             .iter()
@@ -266,7 +274,7 @@ mod tests {
                 });
                 let expected: Vec<f64> = expected.collect();
                 let mut staged = column.clone();
-                apply_stage(&effect, gain, &mut staged, DT);
+                apply_stage(&effect, gain, &mut [&mut staged], DT);
                 for (i, (a, b)) in staged.iter().zip(&expected).enumerate() {
                     let is_equal = a == b || is_silent(*a) && is_silent(*b);
                     assert!(
@@ -279,10 +287,48 @@ mod tests {
     }
 
     #[test]
+    fn columns_abreast_come_out_bit_for_bit_as_one_by_one() {
+        let wave = |k: usize, i: usize| (0.01 * ((k + 3) * i) as f64).sin() - 0.2 * k as f64;
+        for (effect, gain) in stages() {
+            for (count, samples) in [(1, 700), (3, 1), (8, 256), (11, 700)] {
+                let mut columns: Vec<Vec<f64>> = (0..count)
+                    .map(|k| (0..samples).map(|i| wave(k, i)).collect())
+                    .collect();
+                // One that the core alone keeps finite.
+                if count == 3 {
+                    columns[1][0] = f64::MAX;
+                }
+                let one_by_one: Vec<Vec<f64>> = columns
+                    .iter()
+                    .map(|column| {
+                        let mut state = EffectState::default();
+                        let late = column.iter().map(|&output| {
+                            let at = Situation {
+                                dt: DT,
+                                output,
+                                ..Situation::default()
+                            };
+                            output + effect.contribution(gain, &mut state, &at)
+                        });
+                        late.collect()
+                    })
+                    .collect();
+                let mut abreast: Vec<&mut [f64]> =
+                    columns.iter_mut().map(Vec::as_mut_slice).collect();
+                apply_stage(&effect, gain, &mut abreast, DT);
+                let bits = |all: &[Vec<f64>]| -> Vec<u64> {
+                    all.iter().flatten().map(|v| v.to_bits()).collect()
+                };
+                assert_eq!(bits(&columns), bits(&one_by_one), "{effect:?} {gain}");
+            }
+        }
+    }
+
+    #[test]
     fn where_a_column_is_silent_a_stage_leaves_nothing_denormal() {
         for (effect, gain) in stages() {
             let mut column = interrupted(200_000);
-            apply_stage(&effect, gain, &mut column, DT);
+            apply_stage(&effect, gain, &mut [&mut column], DT);
             let denormal = column.iter().filter(|v| v.is_subnormal()).count();
             // A decay may reach them within the block in which it becomes silent.
             assert!(denormal <= BLOCK, "{effect:?} {gain}: {denormal}");
