@@ -348,10 +348,11 @@ fn conclusion(facts: &Facts) -> String {
         line!(out, "{DIM}rejected  {}{DIM:#}", list.join("; "));
     }
     for part in &facts.unneeded {
-        let (without, with) = (part.held_out_without, facts.last.rmse.held_out);
+        let (without, with) = (part.held_out_without, part.held_out_with);
+        let left_out = if part.left_out { "; left out" } else { "" };
         line!(
             out,
-            "unneeded  {}: held out {} without it, {} with it",
+            "unneeded  {}: held out {} without it, {} with it{left_out}",
             part.effect,
             number(without, Some(0.01 * without)),
             number(with, Some(0.01 * with))

@@ -6,6 +6,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod apart;
+mod ballast;
 mod carries_over;
 mod changed;
 mod channels;

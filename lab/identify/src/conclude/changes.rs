@@ -74,13 +74,24 @@ pub(super) fn lead(data: &Prepared, ledger: &Ledger, solution: &Solution) -> Opt
         // `gain` times of what a lag of `tau` takes away, which for slow motion is a delay.
         ("lag", _) => solution.gain(index) * term.effect.shape(0).unwrap_or(0.0),
         // For slow motion a rate of the input is a lead by its gain over the input's.
-        ("viscous", Source::Input) if solution.structure.hysteresis => {
-            f64::max(0.0, -solution.gain(index) / solution.gains[0])
+        ("viscous", Source::Input) => {
+            input_gain(solution).map_or(0.0, |gain| f64::max(0.0, -solution.gain(index) / gain))
         }
         _ => 0.0,
     });
     let lead = -behind.sum::<f64>();
     (lead * data.rate >= 1.0).then_some(lead)
+}
+
+/// The output's gain over the input: that of the transmission, or of the line in its place.
+fn input_gain(solution: &Solution) -> Option<f64> {
+    let structure = &solution.structure;
+    if structure.hysteresis {
+        return solution.gains.first().copied();
+    }
+    let mut terms = structure.terms.iter();
+    let is_line = |t: &FitTerm| t.effect.name() == "stiffness-linear" && t.source == Source::Input;
+    terms.position(is_line).map(|index| solution.gain(index))
 }
 
 /// Whether a file that was held out as a whole is not described by the model of the others.

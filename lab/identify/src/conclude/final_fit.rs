@@ -5,11 +5,13 @@
 //! those that lie next to what is held out. So the chosen model is searched once more from
 //! where it is, on both segments. The held-out segment stays unseen.
 
+use super::ballast::{has_parts_of_hysteresis, without_hysteresis, Part};
 use super::intervals::term_title;
 use crate::fit::{refit, Segments, Solution};
 use crate::ledger::{Ledger, Round};
 use crate::model::structure::FitTerm;
 use crate::problem::Prepared;
+use crate::search::policy::LEAST;
 
 /// The model that is delivered.
 #[derive(Debug, Clone)]
@@ -22,14 +24,35 @@ pub struct FinalFit {
     pub rmse: Segments,
     /// Whether the parameters have seen the stop-check segment.
     pub refitted: bool,
+    /// The held-out error with the hysteresis, where that was ballast and is left out.
+    pub without_hysteresis: Option<f64>,
 }
 
 impl FinalFit {
     /// Fits the last model of a ledger to the fit and stop-check segments together; where
-    /// that finds nothing better there, the model stays as it is.
+    /// that finds nothing better there, the model stays as it is. A hysteresis that is ballast is
+    /// left out.
     #[must_use]
     pub fn new(data: &Prepared, ledger: &Ledger) -> Self {
-        Self::of(data, ledger.last())
+        let whole = Self::of(data, ledger.last());
+        whole.without_ballast(data).unwrap_or(whole)
+    }
+
+    /// The model without its hysteresis, where that is ballast, nothing else needs it, and the
+    /// model without it errs no more: by less than an effect must gain to be worth a name.
+    fn without_ballast(&self, data: &Prepared) -> Option<Self> {
+        let part = Part::of(&self.data, &self.solution)?;
+        if !part.is_cancelled() || has_parts_of_hysteresis(&self.solution) {
+            return None;
+        }
+        let solution = without_hysteresis(&self.data, &self.solution)?;
+        let gained = (solution.sse(&self.data) / self.solution.sse(&self.data)).ln();
+        (gained < LEAST).then(|| Self {
+            rmse: Segments::of(data, &solution.residual),
+            solution,
+            without_hysteresis: Some(self.rmse.held_out),
+            ..self.clone()
+        })
     }
 
     /// The same of any solution.
@@ -44,12 +67,14 @@ impl FinalFit {
             Some(solution) => Self {
                 rmse: Segments::of(data, &solution.residual),
                 refitted: true,
+                without_hysteresis: None,
                 solution,
                 data: wide,
             },
             None => Self {
                 rmse: last.rmse,
                 refitted: false,
+                without_hysteresis: None,
                 solution: last.clone(),
                 data: data.clone(),
             },

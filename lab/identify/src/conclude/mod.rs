@@ -1,5 +1,6 @@
 //! What a search is worth: the final refit, intervals, the verdict, shares and traces.
 
+mod ballast;
 pub mod by_file;
 mod changes;
 pub mod channel_apart;

@@ -7,15 +7,12 @@
 //! and stages before it go with it. Parts are judged one at a time: of two that can each stand in for the
 //! other both are listed, and one of them is needed.
 
+use super::ballast::without_hysteresis;
 use super::final_fit::FinalFit;
 use super::intervals::term_name;
 use crate::fit::{fit_from, Known, Solution};
 use crate::ledger::Ledger;
-use crate::model::declared::declared;
-use crate::model::structure::{FitTerm, Structure};
-use crate::model::{Table, Variable};
 use crate::problem::Prepared;
-use bowden::model::Source;
 use serde::Serialize;
 
 /// Share by which the held-out error may grow without a part that is not needed.
@@ -28,6 +25,10 @@ pub struct Unneeded {
     pub effect: String,
     /// RMSE on the held-out segment without it, the others refitted.
     pub held_out_without: f64,
+    /// The same with it.
+    pub held_out_with: f64,
+    /// Whether the final model leaves it out: the hysteresis, where it is ballast.
+    pub left_out: bool,
 }
 
 /// The parts of the declared model without which the final model is as good.
@@ -50,41 +51,25 @@ pub fn unneeded(ledger: &Ledger, done: &FinalFit) -> Vec<Unneeded> {
             (held_out_without < (1.0 + COST) * last.rmse.held_out).then(|| Unneeded {
                 effect: part.map_or_else(|| "bouc-wen".to_owned(), name),
                 held_out_without,
+                held_out_with: last.rmse.held_out,
+                left_out: false,
             })
         })
         .collect();
-    judged.into_iter().flatten().collect()
+    let hysteresis = done.without_hysteresis.map(|held_out_with| Unneeded {
+        effect: "bouc-wen".to_owned(),
+        held_out_without: done.rmse.held_out,
+        held_out_with,
+        left_out: true,
+    });
+    hysteresis
+        .into_iter()
+        .chain(judged.into_iter().flatten())
+        .collect()
 }
 
 fn without_term(data: &Prepared, full: &Solution, term: usize) -> Option<Solution> {
     let mut structure = full.structure.clone();
     structure.terms.remove(*structure.terms.ids().get(term)?);
     fit_from(data, &structure, Some(&Known::of(full)), 0.0)
-}
-
-/// The model as a line, without what reads the hysteresis state.
-fn without_hysteresis(data: &Prepared, full: &Solution) -> Option<Solution> {
-    let mut structure = full.structure.clone();
-    structure.hysteresis = false;
-    let over_eta = |table: &Table| table.variable == Variable::Eta;
-    if structure.table.as_ref().is_some_and(over_eta) {
-        structure.table = None;
-    }
-    let goes = |t: &FitTerm| t.effect.reads_eta() || t.effect.is_input_stage();
-    structure.terms.retain(|t| !goes(t));
-    for name in ["offset", "stiffness-linear"] {
-        add_to_input(data, &mut structure, name)?;
-    }
-    fit_from(data, &structure, Some(&Known::of(full)), 0.0)
-}
-
-fn add_to_input(data: &Prepared, structure: &mut Structure, name: &str) -> Option<()> {
-    let mut terms = structure.terms.iter();
-    if !terms.any(|t| t.effect.name() == name && t.source == Source::Input) {
-        let mut term = declared(name, data).ok()?;
-        term.source = Source::Input;
-        term.origin = data.input.origin;
-        structure.terms.push(term);
-    }
-    Some(())
 }

@@ -3,6 +3,7 @@
 //! The sentence is what somebody pastes into a report: it speaks of the delivered model, in
 //! the figures that stand above it, and says what the model must not be used for.
 
+use super::ballast::Part;
 use super::by_file::worse;
 use super::changes::{begins, lead, other_line, other_rig, unseen_motion};
 use super::changes::{made_without_input, stands_for_output};
@@ -359,6 +360,21 @@ fn one_function(data: &Prepared, done: &FinalFit) -> Option<String> {
     ))
 }
 
+/// What is to be said of a hysteresis that is ballast.
+fn ballast(done: &FinalFit) -> Option<String> {
+    if done.without_hysteresis.is_some() {
+        return Some(
+            "The declared hysteresis is left out of the model: here it cannot be told from a spring and an offset."
+                .to_owned(),
+        );
+    }
+    let part = Part::of(&done.data, &done.solution).filter(Part::is_ballast)?;
+    Some(format!(
+        "The hysteresis is a spring and an offset here but for {} of the output: their gains cancel each other, and the model holds within the recorded range only.",
+        percent(part.own)
+    ))
+}
+
 /// What goes with a verdict, after the sentence on the held-out error.
 fn rest(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -> String {
     match found {
@@ -407,6 +423,7 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
     all.extend(unseen_motion(data, done));
     all.extend(another_zero(data, &done.solution));
     all.extend(one_function(data, done));
+    all.extend(ballast(done));
     if let Some(channel) = stands_for_output(data, &ledger.declared, &done.solution) {
         all.push(format!(
             "Nearly all of the output is made of `{channel}` here, although the declared model does without it: does it measure the output, as the angle behind a spring does? Then leave its column out."

@@ -108,10 +108,13 @@ impl HandOver {
         mut progress: impl FnMut(&str),
     ) -> Result<Self, String> {
         if invertible && !done.solution.structure.hysteresis {
-            return Err(
-                "--invertible: only bouc-wen can be inverted, and --declare leaves it out"
-                    .to_owned(),
-            );
+            let because = match done.without_hysteresis {
+                Some(_) => "here it cannot be told from a spring and an offset",
+                None => "--declare leaves it out",
+            };
+            return Err(format!(
+                "--invertible: only bouc-wen can be inverted, and {because}"
+            ));
         }
         let mut left_out = Vec::new();
         let mut base = done.clone();

@@ -162,7 +162,8 @@ fn turned_down(facts: &Facts) -> Markup {
             h3 { "Declared and not needed" }
             ul { @for part in &facts.unneeded {
                 li { (part.effect) ": held out " (number(part.held_out_without, Some(0.01 * part.held_out_without)))
-                    " without it, " (number(facts.last.rmse.held_out, Some(0.01 * facts.last.rmse.held_out))) " with it" }
+                    " without it, " (number(part.held_out_with, Some(0.01 * part.held_out_with))) " with it"
+                    @if part.left_out { "; left out of the final model" } }
             } }
         }
         @if !facts.rejected.is_empty() {

@@ -1,0 +1,66 @@
+//! A spring that relaxes and has no hysteresis: the declared one must not stay in the model with
+//! gains that cancel each other.
+
+use crate::changed::spring;
+use crate::files::{noise, uniform, Rows};
+use crate::shell::bowden;
+
+const RATE: f64 = 500.0;
+
+/// Force of a standard linear solid: a spring of 2 N/mm beside one of 3 N/mm that relaxes in half
+/// a second. The motion is noise behind four low-passes, begun with a leap.
+fn relaxing_spring(seed: usize) -> Rows {
+    let share = 1.0 - (-std::f64::consts::TAU * 1.2 / RATE).exp();
+    let decay = (-1.0 / RATE / 0.5_f64).exp();
+    let (mut stages, mut arm, mut before) = ([0.0; 4], 0.0, None);
+    let row = |i: usize| {
+        let t = i as f64 / RATE;
+        let mut signal = uniform(i + 1000 * seed);
+        for stage in &mut stages {
+            *stage += share * (signal - *stage);
+            signal = *stage;
+        }
+        let x = 100.0 * signal + 10.0 * (-t / 0.1).exp();
+        arm = decay * arm + x - before.unwrap_or(x);
+        before = Some(x);
+        vec![t, x, 2.0 * x + 3.0 * arm + 0.02 * noise(i)]
+    };
+    Rows {
+        header: "t,x [mm],f [N]".to_owned(),
+        rows: (0..20_000).map(row).collect(),
+    }
+}
+
+#[test]
+fn a_hysteresis_that_is_a_spring_and_an_offset_is_left_out_and_the_model_holds_elsewhere() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = folder.path().join("model.toml").display().to_string();
+    let closed = relaxing_spring(11).close(&["--model-out", &model]);
+    let effects = closed.json["final"]["effects"].as_array().unwrap();
+    assert!(effects.iter().all(|e| e != "bouc-wen"), "{effects:?}");
+    let parts = closed.json["unneeded"].as_array().unwrap();
+    let left_out = |part: &&serde_json::Value| part["left_out"] == true;
+    let part = parts.iter().find(left_out).unwrap();
+    assert_eq!(part["effect"], "bouc-wen");
+    let error = |name: &str| part[name].as_f64().unwrap();
+    assert!(error("held_out_without") < 1.1 * error("held_out_with"));
+    closed.says(&[
+        "The declared hysteresis is left out of the model",
+        "cannot be told from a spring and an offset",
+    ]);
+    assert!(!std::fs::read_to_string(&model)
+        .unwrap()
+        .contains("kappa_eta"));
+    let other = relaxing_spring(12).write(&folder, "other.csv");
+    let check = bowden(&["check", &model, &other]);
+    let said = String::from_utf8_lossy(&check.stdout);
+    assert!(check.status.success() && said.contains("holds"), "{said}");
+}
+
+#[test]
+fn a_hysteresis_that_is_there_stays() {
+    let closed = spring((99.0, 0.0), 0).close(&[]);
+    let effects = closed.json["final"]["effects"].as_array().unwrap();
+    assert!(effects.iter().any(|e| e == "bouc-wen"), "{effects:?}");
+    assert!(!closed.sentence().contains("spring and an offset"));
+}

@@ -1,0 +1,99 @@
+//! A hysteresis that is ballast: over the record its state is a line in the input, and its gain
+//! is large only because those of spring and offset cancel it.
+//!
+//! Such a part explains nothing, and outside the recorded motion the gains no longer cancel.
+
+use crate::algebra::line;
+use crate::fit::{fit_from, Known, Segments, Solution};
+use crate::model::declared::declared;
+use crate::model::structure::{FitTerm, Structure};
+use crate::model::{Table, Variable};
+use crate::problem::Prepared;
+use bowden::model::Source;
+
+/// Largest share of a hysteresis' part that spring and offset cannot imitate, for it to be
+/// ballast. A choice: a loop that shows in a plot has more.
+const NOT_IMITATED: f64 = 0.01;
+
+/// What a hysteresis is beside spring and offset.
+pub(super) struct Part {
+    /// Its root mean square on the fit segment, in standard deviations of the output there.
+    size: f64,
+    /// The same of what spring and offset cannot imitate of it.
+    pub(super) own: f64,
+}
+
+impl Part {
+    /// `None` without a hysteresis, and where each file has gains of its own.
+    pub(super) fn of(data: &Prepared, solution: &Solution) -> Option<Self> {
+        let structure = &solution.structure;
+        if !structure.hysteresis || structure.own_gains > 0 {
+            return None;
+        }
+        let rows = &data.split.fit;
+        let (input, eta) = (&solution.columns[0], &solution.columns[1]);
+        let points = rows.iter().map(|&row| (input[row], eta[row]));
+        let (slope, offset) = line(points.clone());
+        let output = Segments::deviation(data, &data.target).fit;
+        let size = |of: &dyn Fn((f64, f64)) -> f64| {
+            let squares = points.clone().map(|point| of(point).powi(2));
+            let rms = (squares.sum::<f64>() / rows.len().max(1) as f64).sqrt();
+            solution.gains[1].abs() * rms / output
+        };
+        Some(Self {
+            size: size(&|(_, eta)| eta),
+            own: size(&|(x, eta)| eta - slope * x - offset),
+        })
+    }
+
+    /// Whether it is larger than the output, and spring and offset cancel nearly all of it. The
+    /// gains of a smaller part do no harm.
+    pub(super) fn is_cancelled(&self) -> bool {
+        self.size > 1.0 && self.own < NOT_IMITATED * self.size
+    }
+
+    /// Whether next to nothing of the output is its own.
+    pub(super) fn is_ballast(&self) -> bool {
+        self.is_cancelled() && self.own < NOT_IMITATED
+    }
+}
+
+/// Whether a model has parts that go with its hysteresis.
+pub(super) fn has_parts_of_hysteresis(solution: &Solution) -> bool {
+    let structure = &solution.structure;
+    structure.table.as_ref().is_some_and(is_over_eta) || structure.terms.iter().any(goes_with)
+}
+
+fn is_over_eta(table: &Table) -> bool {
+    table.variable == Variable::Eta
+}
+
+/// Whether an effect has no meaning without a hysteresis.
+fn goes_with(term: &FitTerm) -> bool {
+    term.effect.reads_eta() || term.effect.is_input_stage()
+}
+
+/// The model as a line, gain and offset, without what reads the hysteresis state.
+pub(super) fn without_hysteresis(data: &Prepared, full: &Solution) -> Option<Solution> {
+    let mut structure = full.structure.clone();
+    structure.hysteresis = false;
+    if structure.table.as_ref().is_some_and(is_over_eta) {
+        structure.table = None;
+    }
+    structure.terms.retain(|t| !goes_with(t));
+    for name in ["offset", "stiffness-linear"] {
+        add_to_input(data, &mut structure, name)?;
+    }
+    fit_from(data, &structure, Some(&Known::of(full)), 0.0)
+}
+
+fn add_to_input(data: &Prepared, structure: &mut Structure, name: &str) -> Option<()> {
+    let mut terms = structure.terms.iter();
+    if !terms.any(|t| t.effect.name() == name && t.source == Source::Input) {
+        let mut term = declared(name, data).ok()?;
+        term.source = Source::Input;
+        term.origin = data.input.origin;
+        structure.terms.push(term);
+    }
+    Some(())
+}
