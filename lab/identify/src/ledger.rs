@@ -120,8 +120,12 @@ pub struct Ledger {
     pub integrates: bool,
     /// Files in which the output is another multiple of the input than in the others.
     pub apart: Vec<FileApart>,
+    /// Files that are not of one rig, where none of them is only another multiple.
+    pub rigs_apart: Option<RigsApart>,
     /// A channel that was logged otherwise in one of the files.
     pub channel_apart: Option<ChannelApart>,
+    /// Channels whose steps matter to the final model.
+    pub coarse: Vec<CoarseChannel>,
     /// The requested number of effects if it ended the search: further effects may be missing.
     /// `None` if the search ended by itself.
     pub stopped_by_request: Option<usize>,
@@ -143,7 +147,9 @@ impl Ledger {
             correlation_time: 0.0,
             integrates: false,
             apart: Vec::new(),
+            rigs_apart: None,
             channel_apart: None,
+            coarse: Vec::new(),
             stopped_by_request: None,
             stopped_by_budget: None,
         }
@@ -205,6 +211,16 @@ pub struct FileApart {
     pub after: f64,
 }
 
+/// What gains of its own for each file make of files that are not of one rig.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RigsApart {
+    /// The error of the delivered model on the fit segment, as a share of the output's standard
+    /// deviation there.
+    pub together: f64,
+    /// The same of the declared model with gains of its own for each file.
+    pub own: f64,
+}
+
 /// A channel that in one file counts the other way than in the others, or stands in the place of
 /// another one.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
@@ -221,6 +237,21 @@ pub struct ChannelApart {
     pub before: f64,
     /// The same once that is mended.
     pub after: f64,
+}
+
+/// A channel of a coarse sensor, whose steps account for much of the residual.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CoarseChannel {
+    /// The channel.
+    pub channel: String,
+    /// One step of its sensor, in its unit.
+    pub step: f64,
+    /// Its range, in steps.
+    pub counts: f64,
+    /// What the steps do to the model: rms of its output on the fit segment.
+    pub error: f64,
+    /// The names that the steps may account for.
+    pub names: Vec<String>,
 }
 
 /// A dependence of the residual that no effect of the catalogue explains.

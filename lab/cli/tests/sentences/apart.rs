@@ -71,6 +71,7 @@ fn another_zero_in_one_file_is_a_pretension_that_steps_there() {
     assert!(closed.json["files_apart"].as_array().unwrap().is_empty());
     assert_eq!(closed.names().first(), Some(&"pretension"));
     closed.says(&["The pretension steps where", "evening.csv", "zero"]);
+    assert!(!closed.sentence().contains("one rig"));
 }
 
 /// Most files count: the first one is the odd one here. The last of four is held out whole.
@@ -126,6 +127,7 @@ fn files_of_one_rig_are_not_apart() {
     assert!(closed.json["files_apart"].as_array().unwrap().is_empty());
     assert!(!closed.sentence().contains("No one model"));
     assert!(!closed.sentence().contains("pretension"));
+    assert!(!closed.sentence().contains("one rig"));
 }
 
 /// Seen alone, a spring that hardens has another gain where it is moved further.
@@ -142,4 +144,33 @@ fn files_of_two_strokes_on_a_spring_that_hardens_are_not_apart() {
     let closed = Closed::of(&[&paths[0], &paths[1]]);
     assert!(closed.json["files_apart"].as_array().unwrap().is_empty());
     assert_eq!(closed.names().first(), Some(&"stiffness-cubic"));
+    assert!(!closed.sentence().contains("one rig"));
+}
+
+/// The same spring with a third of the friction, and another zero: no gain makes one of the other.
+#[test]
+fn files_of_two_rigs_are_said_to_be_that_and_no_zero_is_blamed() {
+    let whole = spring((99.0, 0.0), 0);
+    let folder = tempfile::tempdir().unwrap();
+    let middle = whole.rows.len() / 2;
+    let half = |rows: &[Vec<f64>]| Rows {
+        header: whole.header.clone(),
+        rows: rows.to_vec(),
+    };
+    let (first, mut second) = (half(&whole.rows[..middle]), half(&whole.rows[middle..]));
+    let friction = |row: &[f64]| row[2] - 1.5 * row[1];
+    second.set(2, |_, row| 1.5 * row[1] + friction(row) / 3.0 + 0.5);
+    let paths = [
+        first.write(&folder, "one.csv"),
+        second.write(&folder, "other.csv"),
+    ];
+    let closed = Closed::of(&[&paths[0], &paths[1]]);
+    closed.says(&[
+        "These files do not seem to be of one rig",
+        "`--per-file gains`",
+    ]);
+    assert!(!closed.sentence().contains("zero of a sensor"));
+    let apart = Closed::of(&[&paths[0], &paths[1], "--per-file", "gains"]);
+    assert_eq!(apart.verdict(), "explained");
+    assert!(!apart.sentence().contains("one rig"));
 }

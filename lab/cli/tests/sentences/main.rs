@@ -10,6 +10,7 @@ mod ballast;
 mod carries_over;
 mod changed;
 mod channels;
+mod coarse;
 mod compare;
 mod files;
 mod no_model;

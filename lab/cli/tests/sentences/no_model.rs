@@ -1,6 +1,6 @@
 //! Files in which there is no model to be found: the verdict must say so.
 
-use crate::files::{noise, Rows, PHI_P, T, TAU_I, TAU_O};
+use crate::files::{noise, Closed, Rows, PHI_P, T, TAU_I, TAU_O};
 use crate::shell::bowden;
 use std::f64::consts::TAU;
 
@@ -87,6 +87,50 @@ fn a_damper_does_not_integrate() {
     });
     let closed = rows.close(&["--declare", "bouc-wen"]);
     assert_eq!(closed.json["integrates"], false);
+}
+
+/// A spring in series with a dashpot, moved: its force follows the velocity where it has time to relax.
+#[test]
+fn the_force_of_a_spring_in_series_with_a_dashpot_does_not_integrate_its_motion() {
+    for tau in [0.02, 0.1, 0.5, 3.0] {
+        let mut rows = moved();
+        let (decay, mut force, mut before) = ((-0.002_f64 / tau).exp(), 0.0, rows.rows[0][1]);
+        rows.set(2, |i, row| {
+            force = decay * force + 3.0 * (row[1] - before);
+            before = row[1];
+            force + 0.02 * noise(i)
+        });
+        let closed = rows.close(&["--rounds", "0"]);
+        assert_eq!(closed.json["integrates"], false, "{tau}");
+        assert!(!said_to_count_against(&closed), "{tau}");
+    }
+}
+
+/// The same, driven by a force: its motion follows the integral, and no friction is in it.
+#[test]
+fn the_motion_of_a_spring_in_series_with_a_dashpot_integrates_its_force() {
+    let mut rows = moved();
+    let mut flown = 0.0;
+    rows.set(2, |i, row| {
+        flown += 0.002 * 0.5 * row[1];
+        0.02 * row[1] + flown + 0.002 * noise(i)
+    });
+    let closed = rows.close(&[]);
+    assert_eq!(closed.json["integrates"], true);
+    closed.says(&["swap the columns if `x` is the force and `f` the motion"]);
+    assert!(!said_to_count_against(&closed));
+}
+
+fn moved() -> Rows {
+    let mut rows = Rows::generated(&["--mode", "displacement", "--seed", "32", "--rate", "500"]);
+    rows.header = "t,x,f".to_owned();
+    rows
+}
+
+fn said_to_count_against(closed: &Closed) -> bool {
+    let notes = closed.json["notes"].as_array().unwrap();
+    let mut notes = notes.iter().filter_map(|note| note.as_str());
+    notes.any(|note| note.contains("counts against"))
 }
 
 /// The torque channel has nothing to do with the output; an angle makes all of it.

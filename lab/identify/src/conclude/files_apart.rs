@@ -4,8 +4,8 @@
 use super::by_file::{nrmse_by_file, rows_of};
 use super::final_fit::FinalFit;
 use crate::algebra::line;
-use crate::fit::{fit, Solution};
-use crate::ledger::FileApart;
+use crate::fit::{fit, Segments, Solution};
+use crate::ledger::{FileApart, Ledger, RigsApart};
 use crate::model::structure::Structure;
 use crate::problem::{Piece, Prepared};
 
@@ -45,12 +45,40 @@ enum Beside {
     Other,
 }
 
-/// The files with another gain, where gains of their own make the declared model better than all
-/// that was added to it. They are compared with the gains that describe the most files.
-pub(crate) fn files_apart(data: &Prepared, own: &Solution, done: &FinalFit) -> Vec<FileApart> {
-    if own.rmse.fit >= OTHER_CONFIGURATION * done.rmse.fit {
-        return Vec::new();
-    }
+/// Where gains of their own for each file, those of `own`, make the declared model better than all
+/// that was added to it: the files that have another gain, or that they are not of one rig.
+pub(crate) fn judge_files(
+    data: &Prepared,
+    own: Option<&Solution>,
+    done: &FinalFit,
+    ledger: &mut Ledger,
+) {
+    let is_better = |own: &&Solution| own.rmse.fit < OTHER_CONFIGURATION * done.rmse.fit;
+    // A search that was cut short has not tried what else might describe all files.
+    let Some(own) = own.filter(|_| !ledger.is_stopped()).filter(is_better) else {
+        return;
+    };
+    ledger.apart = files_apart(data, own);
+    let share = |rmse: Segments| rmse.normalised(data, &data.target).fit;
+    let rigs = RigsApart {
+        together: share(done.rmse),
+        own: share(own.rmse),
+    };
+    ledger.rigs_apart = ledger.apart.is_empty().then_some(rigs);
+}
+
+/// What is to be said of files that are not of one rig.
+pub(super) fn rigs_words(ledger: &Ledger) -> Option<String> {
+    let rigs = ledger.rigs_apart.as_ref()?;
+    Some(format!(
+        "These files do not seem to be of one rig: on the fit segments one model for all of them errs by {:.1} % of the output's standard deviation, and the declared model with gains of its own for each by {:.1} %. `--per-file gains` fits those.",
+        100.0 * rigs.together,
+        100.0 * rigs.own
+    ))
+}
+
+/// The files with another gain. They are compared with the gains that describe the most files.
+fn files_apart(data: &Prepared, own: &Solution) -> Vec<FileApart> {
     // Of each file the error of its own gains; none where the fit sees nothing of it.
     let errors = nrmse_by_file(data, own).unwrap_or_default();
     let errors = errors.iter().map(|file| file.fit).enumerate();
@@ -149,7 +177,7 @@ pub(super) fn another_zero(data: &Prepared, done: &Solution) -> Option<String> {
 }
 
 /// A number with four digits.
-fn four_digits(value: f64) -> String {
+pub(super) fn four_digits(value: f64) -> String {
     let rounded = format!("{value:.3e}").parse().unwrap_or(value);
     let rounded: f64 = rounded;
     rounded.to_string()

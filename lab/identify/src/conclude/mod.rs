@@ -10,6 +10,7 @@ pub mod files_apart;
 pub mod final_fit;
 pub mod intervals;
 mod no_model;
+pub mod resolution;
 mod shares;
 pub mod signals;
 pub mod trace;

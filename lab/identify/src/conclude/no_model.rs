@@ -7,6 +7,7 @@ use super::final_fit::FinalFit;
 use crate::fit::Solution;
 use crate::ledger::Ledger;
 use crate::problem::Prepared;
+use crate::record::Mode;
 use crate::score::explains::{explained, Explained};
 use bowden::effect::Family;
 use bowden::model::Source;
@@ -100,8 +101,14 @@ fn explains(data: &Prepared, shares: Explained) -> String {
 pub(super) fn no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     let (input, output) = (&data.input.name, &data.output_name);
     if ledger.integrates {
+        let swap = match data.mode {
+            Mode::Torque => "they were taken for each other".to_owned(),
+            Mode::Displacement => format!(
+                "`{input}` is the force and `{output}` the motion: a spring in series with a dashpot flows under its force"
+            ),
+        };
         return format!(
-            "The output integrates the input: the rate of `{output}` follows `{input}`, not `{output}` itself. No effect was looked for. Differentiate `{output}` first, or swap the columns if they were taken for each other."
+            "The output integrates the input: the rate of `{output}` follows `{input}`, not `{output}` itself. No effect was looked for. Differentiate `{output}` first, or swap the columns if {swap}."
         );
     }
     if let Some(words) = apart_words(data, &ledger.apart) {

@@ -8,10 +8,11 @@ use super::by_file::worse;
 use super::changes::{begins, lead, other_line, other_rig, unseen_motion};
 use super::changes::{made_without_input, stands_for_output};
 use super::channel_apart::channel_words;
-use super::files_apart::{another_zero, apart_words};
+use super::files_apart::{another_zero, apart_words, rigs_words};
 use super::final_fit::FinalFit;
 use super::intervals::term_title;
 use super::no_model::{is_no_model, no_model};
+use super::resolution::coarse_words;
 use crate::fit::Solution;
 use crate::ledger::{Ledger, Round};
 use crate::model::catalogue::Candidate;
@@ -421,9 +422,10 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
         all.extend(ledger.channel_apart.as_ref().map(channel_words));
     }
     all.extend(unseen_motion(data, done));
-    all.extend(another_zero(data, &done.solution));
+    all.extend(rigs_words(ledger).or_else(|| another_zero(data, &done.solution)));
     all.extend(one_function(data, done));
     all.extend(ballast(done));
+    all.extend(coarse_words(data, ledger));
     if let Some(channel) = stands_for_output(data, &ledger.declared, &done.solution) {
         all.push(format!(
             "Nearly all of the output is made of `{channel}` here, although the declared model does without it: does it measure the output, as the angle behind a spring does? Then leave its column out."

@@ -5,12 +5,15 @@ use super::cost::{CostFacts, Meter, Stage};
 use super::figures::Figures;
 use super::ledger::{Detail, Facts};
 use crate::conclude::channel_apart::channel_apart;
-use crate::conclude::files_apart::{files_apart, with_own_gains, OTHER_CONFIGURATION};
+use crate::conclude::files_apart::{judge_files, with_own_gains, OTHER_CONFIGURATION};
 use crate::conclude::final_fit::FinalFit;
+use crate::conclude::resolution::{coarse_channels, told};
 use crate::conclude::trace::trace;
 use crate::export::hand_over::HandOver;
 use crate::export::{postcard, vector, ModelFile};
 use crate::fit::Solution;
+use crate::ledger::Ledger;
+use crate::model::structure::Structure;
 use crate::problem::{HeldOut, Prepared};
 use crate::record::Record;
 use std::cell::Cell;
@@ -95,6 +98,38 @@ impl Handed {
     }
 }
 
+impl Close {
+    fn prepare(&self, records: &[Record], asked: &Asked) -> Result<(Prepared, Structure), String> {
+        match records {
+            [one] => asked.prepare(one),
+            all => asked.prepare_joined(all, held_out(self, all.len())),
+        }
+    }
+
+    /// The final model; what the signals are worth for it goes to the notes and the ledger.
+    fn concluded(&self, records: &[Record], data: &mut Prepared, ledger: &mut Ledger) -> FinalFit {
+        if ledger.integrates {
+            // What lags by a quarter of a period is no friction, with either sign.
+            data.unsay_against();
+        }
+        let done = FinalFit::new(data, ledger);
+        let on_grids = |finer: &[Record]| self.on_grids(finer, data.cutoff);
+        let coarse = coarse_channels(records, &done, on_grids);
+        told(data, ledger, coarse);
+        done
+    }
+
+    /// Records on the grids of that cut-off.
+    fn on_grids(&self, records: &[Record], cutoff: f64) -> Option<Prepared> {
+        let asked = Asked {
+            cutoff: Some(cutoff),
+            ..self.asked.clone()
+        };
+        let (data, _) = self.prepare(records, &asked).ok()?;
+        Some(data)
+    }
+}
+
 /// Closes the loop. `tell` receives one message a step.
 ///
 /// # Errors
@@ -106,10 +141,7 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
     meter.begins(Stage::Preparing);
     let label: Vec<&str> = records.iter().map(|r| r.path.as_str()).collect();
     let label = label.join(", ");
-    let (mut data, mut structure) = match records {
-        [one] => asked.prepare(one)?,
-        all => asked.prepare_joined(all, held_out(question, all.len()))?,
-    };
+    let (mut data, mut structure) = question.prepare(records, asked)?;
     if question.own_gains {
         if !structure.hysteresis {
             return Err(
@@ -139,10 +171,8 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
     }
     meter.begins(Stage::Concluding);
     tell("fitting the final model");
-    let done = FinalFit::new(&data, &ledger);
-    // A search that was cut short has not tried what else might describe all files.
-    let own = own.filter(|_| !ledger.is_stopped());
-    ledger.apart = own.map_or_else(Vec::new, |own| files_apart(&data, &own, &done));
+    let done = question.concluded(records, &mut data, &mut ledger);
+    judge_files(&data, own.as_ref(), &done, &mut ledger);
     let has_time = asked.budget.is_none() && !ledger.is_stopped();
     if records.len() > 1 && ledger.apart.is_empty() && has_time {
         tell("trying each channel the other way in each file");

@@ -14,6 +14,11 @@ const SPRING: f64 = 2.0;
 /// one tone, does not tell a mass from a spring.
 const ALIKE: f64 = 0.1;
 
+/// What is said of such an output.
+pub(super) fn words(output: &str, input: &str) -> String {
+    format!("`{output}` counts against the motion of `{input}`: friction has a negative gain here")
+}
+
 /// Whether the output gives energy to the motion instead of taking it, as friction and hysteresis do
 /// where a force is measured with the other sign. `seen` is what the fit may see, on the work
 /// grid.

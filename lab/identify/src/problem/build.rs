@@ -1,6 +1,6 @@
 //! From records to their grids.
 
-use super::against::against;
+use super::against::{self, against};
 use super::blind::{blind, bridged};
 use super::spectrum;
 use super::together;
@@ -390,10 +390,8 @@ impl Collected {
         let against = first.mode == Mode::Displacement
             && against(&input, &self.output, &self.seen, grid.stride);
         if against {
-            self.notes.push(format!(
-                "`{}` counts against the motion of `{}`: friction has a negative gain here",
-                first.output.name, input.name
-            ));
+            let words = against::words(&first.output.name, &input.name);
+            self.notes.push(words);
         }
         Ok(Prepared {
             mode: first.mode,

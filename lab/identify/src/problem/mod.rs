@@ -238,6 +238,12 @@ impl Prepared {
         &self.output
     }
 
+    /// Takes back the note that the output counts against the motion.
+    pub(crate) fn unsay_against(&mut self) {
+        let words = against::words(&self.output_name, &self.input.name);
+        self.notes.retain(|note| *note != words);
+    }
+
     /// The same record with another output, given on the work grid.
     #[must_use]
     pub fn with_output(&self, output: Vec<f64>) -> Self {

@@ -52,7 +52,7 @@ mod wrapping;
 pub(crate) use agree::to_unit;
 pub use agree::{agree, is_same_unit};
 pub(crate) use defects::bridged;
-pub use defects::{Defect, DefectKind};
+pub use defects::{Defect, DefectKind, Steps};
 pub use error::RecordError;
 
 use header::Header;

@@ -6,6 +6,7 @@
 //! the same, but the other end answers each of its steps; behind a coarse sensor it goes
 //! on evenly.
 
+use super::super::clipping::range;
 use super::companion::Companion;
 use super::Found;
 use std::ops::Range;
@@ -23,14 +24,34 @@ const SAME: f64 = 0.5;
 /// How much further the other end may go at the start of a plateau than at its end.
 const ANSWERS: f64 = 2.0;
 
+/// The steps of a sensor that has few over the range it was used on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Steps {
+    /// One step, in the column's unit.
+    pub step: f64,
+    /// The range of the signal, in steps.
+    pub counts: f64,
+}
+
+impl Steps {
+    /// The steps of a signal; `None` where they are fine, or commanded.
+    pub(super) fn of(signal: &[f64], other: &Companion) -> Option<Self> {
+        let (step, _) = comb(signal)?;
+        let (low, high) = range(signal);
+        shapes(signal, other).then(|| Self {
+            step,
+            counts: ((high - low) / step).round(),
+        })
+    }
+}
+
 pub(super) fn find(signal: &[f64], other: &Companion) -> Option<Found> {
     let (step, levels) = comb(signal)?;
     let count = signal.len() as f64;
     let mean = signal.iter().sum::<f64>() / count;
     let spread = (signal.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count).sqrt();
     let share = step / 12.0_f64.sqrt() / spread;
-    let same = signal.windows(2).filter(|pair| pair[0] == pair[1]).count() as f64;
-    if share.is_nan() || share < TOLD || same < SAME * count || is_commanded(signal, other) {
+    if share.is_nan() || share < TOLD || !shapes(signal, other) {
         return None;
     }
     Some(Found {
@@ -42,6 +63,46 @@ pub(super) fn find(signal: &[f64], other: &Companion) -> Option<Found> {
         most: 1.0,
         samples: std::iter::once(0..signal.len()).collect(),
     })
+}
+
+/// Whether the steps of a comb shape its signal: most neighbours are the same, and the other end
+/// does not answer them.
+fn shapes(signal: &[f64], other: &Companion) -> bool {
+    let same = signal.windows(2).filter(|pair| pair[0] == pair[1]).count() as f64;
+    same >= SAME * signal.len() as f64 && !is_commanded(signal, other)
+}
+
+/// A signal with a line through the edges of its steps; where it turns round the line goes up to
+/// the level.
+pub(super) fn through_edges(signal: &[f64]) -> Vec<f64> {
+    let Some(last) = signal.len().checked_sub(1) else {
+        return Vec::new();
+    };
+    let mut points = vec![(0.0, signal[0])];
+    let (mut edge, mut rose) = (0, None);
+    for i in 1..=last {
+        if signal[i] == signal[i - 1] {
+            continue;
+        }
+        let rises = signal[i] > signal[i - 1];
+        if rose == Some(!rises) {
+            points.push((0.5 * (edge + i - 1) as f64, signal[i - 1]));
+        }
+        points.push((i as f64 - 0.5, 0.5 * (signal[i] + signal[i - 1])));
+        (edge, rose) = (i, Some(rises));
+    }
+    points.push((last as f64, signal[last]));
+    let mut next = 1;
+    (0..=last)
+        .map(|i| {
+            let at = i as f64;
+            while next + 1 < points.len() && points[next].0 < at {
+                next += 1;
+            }
+            let ((from, low), (to, high)) = (points[next - 1], points[next]);
+            low + (high - low) * (at - from) / (to - from).max(f64::MIN_POSITIVE)
+        })
+        .collect()
 }
 
 /// The step of the comb on which all values lie, and how many levels are used.

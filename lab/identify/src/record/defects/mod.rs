@@ -15,7 +15,8 @@ mod spikes;
 mod stuck;
 
 use super::rows::Table;
-use super::{clipping, Column};
+use super::{clipping, Column, Record};
+pub use coarse::Steps;
 use companion::Companion;
 use serde::Serialize;
 use spikes::Leaps;
@@ -159,6 +160,32 @@ pub(super) fn find<'a>(measured: &Measured<'a>) -> Vec<Defect> {
         all.extend(named(DefectKind::Quantisation, coarse));
     }
     all
+}
+
+impl Record {
+    /// The steps of each column that a coarse sensor measured: its place, 0 for the input and then
+    /// the channels, and its steps.
+    pub(crate) fn steps(&self) -> Vec<(usize, Steps)> {
+        let output = Companion::new(&self.output.values);
+        let columns = std::iter::once(&self.input).chain(&self.channels);
+        let measured = columns.enumerate().filter(|(_, c)| c.definition.is_none());
+        measured
+            .filter_map(|(place, c)| Some((place, Steps::of(&c.values, &output)?)))
+            .collect()
+    }
+
+    /// The record with a line through the edges of those steps.
+    pub(crate) fn without_steps(&self) -> Self {
+        let mut finer = self.clone();
+        for (place, _) in self.steps() {
+            let column = match place.checked_sub(1) {
+                None => &mut finer.input,
+                Some(index) => &mut finer.channels[index],
+            };
+            column.values = coarse::through_edges(&column.values);
+        }
+        finer
+    }
 }
 
 /// A signal with a line through some stretches.
