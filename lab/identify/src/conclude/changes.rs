@@ -5,7 +5,6 @@ use super::final_fit::FinalFit;
 use crate::algebra::line;
 use crate::fit::{Segments, Solution};
 use crate::ledger::{Ledger, Round};
-use crate::model::catalogue::Candidate;
 use crate::model::structure::FitTerm;
 use crate::problem::Prepared;
 use crate::record::DefectKind;
@@ -60,19 +59,25 @@ pub(super) fn begins(data: &Prepared, done: &FinalFit) -> Option<f64> {
 ///
 /// A damper's force comes before the displacement too, but viscous friction is the simpler name and
 /// is preferred where it does as well. A stage in whose place a creep does as well is the rig's own
-/// doing and says nothing of clocks; nor does one whose lead a viscous term takes back.
+/// doing and says nothing of clocks; nor does one whose lead a viscous term takes back, nor a lag
+/// that the record tells from a delay, which is all that clocks do: a spring that relaxes.
 pub(super) fn lead(data: &Prepared, ledger: &Ledger, solution: &Solution) -> Option<f64> {
     let is_stage = |round: &&Round| matches!(round.term().effect.name(), "delay" | "lag");
-    let is_creep = |rival: &Candidate| rival.family == Family::Creep;
+    let has_rival = |round: &Round, family| round.rivals.iter().any(|r| r.family == family);
     let mut stages = ledger.rounds.iter().filter(is_stage);
-    if stages.any(|round| round.rivals.iter().any(is_creep)) {
+    if stages.any(|round| has_rival(round, Family::Creep)) {
         return None;
     }
+    let mut lags = ledger
+        .rounds
+        .iter()
+        .filter(|round| round.term().effect.name() == "lag");
+    let is_delay = lags.all(|round| has_rival(round, Family::Delay));
     let terms = solution.structure.terms.iter().enumerate();
     let behind = terms.map(|(index, term)| match (term.effect.name(), term.source) {
         ("delay", _) => solution.gain(index),
         // `gain` times of what a lag of `tau` takes away, which for slow motion is a delay.
-        ("lag", _) => solution.gain(index) * term.effect.shape(0).unwrap_or(0.0),
+        ("lag", _) if is_delay => solution.gain(index) * term.effect.shape(0).unwrap_or(0.0),
         // For slow motion a rate of the input is a lead by its gain over the input's.
         ("viscous", Source::Input) => {
             input_gain(solution).map_or(0.0, |gain| f64::max(0.0, -solution.gain(index) / gain))
