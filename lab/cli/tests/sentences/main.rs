@@ -13,6 +13,7 @@ mod channels;
 mod coarse;
 mod compare;
 mod files;
+mod gap;
 mod no_model;
 mod on_a_chip;
 mod reading;

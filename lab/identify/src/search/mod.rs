@@ -16,6 +16,7 @@ pub mod carries_over;
 mod exchange;
 mod forward;
 pub mod gram;
+mod instead;
 mod kept;
 mod linear;
 mod moves;

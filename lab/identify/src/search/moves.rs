@@ -173,7 +173,7 @@ impl Linear<'_> {
         sets.map(of).collect()
     }
 
-    fn moves_from(&self, kept: &Kept) -> Vec<Move> {
+    pub(super) fn moves_from(&self, kept: &Kept) -> Vec<Move> {
         let swept = self.without(kept);
         let (target, unit) = self.target_of(kept);
         let sse = swept.at(target, target).max(1e-14);
@@ -358,7 +358,7 @@ impl Linear<'_> {
             && one.kept.table == self.has_table()
     }
 
-    fn p_values(&self, one: &Move) -> Vec<f64> {
+    pub(super) fn p_values(&self, one: &Move) -> Vec<f64> {
         let kept = self.columns_of(&one.kept);
         let (target, _) = self.target_of(&one.kept);
         let of = |index: usize| {

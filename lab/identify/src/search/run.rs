@@ -18,13 +18,13 @@ use std::sync::Arc;
 use std::time::Instant;
 
 /// Least decrease of the criterion that counts.
-const FALLEN: f64 = 1e-3;
+pub(super) const FALLEN: f64 = 1e-3;
 /// Maximum number of turns: the search ends in any case.
 const TURNS: usize = 40;
 /// Starts of a refit: the trial shapes, the linear step, and two other hystereses. Without
 /// the last two, once the model has names, a damper's record ends with six names instead of
 /// four and with 7.4 % held out instead of 6.1 %.
-const STARTS: usize = 4;
+pub(super) const STARTS: usize = 4;
 
 /// What a search remembers of an added member.
 pub(super) struct Entry {
@@ -58,7 +58,7 @@ pub(super) struct Search<'a> {
     most: usize,
     /// Start and length \[s\] of the time budget.
     budget: Option<(Instant, f64)>,
-    visited: Vec<Vec<Identity>>,
+    pub(super) visited: Vec<Vec<Identity>>,
     /// Sets in which a power law has been tried in the place of named friction.
     pub(super) exchanges: Vec<Vec<Identity>>,
     failures: usize,
@@ -230,7 +230,12 @@ impl<'a> Search<'a> {
         if proposed.moves.is_empty() {
             return self.exhausted(standing);
         }
-        let tried = self.refitted(standing, &proposed.moves, j);
+        let mut tried = self.refitted(standing, &proposed.moves, j);
+        if let Some(curve) = chosen(&tried).filter(|best| linear.adds_curve(&best.made)) {
+            let curve = curve.made.clone();
+            tried.extend(self.names_instead(standing, &curve, j));
+            tried.sort_by(|a, b| a.j.total_cmp(&b.j));
+        }
         match chosen(&tried).map(|best| self.accepted(standing, best, &tried)) {
             Some(true) => {
                 self.failures = 0;
