@@ -103,6 +103,8 @@ pub(super) fn text(hand: &Result<HandOverFacts, String>) -> String {
     }
     let mend = match (&hand.feed_forward.because, &hand.feed_forward.nearest) {
         (None, _) => String::new(),
+        // A model that was left without a hysteresis has none with --invertible either.
+        _ if !hand.effects.iter().any(|part| part == "bouc-wen") => String::new(),
         (Some(_), None) => "; --invertible fits one that can be inverted".to_owned(),
         (Some(_), Some(near)) => format!(
             "; --invertible fits one that can be inverted, the nearest one ({}) has {} held out",

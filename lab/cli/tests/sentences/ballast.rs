@@ -56,6 +56,8 @@ fn a_hysteresis_that_is_a_spring_and_an_offset_is_left_out_and_the_model_holds_e
     assert!(!std::fs::read_to_string(&model)
         .unwrap()
         .contains("kappa_eta"));
+    // There is nothing to invert, so no option that inverts it is offered.
+    assert!(!closed.text().contains("--invertible"));
     let other = relaxing_spring(12).write(&folder, "other.csv");
     let check = bowden(&["check", &model, &other]);
     let said = String::from_utf8_lossy(&check.stdout);
