@@ -10,6 +10,7 @@ use super::policy;
 use super::refit::{Priced, Tried};
 use super::run::{Search, Standing, FALLEN, STARTS};
 use crate::model::catalogue::Candidate;
+use crate::model::kind::is_stage;
 use crate::model::Variable;
 use crate::score::blocks::Regime;
 
@@ -37,7 +38,11 @@ impl Linear<'_> {
         let mut instead: Vec<Move> = Vec::new();
         for mut one in self.moves_from(&curve.kept) {
             let [g] = one.added[..] else { continue };
-            let reads = |c: &Candidate| c.variables().contains(&variable);
+            // As the curve, a function of the variable: nothing that remembers, no stage.
+            let reads = |c: &Candidate| {
+                let effect = &c.term.effect;
+                c.variables().contains(&variable) && !effect.has_memory() && !is_stage(effect)
+            };
             let is_known = |m: &Move| self.groups[m.added[0]].is_like(&self.groups[g]);
             if !self.groups[g].candidate().is_some_and(|c| reads(&c))
                 || instead.iter().any(is_known)
