@@ -94,8 +94,8 @@ pub const REFITTED: usize = 3;
 
 /// Number of names over its variable that are refitted one at a time before a curve is taken.
 ///
-/// A choice: a dead zone whose gap lies between trial shapes promises less than a curve and less than
-/// seven names that imitate it. On simulated ones it is the first or second.
+/// A dead zone whose gap lies between trial shapes promises less than a curve and less than seven
+/// names that imitate it. The number is a choice.
 pub const INSTEAD: usize = 4;
 
 /// Of the moves that reduce the number of names by this many or more the best one is refitted
