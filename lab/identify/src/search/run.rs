@@ -231,8 +231,8 @@ impl<'a> Search<'a> {
             return self.exhausted(standing);
         }
         let mut tried = self.refitted(standing, &proposed.moves, j);
-        let is_first = |best: &&Tried| self.phase == Phase::Any && linear.adds_curve(&best.made);
-        if let Some(curve) = chosen(&tried).filter(is_first) {
+        let is_curve = |best: &&Tried| self.phase == Phase::Any && linear.adds_curve(&best.made);
+        if let Some(curve) = chosen(&tried).filter(is_curve) {
             let curve = curve.made.clone();
             tried.extend(self.names_instead(standing, &curve, j));
             tried.sort_by(|a, b| a.j.total_cmp(&b.j));

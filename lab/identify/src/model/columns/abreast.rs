@@ -12,8 +12,9 @@ use bowden::Real;
 const ABREAST: usize = 8;
 /// Samples after which a stage is asked whether it is silent.
 pub(super) const BLOCK: usize = 256;
-/// No sum of a few numbers below this overflows, nor does its product with a gain below this.
-const SMALL: f64 = 1e150;
+/// No sum of a few numbers below this overflows, nor does its product
+/// with a gain below this, over any step that is one.
+const SMALL: f64 = 1e100;
 
 /// What a stage makes of a sample, from what it remembers of the samples before.
 #[derive(Clone, Copy)]
