@@ -7,13 +7,52 @@ use crate::model::structure::{Free, Structure};
 use crate::problem::{Prepared, Stretch};
 use std::sync::Arc;
 
-/// Assembles the solution at the given values.
+/// What the fit does not see between two records \[s\].
+struct Gap {
+    /// From a period of the cut-off after the last sample that is fitted: what comes earlier
+    /// reaches that through the filter.
+    from: f64,
+    to: f64,
+    /// Where the later record begins.
+    begins: f64,
+}
+
+impl Gap {
+    fn all(data: &Prepared) -> impl Iterator<Item = Self> + '_ {
+        let fit = &data.split.fit;
+        data.pieces.iter().skip(1).filter_map(|piece| {
+            let next = fit.partition_point(|&row| row < piece.rows.start);
+            let (&last, &first) = (fit.get(next.checked_sub(1)?)?, fit.get(next)?);
+            Some(Self {
+                from: data.moment(last) + 1.0 / data.cutoff,
+                to: data.moment(first),
+                begins: piece.since,
+            })
+        })
+    }
+
+    /// A step in time that lies in the gap may lie anywhere in it: where the record begins.
+    fn settled(&self, t: f64) -> f64 {
+        match self.from < t && t < self.to {
+            true => self.begins,
+            false => t,
+        }
+    }
+}
+
+/// Assembles the solution at the given values; a step in time that lies where the fit sees nothing
+/// between two records is put where the later one begins.
 pub(crate) fn settle(
     data: &Prepared,
     structure: &Structure,
     free: &[Free],
-    values: Vec<f64>,
+    mut values: Vec<f64>,
 ) -> Option<Solution> {
+    for (value, f) in values.iter_mut().zip(free) {
+        if structure.terms.is_moment(f.role) {
+            *value = Gap::all(data).fold(*value, |t, gap| gap.settled(t));
+        }
+    }
     let evaluation = evaluate(data, structure, free, &values, None)?;
     let tangents = evaluation.tangents(data, structure, free, &values)?;
     let Evaluation {
@@ -69,4 +108,20 @@ pub(super) fn choose(mut settled: Vec<Solution>) -> Option<Solution> {
         .into_iter()
         .filter(|s| s.rmse.fit <= 1.05 * best)
         .min_by(|a, b| a.rmse.stop.total_cmp(&b.rmse.stop))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Gap;
+
+    #[test]
+    fn a_step_that_no_fitted_sample_sees_is_where_the_next_record_begins() {
+        let gap = Gap {
+            from: 7.0,
+            to: 12.5,
+            begins: 12.0,
+        };
+        let settled = [6.9, 7.1, 11.0, 12.4, 12.6].map(|t| gap.settled(t));
+        assert_eq!(settled, [6.9, 12.0, 12.0, 12.0, 12.6]);
+    }
 }

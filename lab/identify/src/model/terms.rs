@@ -118,6 +118,14 @@ impl Terms {
         self.own.get(self.place(id)?)
     }
 
+    /// Whether a parameter is the time at which an effect steps.
+    pub(crate) fn is_moment(&self, role: Role) -> bool {
+        match role {
+            Role::Shape { term, index } => self.find(term).is_some_and(|t| t.is_moment(index)),
+            _ => false,
+        }
+    }
+
     /// The terms at the values of their free parameters; `None` where the core does not admit
     /// one. Values of terms that are not there go nowhere.
     #[must_use]
