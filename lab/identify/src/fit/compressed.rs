@@ -1,15 +1,14 @@
-//! A Jacobian of as few rows as it has parameters, for several files.
+//! A Jacobian of as few rows as it has parameters.
 //!
 //! Levenberg-Marquardt asks only for products of the residual and of the Jacobian's columns with
-//! each other. They are the same in any orthonormal basis of these columns. Two of them are used:
+//! each other. They are the same in any orthonormal basis of these columns; the solver gets them
+//! in a basis whose first vector is the residual. There only the first entry of the residual is
+//! not zero, whatever the Jacobian: so it is known before that is asked for.
 //!
-//! - On all rows the slopes, the columns of the model and the residual are written in the basis
-//!   of their [`Span`]. What belongs to one file is added first and stays on its own rows, so
-//!   that this costs in proportion to the rows. In that basis the slopes lose their part in the
-//!   columns of the model (Kaufman, 1975).
-//! - The solver gets them in a basis whose first vector is the residual. There only the first
-//!   entry of the residual is not zero, whatever the Jacobian: so it is known before that is
-//!   asked for.
+//! The slopes lose their part in the columns of the model first (Kaufman, 1975). For one file that
+//! is done on all rows. For several files the slopes, the columns of the model and the residual
+//! are written in the basis of their [`Span`] before: what belongs to one file is added first and
+//! stays on its own rows, so that this costs in proportion to the rows.
 
 use crate::algebra::{take_off, Span, Stretch};
 use nalgebra::{DMatrix, DVector};
@@ -28,10 +27,23 @@ pub(super) fn residual(norm: f64, parameters: usize) -> DVector<f64> {
 /// of the model, each times its factor.
 pub(super) fn jacobian(
     model: &Span,
-    residual: Stretch,
-    slopes: Vec<Stretch>,
+    residual: &Stretch,
+    slopes: impl Iterator<Item = Stretch>,
     factors: &[f64],
 ) -> DMatrix<f64> {
+    let slopes = slopes.map(|slope| model.once_off(slope));
+    triangle(residual.clone(), slopes.zip(factors))
+}
+
+/// The same, at a cost in proportion to the rows where many slopes belong to one of several
+/// files.
+pub(super) fn jacobian_of_files(
+    model: &Span,
+    residual: &Stretch,
+    slopes: impl Iterator<Item = Stretch>,
+    factors: &[f64],
+) -> DMatrix<f64> {
+    let (slopes, residual) = (slopes.collect::<Vec<_>>(), residual.clone());
     let (count, own) = (slopes.len(), model.basis().len());
     let mut all: Vec<(usize, Stretch)> = slopes.into_iter().enumerate().collect();
     all.extend(
@@ -53,22 +65,25 @@ pub(super) fn jacobian(
     let at = |i: usize, place: usize| parts[place].get(i).copied().unwrap_or(0.0);
     let basis = DMatrix::from_fn(size, own, |i, k| at(i, count + k));
     let residual = DVector::from_fn(size, |i, _| at(i, count + own));
-    let mut columns = DMatrix::from_fn(size, count, |i, j| at(i, j) * factors[j]);
-    for j in 0..count {
-        let mut column = columns.column(j).into_owned();
-        take_off(&basis, &mut column);
-        columns.set_column(j, &column);
-    }
-    triangle(residual, &columns)
+    let slopes = (0..count).map(|j| {
+        let mut slope = DVector::from_fn(size, |i, _| at(i, j));
+        take_off(&basis, &mut slope);
+        Stretch::from(slope)
+    });
+    triangle(residual.into(), slopes.zip(factors))
 }
 
-/// Columns in a basis whose first vector is the residual.
-fn triangle(residual: DVector<f64>, columns: &DMatrix<f64>) -> DMatrix<f64> {
+/// Columns, each times its factor, in a basis whose first vector is the residual.
+fn triangle<'a>(
+    residual: Stretch,
+    columns: impl Iterator<Item = (Stretch, &'a f64)>,
+) -> DMatrix<f64> {
     let mut span = Span::with_tolerance(ROUNDING);
     span.add(residual);
-    let columns = columns.column_iter().map(DVector::from);
-    let parts: Vec<Vec<f64>> = columns.map(|c| span.add_with_parts(c.into()).1).collect();
-    let at = |i: usize, j: usize| parts[j].get(i).copied().unwrap_or(0.0);
+    let parts: Vec<(Vec<f64>, f64)> = columns
+        .map(|(column, factor)| (span.add_with_parts(column).1, *factor))
+        .collect();
+    let at = |i: usize, j: usize| parts[j].0.get(i).copied().unwrap_or(0.0) * parts[j].1;
     DMatrix::from_fn(parts.len() + 1, parts.len(), at)
 }
 
@@ -114,22 +129,31 @@ mod tests {
         // The residual of a fit has no part in the columns of the model.
         let rest = model.off(matrix(&[column(0..ROWS, 7)]).column(0).into());
         for rest in [rest, DVector::zeros(ROWS)] {
-            let small = jacobian(&model, rest.clone().into(), slopes(), &factors);
-            let short = residual(rest.norm(), 4);
-            assert_eq!(small.shape(), (5, 4));
-            // Rounding of sixty products of numbers of order ten.
-            let (a, b) = (small.tr_mul(&small), projected.tr_mul(&projected));
-            assert_relative_eq!(a, b, epsilon = 1e-10);
-            let (a, b) = (small.tr_mul(&short), projected.tr_mul(&rest));
-            assert_relative_eq!(a, b, epsilon = 1e-10);
+            let (left, short) = (Stretch::from(rest.clone()), residual(rest.norm(), 4));
+            for small in [
+                jacobian(&model, &left, slopes().into_iter(), &factors),
+                jacobian_of_files(&model, &left, slopes().into_iter(), &factors),
+            ] {
+                assert_eq!(small.shape(), (5, 4));
+                // Rounding of sixty products of numbers of order ten.
+                let (a, b) = (small.tr_mul(&small), projected.tr_mul(&projected));
+                assert_relative_eq!(a, b, epsilon = 1e-10);
+                let (a, b) = (small.tr_mul(&short), projected.tr_mul(&rest));
+                assert_relative_eq!(a, b, epsilon = 1e-10);
+            }
         }
     }
 
     #[test]
     fn slopes_that_vanish_or_repeat_are_borne() {
-        let all = vec![column(0..20, 1), column(0..20, 1), Stretch::default()];
-        let small = jacobian(&Span::default(), Stretch::default(), all, &[1.0; 3]);
-        assert!(small.iter().all(|v| v.is_finite()));
-        assert_eq!(small.shape(), (4, 3));
+        let all = || vec![column(0..20, 1), column(0..20, 1), Stretch::default()].into_iter();
+        let (model, none) = (Span::default(), Stretch::default());
+        for small in [
+            jacobian(&model, &none, all(), &[1.0; 3]),
+            jacobian_of_files(&model, &none, all(), &[1.0; 3]),
+        ] {
+            assert!(small.iter().all(|v| v.is_finite()));
+            assert_eq!(small.shape(), (4, 3));
+        }
     }
 }

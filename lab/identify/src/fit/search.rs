@@ -18,7 +18,7 @@ pub(super) struct Evaluation {
     pub(super) raw: RawColumns,
     pub(super) columns: Vec<Arc<Stretch>>,
     pub(super) linear: Linear,
-    residual: DVector<f64>,
+    residual: Stretch,
 }
 
 pub(super) fn evaluate(
@@ -44,18 +44,15 @@ pub(super) fn evaluate(
         &ties(structure, free, values),
     );
     let rows = &data.split.fit;
-    let mut residual = DVector::<f64>::zeros(rows.len());
+    let mut residual = vec![0.0; rows.len()];
     for (column, gain) in columns.iter().zip(&linear.gains) {
-        // As slices: the iterators of a matrix take five instructions more a number.
-        column.add_at_rows(residual.as_mut_slice(), rows, *gain);
+        column.add_at_rows(&mut residual, rows, *gain);
     }
-    for (sum, &i) in residual.as_mut_slice().iter_mut().zip(rows) {
+    for (sum, &i) in residual.iter_mut().zip(rows) {
         *sum = data.target[i] - *sum;
     }
-    if !residual.as_slice().iter().all(|r| r.is_finite()) {
-        return None;
-    }
-    Some(Evaluation {
+    let residual = Stretch::from(residual);
+    residual.is_finite().then_some(Evaluation {
         raw,
         columns,
         linear,
@@ -106,14 +103,14 @@ impl Evaluation {
         }
     }
 
-    /// The Jacobian of the residual in the unbounded parameters, on the rows of the fit segment.
-    fn jacobian(&self, rows: &[usize], tangents: &[Stretch], slopes: &[f64]) -> DMatrix<f64> {
-        let mut all = Vec::with_capacity(rows.len() * tangents.len());
-        for (tangent, slope) in tangents.iter().zip(slopes) {
-            let left = self.linear.basis.once_off(tangent.at_rows(rows));
-            left.push_to(&mut all, 0..rows.len(), *slope);
+    /// The Jacobian of the residual in the unbounded parameters, in the solver's basis.
+    fn jacobian(&self, data: &Prepared, tangents: &[Stretch], slopes: &[f64]) -> DMatrix<f64> {
+        let tangents = tangents.iter().map(|t| t.at_rows(&data.split.fit));
+        let basis = &self.linear.basis;
+        match data.pieces.len() {
+            1 => compressed::jacobian(basis, &self.residual, tangents, slopes),
+            _ => compressed::jacobian_of_files(basis, &self.residual, tangents, slopes),
         }
-        DMatrix::from_vec(rows.len(), tangents.len(), all)
     }
 }
 
@@ -150,12 +147,6 @@ impl<'a> Reduced<'a> {
         };
         problem.set_params(&line);
         problem
-    }
-
-    /// Whether the solver is given few rows in place of all: of several files each has
-    /// parameters of its own, whose slopes are zero on the rows of all others.
-    fn is_compressed(&self) -> bool {
-        self.data.pieces.len() > 1
     }
 
     fn values(&self) -> Vec<f64> {
@@ -200,30 +191,19 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Reduced<'_> {
 
     fn residuals(&self) -> Option<DVector<f64>> {
         let now = self.now.as_ref()?;
-        Some(match self.is_compressed() {
-            true => compressed::residual(now.residual.norm(), self.free.len()),
-            false => now.residual.clone(),
-        })
+        Some(compressed::residual(now.residual.norm(), self.free.len()))
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
         let now = self.now.as_ref()?;
         self.stands.set(true);
-        let rows = &self.data.split.fit;
         let tangents = now.tangents(self.data, self.structure, self.free, &self.values())?;
+        if !tangents.iter().all(Stretch::is_finite) {
+            return None;
+        }
         let slopes = self.free.iter().zip(self.line.iter());
         let slopes: Vec<f64> = slopes.map(|(f, &u)| -f.range.slope(u)).collect();
-        let jacobian = match self.is_compressed() {
-            true => {
-                if !tangents.iter().all(Stretch::is_finite) {
-                    return None;
-                }
-                let tangents: Vec<_> = tangents.iter().map(|t| t.at_rows(rows)).collect();
-                let residual = Vec::from(now.residual.data.clone()).into();
-                compressed::jacobian(&now.linear.basis, residual, tangents, &slopes)
-            }
-            false => now.jacobian(rows, &tangents, &slopes),
-        };
+        let jacobian = now.jacobian(self.data, &tangents, &slopes);
         let is_finite = jacobian.as_slice().iter().all(|v| v.is_finite());
         is_finite.then_some(jacobian)
     }
@@ -249,7 +229,7 @@ pub(crate) fn descend(
 ) -> Option<(f64, Vec<f64>)> {
     SEARCHES.add(1);
     let problem = Reduced::new(data, structure, free, start);
-    let sse = problem.now.as_ref()?.residual.norm_squared();
+    let sse = problem.now.as_ref()?.residual.norm().powi(2);
     if free.is_empty() {
         return Some((sse, Vec::new()));
     }
@@ -261,7 +241,7 @@ pub(crate) fn descend(
         .with_patience(patience)
         .with_stepbound(10.0);
     let (problem, _) = solver.minimize(problem);
-    let sse = problem.now.as_ref()?.residual.norm_squared();
+    let sse = problem.now.as_ref()?.residual.norm().powi(2);
     Some((sse, problem.values()))
 }
 

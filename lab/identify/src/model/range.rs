@@ -58,6 +58,18 @@ impl Range {
         }
     }
 
+    /// By how much a value has to change to be another one, as the range counts: its width, or
+    /// the value times the logarithm of the bounds' ratio.
+    #[must_use]
+    pub fn scale(self, value: f64) -> f64 {
+        match self {
+            Self::Log(lo, hi) => value * (hi / lo).ln(),
+            Self::Linear(lo, hi) => hi - lo,
+            Self::Above(base, lo, hi) => (value - base).max(lo) * (hi / lo).ln(),
+            Self::Free => value.abs().max(1.0),
+        }
+    }
+
     /// The bound that is nearer to a value, in words.
     #[must_use]
     pub fn nearest(self, value: f64) -> &'static str {
@@ -96,6 +108,11 @@ mod tests {
                 let numeric = (range.decode(u + h) - range.decode(u - h)) / (2.0 * h);
                 // Central differences of a smooth function: relative error about h².
                 assert_relative_eq!(range.slope(u), numeric, max_relative = 1e-6);
+                // The logistic map's slope is a quarter at most; in the middle it is that.
+                if u == 0.0 && range != Range::Free {
+                    let scale = range.scale(range.decode(u));
+                    assert_relative_eq!(0.25 * scale, range.slope(u), max_relative = 1e-12);
+                }
             }
         }
     }

@@ -272,12 +272,50 @@ pub(crate) fn weighted<'a>(
     sum
 }
 
-/// d column / d parameter through eta, by a central difference along its sensitivity: on the
-/// records alone on which that is not zero.
-fn eta_derivative(
+/// Step of the hysteresis state in a difference: of a smooth column it errs by about this share.
+const ETA_STEP: f64 = 1e-7;
+
+/// The slopes of a term's column in the hysteresis' free parameters, through eta.
+///
+/// What remembers nothing has one slope in eta at each sample, which every sensitivity
+/// multiplies. Else the column is asked for anew along each, on the records alone on which
+/// that is not zero.
+fn eta_slopes(
     data: &Prepared,
     term: &FitTerm,
-    eta: &[f64],
+    (column, eta): (&Stretch, &[f64]),
+    sensitivities: &[(usize, Stretch)],
+) -> Option<Vec<(usize, Stretch)>> {
+    let in_eta = match term.effect.has_memory() || sensitivities.is_empty() {
+        true => None,
+        false => {
+            let moved: Vec<f64> = eta.iter().map(|e| e + ETA_STEP).collect();
+            let mut up = effect_column(data, term, &moved)?;
+            for (up, here) in up.iter_mut().zip(column.values()) {
+                *up = (*up - here) / ETA_STEP;
+            }
+            Some(up)
+        }
+    };
+    let along = |(j, sensitivity): &(usize, Stretch)| {
+        let slope = match &in_eta {
+            None => along(data, term, (column, eta), sensitivity)?,
+            Some(in_eta) => {
+                let range = sensitivity.range();
+                let pairs = in_eta[range.clone()].iter().zip(sensitivity.values());
+                Stretch::at(range.start, pairs.map(|(a, b)| a * b).collect())
+            }
+        };
+        Some((*j, slope))
+    };
+    sensitivities.iter().map(along).collect()
+}
+
+/// d column / d parameter through eta, by a difference along its sensitivity.
+fn along(
+    data: &Prepared,
+    term: &FitTerm,
+    (column, eta): (&Stretch, &[f64]),
     sensitivity: &Stretch,
 ) -> Option<Stretch> {
     let values = sensitivity.values();
@@ -285,7 +323,7 @@ fn eta_derivative(
     if largest == 0.0 {
         return Some(sensitivity.map(|_| 0.0));
     }
-    let h = 1e-5 / largest;
+    let h = ETA_STEP / largest;
     let range = sensitivity.range();
     let mut slope = Vec::with_capacity(range.len());
     for (record, piece) in data.pieces.iter().enumerate() {
@@ -293,13 +331,14 @@ fn eta_derivative(
         if own.is_empty() {
             continue;
         }
-        let at = |sign: f64| {
-            let pairs = eta[piece.work.clone()].iter().zip(own);
-            let moved: Vec<f64> = pairs.map(|(e, s)| e + sign * h * s).collect();
-            effect_on(data, term, record, &moved)
-        };
-        let (up, down) = (at(1.0)?, at(-1.0)?);
-        slope.extend(up.iter().zip(&down).map(|(a, b)| (a - b) / (2.0 * h)));
+        let pairs = eta[piece.work.clone()].iter().zip(own);
+        let moved: Vec<f64> = pairs.map(|(e, s)| e + h * s).collect();
+        let up = effect_on(data, term, record, &moved)?;
+        slope.extend(
+            up.iter()
+                .zip(column.on(&piece.work))
+                .map(|(a, b)| (a - b) / h),
+        );
     }
     Some(Stretch::at(range.start, slope))
 }
@@ -316,6 +355,7 @@ impl RawColumns {
     ) -> Option<Moves> {
         let mut moves: Vec<Vec<(usize, Stretch)>> = vec![Vec::new(); free.len()];
         let sensitivities = self.sensitivities(data, free)?;
+        let columns = early(self);
         let mut k = 0;
         if self.shape.is_some() {
             for (j, s) in &sensitivities {
@@ -338,13 +378,15 @@ impl RawColumns {
             }
             for (j, (f, &value)) in free.iter().zip(values).enumerate() {
                 if let Some(variation) = Variation::of(id, f.role) {
-                    let slope = variation.slope(data, term, value, &self.eta)?;
+                    let slope =
+                        variation.slope(data, term, (f.range, value), (&columns[k], &self.eta))?;
                     moves[j].push((k, slope));
                 }
             }
             if term.effect.reads_eta() {
-                for (j, s) in &sensitivities {
-                    moves[*j].push((k, eta_derivative(data, term, &self.eta, s)?));
+                let own = (&*columns[k], &self.eta[..]);
+                for (j, slope) in eta_slopes(data, term, own, &sensitivities)? {
+                    moves[j].push((k, slope));
                 }
             }
             k += 1;

@@ -1,8 +1,12 @@
 //! The slope of an effect's column in one of its own parameters.
 
 use super::{effect_column, effect_on};
-use crate::model::structure::{FitTerm, Role, TermId};
+use crate::model::structure::{FitTerm, Range, Role, TermId};
 use crate::problem::{Prepared, Stretch};
+
+/// Step of a difference, as a share of the parameter's scale. Of a smooth column it errs by about
+/// this share, and by 1e-9 of its size from rounding.
+const STEP: f64 = 1e-7;
 
 /// A parameter of a term that its column depends on.
 pub(super) enum Variation {
@@ -23,15 +27,6 @@ impl Variation {
         }
     }
 
-    /// Step of the central difference at a value.
-    fn step(&self, data: &Prepared, term: &FitTerm, value: f64) -> Option<f64> {
-        Some(match self {
-            Self::Shape { index } if term.is_moment(*index) => data.dt,
-            Self::Shape { .. } => 1e-5 * value.abs().max(1e-6),
-            Self::Start { .. } | Self::Origin => 1e-5 * data.channel(term.source)?.reach,
-        })
-    }
-
     /// The term with another value of the parameter.
     fn moved(&self, term: &FitTerm, value: f64) -> Option<FitTerm> {
         let mut moved = *term;
@@ -43,16 +38,15 @@ impl Variation {
         Some(moved)
     }
 
-    /// d column / d parameter by central differences: the effects' shapes are few and smooth.
+    /// d column / d parameter by a difference; `column` is the term's own at that value.
     /// What a record began with moves that record alone.
     pub(super) fn slope(
         &self,
         data: &Prepared,
         term: &FitTerm,
-        value: f64,
-        eta: &[f64],
+        (range, value): (Range, f64),
+        (column, eta): (&Stretch, &[f64]),
     ) -> Option<Stretch> {
-        let step = self.step(data, term, value)?;
         let own = match *self {
             Self::Start { record } => Some((record, data.pieces.get(record)?.work.clone())),
             Self::Shape { .. } | Self::Origin => None,
@@ -64,10 +58,28 @@ impl Variation {
                 None => effect_column(data, &moved, eta),
             }
         };
-        let (up, down) = (at(value + step)?, at(value - step)?);
-        let pairs = up.iter().zip(&down);
-        let slope = pairs.map(|(a, b)| (a - b) / (2.0 * step));
-        let start = own.map_or(0, |(_, work)| work.start);
-        Some(Stretch::at(start, slope.collect()))
+        let samples = own
+            .as_ref()
+            .map_or(column.range(), |(_, work)| work.clone());
+        let difference = |up: &[f64], down: &[f64], step: f64| {
+            let pairs = up.iter().zip(down);
+            let slope = pairs.map(|(a, b)| (a - b) / step).collect();
+            Stretch::at(samples.start, slope)
+        };
+        let half = match *self {
+            // The column is a step in time: by a sample to either side.
+            Self::Shape { index } if term.is_moment(index) => data.dt,
+            // It has a corner where it starts from, as a play that touches neither flank.
+            Self::Start { .. } | Self::Origin => 1e-5 * data.channel(term.source)?.reach,
+            Self::Shape { .. } => {
+                let step = STEP * range.scale(value);
+                return Some(difference(&at(value + step)?, column.on(&samples), step));
+            }
+        };
+        Some(difference(
+            &at(value + half)?,
+            &at(value - half)?,
+            2.0 * half,
+        ))
     }
 }
