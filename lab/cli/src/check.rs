@@ -64,8 +64,9 @@ impl Check {
             false => Vec::new(),
         };
         let checked = check(&given, &self.record, &question)?;
+        let mut files = Vec::new();
         if let (Some(path), Some(trace)) = (&self.trace, &checked.trace) {
-            outputs::write_whole(path, trace.as_bytes())?;
+            files.push((path.clone(), trace.as_bytes().to_vec()));
         }
         let model = self.model.display().to_string();
         let (label, facts) = (&checked.label, &checked.facts);
@@ -77,8 +78,9 @@ impl Check {
                 figures,
             };
             let from = provenance(sources);
-            self.drawing.write(figures, || page.page(&from))?;
+            files.extend(self.drawing.files(figures, || page.page(&from)));
         }
+        outputs::write_together(&files)?;
         let report = match self.json {
             true => check_json(&model, label, facts).map_err(|e| e.to_string())?,
             false => check_text(&model, label, facts),

@@ -7,7 +7,7 @@ use super::rows::Rows;
 use super::{outputs, Failure};
 use crate::view::{cost_line, json, loop_text, terminal_width, text};
 use bowden_lab::facts::{
-    close, Asked, Close as Question, Detail, Form, Handed, Meter, Record, Source,
+    close, Asked, Close as Question, Closed, Detail, Form, Handed, Meter, Record, Source,
 };
 use bowden_page::Close as Page;
 use bowden_synth::stored_csv;
@@ -99,21 +99,7 @@ impl Close {
             meter,
         };
         let closed = close(&records, &question, &telling(&bar))?;
-        if let Some(path) = &self.model_out {
-            write_models(path, &closed.models)?;
-        }
-        if let (Some(path), Some(trace)) = (&self.trace, &closed.trace) {
-            outputs::write_whole(path, trace.as_bytes())?;
-        }
-        if let Some(figures) = &closed.figures {
-            let page = Page {
-                facts: &closed.facts,
-                figures,
-                models: &closed.models,
-            };
-            let from = || provenance(sources);
-            self.drawing.write(figures, || page.page(&from()))?;
-        }
+        outputs::write_together(&self.files(&closed, sources)?)?;
         let report = match self.json {
             true => json(&closed.facts, Some(&closed.cost)).map_err(|e| e.to_string())?,
             false => text(&closed.facts, chosen_cutoff),
@@ -129,6 +115,31 @@ impl Close {
             anstream::eprintln!("{}", cost_line(&closed.cost));
         }
         Ok(())
+    }
+
+    /// Models, trace, page and figure, each with its file.
+    fn files(
+        &self,
+        closed: &Closed,
+        sources: Vec<Source>,
+    ) -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
+        let mut files = Vec::new();
+        if let Some(path) = &self.model_out {
+            files.extend(model_files(path, &closed.models)?);
+        }
+        if let (Some(path), Some(trace)) = (&self.trace, &closed.trace) {
+            files.push((path.clone(), trace.as_bytes().to_vec()));
+        }
+        if let Some(figures) = &closed.figures {
+            let page = Page {
+                facts: &closed.facts,
+                figures,
+                models: &closed.models,
+            };
+            let page = || page.page(&provenance(sources));
+            files.extend(self.drawing.files(figures, page));
+        }
+        Ok(files)
     }
 
     /// Whether all that is to be written can be, before anything is computed for it.
@@ -164,9 +175,9 @@ impl Close {
     }
 }
 
-/// Writes the model and its test vector; where each file has gains of its own, one of both
-/// for each. All are written or none.
-fn write_models(path: &Path, models: &[Handed]) -> Result<(), Failure> {
+/// The model and its test vector, each with its file; where each record has gains of its own, one of
+/// both for each.
+fn model_files(path: &Path, models: &[Handed]) -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
     let form = model_form(path)?;
     let mut all = Vec::new();
     for (model, own) in models.iter().zip(written(path, models.len())) {
@@ -177,7 +188,7 @@ fn write_models(path: &Path, models: &[Handed]) -> Result<(), Failure> {
         all.push((own, bytes));
         all.push((beside, vector));
     }
-    outputs::write_together(&all)
+    Ok(all)
 }
 
 /// The files of so many models.

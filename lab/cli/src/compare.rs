@@ -128,6 +128,7 @@ impl Compare {
             traced: self.trace.is_some() || self.report.is_some(),
         };
         let compared = compare(&question)?;
+        let mut files = Vec::new();
         if let Some(path) = &self.report {
             let mut both = vec![compared.clone()];
             // The paper has each law with the conduit at rest (Figure 7) and moved (Figure 8).
@@ -141,11 +142,12 @@ impl Compare {
                 both.extend((other.heading.varying == varying).then_some(other));
             }
             let page = Page { compared: &both };
-            outputs::write_whole(path, page.page(&provenance(sources)).as_bytes())?;
+            files.push((path.clone(), page.page(&provenance(sources)).into_bytes()));
         }
         if let Some(path) = &self.trace {
-            outputs::write_whole(path, trace(&compared.traced()).as_bytes())?;
+            files.push((path.clone(), trace(&compared.traced()).into_bytes()));
         }
+        outputs::write_together(&files)?;
         let out = match self.json {
             true => json(&compared),
             false => text(&compared),

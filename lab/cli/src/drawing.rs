@@ -1,6 +1,5 @@
 //! What `close` and `check` draw: a page, or one figure.
 
-use super::{outputs, Failure};
 use bowden_lab::facts::{Figures, Source};
 use bowden_page::{figure, Figure, Provenance};
 use clap::{Args, ValueEnum};
@@ -61,8 +60,12 @@ impl Drawing {
             .filter_map(|(option, path)| Some((option, path.as_deref()?)))
     }
 
-    /// Writes the page and the figure, or neither.
-    pub fn write(&self, figures: &Figures, page: impl FnOnce() -> String) -> Result<(), Failure> {
+    /// The page and the figure, each with its file.
+    pub fn files(
+        &self,
+        figures: &Figures,
+        page: impl FnOnce() -> String,
+    ) -> Vec<(PathBuf, Vec<u8>)> {
         let mut files = Vec::new();
         if let Some(path) = &self.report {
             files.push((path.clone(), page().into_bytes()));
@@ -71,7 +74,7 @@ impl Drawing {
             let which = self.figure.map_or(Figure::Loop, FigureName::figure);
             files.push((path.clone(), figure(figures, which).into_bytes()));
         }
-        outputs::write_together(&files)
+        files
     }
 }
 

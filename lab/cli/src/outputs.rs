@@ -1,6 +1,7 @@
 //! The files that a command writes: none over another of its files, all or none.
 
 use super::Failure;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Whether each output could be written, found out before anything is read: its folder exists
@@ -9,7 +10,7 @@ pub fn check(read: &[&Path], outputs: &[(&str, &Path)]) -> Result<(), Failure> {
     for (index, (option, path)) in outputs.iter().enumerate() {
         writable(option, path, read)?;
         let before = outputs.iter().take(index);
-        if before.into_iter().any(|(_, other)| same(other, path)) {
+        if !is_stream(path) && before.into_iter().any(|(_, other)| same(other, path)) {
             return Err(format!(
                 "{option} {}: another option writes this file, too",
                 path.display()
@@ -30,7 +31,10 @@ fn writable(option: &str, path: &Path, read: &[&Path]) -> Result<(), Failure> {
             other.display()
         ));
     }
-    let part = beside(path, "part");
+    if is_stream(path) {
+        return Ok(());
+    }
+    let part = beside(&behind_links(path), "part");
     match std::fs::File::create(&part) {
         Ok(_) => std::fs::remove_file(&part).map_err(|e| format!("{}: {e}", part.display())),
         Err(e) => refuse(e.to_string()),
@@ -54,6 +58,20 @@ fn place(path: &Path) -> Option<PathBuf> {
     Some(folder.canonicalize().ok()?.join(path.file_name()?))
 }
 
+/// Whether the path leads to what takes bytes and is no file: a device, a pipe, a terminal. It is
+/// written to, and never replaced.
+fn is_stream(path: &Path) -> bool {
+    std::fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir())
+}
+
+/// Where a path leads if it is a link to something that exists; else the path.
+fn behind_links(path: &Path) -> PathBuf {
+    match std::fs::symlink_metadata(path).is_ok_and(|there| there.is_symlink()) {
+        true => path.canonicalize().unwrap_or_else(|_| path.to_owned()),
+        false => path.to_owned(),
+    }
+}
+
 /// A file of this process beside another one.
 fn beside(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_owned();
@@ -68,8 +86,24 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 
 /// Writes all files or none: each into a neighbour first; once all are on the disk each
 /// takes its name, the last ones first. A file that was there keeps its bytes until then, and
-/// has them again where a later file cannot be written.
+/// has them again where a later file cannot be written. Of a link the file behind it is written.
+/// Devices and pipes get their bytes once all files are there.
 pub fn write_together(files: &[(PathBuf, Vec<u8>)]) -> Result<(), Failure> {
+    let (streams, files): (Vec<_>, Vec<_>) = files.iter().partition(|(path, _)| is_stream(path));
+    let files: Vec<(PathBuf, &[u8])> = files
+        .into_iter()
+        .map(|(path, bytes)| (behind_links(path), &bytes[..]))
+        .collect();
+    write_files(&files)?;
+    for (path, bytes) in streams {
+        let opened = std::fs::OpenOptions::new().write(true).open(path);
+        let written = opened.and_then(|mut stream| stream.write_all(bytes));
+        written.map_err(|e| format!("{}: {e}", path.display()))?;
+    }
+    Ok(())
+}
+
+fn write_files(files: &[(PathBuf, &[u8])]) -> Result<(), Failure> {
     for (index, (path, _)) in files.iter().enumerate() {
         if files.iter().take(index).any(|(other, _)| same(other, path)) {
             return Err(format!("{}: would be written twice", path.display()));
@@ -83,7 +117,7 @@ pub fn write_together(files: &[(PathBuf, Vec<u8>)]) -> Result<(), Failure> {
     written
 }
 
-fn write_parts(files: &[(PathBuf, Vec<u8>)]) -> Result<(), Failure> {
+fn write_parts(files: &[(PathBuf, &[u8])]) -> Result<(), Failure> {
     for (path, bytes) in files {
         let failed = |e: std::io::Error| format!("{}: {e}", path.display());
         std::fs::write(beside(path, "part"), bytes).map_err(failed)?;
@@ -91,7 +125,7 @@ fn write_parts(files: &[(PathBuf, Vec<u8>)]) -> Result<(), Failure> {
     Ok(())
 }
 
-fn take_names(files: &[(PathBuf, Vec<u8>)]) -> Result<(), Failure> {
+fn take_names(files: &[(PathBuf, &[u8])]) -> Result<(), Failure> {
     let mut done: Vec<&Path> = Vec::new();
     for (path, _) in files.iter().rev() {
         let renamed = keep(path).and_then(|()| std::fs::rename(beside(path, "part"), path));
@@ -171,6 +205,42 @@ mod tests {
         let mut left = names(folder.path());
         left.sort();
         assert_eq!(left, ["a", "b", "c"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_stays_and_the_file_behind_it_is_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let (real, link) = (folder.path().join("real"), folder.path().join("link"));
+        std::fs::write(&real, "before").unwrap();
+        std::os::unix::fs::symlink("real", &link).unwrap();
+        write_together(&[(link.clone(), b"now".to_vec())]).unwrap();
+        assert_eq!(std::fs::read(&real).unwrap(), b"now");
+        assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink());
+        let mut left = names(folder.path());
+        left.sort();
+        assert_eq!(left, ["link", "real"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_stays_one_and_gets_the_bytes() {
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("pipe");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+        if !made.is_ok_and(|status| status.success()) {
+            println!("skipped: there is no mkfifo");
+            return;
+        }
+        let reader = std::thread::spawn({
+            let pipe = pipe.clone();
+            move || std::fs::read(pipe).unwrap()
+        });
+        super::check(&[], &[("--out", &pipe)]).unwrap();
+        write_together(&[(pipe.clone(), b"bytes".to_vec())]).unwrap();
+        assert_eq!(reader.join().unwrap(), b"bytes");
+        assert!(super::is_stream(&pipe));
+        assert_eq!(names(folder.path()), ["pipe"]);
     }
 
     #[test]
