@@ -15,7 +15,7 @@ pub struct Certify {
     #[arg(value_name = "GAINS.toml", conflicts_with = "gains")]
     own: Option<PathBuf>,
     /// Gains and rig; the paper's and the reference rig's where not given.
-    #[arg(long, visible_alias = "model", value_name = "FILE.toml")]
+    #[arg(long, alias = "model", value_name = "FILE.toml")]
     gains: Option<PathBuf>,
     /// Print one JSON object on stdout instead of a table.
     #[arg(long)]

@@ -2,7 +2,7 @@
 
 use super::certificates::named;
 use super::found::outcome;
-use super::gains::GainsFile;
+use super::gains::{is_of_design, GainsFile};
 use super::heading::{file_name, is_paper, with_drive_gain};
 use super::lineup::{declared_feed, lineup};
 use super::own_rig;
@@ -163,6 +163,7 @@ pub fn compare(question: &Question<'_>) -> Result<Compared, String> {
         },
         model: own.as_ref().and(question.setup).map(file_name),
         gains: gains.as_ref().and(question.gains).map(file_name),
+        designed_model: gains.as_ref().map(|gains| gains.design.model.clone()),
         designed_drive_gain: gains.as_ref().map(|gains| gains.design.drive_gain),
         setup: own_setup.map(file_name),
         drive_gain: setup.rig.drive_gain,
@@ -197,7 +198,7 @@ fn own(setup: &mut Setup, question: &Question<'_>) -> Result<Option<Own>, String
     let cable = own_rig::transmission(file).map_err(told)?;
     let own = Own {
         effects: own_rig::effects(file).map_err(told)?,
-        reference: own_rig::reference(file, &cable),
+        reference: own_rig::reference(file, &cable).map_err(told)?,
     };
     setup.rig = own_rig::with_transmission(&setup.rig, &cable);
     Ok(Some(own))
@@ -265,7 +266,23 @@ fn inputs(question: &Question<'_>) -> Result<(Setup, Option<GainsFile>, bool), S
 /// # Errors
 /// One line where the setup cannot be read or the core refuses its gains.
 pub fn certify(setup: Option<&Path>) -> Result<Vec<Promise>, String> {
-    super::certificates::all(&read(setup)?)
+    if let Some(path) = setup {
+        let text = std::fs::read_to_string(path).unwrap_or_default();
+        if is_of_design(&text) {
+            return Err(format!(
+                "{}: is a file of `bowden design`, which is certified without --gains: `bowden certify FILE`",
+                path.display()
+            ));
+        }
+    }
+    let own = read(setup)?;
+    match (setup, &own.model) {
+        (Some(path), Some(_)) => Err(format!(
+            "{}: holds a model; these certificates are of gains on the reference rig, or on that of a table [rig]. `bowden design MODEL.toml --rate HZ --delay S` derives gains from a model, with what is promised of them",
+            path.display()
+        )),
+        _ => super::certificates::all(&own),
+    }
 }
 
 fn read(path: Option<&Path>) -> Result<Setup, String> {

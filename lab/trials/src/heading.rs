@@ -28,6 +28,8 @@ pub struct Heading {
     pub model: Option<String>,
     /// The gains of `bowden design` that run, without folders; `None` of the paper's.
     pub gains: Option<String>,
+    /// The model that these gains were designed for, without folders.
+    pub designed_model: Option<String>,
     /// The drive gain that these gains were designed for \[N·m/unit\].
     pub designed_drive_gain: Option<f64>,
     /// The file of gains and rig, without folders, where there is one.
@@ -52,7 +54,16 @@ impl Heading {
             all.push(format!("Gains and rig: those of {setup}."));
         }
         if let Some(gains) = &self.gains {
-            all.push(format!("Gains: those of {gains}."));
+            let of_another = self.designed_model.as_ref().filter(|of| {
+                let differs = |own: &String| own != *of;
+                self.model.as_ref().is_some_and(differs)
+            });
+            all.push(match of_another {
+                None => format!("Gains: those of {gains}."),
+                Some(other) => format!(
+                    "Gains: those of {gains}, which were designed for {other} and not for this model."
+                ),
+            });
         }
         if let Some(designed) = self.designed_drive_gain {
             let own = self.drive_gain;

@@ -138,13 +138,24 @@ const SHARE: f64 = 0.8;
 
 /// The paper's reference, within what the record of a model has covered \[N·m\]; `None` where
 /// the file does not say.
-#[must_use]
-pub fn reference(file: &ModelFile, cable: &Transmission<f64>) -> Option<[f64; 2]> {
-    let [low, high] = file.about.as_ref()?.ranges.get("input")?.position;
+///
+/// # Errors
+/// One sentence where the record has covered no output in both directions.
+pub fn reference(file: &ModelFile, cable: &Transmission<f64>) -> Result<Option<[f64; 2]>, String> {
+    let ranges = file.about.as_ref().map(|about| &about.ranges);
+    let Some(seen) = ranges.and_then(|ranges| ranges.get("input")) else {
+        return Ok(None);
+    };
+    let [low, high] = seen.position;
     let (low, high) = (cable.output(low, -1.0), cable.output(high, 1.0));
     let (middle, half) = (0.5 * (low + high), 0.5 * SHARE * (high - low));
-    let usable = half > 0.0 && half.is_finite() && middle.is_finite();
-    usable.then_some([middle - half, middle + half])
+    if !(half.is_finite() && middle.is_finite()) {
+        return Ok(None);
+    }
+    match half > 0.0 {
+        true => Ok(Some([middle - half, middle + half])),
+        false => Err(crate::design::TOO_SHORT.to_owned()),
+    }
 }
 
 /// The paper's reference between these \[N·m\].

@@ -153,14 +153,11 @@ fn bounds(designed: &Designed, row: &mut impl FnMut(&str, String)) {
         Some(rate) => format!("up to {} N·m/s", short(rate)),
         None => "no rate is sure to be followed: the least slope is near zero or below".to_owned(),
     };
-    row(
-        "reference",
-        format!(
-            "{rate}; within {} to {} N·m",
-            short(b.output[0]),
-            short(b.output[1])
-        ),
-    );
+    let range = match b.output {
+        Some([low, high]) => format!("within {} to {} N·m", short(low), short(high)),
+        None => "the record covers none in both directions".to_owned(),
+    };
+    row("reference", format!("{rate}; {range}"));
     row(
         "longest dt",
         format!(

@@ -7,6 +7,7 @@ mod compiler;
 #[allow(dead_code)]
 #[path = "../shell/mod.rs"]
 mod shell;
+mod short;
 
 use compiler::{compiled_and_run, module};
 use serde_json::Value;

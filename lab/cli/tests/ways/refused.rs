@@ -99,8 +99,34 @@ fn a_record_that_does_not_fit_the_model_is_refused_with_the_reason() {
     let line = refused(&["check", &model, &record, "--mode", "displacement"]);
     assert!(line.contains("the model is of torque mode"), "{line}");
 
-    refused(&["check", &model, &folder.file("empty.csv", "")]);
-    refused(&["check", &model, &folder.path("missing.csv")]);
+    // What has nothing to do with the mode is not put down to it.
+    for bad in [folder.file("empty.csv", ""), folder.path("missing.csv")] {
+        let line = refused(&["check", &model, &bad]);
+        assert!(!line.contains("mode"), "{line}");
+    }
+    // The cut-off is the model's: nobody has given an option, and the time is to blame.
+    let mut rows = csv.lines();
+    let header = format!("{}\n", rows.next().unwrap());
+    let slow = rows.map(|row| {
+        let (time, rest) = row.split_once(',').unwrap();
+        format!("{},{rest}\n", 1000.0 * time.parse::<f64>().unwrap())
+    });
+    let slow = folder.file("slow.csv", header + &slow.collect::<String>());
+    let line = refused(&["check", &model, &slow]);
+    assert!(
+        line.contains("the model's cut-off of") && line.contains("is the time in seconds?"),
+        "{line}"
+    );
+    // The most that is said to be allowed is.
+    let line = refused(&["close", &record, "--cutoff", "1e6"]);
+    let most = line
+        .split_once("at most ")
+        .unwrap()
+        .1
+        .split(' ')
+        .next()
+        .unwrap();
+    said(&["close", &record, "--rounds", "0", "--cutoff", most]);
     let short: String = csv.lines().take(400).flat_map(|l| [l, "\n"]).collect();
     let line = refused(&["check", &model, &folder.file("short.csv", short)]);
     assert!(

@@ -144,10 +144,17 @@ impl Check {
             HeldOut::Nothing,
         );
         let mut data = prepared.map_err(|message| match (cutoff, own) {
-            (None, Some(_)) => message.replace(
-                "a higher --cutoff",
-                "--cutoff with a higher one than the model's",
-            ),
+            (None, Some(own)) => message
+                .replace(
+                    "a higher --cutoff",
+                    "--cutoff with a higher one than the model's",
+                )
+                .replace(
+                    &format!("--cutoff {own} Hz is too high"),
+                    &format!(
+                        "the model's cut-off of {own} Hz is too high (is the time in seconds?)"
+                    ),
+                ),
             _ => message,
         })?;
         if !given.file.channels.iter().any(|c| c == "load") {

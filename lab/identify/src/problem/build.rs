@@ -165,7 +165,8 @@ fn cutoff(
 ) -> Result<f64, String> {
     let rate = 1.0 / slowest;
     match preparation.cutoff {
-        Some(cutoff) if cutoff < 0.4 * rate => Ok(cutoff),
+        // What the line below prints as the most is allowed, whatever its last digit is.
+        Some(cutoff) if cutoff <= 0.4 * rate * (1.0 + 1e-6) => Ok(cutoff),
         Some(cutoff) => Err(format!("--cutoff {cutoff} Hz is too high: the record has {rate:.6} samples a second and allows at most {:.6} Hz", 0.4 * rate)),
         None => {
             let own = inputs.iter().map(|i| spectrum::default_cutoff(i, 1.0 / step));

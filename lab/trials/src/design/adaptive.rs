@@ -173,7 +173,7 @@ fn settings(
     let lambda = (bandwidth / 50.0).max(4.0 * g / bandwidth);
     if h * lambda > 1.0 {
         return Err(format!(
-            "k > 1/lambda² and h·lambda <= 1 exclude each other at a step of {h} s: a delay below {:.3} s is needed",
+            "k > 1/lambda² and h·lambda <= 1 exclude each other at a step of {h} s, the first whole number of samples beyond the delay: at most {:.3} s is needed, by a higher rate or a shorter delay",
             (0.25 * found.loop_gain / g).sqrt()
         ));
     }
@@ -181,7 +181,7 @@ fn settings(
     let epsilon = delta / k;
     let time = CROSSING / bandwidth;
     let leakage = 0.1 / time;
-    let [low, high] = plant.output();
+    let [low, high] = plant.ends();
     let torque = low.abs().max(high.abs()).max(f64::MIN_POSITIVE);
     let initial = 1.0 / (plant.cable.gain() * around.drive_gain);
     let drive = time * lambda * epsilon;
@@ -220,7 +220,7 @@ fn known(plant: &Plant, around: &Around, boxes: &Boxes) -> Result<Known, String>
             "the least slope of the output is {least:.4}: the rate of the hysteresis has no useful bound"
         ));
     };
-    let [low, high] = plant.output();
+    let [low, high] = plant.output().ok_or(super::TOO_SHORT)?;
     let cutoff = plant.about.cutoff_hz;
     if plant.effects > 0.0 && !(cutoff.is_finite() && cutoff > 0.0) {
         return Err("no about.cutoff_hz: the rate of the effects has no bound".to_owned());

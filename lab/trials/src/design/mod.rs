@@ -72,6 +72,9 @@ const PEAK_OF_NOISE: f64 = 6.0;
 /// The derivative is worth its noise if the integral gain grows by this factor.
 const WORTH: f64 = 1.1;
 
+/// Why there is neither a reference nor a certificate.
+pub(crate) const TOO_SHORT: &str = "the stroke of the record is shorter than its hysteresis: it covers no torque in both directions, and so no reference; record a larger stroke";
+
 /// Gain margin that a loop must keep whose every step is the longest one.
 const LONG_MARGIN: f64 = 1.4;
 
@@ -136,8 +139,9 @@ pub struct Bounds {
     /// Greatest rate of a reference that needs no faster input than the record's \[N·m/s\];
     /// `None` where the least slope is below a hundredth of the greatest.
     pub reference_rate: Option<f64>,
-    /// Outputs that the covered inputs reach \[N·m\].
-    pub output: [f64; 2],
+    /// Outputs that the covered inputs reach in both directions \[N·m\]; `None` where the stroke
+    /// of the record is shorter than the hysteresis.
+    pub output: Option<[f64; 2]>,
     /// Longest `dt` \[s\].
     pub longest_dt: f64,
     /// The safe command goes out after this many bad samples in a row.
@@ -428,6 +432,9 @@ fn notes(plant: &Plant, adaptive: &AdaptiveDesign) -> Vec<String> {
         notes.push(format!(
             "the least slope is {least:.4}: after a reversal the output turns back while the input goes on, and no margin covers that; `bowden close --invertible` fits a model without it"
         ));
+    }
+    if plant.output().is_none() {
+        notes.push(TOO_SHORT.to_owned());
     }
     if plant.own_delay > 0.0 {
         notes.push(format!(

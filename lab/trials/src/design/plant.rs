@@ -232,8 +232,15 @@ impl Plant {
         Ok(most)
     }
 
-    /// Output that the saturated hysteresis reaches from the covered input \[N·m\].
-    pub(super) fn output(&self) -> [f64; 2] {
+    /// Outputs that the saturated hysteresis reaches from the covered input in both directions
+    /// \[N·m\]; `None` where the stroke is shorter than the hysteresis, so that there is none.
+    pub(super) fn output(&self) -> Option<[f64; 2]> {
+        let [low, high] = self.ends();
+        (low < high).then_some([low, high])
+    }
+
+    /// Output at the ends of the covered input \[N·m\], each reached from inside.
+    pub(super) fn ends(&self) -> [f64; 2] {
         let [low, high] = self.input;
         [self.cable.output(low, -1.0), self.cable.output(high, 1.0)]
     }

@@ -7,7 +7,7 @@ use super::figures::Figures;
 use super::record::{channel_name, RecordFacts};
 use crate::check::{Check, Errors, Given, Line, Outside, Verdict};
 use crate::problem::Prepared;
-use crate::record::{Mode, Record};
+use crate::record::{Mode, Options, Record};
 use crate::score::dependences::Dependence;
 use sentence::sentence;
 use std::path::Path;
@@ -144,10 +144,21 @@ pub fn check(
 ) -> Result<Checked, String> {
     let mut asked = question.asked.clone();
     asked.options.mode = Some(model.mode);
-    let record = asked
-        .read(record)
-        .map_err(|e| format!("{e} (the model is of {} mode)", model.mode.name()))?;
-    check_record(model, record, question)
+    let read = asked.read(record).map_err(|e| {
+        let any = Asked {
+            options: Options {
+                mode: None,
+                ..asked.options.clone()
+            },
+            ..asked.clone()
+        };
+        match any.read(record) {
+            // Its columns are those of the other mode.
+            Ok(_) => format!("{e} (the model is of {} mode)", model.mode.name()),
+            Err(_) => e,
+        }
+    });
+    check_record(model, read?, question)
 }
 
 /// The same with a record that was read already.

@@ -1,0 +1,121 @@
+//! Models that promise nothing of a reference, and gains beside a model that they are not of.
+
+use super::shell::{bowden, refused, said};
+use super::{text, Place};
+use serde_json::Value;
+
+/// The straight cable's model as if its record had covered these torques alone.
+fn of_a_stroke(place: &Place, stroke: [f64; 2]) -> String {
+    let mut table: toml::Table = toml::from_str(&text(&place.model())).unwrap();
+    let input = table["about"]["ranges"]["input"].as_table_mut().unwrap();
+    input.insert("position".to_owned(), stroke.to_vec().into());
+    place.write("short.toml", &toml::to_string(&table).unwrap())
+}
+
+/// Up and down the output would have to pass by more than the stroke moves it.
+#[test]
+fn a_stroke_shorter_than_the_hysteresis_has_no_reference_and_no_certificate() {
+    let place = Place::new();
+    let model = of_a_stroke(&place, [-0.5, 0.5]);
+    let asked = ["--rate", "500", "--delay", "0.006"];
+    let report = said(&[["design", &model].as_slice(), &asked].concat());
+    assert!(
+        report.contains("the record covers none in both directions")
+            && report.contains("record a larger stroke")
+            && report.contains("no certificate"),
+        "{report}"
+    );
+    let report = said(&[["design", &model, "--json"].as_slice(), &asked].concat());
+    let report: Value = serde_json::from_str(&report).unwrap();
+    assert!(report["bounds"]["output"].is_null());
+    assert!(report["adaptive"]["certificate"].is_null() && report["adaptive"]["plant"].is_null());
+    // No reference of the paper's stands in for it.
+    let line = refused(&["compare", "--model", &model, "--inertia", "0.002"]);
+    assert!(
+        line.contains("short.toml") && line.contains("record a larger stroke"),
+        "{line}"
+    );
+}
+
+#[test]
+fn a_rate_that_is_too_low_for_the_law_is_named() {
+    let place = Place::new();
+    let model = place.model();
+    for asked in [
+        ["--rate", "2", "--delay", "0.001"],
+        ["--rate", "10", "--delay", "0.3"],
+    ] {
+        let report = said(&[["design", &model].as_slice(), &asked].concat());
+        let line = report.lines().find(|l| l.contains("exclude each other"));
+        let line = line.unwrap_or_else(|| panic!("{report}"));
+        let (step, most) = line
+            .split_once("at a step of ")
+            .unwrap()
+            .1
+            .split_once(" s, ")
+            .unwrap();
+        let most = most
+            .split_once("at most ")
+            .unwrap()
+            .1
+            .split(' ')
+            .next()
+            .unwrap();
+        let (step, most): (f64, f64) = (step.parse().unwrap(), most.parse().unwrap());
+        assert!(step > most, "{line}");
+        // What is said to do does.
+        let rate = format!("{}", 1.05 / most);
+        let report = said(&["design", &model, "--rate", &rate, "--delay", "0"]);
+        assert!(!report.contains("exclude each other"), "{report}");
+    }
+}
+
+#[test]
+fn gains_of_another_model_are_told() {
+    let place = Place::new();
+    let (model, gains) = super::designed(&place);
+    let told = |model: &str| {
+        let fixed = [
+            "--seeds",
+            "1",
+            "--seconds",
+            "8",
+            "--inertia",
+            "0.002",
+            "--damping",
+            "0.5",
+        ];
+        said(
+            &[
+                ["compare", "--model", model, "--gains", &gains].as_slice(),
+                &fixed,
+            ]
+            .concat(),
+        )
+    };
+    assert!(!told(&model).contains("designed for model.toml and not"));
+    let other = place.write("other.toml", &text(&model));
+    let report = told(&other);
+    assert!(
+        report.contains("gains.toml, which were designed for model.toml and not for this model"),
+        "{report}"
+    );
+}
+
+/// Certificates without a model's cable would be believed to be of it.
+#[test]
+fn certificates_of_the_reference_rig_are_not_asked_for_a_model() {
+    let place = Place::new();
+    let (model, gains) = super::designed(&place);
+    let line = refused(&["certify", "--gains", &model]);
+    assert!(
+        line.contains("model.toml: holds a model") && line.contains("`bowden design MODEL.toml"),
+        "{line}"
+    );
+    let line = refused(&["certify", "--gains", &gains]);
+    assert!(
+        line.contains("without --gains: `bowden certify FILE`"),
+        "{line}"
+    );
+    assert!(bowden(&["certify"]).status.success());
+}
