@@ -240,6 +240,7 @@ class CheckReport(_Found):
         noise_floor: float
         outside: list[parts.Fields]
         depends_on: list[parts.Fields]
+        otherwise: Optional[parts.Fields]
         defects: list[parts.Defect]
         notes: list[str]
         verdict: str

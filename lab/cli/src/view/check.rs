@@ -5,7 +5,7 @@ use super::words::table;
 use anstyle::{AnsiColor, Style};
 use bowden_lab::facts::{
     number, share as percent, with_interval, CheckFacts, CheckVerdict as Verdict, Defect, Errors,
-    Fitted, Line, Outside,
+    Fitted, Line, Otherwise, Outside,
 };
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -26,6 +26,7 @@ struct Report<'a> {
     noise_floor: f64,
     outside: &'a [Outside],
     depends_on: Vec<DependsOn<'a>>,
+    otherwise: Option<&'a Otherwise>,
     defects: &'a [Defect],
     notes: &'a [String],
     verdict: &'static str,
@@ -107,6 +108,7 @@ pub fn check_json(
         noise_floor: record.noise_floor,
         outside: &check.outside,
         depends_on: depends_on.collect(),
+        otherwise: check.otherwise.as_ref(),
         defects: &record.defects,
         notes: &record.notes,
         verdict: check.verdict.name(),

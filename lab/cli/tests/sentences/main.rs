@@ -16,6 +16,7 @@ mod files;
 mod gap;
 mod no_model;
 mod on_a_chip;
+mod otherwise;
 mod reading;
 #[allow(dead_code)]
 #[path = "../shell/mod.rs"]

@@ -163,6 +163,12 @@ fn units_are_converted_or_refused() {
         .to_string()
         .contains("converted from unit m to unit mm"));
 
+    // Without any unit, as in a .mat file, it is in those of the model; with some, all are needed.
+    let without = csv.replacen("t [s],x [mm],f [N]", "t,x,f", 1);
+    let without = json(&folder.file("without.csv", without));
+    assert_eq!(own["nrmse"], without["nrmse"]);
+    assert!(without["notes"].to_string().contains("states no units"));
+
     for (header, word) in [
         ("t [s],x [V],f [N]", "unit V"),
         ("t [s],x,f [N]", "no unit"),

@@ -20,17 +20,20 @@
 
 mod given;
 mod line;
+mod otherwise;
 mod play;
 mod ranges;
 
 use crate::conclude::trace::{csv, input, parts, Column};
 use crate::export::invertible::three_digits;
 use crate::fit::Solution;
-use crate::problem::{HeldOut, Preparation, Prepared, Stretch};
+use crate::problem::{Prepared, Stretch};
 use crate::record::{to_unit, Defect, Record};
 use crate::score::dependences::{dependences, Dependence};
 pub use given::{one_line, About, Errors, Given, Seen};
 pub use line::{Fitted, Line};
+pub use otherwise::{Otherwise, Way};
+use play::Played;
 pub use ranges::Outside;
 
 /// A model holds up to this many times the held-out error that it came with. That error is
@@ -104,6 +107,9 @@ pub struct Check {
     pub outside: Vec<Outside>,
     /// On what the residual behind gain and offset depends, where the model does not hold.
     pub depends_on: Vec<Dependence>,
+    /// How the record may have been logged otherwise, where the model does not hold and would
+    /// with that.
+    pub otherwise: Option<Otherwise>,
     /// Rms by which the state before the record still moves the prediction, at most, if it was
     /// within what the record itself reaches.
     pub start: f64,
@@ -135,53 +141,19 @@ impl Check {
             return Err(play::missing(given, name));
         }
         convert(&mut record, given)?;
-        let own = given.about.cutoff_hz;
-        let prepared = Prepared::joined(
-            &[record],
-            Preparation {
-                cutoff: cutoff.or(own),
-            },
-            HeldOut::Nothing,
-        );
-        let mut data = prepared.map_err(|message| match (cutoff, own) {
-            (None, Some(own)) => message
-                .replace(
-                    "a higher --cutoff",
-                    "--cutoff with a higher one than the model's",
-                )
-                .replace(
-                    &format!("--cutoff {own} Hz is too high"),
-                    &format!(
-                        "the model's cut-off of {own} Hz is too high (is the time in seconds?)"
-                    ),
-                ),
-            _ => message,
-        })?;
-        if !given.file.channels.iter().any(|c| c == "load") {
-            // The model was fitted without it: its load is the input.
-            data.load = None;
+        let mut played = Played::of(&record, given, cutoff)?;
+        played.data.notes.extend(remarks(given, cutoff));
+        let mut check = Self::judged(played, given)?;
+        if check.verdict == Verdict::DoesNotHold && !check.is_inverted() {
+            check.otherwise = check.logged_otherwise(&record, given, cutoff);
         }
-        data.notes.extend(remarks(given, cutoff));
-        let model = play::play(&data, given, 0.0)?;
-        let terms = &model.structure.terms;
-        let remembers = model.structure.hysteresis || terms.iter().any(|t| t.effect.has_memory());
-        let from = if remembers { data.settled() } else { 0 };
-        let data = data.with_rows(|row| row >= from);
-        Self::judged(data, given, model, from)
+        Ok(check)
     }
 
-    fn judged(data: Prepared, given: &Given, model: Solution, from: usize) -> Result<Self, String> {
-        let rows = &data.split.fit;
-        if rows.len() < 96 {
-            return Err("defects and gaps leave too little of the record".to_owned());
-        }
-        let rms = |signal: &[f64], about: f64| {
-            let squares = rows.iter().map(|&i| (signal[i] - about).powi(2));
-            (squares.sum::<f64>() / rows.len() as f64).sqrt()
-        };
-        let mean =
-            |signal: &[f64]| rows.iter().map(|&i| signal[i]).sum::<f64>() / rows.len() as f64;
-        let deviation = rms(&data.target, mean(&data.target));
+    fn judged(played: Played, given: &Given) -> Result<Self, String> {
+        let (deviation, mean) = (played.deviation(), played.mean(&played.model.residual));
+        let Played { data, model, from } = played;
+        let rms = |signal: &[f64]| play::rms(&data, signal, 0.0);
         let line = Line::fit(&data, &model.prediction);
         let moved = line.of(&model.prediction);
         let residual: Vec<f64> = data.target.iter().zip(&moved).map(|(y, p)| y - p).collect();
@@ -196,17 +168,18 @@ impl Check {
                 let other = play::play(&data, given, eta0)?;
                 let pairs = other.prediction.iter().zip(&model.prediction);
                 let difference: Vec<f64> = pairs.map(|(a, b)| a - b).collect();
-                start = start.max(rms(&difference, 0.0));
+                start = start.max(rms(&difference));
             }
         }
         let mut check = Self {
-            rmse: rms(&model.residual, 0.0),
-            rmse_gain_offset: rms(&residual, 0.0),
-            mean: mean(&model.residual),
+            rmse: rms(&model.residual),
+            rmse_gain_offset: rms(&residual),
+            mean,
             allowed: allowed(&data, &given.about, deviation),
             about: given.about.clone(),
             outside: ranges::outside(&data, &given.about),
             depends_on: Vec::new(),
+            otherwise: None,
             left_out: from as f64 * data.dt * data.stride as f64,
             verdict: Verdict::CannotTell,
             line,
@@ -229,6 +202,15 @@ impl Check {
             check.depends_on = dependences(&check.data, &behind, &held);
         }
         Ok(check)
+    }
+
+    /// Whether the model holds but for the sign of the output.
+    #[must_use]
+    pub fn is_inverted(&self) -> bool {
+        let within = self
+            .allowed
+            .is_some_and(|most| self.rmse_gain_offset <= most);
+        within && self.line.gain.value < 0.0
     }
 
     fn found(&self, given: &Given) -> Verdict {
@@ -322,11 +304,21 @@ fn allowed(data: &Prepared, about: &About, deviation: f64) -> Option<f64> {
     own.into_iter().chain(noise).reduce(f64::max)
 }
 
-/// Brings the record to the units of the model.
+/// Brings the record to the units of the model. A record that states no unit at all, as from a
+/// `.mat` file, is taken to be in these; one that states some must state all.
 fn convert(record: &mut Record, given: &Given) -> Result<(), String> {
     let reads = given.reads();
     let path = record.path.clone();
     let mut notes = Vec::new();
+    let columns = [&record.input, &record.output];
+    let states_none = columns.into_iter().chain(&record.channels);
+    let states_none = states_none.map(|c| &c.unit).all(Option::is_none);
+    if states_none && !given.about.units.is_empty() {
+        notes.push(
+            "the record states no units: its columns are taken to be in those of the model"
+                .to_owned(),
+        );
+    }
     let Record {
         input,
         output,
@@ -340,6 +332,9 @@ fn convert(record: &mut Record, given: &Given) -> Result<(), String> {
     let ends = [("input".to_owned(), input), ("output".to_owned(), output)];
     for (name, column) in ends.into_iter().chain(own) {
         if let Some(unit) = given.about.units.get(&name) {
+            if states_none {
+                column.unit = Some(unit.clone());
+            }
             let converted = to_unit(column, unit, "the model", &path);
             notes.extend(converted.map_err(|e| e.to_string())?);
         }

@@ -4,9 +4,80 @@ use super::given::{Given, MOST_TERMS};
 use crate::fit::{Segments, Solution};
 use crate::model::columns::{raw_columns, weighted};
 use crate::model::structure::{FitTerm, Free, Range, Role, Structure, Terms};
-use crate::problem::{Prepared, Stretch, MOST_RECORDS};
-use crate::record::Mode;
+use crate::problem::{HeldOut, Preparation, Prepared, Stretch, MOST_RECORDS};
+use crate::record::{Mode, Record};
 use bowden::model::{Model, Source};
+
+/// A model that has run on a record.
+pub(super) struct Played {
+    /// The record; what counts of it is its fit segment.
+    pub(super) data: Prepared,
+    /// The model on it.
+    pub(super) model: Solution,
+    /// Rows at the start that do not count.
+    pub(super) from: usize,
+}
+
+impl Played {
+    /// On a record in the model's units, at the model's own cut-off unless another one is given
+    /// \[Hz\].
+    pub(super) fn of(record: &Record, given: &Given, cutoff: Option<f64>) -> Result<Self, String> {
+        let own = given.about.cutoff_hz;
+        let preparation = Preparation {
+            cutoff: cutoff.or(own),
+        };
+        let records = std::slice::from_ref(record);
+        let prepared = Prepared::joined(records, preparation, HeldOut::Nothing);
+        let mut data = prepared.map_err(|message| match (cutoff, own) {
+            (None, Some(own)) => message
+                .replace(
+                    "a higher --cutoff",
+                    "--cutoff with a higher one than the model's",
+                )
+                .replace(
+                    &format!("--cutoff {own} Hz is too high"),
+                    &format!(
+                        "the model's cut-off of {own} Hz is too high (is the time in seconds?)"
+                    ),
+                ),
+            _ => message,
+        })?;
+        if !given.file.channels.iter().any(|c| c == "load") {
+            // The model was fitted without it: its load is the input.
+            data.load = None;
+        }
+        let model = play(&data, given, 0.0)?;
+        let terms = &model.structure.terms;
+        let remembers = model.structure.hysteresis || terms.iter().any(|t| t.effect.has_memory());
+        let from = if remembers { data.settled() } else { 0 };
+        let data = data.with_rows(|row| row >= from);
+        match data.split.fit.len() < FEWEST {
+            true => Err("defects and gaps leave too little of the record".to_owned()),
+            false => Ok(Self { data, model, from }),
+        }
+    }
+
+    /// Mean of a signal over the rows that count.
+    pub(super) fn mean(&self, signal: &[f64]) -> f64 {
+        let rows = &self.data.split.fit;
+        rows.iter().map(|&i| signal[i]).sum::<f64>() / rows.len() as f64
+    }
+
+    /// Standard deviation of the filtered output.
+    pub(super) fn deviation(&self) -> f64 {
+        rms(&self.data, &self.data.target, self.mean(&self.data.target))
+    }
+}
+
+/// Rms of a signal about a value, over the rows that count.
+pub(super) fn rms(data: &Prepared, signal: &[f64], about: f64) -> f64 {
+    let rows = &data.split.fit;
+    let squares = rows.iter().map(|&i| (signal[i] - about).powi(2));
+    (squares.sum::<f64>() / rows.len() as f64).sqrt()
+}
+
+/// Fewest rows on which a model is judged.
+const FEWEST: usize = 96;
 
 /// The model on the record, from that hysteresis state at the first sample. Effects with
 /// memory begin at rest where the record begins.

@@ -37,7 +37,9 @@ pub use round::{RivalFacts, RoundFacts, RoundFit, RoundModel, Size};
 pub use source::Source;
 
 // The plain data of lower rooms that facts are made of.
-pub use crate::check::{Errors, Fitted, Line, Outside, Verdict as CheckVerdict, HOLDS, NOISE};
+pub use crate::check::{
+    Errors, Fitted, Line, Otherwise, Outside, Verdict as CheckVerdict, HOLDS, NOISE,
+};
 pub use crate::conclude::by_file::{FileErrors, Worse};
 pub use crate::conclude::curve::Knot;
 pub use crate::conclude::intervals::{Parameter, Refusal};

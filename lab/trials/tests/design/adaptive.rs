@@ -93,7 +93,7 @@ fn the_error_on_a_plant_that_answers_within_the_step_stays_within_the_certificat
         let mut state = AdaptiveState::new(&law);
         let (cable, mut cable_state) = (cable(numbers), BoucWen::new());
         let rate = own.bounds.reference_rate.unwrap();
-        let [low, high] = own.bounds.output;
+        let [low, high] = own.bounds.output.unwrap();
         let reference = Reference::paper().between(0.6 * low, 0.6 * high);
         // So slow that its rate is what the certificate allows.
         let pace = rate / (0.3 * (high - low) * 2.2);

@@ -5,7 +5,7 @@ mod sentence;
 use super::asked::Asked;
 use super::figures::Figures;
 use super::record::{channel_name, RecordFacts};
-use crate::check::{Check, Errors, Given, Line, Outside, Verdict};
+use crate::check::{Check, Errors, Given, Line, Otherwise, Outside, Verdict};
 use crate::problem::Prepared;
 use crate::record::{Mode, Options, Record};
 use crate::score::dependences::Dependence;
@@ -43,6 +43,11 @@ pub struct CheckFacts {
     pub outside: Vec<Outside>,
     /// The variables that the residual depends on, if the model does not hold.
     pub depends_on: Vec<DependsOn>,
+    /// How the record may have been logged otherwise, if the model does not hold and would with
+    /// that.
+    pub otherwise: Option<Otherwise>,
+    /// Whether the model holds but for the sign of the output.
+    pub is_inverted: bool,
     /// Seconds at the start that are excluded.
     pub left_out: f64,
     /// Whether only the offset has moved.
@@ -226,6 +231,8 @@ impl CheckFacts {
             own_rate: check.about.rate_hz,
             outside: check.outside.clone(),
             depends_on: depends_on.map(|d| DependsOn::new(&check.data, d)).collect(),
+            otherwise: check.otherwise.clone(),
+            is_inverted: check.is_inverted(),
             left_out: check.left_out,
             offset_alone,
             quiet: check.is_quiet(),

@@ -1,7 +1,7 @@
 //! The verdict of a check in one or two sentences.
 
 use super::CheckFacts;
-use crate::check::{Fitted, Line, Verdict, HOLDS, NOISE, NOTHING};
+use crate::check::{Fitted, Line, Otherwise, Verdict, Way, HOLDS, NOISE, NOTHING};
 use crate::facts::numbers::{number, share as percent, with_interval};
 use std::fmt::Write as _;
 
@@ -62,17 +62,21 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
             hardly_moves(check)
         ),
         Verdict::GainOrOffsetMoved => format!(
-            "{}: the model as it is misses {as_it_is} of this record's output, with that corrected {}, as against {came}.",
+            "{}: the model as it is misses {as_it_is} of this record's output, with that corrected {}, as against {came}.{}",
             moved(check),
-            share(check.rmse_corrected)
+            share(check.rmse_corrected),
+            another_unit(check)
         ),
-        Verdict::DoesNotHold if is_inverted(check) => {
+        Verdict::DoesNotHold if check.is_inverted => {
             return format!(
                 "The model does not hold: it misses {as_it_is} of this record's output. With the sign of the output changed (gain {}) it misses {}, as against {came}: is a sensor or the drive connected the other way round?",
                 fitted(&check.line.gain),
                 share(check.rmse_gain_offset)
             )
         }
+        Verdict::DoesNotHold if check.otherwise.is_some() => format!(
+            "The model does not hold: it misses {as_it_is} of this record's output, as against {came}."
+        ),
         Verdict::DoesNotHold => format!(
             "The model does not hold: it misses {as_it_is} of this record's output, as against {came}, and another gain and offset leave {}.",
             share(check.rmse_gain_offset)
@@ -88,7 +92,10 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
         ),
     };
     if check.verdict == Verdict::DoesNotHold {
-        text.push_str(&reasons(check));
+        text.push_str(&match &check.otherwise {
+            Some(otherwise) => asked(otherwise),
+            None => reasons(check),
+        });
     }
     if check.verdict == Verdict::Holds && check.rmse_gain_offset < BETTER * check.rmse {
         let _ = write!(
@@ -101,14 +108,6 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
         );
     }
     text
-}
-
-/// Whether the model holds but for the sign of the output.
-fn is_inverted(check: &CheckFacts) -> bool {
-    let within = check
-        .allowed
-        .is_some_and(|most| check.rmse_gain_offset <= most);
-    within && check.line.gain.value < 0.0
 }
 
 /// What somebody has to know of a record on which the noise is most of what is missed.
@@ -133,6 +132,44 @@ fn moved(check: &CheckFacts) -> String {
             fitted(gain),
             amount(offset.value),
             unit(check)
+        ),
+    }
+}
+
+/// A gain beyond this multiple, or below one over it, is hardly a rig that has changed. A choice.
+const FAR: f64 = 2.0;
+
+/// What is to be asked where the gain has moved far.
+fn another_unit(check: &CheckFacts) -> &'static str {
+    let gain = check.line.gain.value;
+    match !check.offset_alone && !(1.0 / FAR..=FAR).contains(&gain) {
+        true => " Is the output in another unit here, or calibrated otherwise?",
+        false => "",
+    }
+}
+
+/// The question about a record that was logged otherwise.
+fn asked(one: &Otherwise) -> String {
+    let left = percent(one.nrmse);
+    match &one.way {
+        Way::Turned { column } => format!(
+            " With `{column}` turned round it misses {left}: does it count the other way here?"
+        ),
+        Way::Scaled { column, factor } => format!(
+            " With `{column}` divided by {} it misses {left}: is it in another unit here{}?",
+            number(*factor, Some(0.001 * factor)),
+            match (50.0..60.0).contains(factor) {
+                true => " (degrees in place of radians)",
+                false => "",
+            }
+        ),
+        Way::Exchanged { column, other } => format!(
+            " With `{column}` and `{other}` exchanged it misses {left}: do these stand in each other's place here?"
+        ),
+        Way::Late { seconds } => format!(
+            " With the output {} ms {} it misses {left}: is it delayed here, or logged on another clock?",
+            number(1e3 * seconds.abs(), Some(0.02 * 1e3 * seconds.abs())),
+            if *seconds > 0.0 { "earlier" } else { "later" }
         ),
     }
 }
