@@ -74,6 +74,49 @@ fn another_zero_in_one_file_is_a_pretension_that_steps_there() {
     assert!(!closed.sentence().contains("one rig"));
 }
 
+/// A cable that is always pulled, with a viscous friction of its proximal pulley; the output times a
+/// factor.
+fn pulled(begin: f64, factor: f64) -> Rows {
+    let tones = [0.17, 0.31, 0.53, 0.79, 1.1];
+    let sine = |f: f64, t: f64| (std::f64::consts::TAU * f * t).sin();
+    let input = |t: f64| -> f64 { 8.0 + tones.map(|f| 1.9 * sine(f, t)).iter().sum::<f64>() };
+    let angle = |t: f64| input(t) / 30.0 + 0.05 * sine(0.9, t) + 0.02 * sine(0.41, t + 1.0);
+    let (mut eta, mut before, mut rows) = (0.0_f64, input(begin), Vec::new());
+    for i in 0..7_500 {
+        let t = begin + 0.004 * i as f64;
+        for _ in 0..10 {
+            let dx = (input(t) - before) / 10.0;
+            let held = eta.abs().powf(1.2);
+            eta += 0.5 * (dx - 0.6 * dx.abs() * held * eta.signum() - 0.4 * dx * held);
+        }
+        before = input(t);
+        let speed = (angle(t + 1e-4) - angle(t - 1e-4)) / 2e-4;
+        let torque = 0.85 * input(t) - 1.2 * eta - 0.3 - 0.45 * speed + 0.02 * noise(i);
+        rows.push(vec![t - begin, input(t), factor * torque, angle(t)]);
+    }
+    Rows {
+        header: "t [s],tau_i [N·m],tau_o [N·m],phi_p [rad]".to_owned(),
+        rows,
+    }
+}
+
+/// In the squared error of both files the louder one is everything: what describes it may miss the
+/// other one fifty times over, and still leave little of the sum.
+#[test]
+fn a_unit_of_a_thousandth_is_told_where_an_effect_is_missing_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let paths = [
+        pulled(0.0, 1.0).write(&folder, "newton.csv"),
+        pulled(100.0, 1e3).write(&folder, "milli.csv"),
+    ];
+    let closed = Closed::of(&[&paths[0], &paths[1]]);
+    assert_eq!(closed.verdict(), "no-model");
+    closed.says(&["another unit or calibration", "--per-file gains"]);
+    let gain = closed.json["files_apart"][0]["gain"].as_f64().unwrap();
+    // In either direction, and as exactly as the missing effect lets the gains be known.
+    assert!((gain.ln().abs() - 1e3_f64.ln()).abs() < 0.1, "{gain}");
+}
+
 /// Most files count: the first one is the odd one here. The last of four is held out whole.
 #[test]
 fn of_several_files_the_one_that_differs_from_most_is_named() {

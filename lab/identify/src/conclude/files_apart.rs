@@ -53,11 +53,14 @@ pub(crate) fn judge_files(
     done: &FinalFit,
     ledger: &mut Ledger,
 ) {
-    let is_better = |own: &&Solution| own.rmse.fit < OTHER_CONFIGURATION * done.rmse.fit;
     // A search that was cut short has not tried what else might describe all files.
-    let Some(own) = own.filter(|_| !ledger.is_stopped()).filter(is_better) else {
+    let Some(own) = own.filter(|_| !ledger.is_stopped()) else {
         return;
     };
+    if own.rmse.fit >= OTHER_CONFIGURATION * done.rmse.fit {
+        ledger.apart = far_apart(data, own, done);
+        return;
+    }
     ledger.apart = files_apart(data, own);
     let share = |rmse: Segments| rmse.normalised(data, &data.target).fit;
     let rigs = RigsApart {
@@ -65,6 +68,29 @@ pub(crate) fn judge_files(
         own: share(own.rmse),
     };
     ledger.rigs_apart = ledger.apart.is_empty().then_some(rigs);
+}
+
+/// A gain beyond this multiple, or below one over it, is a unit and no rig that has changed. A choice.
+const FAR: f64 = 2.0;
+
+/// The files with a gain far from that of the others, where gains of their own halve the error as
+/// a share of each file's output: in the squared error of all, a file in a thousandth of the unit is
+/// everything, and what is added to describe that may describe no other file.
+fn far_apart(data: &Prepared, own: &Solution, done: &FinalFit) -> Vec<FileApart> {
+    let share = |solution: &Solution| {
+        let files = nrmse_by_file(data, solution)?;
+        let squares = files.iter().filter_map(|file| Some(file.fit?.powi(2)));
+        Some(squares.sum::<f64>().sqrt())
+    };
+    let (Some(together), Some(alone)) = (share(&done.solution), share(own)) else {
+        return Vec::new();
+    };
+    if alone >= OTHER_CONFIGURATION * together {
+        return Vec::new();
+    }
+    let mut apart = files_apart(data, own);
+    apart.retain(|file| !(1.0 / FAR..=FAR).contains(&file.gain));
+    apart
 }
 
 /// What is to be said of files that are not of one rig.
