@@ -20,6 +20,28 @@ fn an_output_of_white_noise_is_no_model_and_the_input_explains_nothing() {
     ]);
 }
 
+/// Everything is connected, and nobody has switched the drive on.
+#[test]
+fn an_input_at_rest_is_told_and_nothing_is_planned_from_its_noise() {
+    let mut rows = sound();
+    rows.set(TAU_I, |i, _| 8.0 + 1e-3 * noise(i));
+    rows.set(TAU_O, |i, _| 6.5 + 1e-2 * noise(1_000_000 + i));
+    let closed = rows.close(&[]);
+    assert_eq!(closed.verdict(), "no-model");
+    closed.says(&["`tau_i` is at rest", "Move it"]);
+    let folder = tempfile::tempdir().unwrap();
+    let record = rows.write(&folder, "rest.csv");
+    let plan = folder.path().join("plan.csv");
+    let output = bowden(&["plan", &record, "--out", plan.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2), "{output:?}");
+    let line = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        line.contains("rest.csv: the input `tau_i` is at rest"),
+        "{line}"
+    );
+    assert!(!plan.exists());
+}
+
 /// The wrong cable is plugged in: a tone is a function of nothing measured.
 #[test]
 fn an_output_that_is_a_sine_at_another_frequency_is_no_model_whatever_a_tone_takes() {

@@ -117,6 +117,11 @@ pub(super) fn no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Str
     if let Some(apart) = &ledger.channel_apart {
         return channel_words(apart);
     }
+    if data.is_at_rest() {
+        return format!(
+            "There is no model here: the input `{input}` is at rest, and shows its sensor's noise alone. Move it, and record that."
+        );
+    }
     let shares = explained(data, &done.solution);
     if let Some(alone) = stood_in_for(data, ledger, done) {
         return format!(

@@ -51,6 +51,8 @@ struct Placed {
     noise_floor: f64,
     /// What is said of rest at the ends.
     rest: Option<String>,
+    /// Whether the input is nothing but noise.
+    rests: bool,
 }
 
 impl Prepared {
@@ -263,6 +265,7 @@ fn place(
             (end < n_estimation - edge, (n_estimation - end) as f64 * row),
             rested as f64 * uniform.dt,
         ),
+        rests: still::is_at_rest(input),
         motion,
         output: on_work,
         raw,
@@ -344,6 +347,7 @@ impl Collected {
             rows: row..row + placed.raw.len(),
             since: work as f64 * grid.dt,
             fitted: !placed.fit.is_empty(),
+            rests: placed.rests,
         });
         self.motion.resize(placed.motion.len(), Vec::new());
         for (all, own) in self.motion.iter_mut().zip(placed.motion) {

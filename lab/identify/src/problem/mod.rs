@@ -165,6 +165,8 @@ pub struct Piece {
     pub since: f64,
     /// Whether the fit sees any of it.
     pub fitted: bool,
+    /// Whether its input is nothing but noise.
+    pub rests: bool,
 }
 
 /// The segments: fit and select, stop-check, held out. Trailing, but for a record that is
@@ -236,6 +238,12 @@ impl Prepared {
     #[must_use]
     pub fn output(&self) -> &[f64] {
         &self.output
+    }
+
+    /// Whether the input is nothing but noise in every record.
+    #[must_use]
+    pub fn is_at_rest(&self) -> bool {
+        self.pieces.iter().all(|piece| piece.rests)
     }
 
     /// Takes back the note that the output counts against the motion.

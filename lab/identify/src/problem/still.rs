@@ -37,6 +37,11 @@ fn spread(values: &[f64]) -> f64 {
     (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / n).sqrt()
 }
 
+/// Whether a column is nothing but noise.
+pub(super) fn is_at_rest(column: &[f64]) -> bool {
+    spread(column) <= ALONE * noise(column)
+}
+
 /// Whether a stretch is noise of that standard deviation, and so is each quarter of it.
 fn is_noise(stretch: &[f64], noise: f64) -> bool {
     let within = |values: &[f64], most: f64| (LEAST..most).contains(&(spread(values) / noise));

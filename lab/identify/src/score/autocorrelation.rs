@@ -119,6 +119,7 @@ mod tests {
             rows: 0..n,
             since: 0.0,
             fitted: true,
+            rests: false,
         }
     }
 
