@@ -37,6 +37,42 @@ fn a_stroke_shorter_than_the_hysteresis_has_no_reference_and_no_certificate() {
     );
 }
 
+/// A cable of which a certificate can be given.
+const STIFF: &str = r#"
+schema = "bowden.model/1"
+mode = "torque"
+channels = []
+[transmission]
+gain = 0.95
+kappa_eta = 1.0
+offset = 0.05
+rho = 0.2
+sigma = 0.6
+n = 1.5
+[about.ranges.input]
+position = [LOW, 40.0]
+velocity = [-40.0, 40.0]
+acceleration = [-170.0, 170.0]
+"#;
+
+/// A cable that can only be pulled: what `certify` will say is said before.
+#[test]
+fn limits_on_one_side_of_zero_are_told_before_certify_refuses_them() {
+    let place = Place::new();
+    let gains = place.path("gains.toml");
+    let report = |low: f64| {
+        let model = place.write("model.toml", &STIFF.replace("LOW", &format!("{low:?}")));
+        let asked = ["--rate", "1000", "--delay", "0.0004", "--out", &gains];
+        let report = said(&[["design", &model].as_slice(), &asked].concat());
+        assert!(report.contains("certificate (peak-sampled)"), "{report}");
+        report
+    };
+    assert!(!report(-40.0).contains("one side of zero"));
+    assert!(report(2.0).contains("limits are on one side of zero"));
+    let line = refused(&["certify", &gains]);
+    assert!(line.contains("on both sides of zero"), "{line}");
+}
+
 #[test]
 fn a_rate_that_is_too_low_for_the_law_is_named() {
     let place = Place::new();

@@ -436,6 +436,12 @@ fn notes(plant: &Plant, adaptive: &AdaptiveDesign) -> Vec<String> {
     if plant.output().is_none() {
         notes.push(TOO_SHORT.to_owned());
     }
+    let [low, high] = plant.input;
+    if adaptive.certificate.is_some() && low * high >= 0.0 {
+        notes.push(
+            "the limits are on one side of zero, as the record is: `bowden certify`, whose theorem has them on both sides, refuses such a file; the certificate above does not count the limits".to_owned(),
+        );
+    }
     if plant.own_delay > 0.0 {
         notes.push(format!(
             "the model's own delay and lag, {} s, are added to --delay",
