@@ -18,14 +18,8 @@ use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::Record;
 use bowden_lab::search::close;
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, Normal};
-use shared::{Row, ROWS};
+use shared::{disturbed, Row, ROWS};
 use std::path::{Path, PathBuf};
-
-/// Standard deviation of the added noise, in multiples of the largest output.
-const SIZE: f64 = 1e-9;
 
 /// The delivered names, weak ones marked, and the errors on the fit and held-out segments.
 struct Answer {
@@ -66,16 +60,6 @@ impl Answer {
         set.sort_unstable();
         set
     }
-}
-
-fn disturbed(record: &Record, seed: u64) -> Record {
-    let mut copy = record.clone();
-    let values = &mut copy.output.values;
-    let largest = values.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
-    let noise = Normal::new(0.0, SIZE * largest).unwrap();
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    values.iter_mut().for_each(|v| *v += noise.sample(&mut rng));
-    copy
 }
 
 /// Closes a record and its copies; how many of these have the record's names.

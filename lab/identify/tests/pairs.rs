@@ -12,8 +12,8 @@ mod pair;
 mod shared;
 
 use bowden_lab::ledger::Grade;
-use pair::{known, Closed, Identity, Name, Rig, Share};
-use shared::{Row, DAMPER, DAVINCI_03, DAVINCI_23, PIEZO_FULL, PIEZO_VARYING};
+use pair::{known, Carried, Closed, Identity, Name, Rig, Share};
+use shared::{disturbed, Row, DAMPER, DAVINCI_03, DAVINCI_23, PIEZO_FULL, PIEZO_VARYING};
 use std::sync::LazyLock;
 
 /// Records of one rig, all read as its row says.
@@ -46,23 +46,41 @@ const PAIRS: [Pair; 3] = [
     },
 ];
 
+/// Copies of each record, with other last digits.
+const COPIES: u64 = 4;
+
 impl Pair {
-    /// The rig measured; `None` where a file is absent.
-    fn rig(&self) -> Option<Rig> {
+    /// The rig measured, from the records as they are (0) or from a copy of each; `None` where a
+    /// file is absent.
+    fn rig(&self, copy: u64) -> Option<Rig> {
         let asked = self.row.asked();
         let mut closed = Vec::new();
         for file in self.files {
             let path = self.row.of_file(file).path()?;
-            closed.push(Closed::new(&asked, &path).unwrap_or_else(|line| panic!("{line}")));
+            let record = asked.read(&path).unwrap_or_else(|line| panic!("{line}"));
+            let record = match copy {
+                0 => record,
+                seed => disturbed(&record, seed),
+            };
+            let one = Closed::of(&asked, record, &path);
+            closed.push(one.unwrap_or_else(|line| panic!("{line}")));
         }
         let rig = Rig::new(self.name, closed).unwrap_or_else(|line| panic!("{line}"));
-        rig.print();
+        if copy == 0 {
+            rig.print();
+        }
         Some(rig)
     }
 }
 
 /// Each record is closed once, for all tests.
-static RIGS: LazyLock<Vec<Rig>> = LazyLock::new(|| PAIRS.iter().filter_map(Pair::rig).collect());
+static RIGS: LazyLock<Vec<Rig>> = LazyLock::new(|| drawn(0));
+/// The same of each copy.
+static DRAWS: LazyLock<Vec<Vec<Rig>>> = LazyLock::new(|| (1..=COPIES).map(drawn).collect());
+
+fn drawn(copy: u64) -> Vec<Rig> {
+    PAIRS.iter().filter_map(|pair| pair.rig(copy)).collect()
+}
 
 /// The error on the other record, with gain and offset refitted, over the own held-out error:
 /// the goal.
@@ -105,6 +123,40 @@ fn at_most_one_in_twenty_of_the_delivered_rounds_raises_the_held_out_error() {
     let raising = over_all("rounds that raise", Rig::raising);
     let Some(raising) = raising else { return };
     assert!(20 * raising.count <= raising.of, "{raising}");
+}
+
+/// Some of these records hang on their last digit: one draw says little, and the goals are asked of
+/// the record and its copies together too. Of the ratios the middle one counts.
+#[test]
+#[ignore = "slow: bash .ci/run measured-records"]
+fn the_goals_hold_over_copies_with_other_last_digits() {
+    let draws = || std::iter::once(&*RIGS).chain(&*DRAWS);
+    if RIGS.is_empty() {
+        return;
+    }
+    let sum = |of: fn(&Rig) -> Share| -> Share { draws().flatten().map(of).sum() };
+    let (raising, known) = (sum(Rig::raising), sum(Rig::agreement));
+    println!(
+        "over {} draws: rounds that raise {raising}, firm names that are known {known}",
+        1 + COPIES
+    );
+    assert!(20 * raising.count <= raising.of, "{raising}");
+    assert!(10 * known.count >= 7 * known.of, "{known}");
+    for one in RIGS.iter().flat_map(|rig| &rig.carried) {
+        let same = |other: &&Carried| (&other.from, &other.to) == (&one.from, &one.to);
+        let all = draws().flatten().flat_map(|rig| &rig.carried).filter(same);
+        let mut ratios: Vec<f64> = all.map(Carried::ratio).collect();
+        ratios.sort_by(f64::total_cmp);
+        println!("{} on {}: {ratios:.2?}", one.from, one.to);
+        let is_missed = MISSED.iter().any(|m| (m.0, m.1) == (&one.from, &one.to));
+        let middle = ratios[ratios.len() / 2];
+        assert!(
+            is_missed || middle <= CARRIED,
+            "{} on {}: {ratios:?}",
+            one.from,
+            one.to
+        );
+    }
 }
 
 /// A firm name agrees where the other record names it too, or has it as a rival of one of its

@@ -80,10 +80,17 @@ impl Closed {
     /// # Errors
     /// One line where it cannot be read or fitted, or where no model can be written.
     pub fn new(asked: &Asked, path: &Path) -> Result<Self, String> {
+        Self::of(asked, asked.read(path)?, path)
+    }
+
+    /// Closes a record that came from that path.
+    ///
+    /// # Errors
+    /// One line where it cannot be fitted, or where no model can be written.
+    pub fn of(asked: &Asked, record: Record, path: &Path) -> Result<Self, String> {
         let label = path
             .file_stem()
             .map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-        let record = asked.read(path)?;
         let cutoff = asked.cutoff;
         let data = Prepared::new(&record, Preparation { cutoff })?;
         let ledger = close(&data, &structure(&asked.declare, &data)?, |_| ())?;

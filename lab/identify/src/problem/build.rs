@@ -225,12 +225,11 @@ fn place(
             .iter()
             .map(|c| moving(&smooth.apply(&uniform.signal(&bridged(record, c))))),
     );
-    let thinned =
-        |values: &[f64], by: usize| -> Vec<f64> { values.iter().step_by(by).copied().collect() };
-    let mut on_work = thinned(&smoothed_output, thinning);
-    on_work.truncate(n_work);
-    let mut raw = thinned(&output, thinning * stride);
-    raw.truncate(n_estimation);
+    let thinned = |values: &[f64], by: usize, most: usize| -> Vec<f64> {
+        values.iter().step_by(by).take(most).copied().collect()
+    };
+    let on_work = thinned(&smoothed_output, thinning, n_work);
+    let raw = thinned(&output, thinning * stride, n_estimation);
 
     let noise_floor = match record.held.contains(&record.output.name) {
         true => 0.0,

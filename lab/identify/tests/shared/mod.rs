@@ -5,7 +5,10 @@
 //! skipped, and a line on stdout says so.
 
 use bowden_lab::facts::Asked;
-use bowden_lab::record::{Mode, Options};
+use bowden_lab::record::{Mode, Options, Record};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, Normal};
 use std::path::PathBuf;
 
 /// A record, how it is read, and what is declared of it.
@@ -239,4 +242,18 @@ impl Row {
         let words = |(name, value)| [format!("--{name}"), value];
         all.into_iter().flat_map(words).collect()
     }
+}
+
+/// Standard deviation of the noise of a copy, in multiples of the largest output.
+const SIZE: f64 = 1e-9;
+
+/// A copy with white noise added to its output, far below what any sensor resolves.
+pub fn disturbed(record: &Record, seed: u64) -> Record {
+    let mut copy = record.clone();
+    let values = &mut copy.output.values;
+    let largest = values.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+    let noise = Normal::new(0.0, SIZE * largest).unwrap();
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    values.iter_mut().for_each(|v| *v += noise.sample(&mut rng));
+    copy
 }
