@@ -6,9 +6,9 @@
 //! then holds, with gain and offset refitted, that is asked about first.
 
 use super::given::{Given, Seen};
-use super::line::Line;
 use super::play::{rms, Played};
 use super::Check;
+use crate::algebra::line;
 use crate::problem::Prepared;
 use crate::record::{is_same_unit, Column, Record};
 
@@ -173,10 +173,11 @@ fn is_alike(record: &Record, place: Place, seen: &Seen, factor: f64) -> bool {
 /// Rms error of a prediction on the rows that count, with gain and offset refitted; `None` where
 /// the gain is not above zero.
 fn error(data: &Prepared, prediction: &[f64]) -> Option<f64> {
-    let line = Line::fit(data, prediction);
-    let moved = line.of(prediction);
-    let rest: Vec<f64> = data.target.iter().zip(&moved).map(|(y, p)| y - p).collect();
-    (line.gain.value > 0.0).then(|| rms(data, &rest, 0.0))
+    let rows = data.split.fit.iter();
+    let (gain, offset) = line(rows.map(|&i| (prediction[i], data.target[i])));
+    let pairs = data.target.iter().zip(prediction);
+    let rest: Vec<f64> = pairs.map(|(y, p)| y - gain * p - offset).collect();
+    (gain > 0.0).then(|| rms(data, &rest, 0.0))
 }
 
 /// What a column is at a place between two samples, by a cubic through four.
