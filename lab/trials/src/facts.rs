@@ -270,7 +270,7 @@ pub fn certify(setup: Option<&Path>) -> Result<Vec<Promise>, String> {
         let text = std::fs::read_to_string(path).unwrap_or_default();
         if is_of_design(&text) {
             return Err(format!(
-                "{}: is a file of `bowden design`, which is certified without --gains: `bowden certify FILE`",
+                "{}: is a file of `bowden design`; gains and rig in one file were expected. It is certified without --gains: `bowden certify FILE`",
                 path.display()
             ));
         }
