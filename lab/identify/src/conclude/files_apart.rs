@@ -70,8 +70,11 @@ pub(crate) fn judge_files(
     ledger.rigs_apart = ledger.apart.is_empty().then_some(rigs);
 }
 
-/// A gain beyond this multiple, or below one over it, is a unit and no rig that has changed. A choice.
-const FAR: f64 = 2.0;
+/// Whether a gain is so far from one that it is a unit, and no rig that has changed: beyond a factor
+/// of two. A choice.
+pub(crate) fn is_far(gain: f64) -> bool {
+    !(0.5..=2.0).contains(&gain)
+}
 
 /// The files with a gain far from that of the others, where gains of their own halve the error as
 /// a share of each file's output: in the squared error of all, a file in a thousandth of the unit is
@@ -89,7 +92,7 @@ fn far_apart(data: &Prepared, own: &Solution, done: &FinalFit) -> Vec<FileApart>
         return Vec::new();
     }
     let mut apart = files_apart(data, own);
-    apart.retain(|file| !(1.0 / FAR..=FAR).contains(&file.gain));
+    apart.retain(|file| is_far(file.gain));
     apart
 }
 

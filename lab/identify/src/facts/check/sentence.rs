@@ -2,6 +2,7 @@
 
 use super::CheckFacts;
 use crate::check::{Fitted, Line, Otherwise, Verdict, Way, HOLDS, NOISE, NOTHING};
+use crate::conclude::files_apart::is_far;
 use crate::facts::numbers::{number, share as percent, with_interval};
 use std::fmt::Write as _;
 
@@ -136,13 +137,9 @@ fn moved(check: &CheckFacts) -> String {
     }
 }
 
-/// A gain beyond this multiple, or below one over it, is hardly a rig that has changed. A choice.
-const FAR: f64 = 2.0;
-
 /// What is to be asked where the gain has moved far.
 fn another_unit(check: &CheckFacts) -> &'static str {
-    let gain = check.line.gain.value;
-    match !check.offset_alone && !(1.0 / FAR..=FAR).contains(&gain) {
+    match !check.offset_alone && is_far(check.line.gain.value) {
         true => " Is the output in another unit here, or calibrated otherwise?",
         false => "",
     }
