@@ -56,35 +56,64 @@ pub struct Compare {
 struct RigOptions {
     /// Torque at the proximal pulley per command unit [N·m]; where not given, that of the
     /// --gains of `bowden design`, or 0.6.
-    #[arg(long, value_name = "N·m", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N·m")]
     drive_gain: Option<f64>,
     /// Inertia of motor and proximal pulley [kg·m²]; 0.2 where not given.
-    #[arg(long, value_name = "KG·M²", allow_negative_numbers = true)]
+    #[arg(long, value_name = "KG·M²")]
     inertia: Option<f64>,
     /// Viscous friction of motor and proximal pulley [N·m·s/rad]; 2.7 where not given.
-    #[arg(long, value_name = "N·m·s", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N·m·s")]
     damping: Option<f64>,
     /// Inertia of the joint [kg·m²]; 0.004 where not given.
-    #[arg(long, value_name = "KG·M²", allow_negative_numbers = true)]
+    #[arg(long, value_name = "KG·M²")]
     joint_inertia: Option<f64>,
     /// Damping of the joint [N·m·s/rad]; 0.5 where not given.
-    #[arg(long, value_name = "N·m·s", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N·m·s")]
     joint_damping: Option<f64>,
     /// Spring that the joint works against [N·m/rad]; 150 where not given.
-    #[arg(long, value_name = "N·m", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N·m")]
     spring: Option<f64>,
     /// Samples between a command and the drive, 0 to 8; 1 where not given.
-    #[arg(long, value_name = "SAMPLES")]
+    #[arg(long, value_name = "SAMPLES", value_parser = clap::value_parser!(u8).range(0..=8))]
     delay: Option<u8>,
     /// Time constant of the drive [s]; 0.0005 where not given.
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S")]
     drive_lag: Option<f64>,
     /// Time constant of the torque sensors [s]; 0.001 where not given.
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S")]
     sensor_lag: Option<f64>,
 }
 
 impl RigOptions {
+    /// Numbers that no rig has are told by the option that names them.
+    fn check(&self) -> Result<(), Failure> {
+        let positive = [
+            ("--drive-gain", self.drive_gain),
+            ("--inertia", self.inertia),
+            ("--joint-inertia", self.joint_inertia),
+            ("--spring", self.spring),
+            ("--drive-lag", self.drive_lag),
+            ("--sensor-lag", self.sensor_lag),
+        ];
+        let not_negative = [
+            ("--damping", self.damping),
+            ("--joint-damping", self.joint_damping),
+        ];
+        for (option, value) in positive {
+            if let Some(value) = value.filter(|v| !(v.is_finite() && *v > 0.0)) {
+                return Err(format!(
+                    "{option} {value}: a number above zero was expected"
+                ));
+            }
+        }
+        for (option, value) in not_negative {
+            if let Some(value) = value.filter(|v| !(v.is_finite() && *v >= 0.0)) {
+                return Err(format!("{option} {value}: zero or more was expected"));
+            }
+        }
+        Ok(())
+    }
+
     fn changes(&self) -> RigChanges {
         RigChanges {
             drive_gain: self.drive_gain,
@@ -168,6 +197,6 @@ impl Compare {
                 self.seeds
             ));
         }
-        Ok(())
+        self.rig.check()
     }
 }

@@ -12,11 +12,11 @@ pub struct Design {
     #[arg(value_name = "MODEL.toml")]
     model: PathBuf,
     /// Samples of the controller a second [Hz].
-    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    #[arg(long, value_name = "HZ")]
     rate: f64,
     /// From the command to its measured torque [s]: transport, computation, and the time
     /// constants of drive, sensor and joint; half a sample of hold is added.
-    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECONDS")]
     delay: f64,
     /// Noise of the measured torque [N·m rms]: how fast a command must be allowed to move.
     #[arg(

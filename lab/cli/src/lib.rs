@@ -20,6 +20,7 @@ mod power;
 mod progress;
 mod reading;
 mod rows;
+mod usage;
 pub mod view;
 
 pub use progress::share;
@@ -78,7 +79,7 @@ enum Command {
 /// # Errors
 /// The line to be printed on stderr.
 pub fn run() -> Result<ExitCode, Failure> {
-    match Arguments::parse().command {
+    match usage::arguments()?.command {
         Some(Command::Certify(certify)) => return certify.run(),
         None => close::Close::default().run(),
         Some(Command::Close(close)) => close.run(),

@@ -303,11 +303,10 @@ fn a_bad_record_or_option_gives_one_line_and_status_two() {
     assert!(refused(&["generate", "--effect", "nonsense"]).contains("nonsense"));
     assert!(refused(&["generate", "--effect", "viscous:much"]).contains("much"));
     assert!(refused(&["generate", "--seconds", "0"]).contains("seconds"));
-    // Usage errors are the argument parser's: several lines, but the same status.
-    assert_eq!(
-        bowden(&["close", "--no-such-option"]).status.code(),
-        Some(2)
-    );
+    assert!(refused(&["close", "--no-such-option"]).contains("--no-such-option"));
+    assert!(refused(&["compare", "--inertia", "0"]).contains("--inertia 0: a number above zero"));
+    assert!(refused(&["compare", "--delay", "9"]).contains("9 is not in 0..=8"));
+    assert!(refused(&["compare", "--noise", "-1"]).contains("--noise -1: zero or more"));
 }
 
 #[test]
