@@ -11,8 +11,9 @@ use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub struct Compare {
-    /// White noise of the torque sensors [N·m rms]; where not given, the experiment's
-    /// 0.28, and 0.02 with --effect: through the paper's gains 0.28 hides what is gained.
+    /// White noise of the torque sensors [N·m rms]; where not given, what the --gains of
+    /// `bowden design` were designed for, or the experiment's 0.28, and 0.02 with --effect:
+    /// through the paper's gains 0.28 hides what is gained.
     #[arg(long, value_name = "N·m")]
     noise: Option<f64>,
     /// The conduit is moved during the trials: B, kappa_eta and T0 wander.

@@ -254,7 +254,10 @@ fn inputs(question: &Question<'_>) -> Result<(Setup, Option<GainsFile>, bool), S
                     "{label}: gains of `bowden design` need the model that they were designed for: --model MODEL.toml"
                 ));
             };
-            let own = setup(question, Some(model))?;
+            // What the gains were designed for is what they are tried with.
+            let designed = Some(gains.design.noise).filter(|noise| *noise > 0.0);
+            let noise = question.noise.or(designed);
+            let own = setup(&Question { noise, ..*question }, Some(model))?;
             no_model_is_refused(model)?;
             Ok((own, Some(gains), true))
         }

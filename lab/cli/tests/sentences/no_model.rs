@@ -32,13 +32,16 @@ fn an_input_at_rest_is_told_and_nothing_is_planned_from_its_noise() {
     let folder = tempfile::tempdir().unwrap();
     let record = rows.write(&folder, "rest.csv");
     let plan = folder.path().join("plan.csv");
-    let output = bowden(&["plan", &record, "--out", plan.to_str().unwrap()]);
-    assert_eq!(output.status.code(), Some(2), "{output:?}");
-    let line = String::from_utf8(output.stderr).unwrap();
-    assert!(
-        line.contains("rest.csv: the input `tau_i` is at rest"),
-        "{line}"
-    );
+    let asked = ["plan", &record, "--out", plan.to_str().unwrap()];
+    for asked in [asked.as_slice(), &["power", &record]] {
+        let output = bowden(asked);
+        assert_eq!(output.status.code(), Some(2), "{output:?}");
+        let line = String::from_utf8(output.stderr).unwrap();
+        assert!(
+            line.contains("rest.csv: the input `tau_i` is at rest"),
+            "{line}"
+        );
+    }
     assert!(!plan.exists());
 }
 

@@ -77,6 +77,18 @@ impl Asked {
         Ok((data, structure))
     }
 
+    /// As [`prepare`](Self::prepare), of a record that shows a motion.
+    pub(super) fn prepare_moving(&self, record: &Record) -> Result<(Prepared, Structure), String> {
+        let (data, structure) = self.prepare(record)?;
+        match data.is_at_rest() {
+            true => Err(format!(
+                "{}: the input `{}` is at rest, and shows its sensor's noise alone: a record of a motion was expected",
+                record.path, data.input.name
+            )),
+            false => Ok((data, structure)),
+        }
+    }
+
     /// Several records on common grids, and the declared model.
     pub(super) fn prepare_joined(
         &self,

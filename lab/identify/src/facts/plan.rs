@@ -35,13 +35,7 @@ pub struct Planned {
 /// # Errors
 /// One line where the record cannot be closed.
 pub fn plan(record: &Record, asked: &Asked, tell: &dyn Fn(&str)) -> Result<Plan, String> {
-    let (data, structure) = asked.prepare(record)?;
-    if data.is_at_rest() {
-        return Err(format!(
-            "{}: the input `{}` is at rest, and shows its sensor's noise alone: a record of a motion was expected",
-            record.path, data.input.name
-        ));
-    }
+    let (data, structure) = asked.prepare_moving(record)?;
     let ledger = asked
         .search(&data, &structure, tell)
         .map_err(|message| format!("{}: {message}", record.path))?;
