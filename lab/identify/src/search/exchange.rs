@@ -215,9 +215,7 @@ impl Search<'_> {
             let present = starts[0].clone();
             starts.extend(other_hystereses(self.data, &free, &present));
         }
-        let search = |start: &[f64], (most, tolerance)| {
-            descend(self.coarse, structure, &free, start, most, tolerance)
-        };
+        let search = |start: &[f64], effort| self.coarse.descend(structure, &free, start, effort);
         let rough: Vec<_> = starts.par_iter().map(|s| search(s, ROUGH)).collect();
         let mut rough: Vec<_> = rough.into_iter().flatten().collect();
         rough.sort_by(|a, b| a.0.total_cmp(&b.0));

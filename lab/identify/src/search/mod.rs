@@ -13,6 +13,7 @@
 
 mod bank;
 pub mod carries_over;
+mod coarse;
 mod exchange;
 mod forward;
 pub mod gram;
@@ -35,6 +36,7 @@ use crate::problem::Prepared;
 use crate::score::blocks::Regime;
 use crate::score::explains::integrates;
 use bank::Bank;
+use coarse::Coarse;
 use linear::Linear;
 pub use policy::{MOST_NAMES, RECURRENCES};
 use refit::on;
@@ -100,6 +102,7 @@ pub fn close_within(
         return Ok(ledger);
     }
     let (coarse, fine) = (data.for_search(true), data.for_search(false));
+    let coarse = Coarse::new(&coarse);
     let mut search = Search::new((data, &coarse, &fine), &declared, most);
     let budget = limits.seconds.map(|seconds| (begun, seconds));
     let out_of_time = search.run(budget, &mut progress);

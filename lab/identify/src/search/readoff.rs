@@ -186,9 +186,7 @@ impl Search<'_> {
             let present = starts[0].clone();
             starts.extend(other_hystereses(self.data, &free, &present));
         }
-        let search = |start: &[f64], (most, tolerance)| {
-            descend(self.coarse, &structure, &free, start, most, tolerance)
-        };
+        let search = |start: &[f64], effort| self.coarse.descend(&structure, &free, start, effort);
         let rough = starts.iter().filter_map(|s| search(s, ROUGH));
         let (_, start) = rough.min_by(|a, b| a.0.total_cmp(&b.0))?;
         let (_, start) = search(&start, FAIR)?;

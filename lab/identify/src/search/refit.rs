@@ -1,11 +1,11 @@
 //! The squared error of a move with all shapes refitted, started from its linear prediction.
 
 use super::bank::{on_line, Own};
+use super::coarse::{Coarse, Effort};
 use super::kept::Kept;
 use super::linear::{Linear, Member};
 use super::moves::Move;
 use crate::fit::projection::Span;
-use crate::fit::search::descend;
 use crate::fit::settle::settle;
 use crate::fit::starts::INSIDE;
 use crate::fit::Solution;
@@ -18,8 +18,8 @@ use crate::score::hats::{score, Scored};
 /// Numbers of hat functions that are tried for a refitted curve.
 const HATS: [usize; 3] = [10, 20, 40];
 /// Evaluations and tolerance of a rough and of a fair search.
-pub(super) const ROUGH: (usize, f64) = (10, 1e-3);
-pub(super) const FAIR: (usize, f64) = (40, 1e-5);
+pub(super) const ROUGH: Effort = (10, 1e-3);
+pub(super) const FAIR: Effort = (40, 1e-5);
 /// Two further starts (rho in units of 1/reach of the input, sigma, n): the present hysteresis
 /// may have adapted to the missing effect.
 const HYSTERESES: [(f64, f64, f64); 2] = [(3.0, 0.6, 2.0), (25.0, 0.8, 1.5)];
@@ -76,7 +76,7 @@ impl Linear<'_> {
     /// start can be evaluated, or if the best rough search does not satisfy `wanted`.
     pub(super) fn refit(
         &self,
-        (coarse, moved): (&Prepared, &Span),
+        (coarse, moved): (&Coarse, &Span),
         one: &Move,
         most: usize,
         wanted: impl Fn(&Priced) -> bool,
@@ -84,9 +84,8 @@ impl Linear<'_> {
         use rayon::prelude::*;
         let plan = self.plan(moved, one)?;
         let free = plan.structure.free(self.data);
-        let search = |start: &[f64], (most, tolerance): (usize, f64)| {
-            descend(coarse, &plan.structure, &free, start, most, tolerance)
-        };
+        let search =
+            |start: &[f64], effort: Effort| coarse.descend(&plan.structure, &free, start, effort);
         let mut starts = self.starts(&plan, one, &free);
         starts.truncate(most);
         let rough: Vec<Option<(f64, Vec<f64>)>> =
@@ -256,9 +255,9 @@ fn start_of(term: &FitTerm, role: Role, gain: f64) -> f64 {
 }
 
 /// Squared error of the present model on the coarse grid.
-pub(super) fn present(data: &Prepared, coarse: &Prepared, now: &Solution) -> f64 {
+pub(super) fn present(data: &Prepared, coarse: &Coarse, now: &Solution) -> f64 {
     let free = now.structure.free(data);
-    let reached = descend(coarse, &now.structure, &free, &now.values, 10, 1e-4);
+    let reached = coarse.descend(&now.structure, &free, &now.values, (10, 1e-4));
     reached.map_or(f64::INFINITY, |(sse, _)| sse)
 }
 

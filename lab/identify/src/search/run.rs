@@ -1,6 +1,7 @@
 //! The search loop: propose moves, refit the best ones, accept one, linearise again.
 
 use super::bank::{Bank, Identity};
+use super::coarse::Coarse;
 use super::linear::{Linear, Member};
 use super::moves::{is_same, Move, Phase, Wanted};
 use super::policy;
@@ -40,7 +41,7 @@ pub(super) struct Entry {
 /// A search under way.
 pub(super) struct Search<'a> {
     pub(super) data: &'a Prepared,
-    pub(super) coarse: &'a Prepared,
+    pub(super) coarse: &'a Coarse<'a>,
     pub(super) fine: &'a Prepared,
     pub(super) bank: Bank<'a>,
     pub(super) declared: Arc<Solution>,
@@ -82,7 +83,7 @@ pub(super) struct Standing<'a> {
 
 impl<'a> Search<'a> {
     pub(super) fn new(
-        (data, coarse, fine): (&'a Prepared, &'a Prepared, &'a Prepared),
+        (data, coarse, fine): (&'a Prepared, &'a Coarse<'a>, &'a Prepared),
         declared: &Solution,
         most: usize,
     ) -> Self {

@@ -1,0 +1,58 @@
+//! The coarse grid, and what local searches on it have reached.
+
+use crate::fit::search::descend;
+use crate::model::structure::{Free, Structure};
+use crate::problem::Prepared;
+use std::sync::{Mutex, PoisonError};
+
+/// Number of evaluations and tolerance of a local search.
+pub(super) type Effort = (usize, f64);
+
+/// The squared error that a search has reached, and the values there.
+type Reached = Option<(f64, Vec<f64>)>;
+
+/// The coarse grid of the refits. One model is refitted from one start more than once: a move that
+/// was turned down comes back as a rival, a set that is left is met again. What its search has
+/// reached is then known.
+pub(super) struct Coarse<'a> {
+    pub(super) data: &'a Prepared,
+    known: Mutex<Vec<(Question, Reached)>>,
+}
+
+/// A local search. Its free parameters follow from the structure.
+#[derive(PartialEq)]
+struct Question {
+    start: Vec<f64>,
+    effort: Effort,
+    structure: Structure,
+}
+
+impl<'a> Coarse<'a> {
+    pub(super) fn new(data: &'a Prepared) -> Self {
+        let known = Mutex::default();
+        Self { data, known }
+    }
+
+    /// As [`descend`] on this grid.
+    pub(super) fn descend(
+        &self,
+        structure: &Structure,
+        free: &[Free],
+        start: &[f64],
+        effort: Effort,
+    ) -> Reached {
+        let question = Question {
+            start: start.to_vec(),
+            effort,
+            structure: structure.clone(),
+        };
+        let all = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, reached)) = all().iter().find(|(known, _)| *known == question) {
+            return reached.clone();
+        }
+        let (most, tolerance) = effort;
+        let reached = descend(self.data, structure, free, start, most, tolerance);
+        all().push((question, reached.clone()));
+        reached
+    }
+}
