@@ -252,8 +252,8 @@ pub fn a_start_keeps_the_command<const N: usize>(
     state.command() == command && state.bad_score() == 0 && law.is_valid(&state)
 }
 
-/// A PID that starts from an output has that as its command, as far as its range allows it;
-/// where a number is not finite, or overflows, integral, rate and command stay; so they do
+/// A PID that starts from an output has that as its command, as far as its range allows it, and
+/// the score of the bad samples that it had; where a number is not finite, or overflows, integral, rate and command stay; so they do
 /// where the safe command is latched.
 pub fn a_pid_start_keeps_the_command(
     pid: &Pid<f32>,
@@ -271,7 +271,7 @@ pub fn a_pid_start_keeps_the_command(
                 && state.command() == command
                 && integral.is_finite()
                 && state.rate() == 0.0
-                && state.bad_score() == 0
+                && state.bad_score() == before.bad_score()
                 && !before.is_latched()
         }
         Status::Degraded(_) => false,

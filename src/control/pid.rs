@@ -238,7 +238,9 @@ impl<T: Real> Pid<T> {
 
     /// The sample and the integral with which the terms give `output` there, from rest.
     fn started_at(&self, output: T, at: &PidInput<T>) -> Result<(Last<T>, T), Fault> {
-        if let Some(fault) = unless_finite(output, Fault::Command).or_else(|| self.fault(at)) {
+        // No time passes here: whatever `at.dt` is, as after an hour with the drive off.
+        let fault = unless_finite(output, Fault::Command).or_else(|| self.fault_of_numbers(at));
+        if let Some(fault) = fault {
             return Err(fault);
         }
         let mut last = Last::at(at).with_known_velocity();
@@ -279,8 +281,12 @@ impl<T: Real> Pid<T> {
 
     /// What is wrong with a sample, where something is; not whether the law overflows on it.
     fn fault(&self, at: &PidInput<T>) -> Option<Fault> {
-        fault_of_dt(at.dt, self.settings.longest_dt)
-            .or_else(|| unless_finite(at.reference, Fault::Reference))
+        fault_of_dt(at.dt, self.settings.longest_dt).or_else(|| self.fault_of_numbers(at))
+    }
+
+    /// The same of its numbers, whatever its `dt`.
+    fn fault_of_numbers(&self, at: &PidInput<T>) -> Option<Fault> {
+        unless_finite(at.reference, Fault::Reference)
             .or_else(|| unless_finite(at.measured, Fault::Measured))
             .or_else(|| unless_finite(self.velocity(at), Fault::Velocity))
             .or_else(|| unless_finite(at.feed_forward, Fault::FeedForward))

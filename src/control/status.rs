@@ -283,6 +283,18 @@ impl<T: Real> Held<T> {
         true
     }
 
+    /// The same with another command that the loop goes on from: bad samples stay remembered.
+    #[must_use]
+    pub(crate) fn going_on_from(self, command: T) -> Self {
+        let latch = Latch::Closed;
+        Self {
+            command,
+            latch,
+            ..self
+        }
+        .remembering()
+    }
+
     /// Whether the next good sample is the first one after a safe command.
     pub(crate) fn is_returning(&self) -> bool {
         self.latch == Latch::Returning

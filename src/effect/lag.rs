@@ -1,7 +1,9 @@
 //! A first-order lag: the output follows late and rounded.
 //!
 //! Formula: `lowpass(output; tau) − output`; the gain is 1 where the lag is whole.
-//! The low-pass takes each sample as held over its dt: exact for steps, at any dt.
+//! The low-pass takes each sample as held over its dt: exact for steps, at any dt. The float rounds
+//! what a step adds: the memory stops short of its end by up to tau/dt times half an epsilon of it,
+//! in `f32` 0.06 % at tau/dt of 10^4 and 6 % at 10^6.
 //! An output stage: it reads the sum of everything before it.
 //!
 //! Source: K. J. Åström, R. M. Murray, *Feedback Systems*, 2008, chapter 8.

@@ -163,6 +163,9 @@ impl<T: Real> Plausible<T> {
 
     /// The same where `samples` equal numbers in succession are a stuck sensor; 0: never.
     ///
+    /// A sensor that was found stuck stays so until its number changes, at rest too. Where the
+    /// machine cannot move because of that, a new [`PlausibleState`] takes it for sound again.
+    ///
     /// They are counted while the machine moves only. A coarse encoder repeats itself at low
     /// speed: choose more samples than one of its counts takes then.
     #[must_use]

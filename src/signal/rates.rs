@@ -413,6 +413,8 @@ fn positive<T: Real>(value: T, name: &'static str) -> Result<T, Error> {
 
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
+// Without its period a shaft that turns round would leap: a misspelt one is refused.
+#[serde(deny_unknown_fields)]
 struct Unchecked<T> {
     time_constant: T,
     longest_gap: T,

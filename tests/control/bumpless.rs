@@ -1,7 +1,7 @@
 //! Starts, hand-overs and changes of gains without a jump of the command.
 
 use bowden::control::{
-    AntiWindup, Damping, Fault, Limits, Pid, PidInput, PidSettings, PidState, Status,
+    AntiWindup, Damping, Fallback, Fault, Limits, Pid, PidInput, PidSettings, PidState, Status,
 };
 
 const DT: f64 = 1e-3;
@@ -26,6 +26,44 @@ fn a_start_goes_on_from_the_output_with_the_feed_forward_in_it() {
         // The rounding of a sum of five numbers around 100.
         assert!((out.command - 41.5).abs() <= one_step + 1e-12);
     }
+}
+
+#[test]
+fn a_start_reads_no_dt() {
+    let pid = Pid::try_new(PidSettings {
+        longest_dt: 0.01,
+        ..PidSettings::unlimited(10.0, 20.0)
+    })
+    .unwrap();
+    // Ten seconds with the drive off, or a sample that was made for the start alone.
+    for dt in [10.0, 0.0, -1.0, f64::NAN] {
+        let (mut state, sample) = (PidState::new(), PidInput::new(DT, 1.0, 1.0));
+        pid.step(&mut state, &sample);
+        let pause = PidInput { dt, ..sample };
+        assert_eq!(state.resume_from(&pid, 42.0, &pause), Status::Good, "{dt}");
+        assert_eq!(pid.step(&mut state, &sample).command, 42.0);
+    }
+}
+
+#[test]
+fn a_start_at_each_good_sample_does_not_keep_the_safe_command_back() {
+    let pid = Pid::try_new(PidSettings {
+        fallback: Fallback::try_new(20, -3.0).unwrap(),
+        ..PidSettings::unlimited(10.0, 20.0)
+    })
+    .unwrap();
+    let (mut state, good) = (PidState::new(), PidInput::new(DT, 1.0, 1.0));
+    let bad = PidInput {
+        measured: f64::NAN,
+        ..good
+    };
+    // A bad sample counts four times as much as a good one takes away, and only steps take away.
+    let first = (1..100).find(|_| {
+        let command = state.command();
+        state.resume_from(&pid, command, &good);
+        pid.step(&mut state, &bad).status == Status::Safe(Fault::Measured)
+    });
+    assert_eq!((first, state.command()), (Some(20), -3.0));
 }
 
 #[test]

@@ -38,33 +38,26 @@ struct Open {
     fallback: Fallback<f64>,
     score: u32,
     latched: bool,
-    returning: bool,
 }
 
 impl Open {
     fn new(fallback: Fallback<f64>) -> Self {
-        let (score, latched, returning) = (0, false, false);
+        let (score, latched) = (0, false);
         Self {
             fallback,
             score,
             latched,
-            returning,
         }
     }
 
-    /// `anew`: the first good sample after a safe command forgets every bad one before it.
-    fn take(&mut self, event: Event, anew: bool) {
+    fn take(&mut self, event: Event) {
         match event {
             Event::Acknowledged if self.latched => {
-                (self.score, self.latched, self.returning) = (0, false, true);
+                (self.score, self.latched) = (0, false);
             }
             _ if self.latched => {}
             Event::Acknowledged => {}
-            Event::Good if self.returning && anew => (self.score, self.returning) = (0, false),
-            Event::Good => {
-                self.score = self.score.saturating_sub(1);
-                self.returning = false;
-            }
+            Event::Good => self.score = self.score.saturating_sub(1),
             Event::Nan | Event::Overflow => {
                 let most = self.fallback.most();
                 self.score = most.min(self.score + self.fallback.weight());
@@ -120,7 +113,7 @@ proptest! {
                 let out = pid.step(&mut state, &PidInput::new(1e-3, reference, measured(event)));
                 prop_assert_eq!(out.status == Status::Good, event == Event::Good && !open.latched);
             }
-            open.take(event, true);
+            open.take(event);
             prop_assert_eq!((state.bad_score(), state.is_latched()), (open.score, open.latched));
         }
     }
@@ -142,7 +135,7 @@ proptest! {
                 let out = law.step(&mut state, &input);
                 prop_assert_eq!(out.status == Status::Good, event == Event::Good && !open.latched);
             }
-            open.take(event, false);
+            open.take(event);
             prop_assert_eq!((state.bad_score(), state.is_latched()), (open.score, open.latched));
         }
     }

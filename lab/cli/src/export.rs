@@ -5,6 +5,9 @@ use bowden_lab::facts::model_in_c;
 use clap::Args;
 use std::path::PathBuf;
 
+/// Names of files after which functions would be called that the library has itself.
+const TAKEN: [&str; 2] = ["bowden", "bowden_model"];
+
 #[derive(Args)]
 pub struct Export {
     /// The model, a file of `close --model-out`.
@@ -24,6 +27,13 @@ impl Export {
             if path.extension().is_none_or(|e| e != "h") {
                 return Err(format!(
                     "--out {}: a name that ends in .h was expected",
+                    path.display()
+                ));
+            }
+            let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+            if TAKEN.contains(&stem.to_lowercase().as_str()) {
+                return Err(format!(
+                    "--out {}: is a name of the library's own, and what is named after it would be there twice; another one was expected",
                     path.display()
                 ));
             }

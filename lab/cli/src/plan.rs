@@ -38,9 +38,16 @@ impl Plan {
                 "of this kind helps",
             ),
         };
+        if let Some(verdict) = &found.undescribed {
+            anstream::eprintln!("{verdict}");
+        }
         let Some(planned) = found.planned else {
+            let ends = match &found.undescribed {
+                Some(_) => "; what the model does not describe is to be mended first".to_owned(),
+                None => format!(": no experiment {experiment}"),
+            };
             anstream::eprintln!(
-                "{first}, and no planned motion would show an unknown parameter better: no experiment {experiment}"
+                "{first}, and no planned motion would show an unknown parameter better{ends}"
             );
             return Ok(());
         };

@@ -303,6 +303,10 @@ fn a_bad_record_or_option_gives_one_line_and_status_two() {
     assert!(refused(&["generate", "--effect", "nonsense"]).contains("nonsense"));
     assert!(refused(&["generate", "--effect", "viscous:much"]).contains("much"));
     assert!(refused(&["generate", "--seconds", "0"]).contains("seconds"));
+    for taken in ["bowden.h", "Bowden_model.h"] {
+        let line = refused(&["export", "--c", "model.toml", "--out", taken]);
+        assert!(line.contains("a name of the library's own"), "{line}");
+    }
     assert!(refused(&["close", "--no-such-option"]).contains("--no-such-option"));
     assert!(refused(&["compare", "--inertia", "0"]).contains("--inertia 0: a number above zero"));
     assert!(refused(&["compare", "--delay", "9"]).contains("9 is not in 0..=8"));

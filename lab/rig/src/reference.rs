@@ -84,6 +84,19 @@ impl<T: Real> Reference<T> {
             .fold(self.mean, |sum, (amplitude, _)| sum + *amplitude)
     }
 
+    /// The greatest magnitude \[N·m\], whatever its sign.
+    ///
+    /// ```
+    /// use bowden_rig::Reference;
+    /// let pulled = Reference::<f64>::paper().between(-50.0, -10.0);
+    /// assert!((pulled.maximum() + 10.0).abs() < 1e-12 && (pulled.magnitude() - 50.0).abs() < 1e-12);
+    /// ```
+    #[must_use]
+    pub fn magnitude(&self) -> T {
+        let tones = self.tones.iter();
+        tones.fold(self.mean.abs(), |sum, (amplitude, _)| sum + amplitude.abs())
+    }
+
     /// The reference \[N·m\] at time `t` \[s\].
     #[must_use]
     pub fn at(&self, t: T) -> T {

@@ -100,7 +100,7 @@ fn line(name: &str, trials: &[Trial], conditions: &Conditions) -> Line {
         controller: name.to_owned(),
         rmse_true: spread(|t| t.steady.rmse_true),
         rmse_measured,
-        share: rmse_measured.mean / conditions.reference.maximum(),
+        share: rmse_measured.mean / conditions.reference.magnitude(),
         peak: most(|t| t.steady.peak),
         effort: spread(|t| t.effort).mean,
         reversals: spread(|t| t.reversals).mean,

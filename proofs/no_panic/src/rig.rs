@@ -16,6 +16,7 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(rig_reference_with_ramp, reference.with_ramp(any()));
     never_panics!(rig_reference_between, reference.between(any(), any()));
     never_panics!(rig_reference_maximum, reference.maximum());
+    never_panics!(rig_reference_magnitude, reference.magnitude());
     never_panics!(rig_reference_at, reference.at(any()));
     never_panics!(rig_reference_motion, reference.motion(any()));
 

@@ -78,7 +78,9 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// Starts so that the next step on `input` commands `output` \[command unit\].
     ///
     /// As [`AdaptiveState::resume_from`], for a state that is there: a sample that cannot be
-    /// used counts as a bad one, and where the safe command is latched it stays.
+    /// used counts as a bad one, and where the safe command is latched it stays. So does the score
+    /// of the bad samples: whoever starts anew after each of them still gets the safe command.
+    /// `input.dt` is not read.
     pub fn resume(
         &self,
         state: &mut AdaptiveState<T, N>,
@@ -90,14 +92,16 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
             return safe;
         }
         let fault = if output.is_finite() {
-            self.fault(input)
+            self.fault_of_numbers(input)
         } else {
             Some(Fault::Command)
         };
         match fault {
             Some(fault) => state.held.bad(fault, fallback),
             None => {
+                let held = state.held;
                 *state = AdaptiveState::resume_from(self, output, input);
+                state.held = held.going_on_from(state.held.command);
                 Status::Good
             }
         }

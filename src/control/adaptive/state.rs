@@ -59,7 +59,8 @@ pub struct AdaptiveOutput<T, const N: usize> {
 
 /// Every term of the law in one step, with the estimates that the step used.
 ///
-/// After a bad sample `z` and the estimates are those of the state; the rest is zero.
+/// After a bad sample, and where a regressor is left out ([`Status::Degraded`]), `z` and the
+/// estimates are those of the state; the rest is zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

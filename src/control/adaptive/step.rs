@@ -279,9 +279,13 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
 
     /// What is wrong with a sample, where something is; not whether the law overflows on it.
     pub(super) fn fault(&self, input: &AdaptiveInput<T, N>) -> Option<Fault> {
+        fault_of_dt(input.dt, self.longest).or_else(|| self.fault_of_numbers(input))
+    }
+
+    /// The same of its numbers, whatever its `dt`.
+    pub(super) fn fault_of_numbers(&self, input: &AdaptiveInput<T, N>) -> Option<Fault> {
         let bad = |x: &T| !x.is_finite();
-        fault_of_dt(input.dt, self.longest)
-            .or_else(|| unless_finite(input.reference, Fault::Reference))
+        unless_finite(input.reference, Fault::Reference)
             .or_else(|| unless_finite(input.next_reference, Fault::Reference))
             .or_else(|| unless_finite(input.measured, Fault::Measured))
             .or_else(|| {

@@ -113,7 +113,13 @@ impl<T: Real> PidState<T> {
     /// the integral go that far, it goes as far as it may.
     ///
     /// A number that is not finite, or an overflow, leaves the state as it was, but for
-    /// the count of bad samples, and is told. Where the safe command is latched it stays.
+    /// the count of bad samples, and is told. Where the safe command is latched it stays. The
+    /// score of the bad samples stays too: whoever starts anew after each of them still gets the
+    /// safe command.
+    ///
+    /// What the terms lack at `at` goes into the integral. Without an integral gain nothing moves
+    /// it again, so that a P, PD or PIV law keeps the difference for ever: there, a new state
+    /// starts at the terms themselves.
     ///
     /// ```
     /// use bowden::control::{Pid, PidInput, PidState, Status};
@@ -142,7 +148,7 @@ impl<T: Real> PidState<T> {
         *self = Self {
             integral: Compensated::new(integral),
             last: Some(last),
-            held: Held::new(last.command),
+            held: self.held.going_on_from(last.command),
             ..Self::new()
         };
     }

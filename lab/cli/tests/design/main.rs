@@ -102,6 +102,11 @@ fn from_a_record_over_its_model_to_gains_that_settle_on_the_rig_of_that_model() 
     assert!(report["pi"]["margins"]["gain"].as_f64().unwrap() >= 2.0);
     assert!(report["pi"]["margins"]["phase"].as_f64().unwrap() >= 45.0);
 
+    // Twenty milliseconds for either: the law steps on one sample in seven.
+    let told: toml::Table = toml::from_str(&text(&gains)).unwrap();
+    let after = |law: &str| told[law]["fallback"]["after"].as_integer();
+    assert_eq!((after("pi"), after("adaptive")), (Some(20), Some(3)));
+
     let own = compared(&model, &gains);
     let conditions = &own["conditions"];
     // That of the design, which is not given again.

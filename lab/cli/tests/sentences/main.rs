@@ -14,6 +14,7 @@ mod coarse;
 mod compare;
 mod files;
 mod gap;
+mod motions;
 mod no_model;
 mod on_a_chip;
 mod otherwise;

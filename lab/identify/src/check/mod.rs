@@ -46,6 +46,9 @@ pub const NOISE: f64 = 1.2;
 /// From this share of the output's standard deviation on a model explains less than half of the
 /// output's variance, as one whose verdict is `no-model`.
 pub const NOTHING: f64 = 0.7;
+/// Gain and offset are what has moved where they leave at most this share of the squared error. Of two
+/// right models of one rig either may be past the limit by a little; half is a choice.
+const MENDED: f64 = 0.5;
 /// An output whose standard deviation is below this many noise floors shows nothing.
 const QUIET: f64 = 2.0;
 /// The unknown state before the record is mentioned from this share of the error on.
@@ -57,7 +60,7 @@ const MATTERS: f64 = 0.2;
 pub enum Verdict {
     /// The error is that which the model came with, or noise.
     Holds,
-    /// It holds with another gain and offset, and only with these.
+    /// It holds with another gain and offset, only with these, and they are most of the error.
     GainOrOffsetMoved,
     /// It does not hold, whatever its gain and offset.
     DoesNotHold,
@@ -225,11 +228,17 @@ impl Check {
         } else if self.reference().is_none() {
             // More than noise, and nothing says how much more it was.
             Verdict::CannotTell
-        } else if self.rmse_gain_offset <= allowed && self.line.gain.value > 0.0 {
+        } else if self.rmse_gain_offset <= allowed && self.line.gain.value > 0.0 && self.is_mended()
+        {
             Verdict::GainOrOffsetMoved
         } else {
             Verdict::DoesNotHold
         }
+    }
+
+    /// Whether most of the error is one of gain and offset.
+    fn is_mended(&self) -> bool {
+        self.rmse_gain_offset.powi(2) <= MENDED * self.rmse.powi(2)
     }
 
     /// Grave defects of what the model rests on.

@@ -7,7 +7,7 @@
 
 use super::given::{Given, Seen};
 use super::play::{rms, Played};
-use super::Check;
+use super::{Check, MENDED};
 use crate::algebra::line;
 use crate::problem::Prepared;
 use crate::record::{is_same_unit, Column, Record};
@@ -54,12 +54,14 @@ pub struct Otherwise {
 }
 
 /// Factors between units that a header does not state: milli and kilo, degrees in place of
-/// radians and back.
-const FACTORS: [f64; 4] = [
+/// radians, inches in place of millimetres, and back.
+const FACTORS: [f64; 6] = [
     1e3,
     1e-3,
     180.0 / std::f64::consts::PI,
     std::f64::consts::PI / 180.0,
+    25.4,
+    1.0 / 25.4,
 ];
 /// A factor is tried where it brings the range of the column to within this multiple of what the
 /// model has seen. A choice.
@@ -247,6 +249,9 @@ impl Check {
                 });
             }
         }
+        // A way with which most of the error stays is none that explains it.
+        let most = MENDED.sqrt() * self.rmse / self.deviation;
+        all.retain(|way| way.nrmse <= most);
         all.into_iter().min_by(|a, b| a.nrmse.total_cmp(&b.nrmse))
     }
 }

@@ -5,7 +5,7 @@ use super::final_fit::FinalFit;
 use crate::algebra::line;
 use crate::fit::{Segments, Solution};
 use crate::ledger::{Ledger, Round};
-use crate::model::structure::FitTerm;
+use crate::model::structure::{FitTerm, Role};
 use crate::problem::Prepared;
 use crate::record::DefectKind;
 use bowden::effect::Family;
@@ -97,6 +97,26 @@ fn input_gain(solution: &Solution) -> Option<f64> {
     let mut terms = structure.terms.iter();
     let is_line = |t: &FitTerm| t.effect.name() == "stiffness-linear" && t.source == Source::Input;
     terms.position(is_line).map(|index| solution.gain(index))
+}
+
+/// What is to be said of a creep that starts at an end of what it may start from: what relaxes there
+/// is no motion of the input, and may be the sensor itself.
+pub(super) fn starts_apart(data: &Prepared, solution: &Solution) -> Option<String> {
+    let terms = &solution.structure.terms;
+    let ends = solution.free.iter().zip(&solution.on_bound);
+    let mut starts = ends
+        .filter(|(_, on_bound)| **on_bound)
+        .filter_map(|(f, _)| match f.role {
+            Role::Start { term, .. } => terms.find(term),
+            _ => None,
+        });
+    let creeps = starts.any(|term| term.effect.family() == Family::Creep);
+    creeps.then(|| {
+        format!(
+            "The creep starts from beyond what the input has reached: is it a drift of `{}`, as of a sensor that warms up? A record after a longer run shows which.",
+            data.output_name
+        )
+    })
 }
 
 /// Whether a file that was held out as a whole is not described by the model of the others.

@@ -5,16 +5,19 @@
 
 use super::ballast::Part;
 use super::by_file::worse;
-use super::changes::{begins, lead, other_line, other_rig, unseen_motion};
+use super::changes::{lead, other_line, other_rig, starts_apart, unseen_motion};
 use super::changes::{made_without_input, stands_for_output};
 use super::channel_apart::channel_words;
+pub use super::errors::{falls_up_to, held_out_ratio, percent, raises, RISES};
+use super::errors::{floors, is_noise, is_worse, multiples, names, worse_than_a_constant};
 use super::files_apart::{another_zero, apart_words, rigs_words};
 use super::final_fit::FinalFit;
 use super::intervals::term_title;
+use super::lacks::{lacks, rises};
 use super::no_model::{is_no_model, no_model};
 use super::resolution::coarse_words;
 use crate::fit::Solution;
-use crate::ledger::{Ledger, Round};
+use crate::ledger::Ledger;
 use crate::model::catalogue::Candidate;
 use crate::problem::Prepared;
 use crate::record::{Defect, Mode};
@@ -68,10 +71,6 @@ impl Verdict {
     }
 }
 
-/// A held-out error rises where it is more than this many times the one before: a
-/// difference of less than a twentieth does not show in two digits.
-pub const RISES: f64 = 1.05;
-
 /// Least share of an unmodelled curve, taken by names to first order, at which the sentence says
 /// why the curve was preferred. A choice: a reader who is told "95 %" asks why there is no name.
 const NEARLY_ALL: f64 = 0.9;
@@ -93,54 +92,6 @@ fn spoils<'a>(data: &'a Prepared, last: &'a Solution) -> impl Iterator<Item = &'
     })
 }
 
-/// By how much the delivered model's held-out error exceeds that of the declared one.
-#[must_use]
-pub fn held_out_ratio(ledger: &Ledger, done: &FinalFit) -> f64 {
-    done.rmse.held_out / ledger.declared.rmse.held_out.max(f64::MIN_POSITIVE)
-}
-
-/// Whether the mean of the held-out output would predict it better than the model does.
-fn worse_than_a_constant(data: &Prepared, done: &FinalFit) -> bool {
-    done.rmse.normalised(data, &data.target).held_out > 1.0
-}
-
-/// Whether a round raises the held-out error. The held-out part decides nothing: this is
-/// told, not acted upon.
-#[must_use]
-pub fn raises(round: &Round) -> bool {
-    // A hundredth is less than the last digit that is printed.
-    round.after.held_out > 1.01 * round.before.held_out
-}
-
-/// How many of the first rounds lower the held-out error before one raises it.
-#[must_use]
-pub fn falls_up_to(ledger: &Ledger) -> usize {
-    let rounds = ledger.rounds.iter();
-    rounds.take_while(|round| !raises(round)).count()
-}
-
-/// Fit and held-out error in multiples of the noise floor; `None` where the record has no
-/// estimate of it.
-fn floors(data: &Prepared, done: &FinalFit) -> Option<(f64, f64)> {
-    let (fit, held_out) = (data.noise_floor, data.held_out_floor);
-    let are_known = fit > 0.0 && held_out > 0.0;
-    are_known.then(|| (done.rmse.fit / fit, done.rmse.held_out / held_out))
-}
-
-/// Of noise alone the rms over a held-out part exceeds this many of its standard deviations in one
-/// record of twenty.
-const SCATTER: f64 = 1.645;
-
-/// Whether the errors, in multiples of the noise floor, are noise. Nothing was fitted to the
-/// held-out part, and it is short: the rms over `n` independent values of noise has a relative
-/// standard deviation of `1/sqrt(2n)`.
-fn is_noise(data: &Prepared, (fit, held_out): (f64, f64)) -> bool {
-    let seconds = data.split.held_out.len() as f64 * data.dt * data.stride as f64;
-    let independent = (2.0 * data.cutoff * seconds).max(1.0);
-    let scatter = SCATTER / (2.0 * independent).sqrt();
-    fit <= AT_FLOOR && held_out <= AT_FLOOR * (1.0 + scatter)
-}
-
 /// The verdict on a ledger and the model that it delivers.
 #[must_use]
 pub fn verdict(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Verdict {
@@ -152,7 +103,7 @@ pub fn verdict(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Verdict {
         Verdict::DataDefect
     } else if is_no_model(data, ledger, done) {
         Verdict::NoModel
-    } else if held_out_ratio(ledger, done) > RISES
+    } else if is_worse(ledger, done)
         || worse_than_a_constant(data, done)
         || other_rig(data, done).is_some()
     {
@@ -186,130 +137,6 @@ pub fn unknown_words(data: &Prepared, ledger: &Ledger) -> Option<String> {
          take {:.0} % of what a curve over it takes{but}.",
         unknown.variable.words(data),
         100.0 * unknown.q
-    ))
-}
-
-/// An error as a share of the output's standard deviation, "2.23 %".
-#[must_use]
-pub fn percent(share: f64) -> String {
-    if !share.is_finite() {
-        // A segment on which the output rests has no standard deviation.
-        return "–".to_owned();
-    }
-    let digits = if share >= 1.0 { 0 } else { 2 };
-    format!("{:.digits$} %", 100.0 * share)
-}
-
-/// "from 2.23 % to 0.14 % of the output's standard deviation", as on the line of errors.
-fn from_to(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
-    let held_out = |rmse: &crate::fit::Segments| rmse.normalised(data, &data.target).held_out;
-    format!(
-        "from {} to {} of the output's standard deviation",
-        percent(held_out(&ledger.declared.rmse)),
-        percent(held_out(&done.rmse))
-    )
-}
-
-/// The names in the order in which they came.
-fn names(ledger: &Ledger, done: &FinalFit) -> Vec<String> {
-    ledger.rounds.iter().map(|r| done.title_of(r)).collect()
-}
-
-/// What the added effects do to the held-out error.
-fn lacks(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
-    let added = names(ledger, done);
-    let them = match added.len() {
-        0 if ledger.unknown.is_some() => {
-            return format!(
-                "The declared model lacks something that is in no catalogue; with a curve for it the held-out error goes {}.",
-                from_to(data, ledger, done)
-            )
-        }
-        0 => return nothing_found(data, ledger, done),
-        1 => "it",
-        _ => "them",
-    };
-    let ratio = held_out_ratio(ledger, done);
-    let goes = match ratio {
-        r if r > RISES => "rises",
-        r if r * RISES >= 1.0 => "stays where it was,",
-        _ => "falls",
-    };
-    format!(
-        "The declared model lacks {}: with {them} the held-out error {goes} {}.",
-        added.join(", then "),
-        from_to(data, ledger, done)
-    )
-}
-
-fn nothing_found(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
-    if ledger.is_stopped() {
-        let share = done.rmse.normalised(data, &data.target).held_out;
-        return format!(
-            "The declared model leaves a held-out error of {} of the output's standard deviation.",
-            percent(share)
-        );
-    }
-    // What is left is more than noise: the model lacks something all the same.
-    match floors(data, done).is_some_and(|errors| !is_noise(data, errors)) {
-        true => "No effect of the catalogue explains what the declared model leaves.".to_owned(),
-        false => "The declared model lacks no effect that this record could show.".to_owned(),
-    }
-}
-
-fn rises(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
-    let ratio = held_out_ratio(ledger, done);
-    if let (true, false, Some((fit, held_out))) = (
-        ratio <= RISES,
-        worse_than_a_constant(data, done),
-        other_rig(data, done),
-    ) {
-        let since = begins(data, done).map(|t| format!(", from {t:.3} s on"));
-        return format!(
-            "The model does not carry over: its error is {} of the output's standard deviation on the fit segment and {} held out{}. Something differs there that the fit has not seen: do not use this model on other data.{}",
-            percent(fit),
-            percent(held_out),
-            since.unwrap_or_default(),
-            so_far(ledger, done)
-        );
-    }
-    if ratio <= RISES {
-        return format!(
-            "On the held-out part the model is worse than a constant: its error goes {}. Do not use this model on other data.",
-            from_to(data, ledger, done)
-        );
-    }
-    let mut text = format!(
-        "The held-out error rises {ratio:.1}-fold, {}: do not use this model on other data.",
-        from_to(data, ledger, done)
-    );
-    let added = names(ledger, done);
-    if !added.is_empty() {
-        let fell = falls_up_to(ledger);
-        text += &format!(" Added were {}", added.join(", then "));
-        text += &match fell {
-            0 => "; the first of them raises it already.".to_owned(),
-            n if n < added.len() => format!("; up to {} the error fell.", added[n - 1]),
-            _ => "; the last fit, on more data, raises it.".to_owned(),
-        };
-    }
-    text
-}
-
-/// What was added to a model that does not carry over.
-fn so_far(ledger: &Ledger, done: &FinalFit) -> String {
-    let added = names(ledger, done);
-    match added.is_empty() {
-        true => String::new(),
-        false => format!(" Added were {}.", added.join(", then ")),
-    }
-}
-
-/// "14 times the noise floor on the fit segment and 34 times held out".
-fn multiples(data: &Prepared, done: &FinalFit) -> Option<String> {
-    let (fit, held_out) = floors(data, done)?;
-    Some(format!(
-        "{fit:.1} times the noise floor on the fit segment and {held_out:.1} times held out"
     ))
 }
 
@@ -424,6 +251,7 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
     all.extend(unseen_motion(data, done));
     all.extend(rigs_words(ledger).or_else(|| another_zero(data, &done.solution)));
     all.extend(one_function(data, done));
+    all.extend(starts_apart(data, &done.solution));
     all.extend(ballast(done));
     all.extend(coarse_words(data, ledger));
     if let Some(channel) = stands_for_output(data, &ledger.declared, &done.solution) {

@@ -4,7 +4,8 @@
 //! past: each counts from the first sample of the record. In firmware they would begin again
 //! with every switch-on, and be wrong. They are fitted so that they do not disturb the
 //! others; then the model that is handed over is fitted again without them, on the same
-//! segments: among the models that firmware can run it is the one that fits best.
+//! segments: among the models that firmware can run it is the one that fits best. What a pretension
+//! step leaves behind is the rig's, though (`after_steps`).
 
 use crate::fit::Solution;
 use crate::model::effects::of_the_record;

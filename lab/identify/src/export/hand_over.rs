@@ -6,6 +6,7 @@
 //! ([`invertible`](crate::export::invertible)). Whatever is left out, the rest is fitted again on
 //! the same segments, and the errors that are said are those of the model that is written.
 
+use super::after_steps::{after_steps, on_record};
 use super::causal::{causal, time_constant};
 use super::clockwork::{because, has_clockwork, is_clockwork, table_name, without};
 use super::invertible::{caution, nearest, obstacle, stages, without_stages, FeedForward};
@@ -218,7 +219,16 @@ fn records_own(data: &Prepared, solution: &Solution) -> Vec<LeftOut> {
 
 /// The fit without what is left out, within what can be inverted if that is asked for.
 pub(crate) fn handed_over(base: &FinalFit, invertible: bool) -> Result<Solution, String> {
-    let (data, last) = (&base.data, &base.solution);
+    match after_steps(&base.data, &base.solution) {
+        Some(after) => {
+            let solution = fitted_without(&after, &base.solution, invertible)?;
+            Ok(on_record(&base.data, solution))
+        }
+        None => fitted_without(&base.data, &base.solution, invertible),
+    }
+}
+
+fn fitted_without(data: &Prepared, last: &Solution, invertible: bool) -> Result<Solution, String> {
     let mut structure = without(last, |effect| {
         is_clockwork(effect) || (invertible && is_stage(effect))
     });

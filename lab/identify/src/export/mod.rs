@@ -5,6 +5,7 @@
 //! A test vector goes with each file ([`vector`]).
 
 mod about;
+mod after_steps;
 mod c;
 pub mod causal;
 pub mod clockwork;

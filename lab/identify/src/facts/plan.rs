@@ -3,6 +3,7 @@
 use super::asked::Asked;
 use crate::conclude::final_fit::FinalFit;
 use crate::conclude::intervals::term_name;
+use crate::conclude::verdict::{sentence, verdict, Verdict};
 use crate::foresight::plan::{separate_first, strengthen, trajectory, Experiment};
 use crate::ledger::Round;
 use crate::problem::Prepared;
@@ -13,6 +14,9 @@ use crate::record::Record;
 pub struct Plan {
     /// The experiment; `None` if none of the known motions would help.
     pub planned: Option<Planned>,
+    /// The verdict on the record and its sentence, where the model does not describe it: no motion that
+    /// determines its parameters mends that.
+    pub undescribed: Option<String>,
     /// Effects that the record confounds, each with its rivals ("presliding from backlash"), where
     /// no known motion separates any of them.
     pub inseparable: Vec<String>,
@@ -33,22 +37,34 @@ pub struct Planned {
 /// Plans an experiment that answers what a record leaves open.
 ///
 /// # Errors
-/// One line where the record cannot be closed.
+/// One line where the record cannot be closed, or has no model.
 pub fn plan(record: &Record, asked: &Asked, tell: &dyn Fn(&str)) -> Result<Plan, String> {
     let (data, structure) = asked.prepare_moving(record)?;
     let ledger = asked
         .search(&data, &structure, tell)
         .map_err(|message| format!("{}: {message}", record.path))?;
     tell("planning");
+    let done = FinalFit::new(&data, &ledger);
+    let found = verdict(&data, &ledger, &done);
+    let said = || sentence(&data, &ledger, &done);
+    if found == Verdict::NoModel {
+        return Err(format!(
+            "{}: no motion can be planned without a model. {}",
+            record.path,
+            said()
+        ));
+    }
+    let is_described = !matches!(
+        found,
+        Verdict::DoesNotCarryOver | Verdict::Unknown | Verdict::DataDefect
+    );
+    let undescribed = (!is_described).then(|| format!("{}: {}", found.name(), said()));
     let separated = separate_first(&data, &ledger);
     let confounded = separated.is_some();
     let rounds = ledger.rounds.iter().filter(|_| !confounded);
     let inseparable = rounds.filter_map(|round| from_rivals(&data, round));
     let inseparable = inseparable.collect();
-    let planned = separated.or_else(|| {
-        let done = FinalFit::new(&data, &ledger);
-        strengthen(&done.data, &done.solution)
-    });
+    let planned = separated.or_else(|| strengthen(&done.data, &done.solution));
     let planned = planned.map(|experiment| Planned {
         csv: trajectory(&data, experiment.kind).csv(),
         experiment,
@@ -56,6 +72,7 @@ pub fn plan(record: &Record, asked: &Asked, tell: &dyn Fn(&str)) -> Result<Plan,
     });
     Ok(Plan {
         planned,
+        undescribed,
         inseparable,
     })
 }

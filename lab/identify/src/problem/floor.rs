@@ -1,6 +1,7 @@
 //! The noise floor: the sensor's noise behind the filter.
 
 use super::blind::bridged;
+use super::spectrum::power;
 use super::uniform::Uniform;
 use super::ZeroPhase;
 use crate::record::Record;
@@ -20,8 +21,46 @@ pub(super) fn of(output: &[f64], smoothed: &[f64], cutoff: f64, rate: f64) -> f6
     if share <= 0.02 {
         return 0.0;
     }
-    let variance = removed.iter().map(|v| v * v).sum::<f64>() / n as f64 / share;
+    let noise = 1.0 - share_of_lines(&power(&removed), 5.0 * cutoff / rate);
+    let variance = noise * removed.iter().map(|v| v * v).sum::<f64>() / n as f64 / share;
     variance.sqrt() * ZeroPhase::new(cutoff, rate).noise_gain()
+}
+
+/// A bin of the spectrum is part of a line from this many medians of its neighbours on. Of white
+/// noise one bin of a thousand million is.
+const LINE: f64 = 30.0;
+/// The line goes on to both sides as far as its bins have this many.
+const SKIRT: f64 = 4.0;
+/// Neighbours that are looked at together: many more than the bins of a line under a Hann window.
+const NEIGHBOURS: usize = 100;
+
+/// The share of lines (mains hum, a pump, a fan) in the power of a spectrum above a frequency, which
+/// is given as a share of half the rate. They are no noise: behind the filter nothing is left of them.
+fn share_of_lines(power: &[f64], from: f64) -> f64 {
+    let first = ((from * power.len() as f64) as usize).min(power.len());
+    let band = &power[first..];
+    let median = |near: &[f64]| {
+        let (mut near, middle) = (near.to_vec(), near.len() / 2);
+        *near.select_nth_unstable_by(middle, f64::total_cmp).1
+    };
+    let levels: Vec<f64> = band.chunks(NEIGHBOURS).map(median).collect();
+    let (mut lines, mut end) = (0.0, 0);
+    for bin in 0..band.len() {
+        let level = levels[bin / NEIGHBOURS];
+        if bin < end || band[bin] <= LINE * level {
+            continue;
+        }
+        let stands_out = |other: &&f64| **other > SKIRT * level;
+        let before = band[end..bin].iter().rev().take_while(stands_out);
+        let behind = band[bin..].iter().take_while(stands_out);
+        end = bin + behind.clone().count();
+        lines += before.chain(behind).map(|p| p - level).sum::<f64>();
+    }
+    let whole: f64 = power.iter().sum();
+    match whole > 0.0 {
+        true => (lines / whole).clamp(0.0, 1.0),
+        false => 0.0,
+    }
 }
 
 /// The same of a record that is slower than the grid: at its own rate. Of what is laid between its
@@ -32,4 +71,56 @@ pub(super) fn of_slower(record: &Record, on_grid: &Uniform, cutoff: f64) -> Resu
     let rate = 1.0 / own.dt;
     let smoothed = ZeroPhase::new(2.5 * cutoff, rate).apply(&output);
     Ok(of(&output, &smoothed, cutoff, rate))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    /// Noise of one seed, uniform and of unit variance.
+    fn noise(samples: usize) -> Vec<f64> {
+        let mut state: u64 = 7;
+        let mut next = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            12_f64.sqrt() * ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5)
+        };
+        (0..samples).map(|_| next()).collect()
+    }
+
+    fn floor(output: &[f64]) -> f64 {
+        let (cutoff, rate) = (7.0, 500.0);
+        let smoothed = ZeroPhase::new(2.5 * cutoff, rate).apply(output);
+        of(output, &smoothed, cutoff, rate)
+    }
+
+    #[test]
+    fn hum_is_no_noise() {
+        let plain = noise(20_000);
+        let alone = floor(&plain);
+        // What passes the filter of white noise of unit variance.
+        let passed = ZeroPhase::new(7.0, 500.0).noise_gain();
+        assert!((alone / passed - 1.0).abs() < 0.03, "{alone} {passed}");
+        for (size, frequency) in [(0.5, 50.0), (10.0, 50.0), (10.0, 49.983), (100.0, 150.2)] {
+            // With a weak line beside the strong one.
+            let at = |i: usize, frequency: f64| (TAU * frequency * i as f64 / 500.0).sin();
+            let hum = |i: usize| size * at(i, frequency) + 0.5 * at(i, 87.0);
+            let mains: Vec<f64> = plain.iter().enumerate().map(|(i, n)| n + hum(i)).collect();
+            let with = floor(&mains);
+            // Of ten thousand bins a line leaves the power of some dozens.
+            assert!(
+                (with / alone - 1.0).abs() < 0.02,
+                "{frequency}: {with} {alone}"
+            );
+        }
+    }
+
+    #[test]
+    fn noise_alone_has_no_lines() {
+        for samples in [500, 4_000, 60_000] {
+            assert_eq!(share_of_lines(&power(&noise(samples)), 0.07), 0.0);
+        }
+    }
 }

@@ -1,9 +1,20 @@
 //! Spectra: of the input, from which the default cut-off is taken, and of the fit segment.
 
-use super::Prepared;
+use super::{Prepared, ZeroPhase};
 use rustfft::{num_complex::Complex, FftPlanner};
 
-/// About eight times the highest tone of the input \[Hz\].
+/// The smoother may move the input by at most this share of its half-range: the hysteresis and a
+/// smoother do not commute, so that a corner that is rounded looks like a lag. On triangles and
+/// staircases of a rig without any other effect nothing is named from here on.
+const ROUNDED: f64 = 3e-4;
+/// What it moves is a corner, and not noise, from this many standard deviations on.
+const CORNER: f64 = 8.0;
+/// More than this share of the half-range is no noise of a sensor, however often the smoother moves it.
+const LARGE: f64 = 0.02;
+/// Factor by which the cut-off is raised for corners, until they are seen.
+const RAISE: f64 = 1.25;
+
+/// About eight times the highest tone of the input \[Hz\], or more where it has corners.
 ///
 /// The highest tone is the highest frequency at which the amplitude spectrum (Hann
 /// window, mean removed) reaches a tenth of its peak. The result is kept between
@@ -20,8 +31,60 @@ pub fn default_cutoff(input: &[f64], rate: f64) -> f64 {
         .max(1);
     let resolution = rate / (2 * (power.len() - 1)) as f64;
     // Two significant digits: a cut-off that can be said aloud and typed again.
-    let raw = (8.0 * bin as f64 * resolution).clamp(20.0 / seconds, 0.2 * rate);
-    format!("{raw:.1e}").parse().unwrap_or(raw)
+    let digits = |raw: f64| format!("{raw:.1e}").parse().unwrap_or(raw);
+    let (least, most) = (20.0 / seconds, 0.2 * rate);
+    let of_tones = (8.0 * bin as f64 * resolution).clamp(least, most);
+    // Above, the smoother that stands for the signal itself would be cut off by half the rate.
+    let last = most.min(0.09 * rate);
+    let mut raw = of_tones;
+    while let Some(corner) = rounded(input, rate, digits(raw)) {
+        if raw >= last {
+            return digits(match corner {
+                Corner::Rare => raw,
+                // Noise goes on to the end of the band.
+                Corner::Large => of_tones,
+            });
+        }
+        raw = (RAISE * raw).min(last);
+    }
+    digits(raw)
+}
+
+/// What the smoother rounds.
+enum Corner {
+    /// Much more than what it moves elsewhere.
+    Rare,
+    /// So much that it may be noise only of a poor sensor.
+    Large,
+}
+
+/// What the smoother that belongs to a cut-off rounds of a signal.
+fn rounded(signal: &[f64], rate: f64, cutoff: f64) -> Option<Corner> {
+    // Noise is in neither; a smoother that lets twice as much pass stands for the signal itself.
+    let narrow = ZeroPhase::new(2.5 * cutoff, rate);
+    let wide = ZeroPhase::new((5.0 * cutoff).min(0.45 * rate), rate);
+    let apart = narrow.apply(signal);
+    let apart = apart.iter().zip(wide.apply(signal));
+    // What comes before and after the record is not known: its ends say nothing.
+    let end = (3.0 * rate / cutoff).ceil() as usize;
+    let inside = apart.skip(end).take(signal.len().saturating_sub(2 * end));
+    let mut moved: Vec<f64> = inside.map(|(a, b)| (a - b).abs()).collect();
+    let most = moved.iter().copied().fold(0.0, f64::max);
+    let low = signal.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = signal.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    // A staircase dwells, and a triangle has few corners: the quietest tenth is noise alone.
+    let tenth = moved.len() / 10;
+    if tenth == 0 {
+        return None;
+    }
+    let quiet = *moved.select_nth_unstable_by(tenth, f64::total_cmp).1;
+    // A tenth of the magnitudes of normal values is below 0.126 of their standard deviation.
+    let (share, noise) = (most / (0.5 * (high - low)), quiet / 0.126);
+    match most > CORNER * noise {
+        true if share > ROUNDED => Some(Corner::Rare),
+        false if share > LARGE => Some(Corner::Large),
+        _ => None,
+    }
 }
 
 /// One-sided power spectrum under a Hann window, zero-padded to a power of two.
@@ -78,5 +141,41 @@ mod tests {
         let cutoff = default_cutoff(&signal, rate);
         // The main lobe of the Hann window is two bins wide on each side: 8 × 2 × 0.05 Hz.
         assert!((12.0..13.0).contains(&cutoff), "{cutoff}");
+    }
+
+    /// Uniform, of unit variance.
+    fn noise(i: i32) -> f64 {
+        let mut state = (i as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        state = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        state = (state ^ (state >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        12_f64.sqrt() * ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5)
+    }
+
+    fn cutoff_of(of: impl Fn(f64) -> f64, deviation: f64) -> f64 {
+        let signal = |i: i32| of(f64::from(i) / 500.0) + deviation * noise(i);
+        default_cutoff(&(0..20_000).map(signal).collect::<Vec<f64>>(), 500.0)
+    }
+
+    #[test]
+    fn corners_raise_the_cutoff_and_noise_does_not() {
+        let sine = |t: f64| 5.0 * (std::f64::consts::TAU * 0.4 * t).sin();
+        let triangle = |t: f64| 20.0 * ((0.4 * t).fract() - 0.5).abs() - 5.0;
+        // Three seconds on a step, fifty milliseconds to the next one.
+        let stairs = |t: f64| {
+            let (step, within) = ((t / 3.0).floor(), (t % 3.0) / 0.05);
+            (step + within.min(1.0)) % 8.0
+        };
+        let plain = cutoff_of(sine, 0.0);
+        assert!((3.0..4.0).contains(&plain), "{plain}");
+        for deviation in [0.01, 0.1, 0.5] {
+            assert_eq!(cutoff_of(sine, deviation), plain, "{deviation}");
+        }
+        for deviation in [0.0, 1e-3] {
+            let (triangle, stairs) = (cutoff_of(triangle, deviation), cutoff_of(stairs, deviation));
+            assert!(
+                triangle > 3.0 * plain && stairs > 20.0,
+                "{triangle} {stairs}"
+            );
+        }
     }
 }

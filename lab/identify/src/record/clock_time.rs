@@ -15,7 +15,28 @@ pub(super) fn seconds(cell: &str) -> Option<f64> {
         Some(date) => days(date)?,
         None => 0,
     };
-    Some(days as f64 * 86_400.0 + of_day(time.strip_suffix('Z').unwrap_or(time))?)
+    let (time, ahead) = match date {
+        Some(_) => zone(time)?,
+        None => (time.strip_suffix('Z').unwrap_or(time), 0.0),
+    };
+    Some(days as f64 * 86_400.0 + of_day(time)? - ahead)
+}
+
+/// A time and the seconds by which its zone is ahead of UTC: `14:03:21+01:00`, `14:03:21-0500`,
+/// `14:03:21Z`.
+fn zone(time: &str) -> Option<(&str, f64)> {
+    let Some(at) = time.find(['+', '-']) else {
+        return Some((time.strip_suffix('Z').unwrap_or(time), 0.0));
+    };
+    let (own, sign) = (time[at + 1..].replace(':', ""), &time[at..=at]);
+    let is_zone = [2, 4].contains(&own.len()) && own.bytes().all(|b| b.is_ascii_digit());
+    let digits = format!("{own:0<4}")
+        .parse::<u32>()
+        .ok()
+        .filter(|_| is_zone)?;
+    let (hours, minutes) = (digits / 100, digits % 100);
+    let ahead = f64::from(3600 * hours + 60 * minutes);
+    (hours < 15 && minutes < 60).then(|| (&time[..at], if sign == "-" { -ahead } else { ahead }))
 }
 
 /// Whether a stamp has a date before its time.
@@ -91,6 +112,21 @@ mod tests {
     fn stamps_count_in_seconds_over_midnights_and_leap_days() {
         let apart = |a: &str, b: &str| seconds(b).unwrap() - seconds(a).unwrap();
         assert_eq!(seconds("00:01:02"), Some(62.0));
+        assert_eq!(
+            apart("2026-03-29T01:59:59.5+01:00", "2026-03-29T03:00:00+02:00"),
+            0.5
+        );
+        assert_eq!(
+            apart("2026-03-29 01:00:00-0530", "2026-03-29T06:30:00Z"),
+            0.0
+        );
+        for stamp in [
+            "2026-03-29T01:59:59+1",
+            "2026-03-29T01:59:59+01:75",
+            "01:59:59+01:00",
+        ] {
+            assert_eq!(seconds(stamp), None, "{stamp}");
+        }
         assert_eq!(seconds("1:00:00,5"), Some(3600.5));
         assert_eq!(
             apart("2024-02-28T23:59:59", "2024-03-01 00:00:00Z"),

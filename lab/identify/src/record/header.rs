@@ -75,8 +75,20 @@ impl Header {
             }
         };
         let columns: Vec<Named> = columns.into_iter().map(named).collect();
-        twice(&columns, 0)?;
-        Ok(Self { line: 0, columns })
+        Ok(Self::with(0, columns))
+    }
+
+    /// The columns of a line. Beside a name that ends in `_out` the ending `_in` is that of an input
+    /// and no inch.
+    fn with(line: usize, mut columns: Vec<Named>) -> Self {
+        let ends = |column: &Named, ending: &str| column.name.to_lowercase().ends_with(ending);
+        if columns.iter().any(|column| ends(column, "_out")) {
+            let by_name = |column: &&mut Named| column.name == column.cell && ends(column, "_in");
+            for column in columns.iter_mut().filter(by_name) {
+                column.unit = None;
+            }
+        }
+        Self { line, columns }
     }
 
     /// At most three names that are much like one that does not exist, for a message.
@@ -163,8 +175,7 @@ pub(super) fn read(rows: &mut Rows<'_>) -> Result<Header, RecordError> {
     if named.all(|column| number::is_number(&column.name)) {
         return refuse("line holds numbers");
     }
-    twice(&columns, line)?;
-    Ok(Header { line, columns })
+    Ok(Header::with(line, columns))
 }
 
 /// Index of the column of that name, or the refusal that lists those that exist.
@@ -183,16 +194,16 @@ pub(super) fn missing(header: &Header, name: &str, hint: &str) -> RecordError {
     RecordError::at(header.line, message).on(name)
 }
 
-fn twice(columns: &[Named], line: usize) -> Result<(), RecordError> {
+/// Refuses a name that two columns have, where `counts` says that one of them is wanted.
+pub(super) fn twice(header: &Header, counts: impl Fn(usize) -> bool) -> Result<(), RecordError> {
     let mut seen = std::collections::HashMap::new();
-    for (index, column) in columns
-        .iter()
-        .enumerate()
-        .filter(|(_, column)| !column.name.is_empty())
-    {
+    let columns = header.columns.iter().enumerate();
+    for (index, column) in columns.filter(|(_, column)| !column.name.is_empty()) {
         if let Some(first) = seen.insert(column.name.as_str(), index) {
-            let message = format!("named twice, as columns {} and {}", first + 1, index + 1);
-            return Err(RecordError::at(line, message).on(&column.name));
+            if counts(first) || counts(index) {
+                let message = format!("named twice, as columns {} and {}", first + 1, index + 1);
+                return Err(RecordError::at(header.line, message).on(&column.name));
+            }
         }
     }
     Ok(())

@@ -1,7 +1,7 @@
 //! Which column plays which part.
 
 use super::error::{shown, RecordError, NAME_LENGTH};
-use super::header::{missing, require, Header};
+use super::header::{missing, require, twice, Header};
 use super::series::{self, Series};
 use super::{units, Mode, Options};
 
@@ -51,7 +51,21 @@ fn default_channels(mode: Mode) -> &'static [&'static str] {
     }
 }
 
+/// Which column plays which part. Of two columns of one name neither can be wanted; what is not
+/// read may have any name.
 pub(super) fn assign(header: &Header, options: &Options) -> Result<Roles, RecordError> {
+    let assigned = parts(header, options);
+    match &assigned {
+        Ok(roles) => {
+            let used: Vec<usize> = roles.read().chain(roles.time).collect();
+            twice(header, |index| used.contains(&index))?;
+        }
+        Err(_) => twice(header, |_| true)?,
+    }
+    assigned
+}
+
+fn parts(header: &Header, options: &Options) -> Result<Roles, RecordError> {
     // A name that is not there says more than a mode that does not follow from it.
     for (name, option) in [(&options.input, "--input"), (&options.output, "--output")] {
         if let Some(name) = name {

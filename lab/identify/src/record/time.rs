@@ -220,8 +220,9 @@ impl Clock {
         {
             if !self.of_day && step >= LONG_STEP {
                 let name = shown(name, NAME_LENGTH);
+                let unit = likely_unit(step);
                 notes.push(format!(
-                    "column `{name}` states no unit and was read as seconds; its median step is {step} s: is that ms? Then call it `{name} [ms]`"
+                    "column `{name}` states no unit and was read as seconds; its median step is {step} s: is that {unit}? Then call it `{name} [{unit}]`"
                 ));
             }
         }
@@ -230,6 +231,14 @@ impl Clock {
         }
         notes
     }
+}
+
+/// The unit in which a step of so many would be one of a logger: of ten samples a second or more,
+/// where there is one.
+fn likely_unit(step: f64) -> &'static str {
+    let units = [("ms", 1e-3), ("µs", 1e-6), ("ns", 1e-9)];
+    let is_quick = |(_, seconds): &&(&str, f64)| step * seconds <= 0.1;
+    units.iter().find(is_quick).map_or("ms", |(unit, _)| unit)
 }
 
 /// The time of day in a cell, if the first one has one; then all must have one.

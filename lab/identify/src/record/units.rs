@@ -81,18 +81,26 @@ const LENGTHS: [&str; 8] = [
     "length",
 ];
 
+/// Names that measure no length, time, current or temperature: behind them `_m`, `_s`, `_A` and `_K` are
+/// indices, as in `tau_m`, the motor's torque.
+const OTHERS: [&str; 10] = [
+    "tau", "torque", "moment", "force", "f", "phi", "theta", "angle", "alpha", "omega",
+];
+
 /// Splits the ending such as `_mm` off a name, with the unit that it stands for.
 pub(super) fn ending(name: &str) -> Option<(&str, &'static str)> {
     // `velocity_mm_per_s` ends in a denominator, which is not its unit.
     let (stem, ending) = name
         .rsplit_once('_')
         .filter(|(stem, _)| !stem.ends_with("_per"))?;
-    if ending == "in" {
-        let stem = stem.to_lowercase();
-        let is_length = |length: &&str| stem.contains(*length);
-        if !(LENGTHS.iter().any(is_length) || ["x", "y", "z", "d", "u"].contains(&stem.as_str())) {
-            return None;
-        }
+    let lower = stem.to_lowercase();
+    let is_of = |names: &[&str]| names.iter().any(|name| lower.contains(name));
+    let is_axis = ["x", "y", "z", "d", "u"].contains(&lower.as_str());
+    if ending == "in" && !is_of(&LENGTHS) && !is_axis {
+        return None;
+    }
+    if ["m", "s", "A", "K"].contains(&ending) && OTHERS.contains(&lower.as_str()) {
+        return None;
     }
     let known = SUFFIXES.iter().find(|(suffix, _)| *suffix == ending);
     known.map(|(_, unit)| (stem, *unit))
@@ -155,6 +163,8 @@ mod tests {
         assert_eq!(unit("force_kip").as_deref(), Some("kip"));
         assert_eq!(unit("displacement_in").as_deref(), Some("in"));
         assert_eq!(unit("x_mm").as_deref(), Some("mm"));
+        assert_eq!(unit("q_m").as_deref(), Some("m"));
+        assert_eq!(unit("F_N").as_deref(), Some("N"));
         assert_eq!(unit("velocity_mm_per_s"), None);
         for plain in [
             "t",
@@ -166,6 +176,9 @@ mod tests {
             "[mm]",
             "x []",
             "torque_in",
+            "tau_m",
+            "F_s",
+            "phi_m",
             "x (raw)",
         ] {
             assert_eq!(unit(plain), None, "{plain}");

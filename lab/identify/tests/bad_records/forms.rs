@@ -1,7 +1,7 @@
 //! Text as other programs write it: what is read, and what would be a guess.
 
 use super::{accepted, csv, refusal, refused, rows};
-use bowden_lab::record::{parse, Options, Record};
+use bowden_lab::record::{parse, Mode, Options, Record};
 
 /// The plain record with other separators and a decimal comma.
 fn comma(text: &str, separator: &str) -> String {
@@ -247,6 +247,15 @@ fn names_are_found_in_other_letters_and_with_their_units() {
     assert_eq!(units("t_s,x_mm,F_kip"), of("mm", "kip"));
     assert_eq!(units("T [s],x_in,f (lbf)"), of("in", "lbf"));
     assert_eq!(units("t,x / mm,f / kN"), of("mm", "kN"));
+    // Beside an output `_in` is no inch.
+    let named = Options {
+        mode: Some(Mode::Displacement),
+        input: Some("x_in".to_owned()),
+        output: Some("f_out".to_owned()),
+        ..Options::default()
+    };
+    let record = parse(csv("t,x_in,f_out", &rows()).as_bytes(), "r.csv", &named).unwrap();
+    assert_eq!((record.input.unit, record.output.unit), (None, None));
     // Two that could be meant, or a temperature, are none.
     refused(
         csv("t,X_mm,x_m,f", &rows().iter().map(|r| format!("{r},1")).collect::<Vec<_>>()),
@@ -265,6 +274,17 @@ fn times_of_day_are_time_stamps() {
     let stamped = |stamp: &dyn Fn(usize) -> String| super::with_time("t,x,f", stamp);
     let plain = accepted(csv("t,x,f", &rows()));
     let day = |i: usize| format!("23:59:{:02}.{:03}", 50 + i / 100, 10 * (i % 100));
+    // Over a change of daylight-saving time the zone counts.
+    let zoned = accepted(stamped(&|i| match i {
+        0..=99 => format!("2026-03-29T01:59:59.{:03}+01:00", 10 * i),
+        _ => format!(
+            "2026-03-29T03:00:0{}.{:03}+02:00",
+            i / 100 - 1,
+            10 * (i % 100)
+        ),
+    }));
+    let steps = zoned.time.windows(2).map(|pair| pair[1] - pair[0]);
+    assert!(steps.fold(0.0, f64::max) < 0.0101);
     for date in ["", "2026-02-28T", "28.02.2026 "] {
         let record = accepted(stamped(&|i| format!("{date}{}", day(i))));
         assert_eq!(record.notes, ["time stamps are times of day"]);

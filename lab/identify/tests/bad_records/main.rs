@@ -178,8 +178,8 @@ fn a_header_that_is_none_is_refused() {
         "r.csv:1: column `x`: named twice, as columns 2 and 3",
     );
     refused(
-        csv("t,x,f,u,u", &rows()),
-        "r.csv:1: column `u`: named twice, as columns 4 and 5",
+        csv("t,x,f,load,load", &rows()),
+        "r.csv:1: column `load`: named twice, as columns 4 and 5",
     );
 }
 

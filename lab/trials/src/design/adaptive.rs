@@ -189,6 +189,10 @@ fn settings(
         step: h,
         plant_gain,
     };
+    // The law counts its own steps, and may be called on one sample in several.
+    let after = super::fallback_after(around.delay, h.recip());
+    let safe = around.fallback.command().unwrap_or(0.0);
+    let fallback = Fallback::try_new(after, safe).map_err(|e| e.to_string())?;
     let settings = AdaptiveSettings {
         beta: Estimator {
             prior: initial,
@@ -201,7 +205,7 @@ fn settings(
             .adapting(delta / drive, leakage),
         // As far as the integral of PI can go.
         z_limit: torque.max(1.0) / lambda,
-        ..AdaptiveSettings::new(lag, k, lambda, epsilon, around.limits, h, around.fallback)
+        ..AdaptiveSettings::new(lag, k, lambda, epsilon, around.limits, h, fallback)
     };
     let longest_dt = settings.largest_step().unwrap_or(h).max(h);
     let settings = AdaptiveSettings {

@@ -405,9 +405,6 @@ fn bounds(
     let proportional = (used.k_p + used.k_i) / unit.gain;
     let slew_of_noise = 2.0 * proportional * PEAK_OF_NOISE * asked.noise * asked.rate;
     let slew_of_record = plant.greatest_rate() / asked.drive_gain;
-    let after = (0.02_f64.max(2.0 * delay) * asked.rate)
-        .ceil()
-        .clamp(2.0, 1e6);
     Ok(Bounds {
         low,
         high,
@@ -420,9 +417,16 @@ fn bounds(
             .map(|least| least * plant.greatest_rate()),
         output: plant.output(),
         longest_dt,
-        fallback_after: after as u32,
+        fallback_after: fallback_after(delay, asked.rate),
         fallback_command: 0.0_f64.clamp(low, high),
     })
+}
+
+/// Bad samples in a row until the safe command goes out: 20 ms, or twice the delay \[s\], at so many
+/// steps a second.
+fn fallback_after(delay: f64, rate: f64) -> u32 {
+    let after = (0.02_f64.max(2.0 * delay) * rate).ceil();
+    after.clamp(2.0, 1e6) as u32
 }
 
 fn notes(plant: &Plant, adaptive: &AdaptiveDesign) -> Vec<String> {

@@ -188,6 +188,17 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
         item(&format!("const {name}: f32"), &number(value), out);
         line!(out);
     }
+    let (after, safe) = (own.fallback.after(), own.fallback.command().unwrap_or(0.0));
+    line!(
+        out,
+        "/// The safe command [command unit], after {after} bad steps of the law in a row."
+    );
+    let fallback = format!(
+        "constant!(Fallback::<f32>::const_new({after}, {}))",
+        number(safe)
+    );
+    item("const STEPS_FALLBACK: Fallback<f32>", &fallback, out);
+    line!(out);
     line!(out, "/// The settings of the law.");
     line!(
         out,
@@ -198,7 +209,7 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
     line!(out, "    z_limit: {},", number(own.z_limit));
     line!(
         out,
-        "    ..AdaptiveSettings::new(LAG, K, LAMBDA, EPSILON, LIMITS, LONGEST_STEP, FALLBACK)"
+        "    ..AdaptiveSettings::new(LAG, K, LAMBDA, EPSILON, LIMITS, LONGEST_STEP, STEPS_FALLBACK)"
     );
     line!(out, "}};");
     line!(out);

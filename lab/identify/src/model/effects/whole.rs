@@ -108,7 +108,9 @@ pub(super) const WHOLE: &[Entry] = &[
         declared: Declared::Never,
         bounds: &[Bounds::FitSegment],
         several: true,
-        of_the_record: Some("a step at one moment of this record"),
+        of_the_record: Some(
+            "a step at one moment of this record; the model is that of the time after it",
+        ),
         shown_by: "as much motion before the step as after it",
         ..PLAIN
     },

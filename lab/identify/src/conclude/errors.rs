@@ -1,0 +1,101 @@
+//! The errors of a delivered model in words, and which of them count.
+
+use super::final_fit::FinalFit;
+use crate::fit::Segments;
+use crate::ledger::{Ledger, Round};
+use crate::problem::Prepared;
+use crate::search::policy::AT_FLOOR;
+
+/// A held-out error rises where it is more than this many times the one before: a
+/// difference of less than a twentieth does not show in two digits.
+pub const RISES: f64 = 1.05;
+
+/// By how much the delivered model's held-out error exceeds that of the declared one.
+#[must_use]
+pub fn held_out_ratio(ledger: &Ledger, done: &FinalFit) -> f64 {
+    done.rmse.held_out / ledger.declared.rmse.held_out.max(f64::MIN_POSITIVE)
+}
+
+/// Whether the delivered model errs more on held-out data than the declared one. Where nothing was
+/// added both are one model, fitted on more data: the difference is the scatter of a fit.
+pub(super) fn is_worse(ledger: &Ledger, done: &FinalFit) -> bool {
+    let is_another =
+        !ledger.rounds.is_empty() || ledger.unknown.is_some() || done.without_hysteresis.is_some();
+    is_another && held_out_ratio(ledger, done) > RISES
+}
+
+/// Whether the mean of the held-out output would predict it better than the model does.
+pub(super) fn worse_than_a_constant(data: &Prepared, done: &FinalFit) -> bool {
+    done.rmse.normalised(data, &data.target).held_out > 1.0
+}
+
+/// Whether a round raises the held-out error. The held-out part decides nothing: this is
+/// told, not acted upon.
+#[must_use]
+pub fn raises(round: &Round) -> bool {
+    // A hundredth is less than the last digit that is printed.
+    round.after.held_out > 1.01 * round.before.held_out
+}
+
+/// How many of the first rounds lower the held-out error before one raises it.
+#[must_use]
+pub fn falls_up_to(ledger: &Ledger) -> usize {
+    let rounds = ledger.rounds.iter();
+    rounds.take_while(|round| !raises(round)).count()
+}
+
+/// Fit and held-out error in multiples of the noise floor; `None` where the record has no
+/// estimate of it.
+pub(super) fn floors(data: &Prepared, done: &FinalFit) -> Option<(f64, f64)> {
+    let (fit, held_out) = (data.noise_floor, data.held_out_floor);
+    let are_known = fit > 0.0 && held_out > 0.0;
+    are_known.then(|| (done.rmse.fit / fit, done.rmse.held_out / held_out))
+}
+
+/// Of noise alone the rms over a held-out part exceeds this many of its standard deviations in one
+/// record of twenty.
+const SCATTER: f64 = 1.645;
+
+/// Whether the errors, in multiples of the noise floor, are noise. Nothing was fitted to the
+/// held-out part, and it is short: the rms over `n` independent values of noise has a relative
+/// standard deviation of `1/sqrt(2n)`.
+pub(super) fn is_noise(data: &Prepared, (fit, held_out): (f64, f64)) -> bool {
+    let seconds = data.split.held_out.len() as f64 * data.dt * data.stride as f64;
+    let independent = (2.0 * data.cutoff * seconds).max(1.0);
+    let scatter = SCATTER / (2.0 * independent).sqrt();
+    fit <= AT_FLOOR && held_out <= AT_FLOOR * (1.0 + scatter)
+}
+
+/// An error as a share of the output's standard deviation, "2.23 %".
+#[must_use]
+pub fn percent(share: f64) -> String {
+    if !share.is_finite() {
+        // A segment on which the output rests has no standard deviation.
+        return "–".to_owned();
+    }
+    let digits = if share >= 1.0 { 0 } else { 2 };
+    format!("{:.digits$} %", 100.0 * share)
+}
+
+/// "from 2.23 % to 0.14 % of the output's standard deviation", as on the line of errors.
+pub(super) fn from_to(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
+    let held_out = |rmse: &Segments| rmse.normalised(data, &data.target).held_out;
+    format!(
+        "from {} to {} of the output's standard deviation",
+        percent(held_out(&ledger.declared.rmse)),
+        percent(held_out(&done.rmse))
+    )
+}
+
+/// The names in the order in which they came.
+pub(super) fn names(ledger: &Ledger, done: &FinalFit) -> Vec<String> {
+    ledger.rounds.iter().map(|r| done.title_of(r)).collect()
+}
+
+/// "14 times the noise floor on the fit segment and 34 times held out".
+pub(super) fn multiples(data: &Prepared, done: &FinalFit) -> Option<String> {
+    let (fit, held_out) = floors(data, done)?;
+    Some(format!(
+        "{fit:.1} times the noise floor on the fit segment and {held_out:.1} times held out"
+    ))
+}

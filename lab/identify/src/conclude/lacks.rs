@@ -1,0 +1,117 @@
+//! What the declared model lacks, and what naming it has done to the error: the first sentence.
+
+use super::changes::{begins, other_rig};
+use super::errors::{
+    falls_up_to, floors, from_to, held_out_ratio, is_noise, is_worse, names, percent,
+    worse_than_a_constant, RISES,
+};
+use super::final_fit::FinalFit;
+use crate::fit::Segments;
+use crate::ledger::Ledger;
+use crate::problem::Prepared;
+
+/// What the added effects do to the held-out error.
+pub(super) fn lacks(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
+    let added = names(ledger, done);
+    let them = match added.len() {
+        0 if ledger.unknown.is_some() => {
+            return format!(
+                "The declared model lacks something that is in no catalogue; with a curve for it the held-out error goes {}.",
+                from_to(data, ledger, done)
+            )
+        }
+        0 => return nothing_found(data, ledger, done),
+        1 => "it",
+        _ => "them",
+    };
+    if let Some(unknown) = &ledger.unknown {
+        return beside_a_curve(data, ledger, done, &unknown.before);
+    }
+    let goes = match held_out_ratio(ledger, done) {
+        r if r > RISES => "rises",
+        r if r * RISES >= 1.0 => "stays where it was,",
+        _ => "falls",
+    };
+    format!(
+        "The declared model lacks {}: with {them} the held-out error {goes} {}.",
+        added.join(", then "),
+        from_to(data, ledger, done)
+    )
+}
+
+/// What the names do, and what is left to a curve beside them: it is in the final error, and neither
+/// has a name nor is handed over.
+fn beside_a_curve(data: &Prepared, ledger: &Ledger, done: &FinalFit, named: &Segments) -> String {
+    let added = names(ledger, done);
+    let held_out = |rmse: &Segments| percent(rmse.normalised(data, &data.target).held_out);
+    format!(
+        "The declared model lacks {}, and something that is in no catalogue: with what has a name the held-out error goes from {} to {} of the output's standard deviation, with a curve for the rest to {}.",
+        added.join(", then "),
+        held_out(&ledger.declared.rmse),
+        held_out(named),
+        held_out(&done.rmse)
+    )
+}
+
+fn nothing_found(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
+    if ledger.is_stopped() {
+        let share = done.rmse.normalised(data, &data.target).held_out;
+        return format!(
+            "The declared model leaves a held-out error of {} of the output's standard deviation.",
+            percent(share)
+        );
+    }
+    // What is left is more than noise: the model lacks something all the same.
+    match floors(data, done).is_some_and(|errors| !is_noise(data, errors)) {
+        true => "No effect of the catalogue explains what the declared model leaves.".to_owned(),
+        false => "The declared model lacks no effect that this record could show.".to_owned(),
+    }
+}
+
+pub(super) fn rises(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
+    let ratio = held_out_ratio(ledger, done);
+    if let (true, false, Some((fit, held_out))) = (
+        !is_worse(ledger, done),
+        worse_than_a_constant(data, done),
+        other_rig(data, done),
+    ) {
+        let since = begins(data, done).map(|t| format!(", from {t:.3} s on"));
+        return format!(
+            "The model does not carry over: its error is {} of the output's standard deviation on the fit segment and {} held out{}. Something differs there that the fit has not seen: do not use this model on other data.{}",
+            percent(fit),
+            percent(held_out),
+            since.unwrap_or_default(),
+            so_far(ledger, done)
+        );
+    }
+    if !is_worse(ledger, done) {
+        return format!(
+            "On the held-out part the model is worse than a constant: its error goes {}. Do not use this model on other data.",
+            from_to(data, ledger, done)
+        );
+    }
+    let mut text = format!(
+        "The held-out error rises {ratio:.1}-fold, {}: do not use this model on other data.",
+        from_to(data, ledger, done)
+    );
+    let added = names(ledger, done);
+    if !added.is_empty() {
+        let fell = falls_up_to(ledger);
+        text += &format!(" Added were {}", added.join(", then "));
+        text += &match fell {
+            0 => "; the first of them raises it already.".to_owned(),
+            n if n < added.len() => format!("; up to {} the error fell.", added[n - 1]),
+            _ => "; the last fit, on more data, raises it.".to_owned(),
+        };
+    }
+    text
+}
+
+/// What was added to a model that does not carry over.
+fn so_far(ledger: &Ledger, done: &FinalFit) -> String {
+    let added = names(ledger, done);
+    match added.is_empty() {
+        true => String::new(),
+        false => format!(" Added were {}.", added.join(", then ")),
+    }
+}
