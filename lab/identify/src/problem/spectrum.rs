@@ -4,8 +4,8 @@ use super::{Prepared, ZeroPhase};
 use rustfft::{num_complex::Complex, FftPlanner};
 
 /// The smoother may move the input by at most this share of its half-range: the hysteresis and a
-/// smoother do not commute, so that a corner that is rounded looks like a lag. On triangles and
-/// staircases of a rig without any other effect nothing is named from here on.
+/// smoother do not commute, so that a corner that is rounded looks like a lag. With 0.1 % a sound rig
+/// that is moved by a triangle is still said to have friction.
 const ROUNDED: f64 = 3e-4;
 /// What it moves is a corner, and not noise, from this many standard deviations on.
 const CORNER: f64 = 8.0;
