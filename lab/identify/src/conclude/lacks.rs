@@ -45,7 +45,7 @@ fn beside_a_curve(data: &Prepared, ledger: &Ledger, done: &FinalFit, named: &Seg
     let added = names(ledger, done);
     let held_out = |rmse: &Segments| percent(rmse.normalised(data, &data.target).held_out);
     format!(
-        "The declared model lacks {}, and something that is in no catalogue: with what has a name the held-out error goes from {} to {} of the output's standard deviation, with a curve for the rest to {}.",
+        "The declared model lacks {}, and something that is in no catalogue: with the named effects the held-out error goes from {} to {} of the output's standard deviation, and with a curve for the rest to {}.",
         added.join(", then "),
         held_out(&ledger.declared.rmse),
         held_out(named),
@@ -68,6 +68,7 @@ fn nothing_found(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     }
 }
 
+/// Why the model must not be used on other data.
 pub(super) fn rises(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     let ratio = held_out_ratio(ledger, done);
     if let (true, false, Some((fit, held_out))) = (

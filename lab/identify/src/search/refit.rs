@@ -88,6 +88,8 @@ impl Linear<'_> {
             |start: &[f64], effort: Effort| coarse.descend(&plan.structure, &free, start, effort);
         let mut starts = self.starts(&plan, one, &free);
         starts.truncate(most);
+        // Two searches from one start at the same time would each be counted or one alone.
+        starts.dedup();
         let rough: Vec<Option<(f64, Vec<f64>)>> =
             starts.par_iter().map(|s| search(s, ROUGH)).collect();
         let best = rough
