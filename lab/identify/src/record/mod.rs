@@ -43,6 +43,7 @@ mod rows;
 mod series;
 mod sheet;
 mod source;
+mod sparse;
 mod text;
 mod thousands;
 mod time;
@@ -290,7 +291,6 @@ fn record(
 ) -> Result<Record, RecordError> {
     let mut table = rows::read(&mut rows, header, &roles, options)?;
     checks::record(&table, header, &roles)?;
-
     let mut values = std::mem::take(&mut table.values).into_iter();
     let mut column = |name: &str, series: Series| -> Result<Column, RecordError> {
         Ok(Column {
@@ -308,12 +308,15 @@ fn record(
         .iter()
         .map(|(name, series)| column(name, *series))
         .collect::<Result<Vec<Column>, RecordError>>()?;
+    // None of these is a sum, so that no parts go with it.
+    channels.retain(|channel| !sparse::is_empty(&channel.values));
     let mut mended = unwrapped(&mut input, &output, &mut channels);
     let (held, said) = without_stairs(&table.time, &mut input, &mut output, &mut channels);
     mended.extend(said);
     let parts = roles
         .channels
         .iter()
+        .filter(|(name, _)| channels.iter().any(|own| own.name == *name))
         .map(|(_, series)| values.by_ref().take(series.parts().count()).collect())
         .collect();
     let defects = defects::find(&defects::Measured {

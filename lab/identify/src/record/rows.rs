@@ -5,6 +5,7 @@ use super::header::Header;
 use super::layout::passed_over;
 use super::roles::Roles;
 use super::source::{Row, Source};
+use super::sparse::{self, Lacking};
 use super::time::{Clock, Stamp};
 use super::{Options, MIN_SAMPLES};
 
@@ -76,6 +77,9 @@ struct Reader<'a> {
     header: &'a Header,
     series: Vec<(usize, Option<(usize, f64)>)>,
     drop_bad: bool,
+    /// Rows that were kept so far.
+    kept: usize,
+    lacking: Lacking,
     /// Rows of several lines.
     carried: usize,
 }
@@ -99,7 +103,7 @@ impl Reader<'_> {
     }
 
     fn numbers(
-        &self,
+        &mut self,
         row: &Row<'_>,
         clock: &mut Clock,
         into: &mut Vec<f64>,
@@ -111,13 +115,25 @@ impl Reader<'_> {
         };
         into.clear();
         let number = |index: usize| row.number(index, &self.header.columns[index].name);
-        for (column, added) in &self.series {
-            let mut value = number(*column)?;
-            if let Some((second, factor)) = added {
-                value += factor * number(*second)?;
+        for (k, (column, added)) in self.series.iter().enumerate() {
+            let value = match added {
+                None => number(*column),
+                Some((second, factor)) => {
+                    number(*column).and_then(|value| Ok(value + factor * number(*second)?))
+                }
+            };
+            // A channel may lack, input and output may not.
+            let bad = value.as_ref().err().and_then(RecordError::bad);
+            match (value, bad) {
+                (Ok(value), _) => into.push(value),
+                (Err(error), Some(bad)) if k >= 2 => {
+                    self.lacking.add(self.kept, k, bad, error);
+                    into.push(f64::NAN);
+                }
+                (Err(error), _) => return Err(error),
             }
-            into.push(value);
         }
+        self.kept += 1;
         Ok(Sample::At(t))
     }
 
@@ -161,6 +177,8 @@ pub(super) fn read(
         header,
         series,
         drop_bad: options.drop_bad,
+        kept: 0,
+        lacking: Lacking::default(),
         carried: 0,
     };
     let (mut time, mut lines, mut sample) = (Vec::new(), Vec::new(), Vec::new());
@@ -187,7 +205,8 @@ pub(super) fn read(
                 let Some(text) = text else {
                     // Thousands in the stamps let time run backwards.
                     rows.check(header)?;
-                    return Err(error);
+                    let before = reader.lacking.fault(reader.kept);
+                    return Err(before.filter(|_| !options.drop_bad).unwrap_or(error));
                 };
                 let first = rows.line();
                 below = Some(passed_over(first, first + text - 1, "below the table"));
@@ -197,25 +216,30 @@ pub(super) fn read(
     }
     rows.check(header)?;
     clock.finish(header)?;
+    let lacking = reader.lacking.mended(time.len(), options.drop_bad)?;
+    lacking.out.iter().for_each(|(_, bad)| dropped.count(*bad));
+    leave_out(&lacking.out, &mut time);
+    leave_out(&lacking.out, &mut lines);
+    values
+        .iter_mut()
+        .for_each(|own| leave_out(&lacking.out, own));
     long_enough(time.len(), &clock, dropped.all(), rows.line())?;
     let mut notes: Vec<String> = rows.note().into_iter().collect();
     notes.extend(clock.notes(&time));
     let start = time.first().copied().unwrap_or_default();
     time.iter_mut().for_each(|t| *t -= start);
-    if let Some(unit) = roles
-        .time
-        .and_then(|index| header.columns[index].unit.as_deref())
-        .filter(|unit| !unit.contains(':'))
-    {
-        notes.extend((unit != "s").then(|| format!("time converted from {unit} to s")));
-    }
-    match reader.carried {
-        0 => {}
-        1 => notes.push("1 row goes over several lines, in quotes".to_owned()),
-        carried => notes.push(format!("{carried} rows go over several lines, in quotes")),
-    }
+    notes.extend(unit_of_time(header, roles));
+    notes.extend(several_lines(reader.carried));
     notes.extend(below);
     notes.extend(dropped.note());
+    notes.extend(sparse::fill(
+        &lacking.filled,
+        &mut values,
+        &time,
+        header,
+        roles,
+        options,
+    )?);
     Ok(Table {
         time,
         values,
@@ -223,6 +247,31 @@ pub(super) fn read(
         dropped: dropped.all(),
         notes,
     })
+}
+
+/// The unit that the time had, where it was converted.
+fn unit_of_time(header: &Header, roles: &Roles) -> Option<String> {
+    let unit = header.columns[roles.time?].unit.as_deref()?;
+    (!unit.contains(':') && unit != "s").then(|| format!("time converted from {unit} to s"))
+}
+
+fn several_lines(rows: usize) -> Option<String> {
+    match rows {
+        0 => None,
+        1 => Some("1 row goes over several lines, in quotes".to_owned()),
+        _ => Some(format!("{rows} rows go over several lines, in quotes")),
+    }
+}
+
+/// Takes rows out of a column.
+fn leave_out<T>(out: &[(usize, Bad)], column: &mut Vec<T>) {
+    let mut out = out.iter().map(|(row, _)| *row).peekable();
+    let mut row = 0;
+    column.retain(|_| {
+        let stays = out.next_if_eq(&row).is_none();
+        row += 1;
+        stays
+    });
 }
 
 fn long_enough(left: usize, clock: &Clock, dropped: usize, line: usize) -> Result<(), RecordError> {

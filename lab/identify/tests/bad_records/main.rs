@@ -3,6 +3,7 @@
 
 mod forms;
 mod signals;
+mod sparse;
 
 use bowden_lab::record::{parse, read, Mode, Options, Record};
 use proptest::prelude::*;

@@ -1,0 +1,151 @@
+//! Channels of a slower sensor that has a number in a few rows only: a temperature once a second in a
+//! log of 500 Hz.
+//!
+//! A channel with a number in fewer than half of the rows is a line through its readings. What lacks in
+//! one with more is a fault of the record, as it is in the input and the output.
+
+use super::error::{Bad, RecordError};
+use super::header::Header;
+use super::roles::Roles;
+use super::Options;
+
+/// Cells of channels without a number, as they are met.
+#[derive(Default)]
+pub(super) struct Lacking {
+    /// Row of those that were kept, column of the table, and why.
+    cells: Vec<(usize, usize, Bad)>,
+    /// The first error of each column, in the order of the rows.
+    first: Vec<(usize, RecordError)>,
+}
+
+/// What the rows are without these cells.
+pub(super) struct Mended {
+    /// Rows that `--drop-bad` leaves out, in ascending order.
+    pub(super) out: Vec<(usize, Bad)>,
+    /// Columns of the table that are to be filled.
+    pub(super) filled: Vec<usize>,
+}
+
+impl Lacking {
+    pub(super) fn add(&mut self, row: usize, column: usize, bad: Bad, error: RecordError) {
+        self.cells.push((row, column, bad));
+        if self.first.iter().all(|(known, _)| *known != column) {
+            self.first.push((column, error));
+        }
+    }
+
+    /// The columns with a number in fewer than half of so many rows.
+    fn sparse(&self, rows: usize) -> Vec<usize> {
+        let mut lack = vec![0_usize; self.first.iter().map(|(k, _)| k + 1).max().unwrap_or(0)];
+        for (_, column, _) in &self.cells {
+            lack[*column] += 1;
+        }
+        (0..lack.len()).filter(|&k| 2 * lack[k] > rows).collect()
+    }
+
+    /// The first cell that is no sparse channel's, in so many rows.
+    pub(super) fn fault(&self, rows: usize) -> Option<RecordError> {
+        let sparse = self.sparse(rows);
+        let mut own = self.first.iter().filter(|(k, _)| !sparse.contains(k));
+        own.next().map(|(_, error)| error.clone())
+    }
+
+    /// Which channels are sparse; what lacks in others is a fault, or leaves its row out.
+    pub(super) fn mended(&self, rows: usize, drop_bad: bool) -> Result<Mended, RecordError> {
+        if let Some(error) = self.fault(rows).filter(|_| !drop_bad) {
+            return Err(error);
+        }
+        let filled = self.sparse(rows);
+        let others = self.cells.iter().filter(|(_, k, _)| !filled.contains(k));
+        let mut out: Vec<(usize, Bad)> = others.map(|(row, _, bad)| (*row, *bad)).collect();
+        out.dedup_by_key(|(row, _)| *row);
+        Ok(Mended { out, filled })
+    }
+}
+
+/// Draws lines through the readings of sparse columns, NaN elsewhere; returns what is to be said.
+/// Columns without a reading keep their NaN where nobody asked for them.
+pub(super) fn fill(
+    columns: &[usize],
+    values: &mut [Vec<f64>],
+    at: &[f64],
+    header: &Header,
+    roles: &Roles,
+    options: &Options,
+) -> Result<Vec<String>, RecordError> {
+    let mut said = Vec::new();
+    for &column in columns {
+        let readings = line(&mut values[column], at);
+        // Parts of a sum come after the channels: the sum speaks for them.
+        let Some((name, series)) = column.checked_sub(2).and_then(|k| roles.channels.get(k)) else {
+            continue;
+        };
+        let own = &header.columns[series.first()].name;
+        let asked = options.channels.iter().any(|(other, _)| other == name);
+        said.push(match readings {
+            0 if asked => {
+                let message = "has no number in any row that is read";
+                return Err(RecordError::at(header.line, message).on(own));
+            }
+            0 => format!("`{own}` has no number in any row: left out"),
+            _ => {
+                let (all, span) = (
+                    at.len(),
+                    at.last().unwrap_or(&0.0) - at.first().unwrap_or(&0.0),
+                );
+                let what = match readings {
+                    1 => "one reading, which stands in for all".to_owned(),
+                    _ => format!(
+                        "{readings} readings, one in {:.3} s: a line through them stands in",
+                        span / readings as f64
+                    ),
+                };
+                format!(
+                    "`{own}` has no number in {} of {all} rows, and {what}",
+                    all - readings
+                )
+            }
+        });
+    }
+    Ok(said)
+}
+
+/// Whether a column was left without any number.
+pub(super) fn is_empty(values: &[f64]) -> bool {
+    values.first().is_some_and(|value| value.is_nan())
+}
+
+/// Fills what is NaN by a line between the numbers beside it, at the ends by the nearest one; how
+/// many numbers there were.
+fn line(values: &mut [f64], at: &[f64]) -> usize {
+    let readings: Vec<usize> = (0..values.len()).filter(|&i| !values[i].is_nan()).collect();
+    let (Some(&first), Some(&last)) = (readings.first(), readings.last()) else {
+        return 0;
+    };
+    let (start, end) = (values[first], values[last]);
+    values[..first].fill(start);
+    values[last..].fill(end);
+    for pair in readings.windows(2) {
+        let (a, b) = (pair[0], pair[1]);
+        let slope = (values[b] - values[a]) / (at[b] - at[a]);
+        for i in a + 1..b {
+            values[i] = values[a] + slope * (at[i] - at[a]);
+        }
+    }
+    readings.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_goes_through_the_readings_and_stays_level_outside() {
+        let nan = f64::NAN;
+        let mut values = [nan, 2.0, nan, nan, 8.0, nan];
+        let at = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
+        assert_eq!(line(&mut values, &at), 2);
+        assert_eq!(values, [2.0, 2.0, 4.0, 6.0, 8.0, 8.0]);
+        assert_eq!(line(&mut [nan; 3], &at), 0);
+    }
+}

@@ -1,0 +1,109 @@
+//! Channels with a number in a few rows only.
+
+use super::*;
+
+/// The record with a temperature in every `every`-th row, from row `first` on; elsewhere `empty`.
+fn with_temperature(first: usize, every: usize, empty: &str) -> String {
+    let own = |(i, row): (usize, &String)| match i >= first && (i - first) % every == 0 {
+        true => format!("{row},{}", 20.0 + 0.5 * i as f64),
+        false => format!("{row},{empty}"),
+    };
+    let rows: Vec<String> = rows().iter().enumerate().map(own).collect();
+    csv("t,x,f,temperature", &rows)
+}
+
+#[test]
+fn a_slow_channel_is_a_line_through_its_readings() {
+    for empty in ["", "NaN"] {
+        for drop_bad in [false, true] {
+            let options = Options {
+                drop_bad,
+                ..Options::default()
+            };
+            let text = with_temperature(3, 20, empty);
+            let record = parse(text.as_bytes(), "r.csv", &options).unwrap();
+            let values = &record.channels[0].values;
+            assert_eq!((values.len(), record.dropped), (400, 0));
+            for (i, value) in values.iter().enumerate() {
+                // The temperature is linear in the row; before the first and after the last reading it stays.
+                let expected = 20.0 + 0.5 * (i.clamp(3, 383) as f64);
+                assert!((value - expected).abs() < 1e-9, "{i}: {value}");
+            }
+            let said = "`temperature` has no number in 380 of 400 rows, and 20 readings, one in 0.200 s: a line through them stands in";
+            assert!(
+                record.notes.iter().any(|note| note == said),
+                "{:?}",
+                record.notes
+            );
+        }
+    }
+}
+
+#[test]
+fn cells_that_lack_in_a_channel_that_is_mostly_there_are_faults() {
+    let gap = |text: &str| {
+        let mut rows = rows();
+        for (i, row) in rows.iter_mut().enumerate() {
+            *row += if (30..33).contains(&i) { text } else { ",21" };
+        }
+        csv("t,x,f,temperature", &rows)
+    };
+    refused(
+        gap(","),
+        "r.csv:32: column `temperature`: the cell is empty, a number was expected; --drop-bad leaves such rows out",
+    );
+    let options = Options {
+        drop_bad: true,
+        ..Options::default()
+    };
+    let record = parse(gap(",nan").as_bytes(), "r.csv", &options).unwrap();
+    assert_eq!((record.samples(), record.dropped), (397, 3));
+    assert!(!record.channels[0].values.iter().any(|value| value.is_nan()));
+    // The earlier fault is told, also where the later one ends the reading.
+    let later = gap(",").replace("3.50,", "3.50,abc");
+    assert!(later.contains("abc"));
+    refused(
+        later,
+        "r.csv:32: column `temperature`: the cell is empty, a number was expected; --drop-bad leaves such rows out",
+    );
+}
+
+#[test]
+fn what_is_no_number_and_an_end_with_few_numbers_are_refused() {
+    let text = with_temperature(0, 20, "").replacen(",\n", ",warm\n", 1);
+    refused(
+        text,
+        "r.csv:3: column `temperature`: `warm` is not a number",
+    );
+    let thin = csv(
+        "t,x,f",
+        &(0..400)
+            .map(|i| format!("{},{i},", 0.01 * f64::from(i)))
+            .collect::<Vec<_>>(),
+    );
+    let line = refusal(thin, &Options::default());
+    assert!(
+        line.starts_with("r.csv:2: column `f`: the cell is empty"),
+        "{line}"
+    );
+    let none = csv(
+        "t,x,f,temperature",
+        &rows()
+            .iter()
+            .map(|row| format!("{row},"))
+            .collect::<Vec<_>>(),
+    );
+    let record = accepted(&none);
+    assert!(record.channels.is_empty());
+    let said = "`temperature` has no number in any row: left out";
+    assert!(record.notes.iter().any(|note| note == said));
+    // What was asked for has to be there.
+    let options = Options {
+        channels: vec![("warmth".to_owned(), "temperature".to_owned())],
+        ..Options::default()
+    };
+    assert_eq!(
+        refusal(none, &options),
+        "r.csv:1: column `temperature`: has no number in any row that is read"
+    );
+}
