@@ -4,7 +4,7 @@ use super::*;
 
 /// The record with a temperature in every `every`-th row, from row `first` on; elsewhere `empty`.
 fn with_temperature(first: usize, every: usize, empty: &str) -> String {
-    let own = |(i, row): (usize, &String)| match i >= first && (i - first) % every == 0 {
+    let own = |(i, row): (usize, &String)| match i >= first && (i - first).is_multiple_of(every) {
         true => format!("{row},{}", 20.0 + 0.5 * i as f64),
         false => format!("{row},{empty}"),
     };
