@@ -2,9 +2,9 @@
 //! allows: the box is filled and never left.
 
 use super::rounded::{own, own_plant, proved, table_2, table_2_plant};
-use bowden::bound::{PeakRounded, Plant};
+use bowden::bound::{Named, PeakRounded, Plant};
 use bowden::control::{
-    Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Limits, Status,
+    Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Form, Limits, Status,
 };
 use bowden::Real;
 
@@ -46,6 +46,8 @@ struct Reached {
     all: f64,
     limited: f64,
     cuts: u32,
+    /// Fastest move of the command \[command unit/s\].
+    fastest: f64,
 }
 
 /// The attack over `steps`, from the corner of rest; everything is asserted on the way.
@@ -55,7 +57,17 @@ fn attack<T: Real, const N: usize>(
     play: &Play<N>,
     steps: u32,
 ) -> Reached {
-    let proof: PeakRounded = proved(settings, plant);
+    attack_in(settings, plant, play, steps, &proved(settings, plant))
+}
+
+/// The same against a box that need not be proved.
+fn attack_in<T: Real, const N: usize>(
+    settings: AdaptiveSettings<T, N>,
+    plant: &Plant<f64, N>,
+    play: &Play<N>,
+    steps: u32,
+    proof: &PeakRounded,
+) -> Reached {
     let (s_most, z_most) = (proof.s.high().as_f64(), proof.z.high().as_f64());
     let law = Adaptive::try_new(settings).unwrap();
     let [low, high] = corners(settings).map(|corner| Adaptive::try_new(corner).unwrap());
@@ -78,6 +90,7 @@ fn attack<T: Real, const N: usize>(
     let mut state = AdaptiveState::new(&law);
     let mut last_load: Option<f64> = None;
     let (mut reached, mut limited, mut cuts) = (0.0_f64, 0.0_f64, 0);
+    let mut fastest = 0.0_f64;
     // From rest: the command at which the errors start at zero.
     let mut started = false;
     for n in 0..steps {
@@ -120,7 +133,9 @@ fn attack<T: Real, const N: usize>(
             Estimates::Jump if (f64::from(n) * dt).fract() < 0.8 => &low,
             Estimates::Jump => &high,
         };
+        let before = state.command().as_f64();
         let output = law.step_with_terms(&mut state, &input);
+        fastest = fastest.max((output.command.as_f64() - before).abs() / dt);
         assert_eq!(output.status, Status::Good);
         if output.terms.limited {
             limited = limited.max(s.abs() / s_most);
@@ -135,6 +150,7 @@ fn attack<T: Real, const N: usize>(
         all: reached,
         limited,
         cuts,
+        fastest,
     }
 }
 
@@ -265,4 +281,82 @@ fn an_adversary_that_meets_the_limit_fills_the_box_and_never_leaves_it() {
 #[ignore = "slow: bash .ci/run bound"]
 fn an_adversary_that_meets_the_limit_for_a_million_steps_never_leaves_the_box() {
     at_the_limit(1_000_000);
+}
+
+/// The same law with the least slew rate that is proved not to be met; the rate \[command unit/s\].
+fn slewed<T: Real, const N: usize>(
+    settings: AdaptiveSettings<T, N>,
+    plant: &Plant<f64, N>,
+) -> (AdaptiveSettings<T, N>, f64) {
+    let with = |slew: f64| AdaptiveSettings {
+        limits: settings.limits.with_slew(T::of(slew)).unwrap(),
+        ..settings
+    };
+    let examined = PeakRounded::examine(&with(1e6), plant).unwrap();
+    let moved = examined.slew.unwrap().left.as_f64();
+    let Form::Lag { step, .. } = settings.form else {
+        unreachable!("the lag form")
+    };
+    // The rounding of slew·dt and of its sum with the command is a millionth of the command in f32.
+    let least = moved / step.as_f64();
+    let slew = least + 60.0 * 4.0 * T::epsilon().as_f64() / step.as_f64();
+    let refused = PeakRounded::examine(&with(0.999 * least), plant).unwrap();
+    assert_eq!(refused.refused().map(|it| it.name), Some(Named::Slew));
+    (with(slew), slew)
+}
+
+#[test]
+fn a_slew_rate_that_is_proved_not_to_be_met_is_not() {
+    let moving = Play {
+        alpha: 0.92,
+        theta: [3.0, 0.3],
+        half: 2.0 * 25.0 / (0.999 * 22.3),
+        estimates: Estimates::Jump,
+    };
+    let plant = own_plant();
+    let (single, of_single) = slewed(worst(own::<f32>()), &plant);
+    let (double, of_double) = slewed(worst(own::<f64>()), &plant);
+    let free = [
+        (attack(single, &plant, &moving, 100_000), of_single),
+        (attack(double, &plant, &moving, 100_000), of_double),
+    ];
+    // With a limit that is met, too.
+    let resting = Play {
+        alpha: 1.0,
+        theta: [],
+        half: f64::INFINITY,
+        estimates: Estimates::Jump,
+    };
+    let plant = table_2_plant();
+    let (cut, of_cut) = slewed(limited(worst(table_2::<f32, 0>(0.0)), 16.001), &plant);
+    let cut = (attack(cut, &plant, &resting, 100_000), of_cut);
+    assert!(cut.0.cuts > 1000, "{cut:?}");
+    for (reached, slew) in free.into_iter().chain([cut]) {
+        let share = reached.fastest / slew;
+        println!("{share} of a slew rate of {slew}");
+        // Each term at its worst at once is more than any play reaches, but not by orders.
+        assert!(share < 1.0 && share > 0.25, "{share}");
+        assert!(reached.all > 0.9, "{reached:?}");
+    }
+}
+
+#[test]
+#[should_panic(expected = "s = ")]
+fn below_that_slew_rate_an_adversary_leaves_the_box() {
+    let plant = own_plant();
+    let settings = worst(own::<f64>());
+    let play = Play {
+        alpha: 0.92,
+        theta: [3.0, 0.3],
+        half: 2.0 * 25.0 / (0.999 * 22.3),
+        estimates: Estimates::Jump,
+    };
+    assert!(proved(settings, &plant).slew.is_none());
+    let slow = AdaptiveSettings {
+        limits: settings.limits.with_slew(40.0).unwrap(),
+        ..settings
+    };
+    let refused = PeakRounded::examine(&slow, &plant).unwrap();
+    assert_eq!(refused.refused().map(|it| it.name), Some(Named::Slew));
+    attack_in(slow, &plant, &play, 100_000, &refused);
 }

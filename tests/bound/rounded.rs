@@ -309,13 +309,6 @@ fn a_certificate_that_cannot_be_stated_names_the_reason() {
             },
             Error::Inadmissible("beta.low > 0"),
         ),
-        (
-            AdaptiveSettings {
-                limits: good.limits.with_slew(100.0).unwrap(),
-                ..good
-            },
-            Error::Inadmissible("no slew rate"),
-        ),
     ];
     for (settings, error) in cases {
         assert_eq!(examined(settings).map(|_| ()), Err(error));

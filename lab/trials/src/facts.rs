@@ -255,8 +255,7 @@ fn inputs(question: &Question<'_>) -> Result<(Setup, Option<GainsFile>, bool), S
                 ));
             };
             // What the gains were designed for is what they are tried with.
-            let designed = Some(gains.design.noise).filter(|noise| *noise > 0.0);
-            let noise = question.noise.or(designed);
+            let noise = question.noise.or(Some(gains.design.noise));
             let own = setup(&Question { noise, ..*question }, Some(model))?;
             no_model_is_refused(model)?;
             Ok((own, Some(gains), true))

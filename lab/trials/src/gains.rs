@@ -194,6 +194,11 @@ fn at(text: &str, label: &str, table: &str, key: &str, line: &str) -> String {
 
 /// file:line:column: what is wrong, in one line.
 pub(crate) fn message(error: &toml::de::Error, text: &str, label: &str) -> String {
+    if text.trim_start().starts_with('{') {
+        return format!(
+            "{label}: is JSON; TOML was expected, as `bowden close --model-out MODEL.toml` and `bowden design --out GAINS.toml` write it"
+        );
+    }
     let what = error.message().replace('\n', " ");
     match error.span() {
         None => format!("{label}: {what}"),

@@ -76,8 +76,12 @@ impl Heading {
             });
         }
         if let Some([low, high]) = self.reference {
+            // Three digits of what is small.
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+            let places =
+                (2.0 - low.abs().max(high.abs()).log10().floor()).clamp(2.0, 12.0) as usize;
             all.push(format!(
-                "Reference: the paper's between {low:.2} and {high:.2} N·m, within what the model's record has covered."
+                "Reference: the paper's between {low:.places$} and {high:.places$} N·m, within what the model's record has covered."
             ));
         }
         let rig = &self.rig;

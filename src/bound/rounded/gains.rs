@@ -46,6 +46,8 @@ pub(super) struct Gains {
     pub(super) slope: Enclosure,
     pub(super) z_limit: Enclosure,
     pub(super) command: Enclosure,
+    /// Slew rate, where there is one.
+    pub(super) slew: Option<Enclosure>,
     pub(super) reference: Enclosure,
     pub(super) reference_rate: Enclosure,
     /// W \[N·m\].
@@ -109,6 +111,7 @@ impl Gains {
             slope: above / Enclosure::of(settings.epsilon),
             z_limit: Enclosure::of(settings.z_limit),
             command: Enclosure::of(command),
+            slew: settings.limits.slew().map(Enclosure::of),
             reference,
             reference_rate,
             w,
@@ -144,9 +147,6 @@ fn usable<T: Real, const N: usize>(settings: &AdaptiveSettings<T, N>) -> Result<
     above_zero!(settings.z_limit, T::ZERO, "z_limit");
     if settings.longest_dt < step || settings.longest_dt.is_nan() {
         return Err(Error::Inadmissible("longest_dt >= step"));
-    }
-    if settings.limits.slew().is_some() {
-        return Err(Error::Inadmissible("no slew rate"));
     }
     Ok(step)
 }

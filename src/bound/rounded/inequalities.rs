@@ -36,6 +36,10 @@ pub enum Named {
     Waiting,
     /// `lambda²·Z <= lambda·S + 2·g⁻·Z`: the room that rounding needs of Z, while z waits.
     Slack,
+    /// What a step moves the command by `<=` what the slew rate allows: it is not met.
+    /// `h·(lambda·(W + g⁺·(k·S + delta_hat)) + g⁺·Z + r' + lambda·(S + lambda·Z))/alpha⁻`
+    /// and the roundings, `<= h·slew`.
+    Slew,
 }
 
 impl Named {
@@ -55,6 +59,9 @@ impl Named {
             Self::Reserve => "(r + load + lambda*Z - S)/alpha- <= limit of the command",
             Self::Waiting => "h*lambda*(2 + g+*k) <= 1",
             Self::Slack => "lambda^2*Z <= lambda*S + 2*g-*Z",
+            Self::Slew => {
+                "a step moves the command by less than the slew rate allows: h*(lambda*(W + g+*(k*S + delta)) + g+*Z + r' + lambda*(S + lambda*Z))/alpha- + Ec <= h*slew"
+            }
         }
     }
 }
@@ -137,6 +144,9 @@ impl PeakRounded {
             roundings: added,
             inequalities: inequalities(gains, s, z, command, &added),
             at_the_limit: at_the_limit(gains, s, z),
+            slew: gains
+                .slew
+                .map(|slew| not_met(gains, slew, [s, z, command], &added)),
         }
     }
 }
@@ -186,4 +196,28 @@ fn at_the_limit(gains: &Gains, s: Enclosure, z: Enclosure) -> [Inequality; 3] {
             gains.lambda * s + two * g_low * z,
         ),
     ]
+}
+
+/// That no step moves the command by as much as the slew rate allows: `theorems/Slew.v`.
+///
+/// The plant tells the command that is out, `alpha·u = y + theta'x + D`, whatever limited it.
+fn not_met(
+    gains: &Gains,
+    slew: Enclosure,
+    [s, z, command]: [Enclosure; 3],
+    added: &Roundings,
+) -> Inequality {
+    let [_, g_high] = gains.g;
+    let (lambda, two) = (gains.lambda, Enclosure::power(1));
+    let pulled = gains.w + g_high * (gains.gain * (s + added.s) + gains.delta);
+    let rate = lambda * pulled + g_high * z + gains.reference_rate + lambda * (s + lambda * z);
+    let reach = gains.step * slew;
+    // The product slew·dt, and the sum with the command before.
+    let word = &gains.word;
+    let rounded = word.unit * (two * (reach + reach) + command) + two * word.least;
+    Inequality::new(
+        Named::Slew,
+        gains.step * rate / gains.alpha[0] + added.command,
+        reach - rounded,
+    )
 }

@@ -31,7 +31,10 @@ use gains::Gains;
 /// **A limit that may be met.** The eighth inequality says that the box needs no command beyond
 /// the limit. Where it fails, the three of [`at_the_limit`](Self::at_the_limit) will do: a limit
 /// that holds the reference against the load cuts a command, z waits, and the box is the same
-/// (`theorems/Limit.v`). A slew rate is not covered.
+/// (`theorems/Limit.v`).
+///
+/// **A slew rate must not be met.** Where the law has one, [`slew`](Self::slew) says that no step
+/// from the box moves the command by as much as it allows (`theorems/Slew.v`).
 ///
 /// Assumed beside: the plant `y = alpha·u - theta'x - D` without dynamics, where y is as the
 /// controller reads it: what the sensor rounds is part of D and counts in its rate; `dt` is
@@ -75,6 +78,8 @@ pub struct PeakRounded {
     pub inequalities: [Inequality; 9],
     /// What stands for [`Named::Command`] where that one fails.
     pub at_the_limit: [Inequality; 3],
+    /// That the slew rate is not met; `None` where the law has none.
+    pub slew: Option<Inequality>,
 }
 
 /// Doublings and halvings of the search for S.
@@ -136,7 +141,8 @@ impl PeakRounded {
         Ok(Self::at(&gains, high))
     }
 
-    /// Whether all inequalities hold, or of [`Named::Command`] what stands for it.
+    /// Whether all inequalities hold, that of a slew rate too, or of [`Named::Command`] what
+    /// stands for it.
     #[must_use]
     pub fn is_proved(&self) -> bool {
         self.refused().is_none()
@@ -156,7 +162,7 @@ impl PeakRounded {
         let [reserve, waiting, slack] = &self.at_the_limit;
         let waits = waiting.holds() && slack.holds();
         let instead = |it: &Inequality| it.name == Named::Command && waits && reserve.holds();
-        let mut all = self.inequalities.iter();
+        let mut all = self.inequalities.iter().chain(&self.slew);
         let first = all.find(|it| !it.holds() && !instead(it))?;
         let is_reserve = first.name == Named::Command && waits;
         Some(if is_reserve { reserve } else { first })

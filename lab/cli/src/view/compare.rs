@@ -2,6 +2,7 @@
 
 use super::compare_found;
 use super::compare_rows::{conditions, configuration, own, row};
+use super::decimal::places;
 use bowden_trials::facts::{Compared, Heading, Line, Lineup, Promise, Results, Spread};
 use serde_json::{json, Value};
 use std::fmt::Write as _;
@@ -25,7 +26,8 @@ pub fn json(compared: &Compared) -> String {
 }
 
 fn spread(spread: Spread) -> String {
-    format!("{:.4} ± {:.4}", spread.mean, spread.sd)
+    let places = places(spread.mean, 4);
+    format!("{:.places$} ± {:.places$}", spread.mean, spread.sd)
 }
 
 /// "–, ran away at 0.31 s", in place of errors that were summed over a part of the trial;
@@ -81,7 +83,7 @@ fn steady(heading: &Heading, lineup: &Lineup) -> String {
     );
     let certificate = |promise: &Promise| {
         let value = promise.value?;
-        Some(format!("{} {value:.3}", promise.kind))
+        Some(format!("{} {value:.*}", promise.kind, places(value, 3)))
     };
     for line in &lineup.lines {
         if let Some(when) = ran_away(line, heading.seeds) {
@@ -93,12 +95,14 @@ fn steady(heading: &Heading, lineup: &Lineup) -> String {
         let own = lineup.certificates.get(&line.controller);
         let _ = writeln!(
             out,
-            "{:<22} {:>17} {:>17} {:>6.2} {:>7.3} {:>9.0} {:>8.0}  {:<17} {}",
+            "{:<22} {:>17} {:>17} {:>6.2} {:>7.*} {:>9.*} {:>8.0}  {:<17} {}",
             line.controller,
             spread(line.rmse_true),
             spread(line.rmse_measured),
             100.0 * line.share,
+            places(line.peak, 3),
             line.peak,
+            places(line.effort, 0),
             line.effort,
             line.reversals,
             paper.as_deref().unwrap_or("-"),
@@ -120,10 +124,12 @@ fn transient(heading: &Heading, lines: &[Line]) -> String {
         }
         let _ = writeln!(
             out,
-            "{:<22} {:>17} {:>9.2} {:>14.1}",
+            "{:<22} {:>17} {:>9.*} {:>14.*}",
             line.controller,
             spread(line.transient),
+            places(line.transient_peak, 2),
             line.transient_peak,
+            places(line.command, 1),
             line.command
         );
     }

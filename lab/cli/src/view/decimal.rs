@@ -12,6 +12,17 @@ pub enum Towards {
 /// More decimals than any `f64` has.
 const ALL: usize = 1080;
 
+/// As many decimals as show three digits of a number; `least` where that is more.
+#[must_use]
+pub fn places(x: f64, least: usize) -> usize {
+    if !(x.is_finite() && x != 0.0) {
+        return least;
+    }
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let needed = (2.0 - x.abs().log10().floor()).clamp(0.0, 15.0) as usize;
+    needed.max(least)
+}
+
 /// With `places` decimals.
 #[must_use]
 pub fn fixed(x: f64, places: usize, to: Towards) -> String {

@@ -157,6 +157,16 @@ fn bounds(designed: &Designed, row: &mut impl FnMut(&str, String)) {
         Some([low, high]) => format!("within {} to {} N·m", short(low), short(high)),
         None => "the record covers none in both directions".to_owned(),
     };
+    let own = designed.adaptive.settings.and_then(|law| law.limits.slew());
+    if let Some(slew) = own.filter(|slew| *slew > b.slew) {
+        row(
+            "",
+            format!(
+                "{} units/s for the adaptive law: its certificate needs it",
+                short(slew)
+            ),
+        );
+    }
     row("reference", format!("{rate}; {range}"));
     row(
         "longest dt",
@@ -213,13 +223,24 @@ fn adaptive(own: &AdaptiveDesign, row: &mut impl FnMut(&str, String)) {
     row(
         "",
         match (own.certificate, &own.uncertified) {
-            (Some(bound), _) => format!(
-                "certificate (peak-sampled): |e| <= {} N·m on a plant that answers within the step",
-                short(bound)
-            ),
+            (Some(bound), _) => certificate(own, bound),
             (None, why) => format!("no certificate: {}", why.as_deref().unwrap_or("none")),
         },
     );
+}
+
+/// What is promised of the error, and of which references.
+fn certificate(own: &AdaptiveDesign, bound: f64) -> String {
+    let noiseless = "on a plant that answers within the step, without noise";
+    let bound = short(bound);
+    match own.plant.filter(|_| own.proved) {
+        Some(known) => format!(
+            "certificate (peak-rounded): |e| <= {bound} N·m for references up to {} N·m at up to {} N·m/s, {noiseless}",
+            short(known.reference),
+            short(known.reference_rate)
+        ),
+        None => format!("certificate (peak-sampled): |e| <= {bound} N·m {noiseless}"),
+    }
 }
 
 /// Four digits.

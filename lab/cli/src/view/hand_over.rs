@@ -89,7 +89,7 @@ pub(super) fn text(hand: &Result<HandOverFacts, String>) -> String {
         ));
     }
     line(format!(
-        "held out {} sample by sample with causal velocities (Rates, {} ms), {} with the fit's zero-phase ones",
+        "held out {} sample by sample as firmware runs it (input as recorded, causal velocities by Rates, {} ms), {} with the fit's smoothed signals",
         per_cent(hand.causal.held_out),
         three_digits(1e3 * hand.time_constant),
         per_cent(hand.nrmse.held_out)

@@ -1,6 +1,6 @@
 //! `bowden certify GAINS.toml`: what is proved of one's own gains.
 
-use super::decimal::{fixed, scientific, Towards};
+use super::decimal::{fixed, places, scientific, Towards};
 use bowden_trials::facts::{Named, Proof, Sides};
 use std::fmt::Write as _;
 
@@ -62,7 +62,7 @@ pub fn text(proof: &Proof, label: &str) -> String {
     let own = proof.inequalities.iter().filter(shown);
     let at_the_limit = proof.at_the_limit.iter();
     let at_the_limit = at_the_limit.filter(|_| proof.may_meet_the_limit);
-    for sides in own.chain(at_the_limit) {
+    for sides in own.chain(at_the_limit).chain(&proof.slew) {
         let (left, right) = both(sides.left.high, sides.right.low, sides.holds);
         let holds = if sides.holds { "holds" } else { "FAILS" };
         let _ = writeln!(out, "{holds}  {left:>12} <= {right:<12}  {}", sides.text);
@@ -74,9 +74,9 @@ pub fn text(proof: &Proof, label: &str) -> String {
     out
 }
 
-/// Four decimals that are not below the number.
+/// Four decimals, or three digits of a small number, that are not below it.
 fn above(x: f64) -> String {
-    fixed(x, 4, Towards::Above)
+    fixed(x, places(x, 4), Towards::Above)
 }
 
 /// Two digits that are not below the number.

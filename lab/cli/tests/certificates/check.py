@@ -19,7 +19,7 @@ def number(text):
 def sides(c):
     bits, least = BITS[c["float"]]
     u, eta = F(1, 2 ** bits), F(1, 2 ** (least + 1))
-    of = lambda tree: {k: [number(x) for x in v] if isinstance(v, list) else number(v) for k, v in tree.items()}
+    of = lambda tree: {k: [number(x) for x in v] if isinstance(v, list) else v and number(v) for k, v in tree.items()}
     gains, plant, regressors = of(c["gains"]), of(c["plant"]), [of(r) for r in c["regressors"]]
     S, Z, r = number(c["s"]["exact"]), number(c["z"]["exact"]), plant["reference"]
     k, lam, h = gains["k"], gains["lambda"], gains["step"]
@@ -71,19 +71,25 @@ def sides(c):
     big = 2 * big
     top = (2 - 2 * u) * F(2) ** {"f32": 127, "f64": 1023}[c["float"]]
     over = lam * Z - S
+    slew = []
+    if gains["slew"] is not None:
+        # What the law adds to the command, by the plant's own command; then slew·dt and its sum.
+        moves = lam * (W + g[1] * (k * (S + Es) + delta)) + g[1] * Z + plant["reference_rate"] + lam * (S + lam * Z)
+        reach = h * gains["slew"]
+        slew = [("slew", h * moves / plant["alpha"][0] + El, reach - u * (4 * reach + U) - 2 * eta)]
     return [("step", h * lam, F(1)), ("steepness", h * lam * g[1] * (k + delta * q), F(1)),
             ("z-stays", h * S + Ez, h * lam * Z), ("stiffness", Z, lam * k * S),
             ("s-stays", h * lam * W + h * xi + Rs + Es, h * g[0] * (lam * k * S - Z)),
             ("owed", owed, carry), ("z-limit", Z, gains["z_limit"]), ("command", U, gains["command"]),
             ("overflow", big, top),
             ("reserve", (r + load + over) / plant["alpha"][0], gains["command"]),
-            ("waiting", h * lam * (2 + g[1] * k), F(1)), ("slack", lam ** 2 * Z, lam * S + 2 * g[0] * Z)]
+            ("waiting", h * lam * (2 + g[1] * k), F(1)), ("slack", lam ** 2 * Z, lam * S + 2 * g[0] * Z)] + slew
 
 
 def faults(c):
     near = F(1, 2 ** 45)
     fails = set()
-    for (name, left, right), stated in zip(sides(c), c["inequalities"] + c["at_the_limit"], strict=True):
+    for (name, left, right), stated in zip(sides(c), c["inequalities"] + c["at_the_limit"] + [c["slew"]] * (c["slew"] is not None), strict=True):
         a, b = number(stated["left"]["exact"]), number(stated["right"]["exact"])
         if name != stated["name"]:
             yield f"{stated['name']} stands where {name} was expected"

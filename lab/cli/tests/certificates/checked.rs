@@ -95,6 +95,11 @@ impl Random {
                 self.within(0.0, 10.0),
             );
         }
+        // A slew rate that is met, or one that is not.
+        if self.within(0.0, 1.0) < 0.5 {
+            let slew = format!("slew = {:e}\nbeta = ", self.within(5.0, 70.0).powi(2));
+            text = text.replacen("beta = ", &slew, 1);
+        }
         text
     }
 }
@@ -206,6 +211,19 @@ fn each_inequality_with_a_number_changed_is_caught() {
             left.at_the_limit[i].left.exact = scaled(&good.at_the_limit[i].left.exact, by);
             mutated.push(left);
         }
+    }
+    let text = std::fs::read_to_string(example("gains_own.toml")).unwrap();
+    let slewed = text.replace("command = 60.0", "slew = 500.0\ncommand = 60.0");
+    let slewed = parse(&slewed, "slewed").unwrap();
+    assert!(slewed.proved);
+    for by in [-1, 1] {
+        let (mut left, mut right) = (slewed.clone(), slewed.clone());
+        let sides = |own: &mut Proof| own.slew.take().unwrap();
+        let (mut a, mut b) = (sides(&mut left), sides(&mut right));
+        a.left.exact = scaled(&a.left.exact, by);
+        b.right.exact = scaled(&b.right.exact, by);
+        (left.slew, right.slew) = (Some(a), Some(b));
+        mutated.extend([left, right]);
     }
     // A smaller box than was proved, and a refusal that is called a proof.
     let mut smaller = good.clone();

@@ -41,8 +41,14 @@ pub struct AdaptiveDesign {
     pub settings: Option<AdaptiveSettings<f64, 0>>,
     /// Why there are no admissible gains.
     pub refused: Option<String>,
-    /// The sampled peak certificate: abs(e) stays below \[N·m\].
+    /// abs(e) stays below \[N·m\]: of the proof where there is one, else the sampled peak
+    /// certificate.
     pub certificate: Option<f64>,
+    /// Whether `bowden certify` proves the file as it stands: then the certificate counts limits,
+    /// slew rate and roundings.
+    pub proved: bool,
+    /// Why it does not, though there is a certificate.
+    pub unproved: Option<String>,
     /// Why there is no certificate.
     pub uncertified: Option<String>,
     /// What the certificate assumes of the plant, where it is known.
@@ -121,6 +127,8 @@ pub(super) fn design(plant: &Plant, around: &Around) -> AdaptiveDesign {
         settings: None,
         refused: None,
         certificate: None,
+        proved: false,
+        unproved: None,
         uncertified: None,
         plant: None,
         assumed: boxes.assumed.clone(),

@@ -33,6 +33,7 @@ mod adaptive;
 mod linear;
 mod pi;
 mod plant;
+mod promised;
 mod rust;
 
 pub use adaptive::AdaptiveDesign;
@@ -287,6 +288,8 @@ pub fn design(text: &str, label: &str, asked: &Question) -> Result<Designed, Str
         adaptive: adaptive.settings,
         plant: adaptive.plant,
     };
+    let mut adaptive = adaptive;
+    let gains = promised(gains, &mut adaptive);
     Ok(Designed {
         slopes: plant.slopes,
         design_slope: slope,
@@ -301,6 +304,26 @@ pub fn design(text: &str, label: &str, asked: &Question) -> Result<Designed, Str
         adaptive,
         gains,
     })
+}
+
+/// The file that is proved, where there is one; the law with it.
+fn promised(gains: GainsFile, adaptive: &mut AdaptiveDesign) -> GainsFile {
+    if adaptive.certificate.is_none() {
+        return gains;
+    }
+    match promised::settled(&gains) {
+        Ok((proved, proof)) => {
+            adaptive.certificate = Some(proof.error.high);
+            adaptive.settings = proved.adaptive;
+            adaptive.plant = proved.plant;
+            adaptive.proved = true;
+            proved
+        }
+        Err(why) => {
+            adaptive.unproved = Some(why);
+            gains
+        }
+    }
 }
 
 /// What keeps a controller from harm.
@@ -445,6 +468,10 @@ fn notes(plant: &Plant, adaptive: &AdaptiveDesign) -> Vec<String> {
         notes.push(
             "the limits are on one side of zero, as the record is: `bowden certify`, whose theorem has them on both sides, refuses such a file; the certificate above does not count the limits".to_owned(),
         );
+    } else if let Some(why) = &adaptive.unproved {
+        notes.push(format!(
+            "`bowden certify` refuses this file as it stands, since {why}; the certificate above counts neither the limits nor the slew rate"
+        ));
     }
     if plant.own_delay > 0.0 {
         notes.push(format!(
@@ -457,6 +484,9 @@ fn notes(plant: &Plant, adaptive: &AdaptiveDesign) -> Vec<String> {
             "the slopes leave out what else reads the input: {}",
             plant.left_out.join(", ")
         ));
+    }
+    if let Some(note) = plant.without_unit() {
+        notes.push(note.to_owned());
     }
     if !adaptive.assumed.is_empty() {
         notes.push(format!(

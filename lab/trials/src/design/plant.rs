@@ -129,6 +129,14 @@ pub(super) struct Plant {
 }
 
 impl Plant {
+    /// What is to be said of a model whose record has not stated its units.
+    pub(super) fn without_unit(&self) -> Option<&'static str> {
+        let stated = |end: &str| self.about.units.contains_key(end);
+        (!(stated("input") && stated("output"))).then_some(
+            "the record states no unit of its torques: they are taken as N·m; in mN·m all limits would be a thousand times too wide",
+        )
+    }
+
     /// From a file; `Err` is one sentence without the file's name.
     pub(super) fn new(file: &ModelFile) -> Result<Self, String> {
         if file.mode != "torque" {

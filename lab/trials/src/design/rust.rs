@@ -199,6 +199,14 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
     );
     item("const STEPS_FALLBACK: Fallback<f32>", &fallback, out);
     line!(out);
+    let slew = own.limits.slew().unwrap_or(f64::INFINITY);
+    line!(
+        out,
+        "/// The range with the slew rate that the certificate needs [command unit/s]."
+    );
+    let slewed = format!("constant!(RANGE.const_with_slew({}))", number(slew));
+    item("const STEPS_LIMITS: Limits<f32>", &slewed, out);
+    line!(out);
     line!(out, "/// The settings of the law.");
     line!(
         out,
@@ -209,7 +217,7 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
     line!(out, "    z_limit: {},", number(own.z_limit));
     line!(
         out,
-        "    ..AdaptiveSettings::new(LAG, K, LAMBDA, EPSILON, LIMITS, LONGEST_STEP, STEPS_FALLBACK)"
+        "    ..AdaptiveSettings::new(LAG, K, LAMBDA, EPSILON, STEPS_LIMITS, LONGEST_STEP, STEPS_FALLBACK)"
     );
     line!(out, "}};");
     line!(out);

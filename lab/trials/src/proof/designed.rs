@@ -10,12 +10,12 @@ use bowden::control::{self, AdaptiveSettings};
 ///
 /// # Errors
 /// Where the file has no law in lag form or nothing of its plant, or where a limit is zero.
-pub(super) fn prove(gains: &GainsFile) -> Result<Proof, String> {
+pub(crate) fn prove(gains: &GainsFile) -> Result<Proof, String> {
     let law = gains.adaptive.as_ref().ok_or(
         "has no [adaptive]: the design found no admissible gains of the adaptive law (`bowden design` says why)",
     )?;
     let known = gains.plant.as_ref().ok_or(
-        "has no [plant], which certify needs: the model gives no bound on how fast the disturbance moves (`bowden design` says why); state alpha, disturbance, disturbance_rate, reference and reference_rate there",
+        "has no [plant], which certify needs: the model gives no bound on how fast the disturbance moves (`bowden design` says why), and without one nothing is proved; where you know it, state alpha, disturbance, disturbance_rate, reference and reference_rate in [plant]",
     )?;
     let (low, high) = (law.limits.low(), law.limits.high());
     let mut proof = of_form(&form(law, known)?)?;
@@ -51,6 +51,7 @@ fn form(law: &AdaptiveSettings<f64, 0>, known: &Known) -> Result<Form, String> {
         epsilon: Positive(law.epsilon),
         z_limit: Positive(law.z_limit),
         command: Positive(command),
+        slew: law.limits.slew().map(Positive),
         beta: Above([law.beta.low, law.beta.high]),
         delta: NotBelow([law.delta.low, law.delta.high]),
         plant: Plant {

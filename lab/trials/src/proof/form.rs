@@ -19,6 +19,8 @@ pub(super) struct Form {
     pub(super) z_limit: Positive,
     /// Limit of the command's magnitude \[command unit\].
     pub(super) command: Positive,
+    /// Slew rate \[command unit/s\], where there is one.
+    pub(super) slew: Option<Positive>,
     /// Box of beta_hat, above zero.
     pub(super) beta: Above,
     /// Box of delta_hat \[N·m\], not below zero.

@@ -54,6 +54,11 @@ pub(super) fn words(form: &Form, inequality: &Inequality) -> String {
             up(left)
         ),
         Named::Waiting => format!("a rate of at least {} Hz", up(left / step)),
+        Named::Slew => format!(
+            "a slew rate of at least {}, in place of {}, or none: below it the slew rate may be met, and the proof is of a law that does not meet it",
+            up(1.001 * left / step),
+            form.slew.map_or(f64::NAN, |slew| slew.0)
+        ),
         Named::Overflow => {
             "a greater epsilon, or smaller gains: a number of the step is beyond its float"
                 .to_owned()

@@ -1,15 +1,16 @@
 //! One's own gains: what is proved of the shipped step with them, every rounding included.
 
-mod designed;
+pub(crate) mod designed;
 mod form;
 mod mend;
 mod written;
 
+pub(crate) use bowden::bound::Named;
 pub use form::Float;
 pub use written::{coq, gappa};
 
 use super::gains::{is_of_design, message, GainsFile};
-use bowden::bound::{Dyadic, Inequality, Interval, Kind, Known, Named, PeakRounded, Plant};
+use bowden::bound::{Dyadic, Inequality, Interval, Kind, Known, PeakRounded, Plant};
 use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Limits};
 use bowden::{Error, Real};
 use form::Form;
@@ -54,6 +55,8 @@ pub struct Proof {
     pub inequalities: Vec<Sides>,
     /// What stands for the command's where that one fails.
     pub at_the_limit: Vec<Sides>,
+    /// That the slew rate is not met; `None` where there is none.
+    pub slew: Option<Sides>,
     /// The first inequality that does not hold, and what would mend it.
     pub refused: Option<Refusal>,
     /// What the user must check.
@@ -112,6 +115,8 @@ pub struct Exact {
     pub z_limit: String,
     /// \[command unit\]
     pub command: String,
+    /// Slew rate \[command unit/s\]; `None` where there is none.
+    pub slew: Option<String>,
     /// Box of beta_hat.
     pub beta: [String; 2],
     /// Box of delta_hat \[N·m\].
@@ -299,7 +304,10 @@ fn settings<T: Real, const N: usize>(form: &Form) -> Result<AdaptiveSettings<T, 
         delta: moving(form.delta.0),
         theta,
         z_limit: T::of(form.z_limit.0),
-        limits: Limits::try_new(-command, command)?,
+        limits: match form.slew {
+            Some(slew) => Limits::try_new(-command, command)?.with_slew(T::of(slew.0))?,
+            None => Limits::try_new(-command, command)?,
+        },
         ..AdaptiveSettings::unlimited(lag, T::of(k), T::of(lambda), T::of(epsilon))
     })
 }
@@ -349,6 +357,7 @@ fn proof<T: Real, const N: usize>(
             epsilon: float(settings.epsilon),
             z_limit: float(settings.z_limit),
             command: float(settings.limits.high()),
+            slew: settings.limits.slew().map(float),
             beta: range(&settings.beta),
             delta: range(&settings.delta),
             adaptation: real(MOST_ADAPTATION),
@@ -384,6 +393,7 @@ fn proof<T: Real, const N: usize>(
         },
         inequalities: examined.inequalities.iter().map(Sides::from).collect(),
         at_the_limit: examined.at_the_limit.iter().map(Sides::from).collect(),
+        slew: examined.slew.as_ref().map(Sides::from),
         refused: examined.refused().map(|inequality| Refusal {
             text: inequality.name.text(),
             mend: mend::words(form, inequality),
