@@ -39,6 +39,17 @@ enum Estimates {
     Jump,
 }
 
+impl Estimates {
+    /// The law with the estimates of now.
+    fn choose<'a, L>(&self, own: &'a L, [low, high]: [&'a L; 2], jumped: bool) -> &'a L {
+        match self {
+            Self::Stay => own,
+            Self::Jump if jumped => high,
+            Self::Jump => low,
+        }
+    }
+}
+
 /// What an adversary reached: the largest `|s|/S` of all samples, and of those whose command
 /// the limit cut, with their number.
 #[derive(Debug)]
@@ -128,11 +139,8 @@ fn attack_in<T: Real, const N: usize>(
             next_reference: next,
             ..AdaptiveInput::new(h, T::of(r), y, x.map(T::of))
         };
-        let law = match play.estimates {
-            Estimates::Stay => &law,
-            Estimates::Jump if (f64::from(n) * dt).fract() < 0.8 => &low,
-            Estimates::Jump => &high,
-        };
+        let jumped = (f64::from(n) * dt).fract() >= 0.8;
+        let law = play.estimates.choose(&law, [&low, &high], jumped);
         let before = state.command().as_f64();
         let output = law.step_with_terms(&mut state, &input);
         fastest = fastest.max((output.command.as_f64() - before).abs() / dt);

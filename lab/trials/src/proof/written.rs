@@ -49,13 +49,7 @@ pub fn coq(proof: &Proof) -> Result<String, String> {
     let (names, exact, comp) = sums(numbers.regressors);
     let mut words = Words(BTreeMap::new());
     words.common(proof, &exact);
-    let slew = proof.slew.as_ref().map(|sides| {
-        format!(
-            "\n\n   The slew rate is left out, since no step from the box meets it: one moves the command by at\n   most {:e}, and {:e} is allowed (theorems/Slew.v). *)\n(* The theorem over the reals.",
-            sides.left.high, sides.right.low
-        )
-    });
-    words.put("slew", slew.unwrap_or_default());
+    words.put("slew", slew(proof).unwrap_or_default());
     words.put("box", BOX.trim_end());
     words.put("comp", comp);
     for (name, number) in numbers.gains.iter().chain(&numbers.bounds) {
@@ -124,6 +118,15 @@ pub fn coq(proof: &Proof) -> Result<String, String> {
         .map(|name| format!("Let {name} := rnd {name}_."));
     words.put("lets", lets.collect::<Vec<_>>().join("\n"));
     Ok(words.filled(COQ))
+}
+
+/// What the head says of a slew rate.
+fn slew(proof: &Proof) -> Option<String> {
+    let sides = proof.slew.as_ref()?;
+    Some(format!(
+        "\n\n   The slew rate is left out, since no step from the box meets it: one moves the command by at\n   most {:e}, and {:e} is allowed (theorems/Slew.v). *)\n(* The theorem over the reals.",
+        sides.left.high, sides.right.low
+    ))
 }
 
 /// The roundings of the step as a script for Gappa.
