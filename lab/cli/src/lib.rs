@@ -15,6 +15,7 @@ mod generate;
 mod help;
 mod man;
 mod outputs;
+mod pattern;
 mod plan;
 mod power;
 mod progress;

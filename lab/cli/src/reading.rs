@@ -1,9 +1,8 @@
 //! What all commands have in common that read a record.
 
-use super::Failure;
+use super::{pattern, Failure};
 use bowden_lab::facts::{Asked, Mode, Options, MOST_NAMES};
 use clap::{Args, ValueEnum};
-use glob::{glob_with, MatchOptions};
 use std::path::{Path, PathBuf};
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -144,21 +143,10 @@ pub fn files(arguments: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
             files.push(argument.clone());
             continue;
         }
-        // As in a shell: `*` stays in its folder and shows no hidden files.
-        let shell = MatchOptions {
-            case_sensitive: true,
-            require_literal_separator: true,
-            require_literal_leading_dot: true,
-        };
-        let found = glob_with(&text, shell)
-            .map_err(|e| format!("{text}: is no pattern: {}", e.msg))?
-            .collect::<Result<Vec<_>, _>>()
-            .map_err(|e| format!("{}: {}", e.path().display(), e.error()))?;
-        let mut found: Vec<PathBuf> = found.into_iter().filter(|path| path.is_file()).collect();
+        let found = pattern::files(argument)?;
         if found.is_empty() {
             return Err(format!("{text}: no file has such a name"));
         }
-        found.sort();
         files.extend(found);
     }
     Ok(files)

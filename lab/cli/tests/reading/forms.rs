@@ -1,7 +1,7 @@
 //! Every form of one record gives the same answer.
 
 use crate::record::{csv, foreign, german, gzip, latin_1, rows, utf_16, values, Folder, NAMES};
-use crate::shell::{said, without_seconds};
+use crate::shell::{refused, said, without_seconds};
 use bowden_lab::facts::{Asked, Options, Record};
 use std::path::Path;
 
@@ -189,6 +189,70 @@ fn a_pattern_stands_for_its_files_by_name() {
     // A file that has the very name is no pattern.
     let own = folder.file("run[1].csv", csv());
     said(&["close", &own, "--rounds", "0"]);
+}
+
+/// What a stranger's program has left beside the records.
+#[cfg(unix)]
+#[test]
+fn a_name_that_is_not_utf8_is_matched_as_any_other() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt as _;
+    let folder = Folder::new();
+    folder.file("ok.csv", csv());
+    let foreign = |name: &[u8]| Path::new(&folder.path("")).join(OsStr::from_bytes(name));
+    std::fs::write(foreign(b"caf\xe9.txt"), "").unwrap();
+    let close = ["close", &folder.path("*.csv"), "--rounds", "0"];
+    said(&close);
+    std::fs::create_dir(foreign(b"\xe9")).unwrap();
+    std::fs::write(foreign(b"\xe9/lat\xe9.csv"), csv()).unwrap();
+    let close = ["close", &folder.path("?/*.csv"), "--rounds", "0"];
+    said(&close);
+    let none = folder.path("*.dat");
+    let line = refused(&["close", &none]);
+    assert_eq!(line, format!("bowden: {none}: no file has such a name"));
+}
+
+#[test]
+fn a_pattern_reads_as_in_a_shell() {
+    let folder = Folder::new();
+    let root = Path::new(&folder.path("")).to_owned();
+    for below in ["a/b", "a/.c", ".d"] {
+        std::fs::create_dir_all(root.join(below)).unwrap();
+    }
+    for (index, name) in ["1.csv", "a/2.csv", "a/b/3.csv"].iter().enumerate() {
+        let text = csv();
+        let lines: Vec<&str> = text.lines().collect();
+        folder.file(name, lines[..lines.len() - index].join("\n"));
+    }
+    for hidden in [".0.csv", "a/.c/0.csv", ".d/0.csv", "a/1.txt"] {
+        folder.file(hidden, "not a record");
+    }
+    let read = |pattern: &str| -> Vec<String> {
+        let json = said(&["close", &folder.path(pattern), "--rounds", "0", "--json"]);
+        let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+        let path = |part: &serde_json::Value| part["path"].as_str().unwrap().to_owned();
+        match json["records"].as_array() {
+            Some(all) if !all.is_empty() => all.iter().map(path).collect(),
+            _ => vec![path(&json["record"])],
+        }
+    };
+    let paths = |names: &[&str]| -> Vec<String> { names.iter().map(|n| folder.path(n)).collect() };
+    assert_eq!(read("?.csv"), paths(&["1.csv"]));
+    assert_eq!(read("*/[2-3].csv"), paths(&["a/2.csv"]));
+    assert_eq!(read("*/../[!a].csv"), paths(&["a/../1.csv"]));
+    assert_eq!(read("**/*.csv"), paths(&["1.csv", "a/2.csv", "a/b/3.csv"]));
+    for (pattern, why) in [
+        ("*/", "no file has such a name"),
+        ("1.csv/*", "no file has such a name"),
+        ("[", "is no pattern: invalid range pattern"),
+    ] {
+        let path = folder.path(pattern);
+        let line = refused(&["close", &path]);
+        assert!(
+            line.starts_with(&format!("bowden: {path}: {why}")),
+            "{line}"
+        );
+    }
 }
 
 #[test]

@@ -1,0 +1,104 @@
+//! The files of a pattern such as `runs/*.csv`.
+//!
+//! The crate `glob` matches names; its walk is not used, as it panics at a name that is not
+//! UTF-8. Such a name is matched with a replacement character for what cannot be read in it.
+
+use super::Failure;
+use glob::{MatchOptions, Pattern};
+use std::ffi::OsString;
+use std::fs;
+use std::path::{is_separator, Component, Path, PathBuf};
+
+/// As in a shell: `*` stays in its folder and shows no hidden files.
+const SHELL: MatchOptions = MatchOptions {
+    case_sensitive: true,
+    require_literal_separator: true,
+    require_literal_leading_dot: true,
+};
+
+/// One component of a pattern.
+enum Part {
+    /// A name without `*`, `?` and `[`.
+    Literal(OsString),
+    Wild(Pattern),
+    /// `**`: the folder itself and all folders below it that are not hidden.
+    Folders,
+}
+
+/// The files whose names the pattern matches, by name; none where there are none.
+pub fn files(pattern: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let text = pattern.to_string_lossy();
+    let refused = |e: glob::PatternError| format!("{text}: is no pattern: {}", e.msg);
+    Pattern::new(&text).map_err(refused)?;
+    let (mut root, mut parts) = (PathBuf::new(), Vec::new());
+    for component in pattern.components() {
+        let name = component.as_os_str();
+        let own = name.to_string_lossy();
+        match component {
+            Component::Prefix(_) | Component::RootDir => root.push(component),
+            Component::CurDir => {}
+            Component::ParentDir => parts.push(Part::Literal(name.to_owned())),
+            Component::Normal(_) if own == "**" => parts.push(Part::Folders),
+            Component::Normal(_) if own.contains(['*', '?', '[']) => {
+                parts.push(Part::Wild(Pattern::new(&own).map_err(refused)?));
+            }
+            Component::Normal(_) => parts.push(Part::Literal(name.to_owned())),
+        }
+    }
+    let mut found = Vec::new();
+    // A separator at the end asks for folders alone.
+    if !text.ends_with(is_separator) {
+        walk(root, &parts, &mut found)?;
+    }
+    found.sort();
+    found.dedup();
+    Ok(found)
+}
+
+/// Adds the files that the parts match from this path on.
+fn walk(path: PathBuf, parts: &[Part], found: &mut Vec<PathBuf>) -> Result<(), Failure> {
+    let Some((first, rest)) = parts.split_first() else {
+        if path.is_file() {
+            found.push(path);
+        }
+        return Ok(());
+    };
+    match first {
+        Part::Literal(name) => walk(path.join(name), rest, found),
+        Part::Wild(pattern) => {
+            for name in names(&path)? {
+                if pattern.matches_with(&name.to_string_lossy(), SHELL) {
+                    walk(path.join(name), rest, found)?;
+                }
+            }
+            Ok(())
+        }
+        Part::Folders => {
+            for name in names(&path)? {
+                let below = path.join(&name);
+                if !name.to_string_lossy().starts_with('.') && below.is_dir() {
+                    walk(below, parts, found)?;
+                }
+            }
+            walk(path, rest, found)
+        }
+    }
+}
+
+/// The names in a folder; none where the path is no folder.
+fn names(folder: &Path) -> Result<Vec<OsString>, Failure> {
+    let here = Path::new(".");
+    let folder = if folder.as_os_str().is_empty() {
+        here
+    } else {
+        folder
+    };
+    if !folder.is_dir() {
+        return Ok(Vec::new());
+    }
+    let read = fs::read_dir(folder).and_then(|entries| {
+        let names = entries.map(|entry| entry.map(|entry| entry.file_name()));
+        names.collect::<Result<Vec<_>, _>>()
+    });
+    read.map_err(|e| format!("{}: {e}", folder.display()))
+}
