@@ -6,7 +6,7 @@ use crate::model::Model;
 use crate::record::Record;
 use crate::run::run;
 use bowden_cli::view::check_json;
-use bowden_lab::facts::{check_record, Asked, CheckQuestion, Checked as Answer};
+use bowden_lab::facts::{check_record, Asked, CheckQuestion, Checked as Answer, Source};
 use bowden_page::Check as Page;
 use pyo3::prelude::*;
 
@@ -16,6 +16,7 @@ pub struct Checked {
     answer: Answer,
     model: String,
     json: String,
+    source: Option<Source>,
 }
 
 /// Runs a model on a record that it has not seen; `name` stands for the model's file.
@@ -36,6 +37,7 @@ pub fn check(
         trace: true,
         figures: true,
     };
+    let source = record.1.clone();
     let (given, record) = (model.given.clone(), record.0.clone());
     let path = record.path.clone();
     let answer = run(py, threads, None, move |_| {
@@ -47,6 +49,7 @@ pub fn check(
         answer,
         model: name,
         json,
+        source,
     })
 }
 
@@ -73,14 +76,14 @@ impl Checked {
         drawn(self.answer.figures.as_ref().ok_or_else(no_figures)?, name)
     }
 
-    /// The page. `sources` are path and bytes of what was read.
-    fn page(&self, command: String, sources: Vec<(String, Vec<u8>)>) -> PyResult<String> {
+    /// The page.
+    fn page(&self, command: String) -> PyResult<String> {
         let page = Page {
             model: &self.model,
             record: &self.answer.label,
             facts: &self.answer.facts,
             figures: self.answer.figures.as_ref().ok_or_else(no_figures)?,
         };
-        Ok(page.page(&provenance(command, sources)))
+        Ok(page.page(&provenance(command, self.source.as_slice())))
     }
 }

@@ -79,6 +79,7 @@ impl Wanted {
 pub struct Closed {
     answer: Answer,
     json: String,
+    sources: Vec<Source>,
 }
 
 /// Closes the loop between a declared model and records that agree with each other.
@@ -91,6 +92,7 @@ pub fn close(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Closed> {
     let question = wanted.question(records.len())?;
+    let sources = records.iter().filter_map(|own| own.1.clone()).collect();
     let records: Vec<lab::Record> = records.iter().map(|own| own.0.clone()).collect();
     let paths: Vec<String> = records.iter().map(|record| record.path.clone()).collect();
     let label = paths.join(", ");
@@ -100,7 +102,11 @@ pub fn close(
     let files = paths.iter().chain([&label]).map(String::as_str);
     let answer = answer.map_err(|message| failure::in_one_of(files, message))?;
     let json = json(&answer.facts, Some(&answer.cost)).map_err(failure::plain)?;
-    Ok(Closed { answer, json })
+    Ok(Closed {
+        answer,
+        json,
+        sources,
+    })
 }
 
 #[pymethods]
@@ -153,14 +159,14 @@ impl Closed {
         drawn(self.answer.figures.as_ref().ok_or_else(no_figures)?, name)
     }
 
-    /// The page. `sources` are path and bytes of what was read.
-    fn page(&self, command: String, sources: Vec<(String, Vec<u8>)>) -> PyResult<String> {
+    /// The page.
+    fn page(&self, command: String) -> PyResult<String> {
         let page = Page {
             facts: &self.answer.facts,
             figures: self.answer.figures.as_ref().ok_or_else(no_figures)?,
             models: &self.answer.models,
         };
-        Ok(page.page(&provenance(command, sources)))
+        Ok(page.page(&provenance(command, &self.sources)))
     }
 }
 
@@ -169,14 +175,11 @@ pub fn no_figures() -> PyErr {
 }
 
 /// How a page was obtained.
-pub fn provenance(command: String, sources: Vec<(String, Vec<u8>)>) -> Provenance {
-    let sources = sources.iter();
+pub fn provenance(command: String, sources: &[Source]) -> Provenance {
     Provenance {
         command,
         version: env!("CARGO_PKG_VERSION").to_owned(),
-        sources: sources
-            .map(|(path, bytes)| Source::of_bytes(path, bytes))
-            .collect(),
+        sources: sources.to_vec(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Records: from files, and from arrays.
 
 use crate::failure;
-use bowden_lab::facts::{Mode, Options};
+use bowden_lab::facts::{Mode, Options, Source};
 use bowden_lab::record::{self as lab, Column};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -51,9 +51,9 @@ fn mode(name: &str) -> PyResult<Mode> {
     }
 }
 
-/// A checked record.
+/// A checked record, and the file that it was read from.
 #[pyclass(frozen, module = "bowden")]
-pub struct Record(pub lab::Record);
+pub struct Record(pub lab::Record, pub Option<Source>);
 
 #[pymethods]
 impl Record {
@@ -149,9 +149,13 @@ impl Record {
 #[pyfunction]
 pub fn record_of_file(py: Python<'_>, path: PathBuf, columns: Columns) -> PyResult<Record> {
     let options = columns.options()?;
-    py.detach(|| lab::read(&path, &options))
-        .map(Record)
-        .map_err(|e| failure::of_record(&e))
+    py.detach(|| {
+        let record = lab::read(&path, &options).map_err(|e| failure::of_record(&e))?;
+        // A pipe cannot be read again for its hash.
+        let source = path.is_file().then(|| Source::of_file(&path));
+        let source = source.transpose().map_err(failure::plain)?;
+        Ok(Record(record, source))
+    })
 }
 
 /// A record of (name, unit, values); each array is read in place and copied once.
@@ -171,7 +175,7 @@ pub fn record_of_columns(
     };
     let all: Vec<Column> = arrays.into_iter().map(column).collect();
     py.detach(|| lab::of_columns(all, label, &options))
-        .map(Record)
+        .map(|record| Record(record, None))
         .map_err(|e| failure::of_record(&e))
 }
 
@@ -180,5 +184,10 @@ pub fn record_of_columns(
 pub fn agree(records: Vec<PyRef<'_, Record>>) -> PyResult<Vec<Record>> {
     let mut all: Vec<lab::Record> = records.iter().map(|own| own.0.clone()).collect();
     lab::agree(&mut all).map_err(|e| failure::of_record(&e))?;
-    Ok(all.into_iter().map(Record).collect())
+    let sources = records.iter().map(|own| own.1.clone());
+    Ok(all
+        .into_iter()
+        .zip(sources)
+        .map(|(r, s)| Record(r, s))
+        .collect())
 }

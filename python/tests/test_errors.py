@@ -101,7 +101,7 @@ def test_of_a_model(tmp_path: Path) -> None:
     path.write_text("schema = 'other'\n")
     with pytest.raises(bowden.Error, match="model.toml: schema"):
         bowden.Model.load(path)
-    with pytest.raises(FileNotFoundError):
+    with pytest.raises(bowden.Error, match="none.toml: no such file"):
         bowden.Model.load(tmp_path / "none.toml")
 
 

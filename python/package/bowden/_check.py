@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any, Optional, Union
 
 from . import _bowden
-from ._close import command_of, records_of
+from ._close import command_of, records_of, threads_of
 from ._error import Error
 from ._model import Model
 from ._read import Channels, Reading
@@ -62,12 +62,12 @@ def check(
         label=label,
     )
     ends = {"tau_i": tau_i, "tau_o": tau_o, "x": x, "f": f}
-    records, files = records_of(reading, t, ends)
+    records = records_of(reading, t, ends)
     if len(records) != 1:
         raise Error(f"{len(records)} records were given, one was expected")
     hertz = None if cutoff is None else float(cutoff)
-    checked = _bowden.check(own._native, own.name, records[0], hertz, threads)
+    checked = _bowden.check(own._native, own.name, records[0], hertz, threads_of(threads))
     given = {"cutoff": cutoff, "skip": skip or None, "until": until, "rate": rate}
     command = command_of("check", [own.name], {}).rstrip(")")
     rest = command_of("check", [records[0].path], given).partition("(")[2]
-    return CheckReport(checked, f"{command}, {rest}", files)
+    return CheckReport(checked, f"{command}, {rest}")

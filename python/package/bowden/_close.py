@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Optional, Union
 
 from . import _bowden
-from ._columns import is_path
+from ._columns import whole
 from ._error import Error
 from ._progress import Progress
 from ._read import Channels, Reading
@@ -49,7 +49,7 @@ def close(
     * arrays: ``close(t, tau_i=…, tau_o=…)`` in torque mode, ``close(t, x=…, f=…)`` in
       displacement mode, one-dimensional, of one length, of any numeric type; ``t`` in seconds,
       or ``None`` with ``rate``;
-    * a record: a path (CSV, .mat v5, Parquet, each also in gzip), a frame of pandas or polars, a
+    * a record: a path (CSV, .mat v5 and v7.3, Parquet, each also in gzip), a frame of pandas or polars, a
       table of pyarrow, a mapping of names to arrays, or a :class:`bowden.Record`;
     * a list of such records of one rig, for one joint model; of three or more the last is held
       out as a whole.
@@ -61,6 +61,7 @@ def close(
         an array, or the name of a column, ``"A-B"`` or ``"A+B"`` of two.
     declare
         The declared model: ``bouc-wen`` and any effects; ``"NAME@CHANNEL"`` reads a channel.
+        A list, or one text with commas as for the program.
     mode
         ``"torque"`` or ``"displacement"``; from the columns where it is not given.
     time, input, output
@@ -85,9 +86,10 @@ def close(
     And of Python:
 
     units
-        Unit of each column by name, as in the header of a CSV (``{"tau_i": "N·m"}``).
+        Unit of each column by name, as in the header of a CSV (``{"tau_i": "N·m"}``); for arrays
+        and frames.
     label
-        What stands for the file's name in messages and in the JSON.
+        What stands for the file's name in messages and in the JSON; for arrays and frames.
     figures
         ``False``: no figures, page, trace or model are kept, for many records.
     threads
@@ -117,8 +119,12 @@ def close(
         label=label,
     )
     wanted = {
-        "declare": [declare] if isinstance(declare, str) else list(declare or []),
-        "rounds": rounds,
+        "declare": [own.strip() for own in declare.split(",")]
+        if isinstance(declare, str)
+        else list(declare or []),
+        "rounds": None
+        if rounds is None
+        else whole("rounds", rounds, 0, 8, "0 to 8 were expected"),
         "budget": None if budget is None else float(budget),
         "cutoff": None if cutoff is None else float(cutoff),
         "own_gains": per_file is not None,
@@ -128,8 +134,8 @@ def close(
     with Progress(progress) as told:
         if told is not None:
             told(0.0, "reading")
-        records, files = records_of(reading, t, {"tau_i": tau_i, "tau_o": tau_o, "x": x, "f": f})
-        closed = _bowden.close(records, wanted, threads, told)
+        records = records_of(reading, t, {"tau_i": tau_i, "tau_o": tau_o, "x": x, "f": f})
+        closed = _bowden.close(records, wanted, threads_of(threads), told)
     given = {
         "channels": sorted(reading.channels) or None,
         "declare": wanted["declare"] or None,
@@ -148,21 +154,25 @@ def close(
         "per_file": per_file,
         "invertible": invertible or None,
     }
-    return Report(closed, command_of("close", [r.path for r in records], given), files, figures)
+    return Report(closed, command_of("close", [r.path for r in records], given), figures)
 
 
 def records_of(
     reading: Reading, first: Any, ends: Mapping[str, Any]
-) -> tuple[list[_bowden.Record], list[str]]:
-    """The records of a call, and the files among them."""
+) -> list[_bowden.Record]:
+    """The records of a call."""
     if any(end is not None for end in ends.values()):
-        return [reading.of_ends({"t": first, **ends})], []
+        return [reading.of_ends({"t": first, **ends})]
     if first is None:
         raise Error("no record was given: arrays, a frame or a path were expected")
-    records = reading.all_of(first)
-    sources = first if isinstance(first, (list, tuple)) else [first]
-    pairs = zip(sources, records)
-    return records, [r.path for source, r in pairs if is_path(source)]
+    return reading.all_of(first)
+
+
+def threads_of(threads: Optional[int]) -> Optional[int]:
+    """The number of threads, checked."""
+    if threads is None:
+        return None
+    return whole("threads", threads, 1, 2**16, "one or more were expected")
 
 
 def command_of(function: str, paths: list[str], given: Mapping[str, Any]) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 import os
 from collections.abc import Iterable, Mapping
 from typing import Any, Optional
@@ -12,6 +13,30 @@ from ._error import Error
 
 #: A column for the native half: name, unit, values.
 Column = tuple[str, Optional[str], "np.ndarray[Any, np.dtype[np.float64]]"]
+
+
+def whole(name: str, value: Any, least: int, most: int, expected: str) -> int:
+    """An option that counts something."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise Error(f"{name}={value!r}: {expected}") from None
+    if not least <= number <= most:
+        raise Error(f"{name}={number}: {expected}")
+    return number
+
+
+def unmasked(values: Any) -> Any:
+    """The values of a masked array with NaN, or no point in time, where it is masked."""
+    if not isinstance(values, np.ma.MaskedArray):
+        return values
+    kind = values.dtype.kind
+    if kind not in "fiubmM":
+        return values
+    plain = np.array(values.data, dtype=values.dtype if kind in "mM" else np.float64)
+    missing = {"M": np.datetime64("NaT"), "m": np.timedelta64("NaT")}.get(kind, np.nan)
+    plain[np.ma.getmaskarray(values)] = missing
+    return plain
 
 
 def is_path(source: object) -> bool:
@@ -25,7 +50,18 @@ def is_frame(source: object) -> bool:
     return isinstance(source, Mapping) or hasattr(source, "columns") or hasattr(source, "column_names")
 
 
-def _names(frame: Any) -> Iterable[object]:
+def check_units(units: Mapping[str, str], names: Iterable[object]) -> None:
+    """Refuses a unit of a column that there is not."""
+    known = [str(name) for name in names]
+    for name, unit in units.items():
+        if name not in known:
+            there = ", ".join(known)
+            raise Error(f"units: `{name}`: no such column; the columns are {there}", column=str(name))
+        if not isinstance(unit, str):
+            raise Error(f"units: `{name}`: {unit!r}: a text was expected", column=name)
+
+
+def names_of(frame: Any) -> Iterable[object]:
     if isinstance(frame, np.ndarray):
         return frame.dtype.names or ()
     if isinstance(frame, Mapping):
@@ -38,7 +74,7 @@ def _names(frame: Any) -> Iterable[object]:
 def columns_of_frame(frame: Any, units: Mapping[str, str]) -> list[Column]:
     """The numeric columns of a frame; others are left out, as those of a Parquet file are."""
     found: list[Column] = []
-    for name in _names(frame):
+    for name in names_of(frame):
         column = _array(frame[name])
         numbers = None if column is None else _numbers(column)
         if numbers is not None:
@@ -73,7 +109,7 @@ def _array(column: Any) -> Optional[np.ndarray[Any, Any]]:
             return np.asarray(column.to_numpy(dtype="float64", na_value=np.nan))
         return np.asarray(column.to_numpy())
     try:
-        return np.asarray(column)
+        return np.asarray(unmasked(column))
     except ValueError:
         return None
 

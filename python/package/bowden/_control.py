@@ -10,6 +10,7 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from . import _bowden
+from ._columns import unmasked, whole
 from ._error import Error
 
 _Floats = np.ndarray[Any, np.dtype[np.float64]]
@@ -42,10 +43,14 @@ def _document(settings: Mapping[str, Any]) -> str:
 
 def _lanes(settings: Mapping[str, Any], lanes: Optional[int]) -> tuple[list[str], bool]:
     """The settings of each lane, and whether there is one alone: arrays give one lane each."""
+    if lanes is not None:
+        lanes = whole("lanes", lanes, 1, 2**31, "one or more were expected")
     arrays = {k: v for k, v in settings.items() if isinstance(v, np.ndarray) and v.ndim}
     lengths = {len(v) for v in arrays.values()} | ({lanes} if lanes is not None else set())
     if len(lengths) > 1 or any(v.ndim != 1 for v in arrays.values()):
         raise Error(f"settings of {sorted(lengths)} lanes: arrays of one length were expected")
+    if 0 in lengths:
+        raise Error("settings of no lane: arrays of one value or more were expected")
     alone = {k: (v.item() if isinstance(v, np.ndarray) and not v.ndim else v) for k, v in settings.items()}
     if not lengths:
         return [_document(alone)], True
@@ -59,6 +64,11 @@ class Controller:
 
     A setting that is an array makes one controller of each value, side by side; with ``lanes``
     there are as many of the same settings.
+
+    As in a simulation, no setting is there that was not given: without ``limits`` any command goes
+    out, without ``longest_dt`` [s] any positive ``dt`` is a good one, and without ``fallback``,
+    ``(bad samples, safe command)``, the last good command is held for ever. A machine needs all
+    three.
     """
 
     def __init__(self, settings: Mapping[str, Any], regressors: Optional[int], lanes: Optional[int]):
@@ -74,7 +84,7 @@ class Controller:
 
     def _signal(self, name: str, values: Any, samples: int) -> _Floats:
         shape = (samples, self.lanes)
-        array = np.asarray(values, dtype=np.float64)
+        array = np.asarray(unmasked(values), dtype=np.float64)
         if array.ndim == 1 and array.shape[0] == samples and samples > 1:
             array = array[:, None]
         try:
@@ -206,7 +216,10 @@ def _shared(
 
 
 class PI(Controller):
-    """PI (15); with ``lanes`` or arrays of gains several side by side. Gains as in Table 1."""
+    """PI (15); with ``lanes`` or arrays of gains several side by side. Gains as in Table 1.
+
+    No limits, longest ``dt`` or fallback unless they are given: see :class:`Controller`.
+    """
 
     def __init__(
         self,
@@ -358,7 +371,7 @@ class Rig:
         lanes: Optional[int] = None,
         **config: Any,
     ) -> None:
-        seeds = None if isinstance(seed, (int, np.integer)) else [int(one) for one in seed]
+        seeds = None if isinstance(seed, (int, np.integer)) else [_seed(one) for one in seed]
         if seeds is not None and lanes is None:
             lanes = len(seeds)
         texts, self._alone = _lanes(config, lanes)
@@ -372,7 +385,7 @@ class Rig:
                     "terms": [_term(one) for one in undeclared],
                 }
             )
-        own = seeds if seeds is not None else [int(seed) + k for k in range(len(texts))]  # type: ignore[arg-type]
+        own = seeds if seeds is not None else [(_seed(seed) + k) % 2**64 for k in range(len(texts))]
         if len(own) != len(texts):
             raise Error(f"seed: {len(own)} of {len(texts)} rigs")
         self._native = _bowden.Rigs(texts, terms, own)
@@ -434,6 +447,10 @@ class Rig:
         found["status"] = status[:, 0] if self._alone else status
         found["error"] = found["tau_o"] - (wanted if self._alone else wanted[:, None])
         return found
+
+
+def _seed(seed: Any) -> int:
+    return whole("seed", seed, 0, 2**64 - 1, "whole numbers from 0 to 2**64 - 1 were expected")
 
 
 def _term(one: Mapping[str, Any]) -> dict[str, Any]:

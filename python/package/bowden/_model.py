@@ -10,7 +10,7 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from . import _bowden
-from ._columns import column_of_array
+from ._columns import column_of_array, unmasked
 from ._error import Error
 from ._fields import Fields, wrapped
 
@@ -31,6 +31,10 @@ class Model:
         try:
             with open(name, encoding="utf-8", newline="") as file:
                 text = file.read()
+        except FileNotFoundError:
+            raise Error(f"{name}: no such file", file=name) from None
+        except OSError as error:
+            raise Error(f"{name}: cannot be read: {error.strerror}", file=name) from None
         except UnicodeDecodeError:
             raise Error(f"{name}: is no text; a TOML file was expected", file=name) from None
         try:
@@ -104,7 +108,8 @@ class Model:
         ``input`` and each channel are arrays of shape (samples,), whose velocities and
         accelerations then come from the causal filter of the core's `Rates` with
         ``time_constant`` [s] (of the model's file where not given); or of shape (samples, 3):
-        position, velocity, acceleration. ``t`` are seconds; or ``dt`` is one step.
+        position, velocity, acceleration. ``t`` are seconds, or points in time as in
+        :func:`bowden.close`; or ``dt`` is one step [s].
         ``dtype`` is ``numpy.float64`` or ``numpy.float32``: the model runs in it.
         """
         given = dict(channels or {})
@@ -141,22 +146,43 @@ class Model:
 
 
 def _motions(name: str, array: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
-    values = np.asarray(array)
+    values = np.asarray(unmasked(array))
     if values.ndim == 2 and values.shape[1] == 3 and values.dtype.kind in "fiu":
         return np.ascontiguousarray(values, dtype=np.float64)
     if values.ndim == 2:
         raise Error(f"column `{name}`: shape {values.shape}, (n,) or (n, 3) was expected")
-    return column_of_array(name, array, {})[2].reshape(-1, 1)
+    _, unit, numbers = column_of_array(name, array, {})
+    if unit is not None:
+        raise Error(f"column `{name}`: values of {values.dtype}, numbers were expected", column=name)
+    return numbers.reshape(-1, 1)
 
 
 def _steps(t: Any, dt: Optional[float], samples: int) -> np.ndarray[Any, np.dtype[np.float64]]:
     if (t is None) == (dt is None):
         raise Error("one of t and dt was expected")
     if t is None:
-        return np.full(samples, dt, dtype=np.float64)
-    time = column_of_array("t", t, {})[2]
+        try:
+            step = float(dt)  # type: ignore[arg-type]
+        except (TypeError, ValueError):
+            step = np.nan
+        if not (np.isfinite(step) and step > 0.0):
+            raise Error(f"dt={dt!r}: a positive number of seconds was expected")
+        return np.full(samples, step, dtype=np.float64)
+    _, unit, time = column_of_array("t", t, {})
+    if unit == "ns":
+        time = time * 1e-9
     if len(time) != samples:
         raise Error(f"column `t`: {len(time)} values; {samples} were expected", column="t")
+    if not np.isfinite(time).all():
+        row = int(np.argmin(np.isfinite(time)))
+        raise Error(f"column `t`: t[{row}] = {time[row]}: no time", line=row + 1, column="t")
     steps = np.diff(time)
+    if (steps <= 0.0).any():
+        row = int(np.argmax(steps <= 0.0)) + 1
+        raise Error(
+            f"column `t`: t[{row}] = {time[row]} s is not after t[{row - 1}] = {time[row - 1]} s",
+            line=row + 1,
+            column="t",
+        )
     first = np.median(steps) if len(steps) else 1.0
     return np.concatenate([[first], steps])

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Optional, Union
 
 from . import _bowden
-from ._columns import column_of_array, columns_of_frame, is_frame, is_path
+from ._columns import check_units, column_of_array, columns_of_frame, is_frame, is_path, names_of, whole
 from ._error import Error
 
 #: A channel is the name of a column, ``A-B`` or ``A+B`` of two, or an array.
@@ -36,6 +36,10 @@ class Reading:
         self.channels = dict(channels or {})
         self.units = dict(units or {})
         self.label = label
+        if header_line is not None:
+            header_line = whole(
+                "header_line", header_line, 1, 2**31, "a line from 1 up was expected"
+            )
         self.options: dict[str, Any] = {
             "mode": mode,
             "time": time,
@@ -56,17 +60,22 @@ class Reading:
         """Of arrays that were given by name."""
         arrays = [(name, array) for name, array in ends.items() if array is not None]
         arrays += [(n, a) for n, a in self.channels.items() if not isinstance(a, str)]
+        check_units(self.units, [name for name, _ in arrays])
         columns = [column_of_array(name, array, self.units) for name, array in arrays]
         return _bowden.record_of_columns(columns, self.label or "(arrays)", self.options)
 
     def of(self, source: Any, number: Optional[int] = None) -> _bowden.Record:
         """Of one source; of several ``number`` counts from 1."""
         if isinstance(source, _bowden.Record):
+            self._no_names("a bowden.Record", "it has its own")
             return source
         if is_path(source):
             self._no_arrays()
+            self._no_names("a file", "it has its name, and units in its header")
             return _bowden.record_of_file(os.fspath(source), self.options)
         if is_frame(source):
+            arrays = [name for name, own in self.channels.items() if not isinstance(own, str)]
+            check_units(self.units, [*names_of(source), *arrays])
             columns = columns_of_frame(source, self.units)
             if number is not None:
                 self._no_arrays()
@@ -95,6 +104,14 @@ class Reading:
             return [self.of(sources[0])]
         return _bowden.agree([self.of(s, k + 1) for k, s in enumerate(sources)])
 
+    def _no_names(self, source: str, why: str) -> None:
+        """Neither label nor units are for this source."""
+        for option, given in (("label", self.label), ("units", self.units or None)):
+            if given is not None:
+                raise Error(
+                    f"{option}={given!r}: is for arrays and frames; {source} was given, and {why}"
+                )
+
     def _no_arrays(self) -> None:
         for name, column in self.channels.items():
             if not isinstance(column, str):
@@ -120,7 +137,7 @@ def read(
     units: Optional[Mapping[str, str]] = None,
     label: Optional[str] = None,
 ) -> _bowden.Record:
-    """Reads one record: a file (CSV, .mat v5, Parquet, each also in gzip) or a frame.
+    """Reads one record: a file (CSV, .mat v5 and v7.3, Parquet, each also in gzip) or a frame.
 
     The options are those of `bowden close`; see :func:`close`.
     """

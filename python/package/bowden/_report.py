@@ -30,14 +30,13 @@ _HEX = {"good": "#15803d", "mid": "#a16207", "bad": "#b91c1c"}
 class _Found(Fields):
     """What both reports have in common."""
 
-    __slots__ = ("_json", "_native", "_command", "_files")
+    __slots__ = ("_json", "_native", "_command")
 
-    def __init__(self, text: str, native: Any, command: str, files: list[str]) -> None:
+    def __init__(self, text: str, native: Any, command: str) -> None:
         super().__init__(json.loads(text))
         self._json = text
         self._native = native
         self._command = command
-        self._files = files
 
     @property
     def json(self) -> str:
@@ -88,12 +87,11 @@ class _Found(Fields):
         return svg
 
     def page(self) -> str:
-        """The whole report as one HTML page that loads nothing."""
-        sources = []
-        for path in self._files:
-            with open(path, "rb") as file:
-                sources.append((path, file.read()))
-        page: str = self._drawn().page(self._command, sources)
+        """The whole report as one HTML page that loads nothing.
+
+        The SHA-256 of each file is of what was read; the files need not be there any more.
+        """
+        page: str = self._drawn().page(self._command)
         return page
 
     def save_page(self, path: "str | os.PathLike[str]") -> None:
@@ -135,7 +133,7 @@ class _Found(Fields):
 
     def __setstate__(self, state: Any) -> None:
         self._all, self._json, self._command = state
-        self._native, self._files = None, []
+        self._native = None
 
 
 class Report(_Found):
@@ -174,10 +172,8 @@ class Report(_Found):
         sentence: str
         cost: parts.Cost
 
-    def __init__(
-        self, closed: _bowden.Closed, command: str, files: list[str], kept: bool
-    ) -> None:
-        super().__init__(closed.json, closed, command, files)
+    def __init__(self, closed: _bowden.Closed, command: str, kept: bool) -> None:
+        super().__init__(closed.json, closed, command)
         self._no_model = closed.no_model if kept else "figures=False: no model was kept"
         self._models = [Model(closed.model(k).decode()) for k in range(closed.models)]
         self._vectors = [closed.vector(k) for k in range(closed.models)]
@@ -246,8 +242,8 @@ class CheckReport(_Found):
         verdict: str
         sentence: str
 
-    def __init__(self, checked: _bowden.Checked, command: str, files: list[str]) -> None:
-        super().__init__(checked.json, checked, command, files)
+    def __init__(self, checked: _bowden.Checked, command: str) -> None:
+        super().__init__(checked.json, checked, command)
 
     def _numbers(self) -> str:
         return f" &nbsp;error {100.0 * self.nrmse:.2f} % of the output's deviation"
