@@ -61,6 +61,22 @@ pub(super) fn warning(data: &Prepared, hand: &HandOver) -> Option<String> {
     hand.is_off().then(said)
 }
 
+/// What comes before all else of a model that a constant would beat where it is used: with causal
+/// velocities and from a start of the hysteresis that no other record tells.
+pub(super) fn useless(hand: &HandOver) -> Option<String> {
+    let calmed = hand
+        .calmed
+        .as_ref()
+        .map(|calmed| calmed.causal_nrmse.held_out);
+    let error = calmed.unwrap_or(hand.causal.held_out);
+    (error > 1.0).then(|| {
+        format!(
+            "Do not use this model as it stands: it describes this record after the fact, but run sample by sample it misses {} of the output's standard deviation on the held-out part, more than a constant would.",
+            percent(error)
+        )
+    })
+}
+
 /// The columns whose spikes reach a model in firmware: no line stands in for them there.
 fn spikes(data: &Prepared) -> String {
     let read = std::iter::once(&data.input).chain(&data.channels);

@@ -1,6 +1,6 @@
 //! The facts of a closed record.
 
-use super::hand_over::{warning, HandOverFacts};
+use super::hand_over::{useless, warning, HandOverFacts};
 use super::model::{FinalFacts, ModelFacts};
 use super::record::{channel_name, RecordFacts};
 use super::round::{fits, RoundFacts};
@@ -173,7 +173,9 @@ impl Facts {
         let is_model = !matches!(found, Verdict::NoModel | Verdict::DoesNotCarryOver);
         let in_firmware = hand.ok().filter(|_| is_model);
         let in_firmware = in_firmware.and_then(|hand| warning(data, hand));
-        let words = std::iter::once(sentence(data, ledger, done)).chain(in_firmware);
+        let lead = hand.ok().filter(|_| is_model).and_then(useless);
+        let sentence = std::iter::once(sentence(data, ledger, done));
+        let words = lead.into_iter().chain(sentence).chain(in_firmware);
         let mut rounds = rounds(data, ledger, done, &last, detail);
         let beyond = rounds.split_off(ledger.rounds.len());
         Self {
