@@ -77,6 +77,10 @@ struct Reader<'a> {
     header: &'a Header,
     series: Vec<(usize, Option<(usize, f64)>)>,
     drop_bad: bool,
+    /// One more than the last column that is read.
+    width: usize,
+    /// Cells of the first row, where it lacks columns that are not read.
+    short: Option<usize>,
     /// Rows that were kept so far.
     kept: usize,
     lacking: Lacking,
@@ -84,7 +88,43 @@ struct Reader<'a> {
     carried: usize,
 }
 
-impl Reader<'_> {
+impl<'a> Reader<'a> {
+    fn new(header: &'a Header, roles: &Roles, options: &Options) -> Result<Self, RecordError> {
+        let series = roles
+            .series()
+            .chain(roles.parts())
+            .map(|series| Ok((series.first(), series.second(header)?)))
+            .collect::<Result<Vec<_>, RecordError>>()?;
+        Ok(Self {
+            header,
+            series,
+            drop_bad: options.drop_bad,
+            width: roles.read().chain(roles.time).max().map_or(0, |k| k + 1),
+            short: None,
+            kept: 0,
+            lacking: Lacking::default(),
+            carried: 0,
+        })
+    }
+
+    /// What is to be said of the rows' lines and cells.
+    fn said(&self) -> impl Iterator<Item = String> {
+        let several = match self.carried {
+            0 => None,
+            1 => Some("1 row goes over several lines, in quotes".to_owned()),
+            rows => Some(format!("{rows} rows go over several lines, in quotes")),
+        };
+        let columns = &self.header.columns;
+        let has_name = |cells: &usize| columns[*cells..].iter().any(|c| !c.name.is_empty());
+        let short = self.short.filter(has_name).map(|cells| {
+            format!(
+                "each row has {cells} of the header's {} cells; what lacks is not read",
+                columns.len()
+            )
+        });
+        several.into_iter().chain(short)
+    }
+
     /// The time of a row, its values in `into`.
     fn read(
         &mut self,
@@ -145,7 +185,13 @@ impl Reader<'_> {
         };
         let columns = &self.header.columns;
         self.carried += usize::from(row.last > row.line);
+        // What every row lacks is no cell that was lost.
+        let is_first = self.kept == 0 && self.short.is_none();
+        if is_first && (self.width..columns.len()).contains(&row.len()) {
+            self.short = Some(row.len());
+        }
         if row.len() == columns.len()
+            || self.short == Some(row.len())
             || (columns.iter().skip(row.len()).all(|c| c.name.is_empty())
                 && row.cells().skip(columns.len()).all(str::is_empty))
         {
@@ -166,21 +212,9 @@ pub(super) fn read(
     roles: &Roles,
     options: &Options,
 ) -> Result<Table, RecordError> {
-    let series = roles
-        .series()
-        .chain(roles.parts())
-        .map(|series| Ok((series.first(), series.second(header)?)))
-        .collect::<Result<Vec<_>, RecordError>>()?;
     let mut clock = Clock::new(header, roles.time, options)?;
-    let mut values = vec![Vec::new(); series.len()];
-    let mut reader = Reader {
-        header,
-        series,
-        drop_bad: options.drop_bad,
-        kept: 0,
-        lacking: Lacking::default(),
-        carried: 0,
-    };
+    let mut reader = Reader::new(header, roles, options)?;
+    let mut values = vec![Vec::new(); reader.series.len()];
     let (mut time, mut lines, mut sample) = (Vec::new(), Vec::new(), Vec::new());
     let (mut dropped, mut below) = (Dropped::default(), None);
     loop {
@@ -229,7 +263,7 @@ pub(super) fn read(
     let start = time.first().copied().unwrap_or_default();
     time.iter_mut().for_each(|t| *t -= start);
     notes.extend(unit_of_time(header, roles));
-    notes.extend(several_lines(reader.carried));
+    notes.extend(reader.said());
     notes.extend(below);
     notes.extend(dropped.note());
     notes.extend(sparse::fill(
@@ -253,14 +287,6 @@ pub(super) fn read(
 fn unit_of_time(header: &Header, roles: &Roles) -> Option<String> {
     let unit = header.columns[roles.time?].unit.as_deref()?;
     (!unit.contains(':') && unit != "s").then(|| format!("time converted from {unit} to s"))
-}
-
-fn several_lines(rows: usize) -> Option<String> {
-    match rows {
-        0 => None,
-        1 => Some("1 row goes over several lines, in quotes".to_owned()),
-        _ => Some(format!("{rows} rows go over several lines, in quotes")),
-    }
 }
 
 /// Takes rows out of a column.

@@ -237,6 +237,34 @@ fn text_below_and_empty_cells_beside_the_table_are_passed_over() {
 }
 
 #[test]
+fn a_column_at_the_end_that_no_row_has_is_passed_over() {
+    // As LabVIEW writes it: a name for comments, and no cell for them.
+    let note = "each row has 3 of the header's 4 cells; what lacks is not read";
+    let text = csv("t,x,f,Comment", &rows());
+    same(
+        &text,
+        &Options::default(),
+        &["columns not read: `Comment`", note],
+    );
+    // A row that lost a cell stays a fault, and so does a column that is read.
+    let mut cut = rows();
+    cut[7] = "0.07,1.0".to_owned();
+    refused(
+        csv("t,x,f,Comment", &cut),
+        "r.csv:9: 2 cells, the header has 4",
+    );
+    let mut long = rows();
+    long[0] += ",start";
+    refused(
+        csv("t,x,f,Comment", &long),
+        "r.csv:3: 3 cells, the header has 4",
+    );
+    let lost: Vec<String> = rows().iter().map(|row| row[..4].to_owned()).collect();
+    let line = refusal(csv("t,x,f", &lost), &Options::default());
+    assert!(line.starts_with("r.csv:2: 1 cells"), "{line}");
+}
+
+#[test]
 fn names_are_found_in_other_letters_and_with_their_units() {
     let units = |header: &str| {
         let record = read(csv(header, &rows()), &[]);
