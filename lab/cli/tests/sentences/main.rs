@@ -10,6 +10,7 @@ mod ballast;
 mod carries_over;
 mod changed;
 mod channels;
+mod checked;
 mod coarse;
 mod compare;
 mod files;

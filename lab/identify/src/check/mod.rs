@@ -237,7 +237,8 @@ impl Check {
     }
 
     /// Whether most of the error is one of gain and offset.
-    fn is_mended(&self) -> bool {
+    #[must_use]
+    pub fn is_mended(&self) -> bool {
         self.rmse_gain_offset.powi(2) <= MENDED * self.rmse.powi(2)
     }
 
@@ -267,10 +268,14 @@ impl Check {
     /// Whether an offset alone is what has moved.
     #[must_use]
     pub fn offset_alone(&self) -> bool {
-        let rest = (self.rmse * self.rmse - self.mean * self.mean)
-            .max(0.0)
-            .sqrt();
+        let rest = self.rmse_offset();
         self.allowed.is_some_and(|allowed| rest <= allowed)
+    }
+
+    /// Rms error with an offset alone.
+    #[must_use]
+    pub fn rmse_offset(&self) -> f64 {
+        (self.rmse.powi(2) - self.mean.powi(2)).max(0.0).sqrt()
     }
 
     /// The signals over time as CSV: measured, the model as it is and with gain and offset,

@@ -68,6 +68,9 @@ const FACTORS: [f64; 6] = [
 const ALIKE: f64 = 4.0;
 /// Longest time by which the output may come late \[s\], and the share of the record. A choice.
 const LATEST: (f64, f64) = (1.0, 0.1);
+/// Least number of the record's rows by which an output is called late. A choice: less is no
+/// logger's delay, but an error of the model that resembles one.
+const LEAST_LATE: f64 = 0.5;
 
 /// The columns that a model reads.
 #[derive(Clone, Copy, PartialEq)]
@@ -240,17 +243,18 @@ impl Check {
         };
         let mut all: Vec<Otherwise> = undone(record, given).into_iter().filter_map(with).collect();
         if let Some((rows, rms)) = late(&self.data, &self.model.prediction) {
-            if self.allowed.is_some_and(|allowed| rms <= allowed) {
+            let seconds = rows * self.data.dt * self.data.stride as f64;
+            let shows = seconds.abs() * self.data.rate >= LEAST_LATE;
+            if shows && self.allowed.is_some_and(|allowed| rms <= allowed) {
                 all.push(Otherwise {
-                    way: Way::Late {
-                        seconds: rows * self.data.dt * self.data.stride as f64,
-                    },
+                    way: Way::Late { seconds },
                     nrmse: rms / self.deviation,
                 });
             }
         }
-        // A way with which most of the error stays is none that explains it.
-        let most = MENDED.sqrt() * self.rmse / self.deviation;
+        // A way with which most of the error stays is none that explains it. Each has its own gain
+        // and offset, so that the error which it has to explain is the one behind these.
+        let most = MENDED.sqrt() * self.rmse_gain_offset / self.deviation;
         all.retain(|way| way.nrmse <= most);
         all.into_iter().min_by(|a, b| a.nrmse.total_cmp(&b.nrmse))
     }

@@ -25,6 +25,8 @@ pub struct CheckFacts {
     pub rmse: f64,
     /// Rms error with the fitted gain and offset.
     pub rmse_gain_offset: f64,
+    /// Rms error with an offset alone.
+    pub rmse_offset: f64,
     /// Rms error after the correction: of the offset alone if that suffices.
     pub rmse_corrected: f64,
     /// Mean of the error as it is.
@@ -52,6 +54,8 @@ pub struct CheckFacts {
     pub left_out: f64,
     /// Whether only the offset has moved.
     pub offset_alone: bool,
+    /// Whether gain and offset take most of the squared error.
+    pub is_mended: bool,
     /// Whether the output hardly exceeds the noise.
     pub quiet: bool,
     /// The verdict.
@@ -219,8 +223,9 @@ impl CheckFacts {
             deviation: check.deviation,
             rmse: check.rmse,
             rmse_gain_offset: check.rmse_gain_offset,
+            rmse_offset: check.rmse_offset(),
             rmse_corrected: match offset_alone {
-                true => (check.rmse.powi(2) - check.mean.powi(2)).max(0.0).sqrt(),
+                true => check.rmse_offset(),
                 false => check.rmse_gain_offset,
             },
             mean: check.mean,
@@ -235,6 +240,7 @@ impl CheckFacts {
             is_inverted: check.is_inverted(),
             left_out: check.left_out,
             offset_alone,
+            is_mended: check.is_mended(),
             quiet: check.is_quiet(),
             verdict: check.verdict,
             sentence: String::new(),

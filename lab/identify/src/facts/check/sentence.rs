@@ -13,6 +13,13 @@ const LITTLE: f64 = 0.2;
 /// share of its error.
 const BETTER: f64 = 0.8;
 
+/// An error is just above the limit up to this multiple of it. A choice.
+const JUST: f64 = 1.25;
+
+/// The offset alone has moved where another gain besides divides the error by no more than this. A
+/// choice.
+const ALIKE: f64 = 1.05;
+
 fn fitted(one: &Fitted) -> String {
     with_interval(one.value, one.ci95)
 }
@@ -63,8 +70,8 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
             hardly_moves(check)
         ),
         Verdict::GainOrOffsetMoved => format!(
-            "{}: the model as it is misses {as_it_is} of this record's output, with that corrected {}, as against {came}.{}",
-            moved(check),
+            "{}, and no more than that shows: the model as it is misses {as_it_is} of this record's output, with that corrected {}, as against {came}.{}",
+            moved(check, check.offset_alone),
             share(check.rmse_corrected),
             another_unit(check)
         ),
@@ -75,12 +82,9 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
                 share(check.rmse_gain_offset)
             )
         }
-        Verdict::DoesNotHold if check.otherwise.is_some() => format!(
-            "The model does not hold: it misses {as_it_is} of this record's output, as against {came}."
-        ),
         Verdict::DoesNotHold => format!(
-            "The model does not hold: it misses {as_it_is} of this record's output, as against {came}, and another gain and offset leave {}.",
-            share(check.rmse_gain_offset)
+            "The model does not hold: it misses {as_it_is} of this record's output, as against {came}{}",
+            with_another_gain(check)
         ),
         Verdict::CannotTell if check.quiet => {
             "This record cannot tell: its output moves by little more than the noise.".to_owned()
@@ -119,17 +123,58 @@ fn hardly_moves(check: &CheckFacts) -> String {
     }
 }
 
-fn moved(check: &CheckFacts) -> String {
+/// How a sentence goes on about a model that does not hold with another gain and offset either.
+fn with_another_gain(check: &CheckFacts) -> String {
+    let share = |rmse: f64| percent(rmse / check.deviation);
+    let left = share(check.rmse_gain_offset);
+    let allowed = check
+        .allowed
+        .filter(|_| check.is_mended && check.line.gain.value > 0.0);
+    let alone = check.rmse_offset <= ALIKE * check.rmse_gain_offset;
+    match (allowed, &check.otherwise) {
+        (Some(allowed), _) if check.rmse_gain_offset <= JUST * allowed => format!(
+            ". {}: with that corrected it misses {left}, just above the limit of {}.",
+            moved(check, alone),
+            share(allowed)
+        ),
+        (Some(allowed), _) => format!(
+            ". With {} it misses {left}, above the limit of {}.",
+            correction(check, alone),
+            share(allowed)
+        ),
+        (None, Some(_)) => ".".to_owned(),
+        (None, None) => format!(", and another gain and offset leave {left}."),
+    }
+}
+
+/// Gain and offset, or the offset where it does the same alone.
+fn correction(check: &CheckFacts, offset_alone: bool) -> String {
+    match offset_alone {
+        true => format!(
+            "an offset of {}{}",
+            number(check.mean, Some(0.05 * check.mean.abs())),
+            unit(check)
+        ),
+        false => format!(
+            "a gain of {} and an offset of {}{}",
+            fitted(&check.line.gain),
+            fitted(&check.line.offset),
+            unit(check)
+        ),
+    }
+}
+
+fn moved(check: &CheckFacts, offset_alone: bool) -> String {
     let Line { gain, offset } = &check.line;
     let amount = |value: f64| number(value, Some(0.05 * value.abs()));
-    match check.offset_alone {
+    match offset_alone {
         true => format!(
-            "The offset has moved by {}{}, and no more than that shows",
+            "The offset has moved by {}{}",
             amount(check.mean),
             unit(check)
         ),
         false => format!(
-            "The gain has moved to {} times what it was (and the offset by {}{}), and no more than that shows",
+            "The gain has moved to {} times what it was (and the offset by {}{})",
             fitted(gain),
             amount(offset.value),
             unit(check)

@@ -1,0 +1,127 @@
+//! What `check` says of a rig whose gain has moved.
+
+use crate::changed::spring;
+use crate::files::{noise, Rows};
+use crate::shell::said;
+use serde_json::Value;
+use tempfile::TempDir;
+
+/// A model of the spring, and records of that spring to check it on.
+struct Bench {
+    folder: TempDir,
+    model: String,
+}
+
+/// Columns of the spring.
+const X: usize = 1;
+const F: usize = 2;
+
+impl Bench {
+    fn of(first: &Rows) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let first = first.write(&folder, "first.csv");
+        let model = folder.path().join("model.toml").display().to_string();
+        said(&["close", &first, "--model-out", &model]);
+        Self { folder, model }
+    }
+
+    fn check(&self, rows: &Rows) -> Value {
+        let record = rows.write(&self.folder, "next.csv");
+        let report = said(&["check", &self.model, &record, "--json"]);
+        let report: Value = serde_json::from_str(&report).unwrap();
+        println!("{}", report["sentence"]);
+        report
+    }
+}
+
+fn sentence(report: &Value) -> &str {
+    report["sentence"].as_str().unwrap()
+}
+
+fn says(report: &Value, texts: &[&str]) {
+    for text in texts {
+        let told = sentence(report);
+        assert!(told.contains(text), "{text:?} is not in: {told}");
+    }
+}
+
+/// The rms error up to which the model holds, in the output's unit.
+fn limit(report: &Value) -> f64 {
+    report["allowed"].as_f64().unwrap() * report["record"]["deviation"].as_f64().unwrap()
+}
+
+/// Another draw of the sensor's noise.
+fn another(mut rows: Rows) -> Rows {
+    rows.set(F, |i, row| row[F] + 0.002 * noise(i + 50_000));
+    rows
+}
+
+/// Rows that are scaled to that rms about their mean.
+fn of_rms(rms: f64, mut values: Vec<f64>) -> Vec<f64> {
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    let squares: f64 = values.iter().map(|v| (v - mean).powi(2)).sum();
+    let scale = rms / (squares / values.len() as f64).sqrt();
+    values.iter_mut().for_each(|v| *v = (*v - mean) * scale);
+    values
+}
+
+#[test]
+fn a_gain_that_has_moved_is_no_output_that_comes_late() {
+    let bench = Bench::of(&spring((99.0, 0.0), 0));
+    let same = bench.check(&another(spring((99.0, 0.0), 0)));
+    assert_eq!(same["verdict"], "holds");
+    let limit = limit(&same);
+    // Behind the gain a curve of the position stays, and a little friction, which a shift of the
+    // output takes.
+    let rows = another(spring((99.0, 0.0), 0));
+    let rate = 500.0;
+    let x = |i: usize| rows.rows[i.min(rows.rows.len() - 1)][X];
+    let all = 0..rows.rows.len();
+    let curve = of_rms(0.93 * limit, all.clone().map(|i| x(i).powi(2)).collect());
+    let speed = all.map(|i| rate * (x(i + 1) - x(i.saturating_sub(1))) / 2.0);
+    let drag = of_rms(0.6 * limit, speed.collect());
+    let mut stiffer = another(spring((99.0, 0.0), 0));
+    stiffer.set(F, |i, row| 1.12 * row[F] + curve[i] + drag[i]);
+    let report = bench.check(&stiffer);
+    assert_eq!(report["verdict"], "does-not-hold");
+    assert!(report["otherwise"].is_null(), "{}", report["otherwise"]);
+    says(
+        &report,
+        &[
+            "The gain has moved to 1.12",
+            "with that corrected it misses",
+            "just above the limit of",
+        ],
+    );
+}
+
+#[test]
+fn an_output_that_is_late_by_less_than_half_a_row_is_not_said_to_be() {
+    let bench = Bench::of(&spring((99.0, 0.0), 0));
+    let late = |rows: f64| {
+        let mut record = another(spring((99.0, 0.0), 0));
+        let own: Vec<f64> = record.rows.iter().map(|row| row[F]).collect();
+        record.set(F, |i, _| {
+            let at = (i as f64 - rows).max(0.0);
+            let (low, part) = (at.floor() as usize, at.fract());
+            let next = own[(low + 1).min(own.len() - 1)];
+            1.3 * (own[low] + part * (next - own[low]))
+        });
+        bench.check(&record)
+    };
+    let report = late(0.4);
+    assert_eq!(report["verdict"], "does-not-hold");
+    assert!(report["otherwise"].is_null(), "{}", report["otherwise"]);
+    assert!(!sentence(&report).contains("clock"));
+    // The gain alone does not explain a record that is late by more, and both are told.
+    let report = late(4.0);
+    says(
+        &report,
+        &[
+            "With a gain of 1.29",
+            "above the limit of",
+            "ms earlier",
+            "another clock?",
+        ],
+    );
+}
