@@ -13,6 +13,7 @@ struct Bench {
 }
 
 /// Columns of the spring.
+const T: usize = 0;
 const X: usize = 1;
 const F: usize = 2;
 
@@ -124,4 +125,32 @@ fn an_output_that_is_late_by_less_than_half_a_row_is_not_said_to_be() {
             "another clock?",
         ],
     );
+}
+
+/// What a record at three times the speed leaves of the ranges that a model of the spring, with so
+/// much drag, has seen.
+fn left_by_a_faster_one(drag: f64) -> Vec<String> {
+    let at = |times: f64, seed: usize| {
+        let mut rows = spring((99.0, 0.0), 0);
+        let x: Vec<f64> = rows.rows.iter().map(|row| row[X]).collect();
+        let last = x.len() - 1;
+        let speed = |i: usize| times * 250.0 * (x[(i + 1).min(last)] - x[i.saturating_sub(1)]);
+        rows.set(T, |_, row| row[T] / times);
+        rows.set(F, |i, row| {
+            row[F] + drag * speed(i) + 0.002 * noise(i + seed)
+        });
+        rows
+    };
+    let bench = Bench::of(&at(1.0, 0));
+    let report = bench.check(&at(3.0, 50_000));
+    let outside = report["outside"].as_array().unwrap();
+    let named = outside.iter().map(|one| one["quantity"].as_str().unwrap());
+    named.map(str::to_owned).collect()
+}
+
+#[test]
+fn a_speed_that_no_part_of_the_model_reads_is_not_called_a_guess() {
+    // A spring that slips gives the same force at any speed.
+    assert!(left_by_a_faster_one(0.0).is_empty());
+    assert_eq!(left_by_a_faster_one(0.05), ["velocity"]);
 }

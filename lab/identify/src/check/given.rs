@@ -144,6 +144,45 @@ impl Given {
     }
 }
 
+/// What a model reads of the motion of a channel.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(super) struct Reads {
+    pub(super) position: bool,
+    pub(super) velocity: bool,
+    pub(super) acceleration: bool,
+}
+
+impl Given {
+    /// What the model reads of the input (`input`) or of a channel. What acts in time, such as
+    /// creep, depends on the velocity of what it reads; a lag and a delay, which read the whole
+    /// output, depend on the velocity of everything whose position is read.
+    pub(super) fn reads_of(&self, channel: &str) -> Reads {
+        let load = match self.file.channels.iter().any(|c| c == "load") {
+            true => "load",
+            false => "input",
+        };
+        let hysteresis = self.file.transmission.is_some() && channel == "input";
+        let mut reads = Reads {
+            position: hysteresis,
+            ..Reads::default()
+        };
+        let mut in_time = false;
+        for term in &self.file.terms {
+            let read = info(&term.effect).map_or(&[][..], |info| info.reads);
+            let has = |quantity| read.contains(&quantity);
+            let own = term.source == channel;
+            reads.position |= own && has(Quantity::Position)
+                || load == channel && has(Quantity::Load)
+                || channel == "input" && has(Quantity::Input);
+            reads.velocity |= own && (has(Quantity::Velocity) || has(Quantity::Dt));
+            reads.acceleration |= own && has(Quantity::Acceleration);
+            in_time |= has(Quantity::Output);
+        }
+        reads.velocity |= in_time && reads.position;
+        reads
+    }
+}
+
 /// Most terms of a model that is checked.
 pub(super) const MOST_TERMS: usize = 64;
 

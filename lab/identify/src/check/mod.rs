@@ -180,7 +180,7 @@ impl Check {
             mean,
             allowed: allowed(&data, &given.about, deviation),
             about: given.about.clone(),
-            outside: ranges::outside(&data, &given.about),
+            outside: ranges::outside(&data, given),
             depends_on: Vec::new(),
             otherwise: None,
             left_out: from as f64 * data.dt * data.stride as f64,

@@ -1,6 +1,6 @@
 //! Where a record goes beyond what a model has seen.
 
-use super::given::{About, Seen};
+use super::given::{Given, Reads, Seen};
 use crate::problem::{Channel, Prepared};
 use bowden::effect::Motion;
 
@@ -8,7 +8,7 @@ use bowden::effect::Motion;
 /// records of one motion differ by less.
 const BEYOND: f64 = 0.05;
 
-/// A range that goes beyond what the model has seen.
+/// A range of what the model reads that goes beyond what it has seen.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Outside {
     /// The input's name, or the channel's.
@@ -25,14 +25,14 @@ pub struct Outside {
     pub share: f64,
 }
 
-/// All of them, the input first.
-pub(super) fn outside(data: &Prepared, about: &About) -> Vec<Outside> {
+/// All of them that the model reads, the input first.
+pub(super) fn outside(data: &Prepared, given: &Given) -> Vec<Outside> {
     let channels = data.channels.iter().map(|c| (c.name.as_str(), c));
     let all = std::iter::once(("input", &data.input)).chain(channels);
     let mut found = Vec::new();
     for (name, channel) in all {
-        if let Some(seen) = about.ranges.get(name) {
-            found.extend(beyond(data, channel, seen));
+        if let Some(seen) = given.about.ranges.get(name) {
+            found.extend(beyond(data, channel, seen, given.reads_of(name)));
         }
     }
     found
@@ -40,11 +40,15 @@ pub(super) fn outside(data: &Prepared, about: &About) -> Vec<Outside> {
 
 type Of = fn(&Motion<f64>) -> f64;
 
-fn beyond(data: &Prepared, channel: &Channel, seen: &Seen) -> Vec<Outside> {
+fn beyond(data: &Prepared, channel: &Channel, seen: &Seen, reads: Reads) -> Vec<Outside> {
+    let read = |is_read: bool, range: Option<[f64; 2]>| range.filter(|_| is_read);
+    let position = read(reads.position, seen.position);
+    let velocity = read(reads.velocity, seen.velocity);
+    let acceleration = read(reads.acceleration, seen.acceleration);
     let quantities: [(&'static str, Option<[f64; 2]>, Of, i32); 3] = [
-        ("position", seen.position, |m| m.position, 0),
-        ("velocity", seen.velocity, |m| m.velocity, 1),
-        ("acceleration", seen.acceleration, |m| m.acceleration, 2),
+        ("position", position, |m| m.position, 0),
+        ("velocity", velocity, |m| m.velocity, 1),
+        ("acceleration", acceleration, |m| m.acceleration, 2),
     ];
     let rows = &data.split.fit;
     let mut found = Vec::new();
