@@ -1,4 +1,4 @@
-//! What `check` says of a rig whose gain has moved.
+//! What `check` says of a rig whose gain has moved, and of a model that hardly reads its input.
 
 use crate::changed::spring;
 use crate::files::{noise, Rows};
@@ -153,4 +153,66 @@ fn a_speed_that_no_part_of_the_model_reads_is_not_called_a_guess() {
     // A spring that slips gives the same force at any speed.
     assert!(left_by_a_faster_one(0.0).is_empty());
     assert_eq!(left_by_a_faster_one(0.05), ["velocity"]);
+}
+
+/// The spring with forces that nothing measured explains, so much of them, and another gain.
+fn disturbed(gain: f64, times: f64, seed: usize) -> Rows {
+    let mut rows = another(spring((99.0, 0.0), 0));
+    let mut slow = 0.0;
+    let forces = (0..rows.rows.len()).map(|i| {
+        slow += 0.02 * (noise(i + seed) - slow);
+        slow
+    });
+    let forces = of_rms(0.5 * times, forces.collect());
+    rows.set(F, |i, row| gain * row[F] + forces[i]);
+    rows
+}
+
+#[test]
+fn a_gain_that_has_moved_within_a_wide_limit_is_told() {
+    let bench = Bench::of(&disturbed(1.0, 1.0, 100_000));
+    let same = bench.check(&disturbed(1.0, 1.0, 200_000));
+    assert_eq!(same["verdict"], "holds");
+    assert!(!sentence(&same).contains("moved"));
+    let stiffer = bench.check(&disturbed(1.07, 1.4, 200_000));
+    assert_eq!(stiffer["verdict"], "holds");
+    says(
+        &stiffer,
+        &[
+            "Yet the gain has moved to 1.10",
+            "with that corrected it would miss",
+            "has the rig changed?",
+        ],
+    );
+}
+
+/// A joint on a spring, whose angle is recorded. The drive's sensor has so much of the torque of a
+/// gear that nothing explains.
+fn sprung_joint(of_gear: f64, seed: usize) -> Rows {
+    let mut gear = 0.0;
+    let row = |i: usize| {
+        let t = i as f64 / 500.0;
+        gear += 0.02 * (noise(i + seed + 9) - gear);
+        let angle = 0.6 * (1.9 * t).sin() + 0.3 * (4.7 * t + 0.5 + seed as f64).sin();
+        let torque = 8.0 * angle + 0.02 * noise(i + seed);
+        let drive = torque + of_gear * gear;
+        vec![t, drive, torque, angle + 1e-4 * noise(i + seed + 7)]
+    };
+    Rows {
+        header: "t,tau_i [N·m],tau_o [N·m],phi_p [rad]".to_owned(),
+        rows: (0..12_000).map(row).collect(),
+    }
+}
+
+#[test]
+fn a_model_that_hardly_reads_its_input_cannot_see_a_change_of_the_drive() {
+    let bench = Bench::of(&sprung_joint(10.0, 0));
+    let report = bench.check(&sprung_joint(10.0, 50_000));
+    assert_eq!(report["verdict"], "holds");
+    says(&report, &["The model hardly reads `tau_i`"]);
+    // A spring is read at its input.
+    let bench = Bench::of(&spring((99.0, 0.0), 0));
+    let report = bench.check(&another(spring((99.0, 0.0), 0)));
+    assert_eq!(report["verdict"], "holds");
+    assert!(!sentence(&report).contains("hardly reads"));
 }

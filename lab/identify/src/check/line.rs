@@ -24,7 +24,34 @@ pub struct Line {
     pub offset: Fitted,
 }
 
+/// Gain and offset have clearly moved from this share on, the offset's of the output's standard
+/// deviation, and from this multiple of half of their interval on. Both are choices; between two
+/// records of one rig neither moves (`--test ways calibration`).
+const MOVED: f64 = 0.05;
+const CLEARLY: f64 = 2.0;
+
+impl Fitted {
+    /// Whether it is clearly another than that value, in units of that scale.
+    fn is_apart(&self, from: f64, scale: f64) -> bool {
+        let by = (self.value - from).abs();
+        let half = self.ci95.map(|[low, high]| (high - low) / 2.0);
+        by > MOVED * scale && half.is_some_and(|half| by > CLEARLY * half)
+    }
+}
+
 impl Line {
+    /// Whether the gain has clearly moved.
+    #[must_use]
+    pub fn gain_moved(&self) -> bool {
+        self.gain.is_apart(1.0, 1.0)
+    }
+
+    /// Whether the offset has, for an output of that standard deviation.
+    #[must_use]
+    pub fn offset_moved(&self, deviation: f64) -> bool {
+        self.offset.is_apart(0.0, deviation)
+    }
+
     /// Least squares over the rows that count; intervals by the delete-one-block jackknife
     /// (Efron, 1982) on the sixteen blocks, with Student's t of fifteen degrees.
     pub(super) fn fit(data: &Prepared, prediction: &[f64]) -> Self {

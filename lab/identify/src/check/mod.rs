@@ -116,6 +116,8 @@ pub struct Check {
     /// Rms by which the state before the record still moves the prediction, at most, if it was
     /// within what the record itself reaches.
     pub start: f64,
+    /// Standard deviation of what the model makes of the input; `None` where that cannot be told.
+    pub made_of_input: Option<f64>,
     /// Seconds at the start that do not count.
     pub left_out: f64,
     /// The verdict.
@@ -183,6 +185,7 @@ impl Check {
             outside: ranges::outside(&data, given),
             depends_on: Vec::new(),
             otherwise: None,
+            made_of_input: play::made_of_input(&data, given, &model.prediction),
             left_out: from as f64 * data.dt * data.stride as f64,
             verdict: Verdict::CannotTell,
             line,

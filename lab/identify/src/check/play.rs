@@ -6,6 +6,7 @@ use crate::model::columns::{raw_columns, weighted};
 use crate::model::structure::{FitTerm, Free, Range, Role, Structure, Terms};
 use crate::problem::{HeldOut, Preparation, Prepared, Stretch, MOST_RECORDS};
 use crate::record::{Mode, Record};
+use bowden::effect::Motion;
 use bowden::model::{Model, Source};
 
 /// A model that has run on a record.
@@ -158,6 +159,25 @@ pub(super) fn play(data: &Prepared, given: &Given, eta0: f64) -> Result<Solution
         prediction,
         residual,
     })
+}
+
+/// What the model makes of the input, that is the standard deviation by which its prediction
+/// changes where the input is held at its mean; `None` where it has no value there.
+pub(super) fn made_of_input(data: &Prepared, given: &Given, prediction: &[f64]) -> Option<f64> {
+    let mut held = data.clone();
+    let motion = &mut held.input.motion;
+    let mean = motion.iter().map(|m| m.position).sum::<f64>() / motion.len() as f64;
+    motion.fill(Motion {
+        position: mean,
+        velocity: 0.0,
+        acceleration: 0.0,
+    });
+    let without = play(&held, given, 0.0).ok()?;
+    let pairs = prediction.iter().zip(&without.prediction);
+    let difference: Vec<f64> = pairs.map(|(with, without)| with - without).collect();
+    let rows = &data.split.fit;
+    let mean = rows.iter().map(|&i| difference[i]).sum::<f64>() / rows.len() as f64;
+    Some(rms(data, &difference, mean))
 }
 
 /// What a term reads, by its name in the record.

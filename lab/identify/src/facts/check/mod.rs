@@ -50,6 +50,8 @@ pub struct CheckFacts {
     pub otherwise: Option<Otherwise>,
     /// Whether the model holds but for the sign of the output.
     pub is_inverted: bool,
+    /// Standard deviation of what the model makes of the input, if that can be told.
+    pub made_of_input: Option<f64>,
     /// Seconds at the start that are excluded.
     pub left_out: f64,
     /// Whether only the offset has moved.
@@ -238,6 +240,7 @@ impl CheckFacts {
             depends_on: depends_on.map(|d| DependsOn::new(&check.data, d)).collect(),
             otherwise: check.otherwise.clone(),
             is_inverted: check.is_inverted(),
+            made_of_input: check.made_of_input,
             left_out: check.left_out,
             offset_alone,
             is_mended: check.is_mended(),

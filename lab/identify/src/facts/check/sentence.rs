@@ -13,6 +13,10 @@ const LITTLE: f64 = 0.2;
 /// share of its error.
 const BETTER: f64 = 0.8;
 
+/// A model hardly reads its input where that makes less than this share of the output's standard
+/// deviation. A choice.
+const HARDLY: f64 = 0.1;
+
 /// An error is just above the limit up to this multiple of it. A choice.
 const JUST: f64 = 1.25;
 
@@ -70,7 +74,7 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
             hardly_moves(check)
         ),
         Verdict::GainOrOffsetMoved => format!(
-            "{}, and no more than that shows: the model as it is misses {as_it_is} of this record's output, with that corrected {}, as against {came}.{}",
+            "The {}, and no more than that shows: the model as it is misses {as_it_is} of this record's output, with that corrected {}, as against {came}.{}",
             moved(check, check.offset_alone),
             share(check.rmse_corrected),
             another_unit(check)
@@ -102,15 +106,8 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
             None => reasons(check),
         });
     }
-    if check.verdict == Verdict::Holds && check.rmse_gain_offset < BETTER * check.rmse {
-        let _ = write!(
-            text,
-            " A gain of {} and an offset of {}{} would leave {}.",
-            fitted(&check.line.gain),
-            fitted(&check.line.offset),
-            unit(check),
-            share(check.rmse_gain_offset)
-        );
+    if check.verdict == Verdict::Holds {
+        text.push_str(&with_reserve(check));
     }
     text
 }
@@ -123,6 +120,39 @@ fn hardly_moves(check: &CheckFacts) -> String {
     }
 }
 
+/// What else there is to say of a model that holds: gain and offset, and what it hardly reads.
+fn with_reserve(check: &CheckFacts) -> String {
+    let share = |rmse: f64| percent(rmse / check.deviation);
+    let left = share(check.rmse_gain_offset);
+    let gain = check.line.gain_moved();
+    let mut text = match check.allowed {
+        Some(allowed) if gain || check.line.offset_moved(check.deviation) => format!(
+            " Yet the {}, which a limit as wide as {} does not refuse; with that corrected it would miss {left}: has the rig changed?",
+            moved(check, !gain),
+            share(allowed)
+        ),
+        _ if check.rmse_gain_offset < BETTER * check.rmse => format!(
+            " A gain of {} and an offset of {}{} would leave {left}.",
+            fitted(&check.line.gain),
+            fitted(&check.line.offset),
+            unit(check)
+        ),
+        _ => String::new(),
+    };
+    let made = check
+        .made_of_input
+        .filter(|made| *made < HARDLY * check.deviation);
+    if let Some(made) = made {
+        let _ = write!(
+            text,
+            " The model hardly reads `{}`: what it makes of that is {} of this record's output. Had the transmission from there changed, this check would hardly show it.",
+            check.record.input,
+            share(made)
+        );
+    }
+    text
+}
+
 /// How a sentence goes on about a model that does not hold with another gain and offset either.
 fn with_another_gain(check: &CheckFacts) -> String {
     let share = |rmse: f64| percent(rmse / check.deviation);
@@ -133,7 +163,7 @@ fn with_another_gain(check: &CheckFacts) -> String {
     let alone = check.rmse_offset <= ALIKE * check.rmse_gain_offset;
     match (allowed, &check.otherwise) {
         (Some(allowed), _) if check.rmse_gain_offset <= JUST * allowed => format!(
-            ". {}: with that corrected it misses {left}, just above the limit of {}.",
+            ". The {}: with that corrected it misses {left}, just above the limit of {}.",
             moved(check, alone),
             share(allowed)
         ),
@@ -164,17 +194,14 @@ fn correction(check: &CheckFacts, offset_alone: bool) -> String {
     }
 }
 
+/// Without the article.
 fn moved(check: &CheckFacts, offset_alone: bool) -> String {
     let Line { gain, offset } = &check.line;
     let amount = |value: f64| number(value, Some(0.05 * value.abs()));
     match offset_alone {
-        true => format!(
-            "The offset has moved by {}{}",
-            amount(check.mean),
-            unit(check)
-        ),
+        true => format!("offset has moved by {}{}", amount(check.mean), unit(check)),
         false => format!(
-            "The gain has moved to {} times what it was (and the offset by {}{})",
+            "gain has moved to {} times what it was (and the offset by {}{})",
             fitted(gain),
             amount(offset.value),
             unit(check)
