@@ -134,7 +134,8 @@ enum bowden_result
     BOWDEN_RESULT_ERROR_CAPACITY = -7,
     // A setting that is one of an enum has a value that the enum has not.
     BOWDEN_RESULT_ERROR_CHOICE = -8,
-    // The bytes of a model are damaged, of the other precision or version, or of too many terms.
+    // The bytes of a model are damaged, too many, of the other precision or version, or of too
+    // many terms.
     BOWDEN_RESULT_ERROR_MODEL = -9,
 };
 #ifndef __cplusplus
@@ -1256,10 +1257,12 @@ bowden_result bowden_inverse_step_f64(struct bowden_inverse_f64 *inverse,
 // Loads a model from the bytes that `bowden close --model-out FILE.postcard` or
 // `bowden export --c` writes, four bytes of CRC-32 last, and starts it.
 //
-// `eta` is the hysteresis state at the start, within -1 and 1; 0 where it is not
-// known. BOWDEN_RESULT_ERROR_MODEL where the bytes are damaged, of the other
+// `length` is that of the model, not of an array or a sector that is larger: bytes
+// behind the CRC-32 are refused as damaged ones are. `eta` is the hysteresis state
+// at the start, within -1 and 1; 0 where it is not known.
+// BOWDEN_RESULT_ERROR_MODEL where the bytes are damaged, too many, of the other
 // precision, of another version, or hold more than BOWDEN_TERMS terms; `about`,
-// which may be null, tells the first ("checksum") from the others.
+// which may be null, tells the first two ("checksum") from the others.
 // BOWDEN_RESULT_ERROR_CAPACITY where a term reads a channel from BOWDEN_CHANNELS
 // on, or there are more than BOWDEN_MODEL_BYTES bytes. The bytes are not needed
 // afterwards. On an error the object is as it was.
@@ -1289,10 +1292,12 @@ bowden_result bowden_model_reset_f32(struct bowden_model_f32 *model, float eta);
 // Loads a model from the bytes that `bowden close --model-out FILE.postcard` or
 // `bowden export --c` writes, four bytes of CRC-32 last, and starts it.
 //
-// `eta` is the hysteresis state at the start, within -1 and 1; 0 where it is not
-// known. BOWDEN_RESULT_ERROR_MODEL where the bytes are damaged, of the other
+// `length` is that of the model, not of an array or a sector that is larger: bytes
+// behind the CRC-32 are refused as damaged ones are. `eta` is the hysteresis state
+// at the start, within -1 and 1; 0 where it is not known.
+// BOWDEN_RESULT_ERROR_MODEL where the bytes are damaged, too many, of the other
 // precision, of another version, or hold more than BOWDEN_TERMS terms; `about`,
-// which may be null, tells the first ("checksum") from the others.
+// which may be null, tells the first two ("checksum") from the others.
 // BOWDEN_RESULT_ERROR_CAPACITY where a term reads a channel from BOWDEN_CHANNELS
 // on, or there are more than BOWDEN_MODEL_BYTES bytes. The bytes are not needed
 // afterwards. On an error the object is as it was.

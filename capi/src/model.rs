@@ -88,10 +88,12 @@ macro_rules! model {
             /// Loads a model from the bytes that `bowden close --model-out FILE.postcard` or
             /// `bowden export --c` writes, four bytes of CRC-32 last, and starts it.
             ///
-            /// `eta` is the hysteresis state at the start, within -1 and 1; 0 where it is not
-            /// known. BOWDEN_RESULT_ERROR_MODEL where the bytes are damaged, of the other
+            /// `length` is that of the model, not of an array or a sector that is larger: bytes
+            /// behind the CRC-32 are refused as damaged ones are. `eta` is the hysteresis state
+            /// at the start, within -1 and 1; 0 where it is not known.
+            /// BOWDEN_RESULT_ERROR_MODEL where the bytes are damaged, too many, of the other
             /// precision, of another version, or hold more than BOWDEN_TERMS terms; `about`,
-            /// which may be null, tells the first ("checksum") from the others.
+            /// which may be null, tells the first two ("checksum") from the others.
             /// BOWDEN_RESULT_ERROR_CAPACITY where a term reads a channel from BOWDEN_CHANNELS
             /// on, or there are more than BOWDEN_MODEL_BYTES bytes. The bytes are not needed
             /// afterwards. On an error the object is as it was.
@@ -114,11 +116,12 @@ macro_rules! model {
             }
 
             fn [<of_bytes_ $f>](bytes: &[u8]) -> Result<Model<$f, BOWDEN_TERMS>, Refused> {
-                let read = postcard::from_bytes_crc32::<Model<$f, BOWDEN_TERMS>>;
+                let read = postcard::take_from_bytes_crc32::<Model<$f, BOWDEN_TERMS>>;
                 match read(bytes, CHECKSUM.digest()) {
-                    Ok(own) if reads_what_there_is(&own) => Ok(own),
-                    Ok(_) => Err(Refused::capacity("channels")),
-                    Err(_) => Err(Refused::model(is_whole(bytes))),
+                    Ok((own, [])) if reads_what_there_is(&own) => Ok(own),
+                    Ok((_, [])) => Err(Refused::capacity("channels")),
+                    // Of bytes that are left over the last four are not the checksum.
+                    Ok(_) | Err(_) => Err(Refused::model(is_whole(bytes))),
                 }
             }
 

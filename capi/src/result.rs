@@ -39,7 +39,8 @@ pub enum bowden_result {
     ErrorCapacity = -7,
     /// A setting that is one of an enum has a value that the enum has not.
     ErrorChoice = -8,
-    /// The bytes of a model are damaged, of the other precision or version, or of too many terms.
+    /// The bytes of a model are damaged, too many, of the other precision or version, or of too
+    /// many terms.
     ErrorModel = -9,
 }
 
@@ -253,7 +254,7 @@ pub extern "C" fn bowden_result_text(result: i32) -> *const c_char {
         -6 => c"two settings break a condition together",
         -7 => c"more items than there is room for",
         -8 => c"a setting has a value that its enum has not",
-        -9 => c"the bytes of the model are damaged, of the other precision or version, or of too many terms",
+        -9 => c"the bytes of the model are damaged, too many, of the other precision or version, or of too many terms",
         _ => c"no result of this library",
     };
     text.as_ptr()

@@ -15,6 +15,7 @@ use core_bowden::signal::Motion;
 use core_bowden::transmission::Transmission;
 use objects::blank;
 use signal::Signal;
+use std::ffi::CStr;
 use std::ptr::null_mut;
 
 const CHECKSUM: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
@@ -117,4 +118,40 @@ fn bytes_that_are_no_model_are_refused_or_are_a_model_that_steps() {
         }
     }
     assert!(loaded > 1000 && refused > 1000, "{loaded} {refused}");
+}
+
+/// The model and its checksum are good in every one of these; what stands behind them is not.
+#[test]
+fn bytes_behind_the_checksum_are_refused() {
+    let seed = include_bytes!("../../examples/data/demo.postcard");
+    let load = |bytes: &[u8]| {
+        let mut model = blank::<bowden_model_f32>();
+        let mut about = blank::<bowden_about>();
+        let (from, length) = (bytes.as_ptr(), bytes.len());
+        let result = unsafe { bowden_model_load_f32(&mut model, from, length, 0.0, &mut about) };
+        let text = unsafe { CStr::from_ptr(about.text.as_ptr()) };
+        (result, text.to_str().unwrap().to_owned())
+    };
+    assert_eq!(load(seed).0, bowden_result::Ok);
+    // An array of its own size that a file was read into, empty flash behind a model.
+    for (fill, most) in [(0xff, 100), (0, 100), (0xff, BOWDEN_MODEL_BYTES)] {
+        let mut bytes = seed.to_vec();
+        while bytes.len() < most {
+            bytes.push(fill);
+            assert_eq!(
+                load(&bytes),
+                (bowden_result::ErrorModel, "checksum".to_owned()),
+                "{} of {fill}",
+                bytes.len()
+            );
+        }
+    }
+    // Twice the same model: the last four bytes are a checksum, though not of all before them.
+    assert_eq!(load(&seed.repeat(2)).0, bowden_result::ErrorModel);
+    // With a checksum over all that stands before it, only the form is wrong.
+    let mut bytes = [&seed[..], &[1, 2, 3]].concat();
+    bytes.extend(CHECKSUM.checksum(&bytes).to_le_bytes());
+    let (result, about) = load(&bytes);
+    assert_eq!(result, bowden_result::ErrorModel);
+    assert_ne!(about, "checksum");
 }

@@ -263,6 +263,44 @@ fn more_items_than_there_is_room_for_are_refused() {
     }
 }
 
+/// What the README says is refused after the start, beside pointers and objects.
+#[test]
+fn what_is_refused_after_the_start_leaves_the_object_as_it_was() {
+    let bytes = include_bytes!("../../examples/data/demo.postcard");
+    let (mut model, mut turned) = (blank::<bowden_model_f32>(), blank());
+    let mut pid = started();
+    let channels = [bowden_motion_f32::default(); BOWDEN_CHANNELS + 1];
+    let mut sample = blank::<bowden_compensator_sample_f32>();
+    (sample.dt, sample.channels) = (0.001, channels.as_ptr());
+    sample.channel_count = BOWDEN_CHANNELS + 1;
+    let mut bad = settings();
+    bad.k_p = f32::NAN;
+    let (mut eta, mut out) = (7.0, blank());
+    unsafe {
+        bowden_model_load_f32(&mut model, bytes.as_ptr(), bytes.len(), 0.25, null_mut());
+        let (none, about) = (null(), null_mut());
+        let made = bowden_compensator_init_f32(&mut turned, &model, 0.01, none, 0, about);
+        assert_eq!(made, bowden_result::Ok);
+        let (before, of_pid) = ((model.opaque, turned.opaque), pid.opaque);
+        for (value, result) in [
+            (f32::NAN, bowden_result::ErrorNonFinite),
+            (f32::INFINITY, bowden_result::ErrorNonFinite),
+            (1.5, bowden_result::ErrorOutOfRange),
+        ] {
+            assert_eq!(bowden_model_reset_f32(&mut model, value), result);
+            assert_eq!(bowden_compensator_reset_f32(&mut turned, value), result);
+        }
+        let result = bowden_compensator_step_f32(&mut turned, &sample, &mut out);
+        assert_eq!(result, bowden_result::ErrorCapacity);
+        let result = bowden_pid_change_f32(&mut pid, &bad, null_mut());
+        assert_eq!(result, bowden_result::ErrorNonFinite);
+        assert_eq!((model.opaque, turned.opaque), before);
+        assert_eq!(pid.opaque, of_pid);
+        bowden_model_eta_f32(&model, &mut eta);
+        assert_eq!(eta, 0.25);
+    }
+}
+
 #[test]
 fn every_code_has_a_text_of_ascii_and_no_other_has_one_of_theirs() {
     let of = |pointer| {
