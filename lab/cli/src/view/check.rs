@@ -51,6 +51,7 @@ struct RecordPart<'a> {
 #[derive(Serialize)]
 struct From {
     nrmse: Option<Errors>,
+    held_out_rmse: Option<f64>,
     cutoff_hz: Option<f64>,
     rate_hz: Option<f64>,
 }
@@ -101,6 +102,7 @@ pub fn check_json(
         offset: check.line.offset,
         from: From {
             nrmse: check.came_with,
+            held_out_rmse: check.reference_rmse,
             cutoff_hz: check.own_cutoff,
             rate_hz: check.own_rate,
         },
@@ -239,6 +241,9 @@ fn errors(check: &CheckFacts) -> comfy_table::Table {
     let own = check
         .reference
         .map_or_else(|| "unknown".to_owned(), percent);
-    rows.add_row(["held out of its own record".to_owned(), open(), own, open()]);
+    let rmse = check
+        .reference_rmse
+        .map_or_else(open, |rmse| number(rmse, Some(0.05 * rmse)));
+    rows.add_row(["held out of its own record".to_owned(), rmse, own, open()]);
     rows
 }

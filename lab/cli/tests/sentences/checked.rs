@@ -1,6 +1,7 @@
-//! What `check` says of a rig whose gain has moved, and of a model that hardly reads its input.
+//! What `check` says of a rig whose gain has moved, of one that moves less, and of a model that hardly
+//! reads its input.
 
-use crate::changed::spring;
+use crate::changed::{spring, spring_moved_by};
 use crate::files::{noise, Rows};
 use crate::shell::said;
 use serde_json::Value;
@@ -157,7 +158,12 @@ fn a_speed_that_no_part_of_the_model_reads_is_not_called_a_guess() {
 
 /// The spring with forces that nothing measured explains, so much of them, and another gain.
 fn disturbed(gain: f64, times: f64, seed: usize) -> Rows {
-    let mut rows = another(spring((99.0, 0.0), 0));
+    disturbed_at(1.0, gain, times, seed)
+}
+
+/// The same moved by so many times the tones.
+fn disturbed_at(moved: f64, gain: f64, times: f64, seed: usize) -> Rows {
+    let mut rows = another(spring_moved_by(moved, (99.0, 0.0), 0));
     let mut slow = 0.0;
     let forces = (0..rows.rows.len()).map(|i| {
         slow += 0.02 * (noise(i + seed) - slow);
@@ -215,4 +221,36 @@ fn a_model_that_hardly_reads_its_input_cannot_see_a_change_of_the_drive() {
     let report = bench.check(&another(spring((99.0, 0.0), 0)));
     assert_eq!(report["verdict"], "holds");
     assert!(!sentence(&report).contains("hardly reads"));
+}
+
+#[test]
+fn a_rig_that_moves_less_is_not_said_to_have_changed() {
+    // Forces of 0.1 N that nothing explains are a larger share of a smaller motion.
+    let bench = Bench::of(&disturbed(1.0, 0.2, 100_000));
+    let same = bench.check(&disturbed_at(0.3, 1.0, 0.2, 200_000));
+    let of = |field: &str| same[field].as_f64().unwrap();
+    let own = same["from"]["nrmse"]["held_out"].as_f64().unwrap();
+    assert!(of("nrmse") > 2.0 * own);
+    assert_eq!(same["verdict"], "holds");
+    says(&same, &["The output moves less here"]);
+    // What has changed shows there too.
+    let stiffer = bench.check(&disturbed_at(0.3, 1.15, 0.2, 200_000));
+    assert_eq!(stiffer["verdict"], "gain-or-offset-moved");
+    let mut rubs = disturbed_at(0.3, 1.0, 0.2, 200_000);
+    let x: Vec<f64> = rubs.rows.iter().map(|row| row[X]).collect();
+    rubs.set(F, |i, row| {
+        let ahead = x[(i + 1).min(x.len() - 1)] - x[i.saturating_sub(1)];
+        row[F] + 0.3 * ahead.signum()
+    });
+    let rubs = bench.check(&rubs);
+    assert_eq!(rubs["verdict"], "does-not-hold");
+    assert!(rubs["otherwise"].is_null(), "{}", rubs["otherwise"]);
+}
+
+#[test]
+fn a_motion_in_which_the_error_of_home_is_most_cannot_tell() {
+    let bench = Bench::of(&disturbed(1.0, 1.0, 100_000));
+    let same = bench.check(&disturbed_at(0.25, 1.0, 1.0, 200_000));
+    assert_eq!(same["verdict"], "cannot-tell");
+    says(&same, &["which is no sign of a change", "with more motion"]);
 }

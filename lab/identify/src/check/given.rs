@@ -39,6 +39,8 @@ pub struct About {
     pub ranges: BTreeMap<String, Seen>,
     /// Errors of the model as shares of the output's standard deviation.
     pub nrmse: Option<Errors>,
+    /// Its error on what was held out, in the output's unit.
+    pub held_out_rmse: Option<f64>,
     /// The verdict with which it was written.
     pub verdict: Option<String>,
 }

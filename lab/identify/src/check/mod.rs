@@ -13,7 +13,9 @@
 //! measured: the model runs from eta = −1 and from eta = 1 as well.
 //!
 //! **The rule.** A model *holds* where its error is at most [`HOLDS`] times the held-out error
-//! that it came with, both as shares of the output's standard deviation, or where it is at
+//! that it came with, both as shares of the output's standard deviation; or both in the output's
+//! unit, where it is at most [`FAINT`] of the deviation, since a record that moves less makes the
+//! same error a larger share; or where it is at
 //! most [`NOISE`] times the noise floor of this record: what is noise is no fault of the
 //! model. An error of nine tenths of the standard deviation or more is no model that holds,
 //! whatever it came with.
@@ -46,6 +48,10 @@ pub const NOISE: f64 = 1.2;
 /// From this share of the output's standard deviation on a model explains less than half of the
 /// output's variance, as one whose verdict is `no-model`.
 pub const NOTHING: f64 = 0.7;
+/// Up to this share of the output's standard deviation a model holds by its error in the output's
+/// unit; from there on an error that is no larger than at home says nothing. A choice: from that share
+/// on a model is called a poor one.
+pub const FAINT: f64 = 0.2;
 /// Gain and offset are what has moved where they leave at most this share of the squared error. Of two
 /// right models of one rig either may be past the limit by a little; half is a choice.
 const MENDED: f64 = 0.5;
@@ -226,7 +232,11 @@ impl Check {
         let Some(allowed) = self.allowed.filter(|_| !self.is_quiet()) else {
             return Verdict::CannotTell;
         };
-        if self.rmse <= allowed {
+        let by_share = by_share(&self.data, &self.about, self.deviation);
+        let moved = self.line.gain_moved() || self.line.offset_moved(self.deviation);
+        if by_share.is_some_and(|most| self.rmse <= most)
+            || self.rmse <= allowed && !(moved && self.is_mended())
+        {
             Verdict::Holds
         } else if self.reference().is_none() {
             // More than noise, and nothing says how much more it was.
@@ -234,6 +244,8 @@ impl Check {
         } else if self.rmse_gain_offset <= allowed && self.line.gain.value > 0.0 && self.is_mended()
         {
             Verdict::GainOrOffsetMoved
+        } else if !moved && self.is_as_at_home() {
+            Verdict::CannotTell
         } else {
             Verdict::DoesNotHold
         }
@@ -266,6 +278,12 @@ impl Check {
     #[must_use]
     pub fn reference(&self) -> Option<f64> {
         reference(&self.about)
+    }
+
+    /// Whether the error in the output's unit is one that the model came with.
+    #[must_use]
+    pub fn is_as_at_home(&self) -> bool {
+        at_home(&self.about).is_some_and(|own| self.rmse <= HOLDS * own)
     }
 
     /// Whether an offset alone is what has moved.
@@ -313,8 +331,21 @@ fn reference(about: &About) -> Option<f64> {
     (held_out.is_finite() && held_out > 0.0).then_some(held_out)
 }
 
+/// The held-out error that the model came with, in the output's unit.
+fn at_home(about: &About) -> Option<f64> {
+    reference(about)?;
+    about.held_out_rmse.filter(|own| own.is_finite())
+}
+
 /// Rms error up to which the model holds.
 fn allowed(data: &Prepared, about: &About, deviation: f64) -> Option<f64> {
+    let own = at_home(about).map(|own| (HOLDS * own).min(FAINT * deviation));
+    let by_share = by_share(data, about, deviation);
+    by_share.into_iter().chain(own).reduce(f64::max)
+}
+
+/// Rms error up to which the model holds as a share of the standard deviation, or as noise.
+fn by_share(data: &Prepared, about: &About, deviation: f64) -> Option<f64> {
     let own = reference(about).map(|share| HOLDS * share);
     let noise = (data.noise_floor > 0.0).then_some(NOISE * data.noise_floor);
     let own = own.map(|share| share.min(NOTHING) * deviation);

@@ -235,7 +235,7 @@ impl Check {
             let other = Played::of(&undone.record, given, cutoff).ok()?;
             let rms = error(&other.data, &other.model.prediction)?;
             let deviation = other.deviation();
-            let allowed = super::allowed(&other.data, &given.about, deviation)?;
+            let allowed = super::by_share(&other.data, &given.about, deviation)?;
             (rms <= allowed).then_some(Otherwise {
                 way: undone.way,
                 nrmse: rms / deviation,
@@ -245,7 +245,8 @@ impl Check {
         if let Some((rows, rms)) = late(&self.data, &self.model.prediction) {
             let seconds = rows * self.data.dt * self.data.stride as f64;
             let shows = seconds.abs() * self.data.rate >= LEAST_LATE;
-            if shows && self.allowed.is_some_and(|allowed| rms <= allowed) {
+            let allowed = super::by_share(&self.data, &given.about, self.deviation);
+            if shows && allowed.is_some_and(|allowed| rms <= allowed) {
                 all.push(Otherwise {
                     way: Way::Late { seconds },
                     nrmse: rms / self.deviation,

@@ -35,6 +35,9 @@ pub struct About {
     pub fitted_invertible: bool,
     /// `yes`, or `no, because …`: whether a compensator can invert the model.
     pub feed_forward: String,
+    /// Error of this model on the held-out segment, in the output's unit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub held_out_rmse: Option<f64>,
     /// Errors of this model, as shares of the output's standard deviation.
     pub nrmse: Errors,
     /// Play before the hysteresis, where the error with causal rates is large without it.

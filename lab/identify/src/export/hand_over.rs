@@ -175,6 +175,8 @@ impl HandOver {
             rates_time_constant_s: self.time_constant,
             fitted_invertible: self.within_inverse,
             feed_forward: self.feed_forward.words(),
+            held_out_rmse: Some(Segments::of(data, &self.solution.residual).held_out)
+                .filter(|rmse| rmse.is_finite()),
             play: self.calmed.map(|calmed| PlayBefore {
                 half_width: calmed.half_width,
                 held_out_causal: calmed.causal_nrmse.held_out,

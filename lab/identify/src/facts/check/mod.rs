@@ -35,6 +35,10 @@ pub struct CheckFacts {
     pub allowed: Option<f64>,
     /// The held-out error that the model came with, as a share of the standard deviation.
     pub reference: Option<f64>,
+    /// The same in the output's unit, if the model file states it.
+    pub reference_rmse: Option<f64>,
+    /// Whether the error in the output's unit is at most twice that.
+    pub is_as_at_home: bool,
     /// The errors that the model file states.
     pub came_with: Option<Errors>,
     /// The cut-off that the model's file states \[Hz\].
@@ -233,6 +237,8 @@ impl CheckFacts {
             mean: check.mean,
             allowed: check.allowed,
             reference: check.reference(),
+            reference_rmse: check.about.held_out_rmse,
+            is_as_at_home: check.is_as_at_home(),
             came_with: check.about.nrmse,
             own_cutoff: check.about.cutoff_hz,
             own_rate: check.about.rate_hz,

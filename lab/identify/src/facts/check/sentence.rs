@@ -1,7 +1,7 @@
 //! The verdict of a check in one or two sentences.
 
 use super::CheckFacts;
-use crate::check::{Fitted, Line, Otherwise, Verdict, Way, HOLDS, NOISE, NOTHING};
+use crate::check::{Fitted, Line, Otherwise, Verdict, Way, FAINT, HOLDS, NOISE, NOTHING};
 use crate::conclude::files_apart::is_far;
 use crate::facts::numbers::{number, share as percent, with_interval};
 use std::fmt::Write as _;
@@ -35,13 +35,19 @@ fn unit(check: &CheckFacts) -> String {
 
 /// What the error is up to which a model holds.
 pub(super) fn rule(check: &CheckFacts) -> String {
-    match check.reference.is_some_and(|own| HOLDS * own > NOTHING) {
+    let noise = format!("or {NOISE} times the noise floor");
+    if check.reference.is_some_and(|own| HOLDS * own > NOTHING) {
+        return format!(
+            "less than {HOLDS} times the held-out error that the model came with, since beyond that it explains less than half of the output; {noise}"
+        );
+    }
+    let own = format!("{HOLDS} times the held-out error that the model came with");
+    match check.reference_rmse.is_some() {
         true => format!(
-            "less than {HOLDS} times the held-out error that the model came with, since beyond that it explains less than half of the output; or {NOISE} times the noise floor"
+            "{own}, as a share of the deviation, or in the output's unit up to {} of the deviation; {noise}",
+            percent(FAINT)
         ),
-        false => format!(
-            "{HOLDS} times the held-out error that the model came with, or {NOISE} times the noise floor"
-        ),
+        false => format!("{own}, {noise}"),
     }
 }
 
@@ -69,6 +75,10 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
             "The model holds: it misses {as_it_is} of this record's output, as against {came}; nothing was refitted.{}",
             was_poor(check)
         ),
+        Verdict::Holds if check.is_as_at_home && !is_noise(check) => format!(
+            "The model holds: it misses {}; nothing was refitted. The output moves less here, so that this is {as_it_is} of it, as against {came}.",
+            in_its_unit(check)
+        ),
         Verdict::Holds => format!(
             "The model holds: the {as_it_is} of this record's output that it misses are the sensor's noise; nothing was refitted.{}",
             hardly_moves(check)
@@ -93,6 +103,10 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
         Verdict::CannotTell if check.quiet => {
             "This record cannot tell: its output moves by little more than the noise.".to_owned()
         }
+        Verdict::CannotTell if check.is_as_at_home => format!(
+            "This record cannot tell: the model misses {}, which is no sign of a change, but the output moves so little here that this is {as_it_is} of it. A record with more motion says more.",
+            in_its_unit(check)
+        ),
         Verdict::CannotTell => format!(
             "Whether the model holds cannot be told: it misses {as_it_is} of this record's output, which is more than noise, and {came}."
         ),
@@ -110,6 +124,20 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
         text.push_str(&with_reserve(check));
     }
     text
+}
+
+fn is_noise(check: &CheckFacts) -> bool {
+    check.rmse <= NOISE * check.record.noise_floor
+}
+
+/// The error in the output's unit, beside the one that the model came with.
+fn in_its_unit(check: &CheckFacts) -> String {
+    let amount = |rmse: f64| format!("{}{}", number(rmse, Some(0.05 * rmse)), unit(check));
+    let own = check.reference_rmse.map_or_else(String::new, amount);
+    format!(
+        "{}, as against {own} on what was held out of its own record",
+        amount(check.rmse)
+    )
 }
 
 /// What somebody has to know of a record on which the noise is most of what is missed.
