@@ -10,11 +10,17 @@
  * Not identified: n (at its lower bound).
  * Feed-forward: yes.
  *
+ * The prefix demo_ (of macros DEMO_) is that of the file name "demo".
+ *
  * bowden_model_f32 model;
  * if (demo_load_f32(&model, NULL) < 0) ...
  */
-#ifndef BOWDEN_MODEL_DEMO_H
-#define BOWDEN_MODEL_DEMO_H
+#ifdef BOWDEN_MODEL_DEMO_H
+#if BOWDEN_MODEL_DEMO_H != 0xd1dc41b0u
+#error "two headers of different models have the prefix DEMO_: export one under another file name"
+#endif
+#else
+#define BOWDEN_MODEL_DEMO_H 0xd1dc41b0u /* CRC-32 of what follows */
 
 #include "bowden.h"
 

@@ -1,12 +1,9 @@
 //! `bowden export`: a model file as source for firmware.
 
 use super::{outputs, Failure};
-use bowden_lab::facts::model_in_c;
+use bowden_lab::facts::{model_in_c, prefix_in_c};
 use clap::Args;
 use std::path::PathBuf;
-
-/// Names of files after which functions would be called that the library has itself.
-const TAKEN: [&str; 2] = ["bowden", "bowden_model"];
 
 #[derive(Args)]
 pub struct Export {
@@ -16,7 +13,8 @@ pub struct Export {
     /// As a C header that needs the library of capi/ alone.
     #[arg(long, required = true)]
     c: bool,
-    /// Write a file instead of stdout.
+    /// Write a file instead of stdout; its name, with a letter from a to z, is the prefix of
+    /// all names in it.
     #[arg(long, value_name = "FILE.h")]
     out: Option<PathBuf>,
 }
@@ -30,18 +28,15 @@ impl Export {
                     path.display()
                 ));
             }
-            let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-            if TAKEN.contains(&stem.to_lowercase().as_str()) {
-                return Err(format!(
-                    "--out {}: is a name of the library's own, and what is named after it would be there twice; another one was expected",
-                    path.display()
-                ));
-            }
             outputs::check(&[&self.model], &[("--out", path)])?;
         }
         // Named after the file that C includes; on stdout, after the model.
         let named = self.out.as_ref().unwrap_or(&self.model);
         let name = named.file_stem().unwrap_or_default().to_string_lossy();
+        prefix_in_c(&name).map_err(|e| match &self.out {
+            Some(path) => format!("--out {}: {e}", path.display()),
+            None => format!("{}: {e}; --out FILE.h gives one", named.display()),
+        })?;
         let header = model_in_c(&super::check::load(&self.model)?, &name)
             .map_err(|e| format!("{}: {e}", self.model.display()))?;
         match &self.out {

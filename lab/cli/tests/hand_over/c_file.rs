@@ -78,6 +78,8 @@ fn names_that_are_none_in_c_become_some_and_no_text_leaves_its_comment() {
         rest = behind;
     }
     code.push_str(rest);
+    // The guard has an `#error` of its own.
+    let code = code.replacen("#error \"two headers", "", 1);
     assert!(!code.contains("error") && !code.contains("*/"), "{code}");
 }
 
@@ -113,4 +115,137 @@ fn a_name_without_its_ending_and_a_file_over_the_model_are_refused() {
         assert_eq!(output.status.code(), Some(2));
     }
     assert_eq!(run(&["export", model]).status.code(), Some(2));
+}
+
+/// What the program says of a model of that text that it writes under that name.
+fn written(text: &str, folder: &Path, name: &str) -> Result<String, String> {
+    let model = folder.join("own.toml");
+    std::fs::write(&model, text).unwrap();
+    let out = folder.join(name);
+    let (model, path) = (model.to_str().unwrap(), out.to_str().unwrap());
+    let output = run(&["export", "--c", model, "--out", path]);
+    if output.status.success() {
+        return Ok(std::fs::read_to_string(out).unwrap());
+    }
+    assert_eq!(output.status.code(), Some(2));
+    assert!(!out.exists());
+    Err(String::from_utf8(output.stderr).unwrap())
+}
+
+/// The macros of a header, sorted: name and value.
+fn defined(header: &str) -> Vec<(String, String)> {
+    let lines = header.lines().filter_map(|l| l.strip_prefix("#define "));
+    let pairs = lines.map(|line| {
+        let mut words = line.split(' ').map(str::to_owned);
+        let name = words.next().unwrap_or_default();
+        (name, words.next().unwrap_or_default())
+    });
+    let mut pairs: Vec<_> = pairs.collect();
+    pairs.sort();
+    pairs
+}
+
+#[test]
+fn no_macro_of_a_header_is_defined_twice_and_a_name_of_its_own_is_kept() {
+    for (channels, some) in [
+        (
+            &["phi_p", "a_3", "A", "a"][..],
+            &[("A_3", 1), ("A", 2), ("A_3_3", 3)][..],
+        ),
+        (&["a", "A", "a_1"], &[("A", 0), ("A_1_1", 1), ("A_1", 2)]),
+        (&["A", "a", "a-1", "a_1_1"], &[("A_1", 2), ("A_1_1", 3)]),
+        (&["s", "S", "s_0", "s_1"], &[("S_0", 2), ("S_1", 3)]),
+        (&["µ", "ν", "model", "MODEL_1", "model_2"], &[("MODEL", 0)]),
+    ] {
+        let listed: Vec<String> = channels.iter().map(|name| format!("\"{name}\"")).collect();
+        let (done, header) = exported(&nasty(&listed.join(", "), &term(channels[0])));
+        assert!(done, "{header}");
+        let macros = defined(&header);
+        let twice = macros.windows(2).find(|two| two[0].0 == two[1].0);
+        assert_eq!(twice, None, "{header}");
+        let places = macros.iter().filter(|m| m.0.contains("_RIG_CHANNEL_"));
+        assert_eq!(places.count(), channels.len(), "{header}");
+        for (own, index) in some {
+            let pair = (format!("MODEL_0_RIG_CHANNEL_{own}"), index.to_string());
+            assert!(macros.contains(&pair), "{pair:?}: {header}");
+        }
+    }
+}
+
+#[test]
+fn a_file_name_without_a_letter_is_refused_in_one_line_that_says_which_work() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = nasty("\"x\"", &term("x"));
+    for name in ["1.h", "µ.h", "_-_.h", "キ.h"] {
+        let words = written(&text, folder.path(), name).unwrap_err();
+        assert_eq!(words.lines().count(), 1, "{words}");
+        assert!(words.contains("a letter from a to z"), "{words}");
+        assert!(words.contains(name), "{words}");
+    }
+    // It would have the functions of the library, as bowden_model.h would.
+    let words = written(&text, folder.path(), "bowden-model.h").unwrap_err();
+    assert!(words.contains("a name of the library's own"), "{words}");
+    for (name, prefix) in [("1a.h", "model_1a"), ("µm.h", "_m"), ("Rig 1.h", "rig_1")] {
+        let header = written(&text, folder.path(), name).unwrap();
+        assert!(header.contains(&format!(" {prefix}_load_f32(")), "{header}");
+        // The comment says from where the prefix is.
+        let stem = name.strip_suffix(".h").unwrap();
+        let said = format!(
+            " * The prefix {prefix}_ (of macros {}_) is that of the file name \"{stem}\".\n",
+            prefix.to_uppercase()
+        );
+        assert!(header.contains(&said), "{header}");
+    }
+    // On stdout it is named after the model.
+    let model = folder.path().join("1.toml");
+    std::fs::write(&model, &text).unwrap();
+    let output = run(&["export", "--c", model.to_str().unwrap()]);
+    let words = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(output.stdout.is_empty() && words.lines().count() == 1);
+    assert!(words.contains("1.toml") && words.contains("--out FILE.h"));
+}
+
+/// `rig-1.h` and `rig_1.h` have one prefix: the second one must not be left out in silence.
+#[test]
+fn two_headers_of_one_prefix_meet_in_peace_only_where_they_hold_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |channels: &str, name: &str| {
+        written(&nasty(channels, &term("x")), folder.path(), name).unwrap();
+    };
+    write("\"x\", \"y\"", "rig-1.h");
+    write("\"x\", \"y\"", "Rig_1.h");
+    // The bytes of this model are the same, its channels are not.
+    write("\"x\", \"z\"", "rig_1.h");
+    write("\"x\", \"z\"", "rig_2.h");
+    let compiled = |headers: &[&str]| {
+        let lines = headers.iter().map(|name| format!("#include \"{name}\"\n"));
+        let source = folder.path().join("program.c");
+        std::fs::write(&source, lines.collect::<String>()).unwrap();
+        let output = std::process::Command::new("cc")
+            .args(["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wundef"])
+            .args(["-Wno-unused", "-Werror", "-fsyntax-only", "-I"])
+            .arg(repository().join("capi/include"))
+            .arg(&source)
+            .output();
+        output.map(|o| (o.status.success(), String::from_utf8(o.stderr).unwrap()))
+    };
+    for headers in [
+        &["rig-1.h", "rig-1.h"][..],
+        &["rig-1.h", "Rig_1.h"],
+        &["rig-1.h", "rig_2.h"],
+    ] {
+        let Ok((is_good, words)) = compiled(headers) else {
+            println!("skipped: two headers of one prefix, no cc");
+            return;
+        };
+        assert!(is_good, "{headers:?}: {words}");
+    }
+    for headers in [["rig-1.h", "rig_1.h"], ["rig_1.h", "Rig_1.h"]] {
+        let (is_good, words) = compiled(&headers).unwrap();
+        assert!(!is_good, "{headers:?}");
+        let told = "two headers of different models have the prefix RIG_1_";
+        assert!(words.contains(told), "{words}");
+        assert_eq!(words.matches("error:").count(), 1, "{words}");
+    }
 }

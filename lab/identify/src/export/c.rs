@@ -1,12 +1,15 @@
 //! The model as a C header that needs the library alone: its bytes, and what loads them.
 
-use super::firmware::{bytes_in_double, postcard};
+use super::firmware::{bytes_in_double, postcard, CHECKSUM};
 use super::{About, ModelFile, Span};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 /// Terms and channels that the C interface has room for: `BOWDEN_TERMS`, `BOWDEN_CHANNELS`.
 const MOST: usize = 16;
+
+/// Prefixes with which the header would have names that `bowden.h` has itself.
+const TAKEN: [&str; 2] = ["bowden", "bowden_model"];
 
 /// Bytes on a line.
 const ON_A_LINE: usize = 16;
@@ -19,44 +22,41 @@ macro_rules! line {
 impl ModelFile {
     /// As a C header: the bytes in `f32` and `f64`, functions `NAME_load_f32` and
     /// `NAME_compensator_f32` (and `_f64`), the channels' places, the ranges, and the time
-    /// constant for `bowden_rates_init`.
+    /// constant for `bowden_rates_init`. `name` is the stem of its file, see [`prefix`].
     ///
     /// # Errors
-    /// One sentence where the core refuses a part, or the C interface has no room for it.
+    /// One sentence where the name gives no prefix, the core refuses a part, or the C interface
+    /// has no room for it.
     pub fn c(&self, name: &str) -> Result<String, String> {
         let none = About::default();
         let about = self.about.as_ref().unwrap_or(&none);
+        let lower = prefix(name)?;
         self.check_room()?;
         let (single, double) = (postcard(self)?, bytes_in_double(self)?);
-        let lower = identifier(name).to_lowercase();
         let upper = lower.to_uppercase();
-        let mut out = self.c_head(about, &lower);
-        line!(out, "#ifndef BOWDEN_MODEL_{upper}_H");
-        line!(out, "#define BOWDEN_MODEL_{upper}_H\n");
-        line!(out, "#include \"bowden.h\"\n");
-        self.places(about, &upper, &mut out);
+        let mut body = "#include \"bowden.h\"\n\n".to_owned();
+        self.places(about, &upper, &mut body);
         if about.rates_time_constant_s > 0.0 {
             let tau = about.rates_time_constant_s;
             line!(
-                out,
+                body,
                 "/* Time constant of bowden_rates_init for the rates of every source [s]. */"
             );
             line!(
-                out,
+                body,
                 "#define {upper}_RATES_TIME_CONSTANT_F32 {}",
                 number(tau, true)
             );
             line!(
-                out,
+                body,
                 "#define {upper}_RATES_TIME_CONSTANT_F64 {}\n",
                 number(tau, false)
             );
         }
         for (is_single, bytes) in [(true, single), (false, double)] {
-            self.in_one_precision(about, &lower, is_single, &bytes, &mut out);
+            self.in_one_precision(about, &lower, is_single, &bytes, &mut body);
         }
-        line!(out, "#endif /* BOWDEN_MODEL_{upper}_H */");
-        Ok(out)
+        Ok(self.c_head(about, name, &lower) + &guarded(&upper, &body))
     }
 
     fn check_room(&self) -> Result<(), String> {
@@ -79,7 +79,7 @@ impl ModelFile {
     }
 
     /// What a reader has to know before the numbers.
-    fn c_head(&self, about: &About, lower: &str) -> String {
+    fn c_head(&self, about: &About, name: &str, lower: &str) -> String {
         let mut text = format!("{}.\n\n", about.remark());
         let (input, output) = (about.unit("input"), about.unit("output"));
         line!(
@@ -94,6 +94,12 @@ impl ModelFile {
             }
             line!(text, "Feed-forward: {}.", about.feed_forward);
         }
+        line!(text, "");
+        let upper = lower.to_uppercase();
+        line!(
+            text,
+            "The prefix {lower}_ (of macros {upper}_) is that of the file name {name:?}."
+        );
         line!(text, "");
         line!(text, "bowden_model_f32 model;");
         line!(text, "if ({lower}_load_f32(&model, NULL) < 0) ...");
@@ -117,13 +123,8 @@ impl ModelFile {
             "#define {upper}_CHANNELS {}",
             self.channels.len().min(MOST)
         );
-        let mut taken = BTreeSet::from(["S".to_owned()]);
-        for (index, name) in self.channels.iter().take(MOST).enumerate() {
-            let mut own = identifier(name).to_uppercase();
-            if !taken.insert(own.clone()) {
-                own = format!("{own}_{index}");
-                taken.insert(own.clone());
-            }
+        let channels = self.channels.iter().take(MOST);
+        for (index, (name, own)) in channels.zip(macros(&self.channels)).enumerate() {
             let channel = commented(&about.channel(name));
             line!(out, "#define {upper}_CHANNEL_{own} {index} /* {channel} */");
         }
@@ -220,6 +221,71 @@ fn number(value: f64, is_single: bool) -> String {
     } else {
         format!("{value:?}")
     }
+}
+
+/// What the names in a C header of this file name (without its ending) begin with.
+///
+/// Several file names may have one prefix (`rig-1`, `rig_1`, `RIG 1`); where two such headers
+/// with different contents meet, the compiler says so.
+///
+/// # Errors
+/// What else was expected, where there is no ASCII letter, or the names would be the library's.
+pub fn prefix(name: &str) -> Result<String, String> {
+    if !name.contains(|c: char| c.is_ascii_alphabetic()) {
+        return Err(
+            "names of C are made from this name: one with a letter from a to z was expected, such as rig or rig_1"
+                .to_owned(),
+        );
+    }
+    let prefix = identifier(name).to_lowercase();
+    if TAKEN.contains(&prefix.as_str()) {
+        return Err(
+            "is a name of the library's own, and what is named after it would be there twice; another one was expected"
+                .to_owned(),
+        );
+    }
+    Ok(prefix)
+}
+
+/// What is included once; another header of the same prefix beside it is an error, not silence.
+fn guarded(upper: &str, body: &str) -> String {
+    let guard = format!("BOWDEN_MODEL_{upper}_H");
+    // Of all that follows: a model of the same bytes may have other channels or ranges.
+    let own = format!("0x{:08x}u", CHECKSUM.checksum(body.as_bytes()));
+    let mut out = String::new();
+    line!(out, "#ifdef {guard}");
+    line!(out, "#if {guard} != {own}");
+    line!(
+        out,
+        "#error \"two headers of different models have the prefix {upper}_: export one under another file name\""
+    );
+    line!(out, "#endif");
+    line!(out, "#else");
+    line!(out, "#define {guard} {own} /* CRC-32 of what follows */\n");
+    out += body;
+    line!(out, "#endif /* {guard} */");
+    out
+}
+
+/// The names of the channels in macros, each another one.
+fn macros(channels: &[String]) -> Vec<String> {
+    let upper = channels.iter().map(|name| identifier(name).to_uppercase());
+    let upper: Vec<String> = upper.collect();
+    // No `CHANNEL_S`, which is easily read as `CHANNELS`.
+    let mut taken = BTreeSet::from(["S".to_owned()]);
+    taken.extend(upper.iter().cloned());
+    let mut names = Vec::new();
+    for (index, own) in upper.iter().enumerate() {
+        let mut own = own.clone();
+        // The first channel of a name has it; what the others become is nobody's name.
+        if own == "S" || upper.iter().position(|other| *other == own) != Some(index) {
+            while !taken.insert(own.clone()) {
+                own = format!("{own}_{index}");
+            }
+        }
+        names.push(own);
+    }
+    names
 }
 
 /// A name of C; of a name without any letter or digit, `model`.

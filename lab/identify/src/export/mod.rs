@@ -16,6 +16,7 @@ mod rust;
 pub mod vector;
 
 pub use about::{About, Errors, LeftOut, NotIdentified, PlayBefore, Span};
+pub use c::prefix;
 pub use firmware::{postcard, CHECKSUM};
 
 use crate::fit::Solution;

@@ -21,7 +21,7 @@ mod round;
 mod source;
 
 pub use asked::Asked;
-pub use c_file::model_in_c;
+pub use c_file::{model_in_c, prefix_in_c};
 pub use check::{check, check_record, CheckFacts, CheckQuestion, Checked, DependsOn, ModelOfFile};
 pub use close::{close, Close, Closed, Form, Handed};
 pub use cost::{CostFacts, Meter, StageSeconds};
