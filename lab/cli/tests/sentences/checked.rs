@@ -187,7 +187,7 @@ fn a_gain_that_has_moved_within_a_wide_limit_is_told() {
         &[
             "Yet the gain has moved to 1.10",
             "with that corrected it would miss",
-            "has the rig changed?",
+            "has the rig changed, or is the motion another one?",
         ],
     );
 }

@@ -25,8 +25,8 @@ pub struct Line {
 }
 
 /// Gain and offset have clearly moved from this share on, the offset's of the output's standard
-/// deviation, and from this multiple of half of their interval on. Both are choices; between two
-/// records of one rig neither moves (`--test ways calibration`).
+/// deviation, and from this multiple of half of their interval on. Both are choices; where the model
+/// describes the rig, neither moves from one of its records to the next (`--test ways calibration`).
 const MOVED: f64 = 0.05;
 const CLEARLY: f64 = 2.0;
 

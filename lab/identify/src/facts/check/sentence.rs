@@ -155,7 +155,7 @@ fn with_reserve(check: &CheckFacts) -> String {
     let gain = check.line.gain_moved();
     let mut text = match check.allowed {
         Some(allowed) if gain || check.line.offset_moved(check.deviation) => format!(
-            " Yet the {}, which a limit as wide as {} does not refuse; with that corrected it would miss {left}: has the rig changed?",
+            " Yet the {}, which a limit as wide as {} does not refuse; with that corrected it would miss {left}: has the rig changed, or is the motion another one?",
             moved(check, !gain),
             share(allowed)
         ),
