@@ -23,6 +23,12 @@ pub fn places(x: f64, least: usize) -> usize {
     needed.max(least)
 }
 
+/// Four decimals, or three digits of a small number, that are not below it: a bound.
+#[must_use]
+pub fn above(x: f64) -> String {
+    fixed(x, places(x, 4), Towards::Above)
+}
+
 /// With `places` decimals.
 #[must_use]
 pub fn fixed(x: f64, places: usize, to: Towards) -> String {

@@ -1,5 +1,6 @@
 //! The report of `bowden design`, and its JSON.
 
+use super::decimal::above;
 use bowden_trials::facts::{AdaptiveDesign, Designed, PidDesign};
 use serde_json::{json, Value};
 use std::fmt::Write as _;
@@ -232,7 +233,7 @@ fn adaptive(own: &AdaptiveDesign, row: &mut impl FnMut(&str, String)) {
 /// What is promised of the error, and of which references.
 fn certificate(own: &AdaptiveDesign, bound: f64) -> String {
     let noiseless = "on a plant that answers within the step, without noise";
-    let bound = short(bound);
+    let bound = above(bound);
     match own.plant.filter(|_| own.proved) {
         Some(known) => format!(
             "certificate (peak-rounded): |e| <= {bound} N·m for references up to {} N·m at up to {} N·m/s, {noiseless}",

@@ -1,6 +1,6 @@
 //! `bowden certify GAINS.toml`: what is proved of one's own gains.
 
-use super::decimal::{fixed, places, scientific, Towards};
+use super::decimal::{above, fixed, scientific, Towards};
 use bowden_trials::facts::{Named, Proof, Sides};
 use std::fmt::Write as _;
 
@@ -72,11 +72,6 @@ pub fn text(proof: &Proof, label: &str) -> String {
         let _ = writeln!(out, "  - {assumption}");
     }
     out
-}
-
-/// Four decimals, or three digits of a small number, that are not below it.
-fn above(x: f64) -> String {
-    fixed(x, places(x, 4), Towards::Above)
 }
 
 /// Two digits that are not below the number.

@@ -273,7 +273,7 @@ pub fn design(text: &str, label: &str, asked: &Question) -> Result<Designed, Str
         fallback: safety.fallback,
         reference_rate: bounds.reference_rate,
     };
-    let adaptive = adaptive::design(&plant, &around);
+    let mut adaptive = adaptive::design(&plant, &around);
     let pi = unit.pid(&pi);
     let told = |e: bowden::Error| format!("{label}: {e}");
     let pid = match derivative.helps {
@@ -288,7 +288,6 @@ pub fn design(text: &str, label: &str, asked: &Question) -> Result<Designed, Str
         adaptive: adaptive.settings,
         plant: adaptive.plant,
     };
-    let mut adaptive = adaptive;
     let gains = promised(gains, &mut adaptive);
     Ok(Designed {
         slopes: plant.slopes,
