@@ -21,6 +21,7 @@ pub struct Columns {
     until: Option<f64>,
     rate: Option<f64>,
     header_line: Option<usize>,
+    names: Vec<String>,
     drop_bad: bool,
 }
 
@@ -36,6 +37,7 @@ impl Columns {
             until: self.until,
             rate: self.rate,
             header_line: self.header_line,
+            names: self.names,
             drop_bad: self.drop_bad,
         })
     }

@@ -66,6 +66,8 @@ WRONG: list[tuple[Wrong, str]] = [
     (lambda m, r: bowden.Model.load(Path(__file__).parent), "cannot be read"),
     (lambda m, r: bowden.close(r, rounds=-1), "^rounds=-1: 0 to 8 were expected$"),
     (lambda m, r: bowden.close(r, rounds=1.5), "^rounds=1.5: 0 to 8 were expected$"),
+    (lambda m, r: bowden.close(r, names="t,x,f"), "^names='t,x,f': a list of names was expected"),
+    (lambda m, r: bowden.close(r, names=["t", 3]), "^names=.'t', 3.: a list of names"),
     (lambda m, r: bowden.close(r, header_line=-1), "^header_line=-1: a line from 1 up"),
     (lambda m, r: bowden.close(r, threads=-1), "^threads=-1: one or more were expected$"),
     (lambda m, r: bowden.check(m, r, threads=-1), "^threads=-1: one or more were expected$"),

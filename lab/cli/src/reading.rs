@@ -45,6 +45,10 @@ pub struct Columns {
     /// Line of the column names, from 1; found by itself where it is not given.
     #[arg(long, value_name = "N")]
     pub header_line: Option<usize>,
+    /// Names of the columns of a text that has none: t,x,f or 't [ms],,x [mm],f [N]'; an empty
+    /// name is that of a column which is not read.
+    #[arg(long, value_delimiter = ',', value_name = "A,B,…")]
+    pub names: Vec<String>,
     /// Leave out rows with an empty cell, a NaN or a time stamp that repeats: each becomes a
     /// gap. Without it such a record is refused.
     #[arg(long)]
@@ -101,6 +105,7 @@ impl Columns {
             until: self.until,
             rate: self.rate,
             header_line: self.header_line,
+            names: self.names.clone(),
             drop_bad: self.drop_bad,
         };
         Ok(Asked {

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, Optional, Union
 
 from . import _bowden
@@ -32,6 +32,7 @@ def check(
     cutoff: Optional[float] = None,
     rate: Optional[float] = None,
     header_line: Optional[int] = None,
+    names: Optional[Sequence[str]] = None,
     drop_bad: bool = False,
     units: Optional[Mapping[str, str]] = None,
     label: Optional[str] = None,
@@ -57,6 +58,7 @@ def check(
         until=until,
         rate=rate,
         header_line=header_line,
+        names=names,
         drop_bad=drop_bad,
         units=units,
         label=label,

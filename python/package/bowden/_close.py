@@ -31,6 +31,7 @@ def close(
     cutoff: Optional[float] = None,
     rate: Optional[float] = None,
     header_line: Optional[int] = None,
+    names: Optional[Sequence[str]] = None,
     drop_bad: bool = False,
     rounds: Optional[int] = None,
     budget: Optional[float] = None,
@@ -74,6 +75,9 @@ def close(
         Sampling rate [Hz]; time is then taken from the row number.
     header_line
         Line of the column names of a CSV, from 1.
+    names
+        Names of the columns of a text without names, each with its unit where it has one
+        (``["t", "x [mm]", "f"]``); an empty one is that of a column which is not read.
     drop_bad
         Leave out rows with an empty cell, a NaN or a time stamp that repeats.
     rounds, budget
@@ -114,6 +118,7 @@ def close(
         until=until,
         rate=rate,
         header_line=header_line,
+        names=names,
         drop_bad=drop_bad,
         units=units,
         label=label,
@@ -148,6 +153,7 @@ def close(
         "cutoff": cutoff,
         "rate": rate,
         "header_line": header_line,
+        "names": names,
         "drop_bad": drop_bad or None,
         "rounds": rounds,
         "budget": budget,

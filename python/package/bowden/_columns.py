@@ -26,6 +26,19 @@ def whole(name: str, value: Any, least: int, most: int, expected: str) -> int:
     return number
 
 
+def list_of_names(names: Any) -> list[str]:
+    """The names of the columns of a text without them; a list of texts."""
+    if names is None:
+        return []
+    expected = "a list of names was expected"
+    if isinstance(names, str) or not isinstance(names, Iterable):
+        raise Error(f"names={names!r}: {expected}")
+    every = list(names)
+    if not every or not all(isinstance(name, str) for name in every):
+        raise Error(f"names={every!r}: {expected}")
+    return every
+
+
 def unmasked(values: Any) -> Any:
     """The values of a masked array with NaN, or no point in time, where it is masked."""
     if not isinstance(values, np.ma.MaskedArray):

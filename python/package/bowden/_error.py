@@ -33,11 +33,12 @@ class Error(ValueError):
 _OTHER = {
     "--channel NAME=COL": "channels",
     "--drop-bad": "drop_bad=True",
+    "--names t,x,f": 'names=["t", "x", "f"]',
     "--invertible": "invertible=True",
     "--per-file gains": 'per_file="gains"',
 }
 _OPTION = re.compile(
-    r"--(channel|time|input|output|mode|skip|until|cutoff|rate|header-line|declare|rounds|budget)\b"
+    r"--(channel|time|input|output|mode|skip|until|cutoff|rate|header-line|names|declare|rounds|budget)\b"
     r"(?: (?:COL|HZ)\b)?(?: (?=[-\d]|torque|displacement))?"
 )
 

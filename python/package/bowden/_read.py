@@ -7,7 +7,16 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Optional, Union
 
 from . import _bowden
-from ._columns import check_units, column_of_array, columns_of_frame, is_frame, is_path, names_of, whole
+from ._columns import (
+    check_units,
+    column_of_array,
+    columns_of_frame,
+    is_frame,
+    is_path,
+    list_of_names,
+    names_of,
+    whole,
+)
 from ._error import Error
 
 #: A channel is the name of a column, ``A-B`` or ``A+B`` of two, or an array.
@@ -29,6 +38,7 @@ class Reading:
         until: Optional[float],
         rate: Optional[float],
         header_line: Optional[int],
+        names: Optional[Sequence[str]],
         drop_bad: bool,
         units: Optional[Mapping[str, str]],
         label: Optional[str],
@@ -53,6 +63,7 @@ class Reading:
             "until": None if until is None else float(until),
             "rate": None if rate is None else float(rate),
             "header_line": header_line,
+            "names": list_of_names(names),
             "drop_bad": bool(drop_bad),
         }
 
@@ -133,6 +144,7 @@ def read(
     until: Optional[float] = None,
     rate: Optional[float] = None,
     header_line: Optional[int] = None,
+    names: Optional[Sequence[str]] = None,
     drop_bad: bool = False,
     units: Optional[Mapping[str, str]] = None,
     label: Optional[str] = None,
@@ -151,6 +163,7 @@ def read(
         until=until,
         rate=rate,
         header_line=header_line,
+        names=names,
         drop_bad=drop_bad,
         units=units,
         label=label,

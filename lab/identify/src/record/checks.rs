@@ -24,6 +24,11 @@ pub(super) fn options(options: &Options) -> Result<(), RecordError> {
             ));
         }
     }
+    if options.header_line.is_some() && !options.names.is_empty() {
+        return refuse(
+            "--names is for a text without names, --header-line for one with them".to_owned(),
+        );
+    }
     match options.rate {
         Some(rate) if !(1e-9..=1e12).contains(&rate) => refuse(format!(
             "--rate {rate}: a positive number of Hz was expected"

@@ -17,6 +17,8 @@ pub(super) struct Decoded<'a> {
     pub(super) text: Cow<'a, str>,
     /// Which encoding it was, unless UTF-8.
     pub(super) note: Option<String>,
+    /// Whether the last line ends as a line does; else the file may end within it.
+    pub(super) is_ended: bool,
 }
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded<'_>, RecordError> {
@@ -31,6 +33,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded<'_>, RecordError> {
         None => narrow(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes))?,
     };
     Ok(Decoded {
+        is_ended: text.ends_with(['\n', '\r']),
         text: lines(text),
         note: note.map(|name| format!("the text is {name}")),
     })

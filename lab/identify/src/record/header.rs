@@ -88,7 +88,13 @@ impl Header {
                 column.unit = None;
             }
         }
+        tell_apart(&mut columns);
         Self { line, columns }
+    }
+
+    /// The columns of a text without names, which are given.
+    pub(super) fn given(line: usize, names: &[String]) -> Self {
+        Self::with(line, names.iter().map(|name| of_cell(name)).collect())
     }
 
     /// At most three names that are much like one that does not exist, for a message.
@@ -130,6 +136,35 @@ impl Header {
     }
 }
 
+/// A cell of the header, `name [unit]`.
+fn of_cell(cell: &str) -> Named {
+    let (name, unit) = units::split(cell);
+    Named {
+        name: name.to_owned(),
+        unit,
+        cell: cell.to_owned(),
+    }
+}
+
+/// `Force (V)` and `Force (N)` are two columns: where names are the same and cells are not, the
+/// cell is the name.
+fn tell_apart(columns: &mut [Named]) {
+    let alike = |a: &Named, b: &Named| a.name == b.name && !a.name.is_empty();
+    let apart: Vec<bool> = columns
+        .iter()
+        .enumerate()
+        .map(|(index, own)| {
+            let others = columns.iter().enumerate();
+            let mut others = others.filter(|(other, c)| *other != index && alike(own, c));
+            let first = others.next().map(|(_, other)| other.cell != own.cell);
+            first == Some(true) && others.all(|(_, other)| other.cell != own.cell)
+        })
+        .collect();
+    for (column, _) in columns.iter_mut().zip(apart).filter(|(_, apart)| *apart) {
+        column.name.clone_from(&column.cell);
+    }
+}
+
 /// The first row as names of columns.
 pub(super) fn read(rows: &mut Rows<'_>) -> Result<Header, RecordError> {
     let (text, before) = rows.rest();
@@ -157,12 +192,7 @@ pub(super) fn read(rows: &mut Rows<'_>) -> Result<Header, RecordError> {
                 0 => cell.trim_start_matches(['#', '%']).trim_start(),
                 _ => cell,
             };
-            let (name, unit) = units::split(cell);
-            Named {
-                name: name.to_owned(),
-                unit,
-                cell: cell.to_owned(),
-            }
+            of_cell(cell)
         })
         .collect();
     let mut named = columns
@@ -173,7 +203,9 @@ pub(super) fn read(rows: &mut Rows<'_>) -> Result<Header, RecordError> {
         return refuse("line has no names");
     }
     if named.all(|column| number::is_number(&column.name)) {
-        return refuse("line holds numbers");
+        let message = "the line holds numbers, a header with column names was expected; \
+                       --names t,x,f gives the names of a file without them";
+        return Err(RecordError::at(before + 1, message));
     }
     Ok(Header::with(line, columns))
 }

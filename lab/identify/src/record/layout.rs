@@ -31,6 +31,9 @@ pub(super) struct Table<'a> {
 
 /// Finds the table that has the columns which the options ask for.
 pub(super) fn find<'a>(text: &'a str, options: &Options) -> Result<Table<'a>, RecordError> {
+    if !options.names.is_empty() {
+        return nameless(text, options);
+    }
     if let Some(line) = options.header_line {
         let (start, before) = start_of(text, line)?;
         return named(Rows::new(&text[start..]).after(before), options);
@@ -168,8 +171,48 @@ impl<'a> Head<'a> {
                 && (*line..line + TABLE).all(|next| row(next, width))
                 && !(*line > 0 && row(line - 1, width))
         };
-        (1..self.lines.len()).filter(starts)
+        (0..self.lines.len()).filter(starts)
     }
+}
+
+/// The first table, whose names are given.
+fn nameless<'a>(text: &'a str, options: &Options) -> Result<Table<'a>, RecordError> {
+    let names = &options.names;
+    let heads = [b'\t', b';', b','].map(|separator| Head::new(text, separator));
+    let tables = heads
+        .iter()
+        .filter_map(|head| Some((head, head.tables().next()?)));
+    // Where a decimal comma makes two tables of one, that with the wanted columns counts.
+    let (mut first, mut wanted) = (None, None);
+    for (head, line) in tables {
+        let own = Some((head, line));
+        first = first.or(own);
+        let fits = head.lines[line].1.len() == names.len();
+        wanted = wanted.or(own.filter(|_| fits));
+    }
+    let Some((head, line)) = wanted else {
+        let Some((head, line)) = first else {
+            return Err(RecordError::new(
+                "--names: no rows of two or more numbers were found",
+            ));
+        };
+        let message = format!(
+            "{} cells, --names has {}",
+            head.lines[line].1.len(),
+            names.len()
+        );
+        return Err(RecordError::at(line + 1, message));
+    };
+    let header = Header::given(line + 1, names);
+    let roles = roles::assign(&header, options)?;
+    let rows = Rows::separated_by(head.separator, &text[head.lines[line].0..]).after(line);
+    let above = (line > 0).then(|| passed_over(1, line, "above the values"));
+    Ok(Table {
+        header,
+        roles,
+        rows,
+        notes: above.into_iter().collect(),
+    })
 }
 
 /// The first table below the first line whose names are those that are asked for; else why the

@@ -23,6 +23,7 @@
 //! ```
 
 mod agree;
+mod blanks;
 mod checks;
 mod clipping;
 mod clock_time;
@@ -61,6 +62,7 @@ use kind::Kind;
 use roles::Roles;
 use series::Series;
 use source::Source;
+use std::borrow::Cow;
 use std::path::Path;
 
 /// What drives the transmission, and what is measured at its end.
@@ -111,6 +113,9 @@ pub struct Options {
     pub rate: Option<f64>,
     /// Line of the column names, from 1; found where it is `None`.
     pub header_line: Option<usize>,
+    /// Names of the columns of a text that has none, each with its unit where it has one (`x [mm]`);
+    /// an empty name is that of a column which is not read. Empty where the text has its own.
+    pub names: Vec<String>,
     /// Leave out rows with an empty cell, a NaN or the time stamp of the row before, instead of
     /// refusing the record.
     pub drop_bad: bool,
@@ -272,10 +277,18 @@ fn unpacked_as(kind: Kind, bytes: &[u8], options: &Options) -> Result<Record, Re
 
 fn text_record(bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
     let decoded = encoding::decode(bytes)?;
-    let table = layout::find(&decoded.text, options)?;
+    let text = blanks::as_tabs(&decoded.text);
+    let table = layout::find(&text, options)?;
     let mut notes: Vec<String> = decoded.note.into_iter().collect();
+    if matches!(text, Cow::Owned(_)) {
+        notes.push("blanks separate the columns".to_owned());
+    }
     notes.extend(table.notes);
-    let rows = Source::Text(Box::new(table.rows));
+    let rows = match decoded.is_ended {
+        true => table.rows,
+        false => table.rows.cut_off(),
+    };
+    let rows = Source::Text(Box::new(rows));
     let mut record = record(&table.header, table.roles, rows, options)?;
     notes.append(&mut record.notes);
     record.notes = notes;

@@ -86,6 +86,8 @@ struct Reader<'a> {
     lacking: Lacking,
     /// Rows of several lines.
     carried: usize,
+    /// Cells of the row that was read last.
+    cells: usize,
 }
 
 impl<'a> Reader<'a> {
@@ -104,6 +106,7 @@ impl<'a> Reader<'a> {
             kept: 0,
             lacking: Lacking::default(),
             carried: 0,
+            cells: 0,
         })
     }
 
@@ -132,6 +135,7 @@ impl<'a> Reader<'a> {
         clock: &mut Clock,
         into: &mut Vec<f64>,
     ) -> Result<Sample, RecordError> {
+        self.cells = row.len();
         self.fits(row)?;
         match self.numbers(row, clock, into) {
             Err(error) => match error.bad().filter(|_| self.drop_bad) {
@@ -175,6 +179,14 @@ impl<'a> Reader<'a> {
         }
         self.kept += 1;
         Ok(Sample::At(t))
+    }
+
+    /// Whether an error is that of a row which lacks its end: cells, or the end of its last cell.
+    fn lacks_its_end(&self, error: &RecordError) -> bool {
+        let columns = &self.header.columns;
+        let last = self.cells.checked_sub(1).and_then(|last| columns.get(last));
+        self.cells < columns.len()
+            || last.is_some_and(|last| error.column() == Some(last.name.as_str()))
     }
 
     /// Whether the row has the cells of the header: what is missing has no name, and what is
@@ -236,6 +248,13 @@ pub(super) fn read(
             Err(error) => {
                 let used: Vec<usize> = roles.time.into_iter().chain(roles.read()).collect();
                 let text = rows.text_below(&used).filter(|_| clock.rows() > 0);
+                if text.is_none() && rows.may_be_cut() && reader.lacks_its_end(&error) {
+                    below = Some(format!(
+                        "line {}, the last one, left out: the file ends within it",
+                        rows.line()
+                    ));
+                    break;
+                }
                 let Some(text) = text else {
                     // Thousands in the stamps let time run backwards.
                     rows.check(header)?;

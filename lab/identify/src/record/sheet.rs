@@ -71,6 +71,11 @@ pub(super) fn record(file: Columns, options: &Options) -> Result<Record, RecordE
             "--header-line {line}: the file has no lines; its columns have names already"
         )));
     }
+    if !options.names.is_empty() {
+        return Err(RecordError::new(
+            "--names: the file is no text; its columns have names already",
+        ));
+    }
     let Columns { header, mut stored } = file;
     let roles = roles::assign(&header, options)?;
     let mut columns = vec![Vec::new(); header.columns.len()];

@@ -60,6 +60,14 @@ impl Source<'_> {
         only_text(rest, rows.separator(), used).then(|| rest.split('\n').count())
     }
 
+    /// Whether the file may end within the row that was read last.
+    pub(super) fn may_be_cut(&self) -> bool {
+        match self {
+            Self::Text(rows) => rows.may_be_cut(),
+            Self::Sheet(_) => false,
+        }
+    }
+
     /// Refuses numbers that may be read in two ways.
     pub(super) fn check(&self, header: &Header) -> Result<(), RecordError> {
         match self {
@@ -85,6 +93,14 @@ impl Row<'_> {
         match self {
             Self::Text(row) => row.line,
             Self::Sheet { row, .. } => row + 1,
+        }
+    }
+
+    /// Number of cells; of a file that is no text the number of its columns.
+    pub(super) fn len(&self) -> usize {
+        match self {
+            Self::Text(row) => row.len(),
+            Self::Sheet { columns, .. } => columns.len(),
         }
     }
 

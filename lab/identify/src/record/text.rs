@@ -29,6 +29,8 @@ pub(super) struct Rows<'a> {
     line: usize,
     /// Where the row that was read last begins \[bytes\].
     start: usize,
+    /// Whether the file may end within its last line.
+    may_be_cut: bool,
 }
 
 /// One row: a line, or several if a quoted cell holds line ends.
@@ -65,7 +67,21 @@ impl<'a> Rows<'a> {
             before: 0,
             line: 0,
             start: 0,
+            may_be_cut: false,
         }
+    }
+
+    /// The same rows, of a file whose last line has no end.
+    pub(super) fn cut_off(self) -> Self {
+        Self {
+            may_be_cut: true,
+            ..self
+        }
+    }
+
+    /// Whether the file may end within the row that was read last.
+    pub(super) fn may_be_cut(&self) -> bool {
+        self.may_be_cut && self.rest().0.is_empty()
     }
 
     /// The same rows, numbered behind that many lines of the file.

@@ -180,7 +180,8 @@ fn the_line_of_the_names_can_be_given() {
     );
     assert_eq!(
         refusal(&text, &at(9)),
-        "r.csv:9: the line holds numbers, a header with column names was expected"
+        "r.csv:9: the line holds numbers, a header with column names was expected; \
+         --names t,x,f gives the names of a file without them"
     );
 }
 

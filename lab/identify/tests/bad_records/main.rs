@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod forms;
+mod plain;
 mod signals;
 mod sparse;
 
@@ -172,10 +173,13 @@ fn a_header_that_is_none_is_refused() {
     );
     refused(
         rows().join("\n"),
-        &format!("r.csv:1: the line holds numbers, {header}"),
+        &format!(
+            "r.csv:1: the line holds numbers, {header}; --names t,x,f gives the names of a file \
+             without them"
+        ),
     );
     refused(
-        csv("t,x [mm],x [N]", &rows()),
+        csv("t,x [mm],x [mm]", &rows()),
         "r.csv:1: column `x`: named twice, as columns 2 and 3",
     );
     refused(

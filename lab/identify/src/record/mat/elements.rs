@@ -27,7 +27,9 @@ pub(super) enum Value {
     Cells(Vec<Value>),
     /// An array of structures, each with its fields.
     Structures(Vec<Vec<(String, Value)>>),
-    /// Complex or sparse numbers, objects, functions.
+    /// An object of MATLAB's, a table or a time series, of this class.
+    Object(String),
+    /// Complex or sparse numbers, functions.
     Other,
 }
 
@@ -137,6 +139,8 @@ pub(super) fn variables(file: &[u8]) -> Result<Vec<(String, Value)>, Damage> {
             variables.push(matrix(element.bytes, order, 0)?);
         }
     }
+    // What the objects hold stands behind the variables, without a name.
+    variables.retain(|(name, _)| !name.is_empty());
     Ok(variables)
 }
 
@@ -164,9 +168,12 @@ fn matrix(bytes: &[u8], order: Order, depth: usize) -> Result<(String, Value), D
     }
     let flags = order.u32(flags.bytes);
     let (class, complex) = (flags & 0xff, flags & 0x0800 != 0);
-    // An opaque object (a table, a string) has no dimensions.
+    // An opaque object (a table, a string) has no dimensions: its name, who made it, its class.
     if class == 17 {
-        return Ok((String::new(), Value::Other));
+        let name = text(parts.expect("name")?.bytes);
+        let _ = parts.expect("system of types")?;
+        let class = text(parts.expect("class")?.bytes);
+        return Ok((name, Value::Object(class)));
     }
     let dims = parts.expect("dimensions")?.bytes.chunks_exact(4);
     let dims: Vec<usize> = dims.map(|own| order.u32(own) as usize).collect();
@@ -183,6 +190,7 @@ fn matrix(bytes: &[u8], order: Order, depth: usize) -> Result<(String, Value), D
                 .collect(),
         ),
         2 => Value::Structures(structures(&mut parts, count, depth)?),
+        3 => Value::Object(text(parts.expect("class")?.bytes)),
         4 => Value::Text(characters(&parts.expect("text")?, order, &dims)),
         6..=15 if !complex => {
             let values = numbers(&parts.expect("values")?, order)?;
@@ -332,6 +340,38 @@ mod tests {
         assert_eq!(
             variables(&matrix(4)).unwrap_err(),
             "the file is damaged: `x` has 3 values for 4 places"
+        );
+    }
+
+    #[test]
+    fn an_object_has_a_name_and_a_class_and_what_it_holds_is_no_variable() {
+        let object = [
+            element(6, &words(&[17, 0])),
+            element(1, b"out"),
+            element(1, b"MCOS"),
+            element(1, b"timeseries"),
+        ];
+        let held = [
+            element(6, &words(&[9, 0])),
+            element(5, &words(&[1, 300])),
+            element(1, b""),
+            element(2, &[7; 300]),
+        ];
+        let mut file = vec![b' '; 124];
+        file.extend(b"\x01\x00MI");
+        file.extend(element(14, &object.concat()));
+        file.extend(element(14, &held.concat()));
+        let class = Value::Object("timeseries".to_owned());
+        assert_eq!(variables(&file), Ok(vec![("out".to_owned(), class)]));
+        assert_eq!(
+            super::super::read(&file).err().map(|e| e.message().to_owned()),
+            Some(
+                "no vector of real numbers among the variables `out` (an object: timeseries); one \
+                 vector for each column was expected, alone or as the fields of a structure. MATLAB \
+                 alone reads its objects (tables, time series, outputs of Simulink): take their \
+                 vectors out, as in `t = out.tout; save('r.mat', 't', …)`"
+                    .to_owned()
+            )
         );
     }
 }

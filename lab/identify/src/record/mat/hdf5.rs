@@ -108,8 +108,11 @@ impl File {
         let class = class.and_then(|own| own.read_string().ok());
         // A sparse matrix is a group as well; objects and functions are of other classes.
         let is_sparse = group.attribute("MATLAB_sparse").is_ok();
-        if depth >= DEEPEST || is_sparse || class.is_some_and(|class| class != "struct") {
+        if depth >= DEEPEST || is_sparse {
             return Ok(Value::Other);
+        }
+        if let Some(class) = class.filter(|class| class != "struct") {
+            return Ok(of_class(class));
         }
         let (groups, data) = group.members()?;
         let is_list = |d: &Dataset| is_reference(d) && class_of(d).is_empty();
@@ -184,7 +187,7 @@ impl File {
         ) || class.starts_with("int")
             || class.starts_with("uint");
         if !is_number {
-            return Ok(Value::Other);
+            return Ok(of_class(class));
         }
         let dims = data.shape().iter().rev();
         let dims: Vec<usize> = dims
@@ -210,6 +213,14 @@ fn class_of(data: &Dataset) -> String {
     class
         .and_then(|own| own.read_string().ok())
         .unwrap_or_default()
+}
+
+/// What is neither an array nor a structure: an object, unless it is a function.
+fn of_class(class: String) -> Value {
+    match class.as_str() {
+        "function_handle" | "cell" | "struct" => Value::Other,
+        _ => Value::Object(class),
+    }
 }
 
 fn is_reference(data: &Dataset) -> bool {

@@ -46,16 +46,29 @@ fn vectors(variables: Result<Vec<(String, Value)>, String>) -> Result<Vec<Vector
         let names: Vec<String> = variables
             .iter()
             .filter(|(name, _)| !name.is_empty())
-            .map(|(name, _)| format!("`{}`", name.escape_debug()))
+            .map(|(name, value)| match value {
+                Value::Object(class) => {
+                    let (name, class) = (name.escape_debug(), class.escape_debug());
+                    format!("`{name}` (an object: {class})")
+                }
+                _ => format!("`{}`", name.escape_debug()),
+            })
             .take(24)
             .collect();
         let among = match names.is_empty() {
             true => String::new(),
             false => format!(" among the variables {}", names.join(", ")),
         };
+        let objects = match has_objects(&variables) {
+            true => {
+                ". MATLAB alone reads its objects (tables, time series, outputs of Simulink): \
+                     take their vectors out, as in `t = out.tout; save('r.mat', 't', …)`"
+            }
+            false => "",
+        };
         return Err(RecordError::new(format!(
             "no vector of real numbers{among}; one vector for each column was expected, \
-             alone or as the fields of a structure"
+             alone or as the fields of a structure{objects}"
         )));
     }
     // A name that two have says nothing.
@@ -67,6 +80,15 @@ fn vectors(variables: Result<Vec<(String, Value)>, String>) -> Result<Vec<Vector
         }
     }
     Ok(found)
+}
+
+/// Whether an object of MATLAB's is among variables or their fields.
+fn has_objects(all: &[(String, Value)]) -> bool {
+    all.iter().any(|(_, value)| match value {
+        Value::Object(_) => true,
+        Value::Structures(elements) => elements.iter().any(|own| has_objects(own)),
+        _ => false,
+    })
 }
 
 /// The vectors among variables or fields.
