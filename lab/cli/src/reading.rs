@@ -17,7 +17,7 @@ pub struct Columns {
     /// Torque (tau_i to tau_o) or displacement (x to f); from the columns where silent.
     #[arg(long, value_enum)]
     pub mode: Option<ModeName>,
-    /// Column of the time [s]; `t` or `time` where it is not given.
+    /// Column of the time [s]; `t`, `time` or `timestamp` where it is not given.
     #[arg(long, value_name = "COL")]
     pub time: Option<String>,
     /// Column of the input; `tau_i` or `x` where it is not given.

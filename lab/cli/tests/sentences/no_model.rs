@@ -45,6 +45,26 @@ fn an_input_at_rest_is_told_and_nothing_is_planned_from_its_noise() {
     assert!(!plan.exists());
 }
 
+/// Half a kilogram swings on the joint, and nothing that was measured tells where it is.
+#[test]
+fn a_model_that_misses_much_is_called_poor_and_by_how_much() {
+    let mut rows = sound();
+    let mut swing = 0.0;
+    rows.set(TAU_O, |i, row| {
+        swing = 0.995 * swing + 0.4 * noise(i);
+        row[TAU_O] + swing
+    });
+    let closed = rows.close(&[]);
+    closed.says(&[
+        "No effect of the catalogue explains what the declared model leaves, ",
+        " % of the output's standard deviation held out.",
+        "A model that misses ",
+        " of the output is a poor one.",
+    ]);
+    let closed = sound().close(&[]);
+    assert!(!closed.sentence().contains("a poor one"));
+}
+
 /// The wrong cable is plugged in: a tone is a function of nothing measured.
 #[test]
 fn an_output_that_is_a_sine_at_another_frequency_is_no_model_whatever_a_tone_takes() {

@@ -10,6 +10,9 @@ use crate::search::policy::AT_FLOOR;
 /// difference of less than a twentieth does not show in two digits.
 pub const RISES: f64 = 1.05;
 
+/// A model that misses this share of the output's standard deviation is a poor one. A choice.
+pub const POOR: f64 = 0.2;
+
 /// By how much the delivered model's held-out error exceeds that of the declared one.
 #[must_use]
 pub fn held_out_ratio(ledger: &Ledger, done: &FinalFit) -> f64 {
@@ -26,7 +29,24 @@ pub(super) fn is_worse(ledger: &Ledger, done: &FinalFit) -> bool {
 
 /// Whether the mean of the held-out output would predict it better than the model does.
 pub(super) fn worse_than_a_constant(data: &Prepared, done: &FinalFit) -> bool {
-    done.rmse.normalised(data, &data.target).held_out > 1.0
+    missed(data, done) > 1.0
+}
+
+/// The held-out error as a share of the output's standard deviation.
+pub(super) fn missed(data: &Prepared, done: &FinalFit) -> f64 {
+    done.rmse.normalised(data, &data.target).held_out
+}
+
+/// What is to be said of a model that misses much of the output, and more than noise.
+pub(super) fn poor_words(data: &Prepared, done: &FinalFit) -> Option<String> {
+    let share = missed(data, done);
+    let is_poor = share >= POOR && !floors(data, done).is_some_and(|errors| is_noise(data, errors));
+    is_poor.then(|| {
+        format!(
+            "A model that misses {} of the output is a poor one.",
+            percent(share)
+        )
+    })
 }
 
 /// Whether a round raises the held-out error. The held-out part decides nothing: this is

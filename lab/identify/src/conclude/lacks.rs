@@ -2,7 +2,7 @@
 
 use super::changes::{begins, other_rig};
 use super::errors::{
-    falls_up_to, floors, from_to, held_out_ratio, is_noise, is_worse, names, percent,
+    falls_up_to, floors, from_to, held_out_ratio, is_noise, is_worse, missed, names, percent,
     worse_than_a_constant, RISES,
 };
 use super::final_fit::FinalFit;
@@ -55,15 +55,17 @@ fn beside_a_curve(data: &Prepared, ledger: &Ledger, done: &FinalFit, named: &Seg
 
 fn nothing_found(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     if ledger.is_stopped() {
-        let share = done.rmse.normalised(data, &data.target).held_out;
         return format!(
             "The declared model leaves a held-out error of {} of the output's standard deviation.",
-            percent(share)
+            percent(missed(data, done))
         );
     }
     // What is left is more than noise: the model lacks something all the same.
     match floors(data, done).is_some_and(|errors| !is_noise(data, errors)) {
-        true => "No effect of the catalogue explains what the declared model leaves.".to_owned(),
+        true => format!(
+            "No effect of the catalogue explains what the declared model leaves, {} of the output's standard deviation held out.",
+            percent(missed(data, done))
+        ),
         false => "The declared model lacks no effect that this record could show.".to_owned(),
     }
 }

@@ -8,8 +8,10 @@ use super::by_file::worse;
 use super::changes::{lead, other_line, other_rig, starts_apart, unseen_motion};
 use super::changes::{made_without_input, stands_for_output};
 use super::channel_apart::channel_words;
-pub use super::errors::{falls_up_to, held_out_ratio, percent, raises, RISES};
-use super::errors::{floors, is_noise, is_worse, multiples, names, worse_than_a_constant};
+pub use super::errors::{falls_up_to, held_out_ratio, percent, raises, POOR, RISES};
+use super::errors::{
+    floors, is_noise, is_worse, multiples, names, poor_words, worse_than_a_constant,
+};
 use super::files_apart::{another_zero, apart_words, rigs_words};
 use super::final_fit::FinalFit;
 use super::intervals::term_title;
@@ -247,6 +249,9 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
     if found == Verdict::DataDefect {
         all.extend(apart_words(data, &ledger.apart));
         all.extend(ledger.channel_apart.as_ref().map(channel_words));
+    }
+    if found != Verdict::DoesNotCarryOver {
+        all.extend(poor_words(data, done));
     }
     all.extend(unseen_motion(data, done));
     all.extend(rigs_words(ledger).or_else(|| another_zero(data, &done.solution)));

@@ -121,7 +121,7 @@ fn parts(header: &Header, options: &Options) -> Result<Roles, RecordError> {
 }
 
 /// Usual names of the time, the first of which counts.
-const TIMES: [&str; 2] = ["t", "time"];
+const TIMES: [&str; 3] = ["t", "time", "timestamp"];
 
 /// The column of the time. `T` without a unit may as well be a temperature.
 fn time(header: &Header, options: &Options) -> Result<usize, RecordError> {
@@ -130,7 +130,9 @@ fn time(header: &Header, options: &Options) -> Result<usize, RecordError> {
         let column = &header.columns[*index];
         let unit = column.unit.as_deref();
         column.name == "t"
-            || column.name.eq_ignore_ascii_case("time")
+            || TIMES[1..]
+                .iter()
+                .any(|name| column.name.eq_ignore_ascii_case(name))
             || unit.is_some_and(|unit| unit.contains(':') || units::seconds(Some(unit)).is_some())
     };
     match &options.time {

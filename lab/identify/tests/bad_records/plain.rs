@@ -143,7 +143,7 @@ fn a_file_that_ends_within_a_line_loses_that_line() {
     for end in ["4.00,1.5", "4.00,1.5,", "4.00,1.5,-", "4.00,1.5,2.e", "4"] {
         same(&cut(end), &Options::default(), &[note]);
         // A line that ends is whole, and something else is wrong with it.
-        refusal(&cut(&format!("{end}\n")), &Options::default());
+        refusal(cut(&format!("{end}\n")), &Options::default());
     }
     same(
         &cut("end of file"),

@@ -3,6 +3,7 @@
 use super::CheckFacts;
 use crate::check::{Fitted, Line, Otherwise, Verdict, Way, FAINT, HOLDS, NOISE, NOTHING};
 use crate::conclude::files_apart::is_far;
+use crate::conclude::verdict::POOR;
 use crate::facts::numbers::{number, share as percent, with_interval};
 use std::fmt::Write as _;
 
@@ -50,9 +51,6 @@ pub(super) fn rule(check: &CheckFacts) -> String {
         false => format!("{own}, {noise}"),
     }
 }
-
-/// A model that missed this share of its own record's output is a poor one. A choice.
-const POOR: f64 = 0.2;
 
 /// That a poor model is no better for holding.
 fn was_poor(check: &CheckFacts) -> &'static str {
