@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod bounded;
+mod sampled;
 mod textbook;
 
 use approx::assert_abs_diff_eq;
