@@ -93,6 +93,12 @@
 // Room of a bowden_pid_f64, in words of 64 bits.
 #define BOWDEN_PID_F64_WORDS 40
 
+// Room of a bowden_play_f32, in words of 64 bits.
+#define BOWDEN_PLAY_F32_WORDS 4
+
+// Room of a bowden_play_f64, in words of 64 bits.
+#define BOWDEN_PLAY_F64_WORDS 6
+
 // Room of a bowden_rates_f32, in words of 64 bits.
 #define BOWDEN_RATES_F32_WORDS 10
 
@@ -992,6 +998,18 @@ typedef struct bowden_pid_terms_f64 {
     uint32_t saturated;
 } bowden_pid_terms_f64;
 
+// A play with its state; made by bowden_play_init.
+typedef struct bowden_play_f32 {
+    // Not for use.
+    uint64_t opaque[BOWDEN_PLAY_F32_WORDS];
+} bowden_play_f32;
+
+// A play with its state; made by bowden_play_init.
+typedef struct bowden_play_f64 {
+    // Not for use.
+    uint64_t opaque[BOWDEN_PLAY_F64_WORDS];
+} bowden_play_f64;
+
 // Rates with their state; made by bowden_rates_init.
 typedef struct bowden_rates_f32 {
     // Not for use.
@@ -1448,6 +1466,40 @@ bowden_result bowden_pid_change_f64(struct bowden_pid_f64 *pid,
 // 1 into `latched` while the safe command is out until it is acknowledged, else 0.
 bowden_result bowden_pid_is_latched_f64(const struct bowden_pid_f64 *pid, uint32_t *latched);
 
+// Starts a play of `half_width` at least zero [input unit], see bowden_play_step; at
+// zero the output is the input. `about` may be null.
+bowden_result bowden_play_init_f32(struct bowden_play_f32 *play,
+                                   float half_width,
+                                   struct bowden_about *about);
+
+// One input [input unit]: `output` gets the last output, moved as little as keeps
+// it within the half-width r of the input:
+//
+//     y+ = clamp(y, x - r, x + r)
+//
+// A wobble of the input within 2*r moves nothing: in front of a model with a
+// hysteresis it keeps the sensor's noise from being taken for reversals. The first
+// good sample is taken over as it is. One that is not finite is held:
+// BOWDEN_RESULT_HELD, and the last output, zero before the first.
+bowden_result bowden_play_step_f32(struct bowden_play_f32 *play, float input, float *output);
+
+// Starts a play of `half_width` at least zero [input unit], see bowden_play_step; at
+// zero the output is the input. `about` may be null.
+bowden_result bowden_play_init_f64(struct bowden_play_f64 *play,
+                                   double half_width,
+                                   struct bowden_about *about);
+
+// One input [input unit]: `output` gets the last output, moved as little as keeps
+// it within the half-width r of the input:
+//
+//     y+ = clamp(y, x - r, x + r)
+//
+// A wobble of the input within 2*r moves nothing: in front of a model with a
+// hysteresis it keeps the sensor's noise from being taken for reversals. The first
+// good sample is taken over as it is. One that is not finite is held:
+// BOWDEN_RESULT_HELD, and the last output, zero before the first.
+bowden_result bowden_play_step_f64(struct bowden_play_f64 *play, double input, double *output);
+
 // Starts rates: two lags of `time_constant` above zero [s], see
 // bowden_rates_step.
 //
@@ -1531,6 +1583,8 @@ BOWDEN_ASSERT_SIZE(bowden_inverse_f32, BOWDEN_INVERSE_F32_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_inverse_f64, BOWDEN_INVERSE_F64_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_rates_f32, BOWDEN_RATES_F32_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_rates_f64, BOWDEN_RATES_F64_WORDS);
+BOWDEN_ASSERT_SIZE(bowden_play_f32, BOWDEN_PLAY_F32_WORDS);
+BOWDEN_ASSERT_SIZE(bowden_play_f64, BOWDEN_PLAY_F64_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_adaptive_f32, BOWDEN_ADAPTIVE_F32_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_adaptive_f64, BOWDEN_ADAPTIVE_F64_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_model_f32, BOWDEN_MODEL_F32_WORDS);

@@ -25,6 +25,7 @@ mod model;
 mod object;
 mod parts;
 mod pid;
+mod play;
 mod rates;
 mod result;
 
@@ -34,6 +35,7 @@ pub use hysteresis::*;
 pub use model::*;
 pub use parts::*;
 pub use pid::*;
+pub use play::*;
 pub use rates::*;
 pub use result::*;
 

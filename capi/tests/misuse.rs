@@ -69,6 +69,8 @@ fn a_null_pointer_is_told_at_every_place() {
             bowden_compensator_step_f64(null_mut(), null(), null_mut()),
             bowden_rates_init_f64(null_mut(), 0.01, 0.0, 0.0, null_mut()),
             bowden_rates_step_f64(null_mut(), 0.0, 0.001, null_mut()),
+            bowden_play_init_f64(null_mut(), 0.5, null_mut()),
+            bowden_play_step_f64(null_mut(), 0.0, null_mut()),
             bowden_cable_init_f64(null_mut(), null(), null_mut()),
             bowden_cable_step_f64(null_mut(), 0.0, null_mut()),
             bowden_inverse_init_f64(null_mut(), null(), null_mut()),
@@ -195,6 +197,26 @@ fn a_setting_that_is_refused_is_named_and_the_object_is_as_it_was() {
     let mut about = blank();
     let made = unsafe { bowden_pid_init_f32(&mut running, &settings(), &mut about) };
     assert_eq!((made, text(&about)), (R::Ok, String::new()));
+}
+
+#[test]
+fn a_half_width_that_is_refused_is_named_and_the_play_is_as_it_was() {
+    let (mut play, mut y) = (blank::<bowden_play_f32>(), 0.0);
+    unsafe {
+        bowden_play_init_f32(&mut play, 0.5, null_mut());
+        bowden_play_step_f32(&mut play, 2.0, &mut y);
+    }
+    let words = play.opaque;
+    for (half_width, code) in [
+        (-0.5, bowden_result::ErrorOutOfRange),
+        (f32::NAN, bowden_result::ErrorNonFinite),
+        (f32::INFINITY, bowden_result::ErrorNonFinite),
+    ] {
+        let mut about = blank();
+        let made = unsafe { bowden_play_init_f32(&mut play, half_width, &mut about) };
+        assert_eq!((made, text(&about).as_str()), (code, "half_width"));
+        assert_eq!(play.opaque, words);
+    }
 }
 
 /// A model whose sigma is above what can be turned round.

@@ -10,7 +10,7 @@ use core_bowden::control::{
     AntiWindup, Damping, Fallback, Limits, Pid, PidInput, PidSettings, PidState, Status,
 };
 use core_bowden::hysteresis::{BoucWen, Shape};
-use core_bowden::signal::{Rates, RatesState};
+use core_bowden::signal::{Play, PlayState, Rates, RatesState};
 use core_bowden::transmission::Transmission;
 use objects::blank;
 use signal::Signal;
@@ -285,4 +285,48 @@ rates!(
     bowden_rates_output_f64,
     bowden_rates_init_f64,
     bowden_rates_step_f64
+);
+
+macro_rules! play {
+    ($name:ident, $f:ident, $object:ident, $init:ident, $step:ident) => {
+        #[test]
+        fn $name() {
+            for half_width in [0.0, 0.5, 2.5] {
+                let own = Play::<$f>::try_new(half_width).unwrap();
+                let mut state = PlayState::new();
+                let mut play = blank::<$object>();
+                let tried = unsafe { $init(&mut play, half_width, null_mut()) };
+                assert_eq!(tried, bowden_result::Ok);
+                let mut signal = Signal::new();
+                // Bad samples before the first good one as well.
+                let early = [<$f>::NAN, <$f>::INFINITY];
+                let then = (0..4000).map(|k| signal.measured(k) as $f);
+                for (k, x) in early.into_iter().chain(then).enumerate() {
+                    let mut y = 7.0;
+                    let wanted = if x.is_finite() {
+                        bowden_result::Ok
+                    } else {
+                        bowden_result::Held
+                    };
+                    assert_eq!(unsafe { $step(&mut play, x, &mut y) }, wanted, "{k}");
+                    assert_eq!(y.to_bits(), own.step(&mut state, x).to_bits(), "{k}");
+                    assert!(k >= 2 || y == 0.0, "{y}");
+                }
+            }
+        }
+    };
+}
+play!(
+    a_play_in_f32,
+    f32,
+    bowden_play_f32,
+    bowden_play_init_f32,
+    bowden_play_step_f32
+);
+play!(
+    a_play_in_f64,
+    f64,
+    bowden_play_f64,
+    bowden_play_init_f64,
+    bowden_play_step_f64
 );

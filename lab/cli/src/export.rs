@@ -13,8 +13,8 @@ pub struct Export {
     /// As a C header that needs the library of capi/ alone.
     #[arg(long, required = true)]
     c: bool,
-    /// Write a file instead of stdout; its name, with a letter from a to z, is the prefix of
-    /// all names in it.
+    /// Write a file instead of stdout; its name, with a letter from a to z or a Greek one, is
+    /// the prefix of all names in it.
     #[arg(long, value_name = "FILE.h")]
     out: Option<PathBuf>,
 }

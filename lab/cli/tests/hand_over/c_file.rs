@@ -64,7 +64,7 @@ fn names_that_are_none_in_c_become_some_and_no_text_leaves_its_comment() {
     for line in [
         "#define MODEL_0_RIG_CHANNEL_PHI_P 0 /* phi p [no unit] */",
         "#define MODEL_0_RIG_CHANNEL_PHI_P_1 1 /* phi-p [no unit] */",
-        "#define MODEL_0_RIG_CHANNEL_MODEL 3 /* µ [no unit] */",
+        "#define MODEL_0_RIG_CHANNEL_U 3 /* µ [no unit] */",
     ] {
         assert!(header.contains(line), "{header}");
     }
@@ -132,6 +132,24 @@ fn written(text: &str, folder: &Path, name: &str) -> Result<String, String> {
     Err(String::from_utf8(output.stderr).unwrap())
 }
 
+#[test]
+fn a_play_before_the_model_has_its_name_and_half_width_in_c() {
+    let text = nasty("\"x\"", &term("x")).replace(
+        "[about.units]",
+        "[about.play]\nhalf_width = 0.081\nheld_out_causal = 0.026\n[about.units]",
+    );
+    let (done, header) = exported(&text);
+    assert!(done, "{header}");
+    for line in [
+        " * The same with the input behind bowden_play of half-width 0.081: 2.60 %.\n",
+        "#define MODEL_0_RIG_PLAY_HALF_WIDTH_F32 0.081f\n",
+        "#define MODEL_0_RIG_PLAY_HALF_WIDTH_F64 0.081\n",
+    ] {
+        assert!(header.contains(line), "{header}");
+    }
+    assert!(!header.contains("signal::"), "{header}");
+}
+
 /// The macros of a header, sorted: name and value.
 fn defined(header: &str) -> Vec<(String, String)> {
     let lines = header.lines().filter_map(|l| l.strip_prefix("#define "));
@@ -155,7 +173,28 @@ fn no_macro_of_a_header_is_defined_twice_and_a_name_of_its_own_is_kept() {
         (&["a", "A", "a_1"], &[("A", 0), ("A_1_1", 1), ("A_1", 2)]),
         (&["A", "a", "a-1", "a_1_1"], &[("A_1", 2), ("A_1_1", 3)]),
         (&["s", "S", "s_0", "s_1"], &[("S_0", 2), ("S_1", 3)]),
-        (&["µ", "ν", "model", "MODEL_1", "model_2"], &[("MODEL", 0)]),
+        (
+            &["キ", "_", "model", "2", "1", "12"],
+            &[
+                ("0", 0),
+                ("1_1", 1),
+                ("MODEL", 2),
+                ("2", 3),
+                ("1", 4),
+                ("12", 5),
+            ],
+        ),
+        (
+            &["µ", "ν", "φ_p", "Δphi", "_tau", "u"],
+            &[
+                ("U", 0),
+                ("NU", 1),
+                ("PHI_P", 2),
+                ("DELTAPHI", 3),
+                ("TAU", 4),
+                ("U_5", 5),
+            ],
+        ),
     ] {
         let listed: Vec<String> = channels.iter().map(|name| format!("\"{name}\"")).collect();
         let (done, header) = exported(&nasty(&listed.join(", "), &term(channels[0])));
@@ -176,16 +215,27 @@ fn no_macro_of_a_header_is_defined_twice_and_a_name_of_its_own_is_kept() {
 fn a_file_name_without_a_letter_is_refused_in_one_line_that_says_which_work() {
     let folder = tempfile::tempdir().unwrap();
     let text = nasty("\"x\"", &term("x"));
-    for name in ["1.h", "µ.h", "_-_.h", "キ.h"] {
+    for name in ["1.h", "_-_.h", "キ.h"] {
         let words = written(&text, folder.path(), name).unwrap_err();
         assert_eq!(words.lines().count(), 1, "{words}");
-        assert!(words.contains("a letter from a to z"), "{words}");
+        assert!(
+            words.contains("a letter from a to z, or a Greek one,"),
+            "{words}"
+        );
         assert!(words.contains(name), "{words}");
     }
     // It would have the functions of the library, as bowden_model.h would.
     let words = written(&text, folder.path(), "bowden-model.h").unwrap_err();
     assert!(words.contains("a name of the library's own"), "{words}");
-    for (name, prefix) in [("1a.h", "model_1a"), ("µm.h", "_m"), ("Rig 1.h", "rig_1")] {
+    for (name, prefix) in [
+        ("1a.h", "model_1a"),
+        ("µm.h", "um"),
+        ("μm.h", "um"),
+        ("θ_d.h", "theta_d"),
+        ("-x.h", "x"),
+        ("_1.キa.h", "model_1__a"),
+        ("Rig 1.h", "rig_1"),
+    ] {
         let header = written(&text, folder.path(), name).unwrap();
         assert!(header.contains(&format!(" {prefix}_load_f32(")), "{header}");
         // The comment says from where the prefix is.

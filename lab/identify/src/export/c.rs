@@ -1,15 +1,12 @@
 //! The model as a C header that needs the library alone: its bytes, and what loads them.
 
+use super::c_names::{macros, prefix};
 use super::firmware::{bytes_in_double, postcard, CHECKSUM};
 use super::{About, ModelFile, Span};
-use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 /// Terms and channels that the C interface has room for: `BOWDEN_TERMS`, `BOWDEN_CHANNELS`.
 const MOST: usize = 16;
-
-/// Prefixes with which the header would have names that `bowden.h` has itself.
-const TAKEN: [&str; 2] = ["bowden", "bowden_model"];
 
 /// Bytes on a line.
 const ON_A_LINE: usize = 16;
@@ -53,6 +50,21 @@ impl ModelFile {
                 number(tau, false)
             );
         }
+        if let Some(play) = &about.play {
+            line!(
+                body,
+                "/* Half-width of bowden_play_init, before the input [{}]. */",
+                commented(about.unit("input"))
+            );
+            for (suffix, is_single) in [("F32", true), ("F64", false)] {
+                let half_width = number(play.half_width, is_single);
+                line!(
+                    body,
+                    "#define {upper}_PLAY_HALF_WIDTH_{suffix} {half_width}"
+                );
+            }
+            line!(body, "");
+        }
         for (is_single, bytes) in [(true, single), (false, double)] {
             self.in_one_precision(about, &lower, is_single, &bytes, &mut body);
         }
@@ -89,7 +101,7 @@ impl ModelFile {
         );
         if self.about.is_some() {
             // The lines of the Rust file, without its marks of a comment.
-            for line in super::rust::origin(about).lines() {
+            for line in super::rust::origin(about, "bowden_play").lines() {
                 line!(text, "{}", line.trim_start_matches("//!").trim_start());
             }
             line!(text, "Feed-forward: {}.", about.feed_forward);
@@ -223,30 +235,6 @@ fn number(value: f64, is_single: bool) -> String {
     }
 }
 
-/// What the names in a C header of this file name (without its ending) begin with.
-///
-/// Several file names may have one prefix (`rig-1`, `rig_1`, `RIG 1`); where two such headers
-/// with different contents meet, the compiler says so.
-///
-/// # Errors
-/// What else was expected, where there is no ASCII letter, or the names would be the library's.
-pub fn prefix(name: &str) -> Result<String, String> {
-    if !name.contains(|c: char| c.is_ascii_alphabetic()) {
-        return Err(
-            "names of C are made from this name: one with a letter from a to z was expected, such as rig or rig_1"
-                .to_owned(),
-        );
-    }
-    let prefix = identifier(name).to_lowercase();
-    if TAKEN.contains(&prefix.as_str()) {
-        return Err(
-            "is a name of the library's own, and what is named after it would be there twice; another one was expected"
-                .to_owned(),
-        );
-    }
-    Ok(prefix)
-}
-
 /// What is included once; another header of the same prefix beside it is an error, not silence.
 fn guarded(upper: &str, body: &str) -> String {
     let guard = format!("BOWDEN_MODEL_{upper}_H");
@@ -265,40 +253,6 @@ fn guarded(upper: &str, body: &str) -> String {
     out += body;
     line!(out, "#endif /* {guard} */");
     out
-}
-
-/// The names of the channels in macros, each another one.
-fn macros(channels: &[String]) -> Vec<String> {
-    let upper = channels.iter().map(|name| identifier(name).to_uppercase());
-    let upper: Vec<String> = upper.collect();
-    // No `CHANNEL_S`, which is easily read as `CHANNELS`.
-    let mut taken = BTreeSet::from(["S".to_owned()]);
-    taken.extend(upper.iter().cloned());
-    let mut names = Vec::new();
-    for (index, own) in upper.iter().enumerate() {
-        let mut own = own.clone();
-        // The first channel of a name has it; what the others become is nobody's name.
-        if own == "S" || upper.iter().position(|other| *other == own) != Some(index) {
-            while !taken.insert(own.clone()) {
-                own = format!("{own}_{index}");
-            }
-        }
-        names.push(own);
-    }
-    names
-}
-
-/// A name of C; of a name without any letter or digit, `model`.
-fn identifier(name: &str) -> String {
-    let kept = name
-        .chars()
-        .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
-    let kept: String = kept.collect();
-    match kept.chars().find(|c| *c != '_') {
-        None => "model".to_owned(),
-        Some(_) if kept.starts_with(|c: char| c.is_ascii_digit()) => format!("model_{kept}"),
-        Some(_) => kept,
-    }
 }
 
 /// A text that neither ends a comment of C nor opens another.

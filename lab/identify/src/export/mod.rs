@@ -7,6 +7,7 @@
 mod about;
 mod after_steps;
 mod c;
+mod c_names;
 pub mod causal;
 pub mod clockwork;
 mod firmware;
@@ -16,7 +17,7 @@ mod rust;
 pub mod vector;
 
 pub use about::{About, Errors, LeftOut, NotIdentified, PlayBefore, Span};
-pub use c::prefix;
+pub use c_names::prefix;
 pub use firmware::{postcard, CHECKSUM};
 
 use crate::fit::Solution;

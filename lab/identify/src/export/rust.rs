@@ -27,7 +27,8 @@ fn number(value: f64) -> String {
 }
 
 /// Where the model came from, what it is worth, and what it lacks.
-pub(super) fn origin(about: &About) -> String {
+/// `play` is the name of the play operator where the file is read.
+pub(super) fn origin(about: &About, play: &str) -> String {
     let mut out = String::new();
     let (cutoff, rate) = (about.cutoff_hz, about.rate_hz);
     line!(
@@ -53,12 +54,12 @@ pub(super) fn origin(about: &About) -> String {
             per_cent(causal)
         );
     }
-    if let Some(play) = &about.play {
+    if let Some(before) = &about.play {
         line!(
             out,
-            "//! The same with the input behind `signal::Play` of half-width {}: {}.",
-            number(play.half_width),
-            per_cent(play.held_out_causal)
+            "//! The same with the input behind {play} of half-width {}: {}.",
+            number(before.half_width),
+            per_cent(before.held_out_causal)
         );
     }
     for part in &about.left_out {
@@ -143,7 +144,7 @@ impl ModelFile {
             ),
         }
         if self.about.is_some() {
-            out.push_str(&origin(about));
+            out.push_str(&origin(about, "`signal::Play`"));
             line!(out, "//! Feed-forward: {}.", about.feed_forward);
             line!(out, "//!");
             line!(

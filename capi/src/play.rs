@@ -1,0 +1,71 @@
+//! Play in front of a hysteresis, which the noise of its input would turn.
+
+use crate::object::{kept, start, writable, write, Object};
+use crate::result::{bowden_about, bowden_result, code, told, Refused};
+use core_bowden::signal::{Play, PlayState};
+
+/// Room of a bowden_play_f32, in words of 64 bits.
+pub const BOWDEN_PLAY_F32_WORDS: usize = 4;
+/// Room of a bowden_play_f64, in words of 64 bits.
+pub const BOWDEN_PLAY_F64_WORDS: usize = 6;
+
+macro_rules! play {
+    ($f:ident, $magic:literal) => {
+        pastey::paste! {
+            /// A play with its state; made by bowden_play_init.
+            #[repr(C)]
+            pub struct [<bowden_play_ $f>] {
+                /// Not for use.
+                pub opaque: [u64; [<BOWDEN_PLAY_ $f:upper _WORDS>]],
+            }
+
+            // SAFETY: `repr(C)` of one array of u64.
+            unsafe impl Object for [<bowden_play_ $f>] {
+                type Inner = (Play<$f>, PlayState<$f>);
+                const MAGIC: u64 = $magic;
+            }
+
+            /// Starts a play of `half_width` at least zero [input unit], see bowden_play_step; at
+            /// zero the output is the input. `about` may be null.
+            #[no_mangle]
+            pub unsafe extern "C" fn [<bowden_play_init_ $f>](
+                play: *mut [<bowden_play_ $f>],
+                half_width: $f,
+                about: *mut bowden_about,
+            ) -> bowden_result {
+                let parts = || -> Result<_, Refused> {
+                    Ok((Play::try_new(half_width)?, PlayState::new()))
+                };
+                // SAFETY: the caller's rule of pointers.
+                unsafe { told(parts().and_then(|inner| Ok(start(play, inner)?)), about) }
+            }
+
+            /// One input [input unit]: `output` gets the last output, moved as little as keeps
+            /// it within the half-width r of the input:
+            ///
+            ///     y+ = clamp(y, x - r, x + r)
+            ///
+            /// A wobble of the input within 2*r moves nothing: in front of a model with a
+            /// hysteresis it keeps the sensor's noise from being taken for reversals. The first
+            /// good sample is taken over as it is. One that is not finite is held:
+            /// BOWDEN_RESULT_HELD, and the last output, zero before the first.
+            #[no_mangle]
+            pub unsafe extern "C" fn [<bowden_play_step_ $f>](
+                play: *mut [<bowden_play_ $f>],
+                input: $f,
+                output: *mut $f,
+            ) -> bowden_result {
+                // SAFETY: the caller's rule of pointers.
+                code((|| unsafe {
+                    writable(output)?;
+                    let (own, state) = kept(play)?;
+                    let value = own.step(state, input);
+                    write(output, value)?;
+                    Ok(if input.is_finite() { bowden_result::Ok } else { bowden_result::Held })
+                })())
+            }
+        }
+    };
+}
+play!(f32, 0x706c_6179_6633_3220);
+play!(f64, 0x706c_6179_6636_3420);
