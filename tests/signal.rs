@@ -1,7 +1,9 @@
 //! Signal conditioning: what it promises for good samples and for bad ones.
 
 use approx::assert_abs_diff_eq;
-use bowden::signal::{clamp, Derivative, DerivativeState, Guard, GuardState, Play, PlayState};
+use bowden::signal::{
+    clamp, Derivative, DerivativeState, Guard, GuardState, Play, PlayState, Rates, RatesState,
+};
 use bowden::Error;
 use proptest::prelude::*;
 
@@ -65,6 +67,28 @@ fn bad_samples_leave_the_play_and_the_derivative_untouched() {
         assert_eq!(derivative.step(&mut d, 0.0, dt), held_d.rate());
     }
     assert_eq!((p, d), (held_p, held_d));
+}
+
+#[test]
+fn the_time_of_a_bad_sample_belongs_to_the_dt_of_the_next_good_one() {
+    let derivative = Derivative::try_new(0.0).unwrap();
+    for (dt, rate) in [(1e-3, 20.0), (2e-3, 10.0)] {
+        let mut state = DerivativeState::new();
+        derivative.step(&mut state, 0.00, 1e-3);
+        derivative.step(&mut state, 0.01, 1e-3);
+        // 10 a second; the sample at 2 ms is lost, that at 3 ms is good.
+        derivative.step(&mut state, f64::NAN, 1e-3);
+        let found = derivative.step(&mut state, 0.03, dt);
+        assert!((found - rate).abs() < 1e-9, "{found}");
+    }
+    // `Rates` adds it by itself.
+    let rates = Rates::try_new(1e-6).unwrap();
+    let mut state = RatesState::new();
+    for position in [0.00, 0.01, f64::NAN, 0.03] {
+        rates.step(&mut state, position, 1e-3);
+    }
+    let velocity = rates.step(&mut state, 0.04, 1e-3).motion.velocity;
+    assert!((velocity - 10.0).abs() < 1e-6, "{velocity}");
 }
 
 #[test]

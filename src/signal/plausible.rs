@@ -176,10 +176,12 @@ impl<T: Real> Plausible<T> {
         }
     }
 
-    /// The same where a `dt` longer than this one \[s\] counts as this one.
+    /// The same where a `dt` longer than this one \[s\], or one that cannot be used, counts as
+    /// this one.
     ///
-    /// A counter that wrapped says that an hour has passed, in which any signal may have moved
-    /// anywhere: one spike is believed then, and every true sample after it is too fast.
+    /// A counter that wrapped says that an hour has passed, or that time ran back; any signal may
+    /// have moved anywhere meanwhile: one spike is believed then, and every true sample after it
+    /// is too fast.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"longest_dt"`.
@@ -191,8 +193,12 @@ impl<T: Real> Plausible<T> {
     /// Checks a sample that came `dt` \[s\] after the one before.
     ///
     /// `moves`: whether the machine moves, so that the signal has to: the command changes, or
-    /// another sensor does. A `dt` that cannot be used makes the gap unknown: the next sample
-    /// may be anywhere in the range.
+    /// another sensor does.
+    ///
+    /// A `dt` of zero is no time: at a rate, the last plausible number alone is plausible. One that
+    /// is negative, NaN or infinite counts as [`with_longest_dt`](Self::with_longest_dt) says;
+    /// without that the time is unknown, and any sample in the range is plausible until one was
+    /// taken. A sample that is not finite never is, whatever `dt`.
     #[inline]
     pub fn step(
         &self,
@@ -201,10 +207,11 @@ impl<T: Real> Plausible<T> {
         dt: T,
         moves: bool,
     ) -> PlausibleOutput<T> {
-        let dt = if dt > self.longest_dt && dt.is_finite() {
-            self.longest_dt
-        } else {
+        // Written so that NaN is not within.
+        let dt = if dt >= T::ZERO && dt <= self.longest_dt {
             dt
+        } else {
+            self.longest_dt
         };
         let elapsed = gap_after(state.gap, dt, T::HIGHEST);
         let fault = self.fault(state, sample, elapsed, moves);

@@ -68,6 +68,38 @@ fn a_sample_is_plausible_within_its_range_and_its_rate() {
 }
 
 #[test]
+fn a_dt_of_zero_is_no_time_and_one_that_cannot_be_used_an_unknown_or_the_longest() {
+    let plausible = Plausible::try_new(-10.0, 10.0)
+        .and_then(|p| p.with_rate(100.0))
+        .unwrap();
+    let bounded = plausible.with_longest_dt(0.005).unwrap();
+    for dt in [-0.001, -4295.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let (mut of_any, mut of_longest) = (PlausibleState::new(), PlausibleState::new());
+        for (own, state) in [(&plausible, &mut of_any), (&bounded, &mut of_longest)] {
+            own.step(state, 1.0, 0.001, true);
+            // In no time nothing has moved; the number of before is still one.
+            let moved = own.step(state, 1.01, 0.0, true);
+            assert_eq!(moved.fault, Some(Implausible::TooFast));
+            assert_eq!(own.step(state, 1.0, 0.0, true).fault, None);
+            // No dt lets through what is no number.
+            for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                let output = own.step(state, bad, dt, true);
+                assert_eq!(output.fault, Some(Implausible::NotFinite), "{dt}");
+                assert!(output.value.is_nan());
+            }
+        }
+        // Of an unknown time any sample in the range, and none outside of it.
+        let outside = plausible.step(&mut of_any, 11.0, dt, true);
+        assert_eq!(outside.fault, Some(Implausible::OutOfRange));
+        assert_eq!(plausible.step(&mut of_any, -9.0, dt, true).fault, None);
+        // Else each is 5 ms: 2.0 by now, and a spike is none that is believed.
+        let spike = bounded.step(&mut of_longest, -9.0, dt, true);
+        assert_eq!(spike.fault, Some(Implausible::TooFast), "{dt}");
+        assert_eq!(bounded.step(&mut of_longest, 1.1, 0.001, true).fault, None);
+    }
+}
+
+#[test]
 fn a_frozen_sensor_is_told_while_the_machine_moves_only() {
     let plausible = Plausible::try_new(-10.0, 10.0).unwrap().with_stuck_after(5);
     let mut state = PlausibleState::new();
