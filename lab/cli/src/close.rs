@@ -77,11 +77,7 @@ impl Close {
         let meter = Meter::start();
         let bar = progress();
         bar.set_message("reading");
-        let records = self.read(&asked)?;
-        let sources = match self.drawing.is_page() {
-            true => self.sources()?,
-            false => Vec::new(),
-        };
+        let (records, sources) = self.read(&asked)?;
         let chosen_cutoff = asked.cutoff.is_some();
         let wide = terminal_width().is_some_and(|width| width >= WIDE);
         let draws_loop = !self.json && wide && std::io::stdout().is_terminal();
@@ -159,18 +155,19 @@ impl Close {
         outputs::check(&read, &outputs)
     }
 
-    /// What is read, with its hash.
-    fn sources(&self) -> Result<Vec<Source>, Failure> {
-        match self.records.is_empty() {
-            true => Ok(vec![Source::of_bytes(EMBEDDED, stored_csv().as_bytes())]),
-            false => self.records.iter().map(|p| Source::of_file(p)).collect(),
+    /// The records; for a page, with the hashes of what was read.
+    fn read(&self, asked: &Asked) -> Result<(Vec<Record>, Vec<Source>), Failure> {
+        if self.records.is_empty() {
+            let stored = stored_csv();
+            let record = asked.read_text(stored.as_bytes(), EMBEDDED)?;
+            return Ok((
+                vec![record],
+                vec![Source::of_bytes(EMBEDDED, stored.as_bytes())],
+            ));
         }
-    }
-
-    fn read(&self, asked: &Asked) -> Result<Vec<Record>, Failure> {
-        match self.records.is_empty() {
-            true => Ok(vec![asked.read_text(stored_csv().as_bytes(), EMBEDDED)?]),
-            false => asked.read_together(&self.records),
+        match self.drawing.is_page() {
+            true => asked.read_together_with_sources(&self.records),
+            false => Ok((asked.read_together(&self.records)?, Vec::new())),
         }
     }
 }

@@ -102,16 +102,19 @@ pub fn run() -> Result<ExitCode, Failure> {
 /// failure.
 fn say(text: &str) -> Result<(), Failure> {
     use std::io::Write as _;
-    match writeln!(anstream::stdout(), "{text}") {
-        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(format!("stdout: {e}")),
-        _ => Ok(()),
-    }
+    unless_gone(writeln!(anstream::stdout(), "{text}"))
 }
 
 /// Bytes on stdout as they are; a reader that has gone away (`| head`) is no failure.
 fn pour(bytes: &[u8]) -> Result<(), Failure> {
     use std::io::Write as _;
-    match std::io::stdout().write_all(bytes) {
+    let mut out = std::io::stdout();
+    unless_gone(out.write_all(bytes).and_then(|()| out.flush()))
+}
+
+/// Whether it was written, or its reader has gone away; else why not, such as a full disk.
+fn unless_gone(written: std::io::Result<()>) -> Result<(), Failure> {
+    match written {
         Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(format!("stdout: {e}")),
         _ => Ok(()),
     }

@@ -10,8 +10,18 @@ pub fn arguments() -> Result<Arguments, Failure> {
         .and_then(|mut all| Arguments::from_arg_matches_mut(&mut all));
     matches.map_err(|error| match error.use_stderr() {
         true => one_line(&error.render().to_string()),
-        false => error.exit(),
+        false => printed(&error),
     })
+}
+
+/// Prints help or version and ends the process; the line where that cannot be written.
+fn printed(error: &clap::Error) -> Failure {
+    use std::io::Write as _;
+    let written = error.print().and_then(|()| std::io::stdout().flush());
+    match super::unless_gone(written) {
+        Ok(()) => std::process::exit(0),
+        Err(line) => line,
+    }
 }
 
 /// The program's command. The number behind an option may be negative: it is then refused as a

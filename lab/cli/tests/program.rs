@@ -366,3 +366,94 @@ fn a_model_file_is_whole_or_absent_and_reads_back_to_the_same_model() {
         "{left:?}"
     );
 }
+
+/// A full disk, where the system has one to try.
+#[cfg(target_os = "linux")]
+#[test]
+fn whatever_is_printed_on_a_full_disk_is_one_line_and_status_two() {
+    for arguments in [
+        &["--version"][..],
+        &["--help"],
+        &["close", "--help"],
+        &["help", "terms"],
+        &["certify"],
+        &["generate", "--mode", "torque"],
+    ] {
+        let full = std::fs::File::options().write(true).open("/dev/full");
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_bowden"))
+            .args(arguments)
+            .stdout(full.unwrap())
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        let line = text(&output.stderr);
+        assert_eq!(line.lines().count(), 1, "{arguments:?}: {line}");
+        assert!(line.starts_with("bowden: stdout: "), "{line}");
+    }
+    // Elsewhere both are printed as ever.
+    for asked in ["--version", "--help"] {
+        let output = bowden(&[asked]);
+        assert_eq!(output.status.code(), Some(0));
+        assert!(text(&output.stdout).contains("bowden") && output.stderr.is_empty());
+    }
+}
+
+/// JSON is UTF-8: docs/json.md says what becomes of another path.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_path_that_is_no_utf_8_is_read_and_has_the_sign_for_that_in_the_json() {
+    use std::os::unix::ffi::OsStrExt as _;
+    let folder = tempfile::tempdir().unwrap();
+    let plain = record(&folder, "plain.csv", &["--mode", "torque"]);
+    let foreign = folder
+        .path()
+        .join(std::ffi::OsStr::from_bytes(b"l\xe4uft.csv"));
+    std::fs::copy(&plain, &foreign).unwrap();
+    let closed = |path: &std::path::Path| {
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_bowden"))
+            .args(["close", "--rounds", "0", "--json"])
+            .arg(path)
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(0));
+        output.stdout
+    };
+    let found = closed(&foreign);
+    let own: serde_json::Value = serde_json::from_slice(&found).unwrap();
+    let there = own["record"]["path"].as_str().unwrap();
+    assert!(there.ends_with("/l\u{fffd}uft.csv"), "{there}");
+    // All else is as of any other name.
+    let expected = without_seconds(&closed(plain.as_ref()));
+    let expected = expected.replace("plain.csv", "l\u{fffd}uft.csv");
+    assert_eq!(without_seconds(&found), expected);
+    let documented = include_str!("../../../docs/json.md");
+    assert!(documented.contains("U+FFFD"));
+}
+
+/// What comes through a pipe comes once: a page must have its hash from that reading.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_page_of_a_record_through_a_pipe_has_the_hash_of_what_came() {
+    let folder = tempfile::tempdir().unwrap();
+    let plain = record(&folder, "plain.csv", &["--mode", "torque"]);
+    let page = |record: &str, name: &str| {
+        let page = folder.path().join(name).display().to_string();
+        let output = bowden(&["close", record, "--rounds", "0", "--report", &page]);
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        std::fs::read_to_string(page).unwrap()
+    };
+    let pipe = folder.path().join("pipe.csv").display().to_string();
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.unwrap().success());
+    let content = std::fs::read(&plain).unwrap();
+    let writer = {
+        let pipe = pipe.clone();
+        std::thread::spawn(move || std::fs::write(pipe, content))
+    };
+    let of_pipe = page(&pipe, "pipe.html");
+    writer.join().unwrap().unwrap();
+    let of_file = page(&plain, "file.html");
+    let is_hash = |word: &&str| word.len() == 64 && word.bytes().all(|b| b.is_ascii_hexdigit());
+    let hash = of_file.split(['<', '>']).find(is_hash).unwrap();
+    assert!(of_pipe.contains(hash));
+}

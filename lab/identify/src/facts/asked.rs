@@ -1,5 +1,6 @@
 //! How records are read, and the options that all questions to the search share.
 
+use super::source::{read_with_source, Source};
 use crate::ledger::Ledger;
 use crate::model::declared::structure;
 use crate::model::structure::Structure;
@@ -40,6 +41,15 @@ impl Asked {
         read(path, &self.options)
     }
 
+    /// Reads a record, with the hash of those very bytes: a file may change while it is read, and
+    /// what comes through a pipe comes once.
+    ///
+    /// # Errors
+    /// The refusal, with its place.
+    pub fn read_with_source(&self, path: &Path) -> Result<(Record, Source), RecordError> {
+        read_with_source(path, &self.options)
+    }
+
     /// Reads a record that is in memory; `label` stands for the name of its file.
     ///
     /// # Errors
@@ -54,16 +64,37 @@ impl Asked {
     /// One line that names the file; also if a file, or one with the same samples, is given
     /// twice, if two files disagree on their columns, or if there are too many.
     pub fn read_together(&self, paths: &[PathBuf]) -> Result<Vec<Record>, String> {
+        Self::all_of(paths, |path| self.read(path))
+    }
+
+    /// The same, each with its hash.
+    ///
+    /// # Errors
+    /// As [`read_together`](Self::read_together).
+    pub fn read_together_with_sources(
+        &self,
+        paths: &[PathBuf],
+    ) -> Result<(Vec<Record>, Vec<Source>), String> {
+        let mut sources = Vec::new();
+        let records = Self::all_of(paths, |path| {
+            let (record, source) = self.read_with_source(path).map_err(|e| e.to_string())?;
+            sources.push(source);
+            Ok(record)
+        })?;
+        Ok((records, sources))
+    }
+
+    fn all_of(
+        paths: &[PathBuf],
+        read: impl FnMut(&PathBuf) -> Result<Record, String>,
+    ) -> Result<Vec<Record>, String> {
         for (index, path) in paths.iter().enumerate() {
             if paths[..index].contains(path) {
                 return Err(format!("{}: given twice", path.display()));
             }
         }
         together(paths.len())?;
-        let mut records = paths
-            .iter()
-            .map(|path| self.read(path))
-            .collect::<Result<Vec<_>, _>>()?;
+        let mut records = paths.iter().map(read).collect::<Result<Vec<_>, _>>()?;
         agree(&mut records).map_err(|e| e.to_string())?;
         Ok(records)
     }

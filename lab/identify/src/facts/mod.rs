@@ -34,7 +34,7 @@ pub use plan::{plan, Plan, Planned};
 pub use power::{power, PowerFacts, PowerRow, ShapeFacts};
 pub use record::{FileFacts, HeldOutOf, RecordFacts};
 pub use round::{RivalFacts, RoundFacts, RoundFit, RoundModel, Size};
-pub use source::Source;
+pub use source::{read_with_source, Source};
 
 // The plain data of lower rooms that facts are made of.
 pub use crate::check::{

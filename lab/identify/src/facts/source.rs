@@ -1,5 +1,6 @@
 //! Where a record came from: its file's length and hash.
 
+use crate::record::{self, Options, Record, RecordError};
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -39,6 +40,17 @@ impl Source {
             sha256,
         }
     }
+}
+
+/// Reads a record, with the hash of those very bytes.
+///
+/// # Errors
+/// The refusal, with its place.
+pub fn read_with_source(path: &Path, options: &Options) -> Result<(Record, Source), RecordError> {
+    let label = path.display().to_string();
+    let bytes = record::load(path)?;
+    let record = record::parse(&bytes, &label, options)?;
+    Ok((record, Source::of_bytes(&label, &bytes)))
 }
 
 #[cfg(test)]

@@ -183,7 +183,15 @@ impl Record {
 /// One line that names file, line and column: see [`RecordError`].
 pub fn read(path: &Path, options: &Options) -> Result<Record, RecordError> {
     let label = path.display().to_string();
-    parse(&file::load(path, &label)?, &label, options)
+    parse(&load(path)?, &label, options)
+}
+
+/// The bytes of a file, for [`parse`]; not all of one that is recognised as none that is read.
+///
+/// # Errors
+/// One line that names the file: see [`RecordError`].
+pub fn load(path: &Path) -> Result<Vec<u8>, RecordError> {
+    file::load(path, &path.display().to_string())
 }
 
 /// Reads a record from bytes in memory; `label` stands for the file's name.
