@@ -32,6 +32,26 @@ struct Play<const N: usize> {
     estimates: Estimates,
 }
 
+/// At rest at one end.
+fn resting(estimates: Estimates) -> Play<0> {
+    Play {
+        alpha: 1.0,
+        theta: [],
+        half: f64::INFINITY,
+        estimates,
+    }
+}
+
+/// The reference's way from end to end at its rate, of [`own_plant`]; all else arrives with it.
+fn moving(estimates: Estimates) -> Play<2> {
+    Play {
+        alpha: 0.92,
+        theta: [3.0, 0.3],
+        half: 2.0 * 25.0 / (0.999 * 22.3),
+        estimates,
+    }
+}
+
 /// What the adversary does with the estimates.
 enum Estimates {
     Stay,
@@ -205,25 +225,14 @@ fn worst<T: Real, const N: usize>(settings: AdaptiveSettings<T, N>) -> AdaptiveS
 
 fn both(steps: u32) {
     // r = 10 and g = 0.8 push as 2 N·m, D = 6 N·m with them: W is filled, at rest.
-    let resting = Play {
-        alpha: 1.0,
-        theta: [],
-        half: f64::INFINITY,
-        estimates: Estimates::Stay,
-    };
+    let resting = resting(Estimates::Stay);
     let plant = table_2_plant();
     let reached = [
         attack(worst(table_2::<f32, 0>(0.0)), &plant, &resting, steps).all,
         attack(worst(table_2::<f64, 0>(0.0)), &plant, &resting, steps).all,
     ];
     assert!(reached.iter().all(|share| *share >= 0.9), "{reached:?}");
-    // The reference's way from end to end at its rate; all else arrives with it.
-    let moving = Play {
-        alpha: 0.92,
-        theta: [3.0, 0.3],
-        half: 2.0 * 25.0 / (0.999 * 22.3),
-        estimates: Estimates::Stay,
-    };
+    let moving = moving(Estimates::Stay);
     let reached = [
         attack(worst(own::<f32>()), &own_plant(), &moving, steps).all,
         attack(worst(own::<f64>()), &own_plant(), &moving, steps).all,
@@ -257,12 +266,7 @@ fn limited<T: Real, const N: usize>(
 /// s and z are driven into the corner while the command just holds the load; then the estimates
 /// jump, and ask for more than the limit, which only just holds the reference against the load.
 fn at_the_limit(steps: u32) {
-    let play = Play {
-        alpha: 1.0,
-        theta: [],
-        half: f64::INFINITY,
-        estimates: Estimates::Jump,
-    };
+    let play = resting(Estimates::Jump);
     // (10 + 6)/1 = 16, and what z's rounding needs.
     let (single, double) = (
         limited(worst(table_2::<f32, 0>(0.0)), 16.001),
@@ -315,12 +319,7 @@ fn slewed<T: Real, const N: usize>(
 
 #[test]
 fn a_slew_rate_that_is_proved_not_to_be_met_is_not() {
-    let moving = Play {
-        alpha: 0.92,
-        theta: [3.0, 0.3],
-        half: 2.0 * 25.0 / (0.999 * 22.3),
-        estimates: Estimates::Jump,
-    };
+    let moving = moving(Estimates::Jump);
     let plant = own_plant();
     let (single, of_single) = slewed(worst(own::<f32>()), &plant);
     let (double, of_double) = slewed(worst(own::<f64>()), &plant);
@@ -329,12 +328,7 @@ fn a_slew_rate_that_is_proved_not_to_be_met_is_not() {
         (attack(double, &plant, &moving, 100_000), of_double),
     ];
     // With a limit that is met, too.
-    let resting = Play {
-        alpha: 1.0,
-        theta: [],
-        half: f64::INFINITY,
-        estimates: Estimates::Jump,
-    };
+    let resting = resting(Estimates::Jump);
     let plant = table_2_plant();
     let (cut, of_cut) = slewed(limited(worst(table_2::<f32, 0>(0.0)), 16.001), &plant);
     let cut = (attack(cut, &plant, &resting, 100_000), of_cut);
@@ -353,12 +347,7 @@ fn a_slew_rate_that_is_proved_not_to_be_met_is_not() {
 fn below_that_slew_rate_an_adversary_leaves_the_box() {
     let plant = own_plant();
     let settings = worst(own::<f64>());
-    let play = Play {
-        alpha: 0.92,
-        theta: [3.0, 0.3],
-        half: 2.0 * 25.0 / (0.999 * 22.3),
-        estimates: Estimates::Jump,
-    };
+    let play = moving(Estimates::Jump);
     assert!(proved(settings, &plant).slew.is_none());
     let slow = AdaptiveSettings {
         limits: settings.limits.with_slew(40.0).unwrap(),

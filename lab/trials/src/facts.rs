@@ -16,6 +16,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 pub use super::certificates::Promise;
+pub use super::decimal::{above, fixed, places, scientific, Towards};
 pub use super::design::{
     design, rust as design_rust, AdaptiveDesign, Designed, PidDesign, Question as DesignQuestion,
 };

@@ -217,5 +217,6 @@ fn key_at(text: &str, at: usize) -> Option<&str> {
     let start = text.get(..at)?.rfind('\n').map_or(0, |i| i + 1);
     let line = text.get(start..)?.lines().next()?.trim();
     let key = line.split_once('=').map_or(line, |(key, _)| key).trim();
-    (!key.is_empty()).then_some(key)
+    // An error of the whole file stands at its beginning, where a comment may be.
+    (!key.is_empty() && !key.starts_with('#')).then_some(key)
 }

@@ -1,5 +1,6 @@
 //! What the trials of a comparison were run under.
 
+use super::decimal::places;
 use super::gains::GainsFile;
 use super::lineup::Laws;
 use super::own_rig::RigChanges;
@@ -76,10 +77,7 @@ impl Heading {
             });
         }
         if let Some([low, high]) = self.reference {
-            // Three digits of what is small.
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-            let places =
-                (2.0 - low.abs().max(high.abs()).log10().floor()).clamp(2.0, 12.0) as usize;
+            let places = places(low.abs().max(high.abs()), 2);
             all.push(format!(
                 "Reference: the paper's between {low:.places$} and {high:.places$} N·m, within what the model's record has covered."
             ));

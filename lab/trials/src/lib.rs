@@ -8,6 +8,7 @@
 
 pub mod bench;
 pub mod certificates;
+mod decimal;
 pub mod design;
 pub mod facts;
 pub mod feed;

@@ -38,7 +38,7 @@ pub enum Named {
     Slack,
     /// What a step moves the command by `<=` what the slew rate allows: it is not met.
     /// `h·(lambda·(W + g⁺·(k·S + delta_hat)) + g⁺·Z + r' + lambda·(S + lambda·Z))/alpha⁻`
-    /// and the roundings, `<= h·slew`.
+    /// and `E_c`, the roundings of the command, `<= h·slew`.
     Slew,
 }
 
@@ -60,7 +60,7 @@ impl Named {
             Self::Waiting => "h*lambda*(2 + g+*k) <= 1",
             Self::Slack => "lambda^2*Z <= lambda*S + 2*g-*Z",
             Self::Slew => {
-                "a step moves the command by less than the slew rate allows: h*(lambda*(W + g+*(k*S + delta)) + g+*Z + r' + lambda*(S + lambda*Z))/alpha- + Ec <= h*slew"
+                "a step moves the command by less than the slew rate allows: h*(lambda*(W + g+*(k*S + delta)) + g+*Z + r' + lambda*(S + lambda*Z))/alpha- + Ec (the roundings of the command) <= h*slew"
             }
         }
     }

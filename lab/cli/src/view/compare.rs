@@ -2,8 +2,7 @@
 
 use super::compare_found;
 use super::compare_rows::{conditions, configuration, own, row};
-use super::decimal::places;
-use bowden_trials::facts::{Compared, Heading, Line, Lineup, Promise, Results, Spread};
+use bowden_trials::facts::{places, Compared, Heading, Line, Lineup, Promise, Results, Spread};
 use serde_json::{json, Value};
 use std::fmt::Write as _;
 
@@ -65,7 +64,19 @@ fn lineup_text(heading: &Heading, lineup: &Lineup) -> String {
         (false, Some(_)) => OWN_NOTES,
         (false, None) => CHANGED_NOTES,
     };
-    out + &steady(heading, lineup) + &transient(heading, &lineup.lines) + notes
+    out + &steady(heading, lineup)
+        + &transient(heading, &lineup.lines)
+        + notes
+        + without_certificate(heading, lineup)
+}
+
+/// Why a row has a dash in the column of the certificates.
+fn without_certificate(heading: &Heading, lineup: &Lineup) -> &'static str {
+    match (lineup.certificates.is_empty(), &heading.gains) {
+        (false, _) => NO_CERTIFICATE,
+        (true, Some(_)) => NOT_OF_THESE_GAINS,
+        (true, None) => NOT_OF_THIS_RIG,
+    }
 }
 
 fn steady(heading: &Heading, lineup: &Lineup) -> String {
@@ -160,6 +171,20 @@ law has in effect (320). The frozen law starts with beta_hat at 1/alpha and delt
 and never adapts; the feed-forward knows the rig's own transmission, or the model that is given.
 A certificate bounds an idealised plant without sensor noise: `bowden certify` lists what each
 assumes.
+";
+
+const NO_CERTIFICATE: &str = "\
+certificate -: none is known of this controller.
+";
+
+const NOT_OF_THESE_GAINS: &str = "\
+certificate -: the table has those of the reference rig alone. `bowden certify GAINS.toml` says what
+is proved of the adaptive law of these gains, on the plant that their file states in [plant].
+";
+
+const NOT_OF_THIS_RIG: &str = "\
+certificate -: the table has those of the reference rig alone. `bowden design` derives gains from a
+model, with what is promised of them.
 ";
 
 fn lineup_json(heading: &Heading, lineup: &Lineup) -> String {

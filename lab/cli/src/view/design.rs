@@ -1,7 +1,6 @@
 //! The report of `bowden design`, and its JSON.
 
-use super::decimal::above;
-use bowden_trials::facts::{AdaptiveDesign, Designed, PidDesign};
+use bowden_trials::facts::{above, AdaptiveDesign, Designed, PidDesign};
 use serde_json::{json, Value};
 use std::fmt::Write as _;
 

@@ -8,7 +8,6 @@ mod compare_found;
 mod compare_rows;
 mod cost;
 mod curve;
-mod decimal;
 pub mod design;
 mod hand_over;
 mod json;

@@ -1,7 +1,6 @@
 //! `bowden certify GAINS.toml`: what is proved of one's own gains.
 
-use super::decimal::{above, fixed, scientific, Towards};
-use bowden_trials::facts::{Named, Proof, Sides};
+use bowden_trials::facts::{above, fixed, scientific, Named, Proof, Sides, Towards};
 use std::fmt::Write as _;
 
 /// Of a proof in which the limit of the command may be met.

@@ -360,3 +360,23 @@ fn a_file_of_design_is_named_as_one_where_a_setup_is_expected() {
     let line = refused(&["certify", path]);
     assert!(line.contains("gains.toml:2:1: "), "{line}");
 }
+
+#[test]
+fn gains_without_their_plant_are_told_what_was_expected() {
+    let own = std::fs::read_to_string(example("gains_own.toml")).unwrap();
+    let (before, rest) = own.split_once("[plant]").unwrap();
+    let (_, behind) = rest.split_once("[[regressor]]").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("bare.toml");
+    std::fs::write(&path, format!("{before}[[regressor]]{behind}")).unwrap();
+    let line = refused(&["certify", path.to_str().unwrap()]);
+    let expected = "bare.toml: has no [plant]: a table [plant] with alpha = [least, greatest], disturbance, disturbance_rate, reference and reference_rate was expected";
+    assert!(line.ends_with(expected), "{line}");
+    // What else is missing is told without the comment at the head of the file.
+    std::fs::write(&path, own.replace("epsilon = 0.08", "")).unwrap();
+    let line = refused(&["certify", path.to_str().unwrap()]);
+    assert!(
+        line.ends_with("bare.toml:1:1: missing field `epsilon`"),
+        "{line}"
+    );
+}

@@ -191,6 +191,7 @@ fn the_table_says_whose_rig_gains_and_reference_they_are_and_keeps_the_papers_ou
     for words in [
         "on the reference rig with the transmission of model.toml",
         "Gains: those of gains.toml.",
+        "certificate -: the table has those of the reference rig alone. `bowden certify GAINS.toml`",
         "Reference: the paper's between ",
         "Rig: inertia 0.002 kg·m², damping 0.5 N·m·s/rad.",
     ] {

@@ -5,12 +5,16 @@
 //! command faster than any input of the record moved. So the file promises less, or its slew
 //! rate allows more, until `bowden certify` proves it.
 
+use crate::decimal::digits;
 use crate::gains::GainsFile;
 use crate::proof::{designed, Named, Proof, Sides};
 use bowden::control::{AdaptiveSettings, Form};
 
 /// Changes after which a file that is still refused stays as it was.
 const MOST: usize = 8;
+
+/// Of a number that is changed, on the safe side of it.
+const DIGITS: u8 = 4;
 
 /// The nearest file that is proved, and its proof; `Err` is why there is none.
 pub(super) fn settled(gains: &GainsFile) -> Result<(GainsFile, Proof), String> {
@@ -40,7 +44,8 @@ pub(super) fn settled(gains: &GainsFile) -> Result<(GainsFile, Proof), String> {
 fn smaller_reference(gains: &mut GainsFile, command: &Sides) -> Option<()> {
     let known = gains.plant.as_mut()?;
     let beyond = command.left.high - command.right.low;
-    let reference = down(known.reference - known.alpha[1] * beyond);
+    let held = known.reference - known.alpha[1] * beyond;
+    let reference = digits(held, DIGITS, f64::floor);
     (reference > 0.0).then(|| known.reference = reference)
 }
 
@@ -51,30 +56,8 @@ fn faster(gains: &mut GainsFile, slew: &Sides) -> Option<()> {
         return None;
     };
     // A thousandth for what the sum with the command rounds.
-    let least = up(1.001 * slew.left.high / step);
+    let least = digits(1.001 * slew.left.high / step, DIGITS, f64::ceil);
     let limits = law.limits.with_slew(least).ok()?;
     *law = AdaptiveSettings { limits, ..*law };
     Some(())
-}
-
-/// Four digits, not above the number.
-fn down(x: f64) -> f64 {
-    digits(x, f64::floor)
-}
-
-/// Four digits, not below it.
-fn up(x: f64) -> f64 {
-    digits(x, f64::ceil)
-}
-
-fn digits(x: f64, round: fn(f64) -> f64) -> f64 {
-    if !(x.is_finite() && x > 0.0) {
-        return x;
-    }
-    #[allow(clippy::cast_possible_truncation)]
-    let places = 3 - x.log10().floor() as i32;
-    match places >= 0 {
-        true => round(x * 10_f64.powi(places)) / 10_f64.powi(places),
-        false => round(x / 10_f64.powi(-places)) * 10_f64.powi(-places),
-    }
 }

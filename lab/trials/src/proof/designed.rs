@@ -2,7 +2,7 @@
 //! chip, on the plant that the design has assumed.
 
 use super::form::{Above, Float, Form, NotBelow, NotNegative, Plant, Positive};
-use super::{of_form, Named, Proof, Refusal};
+use super::{of_form, Named, Proof, Refusal, NO_PLANT};
 use crate::gains::{GainsFile, Known};
 use bowden::control::{self, AdaptiveSettings};
 
@@ -14,9 +14,9 @@ pub(crate) fn prove(gains: &GainsFile) -> Result<Proof, String> {
     let law = gains.adaptive.as_ref().ok_or(
         "has no [adaptive]: the design found no admissible gains of the adaptive law (`bowden design` says why)",
     )?;
-    let known = gains.plant.as_ref().ok_or(
-        "has no [plant], which certify needs: the model gives no bound on how fast the disturbance moves (`bowden design` says why), and without one nothing is proved; where you know it, state alpha, disturbance, disturbance_rate, reference and reference_rate in [plant]",
-    )?;
+    let known = gains.plant.as_ref().ok_or_else(|| {
+        format!("{NO_PLANT} (`bowden design` writes it where the model bounds how fast the disturbance moves)")
+    })?;
     let (low, high) = (law.limits.low(), law.limits.high());
     let mut proof = of_form(&form(law, known)?)?;
     // The law has the wider limits; where neither is met it is the same law.

@@ -1,6 +1,7 @@
 //! What would mend an inequality that does not hold: a rate, a box or a gain.
 
 use super::form::{Float, Form};
+use crate::decimal::{digits, places};
 use bowden::bound::{Inequality, Named};
 
 /// In one sentence. Its numbers are rounded to the safe side, to three digits.
@@ -67,22 +68,14 @@ pub(super) fn words(form: &Form, inequality: &Inequality) -> String {
 }
 
 fn up(x: f64) -> String {
-    digits(x, f64::ceil)
+    three_digits(x, f64::ceil)
 }
 
 fn down(x: f64) -> String {
-    digits(x, f64::floor)
+    three_digits(x, f64::floor)
 }
 
-/// Three digits.
-fn digits(x: f64, round: fn(f64) -> f64) -> String {
-    if !(x.is_finite() && x > 0.0) {
-        return x.to_string();
-    }
-    #[allow(clippy::cast_possible_truncation)]
-    let places = 2 - x.log10().floor() as i32;
-    let rounded = round(x * 10_f64.powi(places)) * 10_f64.powi(-places);
-    #[allow(clippy::cast_sign_loss)]
-    let shown = places.max(0) as usize;
-    format!("{rounded:.shown$}")
+fn three_digits(x: f64, round: fn(f64) -> f64) -> String {
+    let rounded = digits(x, 3, round);
+    format!("{rounded:.*}", places(x, 0))
 }

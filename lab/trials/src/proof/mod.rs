@@ -223,6 +223,9 @@ pub fn prove(path: &Path) -> Result<Proof, String> {
     parse(&text, &label)
 }
 
+/// What a file of gains lacks that says nothing of its plant.
+const NO_PLANT: &str = "has no [plant]: a table [plant] with alpha = [least, greatest], disturbance, disturbance_rate, reference and reference_rate was expected";
+
 /// The same of a text; `label` stands for the file's name.
 ///
 /// # Errors
@@ -231,6 +234,10 @@ pub fn parse(text: &str, label: &str) -> Result<Proof, String> {
     if is_of_design(text) {
         let gains = GainsFile::parse(text, label)?;
         return designed::prove(&gains).map_err(|e| format!("{label}: {e}"));
+    }
+    let table = toml::from_str::<toml::Table>(text);
+    if table.is_ok_and(|table| table.contains_key("lambda") && !table.contains_key("plant")) {
+        return Err(format!("{label}: {NO_PLANT}"));
     }
     let form: Form = toml::from_str(text).map_err(|e| message(&e, text, label))?;
     of_form(&form).map_err(|e| format!("{label}: {e}"))

@@ -23,6 +23,21 @@ pub fn places(x: f64, least: usize) -> usize {
     needed.max(least)
 }
 
+/// The number with at most so many `digits`, at least one; [`f64::floor`] or [`f64::ceil`] says
+/// on which side. What is not above zero stays as it is.
+#[must_use]
+pub fn digits(x: f64, digits: u8, round: fn(f64) -> f64) -> f64 {
+    if !(x.is_finite() && x > 0.0) {
+        return x;
+    }
+    #[allow(clippy::cast_possible_truncation)]
+    let places = i32::from(digits) - 1 - x.log10().floor() as i32;
+    match places >= 0 {
+        true => round(x * 10_f64.powi(places)) / 10_f64.powi(places),
+        false => round(x / 10_f64.powi(-places)) * 10_f64.powi(-places),
+    }
+}
+
 /// Four decimals, or three digits of a small number, that are not below it: a bound.
 #[must_use]
 pub fn above(x: f64) -> String {
@@ -96,6 +111,17 @@ fn cut(exact: &str, places: usize, up: bool) -> (String, bool) {
 mod tests {
     use super::Towards::{Above, Below};
     use super::*;
+
+    #[test]
+    fn a_number_of_few_digits_lies_on_its_side() {
+        assert_eq!(digits(0.123_45, 3, f64::floor), 0.123);
+        assert_eq!(digits(0.123_45, 3, f64::ceil), 0.124);
+        assert_eq!(digits(12_345.0, 4, f64::floor), 12_340.0);
+        assert_eq!(digits(12_345.0, 4, f64::ceil), 12_350.0);
+        assert_eq!(digits(9.999_6, 4, f64::ceil), 10.0);
+        assert_eq!(digits(-1.5, 1, f64::ceil), -1.5);
+        assert_eq!(digits(f64::INFINITY, 1, f64::ceil), f64::INFINITY);
+    }
 
     #[test]
     fn decimals_lie_on_their_side_of_the_number() {
