@@ -36,3 +36,24 @@ fn a_column_that_is_not_there_is_named_with_the_nearest_ones() {
         assert!(line.contains(&format!("nearest: {meant}")), "{line}");
     }
 }
+
+/// A friction rig logs velocity and force; the model is one from displacement to force.
+#[test]
+fn a_velocity_in_place_of_the_displacement_is_asked_about() {
+    let mut rows = Rows::generated(&["--mode", "displacement", "--seed", "40", "--rate", "250"]);
+    for row in &mut rows.rows {
+        row.truncate(3);
+    }
+    let ends = ["--mode", "displacement", "--output", "f [N]", "--input"];
+    rows.set(2, |_, row| 20.0 * (10.0 * row[1]).tanh() + 3.0 * row[1]);
+    for (header, input, is_velocity) in [
+        ("t,drive [mm/s],f [N]", "drive", true),
+        ("t,v,f [N]", "v", true),
+        ("t,drive [mm],f [N]", "drive", false),
+    ] {
+        rows.header = header.to_owned();
+        let closed = rows.close(&[&ends[..], &[input]].concat());
+        let asked = format!("Is `{input}` a velocity? A displacement was expected");
+        assert_eq!(closed.sentence().contains(&asked), is_velocity);
+    }
+}

@@ -7,7 +7,7 @@ use crate::fit::{Segments, Solution};
 use crate::ledger::{Ledger, Round};
 use crate::model::structure::{FitTerm, Role};
 use crate::problem::Prepared;
-use crate::record::DefectKind;
+use crate::record::{is_velocity, DefectKind, Mode};
 use bowden::effect::Family;
 use bowden::model::Source;
 
@@ -201,6 +201,18 @@ fn made_of_channel(data: &Prepared, done: &Solution) -> Option<(f64, usize)> {
     };
     let all = (0..data.channels.len()).map(of);
     all.max_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// What is to be asked where the displacement seems to be a velocity.
+pub(super) fn velocity_words(data: &Prepared) -> Option<String> {
+    let input = &data.input;
+    let is = data.mode == Mode::Displacement && is_velocity(&input.name, input.unit.as_deref());
+    is.then(|| {
+        format!(
+            "Is `{}` a velocity? A displacement was expected: give the column of the position as the input, or integrate this one.",
+            input.name
+        )
+    })
 }
 
 /// What is to be said where some of the motion of the input is not known, and more than noise is

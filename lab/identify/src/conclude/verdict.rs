@@ -5,7 +5,7 @@
 
 use super::ballast::Part;
 use super::by_file::worse;
-use super::changes::{lead, other_line, other_rig, starts_apart, unseen_motion};
+use super::changes::{lead, other_line, other_rig, starts_apart, unseen_motion, velocity_words};
 use super::changes::{made_without_input, stands_for_output};
 use super::channel_apart::channel_words;
 pub use super::errors::{falls_up_to, held_out_ratio, percent, raises, POOR, RISES};
@@ -236,7 +236,7 @@ fn rest(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -> St
 
 /// What else somebody must know who reads nothing but the sentence.
 fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -> Vec<String> {
-    let mut all = Vec::new();
+    let mut all: Vec<String> = velocity_words(data).into_iter().collect();
     // What a channel of the wrong sign has brought in says nothing about clocks.
     let is_mended = ledger.channel_apart.is_some();
     let says_no_size = matches!(
@@ -312,7 +312,11 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
 pub fn sentence(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     let found = verdict(data, ledger, done);
     let mut all = match found {
-        Verdict::NoModel => return no_model(data, ledger, done),
+        Verdict::NoModel => {
+            let words = velocity_words(data).into_iter();
+            let all = std::iter::once(no_model(data, ledger, done)).chain(words);
+            return all.collect::<Vec<_>>().join(" ");
+        }
         Verdict::DoesNotCarryOver => {
             vec![rises(data, ledger, done) + &other_line(data, done).unwrap_or_default()]
         }

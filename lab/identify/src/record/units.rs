@@ -131,6 +131,26 @@ pub(super) fn split(cell: &str) -> (&str, Option<String>) {
     (cell, ending(cell).map(|(_, unit)| unit.to_owned()))
 }
 
+/// Units of velocities.
+const VELOCITIES: [&str; 14] = [
+    "m/s", "mm/s", "cm/s", "µm/s", "um/s", "in/s", "rad/s", "mrad/s", "deg/s", "°/s", "rev/s",
+    "rpm", "1/min", "km/h",
+];
+
+/// Names that velocities have where no unit is stated.
+const VELOCITY_NAMES: [&str; 11] = [
+    "v", "vel", "speed", "omega", "dx", "xd", "xdot", "x_dot", "dq", "qd", "qdot",
+];
+
+/// Whether a column is a velocity, by its unit, or by its name where it states none.
+pub(crate) fn is_velocity(name: &str, unit: Option<&str>) -> bool {
+    let lower = name.to_lowercase();
+    match unit {
+        Some(unit) => VELOCITIES.contains(&unit),
+        None => VELOCITY_NAMES.contains(&lower.as_str()) || lower.contains("veloc"),
+    }
+}
+
 /// Seconds in one unit of time, if it is one that the reader knows.
 pub(super) fn seconds(unit: Option<&str>) -> Option<f64> {
     match unit {
@@ -148,6 +168,27 @@ pub(super) fn seconds(unit: Option<&str>) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_velocity_is_told_by_its_unit_or_else_by_its_name() {
+        for (name, unit) in [
+            ("way", Some("mm/s")),
+            ("n", Some("rpm")),
+            ("v", None),
+            ("Velocity", None),
+            ("motor_velocity", None),
+        ] {
+            assert!(is_velocity(name, unit), "{name} {unit:?}");
+        }
+        for (name, unit) in [
+            ("v", Some("V")),
+            ("velocity", Some("mm")),
+            ("x", None),
+            ("valve", None),
+        ] {
+            assert!(!is_velocity(name, unit), "{name} {unit:?}");
+        }
+    }
 
     #[test]
     fn a_unit_stands_in_brackets_or_at_the_end_of_the_name() {
