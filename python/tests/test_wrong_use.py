@@ -59,6 +59,17 @@ def test_the_page_states_what_was_read(tmp_path: Path, plain: dict[str, Any]) ->
     assert all(digest in report.page() for report in reports)
 
 
+@pytest.mark.parametrize("kind", ["datetime64[ns]", "timedelta64[ns]"])
+def test_nanoseconds_are_kept_far_from_where_time_began(plain: dict[str, Any], kind: str) -> None:
+    # 200 days and 55 years: a double has steps of 2 and 256 ns there.
+    start = {"datetime64[ns]": 1_750_000_000 * 10**9, "timedelta64[ns]": 200 * 86_400 * 10**9}[kind]
+    count = np.arange(len(plain["t"]), dtype=np.int64)
+    t = (start + 1_000_001 * count).astype(kind)
+    found = bowden.read({**plain, "t": t}, mode="torque").t
+    # Half a nanosecond would be seen; 30 s in doubles have steps of 4e-15 s.
+    assert np.abs(np.diff(found) - 1.000001e-3).max() < 1e-13
+
+
 Wrong = Callable[[bowden.Model, dict[str, Any]], object]
 WRONG: list[tuple[Wrong, str]] = [
     (lambda m, r: bowden.check("none.toml", r), r"^none.toml: no such file$"),

@@ -153,7 +153,10 @@ impl<T: Real> Plausible<T> {
     /// The same where the signal moves by at most `rate` \[signal unit/s\], above zero.
     ///
     /// Through a gap the reach grows with its time, so that a signal that has really moved
-    /// is taken up again.
+    /// is taken up again. So is an encoder that was reset, and [`Rates`](crate::signal::Rates) behind
+    /// it then shows a velocity of up to `rate`:
+    /// [`Compensator::with_ranges`](crate::control::Compensator::with_ranges) keeps that from a
+    /// feed-forward.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"rate"`.

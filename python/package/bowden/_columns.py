@@ -130,14 +130,25 @@ def _array(column: Any) -> Optional[np.ndarray[Any, Any]]:
 def _numbers(
     values: np.ndarray[Any, Any],
 ) -> Optional[tuple[np.ndarray[Any, np.dtype[np.float64]], Optional[str]]]:
-    """As doubles, without a copy where they are; points in time count from the first."""
+    """As doubles, without a copy where they are.
+
+    Points in time count from the first, and so do durations of more nanoseconds than a double
+    counts.
+    """
     if values.dtype.kind in "fiub":
         return np.ascontiguousarray(values, dtype=np.float64), None
     if values.dtype.kind in "mM" and values.ndim == 1:
         known = values[~np.isnat(values)]
         if known.size:
-            since = values if values.dtype.kind == "m" else values - known[0]
+            # In whole nanoseconds: a double has them up to 104 days.
+            from_first = values.dtype.kind == "M" or _is_long(known)
+            since = values - known[0] if from_first else values
             nanoseconds = since.astype("timedelta64[ns]").astype(np.float64)
             nanoseconds[np.isnat(values)] = np.nan
             return nanoseconds, "ns"
     return None
+
+
+def _is_long(durations: np.ndarray[Any, Any]) -> bool:
+    nanoseconds = durations.astype("timedelta64[ns]").astype(np.int64)
+    return bool(np.abs(nanoseconds).max() > 2**53)
