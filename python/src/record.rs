@@ -1,7 +1,7 @@
 //! Records: from files, and from arrays.
 
 use crate::failure;
-use bowden_lab::facts::{Mode, Options, Source};
+use bowden_lab::facts::{read_with_source, Mode, Options, Source};
 use bowden_lab::record::{self as lab, Column};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -152,11 +152,9 @@ impl Record {
 pub fn record_of_file(py: Python<'_>, path: PathBuf, columns: Columns) -> PyResult<Record> {
     let options = columns.options()?;
     py.detach(|| {
-        let record = lab::read(&path, &options).map_err(|e| failure::of_record(&e))?;
-        // A pipe cannot be read again for its hash.
-        let source = path.is_file().then(|| Source::of_file(&path));
-        let source = source.transpose().map_err(failure::plain)?;
-        Ok(Record(record, source))
+        let read = read_with_source(&path, &options);
+        read.map(|(record, source)| Record(record, Some(source)))
+            .map_err(|e| failure::of_record(&e))
     })
 }
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import hashlib
+import os
+import threading
 from pathlib import Path
 from typing import Any, Callable
 
@@ -68,6 +70,21 @@ def test_nanoseconds_are_kept_far_from_where_time_began(plain: dict[str, Any], k
     found = bowden.read({**plain, "t": t}, mode="torque").t
     # Half a nanosecond would be seen; 30 s in doubles have steps of 4e-15 s.
     assert np.abs(np.diff(found) - 1.000001e-3).max() < 1e-13
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="the system has no pipes with a name")
+def test_the_page_states_the_hash_of_what_came_through_a_pipe(
+    tmp_path: Path, plain: dict[str, Any]
+) -> None:
+    content = records.write_csv(tmp_path / "record.csv", plain).read_bytes()
+    pipe = tmp_path / "pipe.csv"
+    os.mkfifo(pipe)
+    # Once: a second reading would wait for ever.
+    writer = threading.Thread(target=pipe.write_bytes, args=(content,), daemon=True)
+    writer.start()
+    report = bowden.close(pipe)
+    writer.join()
+    assert hashlib.sha256(content).hexdigest() in report.page()
 
 
 Wrong = Callable[[bowden.Model, dict[str, Any]], object]
