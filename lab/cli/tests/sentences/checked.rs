@@ -254,3 +254,19 @@ fn a_motion_in_which_the_error_of_home_is_most_cannot_tell() {
     assert_eq!(same["verdict"], "cannot-tell");
     says(&same, &["which is no sign of a change", "with more motion"]);
 }
+
+#[test]
+fn just_above_the_limit_of_a_model_that_was_not_exact_nothing_is_decided() {
+    let bench = Bench::of(&disturbed(1.0, 1.0, 100_000));
+    let above = bench.check(&disturbed(1.0, 2.3, 200_000));
+    assert_eq!(above["verdict"], "cannot-tell");
+    says(&above, &["the limit is", "errs more on another motion"]);
+    let more = bench.check(&disturbed(1.0, 3.5, 200_000));
+    assert_eq!(more["verdict"], "does-not-hold");
+    says(&more, &["It was not exact where it came from"]);
+    // The model of a spring that it describes to the noise.
+    let bench = Bench::of(&spring((99.0, 0.0), 0));
+    let disturbed = bench.check(&disturbed(1.0, 0.1, 200_000));
+    assert_eq!(disturbed["verdict"], "does-not-hold");
+    assert!(!sentence(&disturbed).contains("not exact"));
+}

@@ -6,7 +6,7 @@ use crate::model::columns::{raw_columns, weighted};
 use crate::model::structure::{FitTerm, Free, Range, Role, Structure, Terms};
 use crate::problem::{HeldOut, Preparation, Prepared, Stretch, MOST_RECORDS};
 use crate::record::{Mode, Record};
-use bowden::effect::Motion;
+use bowden::effect::{Family, Motion};
 use bowden::model::{Model, Source};
 
 /// A model that has run on a record.
@@ -47,7 +47,7 @@ impl Played {
             // The model was fitted without it: its load is the input.
             data.load = None;
         }
-        let model = play(&data, given, 0.0)?;
+        let model = play(&data, given, 0.0, Before::Rest)?;
         let terms = &model.structure.terms;
         let remembers = model.structure.hysteresis || terms.iter().any(|t| t.effect.has_memory());
         let from = if remembers { data.settled() } else { 0 };
@@ -80,23 +80,61 @@ pub(super) fn rms(data: &Prepared, signal: &[f64], about: f64) -> f64 {
 /// Fewest rows on which a model is judged.
 const FEWEST: usize = 96;
 
-/// The model on the record, from that hysteresis state at the first sample. Effects with
-/// memory begin at rest where the record begins.
+/// From where the motion came just before the record, for what keeps its memory until it is moved as far
+/// again: a play, and a spring that slips.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Before {
+    /// It was at rest.
+    Rest,
+    /// From the lower end of what the model has seen.
+    Low,
+    /// From its upper end.
+    High,
+}
+
+impl Before {
+    /// By how much the source of a term had moved.
+    fn moved(self, data: &Prepared, given: &Given, term: &FitTerm) -> f64 {
+        if !term.has_past() || term.effect.family() == Family::Creep {
+            return 0.0;
+        }
+        let name = match term.source {
+            Source::Input => "input",
+            Source::Channel(_) => data.channel(term.source).map_or("", |c| c.name.as_str()),
+        };
+        let seen = given.about.ranges.get(name).and_then(|seen| seen.position);
+        let first = data.channel(term.source).and_then(|c| c.motion.first());
+        match (self, seen, first) {
+            (Self::Low, Some([low, _]), Some(first)) => first.position - low,
+            (Self::High, Some([_, high]), Some(first)) => first.position - high,
+            _ => 0.0,
+        }
+    }
+}
+
+/// The model on the record, from that hysteresis state at the first sample and that motion before it.
 ///
 /// # Errors
 /// One line where the record lacks a channel that the model reads.
-pub(super) fn play(data: &Prepared, given: &Given, eta0: f64) -> Result<Solution, String> {
+pub(super) fn play(
+    data: &Prepared,
+    given: &Given,
+    eta0: f64,
+    before: Before,
+) -> Result<Solution, String> {
     let model: Model<f64, MOST_TERMS> = given.file.model()?;
     let terms = model
         .terms()
         .iter()
         .map(|term| {
-            Ok(FitTerm {
+            let mut own = FitTerm {
                 effect: term.effect,
                 source: source(data, given, term.source)?,
                 origin: term.origin,
                 start: [0.0; MOST_RECORDS],
-            })
+            };
+            own.start[0] = before.moved(data, given, &own);
+            Ok(own)
         })
         .collect::<Result<Terms, String>>()?;
     let structure = Structure {
@@ -172,7 +210,7 @@ pub(super) fn made_of_input(data: &Prepared, given: &Given, prediction: &[f64]) 
         velocity: 0.0,
         acceleration: 0.0,
     });
-    let without = play(&held, given, 0.0).ok()?;
+    let without = play(&held, given, 0.0, Before::Rest).ok()?;
     let pairs = prediction.iter().zip(&without.prediction);
     let difference: Vec<f64> = pairs.map(|(with, without)| with - without).collect();
     let rows = &data.split.fit;

@@ -1,7 +1,7 @@
 //! The verdict of a check in one or two sentences.
 
 use super::CheckFacts;
-use crate::check::{Fitted, Line, Otherwise, Verdict, Way, FAINT, HOLDS, NOISE, NOTHING};
+use crate::check::{Fitted, Line, Otherwise, Verdict, Way, FAINT, HOLDS, JUST, NOISE, NOTHING};
 use crate::conclude::files_apart::is_far;
 use crate::conclude::verdict::POOR;
 use crate::facts::numbers::{number, share as percent, with_interval};
@@ -17,9 +17,6 @@ const BETTER: f64 = 0.8;
 /// A model hardly reads its input where that makes less than this share of the output's standard
 /// deviation. A choice.
 const HARDLY: f64 = 0.1;
-
-/// An error is just above the limit up to this multiple of it. A choice.
-const JUST: f64 = 1.25;
 
 /// The offset alone has moved where another gain besides divides the error by no more than this. A
 /// choice.
@@ -104,6 +101,14 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
         Verdict::CannotTell if check.is_as_at_home => format!(
             "This record cannot tell: the model misses {}, which is no sign of a change, but the output moves so little here that this is {as_it_is} of it. A record with more motion says more.",
             in_its_unit(check)
+        ),
+        Verdict::CannotTell if check.is_of_before => format!(
+            "Whether the model holds cannot be told: it misses {as_it_is} of this record's output, as against {came}, but what it remembers of the motion before the record, which is unknown, accounts for up to {}. A record that begins with the largest strokes that the model has seen says more.",
+            share(check.start)
+        ),
+        Verdict::CannotTell if check.is_just_above => format!(
+            "Whether the model holds cannot be told: it misses {as_it_is} of this record's output, as against {came}; the limit is {}. It was not exact where it came from, and such a model errs more on another motion. A record of the same motion says more.",
+            check.allowed.map_or_else(String::new, share)
         ),
         Verdict::CannotTell => format!(
             "Whether the model holds cannot be told: it misses {as_it_is} of this record's output, which is more than noise, and {came}."
@@ -285,6 +290,9 @@ fn reasons(check: &CheckFacts) -> String {
                 .to_owned()
         }
     };
+    if check.was_inexact {
+        text.push_str(" It was not exact where it came from: on another motion such a model may err so although the rig is the same.");
+    }
     let mut beyond: Vec<String> = Vec::new();
     for one in &check.outside {
         let name = format!("the {} of {}", one.quantity, one.channel);
