@@ -30,25 +30,11 @@ impl Plan {
         let record = asked.read(&path)?;
         let found = plan(&record, &asked, &telling(&bar))?;
         bar.finish_and_clear();
-        let open = found.inseparable.join("; nor ");
-        let (first, experiment) = match open.is_empty() {
-            true => ("nothing is confounded".to_owned(), "is needed"),
-            false => (
-                format!("no planned motion would tell {open}"),
-                "of this kind helps",
-            ),
-        };
         if let Some(verdict) = &found.undescribed {
             anstream::eprintln!("{verdict}");
         }
-        let Some(planned) = found.planned else {
-            let ends = match &found.undescribed {
-                Some(_) => "; what the model does not describe is to be mended first".to_owned(),
-                None => format!(": no experiment {experiment}"),
-            };
-            anstream::eprintln!(
-                "{first}, and no planned motion would show an unknown parameter better{ends}"
-            );
+        let Some(planned) = &found.planned else {
+            anstream::eprintln!("{}", nothing_planned(&found));
             return Ok(());
         };
         match &self.out {
@@ -57,6 +43,7 @@ impl Plan {
         }
         let experiment = &planned.experiment;
         if !planned.confounded {
+            let first = confounded(&found);
             anstream::eprintln!("{first}; for what the record does not identify:");
         }
         anstream::eprintln!(
@@ -68,6 +55,47 @@ impl Plan {
         for aim in &experiment.aims {
             anstream::eprintln!("  {}", aim.words());
         }
+        if planned.confounded && !found.inseparable.is_empty() {
+            let open = found.inseparable.join("; nor ");
+            anstream::eprintln!("it does not tell {open}{}", apart(&found));
+        }
         Ok(())
     }
+}
+
+/// What the record confounds and no planned motion tells.
+fn confounded(found: &bowden_lab::facts::Plan) -> String {
+    match found.inseparable.is_empty() {
+        true => "nothing is confounded".to_owned(),
+        false => format!(
+            "no planned motion would tell {}{}",
+            found.inseparable.join("; nor "),
+            apart(found)
+        ),
+    }
+}
+
+/// What tells two effects of two channels apart: the planned motions keep what hung together.
+fn apart(found: &bowden_lab::facts::Plan) -> String {
+    let pairs = found.together.iter();
+    let pairs: Vec<String> = pairs.map(|[a, b]| format!("`{a}` without `{b}`")).collect();
+    match pairs.is_empty() {
+        true => String::new(),
+        false => format!(" (a motion of {} would)", pairs.join(", of ")),
+    }
+}
+
+/// Why nothing is planned.
+fn nothing_planned(found: &bowden_lab::facts::Plan) -> String {
+    let parameters = match found.unidentified.as_slice() {
+        [] => "every parameter is known".to_owned(),
+        names => format!("no planned motion would make {} known", names.join(", ")),
+    };
+    let is_settled = found.inseparable.is_empty() && found.unidentified.is_empty();
+    let ends = match (&found.undescribed, is_settled) {
+        (Some(_), _) => "; what the model does not describe is to be mended first",
+        (None, true) => ": no experiment is needed",
+        (None, false) => ": no experiment of this kind helps",
+    };
+    format!("{}, and {parameters}{ends}", confounded(found))
 }

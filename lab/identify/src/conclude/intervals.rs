@@ -34,6 +34,9 @@ pub struct Parameter {
     pub identified: bool,
     /// Why not, and what would show it; `None` where it is identified.
     pub refused: Option<Refusal>,
+    /// By how many times its interval is too wide, where it is refused for that.
+    #[serde(skip)]
+    pub too_wide: Option<f64>,
     /// Index of the term it belongs to; `None` for the transmission.
     #[serde(skip)]
     pub term: Option<usize>,
@@ -445,10 +448,16 @@ pub fn parameters(data: &Prepared, solution: &Solution) -> Vec<Parameter> {
         .zip(of)
         .map(|(entry, (width, partner))| {
             let value = entry.sign * entry.value;
-            let wide = width.is_some();
-            let width = width.filter(|w| !entry.shape || *w <= SHAPE_WIDTH * value.abs());
+            let most = match entry.shape {
+                true => SHAPE_WIDTH * value.abs(),
+                false => f64::INFINITY,
+            };
+            let too_wide = width.filter(|w| *w > most).map(|w| w / most);
+            let width = width.filter(|w| *w <= most);
             let partner = partner.map(|(other, r)| (names[other].as_str(), r));
-            let refused = width.is_none().then(|| refusal(&entry, wide, partner));
+            let refused = width
+                .is_none()
+                .then(|| refusal(&entry, too_wide.is_some(), partner));
             Parameter {
                 name: entry.name,
                 value,
@@ -456,6 +465,7 @@ pub fn parameters(data: &Prepared, solution: &Solution) -> Vec<Parameter> {
                 ci95: width.map(|w| [value - w, value + w]),
                 identified: width.is_some(),
                 refused,
+                too_wide,
                 term: entry.term,
             }
         })

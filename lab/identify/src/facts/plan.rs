@@ -4,8 +4,12 @@ use super::asked::Asked;
 use crate::conclude::final_fit::FinalFit;
 use crate::conclude::intervals::term_name;
 use crate::conclude::verdict::{sentence, verdict, Verdict};
-use crate::foresight::plan::{separate_first, strengthen, trajectory, Experiment};
+use crate::foresight::plan::{
+    separate_first, strengthen, trajectory, unidentified, Aim, Experiment,
+};
 use crate::ledger::Round;
+use crate::model::catalogue::Candidate;
+use crate::model::structure::FitTerm;
 use crate::problem::Prepared;
 use crate::record::Record;
 
@@ -17,9 +21,13 @@ pub struct Plan {
     /// The verdict on the record and its sentence, where the model does not describe it: no motion that
     /// determines its parameters mends that.
     pub undescribed: Option<String>,
-    /// Effects that the record confounds, each with its rivals ("presliding from backlash"), where
-    /// no known motion separates any of them.
+    /// Effects that the record confounds, each with the rivals from which the planned motion does not
+    /// separate it ("presliding from backlash").
     pub inseparable: Vec<String>,
+    /// Channels that such effects and their rivals read, where these are two.
+    pub together: Vec<[String; 2]>,
+    /// Parameters that the record does not identify.
+    pub unidentified: Vec<String>,
 }
 
 /// A planned experiment.
@@ -61,9 +69,13 @@ pub fn plan(record: &Record, asked: &Asked, tell: &dyn Fn(&str)) -> Result<Plan,
     let undescribed = (!is_described).then(|| format!("{}: {}", found.name(), said()));
     let separated = separate_first(&data, &ledger);
     let confounded = separated.is_some();
-    let rounds = ledger.rounds.iter().filter(|_| !confounded);
-    let inseparable = rounds.filter_map(|round| from_rivals(&data, round));
-    let inseparable = inseparable.collect();
+    let aims = separated.as_ref().map_or(&[][..], |one| &one.aims);
+    let open = |round| still_open(&data, round, aims);
+    let open: Vec<(String, Vec<[String; 2]>)> = ledger.rounds.iter().filter_map(open).collect();
+    let (inseparable, together): (Vec<String>, Vec<Vec<_>>) = open.into_iter().unzip();
+    let mut together: Vec<[String; 2]> = together.concat();
+    together.sort();
+    together.dedup();
     let planned = separated.or_else(|| strengthen(&done.data, &done.solution));
     let planned = planned.map(|experiment| Planned {
         csv: trajectory(&data, experiment.kind).csv(),
@@ -74,18 +86,27 @@ pub fn plan(record: &Record, asked: &Asked, tell: &dyn Fn(&str)) -> Result<Plan,
         planned,
         undescribed,
         inseparable,
+        together,
+        unidentified: unidentified(&done.data, &done.solution),
     })
 }
 
-/// "presliding from backlash"; `None` without rivals.
-fn from_rivals(data: &Prepared, round: &Round) -> Option<String> {
-    let rivals = round.rivals.iter().map(|r| term_name(data, &r.term));
-    let rivals: Vec<String> = rivals.collect();
-    (!rivals.is_empty()).then(|| {
-        format!(
-            "{} from {}",
-            term_name(data, round.term()),
-            rivals.join(", ")
-        )
-    })
+/// "presliding from backlash", of the rivals that are no aims, and the pairs of channels that these and the
+/// effect read; `None` without such rivals.
+fn still_open(data: &Prepared, round: &Round, aims: &[Aim]) -> Option<(String, Vec<[String; 2]>)> {
+    let own = term_name(data, round.term());
+    let name = |rival: &Candidate| term_name(data, &rival.term);
+    let is_aim = |rival: &Candidate| {
+        let rival = name(rival);
+        let mut aims = aims.iter();
+        aims.any(|aim| aim.what == own && aim.rival.as_ref() == Some(&rival))
+    };
+    let rivals: Vec<&Candidate> = round.rivals.iter().filter(|r| !is_aim(r)).collect();
+    let channel = |term: &FitTerm| data.channel(term.source).map(|c| c.name.clone());
+    let apart = rivals.iter().filter_map(|rival| {
+        let pair = [channel(round.term())?, channel(&rival.term)?];
+        (pair[0] != pair[1]).then_some(pair)
+    });
+    let names: Vec<String> = rivals.iter().copied().map(name).collect();
+    (!names.is_empty()).then(|| (format!("{own} from {}", names.join(", ")), apart.collect()))
 }

@@ -14,7 +14,7 @@ mod model;
 mod strengthen;
 mod trajectory;
 
-pub use strengthen::strengthen;
+pub use strengthen::{strengthen, unidentified};
 pub use trajectory::{trajectory, Kind, Trajectory};
 
 use crate::algebra::imitated;

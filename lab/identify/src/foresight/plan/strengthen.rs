@@ -10,8 +10,11 @@ use crate::fit::Solution;
 use crate::model::structure::Role;
 use crate::problem::Prepared;
 
-/// An experiment is worth its while where a parameter shows this many times as strongly.
+/// A parameter is an aim where it would show this many times as strongly, and at least as many times as
+/// its interval is too wide: what changes no answer is no reason to record again ...
 const WORTH: f64 = 1.2;
+/// ... and where nothing is known of its interval, this many times. A choice.
+const TWICE: f64 = 2.0;
 
 /// Rms per row of a column once the others are taken off, and what they imitate of it.
 fn shows(placed: &Placed<'_>, data: &Prepared, j: usize) -> Option<(f64, f64)> {
@@ -23,34 +26,58 @@ fn shows(placed: &Placed<'_>, data: &Prepared, j: usize) -> Option<(f64, f64)> {
     (whole > 0.0).then(|| (rest / count.sqrt(), imitated(whole, rest)))
 }
 
-/// The experiment that shows best what the record does not identify; `None` where all is
+/// A parameter that the record does not identify: its place among the columns, its name, and how many times
+/// as strongly it has to show to be known.
+struct Open {
+    place: usize,
+    name: String,
+    needs: f64,
+}
+
+/// What the record does not identify, but for how it began, which is no property of the rig, of so many
+/// parameters.
+fn open(data: &Prepared, solution: &Solution) -> (usize, Vec<Open>) {
+    let all = parameters(data, solution);
+    let count = all.len();
+    let linear = all.len().saturating_sub(solution.free.len());
+    let is_passing = |j: usize| {
+        let role = j.checked_sub(linear).map(|f| solution.free[f].role);
+        matches!(role, Some(Role::Eta0 { .. } | Role::Start { .. }))
+    };
+    let open = all.into_iter().enumerate();
+    let open = open
+        .filter(|(j, p)| !p.identified && !is_passing(*j))
+        .map(|(place, p)| Open {
+            place,
+            name: p.name,
+            needs: p.too_wide.unwrap_or(TWICE).max(WORTH),
+        });
+    (count, open.collect())
+}
+
+/// Names of what the record does not identify.
+#[must_use]
+pub fn unidentified(data: &Prepared, solution: &Solution) -> Vec<String> {
+    let (_, open) = open(data, solution);
+    open.into_iter().map(|one| one.name).collect()
+}
+
+/// The experiment after which most of what the record does not identify is known; `None` where all is
 /// identified or no canned motion would help.
 #[must_use]
 pub fn strengthen(data: &Prepared, solution: &Solution) -> Option<Experiment> {
     use rayon::prelude::*;
     let model = Model::whole(solution);
     let here = model.on(data)?;
-    let all = parameters(data, solution);
-    if all.len() != here.columns.len() {
+    let (count, open) = open(data, solution);
+    if count != here.columns.len() {
         return None;
     }
-    let linear = all.len() - solution.free.len();
-    let weak: Vec<(usize, &str, f64, f64)> = all
-        .iter()
-        .enumerate()
-        .filter(|(j, p)| {
-            // How the record began is no property of the rig.
-            let passing = j.checked_sub(linear).is_some_and(|f| {
-                matches!(
-                    solution.free[f].role,
-                    Role::Eta0 { .. } | Role::Start { .. }
-                )
-            });
-            !p.identified && !passing
-        })
-        .filter_map(|(j, p)| {
-            let (now, imitated) = shows(&here, data, j)?;
-            (now > 0.0).then_some((j, p.name.as_str(), now, imitated))
+    let weak: Vec<(Open, f64, f64)> = open
+        .into_iter()
+        .filter_map(|one| {
+            let (now, imitated) = shows(&here, data, one.place)?;
+            (now > 0.0).then_some((one, now, imitated))
         })
         .collect();
     if weak.is_empty() {
@@ -64,19 +91,24 @@ pub fn strengthen(data: &Prepared, solution: &Solution) -> Option<Experiment> {
             let placed = model.on(&motion)?;
             let mut score = 0.0;
             let mut aims = Vec::new();
-            for &(j, name, now, imitated) in &weak {
-                let (then, left) = shows(&placed, &motion, j)?;
-                score += (then / now).max(1e-9).ln() / weak.len() as f64;
+            for (one, now, imitated) in &weak {
+                let (then, left) = shows(&placed, &motion, one.place)?;
+                let times = then / now;
+                if times.is_nan() || times < one.needs {
+                    continue;
+                }
+                score += times.ln();
                 aims.push(Aim {
-                    what: name.to_owned(),
+                    what: one.name.clone(),
                     rival: None,
-                    correlation_now: imitated,
+                    correlation_now: *imitated,
                     correlation_then: left,
                     left_now: 1.0,
-                    left_then: then / now,
+                    left_then: times,
                 });
             }
-            (score >= WORTH.ln()).then(|| (score, describe(data, &planned, &motion, aims)))
+            let score = (aims.len(), score);
+            Some((score, describe(data, &planned, &motion, aims)))
         })
         .collect();
     best(tried)
