@@ -26,9 +26,10 @@ held out      The last 25 %: nothing is fitted to it and nothing is selected by 
               raises it: the search does not look, so the mark is a warning, not a rule.
 explains      The share of the squared error on the fit segment that a round removes, of what
               the row above leaves.
-grade         firm: the name recurs in at least 50 of 100 half-records, and nothing does as well
-              in its place. weak: one of several effects that would explain this. The grade is
-              of the name. The size of the effect is its coefficient.
+grade         firm: the name recurs in at least 50 of 100 half-records, helps on at least 8 of 16
+              blocks, and nothing does as well in its place. weak: one of several effects that
+              would explain this, or one that helps only together with another. The grade is of
+              the name. The size of the effect is its coefficient.
 recurs        In how many of 100 random halves of the sixteen blocks the same search names this
               effect again.
 (n)           A round in brackets was found and is not delivered: on blocks that were left out of

@@ -7,6 +7,7 @@
 
 mod apart;
 mod ballast;
+mod beyond;
 mod carries_over;
 mod changed;
 mod channels;

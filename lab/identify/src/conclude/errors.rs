@@ -93,6 +93,9 @@ pub fn percent(share: f64) -> String {
         // A segment on which the output rests has no standard deviation.
         return "–".to_owned();
     }
+    if share > 10.0 {
+        return "over 1000 %".to_owned();
+    }
     let digits = if share >= 1.0 { 0 } else { 2 };
     format!("{:.digits$} %", 100.0 * share)
 }

@@ -15,6 +15,7 @@ mod no_model;
 pub mod resolution;
 mod shares;
 pub mod signals;
+mod signs;
 pub mod trace;
 pub mod unneeded;
 pub mod verdict;

@@ -18,6 +18,7 @@ use super::intervals::term_title;
 use super::lacks::{lacks, rises};
 use super::no_model::{is_no_model, no_model};
 use super::resolution::coarse_words;
+use super::signs::{falls, of_tension, of_the_motion, turns_against};
 use crate::fit::Solution;
 use crate::ledger::Ledger;
 use crate::model::catalogue::Candidate;
@@ -27,6 +28,7 @@ use crate::score::blocks::Regime;
 use crate::score::explains::{deviations, segments_differ};
 use crate::score::whiteness::is_white;
 use crate::search::policy::AT_FLOOR;
+use bowden::effect::Family;
 use bowden::model::Source;
 
 /// What the run amounts to.
@@ -258,6 +260,10 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
     all.extend(one_function(data, done));
     all.extend(starts_apart(data, &done.solution));
     all.extend(ballast(done));
+    all.extend(of_the_motion(data, &done.solution));
+    all.extend(of_tension(data, &done.solution));
+    all.extend(falls(data, &done.solution));
+    all.extend(turns_against(done));
     all.extend(coarse_words(data, ledger));
     if let Some(channel) = stands_for_output(data, &ledger.declared, &done.solution) {
         all.push(format!(
@@ -269,10 +275,7 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
             data.input.name
         ));
     } else if let Some(lead) = lead(data, ledger, &done.solution).filter(|_| !is_mended) {
-        all.push(format!(
-            "The output comes about {:.1} ms before the input that it answers, which no transmission does: were both logged on one clock?",
-            1e3 * lead
-        ));
+        all.push(clocks(data, ledger, done, lead));
     }
     all.extend(ledger.stopped_words());
     if segments_differ(data) {
@@ -305,6 +308,30 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
         );
     }
     all
+}
+
+/// Multiple of the noise floor from which a lead is no matter of clocks alone. A choice.
+const MUCH: f64 = 3.0;
+
+/// What is to be said of an output that comes before its input by so much \[s\]. Where much is left, or
+/// an effect that is no stage does as well, what leads may be a part of the rig that the model lacks.
+fn clocks(data: &Prepared, ledger: &Ledger, done: &FinalFit, lead: f64) -> String {
+    let ms = 1e3 * lead;
+    let is_stage = |family: Family| matches!(family, Family::Delay | Family::Lag);
+    let mut stages = ledger
+        .rounds
+        .iter()
+        .filter(|r| is_stage(r.candidate.family));
+    let is_clock = stages.any(|r| r.rivals.iter().all(|rival| is_stage(rival.family)));
+    let is_much = floors(data, done).is_some_and(|(fit, _)| fit > MUCH);
+    match is_much || !is_clock {
+        true => format!(
+            "In the model the output comes about {ms:.1} ms before the input that it answers, which no transmission does: either the two were not logged on one clock, or that stands for something which the model lacks."
+        ),
+        false => format!(
+            "The output comes about {ms:.1} ms before the input that it answers, which no transmission does: were both logged on one clock?"
+        ),
+    }
 }
 
 /// The verdict in a few sentences, the one that matters most first.

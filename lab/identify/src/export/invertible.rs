@@ -31,7 +31,7 @@ pub struct FeedForward {
     pub because: Option<String>,
     /// The nearest model that it takes, if not this one.
     pub nearest: Option<Nearest>,
-    /// What is not proved of its inverse in `f32`, where it has one.
+    /// What is to be known of its inverse, where it has one: its sign, and what is not proved in `f32`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub caution: Option<String>,
 }
@@ -103,10 +103,21 @@ const PROVED_N: f64 = 4.0;
 const MEASURED_N: f64 = 10.0;
 const ABOVE: f64 = 1.39;
 
-/// What is not proved of the inverse that a model has: that one input belongs to each output of
-/// the step that `f32` takes.
+/// What is to be known of the inverse that a model has: that no controller is designed around a torque
+/// that falls where its input rises, and what is not proved.
 #[must_use]
 pub fn caution(file: &ModelFile) -> Option<String> {
+    let t = file.transmission.as_ref()?;
+    let falls = (file.mode == "torque" && t.gain < 0.0).then(|| {
+        "the output falls where the input rises, which `bowden design` refuses".to_owned()
+    });
+    let all: Vec<String> = falls.into_iter().chain(unproved(file)).collect();
+    (!all.is_empty()).then(|| all.join("; "))
+}
+
+/// What is not proved of the inverse that a model has: that one input belongs to each output of
+/// the step that `f32` takes.
+fn unproved(file: &ModelFile) -> Option<String> {
     let t = file.transmission.as_ref()?;
     let against = match file.mode.as_str() {
         "torque" => t.kappa_eta,

@@ -4,12 +4,14 @@
 //! common level (Fisher's g supposes one and rejects on every record). The slope of the filter is
 //! divided out first, so that a line above the cut-off is found too: the filter passes half of
 //! the amplitude there. Lines of the input and their multiples are excluded: a static
-//! non-linearity also produces lines there.
+//! non-linearity also produces lines there. A line at a sum or difference of the lines of what moves may
+//! be of that kind too ([`is_combination`]).
 
+use crate::model::kind::{kind, Kind};
 use crate::model::structure::FitTerm;
 use crate::problem::filter::gain;
 use crate::problem::spectrum::power_of_fit;
-use crate::problem::{Prepared, MOST_RECORDS};
+use crate::problem::{Channel, Prepared, MOST_RECORDS};
 use bowden::effect::Effect;
 use bowden::model::Source;
 use rustfft::num_complex::Complex;
@@ -27,6 +29,13 @@ const MULTIPLES: usize = 7;
 const NEAR: f64 = 0.6;
 /// ... and the power from which a line of the input is one, of its strongest.
 const LINE: f64 = 0.01;
+/// Number of the strongest lines of what moves whose sums and differences are looked at ...
+const COMBINED: usize = 6;
+/// ... of the highest of these orders, a combination of n lines with their repetitions being of order n,
+/// at which they take ...
+const ORDERS: [i32; 3] = [5, 3, 2];
+/// ... no more than this share of the bins. A choice: a disturbance from outside is doubted as often.
+const TAKEN: f64 = 0.25;
 /// Steps to either side in which the frequency is refined, within one bin.
 const STEPS: i32 = 50;
 
@@ -40,14 +49,7 @@ pub(crate) fn strongest(data: &Prepared, residual: &[f64]) -> Option<(f64, f64)>
     let hann = |at: f64, n: f64| 0.5 - 0.5 * (TAU * at / n).cos();
     let power_of = |signal: &[f64]| power_of_fit(data, signal, hann);
     let mut powers = power_of(residual)?;
-    let position: Vec<f64> = data
-        .input
-        .motion
-        .iter()
-        .step_by(data.stride)
-        .map(|m| m.position)
-        .collect();
-    let own = lines(&power_of(&position)?);
+    let own = lines_of(data, &data.input)?;
     let bins = data.split.fit.last()? - data.split.fit.first()? + 1;
     let seconds = bins as f64 * step(data);
     let passed = |k: &usize| gain(data.cutoff, 1.0 / data.dt, *k as f64 / seconds);
@@ -58,8 +60,9 @@ pub(crate) fn strongest(data: &Prepared, residual: &[f64]) -> Option<(f64, f64)>
     }
     let free: Vec<usize> = (2..highest)
         .filter(|&k| {
-            !own.iter()
-                .any(|line| (1..=MULTIPLES).any(|m| (k as f64 - m as f64 * line).abs() <= NEAR))
+            !own.iter().any(|(line, _)| {
+                (1..=MULTIPLES).any(|m| (k as f64 - m as f64 * line).abs() <= NEAR)
+            })
         })
         .collect();
     let (bin, p) = free
@@ -79,15 +82,78 @@ pub(crate) fn strongest(data: &Prepared, residual: &[f64]) -> Option<(f64, f64)>
     (p <= LEVEL / free.len() as f64).then_some((bin as f64 / seconds, p))
 }
 
-/// Positions of the lines of a spectrum, to a fraction of a bin.
-fn lines(power: &[f64]) -> Vec<f64> {
+/// A line of a spectrum: its bin, to a fraction, and its power, of the strongest.
+type Line = (f64, f64);
+
+/// The lines of a channel.
+fn lines_of(data: &Prepared, channel: &Channel) -> Option<Vec<Line>> {
+    let motion = channel.motion.iter().step_by(data.stride);
+    let position: Vec<f64> = motion.map(|m| m.position).collect();
+    let hann = |at: f64, n: f64| 0.5 - 0.5 * (TAU * at / n).cos();
+    power_of_fit(data, &position, hann).map(|power| lines(&power))
+}
+
+/// Whether a frequency \[Hz\] is a sum or difference of the lines of the input and of what else moves.
+/// What is not linear in the motion, as friction is, makes lines there.
+pub(crate) fn is_combination(data: &Prepared, frequency: f64) -> bool {
+    let (Some(&first), Some(&last)) = (data.split.fit.first(), data.split.fit.last()) else {
+        return false;
+    };
+    let seconds = (last - first + 1) as f64 * step(data);
+    let moving = data.channels.iter().enumerate().filter(|(index, channel)| {
+        kind(data.mode, Source::Channel(*index as u8), channel) == Kind::Motion
+    });
+    let all = std::iter::once(&data.input).chain(moving.map(|(_, channel)| channel));
+    let mut lines: Vec<Line> = all
+        .filter_map(|one| lines_of(data, one))
+        .flatten()
+        .collect();
+    lines.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let strongest: Vec<f64> = lines.iter().take(COMBINED).map(|line| line.0).collect();
+    let highest = (data.cutoff * seconds) as usize;
+    is_near_a_sum(&strongest, highest, frequency * seconds)
+}
+
+/// Whether a place is near a sum or difference of lines, of the highest order at which these take no more
+/// than their share of the bins.
+fn is_near_a_sum(lines: &[f64], highest: usize, place: f64) -> bool {
+    let near = |sums: &[f64], place: f64| sums.iter().any(|sum| (place - sum).abs() <= NEAR);
+    let mut orders = ORDERS.iter().map(|&order| combinations(lines, order));
+    let is_few = |sums: &Vec<f64>| {
+        let taken = (1..=highest).filter(|&k| near(sums, k as f64)).count();
+        taken as f64 <= TAKEN * highest as f64
+    };
+    orders.find(is_few).is_some_and(|sums| near(&sums, place))
+}
+
+/// Places of the sums and differences of lines, up to an order: of the even ones the second alone, since
+/// friction is odd.
+fn combinations(lines: &[f64], order: i32) -> Vec<f64> {
+    let mut sums = vec![(0, 0.0)];
+    for line in lines {
+        let with = sums.iter().flat_map(|&(used, at): &(i32, f64)| {
+            let left = order - used;
+            (-left..=left).map(move |n| (used + n.abs(), at + f64::from(n) * line))
+        });
+        sums = with.collect();
+    }
+    let counts = |used: i32| used == 2 || used % 2 == 1;
+    let all = sums
+        .into_iter()
+        .filter(|&(used, at)| counts(used) && at > 0.0);
+    all.map(|(_, at)| at).collect()
+}
+
+/// The lines of a spectrum.
+fn lines(power: &[f64]) -> Vec<Line> {
     let peak = power.iter().copied().fold(0.0, f64::max);
     (1..power.len().saturating_sub(1))
         .filter(|&k| power[k] >= LINE * peak && power[k] >= power[k - 1] && power[k] > power[k + 1])
         .map(|k| {
             // In logarithms the main lobe of a Hann window is nearly a parabola.
             let [a, b, c] = [power[k - 1], power[k], power[k + 1]].map(|p| p.max(1e-300).ln());
-            k as f64 + 0.5 * (a - c) / (a - 2.0 * b + c)
+            let place = k as f64 + 0.5 * (a - c) / (a - 2.0 * b + c);
+            (place, power[k] / peak)
         })
         .collect()
 }
@@ -114,4 +180,27 @@ pub(crate) fn term(data: &Prepared, residual: &[f64], frequency: f64) -> Option<
         origin: 0.0,
         start: [0.0; MOST_RECORDS],
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_near_a_sum;
+
+    /// Friction of a motion at bins 7.4, 19.9 and 40.8 makes a line at 2·40.8 − 19.9 = 61.7.
+    #[test]
+    fn a_sum_or_difference_of_the_lines_of_what_moves_is_no_disturbance() {
+        let own = [7.4, 19.9, 40.8];
+        let is_sum = |place| is_near_a_sum(&own, 437, place);
+        assert!(is_sum(61.7), "2·40.8 - 19.9");
+        assert!(is_sum(68.0), "7.4 + 19.9 + 40.8");
+        assert!(is_sum(48.3), "7.4 + 40.8");
+        // No combination of up to five is near.
+        assert!(!is_sum(24.0) && !is_sum(213.0) && !is_sum(300.0));
+        // Of the lines of another channel too, here 40.8 - 17.1.
+        assert!(is_near_a_sum(&[7.4, 19.9, 40.8, 17.1], 437, 23.7));
+        // A tone is doubted in a quarter of the cases at most, however many lines there are.
+        let many = [7.4, 19.9, 40.8, 17.1, 55.3, 31.9];
+        let doubted = (1..=437).filter(|&k| is_near_a_sum(&many, 437, f64::from(k)));
+        assert!(4 * doubted.count() <= 437);
+    }
 }

@@ -134,6 +134,11 @@ pub const RECURRENCES: usize = 100;
 /// 0.38. Other definitions of a firm name are compared in `docs/results/carry_over.md`.
 pub const FIRM: f64 = 0.5;
 
+/// Least share of the blocks on which a firm name lowers the error, in its place among the rounds.
+///
+/// A choice: a name that does harm on most of the record helps only together with another one.
+pub const HELPS: f64 = 0.5;
+
 /// Largest factor by which an accepted move may raise the error on the stop-check.
 ///
 /// A choice: if several effects are missing, adding one may uncover another on that segment.

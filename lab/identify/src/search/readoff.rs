@@ -19,8 +19,9 @@ use crate::model::kind::is_stage;
 use crate::model::structure::{FitTerm, Free, Structure};
 use crate::model::Table;
 use crate::problem::Prepared;
-use crate::score::blocks::Regime;
+use crate::score::blocks::{Regime, BLOCKS};
 use crate::score::left_out::on_blocks;
+use crate::score::tones::is_combination;
 use std::sync::Arc;
 
 /// Maximum number of rivals of one name that are refitted.
@@ -62,7 +63,10 @@ impl Search<'_> {
             let explained = 1.0 - solution.sse(self.data) / before.sse(self.data);
             let (blocks_better, _) = on_blocks(self.data, &before, solution, self.regime);
             ledger.rounds.push(Round {
-                grade: grade(recurs, &rivals),
+                grade: match is_doubtful(self.data, &term) {
+                    true => Grade::Weak,
+                    false => grade(recurs, blocks_better, &rivals),
+                },
                 candidate,
                 p,
                 rivals,
@@ -348,10 +352,20 @@ impl Linear<'_> {
     }
 }
 
-/// Grade of a name from its recurrence and its rivals.
-fn grade(recurs: usize, rivals: &[Candidate]) -> Grade {
+/// Whether a term is a tone at a line that the motion itself may make.
+fn is_doubtful(data: &Prepared, term: &FitTerm) -> bool {
+    let frequency = term
+        .effect
+        .shape(0)
+        .filter(|_| term.effect.name() == "tone");
+    frequency.is_some_and(|f| is_combination(data, f))
+}
+
+/// Grade of a name from its recurrence, the blocks that it helps on, and its rivals.
+fn grade(recurs: usize, blocks_better: usize, rivals: &[Candidate]) -> Grade {
     let least = policy::FIRM * policy::RECURRENCES as f64;
-    match recurs as f64 >= least && rivals.is_empty() {
+    let helps = blocks_better as f64 >= policy::HELPS * BLOCKS as f64;
+    match recurs as f64 >= least && helps && rivals.is_empty() {
         true => Grade::Firm,
         false => Grade::Weak,
     }
@@ -407,5 +421,17 @@ impl Context<'_, '_> {
             close.into_iter().take(RIVALS).map(|(_, g)| g).collect(),
             sse,
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_that_does_harm_on_most_blocks_or_seldom_recurs_is_weak() {
+        assert_eq!(grade(50, 8, &[]), Grade::Firm);
+        assert_eq!(grade(49, 16, &[]), Grade::Weak);
+        assert_eq!(grade(100, 7, &[]), Grade::Weak);
     }
 }

@@ -232,7 +232,8 @@ pub(super) const MOTION: &[Entry] = &[
     Entry {
         name: "position-hysteresis",
         rank: 16,
-        tried: &[on(Place::Motion, AS_IT_IS)],
+        // Of the torque itself: the friction of a cable grows with its tension.
+        tried: &[on(Place::Motion, AS_IT_IS), on(Place::Torque, AS_IT_IS)],
         on: &[On::DirectedPosition],
         shown_by: "short strokes at several positions",
         ..PLAIN

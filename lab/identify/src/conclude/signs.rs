@@ -1,0 +1,136 @@
+//! Gains that need a word: those whose sign misleads, and that of the tension.
+
+use super::final_fit::FinalFit;
+use super::intervals::{parameters, term_title};
+use crate::algebra::line;
+use crate::fit::{Segments, Solution};
+use crate::model::structure::FitTerm;
+use crate::problem::Prepared;
+use crate::record::Mode;
+use crate::score::tones::is_combination;
+use bowden::model::Source;
+
+/// A hysteresis is mentioned from this share of the output's standard deviation on. A choice: less is
+/// what the fit of another part leaves to it.
+const SHOWS: f64 = 0.01;
+
+/// Parts that remember, or are friction, and may share the friction with a hysteresis.
+const FRICTION: [&str; 12] = [
+    "presliding",
+    "presliding-dahl",
+    "backlash",
+    "dead-zone",
+    "play-in-series",
+    "coulomb",
+    "viscous",
+    "power-law",
+    "creep",
+    "lag",
+    "delay",
+    "position-hysteresis",
+];
+
+/// What is to be said of tones at lines that the motion itself may make.
+pub(super) fn of_the_motion(data: &Prepared, solution: &Solution) -> Option<String> {
+    let terms = solution.structure.terms.iter();
+    let tones = terms.filter(|term| term.effect.name() == "tone");
+    let is_doubtful = |t: &&FitTerm| t.effect.shape(0).is_some_and(|f| is_combination(data, f));
+    let tones: Vec<String> = tones
+        .filter(is_doubtful)
+        .map(|t| term_title(data, t))
+        .collect();
+    (!tones.is_empty()).then(|| {
+        format!(
+            "The frequency of {} is a sum or difference of those of the motion: friction that the model lacks makes such lines, and it need be no disturbance from outside.",
+            tones.join(", ")
+        )
+    })
+}
+
+/// What is to be said where `eta` times the torque is among the parts.
+pub(super) fn of_tension(data: &Prepared, solution: &Solution) -> Option<String> {
+    let mut terms = solution.structure.terms.iter();
+    let is_of_torque =
+        |t: &FitTerm| t.effect.name() == "position-hysteresis" && t.source == Source::Input;
+    (data.mode == Mode::Torque && terms.any(is_of_torque)).then(|| {
+        "The position-hysteresis of the torque is eta times the torque: the friction of the cable grows with its tension, as that of a rope on a post does.".to_owned()
+    })
+}
+
+/// What is to be said of a torque that falls where the input rises.
+pub(super) fn falls(data: &Prepared, solution: &Solution) -> Option<String> {
+    if data.mode != Mode::Torque || input_gain(solution)? >= 0.0 {
+        return None;
+    }
+    let rows = data.split.fit.iter();
+    let (slope, _) = line(rows.map(|&i| (solution.columns[0][i], data.target[i])));
+    (slope < 0.0).then(|| {
+        format!(
+            "`{}` falls where `{}` rises: one of them counts the other way, and `bowden design` refuses the model until that is mended.",
+            data.output_name, data.input.name
+        )
+    })
+}
+
+/// The gain over the input, with what a share of it adds; `None` without a hysteresis, and where each
+/// file has its own.
+fn input_gain(solution: &Solution) -> Option<f64> {
+    let structure = &solution.structure;
+    if !structure.hysteresis || structure.own_gains > 0 {
+        return None;
+    }
+    let terms = structure.terms.iter().enumerate();
+    let is_share = |term: &FitTerm| {
+        let is_line = ["gain", "stiffness-linear"].contains(&term.effect.name());
+        is_line && term.source == Source::Input
+    };
+    let shares = terms.filter(|(_, term)| is_share(term));
+    Some(solution.gains[0] + shares.map(|(i, _)| solution.gain(i)).sum::<f64>())
+}
+
+/// What is to be said of a hysteresis whose loop turns against that of the output: beside other parts its
+/// gain is that of a difference.
+pub(super) fn turns_against(done: &FinalFit) -> Option<String> {
+    let (data, solution) = (&done.data, &done.solution);
+    let structure = &solution.structure;
+    if !structure.hysteresis || structure.own_gains > 0 {
+        return None;
+    }
+    let (eta, gain) = (&solution.columns[1], solution.gains[1]);
+    let eta: Vec<f64> = (0..data.target.len()).map(|i| gain * eta[i]).collect();
+    let spread = |signal: &[f64]| Segments::deviation(data, signal).fit;
+    if area(data, &eta) * area(data, &data.target) >= 0.0
+        || spread(&eta) < SHOWS * spread(&data.target)
+    {
+        return None;
+    }
+    let terms = solution.structure.terms.iter();
+    let others = terms.filter(|term| FRICTION.contains(&term.effect.name()));
+    let mut others: Vec<String> = others.map(|term| term_title(data, term)).collect();
+    others.sort();
+    others.dedup();
+    if others.is_empty() {
+        return None;
+    }
+    let all = parameters(data, solution);
+    let shown = all.iter().find(|p| p.name == "kappa_eta")?;
+    // An interval that holds zero says nothing of the sign.
+    let is_known = shown.ci95.is_none_or(|[low, high]| low * high > 0.0);
+    is_known.then(|| {
+        format!(
+            "The loop of the hysteresis turns against that of the output (kappa_eta {:.3}): its gain and what {} does cancel in part, so that neither is one of the rig by itself.",
+            shown.value,
+            others.join(", ")
+        )
+    })
+}
+
+/// Area of the loop of a signal over the input: the integral of it times the input's rate.
+fn area(data: &Prepared, signal: &[f64]) -> f64 {
+    let rows = &data.split.fit;
+    let mean = rows.iter().map(|&row| signal[row]).sum::<f64>() / rows.len().max(1) as f64;
+    let rate = |row: usize| data.input.motion[row * data.stride].velocity;
+    rows.iter()
+        .map(|&row| (signal[row] - mean) * rate(row))
+        .sum()
+}
