@@ -41,7 +41,7 @@ pub(super) fn of_the_motion(data: &Prepared, solution: &Solution) -> Option<Stri
         .collect();
     (!tones.is_empty()).then(|| {
         format!(
-            "The frequency of {} is a sum or difference of those of the motion: friction that the model lacks makes such lines, and it need be no disturbance from outside.",
+            "The frequency of {} is a sum, a difference or a multiple of those of the motion: friction that the model lacks makes such lines, and it need be no disturbance from outside.",
             tones.join(", ")
         )
     })

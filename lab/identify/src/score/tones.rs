@@ -60,9 +60,8 @@ pub(crate) fn strongest(data: &Prepared, residual: &[f64]) -> Option<(f64, f64)>
     }
     let free: Vec<usize> = (2..highest)
         .filter(|&k| {
-            !own.iter().any(|(line, _)| {
-                (1..=MULTIPLES).any(|m| (k as f64 - m as f64 * line).abs() <= NEAR)
-            })
+            let is_multiple = |(line, _): &Line| is_multiple(k as f64, *line);
+            !own.iter().any(is_multiple)
         })
         .collect();
     let (bin, p) = free
@@ -82,6 +81,11 @@ pub(crate) fn strongest(data: &Prepared, residual: &[f64]) -> Option<(f64, f64)>
     (p <= LEVEL / free.len() as f64).then_some((bin as f64 / seconds, p))
 }
 
+/// Whether a place is near a multiple of a line.
+fn is_multiple(place: f64, line: f64) -> bool {
+    (1..=MULTIPLES).any(|m| (place - m as f64 * line).abs() <= NEAR)
+}
+
 /// A line of a spectrum: its bin, to a fraction, and its power, of the strongest.
 type Line = (f64, f64);
 
@@ -93,8 +97,9 @@ fn lines_of(data: &Prepared, channel: &Channel) -> Option<Vec<Line>> {
     power_of_fit(data, &position, hann).map(|power| lines(&power))
 }
 
-/// Whether a frequency \[Hz\] is a sum or difference of the lines of the input and of what else moves.
-/// What is not linear in the motion, as friction is, makes lines there.
+/// Whether a frequency \[Hz\] is a sum or difference of the lines of the input and of what else moves, or
+/// a multiple of one. What is not linear in the motion, as friction is, makes lines there. No search
+/// begins at a multiple, but one that begins beside it may end there.
 pub(crate) fn is_combination(data: &Prepared, frequency: f64) -> bool {
     let (Some(&first), Some(&last)) = (data.split.fit.first(), data.split.fit.last()) else {
         return false;
@@ -111,7 +116,9 @@ pub(crate) fn is_combination(data: &Prepared, frequency: f64) -> bool {
     lines.sort_by(|a, b| b.1.total_cmp(&a.1));
     let strongest: Vec<f64> = lines.iter().take(COMBINED).map(|line| line.0).collect();
     let highest = (data.cutoff * seconds) as usize;
-    is_near_a_sum(&strongest, highest, frequency * seconds)
+    let place = frequency * seconds;
+    lines.iter().any(|(line, _)| is_multiple(place, *line))
+        || is_near_a_sum(&strongest, highest, place)
 }
 
 /// Whether a place is near a sum or difference of lines, of the highest order at which these take no more
@@ -184,7 +191,13 @@ pub(crate) fn term(data: &Prepared, residual: &[f64], frequency: f64) -> Option<
 
 #[cfg(test)]
 mod tests {
-    use super::is_near_a_sum;
+    use super::{is_multiple, is_near_a_sum};
+
+    #[test]
+    fn a_line_beside_a_multiple_is_told_from_it_by_a_bin() {
+        assert!(is_multiple(4.0 * 60.4, 60.4) && is_multiple(7.0 * 60.4 - 0.5, 60.4));
+        assert!(!is_multiple(4.0 * 60.4 + 1.0, 60.4) && !is_multiple(8.0 * 60.4, 60.4));
+    }
 
     /// Friction of a motion at bins 7.4, 19.9 and 40.8 makes a line at 2·40.8 − 19.9 = 61.7.
     #[test]
