@@ -236,6 +236,10 @@ fn a_rig_that_moves_less_is_not_said_to_have_changed() {
     // What has changed shows there too.
     let stiffer = bench.check(&disturbed_at(0.3, 1.15, 0.2, 200_000));
     assert_eq!(stiffer["verdict"], "gain-or-offset-moved");
+    says(
+        &stiffer,
+        &["at another pace or stroke such a model may be off by a gain"],
+    );
     let mut rubs = disturbed_at(0.3, 1.0, 0.2, 200_000);
     let x: Vec<f64> = rubs.rows.iter().map(|row| row[X]).collect();
     rubs.set(F, |i, row| {
@@ -245,6 +249,22 @@ fn a_rig_that_moves_less_is_not_said_to_have_changed() {
     let rubs = bench.check(&rubs);
     assert_eq!(rubs["verdict"], "does-not-hold");
     assert!(rubs["otherwise"].is_null(), "{}", rubs["otherwise"]);
+}
+
+#[test]
+fn a_model_that_did_not_carry_over_at_home_is_told_of_wherever_it_is_tried() {
+    let rows = spring((99.0, 0.0), 0);
+    let bench = Bench::of(&rows);
+    let text = std::fs::read_to_string(&bench.model).unwrap();
+    let own = text
+        .lines()
+        .find(|line| line.starts_with("verdict = "))
+        .unwrap();
+    let other = text.replace(own, "verdict = \"does-not-carry-over\"");
+    let told = "Its own verdict was `does-not-carry-over`";
+    assert!(!sentence(&bench.check(&another(rows))).contains(told));
+    std::fs::write(&bench.model, other).unwrap();
+    says(&bench.check(&another(spring((99.0, 0.0), 0))), &[told]);
 }
 
 #[test]

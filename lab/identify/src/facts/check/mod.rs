@@ -68,6 +68,8 @@ pub struct CheckFacts {
     pub is_just_above: bool,
     /// Whether the model missed more than noise where it came from.
     pub was_inexact: bool,
+    /// Whether its own verdict was that it does not carry over.
+    pub was_of_one_record: bool,
     /// Whether gain and offset take most of the squared error.
     pub is_mended: bool,
     /// Whether the output hardly exceeds the noise.
@@ -262,6 +264,7 @@ impl CheckFacts {
             start: check.start,
             is_just_above: check.is_just_above(),
             was_inexact: check.was_inexact(),
+            was_of_one_record: check.about.verdict.as_deref() == Some("does-not-carry-over"),
             quiet: check.is_quiet(),
             verdict: check.verdict,
             sentence: String::new(),

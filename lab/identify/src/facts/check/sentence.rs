@@ -126,6 +126,9 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
     if check.verdict == Verdict::Holds {
         text.push_str(&with_reserve(check));
     }
+    if check.was_of_one_record {
+        text.push_str(" Its own verdict was `does-not-carry-over`: it was not to be used on another record in the first place.");
+    }
     text
 }
 
@@ -240,11 +243,15 @@ fn moved(check: &CheckFacts, offset_alone: bool) -> String {
     }
 }
 
-/// What is to be asked where the gain has moved far.
+/// What is to be asked where the gain has moved: a model that was not exact is off by one at another pace
+/// or stroke, too.
 fn another_unit(check: &CheckFacts) -> &'static str {
-    match !check.offset_alone && is_far(check.line.gain.value) {
-        true => " Is the output in another unit here, or calibrated otherwise?",
-        false => "",
+    let is_far = !check.offset_alone && is_far(check.line.gain.value);
+    match (is_far, check.was_inexact && !check.offset_alone) {
+        (true, true) => " Is the output in another unit here, or calibrated otherwise, or is the motion another one? A model that was not exact where it came from may be off by a gain at another pace or stroke.",
+        (true, false) => " Is the output in another unit here, or calibrated otherwise?",
+        (false, true) => " It was not exact where it came from: at another pace or stroke such a model may be off by a gain although the rig is the same.",
+        (false, false) => "",
     }
 }
 
