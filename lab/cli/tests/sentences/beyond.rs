@@ -151,17 +151,6 @@ const EIGHT: [(f64, f64); 8] = [
     (0.455, 1.224),
     (0.493, 8.369),
 ];
-const OTHERS: [(f64, f64); 8] = [
-    (1.16, 8.546),
-    (0.351, 1.038),
-    (1.052, 6.703),
-    (0.903, 2.981),
-    (0.845, 5.579),
-    (0.823, 1.678),
-    (0.688, 3.724),
-    (0.951, 8.955),
-];
-
 /// What slips at a stretch that a small motion does not reach remembers what came before it.
 #[test]
 fn what_is_remembered_of_the_motion_before_the_record_does_not_blame_the_rig() {
@@ -181,19 +170,14 @@ fn what_is_remembered_of_the_motion_before_the_record_does_not_blame_the_rig() {
     );
 }
 
-/// A larger stroke shows the play's width less, and no parameter so much better that it is known.
+/// A larger stroke would show both shapes at their bounds 1.2 and 1.3 times as strongly.
 #[test]
 fn nothing_is_planned_that_makes_no_parameter_known() {
     let folder = tempfile::tempdir().unwrap();
-    let record = maxwell(&OTHERS, &TONES, 40).write(&folder, "others.csv");
+    let record = slack(0.5, 0.8).write(&folder, "slack.csv");
     let output = bowden(&["plan", &record]);
     let told = String::from_utf8(output.stderr).unwrap();
-    for line in told
-        .lines()
-        .filter(|line| line.contains("times as strongly"))
-    {
-        let times = line.split("shows ").nth(1).unwrap();
-        let times: f64 = times.split(' ').next().unwrap().parse().unwrap();
-        assert!(times >= 1.2, "{told}");
-    }
+    assert!(output.stdout.is_empty(), "{told}");
+    let open = "no planned motion would make sigma, n known: no experiment of this kind helps";
+    assert!(told.contains(open), "{told}");
 }
