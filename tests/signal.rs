@@ -82,7 +82,10 @@ fn the_time_of_a_bad_sample_belongs_to_the_dt_of_the_next_good_one() {
         assert!((found - rate).abs() < 1e-9, "{found}");
     }
     // `Rates` adds it by itself.
-    let rates = Rates::try_new(1e-6).unwrap();
+    let rates = Rates::try_new(1e-6)
+        .unwrap()
+        .with_longest_gap(0.01)
+        .unwrap();
     let mut state = RatesState::new();
     for position in [0.00, 0.01, f64::NAN, 0.03] {
         rates.step(&mut state, position, 1e-3);
