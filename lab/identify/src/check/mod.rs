@@ -246,7 +246,7 @@ impl Check {
         } else if self.rmse_gain_offset <= allowed && self.line.gain.value > 0.0 && self.is_mended()
         {
             Verdict::GainOrOffsetMoved
-        } else if !moved && (self.is_as_at_home() || self.is_just_above()) || self.is_of_before() {
+        } else if !moved && (self.is_as_at_home() || self.is_just_above()) {
             Verdict::CannotTell
         } else {
             Verdict::DoesNotHold
@@ -265,12 +265,6 @@ impl Check {
     pub fn is_just_above(&self) -> bool {
         let mut allowed = self.allowed.into_iter();
         self.was_inexact() && allowed.any(|most| self.rmse <= JUST * most)
-    }
-
-    /// Whether the motion before the record, which is unknown, accounts for most of the error.
-    #[must_use]
-    pub fn is_of_before(&self) -> bool {
-        self.start.powi(2) >= (1.0 - MENDED) * self.rmse.powi(2)
     }
 
     /// Whether most of the error is one of gain and offset.

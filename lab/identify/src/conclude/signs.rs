@@ -4,6 +4,7 @@ use super::final_fit::FinalFit;
 use super::intervals::{parameters, term_title};
 use crate::algebra::line;
 use crate::fit::{Segments, Solution};
+use crate::model::kind::{kind, Kind};
 use crate::model::structure::FitTerm;
 use crate::problem::Prepared;
 use crate::record::Mode;
@@ -55,6 +56,21 @@ pub(super) fn of_tension(data: &Prepared, solution: &Solution) -> Option<String>
     (data.mode == Mode::Torque && terms.any(is_of_torque)).then(|| {
         "The position-hysteresis of the torque is eta times the torque: the friction of the cable grows with its tension, as that of a rope on a post does.".to_owned()
     })
+}
+
+/// What is to be said where `eta` times a temperature is among the parts.
+pub(super) fn of_temperature(data: &Prepared, solution: &Solution) -> Option<String> {
+    let of_temperature = |t: &&FitTerm| {
+        let channel = data.channel(t.source);
+        t.effect.name() == "position-hysteresis"
+            && channel.is_some_and(|c| kind(data.mode, t.source, c) == Kind::Temperature)
+    };
+    let mut terms = solution.structure.terms.iter();
+    let channel = data.channel(terms.find(of_temperature)?.source)?;
+    Some(format!(
+        "The position-hysteresis of `{0}` is eta times the temperature: the friction changes with `{0}`.",
+        channel.name
+    ))
 }
 
 /// What is to be said of a torque that falls where the input rises.

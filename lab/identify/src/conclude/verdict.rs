@@ -18,7 +18,7 @@ use super::intervals::term_title;
 use super::lacks::{lacks, rises};
 use super::no_model::{is_no_model, no_model};
 use super::resolution::coarse_words;
-use super::signs::{falls, of_tension, of_the_motion, turns_against};
+use super::signs::{falls, of_temperature, of_tension, of_the_motion, turns_against};
 use crate::fit::Solution;
 use crate::ledger::Ledger;
 use crate::model::catalogue::Candidate;
@@ -262,6 +262,7 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
     all.extend(ballast(done));
     all.extend(of_the_motion(data, &done.solution));
     all.extend(of_tension(data, &done.solution));
+    all.extend(of_temperature(data, &done.solution));
     all.extend(falls(data, &done.solution));
     all.extend(turns_against(done));
     all.extend(coarse_words(data, ledger));

@@ -60,10 +60,6 @@ pub struct CheckFacts {
     pub left_out: f64,
     /// Whether only the offset has moved.
     pub offset_alone: bool,
-    /// Rms by which the motion before the record, which is unknown, still moves the prediction.
-    pub start: f64,
-    /// Whether that accounts for most of the error.
-    pub is_of_before: bool,
     /// Whether the error is just above the limit of a model that was not exact where it came from.
     pub is_just_above: bool,
     /// Whether the model missed more than noise where it came from.
@@ -260,8 +256,6 @@ impl CheckFacts {
             left_out: check.left_out,
             offset_alone,
             is_mended: check.is_mended(),
-            is_of_before: check.is_of_before(),
-            start: check.start,
             is_just_above: check.is_just_above(),
             was_inexact: check.was_inexact(),
             was_of_one_record: check.about.verdict.as_deref() == Some("does-not-carry-over"),

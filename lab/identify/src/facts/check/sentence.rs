@@ -102,10 +102,6 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
             "This record cannot tell: the model misses {}, which is no sign of a change, but the output moves so little here that this is {as_it_is} of it. A record with more motion says more.",
             in_its_unit(check)
         ),
-        Verdict::CannotTell if check.is_of_before => format!(
-            "Whether the model holds cannot be told: it misses {as_it_is} of this record's output, as against {came}, but what it remembers of the motion before the record, which is unknown, accounts for up to {}. A record that begins with the largest strokes that the model has seen says more.",
-            share(check.start)
-        ),
         Verdict::CannotTell if check.is_just_above => format!(
             "Whether the model holds cannot be told: it misses {as_it_is} of this record's output, as against {came}; the limit is {}. It was not exact where it came from, and such a model errs more on another motion. A record of the same motion says more.",
             check.allowed.map_or_else(String::new, share)

@@ -232,8 +232,13 @@ pub(super) const MOTION: &[Entry] = &[
     Entry {
         name: "position-hysteresis",
         rank: 16,
-        // Of the torque itself: the friction of a cable grows with its tension.
-        tried: &[on(Place::Motion, AS_IT_IS), on(Place::Torque, AS_IT_IS)],
+        // Of the torque itself: the friction of a cable grows with its tension. Of a temperature: a
+        // lubricant gets thinner.
+        tried: &[
+            on(Place::Motion, AS_IT_IS),
+            on(Place::Torque, AS_IT_IS),
+            on(Place::Temperature, AS_IT_IS),
+        ],
         on: &[On::DirectedPosition],
         shown_by: "short strokes at several positions",
         ..PLAIN
