@@ -158,7 +158,13 @@ fn coloured(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
         true => {
             format!("{size}; it looks like white noise, and depends on nothing that was measured.")
         }
-        false => format!("{size}; it is coloured, but no effect of the catalogue was found in it."),
+        // The first sentence says already that no effect was found.
+        false if ledger.rounds.is_empty() => format!("{size}; it is coloured."),
+        false => {
+            format!(
+                "{size}; it is coloured, but no further effect of the catalogue was found in it."
+            )
+        }
     }
 }
 
