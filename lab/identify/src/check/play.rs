@@ -48,9 +48,10 @@ impl Played {
             data.load = None;
         }
         let model = play(&data, given, 0.0, Before::Rest)?;
-        let terms = &model.structure.terms;
-        let remembers = model.structure.hysteresis || terms.iter().any(|t| t.effect.has_memory());
-        let from = if remembers { data.settled() } else { 0 };
+        let from = match remembers(&model) {
+            true => data.settled(),
+            false => 0,
+        };
         let data = data.with_rows(|row| row >= from);
         match data.split.fit.len() < FEWEST {
             true => Err("defects and gaps leave too little of the record".to_owned()),
@@ -79,6 +80,14 @@ pub(super) fn rms(data: &Prepared, signal: &[f64], about: f64) -> f64 {
 
 /// Fewest rows on which a model is judged.
 const FEWEST: usize = 96;
+
+/// Whether what came before a record matters to a model.
+pub(super) fn remembers(model: &Solution) -> bool {
+    let Structure {
+        hysteresis, terms, ..
+    } = &model.structure;
+    *hysteresis || terms.iter().any(|t| t.effect.has_memory())
+}
 
 /// From where the motion came just before the record, for what keeps its memory until it is moved as far
 /// again: a play, and a spring that slips.

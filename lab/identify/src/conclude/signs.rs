@@ -8,7 +8,7 @@ use crate::model::kind::{kind, Kind};
 use crate::model::structure::FitTerm;
 use crate::problem::Prepared;
 use crate::record::Mode;
-use crate::score::tones::is_combination;
+use crate::score::tones::may_be_of_the_motion;
 use bowden::model::Source;
 
 /// A hysteresis is mentioned from this share of the output's standard deviation on. A choice: less is
@@ -34,12 +34,8 @@ const FRICTION: [&str; 12] = [
 /// What is to be said of tones at lines that the motion itself may make.
 pub(super) fn of_the_motion(data: &Prepared, solution: &Solution) -> Option<String> {
     let terms = solution.structure.terms.iter();
-    let tones = terms.filter(|term| term.effect.name() == "tone");
-    let is_doubtful = |t: &&FitTerm| t.effect.shape(0).is_some_and(|f| is_combination(data, f));
-    let tones: Vec<String> = tones
-        .filter(is_doubtful)
-        .map(|t| term_title(data, t))
-        .collect();
+    let tones = terms.filter(|term| may_be_of_the_motion(data, term));
+    let tones: Vec<String> = tones.map(|t| term_title(data, t)).collect();
     (!tones.is_empty()).then(|| {
         format!(
             "The frequency of {} is a sum, a difference or a multiple of those of the motion: friction that the model lacks makes such lines, and it need be no disturbance from outside.",

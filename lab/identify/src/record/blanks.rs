@@ -6,15 +6,10 @@
 //! to the name before it, and where that does not give a name for each column, two blanks
 //! separate names.
 
+use super::layout::{HEAD, HEAD_BYTES, TABLE};
 use super::number::is_data;
 use std::borrow::Cow;
 
-/// Lines in which such rows are looked for.
-const HEAD: usize = 1000;
-/// No more than so many bytes of them.
-const HEAD_BYTES: usize = 1 << 20;
-/// So many rows in a row, or all that there are, make a table.
-const TABLE: usize = 3;
 /// The separator that stands for blanks.
 const TAB: u8 = b'\t';
 

@@ -149,17 +149,12 @@ fn of_cell(cell: &str) -> Named {
 /// `Force (V)` and `Force (N)` are two columns: where names are the same and cells are not, the
 /// cell is the name.
 fn tell_apart(columns: &mut [Named]) {
-    let alike = |a: &Named, b: &Named| a.name == b.name && !a.name.is_empty();
-    let apart: Vec<bool> = columns
-        .iter()
-        .enumerate()
-        .map(|(index, own)| {
-            let others = columns.iter().enumerate();
-            let mut others = others.filter(|(other, c)| *other != index && alike(own, c));
-            let first = others.next().map(|(_, other)| other.cell != own.cell);
-            first == Some(true) && others.all(|(_, other)| other.cell != own.cell)
-        })
-        .collect();
+    let is_apart = |own: &Named| {
+        let alike = columns.iter().filter(|other| other.name == own.name);
+        let twins = alike.clone().filter(|other| other.cell == own.cell);
+        !own.name.is_empty() && twins.count() == 1 && alike.count() > 1
+    };
+    let apart: Vec<bool> = columns.iter().map(is_apart).collect();
     for (column, _) in columns.iter_mut().zip(apart).filter(|(_, apart)| *apart) {
         column.name.clone_from(&column.cell);
     }

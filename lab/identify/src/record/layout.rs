@@ -13,11 +13,11 @@ use super::text::Rows;
 use super::{clock_time, units, Options};
 
 /// Lines in which the table is looked for.
-const HEAD: usize = 1000;
+pub(super) const HEAD: usize = 1000;
 /// No more than so many bytes of them.
-const HEAD_BYTES: usize = 1 << 20;
+pub(super) const HEAD_BYTES: usize = 1 << 20;
 /// So many rows of numbers in a row, or all that there are, make a table.
-const TABLE: usize = 3;
+pub(super) const TABLE: usize = 3;
 /// The names stand at most so many rows above the numbers.
 const ABOVE: usize = 8;
 

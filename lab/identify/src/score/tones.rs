@@ -46,7 +46,6 @@ fn step(data: &Prepared) -> f64 {
 
 /// The bin with the most significant peak and its p-value, if one is significant.
 pub(crate) fn strongest(data: &Prepared, residual: &[f64]) -> Option<(f64, f64)> {
-    let hann = |at: f64, n: f64| 0.5 - 0.5 * (TAU * at / n).cos();
     let power_of = |signal: &[f64]| power_of_fit(data, signal, hann);
     let mut powers = power_of(residual)?;
     let own = lines_of(data, &data.input)?;
@@ -86,6 +85,11 @@ fn is_multiple(place: f64, line: f64) -> bool {
     (1..=MULTIPLES).any(|m| (place - m as f64 * line).abs() <= NEAR)
 }
 
+/// Window of a spectrum of `n` samples.
+fn hann(at: f64, n: f64) -> f64 {
+    0.5 - 0.5 * (TAU * at / n).cos()
+}
+
 /// A line of a spectrum: its bin, to a fraction, and its power, of the strongest.
 type Line = (f64, f64);
 
@@ -93,14 +97,20 @@ type Line = (f64, f64);
 fn lines_of(data: &Prepared, channel: &Channel) -> Option<Vec<Line>> {
     let motion = channel.motion.iter().step_by(data.stride);
     let position: Vec<f64> = motion.map(|m| m.position).collect();
-    let hann = |at: f64, n: f64| 0.5 - 0.5 * (TAU * at / n).cos();
     power_of_fit(data, &position, hann).map(|power| lines(&power))
+}
+
+/// Whether a term is a tone at a line that the motion itself may make.
+pub(crate) fn may_be_of_the_motion(data: &Prepared, term: &FitTerm) -> bool {
+    let effect = &term.effect;
+    let frequency = effect.shape(0).filter(|_| effect.name() == "tone");
+    frequency.is_some_and(|f| is_combination(data, f))
 }
 
 /// Whether a frequency \[Hz\] is a sum or difference of the lines of the input and of what else moves, or
 /// a multiple of one. What is not linear in the motion, as friction is, makes lines there. No search
 /// begins at a multiple, but one that begins beside it may end there.
-pub(crate) fn is_combination(data: &Prepared, frequency: f64) -> bool {
+fn is_combination(data: &Prepared, frequency: f64) -> bool {
     let (Some(&first), Some(&last)) = (data.split.fit.first(), data.split.fit.last()) else {
         return false;
     };

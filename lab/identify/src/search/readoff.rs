@@ -21,7 +21,7 @@ use crate::model::Table;
 use crate::problem::Prepared;
 use crate::score::blocks::{Regime, BLOCKS};
 use crate::score::left_out::on_blocks;
-use crate::score::tones::is_combination;
+use crate::score::tones::may_be_of_the_motion;
 use std::sync::Arc;
 
 /// Maximum number of rivals of one name that are refitted.
@@ -63,7 +63,7 @@ impl Search<'_> {
             let explained = 1.0 - solution.sse(self.data) / before.sse(self.data);
             let (blocks_better, _) = on_blocks(self.data, &before, solution, self.regime);
             ledger.rounds.push(Round {
-                grade: match is_doubtful(self.data, &term) {
+                grade: match may_be_of_the_motion(self.data, &term) {
                     true => Grade::Weak,
                     false => grade(recurs, blocks_better, &rivals),
                 },
@@ -350,15 +350,6 @@ impl Linear<'_> {
         }
         order
     }
-}
-
-/// Whether a term is a tone at a line that the motion itself may make.
-fn is_doubtful(data: &Prepared, term: &FitTerm) -> bool {
-    let frequency = term
-        .effect
-        .shape(0)
-        .filter(|_| term.effect.name() == "tone");
-    frequency.is_some_and(|f| is_combination(data, f))
 }
 
 /// Grade of a name from its recurrence, the blocks that it helps on, and its rivals.
