@@ -4,17 +4,19 @@
 //! fits a sum of the two nearly as well as they do, with one name instead of two, so that the
 //! price of a name would decide between them. It is therefore no candidate of the moves. Once no
 //! move is accepted any more, it is refitted in the place of the friction that was named on a
-//! channel, and so are viscous and Coulomb friction together, which have one parameter more. It
-//! is named only if it is better than what was named by the criterion, and errs less than this
-//! pair, by more than chance, on blocks that were left out of the fit of the gains. Where more
-//! than noise is left, every block repeats the same misfit: there it has to halve the squared error.
+//! channel, or of a curve over its velocity, and so are viscous and Coulomb friction together, which
+//! have one parameter more. It is named only if it is better than what was named by the criterion,
+//! and errs less than this pair, by more than chance, on blocks that were left out of the fit of the
+//! gains. Where more than noise is left, every block repeats the same misfit: there it has to be
+//! better by a margin, and to halve the pair's squared error. At the noise a margin would keep
+//! viscous, Coulomb and Stribeck friction, which together imitate it.
 
 use super::bank::Identity;
 use super::kept::Kept;
 use super::moves::is_same;
 use super::policy;
 use super::refit::{other_hystereses, FAIR, ROUGH};
-use super::run::{Entry, Search, Standing};
+use super::run::{Entry, Search, Standing, FALLEN};
 use crate::fit::search::descend;
 use crate::fit::settle::settle;
 use crate::fit::Solution;
@@ -100,12 +102,18 @@ impl Search<'_> {
         false
     }
 
-    /// The channels with named friction, and the names that a power law would replace.
+    /// The channels with named friction, or with a curve over their velocity, and what a power law
+    /// would replace there.
     fn places(&self) -> Vec<Place> {
         let terms = &self.now.structure.terms;
         let own = self.declared.structure.terms.len();
+        let curve = self.now.structure.table.as_ref().map(|t| t.variable);
+        let over = match curve {
+            Some(Variable::Velocity(source)) => Some(source),
+            _ => None,
+        };
         let mut places: Vec<Place> = Vec::new();
-        for source in terms[own..].iter().map(|term| term.source) {
+        for source in terms[own..].iter().map(|term| term.source).chain(over) {
             // Where both are declared, there is no pair to compare it with.
             let both = PAIR.iter().all(|name| self.declares(source, name));
             if both || has(terms, source, POWER_LAW) {
@@ -114,11 +122,11 @@ impl Search<'_> {
             for replaced in [WITH_DRAG, FRICTION] {
                 let is = |t: &FitTerm| t.source == source && replaced.contains(&t.effect.name());
                 let dropped: Vec<usize> = (own..terms.len()).filter(|&i| is(&terms[i])).collect();
-                let table = self.now.structure.table.as_ref();
-                let table = table.is_some_and(|t| t.variable != Variable::Velocity(source));
+                let table = curve.is_some_and(|v| v != Variable::Velocity(source));
                 let kept = Kept { dropped, table };
                 let known = |p: &Place| p.source == source && p.kept == kept;
-                if !kept.dropped.is_empty() && !places.iter().any(known) {
+                let is_something = !kept.dropped.is_empty() || over == Some(source);
+                if is_something && !places.iter().any(known) {
                     places.push(Place { source, kept });
                 }
             }
@@ -146,14 +154,18 @@ impl Search<'_> {
         let law = self.fitted(&laws?, is_hopeless)?;
         let new = law.sse(self.data).ln() + price;
         let old = self.now.sse(self.data).ln() + linear.price_of(&linear.everything());
-        if new > old - policy::EQUAL || law.rmse.stop > policy::NOT_WORSE * self.now.rmse.stop {
+        // Above the noise every block repeats the same misfit, which no test among blocks sees.
+        let is_noise = law.rmse.fit <= policy::AT_FLOOR * self.data.noise_floor;
+        let margin = match is_noise {
+            true => FALLEN,
+            false => policy::EQUAL,
+        };
+        if new > old - margin || law.rmse.stop > policy::NOT_WORSE * self.now.rmse.stop {
             return None;
         }
         let pair = self.pair(place)?;
         let p = sign_flip_p_above(&ratios(self.data, &pair, &law));
         let gained = (pair.sse(self.data) / law.sse(self.data)).ln();
-        // Above the noise every block repeats the same misfit, which no test among blocks sees.
-        let is_noise = law.rmse.fit <= policy::AT_FLOOR * self.data.noise_floor;
         let (least, worst) = match is_noise {
             true => (0.0, policy::NOT_WORSE),
             false => (policy::MISFIT, 1.0),

@@ -6,21 +6,32 @@ use bowden::effect::Family;
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::ledger::{Grade, Ledger};
 use bowden_lab::search::close;
-use bowden_synth::{Planted, Recipe};
+use bowden_synth::{Mode, Planted, Recipe};
 
 /// The record of some effects at that many times the noise, and what is found in it.
-fn closed(mode: bowden_synth::Mode, effects: &[(&str, f64)], seed: u64) -> (Made, Ledger) {
+fn closed(mode: Mode, effects: &[(&str, f64)], seed: u64) -> (Made, Ledger) {
+    closed_for(20.0, mode, effects, seed)
+}
+
+/// The same of a record of that many seconds.
+fn closed_for(seconds: f64, mode: Mode, effects: &[(&str, f64)], seed: u64) -> (Made, Ledger) {
     let planted = effects.iter().map(|&(effect, strength)| Planted {
         strength,
         ..Planted::new(effect)
     });
     let made = Made::new(&Recipe {
         seed,
+        seconds,
         effects: planted.collect(),
         ..Recipe::new(mode)
     });
     let ledger = close(&made.data, &made.declare(&["bouc-wen"]), |_| ()).unwrap();
     (made, ledger)
+}
+
+fn names(ledger: &Ledger) -> Vec<&str> {
+    let rounds = ledger.rounds.iter();
+    rounds.map(|r| r.candidate.term.effect.name()).collect()
 }
 
 fn families(ledger: &Ledger) -> Vec<Family> {
@@ -33,12 +44,7 @@ fn families(ledger: &Ledger) -> Vec<Family> {
 fn a_planted_power_law_is_the_one_name_with_its_exponent() {
     for mode in MODES {
         let (made, ledger) = closed(mode, &[("power-law", 3.0)], 5001);
-        let names: Vec<&str> = ledger
-            .rounds
-            .iter()
-            .map(|r| r.candidate.term.effect.name())
-            .collect();
-        assert_eq!(names, ["power-law"], "{mode:?}");
+        assert_eq!(names(&ledger), ["power-law"], "{mode:?}");
         assert_eq!(ledger.rounds[0].grade, Grade::Firm, "{mode:?}");
         let planted = made.synthetic.truth.effects[0].shapes[0].1;
         let done = FinalFit::new(&made.data, &ledger);
@@ -55,13 +61,14 @@ fn a_planted_power_law_is_the_one_name_with_its_exponent() {
 /// Each neighbour, and the pair that a power law lies between, keeps its own names.
 #[test]
 fn no_neighbour_of_a_power_law_is_called_one() {
-    let neighbours: [&[(&str, f64)]; 6] = [
+    let neighbours: [&[(&str, f64)]; 7] = [
         &[("viscous", 3.0)],
         &[("coulomb", 3.0)],
         &[("viscous", 1.0), ("coulomb", 1.0)],
         &[("viscous", 3.0), ("coulomb", 3.0)],
         &[("coulomb", 3.0), ("stribeck", 3.0)],
         &[("viscous", 1.0), ("drag-quadratic", 3.0)],
+        &[("viscous", 3.0), ("coulomb", 2.0), ("stribeck", 1.0)],
     ];
     for mode in MODES {
         for planted in neighbours {
@@ -97,5 +104,23 @@ fn no_stribeck_effect_opposes_the_coulomb_friction_beside_it() {
                 "{mode:?} {seed}"
             );
         }
+    }
+}
+
+/// Viscous, Coulomb and Stribeck friction fit a power law to the noise; a curve over the velocity
+/// does as well.
+#[test]
+fn a_power_law_takes_the_place_of_three_names_and_of_a_curve() {
+    let beside: &[(&str, f64)] = &[("rate", 1.2), ("creep", 2.0), ("power-law", 1.5)];
+    for seed in [5001, 5004, 5008] {
+        let (_, ledger) = closed_for(60.0, MODES[0], beside, seed);
+        let mut names = names(&ledger);
+        names.sort_unstable();
+        assert_eq!(names, ["creep", "power-law", "rate"], "{seed}");
+    }
+    for (strength, seed) in [(4.0, 5004), (10.0, 5006)] {
+        let (_, ledger) = closed(MODES[0], &[("power-law", strength)], seed);
+        assert_eq!(names(&ledger), ["power-law"], "{strength} {seed}");
+        assert!(ledger.last().structure.table.is_none());
     }
 }
