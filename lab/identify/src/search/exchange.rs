@@ -119,10 +119,18 @@ impl Search<'_> {
             if both || has(terms, source, POWER_LAW) {
                 continue;
             }
-            for replaced in [WITH_DRAG, FRICTION] {
+            let table = curve.is_some_and(|v| v != Variable::Velocity(source));
+            let among = |replaced: &[&str]| -> Vec<usize> {
                 let is = |t: &FitTerm| t.source == source && replaced.contains(&t.effect.name());
-                let dropped: Vec<usize> = (own..terms.len()).filter(|&i| is(&terms[i])).collect();
-                let table = curve.is_some_and(|v| v != Variable::Velocity(source));
+                (own..terms.len()).filter(|&i| is(&terms[i])).collect()
+            };
+            let all = [among(WITH_DRAG), among(FRICTION)];
+            // One of three or more may be there beside it.
+            let but_one = all[0].iter().filter(|_| all[0].len() > 2).map(|&kept| {
+                let others = all[0].iter().filter(|&&i| i != kept);
+                others.copied().collect()
+            });
+            for dropped in all.iter().cloned().chain(but_one) {
                 let kept = Kept { dropped, table };
                 let known = |p: &Place| p.source == source && p.kept == kept;
                 let is_something = !kept.dropped.is_empty() || over == Some(source);
@@ -151,7 +159,7 @@ impl Search<'_> {
         let price = linear.price_of(&place.kept) + linear.prices.of_name(2);
         let present = standing.sse.ln() + linear.price_of(&linear.everything());
         let is_hopeless = |rough: f64| rough.ln() + price > present + policy::HOPELESS;
-        let law = self.fitted(&laws?, is_hopeless)?;
+        let law = self.fitted(&laws?, 1, is_hopeless)?;
         let new = law.sse(self.data).ln() + price;
         let old = self.now.sse(self.data).ln() + linear.price_of(&linear.everything());
         // Above the noise every block repeats the same misfit, which no test among blocks sees.
@@ -178,7 +186,8 @@ impl Search<'_> {
     /// The model with viscous and Coulomb friction in that place.
     fn pair(&self, place: &Place) -> Option<Solution> {
         let speed = self.data.channel(place.source)?.speed;
-        let lacks = |name: &str| !self.declares(place.source, name);
+        let beside = place.kept.of(&self.now.structure);
+        let lacks = |name: &str| !has(&beside.terms, place.source, name);
         let made = |width: f64| {
             let shapes = [width * speed];
             let both: [(&str, &[f64]); 2] = [(PAIR[0], &[]), (PAIR[1], &shapes)];
@@ -186,7 +195,7 @@ impl Search<'_> {
             self.with(place, &added)
         };
         let pairs: Option<Vec<Structure>> = WIDTHS.into_iter().map(made).collect();
-        self.fitted(&pairs?, |_| false)
+        self.fitted(&pairs?, 1, |_| false)
     }
 
     /// The present structure with other effects in that place.
@@ -204,11 +213,12 @@ impl Search<'_> {
     }
 
     /// The best fit from the shapes of some structures of the same effects, the other parameters
-    /// as they are, and from two other hystereses. `None` where the squared error of the best
+    /// as they are, and from two other hystereses with the shapes of the first few of them. `None` where the squared error of the best
     /// rough search on the coarse grid is hopeless.
-    fn fitted(
+    pub(super) fn fitted(
         &self,
         structures: &[Structure],
+        few: usize,
         is_hopeless: impl Fn(f64) -> bool,
     ) -> Option<Solution> {
         use rayon::prelude::*;
@@ -217,6 +227,8 @@ impl Search<'_> {
         let start = |from: &Structure| -> Vec<f64> {
             let shape = |role: Role| match role {
                 Role::Shape { term, index } => from.terms.find(term)?.effect.shape(index),
+                Role::Origin { term } => Some(from.terms.find(term)?.origin),
+                Role::Start { .. } => Some(0.0),
                 _ => None,
             };
             let value = |role: Role| self.now.value(role).or_else(|| shape(role));
@@ -224,8 +236,11 @@ impl Search<'_> {
         };
         let mut starts: Vec<Vec<f64>> = structures.iter().map(start).collect();
         if structure.hysteresis {
-            let present = starts[0].clone();
-            starts.extend(other_hystereses(self.data, &free, &present));
+            let present: Vec<Vec<f64>> = starts.iter().take(few).cloned().collect();
+            let others = |from: &Vec<f64>| -> Vec<Vec<f64>> {
+                other_hystereses(self.data, &free, from).collect()
+            };
+            starts.extend(present.iter().flat_map(others));
         }
         let search = |start: &[f64], effort| self.coarse.descend(structure, &free, start, effort);
         let rough: Vec<_> = starts.par_iter().map(|s| search(s, ROUGH)).collect();

@@ -17,6 +17,7 @@ mod coarse;
 mod exchange;
 mod forward;
 pub mod gram;
+mod hidden;
 mod instead;
 mod kept;
 mod linear;

@@ -56,12 +56,14 @@ pub(super) struct Search<'a> {
     pub(super) correlation_time: f64,
     /// Whether moves beyond the requested number of names were discarded.
     pub(super) is_cut: bool,
-    most: usize,
+    pub(super) most: usize,
     /// Start and length \[s\] of the time budget.
     budget: Option<(Instant, f64)>,
     pub(super) visited: Vec<Vec<Identity>>,
     /// Sets in which a power law has been tried in the place of named friction.
     pub(super) exchanges: Vec<Vec<Identity>>,
+    /// Sets beside which effects that the hysteresis hides have been tried.
+    pub(super) uncovered: Vec<Vec<Identity>>,
     failures: usize,
     phase: Phase,
     /// Whether the final model has been fitted from all starts.
@@ -106,6 +108,7 @@ impl<'a> Search<'a> {
             budget: None,
             visited: Vec::new(),
             exchanges: Vec::new(),
+            uncovered: Vec::new(),
             failures: 0,
             phase: Phase::Any,
             is_last_anew: false,
@@ -257,7 +260,7 @@ impl<'a> Search<'a> {
     }
 
     /// After the last name: first moves to fewer names, then a power law in the place of named
-    /// friction, then curves at a lower price.
+    /// friction, then what the hysteresis hides, then curves at a lower price.
     fn exhausted(&mut self, standing: &Standing<'a>) -> bool {
         self.failures = 0;
         let names = self.now.structure.terms.len() - self.declared.structure.terms.len();
@@ -268,7 +271,7 @@ impl<'a> Search<'a> {
             self.visited.retain(|set| set.len() >= all);
             return true;
         }
-        if self.exchanged(standing) {
+        if self.exchanged(standing) || self.uncovered(standing) {
             self.phase = Phase::Any;
             return true;
         }
@@ -417,7 +420,12 @@ fn siblings(standing: &Standing, best: &Tried, tried: &[Tried], own: usize) -> V
 }
 
 /// Acceptance: the stop-check segment, which no search has seen, and the left-out blocks.
-fn gates(data: &Prepared, old: &Solution, new: &Solution, regime: Regime) -> Result<(), Gate> {
+pub(super) fn gates(
+    data: &Prepared,
+    old: &Solution,
+    new: &Solution,
+    regime: Regime,
+) -> Result<(), Gate> {
     let taken = 1.0 - (new.rmse.fit / old.rmse.fit).powi(2);
     let carried = 1.0 - (new.rmse.stop / old.rmse.stop).powi(2);
     let large = match regime {

@@ -14,6 +14,7 @@
 //! * [`series`]: a play between the input and the transmission is found with its width.
 //! * [`hardening`]: the benchmark of Noël and Schoukens comes back.
 //! * [`power_law`]: a power law of the velocity is told from viscous and Coulomb friction.
+//! * [`hidden`]: a play that the hysteresis imitates is found beside it.
 //! * [`late`]: a delay has its size at every cut-off.
 //! * [`stretch`]: the stretch of a cable is one name beside the two angles.
 //! * [`torque_alone`]: without an angle in the record, viscous friction follows the torque's rate.
@@ -26,6 +27,7 @@ mod delivered;
 mod determinism;
 mod exported;
 mod hardening;
+mod hidden;
 mod imitated;
 mod late;
 mod nulls;
