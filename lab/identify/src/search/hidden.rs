@@ -8,9 +8,9 @@
 //! three hystereses. It is named if the model then ends at the noise, and errs less on left-out
 //! blocks by more than chance. With a negative gain it is a play.
 //!
-//! Half of the squared error is not enough: on a damper's record of which no model reaches the noise
-//! a stop took that, in 9 of 100 half-records, and the model erred 28 times as much on the rig's other
-//! records as at home, in place of six times.
+//! That it halves the squared error is not enough. On a damper's record, of which no model reaches the
+//! noise, a stop did; it recurred in 9 of 100 half-records, and the model erred 28 times as much on the
+//! rig's other records as at home, in place of six times.
 
 use super::bank::Identity;
 use super::moves::is_same;
