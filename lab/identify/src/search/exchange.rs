@@ -213,8 +213,8 @@ impl Search<'_> {
     }
 
     /// The best fit from the shapes of some structures of the same effects, the other parameters
-    /// as they are, and from two other hystereses with the shapes of the first few of them. `None` where the squared error of the best
-    /// rough search on the coarse grid is hopeless.
+    /// as they are, and from two other hystereses with the shapes of the first `few` of them. `None`
+    /// where the squared error of the best rough search on the coarse grid is hopeless.
     pub(super) fn fitted(
         &self,
         structures: &[Structure],
