@@ -16,7 +16,7 @@ use super::kept::Kept;
 use super::moves::is_same;
 use super::policy;
 use super::refit::{other_hystereses, FAIR, ROUGH};
-use super::run::{Entry, Search, Standing, FALLEN};
+use super::run::{Search, Standing, FALLEN};
 use crate::fit::search::descend;
 use crate::fit::settle::settle;
 use crate::fit::Solution;
@@ -28,7 +28,6 @@ use crate::score::blocks::{sign_flip_p_above, Regime};
 use crate::score::left_out::ratios;
 use bowden::effect::Effect;
 use bowden::model::Source;
-use std::sync::Arc;
 
 /// The effect that takes their place.
 const POWER_LAW: &str = "power-law";
@@ -163,7 +162,7 @@ impl Search<'_> {
         let new = law.sse(self.data).ln() + price;
         let old = self.now.sse(self.data).ln() + linear.price_of(&linear.everything());
         // Above the noise every block repeats the same misfit, which no test among blocks sees.
-        let is_noise = law.rmse.fit <= policy::AT_FLOOR * self.data.noise_floor;
+        let is_noise = self.is_at_noise(&law);
         let margin = match is_noise {
             true => FALLEN,
             false => policy::EQUAL,
@@ -261,14 +260,6 @@ impl Search<'_> {
         let dropped = place.kept.dropped.iter();
         let dropped: Vec<Rejection> = dropped.map(|&index| self.out(index)).collect();
         self.superseded.extend(dropped);
-        self.entries.push(Entry {
-            identity: Identity::Name(POWER_LAW, place.source),
-            p: Some(p),
-            siblings: Vec::new(),
-            q: 0.0,
-        });
-        self.rejected.clear();
-        self.now = Arc::new(next);
-        self.reached.push(Arc::clone(&self.now));
+        self.named(Identity::Name(POWER_LAW, place.source), next, p);
     }
 }

@@ -15,7 +15,7 @@
 use super::bank::Identity;
 use super::moves::is_same;
 use super::policy;
-use super::run::{gates, Entry, Search, Standing};
+use super::run::{gates, Search, Standing};
 use crate::fit::settle::settle;
 use crate::fit::Solution;
 use crate::model::catalogue::Candidate;
@@ -34,7 +34,7 @@ impl Search<'_> {
         let linear = &standing.linear;
         let here = linear.identities(&linear.everything(), &[]);
         let is_new = !self.uncovered.iter().any(|known| is_same(known, &here));
-        let is_noise = self.now.rmse.fit <= policy::AT_FLOOR * self.data.noise_floor;
+        let is_noise = self.is_at_noise(&self.now);
         let found = self.now.structure.terms.len() - self.declared.structure.terms.len();
         let may = self.now.structure.hysteresis && found < self.most;
         if !is_new || is_noise || !may || self.regime != Regime::Blocks {
@@ -47,18 +47,10 @@ impl Search<'_> {
         if Arc::ptr_eq(&self.now, &self.declared) {
             self.on_halves = linear.found_on_halves();
         }
-        let Some(added) = next.structure.terms.iter().last() else {
+        let Some(added) = next.structure.terms.iter().last().copied() else {
             return false;
         };
-        self.entries.push(Entry {
-            identity: Identity::of(added),
-            p: Some(p),
-            siblings: Vec::new(),
-            q: 0.0,
-        });
-        self.rejected.clear();
-        self.now = Arc::new(next);
-        self.reached.push(Arc::clone(&self.now));
+        self.named(Identity::of(&added), next, p);
         true
     }
 
@@ -75,10 +67,9 @@ impl Search<'_> {
         let next = self.fitted(&structures, structures.len(), is_hopeless)?;
         let next = self.of_its_sign(next)?;
         let gained = (self.now.sse(self.data) / next.sse(self.data)).ln();
-        let is_noise = next.rmse.fit <= policy::AT_FLOOR * self.data.noise_floor;
         let least = linear.prices.of_name(2) + policy::EQUAL;
         let p = sign_flip_p_above(&ratios(self.data, &self.now, &next));
-        let accepted = is_noise
+        let accepted = self.is_at_noise(&next)
             && gained > least
             && p <= policy::SHORTER
             && gates(self.data, &self.now, &next, linear.regime).is_ok();

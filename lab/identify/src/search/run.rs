@@ -152,8 +152,10 @@ impl<'a> Search<'a> {
     /// Fits the final model once more from all starts if its residual exceeds the noise: the few
     /// starts of a move may have missed the optimum. Returns whether a better one was found.
     fn begun_anew(&mut self) -> bool {
-        let is_much = self.now.rmse.fit > policy::AT_FLOOR * self.data.noise_floor;
-        if self.is_last_anew || !is_much || Arc::ptr_eq(&self.now, &self.declared) {
+        if self.is_last_anew
+            || self.is_at_noise(&self.now)
+            || Arc::ptr_eq(&self.now, &self.declared)
+        {
             return false;
         }
         self.is_last_anew = true;
@@ -362,15 +364,36 @@ impl<'a> Search<'a> {
                 },
             });
         }
-        // A name that was rejected jointly with another model may pass with this one.
-        self.rejected.clear();
         self.is_cut = false;
         let dropped = best.made.kept.dropped.iter();
         let dropped: Vec<Rejection> = dropped.map(|&index| self.out(index)).collect();
         self.superseded.extend(dropped);
+        self.goes_on_with(next);
+        true
+    }
+
+    /// Makes a model with a name that no move proposed the present one.
+    pub(super) fn named(&mut self, identity: Identity, next: Solution, p: f64) {
+        self.entries.push(Entry {
+            identity,
+            p: Some(p),
+            siblings: Vec::new(),
+            q: 0.0,
+        });
+        self.goes_on_with(next);
+    }
+
+    /// Makes a model the present one.
+    fn goes_on_with(&mut self, next: Solution) {
+        // A name that was rejected jointly with another model may pass with this one.
+        self.rejected.clear();
         self.now = Arc::new(next);
         self.reached.push(Arc::clone(&self.now));
-        true
+    }
+
+    /// Whether nothing but noise is left by a model.
+    pub(super) fn is_at_noise(&self, model: &Solution) -> bool {
+        model.rmse.fit <= policy::AT_FLOOR * self.data.noise_floor
     }
 
     /// The rejection of a term that a move removes.
