@@ -3,6 +3,7 @@
 use bowden::control::{Adaptive, AdaptiveInput, AdaptiveOutput, AdaptiveState, Limits};
 use bowden::control::{Compensator, CompensatorInput, CompensatorState};
 use bowden::control::{Damping, Fallback, Fault, Missing, Pid, PidInput, PidState, Status};
+use bowden::control::{DisturbanceObserver, ObserverInput, ObserverState};
 use bowden::signal::clamp;
 
 /// The command nearest to what is wanted: within the range, and within the slew rate of
@@ -327,4 +328,28 @@ pub fn the_lag_does_not_pass_its_target<const N: usize>(
     out.status != Status::Good
         || (before - owed <= law && law <= farthest + owed)
         || (farthest - owed <= law && law <= before + owed)
+}
+
+/// The estimate of an observer is finite and within its limit. After a bad sample it is the one
+/// before, if that was an estimate of this observer, and it is told; a good sample is told as good
+/// unless its numbers overflow.
+pub fn estimates_keep_their_limit(
+    observer: &DisturbanceObserver<f32>,
+    mut state: ObserverState<f32>,
+    at: &ObserverInput<f32>,
+) -> bool {
+    let before = state.estimate();
+    let out = observer.step(&mut state, at);
+    let within = |x: f32| x.abs() <= observer.limit();
+    let good = at.dt > 0.0
+        && at.dt <= observer.longest_dt()
+        && at.sent.is_finite()
+        && at.measured.is_finite();
+    let told = match out.status {
+        Status::Good => good,
+        Status::Held(fault) => good == (fault == Fault::Overflow),
+        Status::Degraded(_) | Status::Safe(_) => false,
+    };
+    let held = out.status == Status::Good || !within(before) || out.estimate == before;
+    within(out.estimate) && out.estimate == state.estimate() && told && held
 }

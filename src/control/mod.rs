@@ -20,6 +20,7 @@
 //! | [`Pid`] | PI, PID, PIV | (14)-(16) |
 //! | [`Adaptive`] | the robust adaptive law over any number of regressors | (17)-(26) |
 //! | [`Compensator`] | the identified model turned round, as a feed-forward | (5)-(7) |
+//! | [`DisturbanceObserver`] | what friction and load take, given back through a feed-forward | |
 //!
 //! [`Controller`] is what the first two have in common: a loop can be written once.
 
@@ -27,6 +28,7 @@ mod adaptive;
 mod compensator;
 mod controller;
 pub(crate) mod limits;
+mod observer;
 pub(crate) mod pid;
 pub(crate) mod status;
 
@@ -40,5 +42,8 @@ pub use compensator::{
 };
 pub use controller::{Controller, LoopSample, Output};
 pub use limits::Limits;
+pub use observer::{
+    DisturbanceObserver, NominalPlant, ObserverInput, ObserverOutput, ObserverState,
+};
 pub use pid::{AntiWindup, Damping, Pid, PidInput, PidOutput, PidSettings, PidState, PidTerms};
 pub use status::{Fallback, Fault, Status};

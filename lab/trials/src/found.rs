@@ -173,6 +173,7 @@ pub fn outcome(
                 rate: kind.rate,
                 feed: None,
                 every: 1,
+                observed: None,
                 own_share: 0.0,
                 regressor: None,
             })

@@ -16,6 +16,7 @@ pub mod found;
 pub mod gains;
 pub mod heading;
 pub mod lineup;
+pub mod observed;
 pub mod own_rig;
 pub mod proof;
 pub mod setup;

@@ -1,9 +1,10 @@
 //! Who runs: the paper's four, and those without which the comparison would mislead.
 
 use super::feed::{FeedForward, Surroundings, MOST_TERMS};
+use super::observed::Observed;
 use super::setup::{AdaptiveGains, Setup};
 use super::trial::{Controller, Law, ThreeRegressors};
-use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Pid};
+use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Pid, PidSettings};
 use bowden::hysteresis::Shape;
 use bowden::model::{Model, Source, Term};
 use bowden::transmission::Transmission;
@@ -23,6 +24,10 @@ pub struct Laws {
     pub piv: Pid<f64>,
     /// PI with the adaptive law's integral gain.
     pub matched_pi: Pid<f64>,
+    /// The PI beside the observer.
+    pub observed_pi: Pid<f64>,
+    /// The observer.
+    pub observed: Observed,
     /// The adaptive law.
     pub adaptive: ThreeRegressors,
 }
@@ -43,6 +48,11 @@ impl Laws {
                 "matched_pi",
                 setup.matched_pi.over(Pid::matched_pi().settings()),
             )?,
+            observed_pi: pid(
+                "observer",
+                PidSettings::unlimited(setup.observer.k_p, setup.observer.k_i),
+            )?,
+            observed: Observed::new(&setup.observer, &setup.rig).map_err(|e| ("observer", e))?,
             adaptive: adaptive(&setup.adaptive, 0.0).map_err(|e| ("adaptive", e))?,
         })
     }
@@ -78,7 +88,7 @@ pub fn latency(rig: &RigConfig<f64>, rate: f64) -> f64 {
     f64::from(rig.delay) / rate + rig.drive_lag
 }
 
-/// The seven of `bowden compare`, in its order.
+/// The eight of `bowden compare`, in its order.
 ///
 /// # Errors
 /// One sentence where a law is refused or the model cannot be turned round.
@@ -90,6 +100,7 @@ pub fn lineup(setup: &Setup) -> Result<Vec<Controller>, String> {
         rate: RATE,
         feed: None,
         every: 1,
+        observed: None,
         own_share: 0.0,
         regressor: None,
     };
@@ -98,6 +109,10 @@ pub fn lineup(setup: &Setup) -> Result<Vec<Controller>, String> {
         plain("pid", Law::Pid(laws.pid)),
         plain("piv", Law::Pid(laws.piv)),
         plain("matched-pi", Law::Pid(laws.matched_pi)),
+        Controller {
+            observed: Some(laws.observed),
+            ..plain("pi-observer", Law::Pid(laws.observed_pi))
+        },
         plain("adaptive", Law::Adaptive(laws.adaptive)),
         plain("adaptive-frozen", Law::Adaptive(frozen(setup)?)),
         Controller {

@@ -176,6 +176,7 @@ pub fn designed(setup: &Setup, gains: &GainsFile) -> Result<Vec<Controller>, Str
         rate,
         feed: None,
         every: 1,
+        observed: None,
         own_share: 0.0,
         regressor: None,
     };

@@ -19,6 +19,15 @@
 //! k_d = 2.0
 //! derivative_time = 0.1    # [s]
 //!
+//! [observer]               # a PI with a disturbance observer, on the rig's own drive
+//! k_p = 12.0
+//! k_i = 60.0
+//! frequency = 10.0         # of the filter Q [Hz]
+//! limit = 60.0             # of what it adds [units]
+//! gain = 0.6               # the nominal plant [N·m/unit], [rad/s]; from the rig if left out
+//! natural_frequency = 25.5
+//! damping_ratio = 0.265
+//!
 //! [adaptive]               # Table 2, in its own terms
 //! k = 24.0
 //! lambda = 8.0
@@ -70,6 +79,8 @@ pub struct Setup {
     pub piv: PidGains,
     /// The PI with the integral gain of the adaptive law.
     pub matched_pi: PidGains,
+    /// The PI with a disturbance observer.
+    pub observer: ObserverGains,
     /// The adaptive law.
     pub adaptive: AdaptiveGains,
     /// The model that is fed forward; the rig's own transmission where there is none.
@@ -109,6 +120,41 @@ impl PidGains {
         PidSettings {
             damping: Damping::Velocity,
             ..self.over(paper)
+        }
+    }
+}
+
+/// A PI with a disturbance observer; of the nominal plant what is left out is the rig's.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ObserverGains {
+    /// Proportional gain \[units/(N·m)\].
+    pub k_p: f64,
+    /// Integral gain \[units/(N·m·s)\].
+    pub k_i: f64,
+    /// Corner of Q \[Hz\].
+    pub frequency: f64,
+    /// Greatest magnitude of what the observer adds \[units\].
+    pub limit: f64,
+    /// Gain of the nominal plant \[N·m/unit\].
+    pub gain: Option<f64>,
+    /// wn \[rad/s\].
+    pub natural_frequency: Option<f64>,
+    /// zeta.
+    pub damping_ratio: Option<f64>,
+}
+
+impl Default for ObserverGains {
+    /// A PI of two fifths of the paper's proportional gain, which the observer leaves enough.
+    fn default() -> Self {
+        Self {
+            k_p: 12.0,
+            k_i: 60.0,
+            frequency: 10.0,
+            limit: 60.0,
+            gain: None,
+            natural_frequency: None,
+            damping_ratio: None,
         }
     }
 }

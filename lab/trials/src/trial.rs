@@ -1,6 +1,7 @@
 //! One controller on one rig: the errors, and what the figures need.
 
 use super::feed::FeedForward;
+use super::observed::{Observed, Observing};
 use bowden::control::{Adaptive, AdaptiveInput, AdaptiveState, Pid, PidInput, PidState};
 use bowden::{model::Term, Error};
 use bowden_rig::{Reference, Rig, RigConfig, RigSample};
@@ -38,6 +39,8 @@ pub struct Controller {
     pub every: usize,
     /// Added to its command.
     pub feed: Option<FeedForward>,
+    /// A disturbance observer, with the feed-forward of its nominal plant; both are added as well.
+    pub observed: Option<Observed>,
     /// Command that the law itself gives for a torque \[units/(N·m)\]: the adaptive law
     /// feeds the reference forward by beta_hat, and the model's command must not repeat it.
     pub own_share: f64,
@@ -206,6 +209,7 @@ pub fn run(
     let mut state = rig.start(seed);
     let mut running = Running::new(&controller.law);
     let (mut feed, mut regressor) = (controller.feed.clone(), controller.regressor.clone());
+    let mut observing = controller.observed.as_ref().map(Observing::new);
     let dt = 1.0 / controller.rate;
     let own_dt = dt * controller.every.max(1) as f64;
     let (mut command, mut estimates) = (0.0, None);
@@ -225,12 +229,16 @@ pub fn run(
             found.step(&conditions.reference, t, dt).effects
         });
         if step % controller.every.max(1) == 0 {
+            let observed = observing.as_mut().map_or(0.0, |observing| {
+                let ahead = |lead| conditions.reference.motion(t + lead);
+                observing.step(own_dt, command, now.measured, ahead)
+            });
             (command, estimates) = running.step(&Reading {
                 now: &now,
                 dt: own_dt,
                 reference,
                 next_reference: conditions.reference.at(t + own_dt),
-                feed_forward,
+                feed_forward: feed_forward + observed,
                 found,
             });
         }

@@ -2,6 +2,7 @@
 
 mod adaptive;
 mod compensator;
+mod observer;
 mod pid;
 
 use crate::{any, never_panics};
@@ -62,6 +63,7 @@ pub fn all<T: Real>() -> Option<()> {
     constants();
 
     pid::all::<T>()?;
+    observer::all::<T>()?;
     adaptive::all::<T>()?;
     compensator::all::<T>()
 }

@@ -1,0 +1,174 @@
+//! What a command does without friction.
+
+use crate::error::{above_zero, finite, must_be_finite, not_below_zero};
+use crate::signal::Motion;
+use crate::{Error, Real};
+
+/// The nominal plant from command to output, `P(s) = alpha/(s²/wn² + 2·zeta·s/wn + 1)`.
+///
+/// Of a motor with inertia J and damping c that works through the cable against a stiffness K:
+/// `wn = √(K/J)`, `zeta = c/(2·√(K·J))`, alpha the torque of one command unit. Where the
+/// values are uncertain, rather too low a wn and alpha than too high ones.
+///
+/// ```
+/// use bowden::control::NominalPlant;
+/// use bowden::signal::Motion;
+/// // 0.6 N·m a unit, 0.2 kg·m², 2.7 N·m·s/rad, 130 N·m/rad.
+/// let plant = NominalPlant::of_mechanics(0.6_f64, 0.2, 2.7, 130.0)?;
+/// assert!((plant.natural_frequency() - 25.5).abs() < 0.01); // [rad/s]
+/// assert!((plant.damping_ratio() - 0.265).abs() < 0.001);
+/// let rest = Motion { position: 12.0, ..Motion::default() }; // [N·m], at rest
+/// assert!((plant.feed_forward(&rest) - 20.0).abs() < 1e-12); // [units]
+/// # Ok::<(), bowden::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "Unchecked<T>",
+        bound(
+            serialize = "T: Real + serde::Serialize",
+            deserialize = "T: Real + serde::Deserialize<'de>"
+        )
+    )
+)]
+pub struct NominalPlant<T> {
+    gain: T,
+    natural_frequency: T,
+    damping_ratio: T,
+}
+
+/// The plant after its checks, for any float and for constants.
+macro_rules! plant {
+    ($gain:ident, $frequency:ident, $damping:ident, $zero:expr, $one:expr) => {{
+        must_be_finite!($gain, "gain");
+        if $gain == $zero || !($one / $gain).is_finite() {
+            return Err(Error::OutOfRange("gain"));
+        }
+        above_zero!($frequency, $zero, "natural_frequency");
+        if !(($one / $frequency) / $frequency).is_finite() {
+            return Err(Error::OutOfRange("natural_frequency"));
+        }
+        not_below_zero!($damping, $zero, "damping_ratio");
+        Ok(Self {
+            gain: $gain,
+            natural_frequency: $frequency,
+            damping_ratio: $damping,
+        })
+    }};
+}
+
+impl<T: Real> NominalPlant<T> {
+    /// alpha \[output unit/command unit\], not zero; wn > 0 \[rad/s\]; zeta ≥ 0.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"gain"`, `"natural_frequency"` or
+    /// `"damping_ratio"`.
+    pub fn try_new(gain: T, natural_frequency: T, damping_ratio: T) -> Result<Self, Error> {
+        plant!(gain, natural_frequency, damping_ratio, T::ZERO, T::ONE)
+    }
+
+    /// From the drive's data sheet: torque of one command unit at rest, inertia > 0
+    /// \[kg·m²\], viscous damping ≥ 0 \[N·m·s/rad\] and stiffness > 0 \[N·m/rad\], that of
+    /// cable and load one behind the other.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the name of the parameter, or of the
+    /// derived one that is none.
+    pub fn of_mechanics(gain: T, inertia: T, damping: T, stiffness: T) -> Result<Self, Error> {
+        for (value, name) in [(inertia, "inertia"), (stiffness, "stiffness")] {
+            if finite(value, name)? <= T::ZERO {
+                return Err(Error::OutOfRange(name));
+            }
+        }
+        if finite(damping, "damping")? < T::ZERO {
+            return Err(Error::OutOfRange("damping"));
+        }
+        let root = stiffness.sqrt() * inertia.sqrt();
+        Self::try_new(
+            gain,
+            (stiffness / inertia).sqrt(),
+            damping / (T::of(2.0) * root),
+        )
+    }
+
+    /// alpha \[output unit/command unit\].
+    #[inline]
+    #[must_use]
+    pub const fn gain(&self) -> T {
+        self.gain
+    }
+
+    /// wn \[rad/s\].
+    #[inline]
+    #[must_use]
+    pub const fn natural_frequency(&self) -> T {
+        self.natural_frequency
+    }
+
+    /// zeta.
+    #[inline]
+    #[must_use]
+    pub const fn damping_ratio(&self) -> T {
+        self.damping_ratio
+    }
+
+    /// The command that makes the nominal plant follow: `P⁻¹` of the output that is wanted,
+    /// with its rates \[output unit, /s, /s²\].
+    ///
+    /// Take the reference as far ahead as a command needs to show in the output. It is what it
+    /// is: not finite where the motion is not, which a controller refuses.
+    #[inline]
+    #[must_use]
+    pub fn feed_forward(&self, wanted: &Motion<T>) -> T {
+        let (rate, curvature) = self.terms();
+        (wanted.position + rate * wanted.velocity + curvature * wanted.acceleration) / self.gain
+    }
+
+    /// `2·zeta/wn` \[s\] and `1/wn²` \[s²\].
+    #[inline]
+    pub(super) fn terms(&self) -> (T, T) {
+        let slow = self.natural_frequency.recip();
+        (T::of(2.0) * self.damping_ratio * slow, slow * slow)
+    }
+}
+
+macro_rules! constant {
+    ($float:ty) => {
+        impl NominalPlant<$float> {
+            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
+            ///
+            /// # Errors
+            /// As [`try_new`](Self::try_new).
+            pub const fn const_new(
+                gain: $float,
+                natural_frequency: $float,
+                damping_ratio: $float,
+            ) -> Result<Self, Error> {
+                plant!(gain, natural_frequency, damping_ratio, 0.0, 1.0)
+            }
+        }
+    };
+}
+constant!(f32);
+constant!(f64);
+
+/// What is read before it is checked.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Unchecked<T> {
+    gain: T,
+    natural_frequency: T,
+    damping_ratio: T,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> TryFrom<Unchecked<T>> for NominalPlant<T> {
+    type Error = Error;
+    fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
+        Self::try_new(raw.gain, raw.natural_frequency, raw.damping_ratio)
+    }
+}

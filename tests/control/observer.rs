@@ -1,0 +1,344 @@
+//! The disturbance observer: closed forms, a simulated plant, latency, bad samples.
+
+use bowden::constant;
+use bowden::control::{
+    DisturbanceObserver, Fault, NominalPlant, ObserverInput, ObserverState, Status,
+};
+use bowden::signal::Motion;
+use bowden::{Error, Real};
+
+const DT: f64 = 1e-4;
+
+fn plant() -> NominalPlant<f64> {
+    NominalPlant::try_new(0.6, 25.5, 0.265).unwrap()
+}
+
+fn observer(time_constant: f64) -> DisturbanceObserver<f64> {
+    DisturbanceObserver::try_new(plant(), time_constant, 100.0, 0.01).unwrap()
+}
+
+/// The nominal plant under `u − d`, by Runge-Kutta: nothing of it is shared with the observer.
+struct Simulated {
+    y: f64,
+    v: f64,
+}
+
+impl Simulated {
+    fn step(&mut self, input: f64, dt: f64) {
+        let (alpha, wn, zeta) = (0.6, 25.5_f64, 0.265);
+        let rates = |y: f64, v: f64| (v, wn * wn * (alpha * input - y) - 2.0 * zeta * wn * v);
+        let (a, b) = rates(self.y, self.v);
+        let (c, d) = rates(self.y + 0.5 * dt * a, self.v + 0.5 * dt * b);
+        let (e, f) = rates(self.y + 0.5 * dt * c, self.v + 0.5 * dt * d);
+        let (g, h) = rates(self.y + dt * e, self.v + dt * f);
+        self.y += dt / 6.0 * (a + 2.0 * c + 2.0 * e + g);
+        self.v += dt / 6.0 * (b + 2.0 * d + 2.0 * f + h);
+    }
+}
+
+/// What goes in: a sum of tones.
+fn tones(t: f64) -> f64 {
+    20.0 + 8.0 * (2.0 * t).sin() + 5.0 * (12.0 * t).cos()
+}
+
+/// The estimate along a run, with a command that shows `late` samples later.
+fn run(
+    observer: &DisturbanceObserver<f64>,
+    late: usize,
+    disturbance: impl Fn(f64) -> f64,
+    mut seen: impl FnMut(f64, f64),
+) {
+    let (mut simulated, mut state) = (Simulated { y: 0.0, v: 0.0 }, ObserverState::new());
+    let mut sent = 0.0;
+    for k in 0..37_000_usize {
+        let t = k as f64 * DT;
+        let at = ObserverInput {
+            dt: DT,
+            sent,
+            measured: simulated.y,
+        };
+        let out = observer.step(&mut state, &at);
+        assert_eq!(out.status, Status::Good);
+        seen(t, out.estimate);
+        sent = tones(t);
+        // Of the commands before the first sample none was given.
+        let acts = k.checked_sub(late).map_or(0.0, |k| tones(k as f64 * DT));
+        simulated.step(acts - disturbance(t), DT);
+    }
+}
+
+#[test]
+fn a_nominal_plant_lacks_nothing() {
+    let mut most = 0.0_f64;
+    run(
+        &observer(0.016),
+        0,
+        |_| 0.0,
+        |_, d| most = most.max(d.abs()),
+    );
+    // A step of 20 units at the start is seen half a sample early: 20·h/(2·tau)·1/e, twice.
+    assert!(most < 0.1, "{most}");
+}
+
+#[test]
+fn a_step_of_the_disturbance_is_seen_through_q() {
+    let tau = 0.016;
+    let mut worst = 0.0_f64;
+    let step = |t: f64| if t < 1.0 { 0.0 } else { 7.0 };
+    run(&observer(tau), 0, step, |t, d| {
+        if t > 0.8 {
+            let since = ((t - 1.0) / tau).max(0.0);
+            // The step response of 1/(tau·s + 1)².
+            let expected = 7.0 * (1.0 - (1.0 + since) * (-since).exp());
+            worst = worst.max((d - expected).abs());
+        }
+    });
+    // The implicit form lags by half a sample for each of two lags, at a slope of 7/(e·tau):
+    // 7·1e-4/(e·0.016) = 0.016.
+    assert!(worst < 0.02, "{worst}");
+}
+
+/// Mean square over one common period of all tones, from 0.5 s on.
+fn mean_square(values: &[(f64, f64)]) -> f64 {
+    let period = 0.5..0.5 + std::f64::consts::PI;
+    let inside = values.iter().filter(|(t, _)| period.contains(t));
+    let squares: Vec<f64> = inside.map(|(_, x)| x * x).collect();
+    squares.iter().sum::<f64>() / squares.len() as f64
+}
+
+#[test]
+fn friction_is_estimated_without_a_model_of_it() {
+    let friction = |t: f64| 4.0 * (4.0 * t).cos().signum();
+    let mut rest = Vec::new();
+    run(&observer(0.008), 0, friction, |t, d| {
+        rest.push((t, d - friction(t)));
+    });
+    // Four jumps of 8 in a period, each left as 8·(1 + t/tau)·e^(−t/tau), whose square is
+    // 64·1.25·tau over time.
+    let jumps = 4.0 * 64.0 * 1.25 * 0.008 / std::f64::consts::PI;
+    let left = mean_square(&rest);
+    assert!((left / jumps - 1.0).abs() < 0.02, "{left} {jumps}");
+    assert!(left < 0.06 * 16.0);
+}
+
+#[test]
+fn a_latency_that_is_told_is_no_disturbance() {
+    let square = |observer: &DisturbanceObserver<f64>| {
+        let mut all = Vec::new();
+        run(observer, 30, |_| 0.0, |t, d| all.push((t, d)));
+        mean_square(&all)
+    };
+    // A delay L leaves of a tone 2·sin(w·L/2), and Q passes 1/(1 + (w·tau)²) of that.
+    let (late, tau) = (0.003_f64, 0.016_f64);
+    let tone = |a: f64, w: f64| a * 2.0 * (0.5 * w * late).sin() / (1.0 + (w * tau).powi(2));
+    let expected = 0.5 * (tone(8.0, 2.0).powi(2) + tone(5.0, 12.0).powi(2));
+    let silent = square(&observer(tau));
+    // The command of a sample acts from there on, half a sample of 0.1 ms later in the mean.
+    assert!(
+        (silent / expected - 1.0).abs() < 0.05,
+        "{silent} {expected}"
+    );
+    let told = square(&observer(tau).with_latency(late).unwrap());
+    // A lag is the delay to second order: (w·L)²/2 is 0.02 of it.
+    assert!(told < 0.001 * silent, "{told} {silent}");
+}
+
+#[test]
+fn the_estimate_stops_at_its_limit_and_comes_back_at_once() {
+    let plant = plant();
+    let observer = DisturbanceObserver::try_new(plant, 0.016, 5.0, 0.01).unwrap();
+    let (mut most, mut after) = (0.0_f64, f64::NAN);
+    let push = |t: f64| if (1.0..2.0).contains(&t) { 30.0 } else { 0.0 };
+    run(&observer, 0, push, |t, d| {
+        most = most.max(d.abs());
+        if (2.15..2.1501).contains(&t) {
+            after = d;
+        }
+    });
+    assert_eq!(most, 5.0);
+    // The lags never saw the limit: 30·(1 + x)·e^(−x) at x = 0.15/0.016.
+    assert!(after.abs() < 0.05, "{after}");
+}
+
+#[test]
+fn a_bad_sample_holds_and_its_time_is_made_up_for() {
+    let observer = observer(0.016);
+    let at = |dt: f64, sent: f64, measured: f64| ObserverInput { dt, sent, measured };
+    let mut whole = ObserverState::new();
+    observer.step(&mut whole, &at(0.001, 10.0, 3.0));
+    let first = whole.estimate();
+    // At rest: 10 − 3/0.6.
+    assert!((first - 5.0).abs() < 1e-12);
+    let mut gappy = whole;
+    for (bad, fault) in [
+        (at(0.001, 20.0, f64::NAN), Fault::Measured),
+        (at(0.001, f64::INFINITY, 4.0), Fault::Command),
+        (at(f64::NAN, 20.0, 4.0), Fault::Dt),
+        (at(0.0, 20.0, 4.0), Fault::DtNotPositive),
+        (at(0.02, 20.0, 4.0), Fault::DtTooLong),
+    ] {
+        let mut held = whole;
+        let out = observer.step(&mut held, &bad);
+        assert_eq!((out.status, out.estimate), (Status::Held(fault), first));
+    }
+    // Two bad samples of 1 ms and a good one are one good one of 3 ms.
+    observer.step(&mut gappy, &at(0.001, 20.0, f64::NAN));
+    observer.step(&mut gappy, &at(0.001, f64::NAN, 4.0));
+    let after = observer.step(&mut gappy, &at(0.001, 20.0, 4.0)).estimate;
+    let once = observer.step(&mut whole, &at(0.003, 20.0, 4.0)).estimate;
+    assert!((after - once).abs() < 1e-12);
+}
+
+#[test]
+fn what_overflows_is_no_estimate_and_the_next_sample_begins_anew() {
+    let observer = observer(0.016);
+    let mut state = ObserverState::new();
+    let at = |sent: f64, measured: f64| ObserverInput {
+        dt: 0.001,
+        sent,
+        measured,
+    };
+    observer.step(&mut state, &at(10.0, 3.0));
+    let before = state.estimate();
+    let out = observer.step(&mut state, &at(10.0, -1.7e308));
+    assert_eq!(out.status, Status::Held(Fault::Overflow));
+    assert_eq!(out.estimate, before);
+    let out = observer.step(&mut state, &at(12.0, 3.0));
+    assert_eq!(out.status, Status::Good);
+    assert!((out.estimate - 7.0).abs() < 1e-12);
+}
+
+#[test]
+fn slow_lags_in_f32_arrive_at_a_fast_rate() {
+    // 50 kHz and 0.1 Hz: a share of 1.3e-5 of the way, below which a plain f32 lag stops at
+    // half an ulp over the share, 0.15 of 50.
+    let plant = NominalPlant::try_new(1.0_f32, 25.0, 0.5).unwrap();
+    let observer = DisturbanceObserver::try_new(plant, 1.6, 100.0, 0.001).unwrap();
+    let mut state = ObserverState::new();
+    let at = |sent: f32, measured: f32| ObserverInput {
+        dt: 2e-5,
+        sent,
+        measured,
+    };
+    observer.step(&mut state, &at(0.0, 0.0));
+    for _ in 0..2_000_000 {
+        observer.step(&mut state, &at(50.0, 30.0));
+    }
+    assert!(
+        (state.estimate() - 20.0).abs() < 1e-3,
+        "{}",
+        state.estimate()
+    );
+}
+
+#[test]
+fn the_feed_forward_is_the_plant_turned_round() {
+    // y = A·sin(w·t): alpha·u = (1 − w²/wn²)·y + 2·zeta·w/wn·A·cos(w·t).
+    let (plant, w, t) = (plant(), 7.0_f64, 0.4);
+    let (s, c) = (w * t).sin_cos();
+    let wanted = Motion {
+        position: 3.0 * s,
+        velocity: 3.0 * w * c,
+        acceleration: -3.0 * w * w * s,
+    };
+    let (a, b) = (1.0 - (w / 25.5).powi(2), 2.0 * 0.265 * w / 25.5);
+    let expected = 3.0 * (a * s + b * c) / 0.6;
+    assert!((plant.feed_forward(&wanted) - expected).abs() < 1e-12);
+}
+
+#[test]
+fn what_cannot_be_is_refused_by_name() {
+    let refused = |gain: f64, wn: f64, zeta: f64| NominalPlant::try_new(gain, wn, zeta).err();
+    assert_eq!(refused(0.0, 25.0, 0.3), Some(Error::OutOfRange("gain")));
+    assert_eq!(refused(1e-320, 25.0, 0.3), Some(Error::OutOfRange("gain")));
+    assert_eq!(refused(f64::NAN, 25.0, 0.3), Some(Error::NonFinite("gain")));
+    let frequency = Some(Error::OutOfRange("natural_frequency"));
+    assert_eq!(refused(1.0, 0.0, 0.3), frequency);
+    assert_eq!(refused(1.0, 1e-200, 0.3), frequency);
+    assert_eq!(
+        refused(1.0, 25.0, -0.1),
+        Some(Error::OutOfRange("damping_ratio"))
+    );
+    // A drive that turns the other way has a negative gain.
+    assert_eq!(refused(-1.0, 25.0, 0.0), None);
+    let of = |j: f64, c: f64, k: f64| NominalPlant::of_mechanics(1.0, j, c, k).err();
+    assert_eq!(of(0.0, 1.0, 1.0), Some(Error::OutOfRange("inertia")));
+    assert_eq!(of(1.0, -1.0, 1.0), Some(Error::OutOfRange("damping")));
+    assert_eq!(
+        of(1.0, 1.0, f64::INFINITY),
+        Some(Error::NonFinite("stiffness"))
+    );
+    let observer = |tau: f64, limit: f64, longest: f64| {
+        DisturbanceObserver::try_new(plant(), tau, limit, longest).err()
+    };
+    assert_eq!(
+        observer(0.0, 1.0, 1.0),
+        Some(Error::OutOfRange("time_constant"))
+    );
+    assert_eq!(
+        observer(1e-200, 1.0, 1.0),
+        Some(Error::OutOfRange("time_constant"))
+    );
+    assert_eq!(observer(0.1, -1.0, 1.0), Some(Error::OutOfRange("limit")));
+    assert_eq!(
+        observer(0.1, 1.0, f64::NAN),
+        Some(Error::NonFinite("longest_dt"))
+    );
+    let latency = DisturbanceObserver::try_new(plant(), 0.1, 1.0, 1.0).unwrap();
+    assert_eq!(
+        latency.with_latency(-1e-3).err(),
+        Some(Error::OutOfRange("latency"))
+    );
+}
+
+#[test]
+fn it_can_live_in_flash() {
+    static OBSERVER: DisturbanceObserver<f32> =
+        constant!(constant!(DisturbanceObserver::<f32>::const_new(
+            constant!(NominalPlant::<f32>::const_new(0.6, 25.5, 0.265)),
+            0.0159,
+            30.0,
+            0.005,
+        ))
+        .const_with_latency(0.003));
+    let same = DisturbanceObserver::try_new(
+        NominalPlant::try_new(0.6_f32, 25.5, 0.265).unwrap(),
+        0.0159,
+        30.0,
+        0.005,
+    );
+    assert_eq!(Ok(OBSERVER), same.and_then(|o| o.with_latency(0.003)));
+    assert_eq!(OBSERVER.plant().gain(), f32::of(0.6));
+}
+
+#[cfg(feature = "serde")]
+#[test]
+fn what_is_stored_is_checked_when_it_is_read() {
+    let observer = observer(0.016).with_latency(0.002).unwrap();
+    let text = serde_json::to_string(&observer).unwrap();
+    assert_eq!(
+        serde_json::from_str::<DisturbanceObserver<f64>>(&text).unwrap(),
+        observer
+    );
+    let bad = text.replace("0.016", "-1.0");
+    assert!(serde_json::from_str::<DisturbanceObserver<f64>>(&bad).is_err());
+    let unknown = text.replace("latency", "latenz");
+    assert!(serde_json::from_str::<DisturbanceObserver<f64>>(&unknown).is_err());
+    let mut state = ObserverState::new();
+    let at = ObserverInput {
+        dt: 0.001,
+        sent: 1.0,
+        measured: 0.5,
+    };
+    observer.step(&mut state, &at);
+    let text = serde_json::to_string(&state).unwrap();
+    assert_eq!(
+        serde_json::from_str::<ObserverState<f64>>(&text).unwrap(),
+        state
+    );
+    let bad = text.replace("\"gap\":0.0", "\"gap\":-1.0");
+    assert!(bad != text && serde_json::from_str::<ObserverState<f64>>(&bad).is_err());
+    // JSON has no NaN, but this overflows.
+    let bad = text.replace("\"estimate\":", "\"estimate\":1e999,\"was\":");
+    assert!(serde_json::from_str::<ObserverState<f64>>(&bad).is_err());
+}
