@@ -1,4 +1,4 @@
-//! What can be promised of the adaptive law, and under which assumptions.
+//! What can be promised of the adaptive law and of an observer, and under which assumptions.
 //!
 //! | certificate | of | what it bounds |
 //! |---|---|---|
@@ -11,7 +11,11 @@
 //! | [`RmsSampled`] | lag form, sampled, boxes | root mean square of e |
 //! | [`PerStep`] | lag form, sampled, boxes | V from step to step |
 //!
-//! Each is made from an [`Adaptive`](crate::control::Adaptive) law and a [`Plant`]: what is
+//! [`ObserverStability`] says something else, of a PI with a
+//! [`DisturbanceObserver`](crate::control::DisturbanceObserver): that it is stable with every plant
+//! of a range.
+//!
+//! Each of the table is made from an [`Adaptive`](crate::control::Adaptive) law and a [`Plant`]: what is
 //! known of it. What the two types can check is checked; what is left for the user to
 //! check is in [`Certificate::assumptions`], and in full in each type's documentation.
 //!
@@ -30,6 +34,7 @@
 
 mod certificate;
 mod dyadic;
+mod observer;
 mod peak;
 mod per_step;
 mod plant;
@@ -43,6 +48,7 @@ mod truth;
 
 pub use certificate::{Certificate, Kind};
 pub use dyadic::{Dyadic, Enclosure};
+pub use observer::{ObserverStability, PlantRange};
 pub use peak::PeakContinuous;
 pub use per_step::PerStep;
 pub use plant::{Interval, Known, Plant};

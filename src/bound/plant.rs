@@ -148,7 +148,7 @@ impl<T: Real, const N: usize> Plant<T, N> {
     }
 }
 
-fn ordered<T: Real>(interval: &Interval<T>, name: &'static str) -> Result<(), Error> {
+pub(super) fn ordered<T: Real>(interval: &Interval<T>, name: &'static str) -> Result<(), Error> {
     finite(interval.low, name)?;
     if interval.low > finite(interval.high, name)? {
         return Err(Error::OutOfRange(name));

@@ -7,6 +7,7 @@ mod adversary;
 mod continuous;
 mod dyadic;
 mod figures;
+mod observer;
 mod refused;
 mod rounded;
 mod sampled;

@@ -3,6 +3,7 @@
 use crate::control::law;
 use crate::{any, never_panics};
 use bowden::bound::*;
+use bowden::control::{DisturbanceObserver, NominalPlant, Pid};
 use bowden::Real;
 use std::hint::black_box;
 
@@ -41,6 +42,7 @@ pub fn all<T: Real>() -> Option<()> {
     let per_step = black_box(PerStep::try_new(&law, &plant)).ok()?;
     never_panics!(bound_per_step_certificate, per_step.certificate());
 
+    observer::<T>();
     dyadic::<T>();
     rounded::<T>()?;
     let certificate = black_box(rms.certificate());
@@ -87,5 +89,25 @@ fn rounded<T: Real>() -> Option<()> {
     let inequality = black_box(peak.inequalities).first().copied()?;
     never_panics!(bound_rounded_inequalities_holds, inequality.holds());
     never_panics!(bound_rounded_inequalities_text, inequality.name.text());
+    Some(())
+}
+
+/// Stability with an observer.
+fn observer<T: Real>() -> Option<()> {
+    let plant = black_box(NominalPlant::<T>::try_new(any(), any(), any())).ok()?;
+    let observer = black_box(DisturbanceObserver::try_new(plant, any(), any(), any())).ok()?;
+    let law = black_box(Pid::<T>::paper_pi());
+    let interval = || Interval::<f64>::between(any(), any());
+    let plants = black_box(PlantRange {
+        gain: interval(),
+        natural_frequency: interval(),
+        damping_ratio: interval(),
+        joint: interval(),
+        latency: interval(),
+    });
+    never_panics!(
+        bound_observer_try_new,
+        ObserverStability::try_new(&observer, &law, &plants)
+    );
     Some(())
 }
