@@ -11,6 +11,7 @@ use super::table::run_all;
 use super::trial::{Conditions, TRANSIENT};
 use bowden::model::Term;
 use bowden_rig::{Drift, Reference};
+use serde::Serialize;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -25,6 +26,7 @@ pub use super::heading::Heading;
 pub use super::own_rig::RigChanges;
 pub use super::proof::{coq, gappa, prove, Proof, Sides};
 pub use super::table::{Line, Spread};
+pub use super::tolerance::Tolerance;
 pub use super::trial::Row;
 pub use super::undeclared::Undeclared;
 pub use bowden::bound::Named;
@@ -264,11 +266,20 @@ fn inputs(question: &Question<'_>) -> Result<(Setup, Option<GainsFile>, bool), S
     }
 }
 
+/// What is promised of a setup: of its adaptive law, and of its PI with an observer.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Certified {
+    /// Of the adaptive law.
+    pub certificates: Vec<Promise>,
+    /// Of the PI with an observer.
+    pub tolerance: Tolerance,
+}
+
 /// The certificates of a setup.
 ///
 /// # Errors
 /// One line where the setup cannot be read or the core refuses its gains.
-pub fn certify(setup: Option<&Path>) -> Result<Vec<Promise>, String> {
+pub fn certify(setup: Option<&Path>) -> Result<Certified, String> {
     if let Some(path) = setup {
         let text = std::fs::read_to_string(path).unwrap_or_default();
         if is_of_design(&text) {
@@ -284,7 +295,10 @@ pub fn certify(setup: Option<&Path>) -> Result<Vec<Promise>, String> {
             "{}: holds a model; these certificates are of gains on the reference rig, or on that of a table [rig]. `bowden design MODEL.toml --rate HZ --delay S` derives gains from a model, with what is promised of them",
             path.display()
         )),
-        _ => super::certificates::all(&own),
+        _ => Ok(Certified {
+            certificates: super::certificates::all(&own)?,
+            tolerance: super::tolerance::tolerance(&own)?,
+        }),
     }
 }
 

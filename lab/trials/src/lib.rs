@@ -21,5 +21,6 @@ pub mod own_rig;
 pub mod proof;
 pub mod setup;
 pub mod table;
+pub mod tolerance;
 pub mod trial;
 pub mod undeclared;

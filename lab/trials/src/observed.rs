@@ -45,7 +45,7 @@ impl Observed {
 /// The torque is that of the joint's spring, damping and inertia N(s)·phi_d; the motor works
 /// through the cable against the same and against its own, so that
 /// `P = gain/(1 + (th2·s² + th1·s)/N(s))`. For N its stiffness is taken, with the cable's.
-fn nominal(rig: &RigConfig<f64>) -> Result<NominalPlant<f64>, bowden::Error> {
+pub(crate) fn nominal(rig: &RigConfig<f64>) -> Result<NominalPlant<f64>, bowden::Error> {
     let stiffness = (rig.cable_stiffness.recip() + rig.load_stiffness.recip()).recip();
     NominalPlant::of_mechanics(
         rig.drive_gain * rig.b,

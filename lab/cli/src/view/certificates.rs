@@ -1,17 +1,27 @@
 //! The table of `bowden certify`, and its JSON.
 
-use bowden_trials::facts::Promise;
+use bowden_trials::facts::{Certified, Tolerance};
 use std::fmt::Write as _;
 
 /// Schema `bowden.certify/1`.
 #[must_use]
-pub fn json(lines: &[Promise]) -> String {
-    serde_json::json!({ "schema": "bowden.certify/1", "certificates": lines }).to_string()
+pub fn json(all: &Certified) -> String {
+    let Certified {
+        certificates,
+        tolerance,
+    } = all;
+    serde_json::json!({
+        "schema": "bowden.certify/1",
+        "certificates": certificates,
+        "tolerance": tolerance,
+    })
+    .to_string()
 }
 
 /// For people.
 #[must_use]
-pub fn text(lines: &[Promise]) -> String {
+pub fn text(all: &Certified) -> String {
+    let lines = &all.certificates;
     let mut out =
         String::from("bowden certify: what the tracking error is promised to stay below\n\n");
     let mut told: Vec<&[&str]> = Vec::new();
@@ -47,6 +57,7 @@ pub fn text(lines: &[Promise]) -> String {
             told.push(line.assumptions);
         }
     }
+    out += &stable(&all.tolerance);
     out.push_str(
         "\nBeta within p %: the box of beta_hat about 1/alpha, alpha = N_A·B of the rig.\n\
          The proofs check the line at rest in f32, with room for rounding: |s| <= 0.43 N·m and\n\
@@ -69,5 +80,26 @@ pub fn text(lines: &[Promise]) -> String {
             let _ = writeln!(out, "  - {assumption}");
         }
     }
+    if all.tolerance.share.is_some() {
+        let _ = writeln!(out, "\nTo check for {}:", all.tolerance.kind);
+        for assumption in all.tolerance.assumptions {
+            let _ = writeln!(out, "  - {assumption}");
+        }
+    }
     out
+}
+
+/// How far the plant may be off with an observer.
+fn stable(tolerance: &Tolerance) -> String {
+    let what = match (tolerance.share, &tolerance.refused) {
+        (Some(share), _) => format!(
+            "stable with every plant within {:.1} % of the rig's\n{:<66}alpha, zeta, c/K and latency and {:.2} % of its wn, all at once",
+            100.0 * share,
+            "",
+            50.0 * share
+        ),
+        (None, Some(reason)) => format!("none: {reason}"),
+        (None, None) => "none".to_owned(),
+    };
+    format!("{:<47} {:<17} {what}\n", tolerance.law, tolerance.kind)
 }

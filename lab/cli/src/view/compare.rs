@@ -177,7 +177,8 @@ assumes.
 ";
 
 const NO_CERTIFICATE: &str = "\
-certificate -: none is known of this controller.
+certificate -: no bound of its error is known. `bowden certify` says for which plants the loop of
+pi-observer is stable.
 ";
 
 const NOT_OF_THESE_GAINS: &str = "\

@@ -59,3 +59,32 @@ fn the_rms_certificate_holds_on_the_rig() {
     let promised = row["certificate"]["value"].as_f64().unwrap();
     assert!(row["rmse_true"]["mean"].as_f64().unwrap() < promised);
 }
+
+#[test]
+fn an_observers_loop_is_stable_for_a_data_sheet_that_is_off_and_its_own_wn_is_rather_low() {
+    let share = |arguments: &[&str]| -> Option<f64> {
+        let report = json(&[&["certify", "--json"], arguments].concat());
+        assert_eq!(report["tolerance"]["law"], "pi-observer");
+        assert!(!report["tolerance"]["assumptions"]
+            .as_array()
+            .unwrap()
+            .is_empty());
+        report["tolerance"]["share"].as_f64()
+    };
+    let own = share(&[]).unwrap();
+    // The tests of `bowden::bound` compare such figures with simulated plants.
+    assert!((0.1..0.2).contains(&own), "{own}");
+    let folder = tempfile::tempdir().unwrap();
+    let with = |observer: &str| {
+        let path = folder.path().join("setup.toml");
+        std::fs::write(&path, observer).unwrap();
+        share(&["--gains", path.to_str().unwrap()])
+    };
+    let low = with("[observer]\nnatural_frequency = 21.0\n").unwrap();
+    let high = with("[observer]\nnatural_frequency = 28.0\n").unwrap();
+    assert!(low > own && own > high, "{low} {own} {high}");
+    // Too much integral gain for the nominal loop.
+    assert_eq!(with("[observer]\nk_i = 3000.0\n"), None);
+    let text = String::from_utf8(bowden(&["certify"]).stdout).unwrap();
+    assert!(text.contains("stable with every plant within"), "{text}");
+}
