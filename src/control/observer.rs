@@ -22,7 +22,7 @@
 
 use super::status::{fault_of_dt, unless_finite};
 use super::{Fault, Status};
-use crate::error::{above_zero, not_below_zero, rarely};
+use crate::error::{above_zero, is_usable, not_below_zero, rarely};
 use crate::signal::{clamp, gap_after};
 use crate::{Error, Real};
 
@@ -45,7 +45,7 @@ mod proofs;
 /// ```text
 /// w0⁺ = w0 + min(h/L, 1)·(u_sent − w0)    w1⁺ = w1 + s·(w0⁺ − w1)    w2⁺ = w2 + s·(w1⁺ − w2)
 ///                                         z1⁺ = z1 + s·(y − z1)      z2⁺ = z2 + s·(z1⁺ − z2)
-/// d_hat = w2⁺ − (z2⁺ + 2·zeta/wn·(z1⁺ − z2⁺)/tau + (y − 2·z1⁺ + z2⁺)/(wn·tau)²)/alpha
+/// d_hat = w2⁺ − (z2⁺ + 2·zeta/(wn·tau)·(z1⁺ − z2⁺) + (y − 2·z1⁺ + z2⁺)/(wn·tau)²)/alpha
 /// ```
 /// Any `dt` up to the longest is stable, and `dt` may vary. White noise of y reaches the command
 /// as about `1/(alpha·(wn·tau)²)` of itself, above `1/tau`.
@@ -91,6 +91,9 @@ pub struct DisturbanceObserver<T> {
     limit: T,
     longest_dt: T,
     latency: T,
+    /// Q·P⁻¹ of z2, of z1 − z2 and of y − 2·z1 + z2.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    inverse: [T; 3],
 }
 
 /// The observer's numbers after their checks, for any float and for constants.
@@ -98,8 +101,10 @@ macro_rules! observer {
     ($plant:ident, $tau:ident, $limit:ident, $longest:ident, $zero:expr, $one:expr) => {{
         above_zero!($tau, $zero, "time_constant");
         let product = $plant.natural_frequency() * $tau;
-        let curvature = (($one / product) / product) / $plant.gain();
-        if !curvature.is_finite() {
+        let position = $one / $plant.gain();
+        let curvature = (position / product) / product;
+        let rate = ($plant.damping_ratio() + $plant.damping_ratio()) * (position / product);
+        if !(rate + curvature).is_finite() {
             return Err(Error::OutOfRange("time_constant"));
         }
         above_zero!($limit, $zero, "limit");
@@ -110,6 +115,7 @@ macro_rules! observer {
             limit: $limit,
             longest_dt: $longest,
             latency: $zero,
+            inverse: [position, rate, curvature],
         })
     }};
 }
@@ -184,7 +190,7 @@ impl<T: Real> DisturbanceObserver<T> {
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"time_constant"`, also where
-    /// `1/(alpha·(wn·tau)²)` is not finite, `"limit"` or `"longest_dt"`.
+    /// `1/(alpha·(wn·tau)²)` or `2·zeta/(alpha·wn·tau)` is not finite, `"limit"` or `"longest_dt"`.
     pub fn try_new(
         plant: NominalPlant<T>,
         time_constant: T,
@@ -249,13 +255,11 @@ impl<T: Real> DisturbanceObserver<T> {
     /// is finite and within ±limit.
     #[inline]
     pub fn step(&self, state: &mut ObserverState<T>, at: &ObserverInput<T>) -> ObserverOutput<T> {
-        let status = match self.fault(at) {
-            None => self.advance(state, at),
-            Some(fault) => {
-                rarely();
-                state.gap = gap_after(state.gap, at.dt, self.longest_dt);
-                Status::Held(fault)
-            }
+        let status = if self.advance(state, at) {
+            Status::Good
+        } else {
+            rarely();
+            Status::Held(self.refused(state, at))
         };
         let known = match state.estimate.is_nan() {
             true => T::ZERO,
@@ -268,30 +272,51 @@ impl<T: Real> DisturbanceObserver<T> {
         }
     }
 
-    fn fault(&self, at: &ObserverInput<T>) -> Option<Fault> {
-        fault_of_dt(at.dt, self.longest_dt)
-            .or_else(|| unless_finite(at.sent, Fault::Command))
-            .or_else(|| unless_finite(at.measured, Fault::Measured))
-    }
-
-    /// Moves the state by a good sample. Where that overflows, or did before, the lags begin anew
-    /// with the next one.
-    fn advance(&self, state: &mut ObserverState<T>, at: &ObserverInput<T>) -> Status {
+    /// Moves the state by a good sample; `false`, and nothing has moved, where a number cannot be
+    /// used or the estimate overflows.
+    #[inline]
+    #[allow(clippy::eq_op)]
+    fn advance(&self, state: &mut ObserverState<T>, at: &ObserverInput<T>) -> bool {
+        // A number less itself is zero, or NaN where it is not finite.
+        let zero = (at.sent - at.sent) + (at.measured - at.measured);
+        if !(at.dt.positive_up_to(self.longest_dt) && zero == T::ZERO) {
+            return false;
+        }
         let h = clamp(state.gap + at.dt, T::ZERO, T::HIGHEST);
-        let now = state.lags.unwrap_or_else(|| Lags::at(at.sent, at.measured));
+        let now = state.lags.unwrap_or(Lags::at(at.sent, at.measured));
         let moved = self.moved(&now, at, h);
         let estimate = self.estimate(&moved, at.measured);
-        state.gap = T::ZERO;
-        if !(estimate + moved.test()).is_finite() {
-            rarely();
-            state.lags = None;
-            return Status::Held(Fault::Overflow);
+        if !is_usable(estimate + moved.sum()) {
+            return false;
         }
         state.lags = Some(moved);
         state.estimate = estimate;
-        Status::Good
+        state.gap = T::ZERO;
+        true
     }
 
+    /// What was wrong with a sample. Where nothing was, the lags overflow, or did before: they begin
+    /// anew with the next one.
+    fn refused(&self, state: &mut ObserverState<T>, at: &ObserverInput<T>) -> Fault {
+        let fault = fault_of_dt(at.dt, self.longest_dt)
+            .or_else(|| unless_finite(at.sent, Fault::Command))
+            .or_else(|| unless_finite(at.measured, Fault::Measured));
+        match fault {
+            Some(fault) => {
+                state.gap = gap_after(state.gap, at.dt, self.longest_dt);
+                fault
+            }
+            None => {
+                *state = ObserverState {
+                    estimate: state.estimate,
+                    ..ObserverState::new()
+                };
+                Fault::Overflow
+            }
+        }
+    }
+
+    #[inline]
     fn moved(&self, now: &Lags<T>, at: &ObserverInput<T>, h: T) -> Lags<T> {
         let share = h / (self.time_constant + h);
         let at_once = match h < self.latency {
@@ -312,11 +337,10 @@ impl<T: Real> DisturbanceObserver<T> {
 
     fn estimate(&self, lags: &Lags<T>, measured: T) -> T {
         let ([_, _, w2], [z1, z2]) = (lags.sent, lags.measured);
-        let (rate, curvature) = self.plant.terms();
-        let fast = self.time_constant.recip();
-        let velocity = (z1.value - z2.value) * fast;
-        let acceleration = ((measured - z1.value) * fast - velocity) * fast;
-        w2.value - (z2.value + rate * velocity + curvature * acceleration) / self.plant.gain()
+        let [position, rate, curvature] = self.inverse;
+        let fall = z1.value - z2.value;
+        let bend = (measured - z1.value) - fall;
+        w2.value - (position * z2.value + rate * fall + curvature * bend)
     }
 }
 

@@ -129,7 +129,7 @@ impl<T: Real> NominalPlant<T> {
 
     /// `2·zeta/wn` \[s\] and `1/wn²` \[s²\].
     #[inline]
-    pub(super) fn terms(&self) -> (T, T) {
+    fn terms(&self) -> (T, T) {
         let slow = self.natural_frequency.recip();
         (T::of(2.0) * self.damping_ratio * slow, slow * slow)
     }

@@ -51,10 +51,11 @@ impl<T: Real> Lags<T> {
         }
     }
 
-    /// Zero, or NaN where any number is not finite.
-    pub(super) fn test(&self) -> T {
+    /// The sum of all numbers: not finite where one of them is not.
+    #[inline]
+    pub(super) fn sum(&self) -> T {
         let all = self.sent.iter().chain(&self.measured);
-        all.fold(T::ZERO, |sum, lag| sum + (lag.value + lag.carry) * T::ZERO)
+        all.fold(T::ZERO, |sum, lag| sum + lag.value + lag.carry)
     }
 }
 
@@ -112,7 +113,7 @@ impl<T: Real> ObserverState<T> {
 impl<T: Real> TryFrom<Unchecked<T>> for ObserverState<T> {
     type Error = Error;
     fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
-        let finite = raw.lags.is_none_or(|lags| lags.test().is_finite())
+        let finite = raw.lags.is_none_or(|lags| lags.sum().is_finite())
             && (raw.estimate + raw.gap).is_finite();
         if finite && raw.gap >= T::ZERO {
             return Ok(Self::assumed(raw));
