@@ -16,6 +16,7 @@ pub mod adaptive;
 pub mod cable;
 pub mod closed_loop;
 pub mod model;
+pub mod observer;
 pub mod pid;
 mod signal;
 
@@ -139,6 +140,8 @@ cases! {
     "transmission": cable::Forward;
     "inverse": cable::Inverse;
     "compensator": model::Compensated;
+    "observer": observer::Loaded;
+    "observer-constant": observer::Constant;
     "model-2": model::TwoEffects;
     "model-8": model::EightEffects;
     "model-2-constant": model::TwoConstant;

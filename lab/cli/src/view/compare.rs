@@ -152,10 +152,10 @@ The rig's drive gain and noise were picked so that PI and the adaptive law come 
 Table 3: those two are calibration, not validation. Not reproduced: PIV below PI (here it
 is not), and the paper's scatter between trials. matched-pi is a PI with the integral gain
 that the adaptive law has in effect (320): what it reaches is gain, not adaptation.
-pi-observer is a PI (12, 60) with a disturbance observer of 10 Hz: it knows the rig's drive
-gain, inertia, damping and stiffness, and nothing of the friction. The frozen law starts with
-beta_hat at 1/alpha and delta_hat as given, and never adapts; the feed-forward knows the rig's
-own transmission, or the --model. A certificate bounds an idealised plant without sensor noise:
+pi-observer is a softer PI with a disturbance observer: it knows the rig's drive gain, inertia,
+damping and stiffness, and nothing of the friction. The frozen law starts with beta_hat at
+1/alpha and delta_hat as given, and never adapts; the feed-forward knows the rig's own
+transmission, or the --model. A certificate bounds an idealised plant without sensor noise:
 `bowden certify` lists what each assumes.
 ";
 
