@@ -83,6 +83,12 @@
 // Room of a bowden_model_f64, in words of 64 bits.
 #define BOWDEN_MODEL_F64_WORDS 216
 
+// Room of a bowden_observer_f32, in words of 64 bits.
+#define BOWDEN_OBSERVER_F32_WORDS 14
+
+// Room of a bowden_observer_f64, in words of 64 bits.
+#define BOWDEN_OBSERVER_F64_WORDS 25
+
 // For `after` of a fallback: the last good command is held for ever; for a simulation, not for
 // a machine.
 #define BOWDEN_HOLD_FOR_EVER 4294967295
@@ -850,6 +856,88 @@ typedef struct bowden_model_sample_f64 {
     size_t channel_count;
 } bowden_model_sample_f64;
 
+// An observer with its state; made by bowden_observer_init.
+typedef struct bowden_observer_f32 {
+    // Not for use.
+    uint64_t opaque[BOWDEN_OBSERVER_F32_WORDS];
+} bowden_observer_f32;
+
+// Settings of a disturbance observer. The nominal plant from command to output is
+//
+//     P(s) = gain/(s^2/wn^2 + 2*zeta*s/wn + 1)
+//
+// of a motor with inertia J and damping c that works against a stiffness K:
+// wn = sqrt(K/J), zeta = c/(2*sqrt(K*J)). Rather too low a wn than too high a one.
+typedef struct bowden_observer_settings_f32 {
+    // Of the nominal plant, not zero [output unit/command unit].
+    float gain;
+    // wn of the nominal plant, above zero [rad/s].
+    float natural_frequency;
+    // zeta of the nominal plant, not below zero.
+    float damping_ratio;
+    // tau of the filter Q = 1/(tau*s + 1)^2, above zero [s].
+    float time_constant;
+    // Greatest magnitude of the estimate, above zero [command unit].
+    float limit;
+    // Longest dt that is a sample, above zero [s].
+    float longest_dt;
+    // How long a command takes to show in the measured output, beside what the nominal
+    // plant takes; not below zero [s].
+    float latency;
+} bowden_observer_settings_f32;
+
+// What a step of an observer gives.
+typedef struct bowden_observer_output_f32 {
+    // To be added to the command, as feed_forward of a controller [command unit];
+    // finite and within the limit in any case.
+    float estimate;
+    // What the step did: the same as it returns.
+    bowden_result result;
+    // What was wrong.
+    bowden_fault fault;
+} bowden_observer_output_f32;
+
+// An observer with its state; made by bowden_observer_init.
+typedef struct bowden_observer_f64 {
+    // Not for use.
+    uint64_t opaque[BOWDEN_OBSERVER_F64_WORDS];
+} bowden_observer_f64;
+
+// Settings of a disturbance observer. The nominal plant from command to output is
+//
+//     P(s) = gain/(s^2/wn^2 + 2*zeta*s/wn + 1)
+//
+// of a motor with inertia J and damping c that works against a stiffness K:
+// wn = sqrt(K/J), zeta = c/(2*sqrt(K*J)). Rather too low a wn than too high a one.
+typedef struct bowden_observer_settings_f64 {
+    // Of the nominal plant, not zero [output unit/command unit].
+    double gain;
+    // wn of the nominal plant, above zero [rad/s].
+    double natural_frequency;
+    // zeta of the nominal plant, not below zero.
+    double damping_ratio;
+    // tau of the filter Q = 1/(tau*s + 1)^2, above zero [s].
+    double time_constant;
+    // Greatest magnitude of the estimate, above zero [command unit].
+    double limit;
+    // Longest dt that is a sample, above zero [s].
+    double longest_dt;
+    // How long a command takes to show in the measured output, beside what the nominal
+    // plant takes; not below zero [s].
+    double latency;
+} bowden_observer_settings_f64;
+
+// What a step of an observer gives.
+typedef struct bowden_observer_output_f64 {
+    // To be added to the command, as feed_forward of a controller [command unit];
+    // finite and within the limit in any case.
+    double estimate;
+    // What the step did: the same as it returns.
+    bowden_result result;
+    // What was wrong.
+    bowden_fault fault;
+} bowden_observer_output_f64;
+
 // Settings of a PI (15), PID (14) or PIV (16):
 //
 //     u = -k_p*(y - b*y_r) - k_i*integral(e) - k_d*d/dt(y - c*y_r) + u_ff
@@ -1342,6 +1430,60 @@ bowden_result bowden_model_eta_f64(const struct bowden_model_f64 *model, double 
 // The state of the start again, with this hysteresis state.
 bowden_result bowden_model_reset_f64(struct bowden_model_f64 *model, double eta);
 
+// Starts an observer. `about` may be null.
+bowden_result bowden_observer_init_f32(struct bowden_observer_f32 *observer,
+                                       const struct bowden_observer_settings_f32 *settings,
+                                       struct bowden_about *about);
+
+// One sample, before the controller's own: `dt` since the last call [s], the command
+// that went out at the last call behind all limits [command unit], the measured
+// output [output unit].
+//
+// A bad sample holds the estimate: BOWDEN_RESULT_HELD. `out` is written with every
+// result that is not negative.
+bowden_result bowden_observer_step_f32(struct bowden_observer_f32 *observer,
+                                       float dt,
+                                       float sent,
+                                       float measured,
+                                       struct bowden_observer_output_f32 *out);
+
+// The command that makes the nominal plant follow, [command unit]: of the output that
+// is wanted with its rates, taken as far ahead as the latency.
+bowden_result bowden_observer_feed_forward_f32(const struct bowden_observer_f32 *observer,
+                                               const struct bowden_motion_f32 *wanted,
+                                               float *command);
+
+// The state of the start again: where the drive was off, for a command that did not
+// reach the motor is no command.
+bowden_result bowden_observer_reset_f32(struct bowden_observer_f32 *observer);
+
+// Starts an observer. `about` may be null.
+bowden_result bowden_observer_init_f64(struct bowden_observer_f64 *observer,
+                                       const struct bowden_observer_settings_f64 *settings,
+                                       struct bowden_about *about);
+
+// One sample, before the controller's own: `dt` since the last call [s], the command
+// that went out at the last call behind all limits [command unit], the measured
+// output [output unit].
+//
+// A bad sample holds the estimate: BOWDEN_RESULT_HELD. `out` is written with every
+// result that is not negative.
+bowden_result bowden_observer_step_f64(struct bowden_observer_f64 *observer,
+                                       double dt,
+                                       double sent,
+                                       double measured,
+                                       struct bowden_observer_output_f64 *out);
+
+// The command that makes the nominal plant follow, [command unit]: of the output that
+// is wanted with its rates, taken as far ahead as the latency.
+bowden_result bowden_observer_feed_forward_f64(const struct bowden_observer_f64 *observer,
+                                               const struct bowden_motion_f64 *wanted,
+                                               double *command);
+
+// The state of the start again: where the drive was off, for a command that did not
+// reach the motor is no command.
+bowden_result bowden_observer_reset_f64(struct bowden_observer_f64 *observer);
+
 // Settings of a plain PI (15): full set-point weight, conditional anti-windup, no
 // slew rate, 4 good samples for a bad one.
 //
@@ -1583,6 +1725,8 @@ BOWDEN_ASSERT_SIZE(bowden_inverse_f32, BOWDEN_INVERSE_F32_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_inverse_f64, BOWDEN_INVERSE_F64_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_rates_f32, BOWDEN_RATES_F32_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_rates_f64, BOWDEN_RATES_F64_WORDS);
+BOWDEN_ASSERT_SIZE(bowden_observer_f32, BOWDEN_OBSERVER_F32_WORDS);
+BOWDEN_ASSERT_SIZE(bowden_observer_f64, BOWDEN_OBSERVER_F64_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_play_f32, BOWDEN_PLAY_F32_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_play_f64, BOWDEN_PLAY_F64_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_adaptive_f32, BOWDEN_ADAPTIVE_F32_WORDS);

@@ -50,6 +50,11 @@ fn the_table_has_the_sizes_of_the_objects() {
             size_of::<bowden_rates_f64>(),
         ),
         (
+            "observer",
+            size_of::<bowden_observer_f32>(),
+            size_of::<bowden_observer_f64>(),
+        ),
+        (
             "play",
             size_of::<bowden_play_f32>(),
             size_of::<bowden_play_f64>(),

@@ -7,10 +7,11 @@ mod signal;
 
 use bowden::*;
 use core_bowden::control::{
-    AntiWindup, Damping, Fallback, Limits, Pid, PidInput, PidSettings, PidState, Status,
+    AntiWindup, Damping, DisturbanceObserver, Fallback, Limits, NominalPlant, ObserverInput,
+    ObserverState, Pid, PidInput, PidSettings, PidState, Status,
 };
 use core_bowden::hysteresis::{BoucWen, Shape};
-use core_bowden::signal::{Play, PlayState, Rates, RatesState};
+use core_bowden::signal::{Motion, Play, PlayState, Rates, RatesState};
 use core_bowden::transmission::Transmission;
 use objects::blank;
 use signal::Signal;
@@ -285,6 +286,93 @@ rates!(
     bowden_rates_output_f64,
     bowden_rates_init_f64,
     bowden_rates_step_f64
+);
+
+macro_rules! observer {
+    ($name:ident, $f:ident, $object:ident, $settings:ident, $output:ident, $motion:ident,
+     $init:ident, $step:ident, $feed:ident, $reset:ident) => {
+        #[test]
+        fn $name() {
+            for latency in [0.0, 0.003] {
+                let settings = $settings {
+                    gain: 0.6,
+                    natural_frequency: 25.5,
+                    damping_ratio: 0.265,
+                    time_constant: 0.016,
+                    limit: 30.0,
+                    longest_dt: 0.005,
+                    latency,
+                };
+                let plant = NominalPlant::<$f>::try_new(0.6, 25.5, 0.265).unwrap();
+                let own = DisturbanceObserver::try_new(plant, 0.016, 30.0, 0.005)
+                    .and_then(|own| own.with_latency(latency))
+                    .unwrap();
+                let mut state = ObserverState::new();
+                let mut observer = blank::<$object>();
+                let tried = unsafe { $init(&mut observer, &settings, null_mut()) };
+                assert_eq!(tried, bowden_result::Ok);
+                let mut signal = Signal::new();
+                for k in 0..4000 {
+                    let (measured, dt) = (signal.measured(k) as $f, signal.dt(k) as $f);
+                    let sent = signal.next(20.0) as $f;
+                    let mut out = blank::<$output>();
+                    let result = unsafe { $step(&mut observer, dt, sent, measured, &mut out) };
+                    let expected = own.step(&mut state, &ObserverInput { dt, sent, measured });
+                    let good = expected.status == Status::Good;
+                    let wanted = if good {
+                        bowden_result::Ok
+                    } else {
+                        bowden_result::Held
+                    };
+                    assert_eq!((result, out.result), (wanted, wanted), "{k}");
+                    assert_eq!(out.fault == bowden_fault::None, good);
+                    assert_eq!(out.estimate.to_bits(), expected.estimate.to_bits(), "{k}");
+                    if k == 3000 {
+                        assert_eq!(unsafe { $reset(&mut observer) }, bowden_result::Ok);
+                        state = ObserverState::new();
+                    }
+                }
+                let wanted = $motion {
+                    position: 3.0,
+                    velocity: -4.0,
+                    acceleration: 50.0,
+                };
+                let mut command = 0.0;
+                let result = unsafe { $feed(&observer, &wanted, &mut command) };
+                let expected = plant.feed_forward(&Motion {
+                    position: 3.0,
+                    velocity: -4.0,
+                    acceleration: 50.0,
+                });
+                assert_eq!(result, bowden_result::Ok);
+                assert_eq!(command.to_bits(), expected.to_bits());
+            }
+        }
+    };
+}
+observer!(
+    observer_in_f32,
+    f32,
+    bowden_observer_f32,
+    bowden_observer_settings_f32,
+    bowden_observer_output_f32,
+    bowden_motion_f32,
+    bowden_observer_init_f32,
+    bowden_observer_step_f32,
+    bowden_observer_feed_forward_f32,
+    bowden_observer_reset_f32
+);
+observer!(
+    observer_in_f64,
+    f64,
+    bowden_observer_f64,
+    bowden_observer_settings_f64,
+    bowden_observer_output_f64,
+    bowden_motion_f64,
+    bowden_observer_init_f64,
+    bowden_observer_step_f64,
+    bowden_observer_feed_forward_f64,
+    bowden_observer_reset_f64
 );
 
 macro_rules! play {
