@@ -11,11 +11,13 @@ mod span;
 /// Where the plant between command and measured output lies: a data sheet with its tolerances.
 ///
 /// ```text
-/// P~(s) = alpha·e^(−theta·s)/(1 + (s²/wn² + 2·zeta·s/wn)/(1 + c/K·s))
+/// P~(s) = f·alpha·e^(−theta·s)/(1 + f·(s²/wn² + 2·zeta·s/wn)/(1 + c/K·s))
 /// ```
-/// With `c/K = 0` it is the [`NominalPlant`](crate::control::NominalPlant) behind a delay. A damping
-/// c of the joint beside the stiffness K that it works against leads: 3 ms of it make up for 3 ms
-/// of latency, and a rig may be stable by that alone.
+/// With `f = 1` and `c/K = 0` it is the [`NominalPlant`](crate::control::NominalPlant) behind a delay. A
+/// damping c of the joint beside the stiffness K that it works against leads: 3 ms of it make up
+/// for 3 ms of latency, and a rig may be stable by that alone. Where the cable's output changes by f
+/// times as much as its input, as along the loop of its hysteresis, the motor works against a
+/// stiffness of K/f.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -29,6 +31,9 @@ pub struct PlantRange {
     pub damping_ratio: Interval<f64>,
     /// c/K of the joint \[s\], not below zero.
     pub joint: Interval<f64>,
+    /// f, above zero: 1 without a hysteresis; with one, in torque, with kappa_eta above zero and sigma
+    /// not below, from `1 − kappa_eta·rho·max(1, 2·sigma)/B` to 1.
+    pub slope: Interval<f64>,
     /// theta \[s\], not below zero: samples of delay, half a sample of hold, the lags of drive and
     /// sensor.
     pub latency: Interval<f64>,
@@ -41,10 +46,10 @@ pub struct PlantRange {
 ///
 /// ```text
 /// F(s) = s·D~·((tau·s + 1)² − 1/(L·s + 1))
-///        + alpha~·(1 + c/K·s)·e^(−theta·s)·((k_p·s + k_i)·(tau·s + 1)² + s·D/alpha)
+///        + f·alpha~·(1 + c/K·s)·e^(−theta·s)·((k_p·s + k_i)·(tau·s + 1)² + s·D/alpha)
 /// ```
 /// lies in the right half-plane, `D = s²/wn² + 2·zeta·s/wn + 1` of the nominal plant and
-/// `D~ = s²/wn² + (2·zeta/wn + c/K)·s + 1` of the plant (both divided by s for a P).
+/// `D~ = f·s²/wn² + (f·2·zeta/wn + c/K)·s + 1` of the plant (both divided by s for a P).
 ///
 /// *Proof.* For the nominal plant and `L = 0`, `F = (tau·s + 1)²·(s·D + alpha·(k_p·s + k_i))`, whose
 /// zeros are on the left by Routh. From there all numbers of the plant and L go along a straight
@@ -57,9 +62,9 @@ pub struct PlantRange {
 ///
 /// Assumed beside: continuous time, so samples much shorter than tau and 1/wn; neither the limits
 /// of the command nor that of the observer are met; friction and load are disturbances that stay
-/// bounded. The slope of a hysteresis is in no alpha; a range of the gain from
-/// `1 − kappa_eta·rho·max(1, 2·sigma)/B` of it on covers each slope by itself, but not its
-/// change along the path. libm's sine and cosine err by less than 1e-12.
+/// bounded. The range of f covers each slope of a hysteresis by itself, which is no proof for one that
+/// changes along the path: a cable whose output falls while its input rises (f below zero) can be
+/// in no range, and with it the loop does swing. libm's sine and cosine err by less than 1e-12.
 ///
 /// Source: J. Ackermann, *Robust Control*, 1993, chapter 4 (zero exclusion).
 ///
@@ -75,6 +80,7 @@ pub struct PlantRange {
 ///     natural_frequency: within(25.5, 0.06),
 ///     damping_ratio: within(0.265, 0.12),
 ///     joint: within(0.0033, 0.12), // 0.5 N·m·s/rad beside 150 N·m/rad
+///     slope: Interval { low: 0.33, high: 1.0 },
 ///     latency: within(0.003, 0.12),
 /// };
 /// assert!(ObserverStability::try_new(&observer, &pi, &range).is_ok());
@@ -95,8 +101,8 @@ pub struct ObserverStability {
     pub boxes: u32,
 }
 
-/// Most boxes of a proof: a second or so on a computer.
-const MOST_BOXES: u32 = 4_000_000;
+/// Most boxes of a proof: a tenth of a second or so on a computer.
+const MOST_BOXES: u32 = 400_000;
 
 /// Most halvings of a box.
 const MOST_HALVINGS: u32 = 60;
@@ -120,6 +126,7 @@ struct Plants {
     natural_frequency: Span,
     damping_ratio: Span,
     joint: Span,
+    slope: Span,
     latency: Span,
     observed: Span,
 }
@@ -134,11 +141,11 @@ enum Set {
 }
 
 impl Plants {
-    /// `1/wn²` and `2·zeta/wn + c/K`.
+    /// `f/wn²` and `f·2·zeta/wn + c/K`.
     fn denominator(&self) -> (Span, Span) {
         let slow = self.natural_frequency.recip();
-        let rate = Span::at(2.0) * self.damping_ratio * slow + self.joint;
-        (slow.square(), rate)
+        let rate = Span::at(2.0) * self.damping_ratio * slow;
+        (self.slope * slow.square(), self.slope * rate + self.joint)
     }
 
     /// Two halves, along the number that moves F most, and by how much that does.
@@ -149,10 +156,11 @@ impl Plants {
             2.0 * share(self.natural_frequency),
             self.damping_ratio.width(),
             self.joint.width() * frequency,
+            share(self.slope),
             self.latency.width() * frequency,
         ];
         let most = sizes.iter().fold(0.0_f64, |m, x| m.max(*x));
-        let [gain, natural_frequency, damping_ratio, joint, _] = sizes.map(|x| x >= most);
+        let [gain, natural_frequency, damping_ratio, joint, slope, _] = sizes.map(|x| x >= most);
         let (mut first, mut second) = (*self, *self);
         let split = |low: &mut Span, high: &mut Span| [*low, *high] = low.halves();
         if gain {
@@ -163,6 +171,8 @@ impl Plants {
             split(&mut first.damping_ratio, &mut second.damping_ratio);
         } else if joint {
             split(&mut first.joint, &mut second.joint);
+        } else if slope {
+            split(&mut first.slope, &mut second.slope);
         } else {
             split(&mut first.latency, &mut second.latency);
         }
@@ -177,6 +187,7 @@ impl Plants {
             natural_frequency: middle(self.natural_frequency),
             damping_ratio: middle(self.damping_ratio),
             joint: middle(self.joint),
+            slope: middle(self.slope),
             latency: middle(self.latency),
             observed: self.observed,
         }
@@ -193,6 +204,7 @@ impl Plants {
             natural_frequency: hull(self.natural_frequency, other.natural_frequency),
             damping_ratio: hull(self.damping_ratio, other.damping_ratio),
             joint: hull(self.joint, other.joint),
+            slope: hull(self.slope, other.slope),
             latency: hull(self.latency, other.latency),
             observed: hull(self.observed, other.observed),
         }
@@ -206,6 +218,7 @@ impl Plants {
             natural_frequency: mix(self.natural_frequency, other.natural_frequency),
             damping_ratio: mix(self.damping_ratio, other.damping_ratio),
             joint: mix(self.joint, other.joint),
+            slope: mix(self.slope, other.slope),
             latency: mix(self.latency, other.latency),
             observed: mix(self.observed, other.observed),
         }
@@ -280,6 +293,7 @@ impl ObserverStability {
             natural_frequency: Span::at(nominal.natural_frequency().as_f64()),
             damping_ratio: Span::at(nominal.damping_ratio().as_f64()),
             joint: Span::at(0.0),
+            slope: Span::at(1.0),
             latency: Span::at(0.0),
             observed: Span::at(0.0),
         };
@@ -341,6 +355,10 @@ impl PlantRange {
         if self.natural_frequency.low <= 0.0 {
             return Err(Error::OutOfRange("natural_frequency"));
         }
+        ordered(&self.slope, "slope")?;
+        if self.slope.low <= 0.0 {
+            return Err(Error::OutOfRange("slope"));
+        }
         for (interval, name) in [
             (&self.damping_ratio, "damping_ratio"),
             (&self.joint, "joint"),
@@ -365,6 +383,7 @@ impl PlantRange {
             natural_frequency: span(&self.natural_frequency),
             damping_ratio: span(&self.damping_ratio),
             joint: span(&self.joint),
+            slope: span(&self.slope),
             latency: span(&self.latency),
             observed: Span::at(observed),
         }
@@ -389,7 +408,8 @@ impl Loop {
         let hull = first.hull(all);
         let (curvature, rate) = hull.denominator();
         let (least, most) = (Span::at(curvature.low), Span::at(rate.high));
-        let gain = Span::at(hull.gain.high.abs().max(hull.gain.low.abs()));
+        let gain =
+            Span::at(hull.gain.high.abs().max(hull.gain.low.abs())) * Span::at(hull.slope.high);
         let joint = Span::at(hull.joint.high);
         let (filter, two) = (Span::at(self.filter), Span::at(2.0));
         let mut r = self.filter.recip();
@@ -438,7 +458,7 @@ impl Loop {
             re: one,
             im: plants.joint * w,
         };
-        let delayed = (joint * Plane::late(plants.latency * w)).times(plants.gain);
+        let delayed = (joint * Plane::late(plants.latency * w)).times(plants.gain * plants.slope);
         let first = plant * less_one;
         let k_p = Span::at(self.k_p);
         if self.k_i == 0.0 {

@@ -12,13 +12,14 @@ use proptest::prelude::*;
 /// Sampling of the loop \[s\]; its hold is half a sample of latency.
 const DT: f64 = 2e-4;
 
-/// One plant: alpha, wn, zeta, c/K, and samples of delay.
+/// One plant: alpha, wn, zeta, c/K, slope, and samples of delay.
 #[derive(Debug, Clone, Copy)]
 struct One {
     gain: f64,
     wn: f64,
     zeta: f64,
     joint: f64,
+    slope: f64,
     late: usize,
 }
 
@@ -37,7 +38,7 @@ fn peaks(
     seconds: usize,
 ) -> Vec<f64> {
     let (mut seen, mut state) = (ObserverState::new(), PidState::new());
-    // alpha·(1 + c/K·s)/(s²/wn² + (2·zeta/wn + c/K)·s + 1), by steps that are a tenth as long.
+    // f·alpha·(1 + c/K·s)/(f·s²/wn² + (f·2·zeta/wn + c/K)·s + 1), by steps that are a tenth as long.
     let (mut x, mut v) = (1.0, 0.0);
     let mut sent = vec![0.0; plant.late + 1];
     let per_second = (1.0 / DT).round() as usize;
@@ -45,7 +46,7 @@ fn peaks(
     for _ in 0..seconds {
         let mut peak = 0.0_f64;
         for _ in 0..per_second {
-            let measured = plant.gain * (x + plant.joint * v);
+            let measured = plant.slope * plant.gain * (x + plant.joint * v);
             peak = peak.max(measured.abs());
             let last = sent[plant.late];
             let at = ObserverInput {
@@ -63,8 +64,8 @@ fn peaks(
             let input = sent[0];
             for _ in 0..10 {
                 let h = 0.1 * DT;
-                let rate = 2.0 * plant.zeta / plant.wn + plant.joint;
-                v += h * plant.wn * plant.wn * (input - x - rate * v);
+                let rate = plant.slope * 2.0 * plant.zeta / plant.wn + plant.joint;
+                v += h * plant.wn * plant.wn / plant.slope * (input - x - rate * v);
                 x += h * v;
             }
         }
@@ -83,6 +84,7 @@ fn at(plant: One) -> PlantRange {
         natural_frequency: Interval::exactly(plant.wn),
         damping_ratio: Interval::exactly(plant.zeta),
         joint: Interval::exactly(plant.joint),
+        slope: Interval::exactly(plant.slope),
         latency: Interval::exactly(latency),
     }
 }
@@ -102,6 +104,7 @@ fn of_single_plants_the_edge_of_the_proof_is_the_edge_of_stability() {
         wn: 25.5,
         zeta: 0.265,
         joint: 0.0033,
+        slope: 1.0,
         late: 15,
     };
     type Along = (&'static str, fn(One, f64) -> One, f64, f64);
@@ -160,6 +163,7 @@ proptest! {
         k_i in 5.0..80.0_f64,
         spread in (0.05..0.4_f64, 0.02..0.2_f64, 0.05..0.5_f64),
         late in (0_usize..10, 0_usize..10),
+        flattest in 0.2..1.0_f64,
         pick in prop::collection::vec((0.0..=1.0_f64, 0.0..=1.0_f64, 0.0..=1.0_f64, 0.0..=1.0_f64), 2),
     ) {
         let (observer, law) = loops(tau, latency, k_p, k_i);
@@ -171,18 +175,20 @@ proptest! {
             natural_frequency: around(25.5, spread.1),
             damping_ratio: around(0.265, spread.2),
             joint: Interval { low: 0.001, high: 0.004 },
+            slope: Interval { low: flattest, high: 1.1 },
             latency: Interval { low: samples(least), high: samples(most) },
         };
         prop_assume!(ObserverStability::try_new(&observer, &law, &range).is_ok());
         let within = |of: Interval<f64>, share: f64| of.low + share * (of.high - of.low);
         let corners = [(0.0, 0.0, 0.0, 1.0), (1.0, 0.0, 0.0, 1.0), (1.0, 1.0, 0.0, 0.0)];
         for (gain, wn, zeta, joint) in corners.into_iter().chain(pick) {
-            for late in [least, most] {
+            for (late, slope) in [(least, 1.0), (most, 0.0), (most, 1.0)] {
                 let plant = One {
                     gain: within(range.gain, gain),
                     wn: within(range.natural_frequency, wn),
                     zeta: within(range.damping_ratio, zeta),
                     joint: within(range.joint, joint),
+                    slope: within(range.slope, slope),
                     late,
                 };
                 let all = peaks(&observer, &law, plant, 8);
@@ -200,6 +206,7 @@ fn what_is_no_range_or_no_loop_is_refused_by_name() {
         wn: 25.5,
         zeta: 0.265,
         joint: 0.0033,
+        slope: 1.0,
         late: 10,
     };
     let (observer, law) = loops(0.016, 0.003, 12.0, 60.0);
@@ -234,6 +241,13 @@ fn what_is_no_range_or_no_loop_is_refused_by_name() {
             ..good
         }),
         Some(Error::NonFinite("joint"))
+    );
+    assert_eq!(
+        refused(PlantRange {
+            slope: interval(0.0, 1.0),
+            ..good
+        }),
+        Some(Error::OutOfRange("slope"))
     );
     assert_eq!(
         refused(PlantRange {
@@ -276,6 +290,7 @@ fn the_reference_rig_has_room_where_the_nominal_wn_is_low_rather_than_high() {
         wn: 25.5,
         zeta: 0.265,
         joint: 0.0033,
+        slope: 1.0,
         late: 15,
     };
     let (observer, law) = loops(0.0159, 0.003, 12.0, 60.0);
@@ -305,6 +320,7 @@ fn the_joints_damping_is_what_the_latency_needs() {
         wn: 25.5,
         zeta: 0.265,
         joint: 0.0033,
+        slope: 1.0,
         late: 15,
     };
     let (observer, law) = loops(0.0159, 0.003, 12.0, 60.0);

@@ -2,7 +2,8 @@
 //! the bench and taken out of the tracking error.
 
 use super::bench::{identify, record, Identified};
-use super::lineup::{adaptive, latency, Laws, RATE};
+use super::data_sheet::latency;
+use super::lineup::{adaptive, Laws, RATE};
 use super::setup::{AdaptiveGains, Setup};
 use super::table::{run_all, Line};
 use super::trial::{Conditions, Controller, Law};

@@ -8,6 +8,7 @@
 
 pub mod bench;
 pub mod certificates;
+pub mod data_sheet;
 mod decimal;
 pub mod design;
 pub mod facts;

@@ -1,5 +1,6 @@
 //! Who runs: the paper's four, and those without which the comparison would mislead.
 
+use super::data_sheet::{latency, observed};
 use super::feed::{FeedForward, Surroundings, MOST_TERMS};
 use super::observed::Observed;
 use super::setup::{AdaptiveGains, Setup};
@@ -52,7 +53,7 @@ impl Laws {
                 "observer",
                 PidSettings::unlimited(setup.observer.k_p, setup.observer.k_i),
             )?,
-            observed: Observed::new(&setup.observer, &setup.rig).map_err(|e| ("observer", e))?,
+            observed: observed(&setup.observer, &setup.rig, RATE).map_err(|e| ("observer", e))?,
             adaptive: adaptive(&setup.adaptive, 0.0).map_err(|e| ("adaptive", e))?,
         })
     }
@@ -80,12 +81,6 @@ impl Surroundings {
             latency: latency(rig, RATE),
         }
     }
-}
-
-/// How long a command takes to become torque \[s\].
-#[must_use]
-pub fn latency(rig: &RigConfig<f64>, rate: f64) -> f64 {
-    f64::from(rig.delay) / rate + rig.drive_lag
 }
 
 /// The eight of `bowden compare`, in its order.

@@ -1,10 +1,12 @@
 //! How far a data sheet may be off before the loop with the observer may swing.
 
+use super::data_sheet::nominal;
 use super::lineup::Laws;
-use super::observed::{nominal, Observed};
+use super::observed::Observed;
 use super::setup::Setup;
 use bowden::bound::{Interval, ObserverStability, PlantRange};
 use bowden::control::Pid;
+use bowden_rig::RigConfig;
 use serde::Serialize;
 
 /// The greatest share by which all numbers of the plant may be off at once, with the loop shown to
@@ -29,8 +31,10 @@ pub struct Tolerance {
 /// A plant as the rig's data sheet has it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Middle {
-    /// alpha \[N·m/unit\].
+    /// alpha \[N·m/unit\], that of a cable without hysteresis.
     pub gain: f64,
+    /// Least and greatest slope of the cable, as a share of B.
+    pub slopes: [f64; 2],
     /// wn \[rad/s\].
     pub natural_frequency: f64,
     /// zeta.
@@ -45,13 +49,26 @@ pub struct Middle {
 const STEPS: u32 = 1000;
 
 static ASSUMPTIONS: &[&str] = &[
-    "the plant is alpha*e^(-theta*s)/(1 + (s^2/wn^2 + 2*zeta*s/wn)/(1 + c/K*s)), its numbers constant",
+    "the plant is f*alpha*e^(-theta*s)/(1 + f*(s^2/wn^2 + 2*zeta*s/wn)/(1 + c/K*s)), its numbers constant",
     "continuous time: samples much shorter than tau and 1/wn; hold and delay count as latency",
-    "friction and load are disturbances that stay bounded; the slope of the hysteresis is in no alpha",
+    "friction and load are disturbances that stay bounded; f is any slope of the hysteresis, and does not change",
     "neither a limit of the command nor that of the observer is met, and no sample is bad",
 ];
 
 impl Middle {
+    /// The numbers of a rig whose commands take so long to show \[s\].
+    fn of(rig: &RigConfig<f64>, latency: f64) -> Result<Self, bowden::Error> {
+        let sheet = nominal(rig)?;
+        Ok(Self {
+            gain: sheet.gain(),
+            slopes: slopes(rig),
+            natural_frequency: sheet.natural_frequency(),
+            damping_ratio: sheet.damping_ratio(),
+            joint: rig.joint_damping / rig.load_stiffness,
+            latency,
+        })
+    }
+
     fn within(&self, share: f64) -> PlantRange {
         let around = |x: f64, by: f64| Interval {
             low: x * (1.0 - by),
@@ -59,6 +76,10 @@ impl Middle {
         };
         PlantRange {
             gain: Interval::between(self.gain * (1.0 - share), self.gain * (1.0 + share)),
+            slope: Interval {
+                low: self.slopes[0],
+                high: self.slopes[1],
+            },
             natural_frequency: around(self.natural_frequency, 0.5 * share),
             damping_ratio: around(self.damping_ratio, share),
             joint: around(self.joint, share),
@@ -73,15 +94,7 @@ impl Middle {
 /// One sentence where the core refuses the gains or the rig's numbers.
 pub fn tolerance(setup: &Setup) -> Result<Tolerance, String> {
     let laws = Laws::new(setup).map_err(|(what, e)| format!("[{what}]: {e}"))?;
-    let rig = &setup.rig;
-    let sheet = nominal(rig).map_err(|e| format!("[rig]: {e}"))?;
-    let plant = Middle {
-        gain: sheet.gain(),
-        natural_frequency: sheet.natural_frequency(),
-        damping_ratio: sheet.damping_ratio(),
-        joint: rig.joint_damping / rig.load_stiffness,
-        latency: laws.observed.lead,
-    };
+    let plant = Middle::of(&setup.rig, laws.observed.lead).map_err(|e| format!("[rig]: {e}"))?;
     let (share, refused) = match shown(&laws.observed, &laws.observed_pi, &plant, 0.0) {
         Ok(()) => (Some(most(&laws.observed, &laws.observed_pi, &plant)), None),
         Err(e) => (None, Some(e.to_string())),
@@ -94,6 +107,16 @@ pub fn tolerance(setup: &Setup) -> Result<Tolerance, String> {
         plant,
         assumptions: ASSUMPTIONS,
     })
+}
+
+/// Least and greatest slope of the torque over the input torque, as a share of B: along a path
+/// `d eta/d tau_i` is `rho·(1 − |eta|^n)` away from zero and `rho·(1 + (2·sigma − 1)·|eta|^n)` towards
+/// it, so between `rho·min(0, 2·sigma)` and `rho·max(1, 2·sigma)`.
+fn slopes(rig: &RigConfig<f64>) -> [f64; 2] {
+    let share = rig.kappa_eta * rig.rho / rig.b;
+    let (least, most) = ((2.0 * rig.sigma).min(0.0), (2.0 * rig.sigma).max(1.0));
+    let (a, b) = (1.0 - share * most, 1.0 - share * least);
+    [a.min(b), a.max(b)]
 }
 
 fn shown(

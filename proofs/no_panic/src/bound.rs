@@ -103,6 +103,7 @@ fn observer<T: Real>() -> Option<()> {
         natural_frequency: interval(),
         damping_ratio: interval(),
         joint: interval(),
+        slope: interval(),
         latency: interval(),
     });
     never_panics!(

@@ -1,0 +1,55 @@
+//! What a rig's data sheet says of its drive, and the observer that is made of it.
+
+use super::observed::Observed;
+use super::setup::ObserverGains;
+use bowden::control::{DisturbanceObserver, NominalPlant};
+use bowden::Error;
+use bowden_rig::RigConfig;
+use std::f64::consts::TAU;
+
+/// Longest step that counts \[s\].
+const LONGEST_DT: f64 = 0.1;
+
+/// How long a command takes to become torque \[s\].
+#[must_use]
+pub fn latency(rig: &RigConfig<f64>, rate: f64) -> f64 {
+    f64::from(rig.delay) / rate + rig.drive_lag
+}
+
+/// Command and torque without friction.
+///
+/// The torque is that of the joint's spring, damping and inertia N(s)·phi_d; the motor works
+/// through the cable against the same and against its own, so that
+/// `P = gain/(1 + (th2·s² + th1·s)/N(s))`. For N its stiffness is taken, with the cable's.
+///
+/// # Errors
+/// What the core refuses of the numbers.
+pub fn nominal(rig: &RigConfig<f64>) -> Result<NominalPlant<f64>, Error> {
+    let stiffness = (rig.cable_stiffness.recip() + rig.load_stiffness.recip()).recip();
+    NominalPlant::of_mechanics(
+        rig.drive_gain * rig.b,
+        rig.motor_inertia,
+        rig.motor_damping,
+        stiffness,
+    )
+}
+
+/// The observer of these gains at a rate \[Hz\]; of the nominal plant what is left out is the
+/// rig's.
+///
+/// # Errors
+/// What the core refuses of the numbers.
+pub fn observed(gains: &ObserverGains, rig: &RigConfig<f64>, rate: f64) -> Result<Observed, Error> {
+    let own = nominal(rig)?;
+    let plant = NominalPlant::try_new(
+        gains.gain.unwrap_or(own.gain()),
+        gains.natural_frequency.unwrap_or(own.natural_frequency()),
+        gains.damping_ratio.unwrap_or(own.damping_ratio()),
+    )?;
+    let time_constant = (TAU * gains.frequency).recip();
+    // The command is held over a sample, and acts half of one later in the mean.
+    let lead = latency(rig, rate) + 0.5 / rate + rig.sensor_lag;
+    let observer = DisturbanceObserver::try_new(plant, time_constant, gains.limit, LONGEST_DT)?
+        .with_latency(lead)?;
+    Ok(Observed { observer, lead })
+}
