@@ -3,19 +3,22 @@
 use crate::adaptive;
 use crate::numbers::Numbers;
 use crate::pid;
+use crate::properties::control::estimates_keep_their_limit;
 use bowden::control::{Adaptive, Fallback, Limits, Pid};
+use bowden::control::{DisturbanceObserver, NominalPlant, ObserverInput, ObserverState};
 use bowden::signal::{Plausible, PlausibleState, Ramp, RampState, Rates, RatesState};
 
 /// Whatever the arguments: a constant is accepted where the run time accepts it, and refused
 /// in the same words; the blocks in front of a controller do what their docs say.
 pub fn check(data: &[u8]) {
     let mut from = Numbers::new(data);
-    let _ = match from.byte().map(|byte| byte % 6) {
+    let _ = match from.byte().map(|byte| byte % 7) {
         Some(0) => limits(&mut from),
         Some(1) => laws(&mut from),
         Some(2) => plausible(&mut from),
         Some(3) => ramp(&mut from),
         Some(4) => rates(&mut from),
+        Some(6) => observer(&mut from),
         _ => fallback(&mut from),
     };
 }
@@ -115,5 +118,28 @@ fn rates(from: &mut Numbers) -> Option<()> {
         let motion = rates.step(&mut state, position, from.dt()?).motion;
         assert!(motion.position.is_finite());
         assert!(motion.velocity.is_finite() && motion.acceleration.is_finite());
+    }
+}
+
+fn observer(from: &mut Numbers) -> Option<()> {
+    let (gain, frequency, damping) = (from.any()?, from.any()?, from.any()?);
+    let plant = NominalPlant::<f32>::try_new(gain, frequency, damping);
+    assert!(plant == NominalPlant::<f32>::const_new(gain, frequency, damping));
+    let (tau, limit, longest_dt) = (from.any()?, from.any()?, from.any()?);
+    let plant = plant.ok()?;
+    let observer = DisturbanceObserver::try_new(plant, tau, limit, longest_dt);
+    assert!(observer == DisturbanceObserver::<f32>::const_new(plant, tau, limit, longest_dt));
+    let observer = observer.ok()?;
+    let latency = from.any()?;
+    let late = observer.with_latency(latency);
+    assert!(late == observer.const_with_latency(latency));
+    assert!(late.is_ok() == (latency.is_finite() && latency >= 0.0));
+    let observer = late.unwrap_or(observer);
+    let mut state = ObserverState::new();
+    loop {
+        let (dt, sent, measured) = (from.dt()?, from.any()?, from.any()?);
+        let at = ObserverInput { dt, sent, measured };
+        assert!(estimates_keep_their_limit(&observer, state, &at));
+        observer.step(&mut state, &at);
     }
 }
