@@ -72,8 +72,8 @@ macro_rules! observer {
                 settings: *const [<bowden_observer_settings_ $f>],
                 about: *mut bowden_about,
             ) -> bowden_result {
-                // SAFETY: the caller's rule of pointers.
                 let parts = || -> Result<_, Refused> {
+                    // SAFETY: the caller's rule of pointers.
                     let s = unsafe { read(settings)? };
                     let plant =
                         NominalPlant::try_new(s.gain, s.natural_frequency, s.damping_ratio)?;
