@@ -8,17 +8,18 @@
 //!
 //! What the nominal plant would have needed for the measured output is compared with the
 //! command that went out; the difference, through Q, is what something else took, and is
-//! given back. So the loop around it meets the nominal plant below `1/tau`, whatever the
-//! friction does. It needs no model of the friction, but alpha and wn, from a data sheet or a
-//! bench record; the adaptive law needs neither.
+//! added to the next command. Below `1/tau` the loop around it then meets the nominal plant in
+//! place of the one with friction, as long as no limit is met. It needs no model of the friction; it
+//! does need alpha, wn and zeta, from a data sheet or a bench record. The adaptive law needs none of
+//! these.
 //!
 //! It is a block in front of a controller's `feed_forward`, and bounded by its own limit
 //! whatever comes in. Beside it belongs the nominal plant's own inverse along the
 //! reference ([`NominalPlant::feed_forward`]), not an identified model's
 //! ([`Compensator`](super::Compensator)): both would compensate the friction.
 //!
-//! Source: K. Ohnishi, *Trans. IEE Japan D* 107, 1987; in this form T. Umeno, Y. Hori,
-//! *IEEE Trans. Industrial Electronics* 38(5), 1991.
+//! Source: T. Umeno, Y. Hori, "Robust speed control of DC servomotors using modern two
+//! degrees-of-freedom controller design", *IEEE Trans. Industrial Electronics* 38(5), 1991.
 
 use super::status::{fault_of_dt, unless_finite};
 use super::{Fault, Status};
@@ -47,7 +48,8 @@ mod proofs;
 ///                                         z1⁺ = z1 + s·(y − z1)      z2⁺ = z2 + s·(z1⁺ − z2)
 /// d_hat = w2⁺ − (z2⁺ + 2·zeta/(wn·tau)·(z1⁺ − z2⁺) + (y − 2·z1⁺ + z2⁺)/(wn·tau)²)/alpha
 /// ```
-/// Any `dt` up to the longest is stable, and `dt` may vary. White noise of y reaches the command
+/// The lags are stable at any `dt`, which may vary; the loop around them needs one well below tau.
+/// Without a latency the command still shows a sample later. White noise of y reaches the command
 /// as about `1/(alpha·(wn·tau)²)` of itself, above `1/tau`.
 ///
 /// ```
@@ -251,8 +253,9 @@ impl<T: Real> DisturbanceObserver<T> {
     ///
     /// Call it at every sample, before the controller. A bad sample (a `dt` that is not positive
     /// or too long, a command or an output that is not finite) moves nothing; the estimate is
-    /// held, and the next good sample makes up for the time. Whatever the state is, the estimate
-    /// is finite and within ±limit.
+    /// held, and the next good sample makes up for the time. Where nobody knows that time, because a
+    /// `dt` was bad, it counts as one more of the next `dt`. Whatever the state is, the estimate is finite
+    /// and within ±limit.
     #[inline]
     pub fn step(&self, state: &mut ObserverState<T>, at: &ObserverInput<T>) -> ObserverOutput<T> {
         let status = if self.advance(state, at) {
@@ -282,7 +285,11 @@ impl<T: Real> DisturbanceObserver<T> {
         if !(at.dt.positive_up_to(self.longest_dt) && zero == T::ZERO) {
             return false;
         }
-        let h = clamp(state.gap + at.dt, T::ZERO, T::HIGHEST);
+        let gap = match state.gap == T::HIGHEST {
+            true => at.dt,
+            false => state.gap,
+        };
+        let h = clamp(gap + at.dt, T::ZERO, T::HIGHEST);
         let now = state.lags.unwrap_or(Lags::at(at.sent, at.measured));
         let moved = self.moved(&now, at, h);
         let estimate = self.estimate(&moved, at.measured);

@@ -189,6 +189,37 @@ fn a_bad_sample_holds_and_its_time_is_made_up_for() {
     assert!((after - once).abs() < 1e-12);
 }
 
+/// A clock that fails once hides at most a sample or two: the estimate must not start anew.
+#[test]
+fn a_single_bad_time_stamp_makes_no_jump() {
+    let observer = observer(0.016).with_latency(0.003).unwrap();
+    // The largest change from one sample to the next.
+    let most = |one: f64| {
+        let (mut simulated, mut state) = (Simulated { y: 0.0, v: 0.0 }, ObserverState::new());
+        let (mut sent, mut last, mut most) = (0.0, 0.0, 0.0_f64);
+        for k in 0..3000 {
+            let at = ObserverInput {
+                dt: if k == 2000 { one } else { 1e-3 },
+                sent,
+                measured: simulated.y,
+            };
+            let estimate = observer.step(&mut state, &at).estimate;
+            if k > 1990 {
+                most = most.max((estimate - last).abs());
+            }
+            last = estimate;
+            sent = tones(f64::from(k) * 1e-3);
+            for _ in 0..10 {
+                simulated.step(sent, 1e-4);
+            }
+        }
+        most
+    };
+    for bad in [f64::NAN, -0.001, 4295.0] {
+        assert!(most(bad) < 2.0 * most(1e-3), "{bad} {}", most(bad));
+    }
+}
+
 #[test]
 fn what_overflows_is_no_estimate_and_the_next_sample_begins_anew() {
     let observer = observer(0.016);

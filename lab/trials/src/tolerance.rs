@@ -50,7 +50,8 @@ const STEPS: u32 = 1000;
 
 static ASSUMPTIONS: &[&str] = &[
     "the plant is f*alpha*e^(-theta*s)/(1 + f*(s^2/wn^2 + 2*zeta*s/wn)/(1 + c/K*s)), its numbers constant",
-    "continuous time: samples much shorter than tau and 1/wn; hold and delay count as latency",
+    "the rig is of that form: the joint's inertia, and the cable's place before the hysteresis, are left out",
+    "continuous time: samples much shorter than tau and 1/wn; hold, delay and the lags of drive and sensor act as a delay",
     "friction and load are disturbances that stay bounded; f is any slope of the hysteresis, and does not change",
     "neither a limit of the command nor that of the observer is met, and no sample is bad",
 ];

@@ -13,6 +13,12 @@ pub(super) struct Span {
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 impl Span {
+    /// Every number: nothing is known.
+    const ALL: Self = Self {
+        low: f64::NEG_INFINITY,
+        high: f64::INFINITY,
+    };
+
     /// One number.
     pub(super) const fn at(x: f64) -> Self {
         Self { low: x, high: x }
@@ -20,6 +26,9 @@ impl Span {
 
     /// From one number to another, in either order, and what rounding may have taken of each.
     pub(super) fn outward(a: f64, b: f64) -> Self {
+        if a.is_nan() || b.is_nan() {
+            return Self::ALL;
+        }
         let (low, high) = if a < b { (a, b) } else { (b, a) };
         Self {
             low: low - (ROUNDING * low.abs() + f64::MIN_POSITIVE),
@@ -40,10 +49,7 @@ impl Span {
         if self.low > 0.0 || self.high < 0.0 {
             return Self::outward(self.low.recip(), self.high.recip());
         }
-        Self {
-            low: f64::NEG_INFINITY,
-            high: f64::INFINITY,
-        }
+        Self::ALL
     }
 
     /// The squares, none of them below zero.
@@ -101,10 +107,7 @@ impl Mul for Span {
         let most = corners.iter().fold(f64::NEG_INFINITY, |m, x| m.max(*x));
         // `min` would pass over a NaN.
         match corners.iter().any(|x| x.is_nan()) {
-            true => Self {
-                low: f64::NEG_INFINITY,
-                high: f64::INFINITY,
-            },
+            true => Self::ALL,
             false => Self::outward(least, most),
         }
     }

@@ -29,7 +29,7 @@ pub struct ObserverState<T> {
     pub(super) lags: Option<Lags<T>>,
     pub(super) estimate: T,
     /// Time of the bad samples since the last good one \[s\]; the highest float where nobody
-    /// knows it.
+    /// knows it, which counts as one more dt then.
     pub(super) gap: T,
 }
 
