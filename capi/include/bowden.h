@@ -867,7 +867,7 @@ typedef struct bowden_observer_f32 {
 //     P(s) = gain/(s^2/wn^2 + 2*zeta*s/wn + 1)
 //
 // of a motor with inertia J and damping c that works against a stiffness K:
-// wn = sqrt(K/J), zeta = c/(2*sqrt(K*J)). Rather too low a wn than too high a one.
+// wn = sqrt(K/J), zeta = c/(2*sqrt(K*J)). Where they are uncertain, err low with wn and gain.
 typedef struct bowden_observer_settings_f32 {
     // Of the nominal plant, not zero [output unit/command unit].
     float gain;
@@ -908,7 +908,7 @@ typedef struct bowden_observer_f64 {
 //     P(s) = gain/(s^2/wn^2 + 2*zeta*s/wn + 1)
 //
 // of a motor with inertia J and damping c that works against a stiffness K:
-// wn = sqrt(K/J), zeta = c/(2*sqrt(K*J)). Rather too low a wn than too high a one.
+// wn = sqrt(K/J), zeta = c/(2*sqrt(K*J)). Where they are uncertain, err low with wn and gain.
 typedef struct bowden_observer_settings_f64 {
     // Of the nominal plant, not zero [output unit/command unit].
     double gain;

@@ -31,7 +31,7 @@ macro_rules! observer {
             ///     P(s) = gain/(s^2/wn^2 + 2*zeta*s/wn + 1)
             ///
             /// of a motor with inertia J and damping c that works against a stiffness K:
-            /// wn = sqrt(K/J), zeta = c/(2*sqrt(K*J)). Rather too low a wn than too high a one.
+            /// wn = sqrt(K/J), zeta = c/(2*sqrt(K*J)). Where they are uncertain, err low with wn and gain.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_observer_settings_ $f>] {

@@ -69,7 +69,8 @@ pub struct PlantRange {
 /// changes along the path: a cable whose output falls while its input rises (f below zero) can be
 /// in no range, and with it the loop does swing. libm's sine and cosine err by less than 1e-12.
 ///
-/// Source: J. Ackermann, *Robust Control*, 1993, chapter 4 (zero exclusion).
+/// Source: J. Ackermann, *Robust Control: Systems with Uncertain Physical Parameters*, 1993 (zero
+/// exclusion).
 ///
 /// ```
 /// use bowden::bound::{Interval, ObserverStability, PlantRange};

@@ -7,8 +7,8 @@ use crate::{Error, Real};
 /// The nominal plant from command to output, `P(s) = alpha/(s²/wn² + 2·zeta·s/wn + 1)`.
 ///
 /// Of a motor with inertia J and damping c that works through the cable against a stiffness K:
-/// `wn = √(K/J)`, `zeta = c/(2·√(K·J))`, alpha the torque of one command unit. Where the
-/// values are uncertain, rather too low a wn and alpha than too high ones.
+/// `wn = √(K/J)`, `zeta = c/(2·√(K·J))`, alpha the torque of one command unit. Where they
+/// are uncertain, err low with wn and alpha.
 ///
 /// ```
 /// use bowden::control::NominalPlant;
