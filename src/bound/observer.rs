@@ -63,11 +63,12 @@ pub struct PlantRange {
 /// edge, and where the way leads through plants that swing, nothing is shown of a loop that is stable.
 ///
 /// Assumed beside: a plant of that form; continuous time, so samples much shorter than tau and 1/wn,
-/// and an observer's latency of at least one of them; lags of drive and sensor that act as a delay; neither the limits
-/// of the command nor that of the observer are met; friction and load are disturbances that stay
-/// bounded. The range of f covers each slope of a hysteresis by itself, which is no proof for one that
-/// changes along the path: a cable whose output falls while its input rises (f below zero) can be
-/// in no range, and with it the loop does swing. libm's sine and cosine err by less than 1e-12.
+/// and an observer's latency of at least one of them; lags of drive and sensor that act as a delay;
+/// neither a limit of the command nor that of the observer is met; friction and load are
+/// disturbances that stay bounded. The range of f covers each slope of a hysteresis by itself, which is
+/// no proof for one that changes along the path: a cable whose output falls while its input rises (f
+/// below zero) can be in no range, and with it the loop does swing. libm's sine and cosine err by
+/// less than 1e-12.
 ///
 /// Source: J. Ackermann, *Robust Control: Systems with Uncertain Physical Parameters*, 1993 (zero
 /// exclusion).

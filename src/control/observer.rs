@@ -254,8 +254,8 @@ impl<T: Real> DisturbanceObserver<T> {
     /// Call it at every sample, before the controller. A bad sample (a `dt` that is not positive
     /// or too long, a command or an output that is not finite) moves nothing; the estimate is
     /// held, and the next good sample makes up for the time. Where nobody knows that time, because a
-    /// `dt` was bad, it counts as one more of the next `dt`. Whatever the state is, the estimate is finite
-    /// and within ±limit.
+    /// `dt` was bad, it counts as one more of the next `dt`. Whatever the state is, the estimate is
+    /// finite and within ±limit.
     #[inline]
     pub fn step(&self, state: &mut ObserverState<T>, at: &ObserverInput<T>) -> ObserverOutput<T> {
         let status = if self.advance(state, at) {

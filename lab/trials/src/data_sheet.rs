@@ -1,6 +1,5 @@
 //! What a rig's data sheet says of its drive, and the observer that is made of it.
 
-use super::observed::Observed;
 use super::setup::ObserverGains;
 use bowden::control::{DisturbanceObserver, NominalPlant};
 use bowden::Error;
@@ -39,7 +38,11 @@ pub fn nominal(rig: &RigConfig<f64>) -> Result<NominalPlant<f64>, Error> {
 ///
 /// # Errors
 /// What the core refuses of the numbers.
-pub fn observed(gains: &ObserverGains, rig: &RigConfig<f64>, rate: f64) -> Result<Observed, Error> {
+pub fn observer(
+    gains: &ObserverGains,
+    rig: &RigConfig<f64>,
+    rate: f64,
+) -> Result<DisturbanceObserver<f64>, Error> {
     let own = nominal(rig)?;
     let plant = NominalPlant::try_new(
         gains.gain.unwrap_or(own.gain()),
@@ -49,7 +52,5 @@ pub fn observed(gains: &ObserverGains, rig: &RigConfig<f64>, rate: f64) -> Resul
     let time_constant = (TAU * gains.frequency).recip();
     // The command is held over a sample, and acts half of one later in the mean.
     let lead = latency(rig, rate) + 0.5 / rate + rig.sensor_lag;
-    let observer = DisturbanceObserver::try_new(plant, time_constant, gains.limit, LONGEST_DT)?
-        .with_latency(lead)?;
-    Ok(Observed { observer, lead })
+    DisturbanceObserver::try_new(plant, time_constant, gains.limit, LONGEST_DT)?.with_latency(lead)
 }

@@ -168,16 +168,8 @@ pub fn outcome(
         let declared = identified.feed(&identified.declared, delay)?;
         let found = identified.feed(&identified.found, delay)?;
         let controller = |prior: f64| -> Result<Controller, String> {
-            Ok(Controller {
-                name: kind.name.to_owned(),
-                law: (kind.law)(setup, &laws, prior).map_err(refused)?,
-                rate: kind.rate,
-                feed: None,
-                every: 1,
-                observed: None,
-                own_share: 0.0,
-                regressor: None,
-            })
+            let law = (kind.law)(setup, &laws, prior).map_err(refused)?;
+            Ok(Controller::alone(kind.name, law, kind.rate))
         };
         let plain = controller(0.0)?;
         controllers.push(plain.clone());

@@ -17,7 +17,7 @@ pub mod found;
 pub mod gains;
 pub mod heading;
 pub mod lineup;
-pub mod observed;
+mod observed;
 pub mod own_rig;
 pub mod proof;
 pub mod setup;

@@ -1,11 +1,12 @@
 //! Who runs: the paper's four, and those without which the comparison would mislead.
 
-use super::data_sheet::{latency, observed};
+use super::data_sheet::{latency, observer};
 use super::feed::{FeedForward, Surroundings, MOST_TERMS};
-use super::observed::Observed;
 use super::setup::{AdaptiveGains, Setup};
 use super::trial::{Controller, Law, ThreeRegressors};
-use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Pid, PidSettings};
+use bowden::control::{
+    Adaptive, AdaptiveSettings, DisturbanceObserver, Estimator, Pid, PidSettings,
+};
 use bowden::hysteresis::Shape;
 use bowden::model::{Model, Source, Term};
 use bowden::transmission::Transmission;
@@ -28,7 +29,7 @@ pub struct Laws {
     /// The PI beside the observer.
     pub observed_pi: Pid<f64>,
     /// The observer.
-    pub observed: Observed,
+    pub observer: DisturbanceObserver<f64>,
     /// The adaptive law.
     pub adaptive: ThreeRegressors,
 }
@@ -53,7 +54,7 @@ impl Laws {
                 "observer",
                 PidSettings::unlimited(setup.observer.k_p, setup.observer.k_i),
             )?,
-            observed: observed(&setup.observer, &setup.rig, RATE).map_err(|e| ("observer", e))?,
+            observer: observer(&setup.observer, &setup.rig, RATE).map_err(|e| ("observer", e))?,
             adaptive: adaptive(&setup.adaptive, 0.0).map_err(|e| ("adaptive", e))?,
         })
     }
@@ -89,23 +90,14 @@ impl Surroundings {
 /// One sentence where a law is refused or the model cannot be turned round.
 pub fn lineup(setup: &Setup) -> Result<Vec<Controller>, String> {
     let laws = Laws::new(setup).map_err(|(what, e)| format!("[{what}]: {e}"))?;
-    let plain = |name: &str, law: Law| Controller {
-        name: name.to_owned(),
-        law,
-        rate: RATE,
-        feed: None,
-        every: 1,
-        observed: None,
-        own_share: 0.0,
-        regressor: None,
-    };
+    let plain = |name: &str, law: Law| Controller::alone(name, law, RATE);
     Ok(vec![
         plain("pi", Law::Pid(laws.pi)),
         plain("pid", Law::Pid(laws.pid)),
         plain("piv", Law::Pid(laws.piv)),
         plain("matched-pi", Law::Pid(laws.matched_pi)),
         Controller {
-            observed: Some(laws.observed),
+            observer: Some(laws.observer),
             ..plain("pi-observer", Law::Pid(laws.observed_pi))
         },
         plain("adaptive", Law::Adaptive(laws.adaptive)),

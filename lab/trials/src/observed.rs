@@ -3,28 +3,20 @@
 use bowden::control::{DisturbanceObserver, ObserverInput, ObserverState};
 use bowden::effect::Motion;
 
-/// An observer, and how far ahead its feed-forward reads the reference.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Observed {
-    /// The observer, with the nominal plant.
-    pub observer: DisturbanceObserver<f64>,
-    /// How long a command takes to show in what is measured \[s\].
-    pub lead: f64,
-}
-
-/// The same while it runs.
+/// An observer while it runs.
 pub(crate) struct Observing<'a> {
-    observed: &'a Observed,
+    observer: &'a DisturbanceObserver<f64>,
     state: ObserverState<f64>,
 }
 
 impl<'a> Observing<'a> {
-    pub(crate) fn new(observed: &'a Observed) -> Self {
+    pub(crate) fn new(observer: &'a DisturbanceObserver<f64>) -> Self {
         let state = ObserverState::new();
-        Self { observed, state }
+        Self { observer, state }
     }
 
-    /// What is added to the next command \[units\]; `sent` is what went out at the last sample.
+    /// What is added to the next command \[units\]; `sent` is what went out at the last sample. The
+    /// reference is read as far `ahead` \[s\] as a command takes to show in what is measured.
     pub(crate) fn step(
         &mut self,
         dt: f64,
@@ -32,9 +24,9 @@ impl<'a> Observing<'a> {
         measured: f64,
         ahead: impl Fn(f64) -> Motion<f64>,
     ) -> f64 {
-        let Observed { observer, lead } = self.observed;
         let at = ObserverInput { dt, sent, measured };
-        let seen = observer.step(&mut self.state, &at);
-        seen.estimate + observer.plant().feed_forward(&ahead(*lead))
+        let seen = self.observer.step(&mut self.state, &at);
+        let wanted = ahead(self.observer.latency());
+        seen.estimate + self.observer.plant().feed_forward(&wanted)
     }
 }

@@ -170,16 +170,7 @@ pub fn scaled([low, high]: [f64; 2]) -> Reference<f64> {
 /// One sentence where a law is refused or the model cannot be turned round.
 pub fn designed(setup: &Setup, gains: &GainsFile) -> Result<Vec<Controller>, String> {
     let rate = gains.design.rate;
-    let plain = |name: &str, law: Law, rate: f64| Controller {
-        name: name.to_owned(),
-        law,
-        rate,
-        feed: None,
-        every: 1,
-        observed: None,
-        own_share: 0.0,
-        regressor: None,
-    };
+    let plain = Controller::alone;
     let pid = |name: &'static str, settings| {
         let law = Pid::try_new(settings).map_err(|e| format!("[{name}]: {e}"))?;
         Ok::<_, String>(Law::Pid(law))

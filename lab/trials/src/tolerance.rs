@@ -2,10 +2,9 @@
 
 use super::data_sheet::nominal;
 use super::lineup::Laws;
-use super::observed::Observed;
 use super::setup::Setup;
 use bowden::bound::{Interval, ObserverStability, PlantRange};
-use bowden::control::Pid;
+use bowden::control::{DisturbanceObserver, Pid};
 use bowden_rig::RigConfig;
 use serde::Serialize;
 
@@ -95,9 +94,10 @@ impl Middle {
 /// One sentence where the core refuses the gains or the rig's numbers.
 pub fn tolerance(setup: &Setup) -> Result<Tolerance, String> {
     let laws = Laws::new(setup).map_err(|(what, e)| format!("[{what}]: {e}"))?;
-    let plant = Middle::of(&setup.rig, laws.observed.lead).map_err(|e| format!("[rig]: {e}"))?;
-    let (share, refused) = match shown(&laws.observed, &laws.observed_pi, &plant, 0.0) {
-        Ok(()) => (Some(most(&laws.observed, &laws.observed_pi, &plant)), None),
+    let plant =
+        Middle::of(&setup.rig, laws.observer.latency()).map_err(|e| format!("[rig]: {e}"))?;
+    let (share, refused) = match shown(&laws.observer, &laws.observed_pi, &plant, 0.0) {
+        Ok(()) => (Some(most(&laws.observer, &laws.observed_pi, &plant)), None),
         Err(e) => (None, Some(e.to_string())),
     };
     Ok(Tolerance {
@@ -121,21 +121,21 @@ fn slopes(rig: &RigConfig<f64>) -> [f64; 2] {
 }
 
 fn shown(
-    observed: &Observed,
+    observer: &DisturbanceObserver<f64>,
     law: &Pid<f64>,
     plant: &Middle,
     share: f64,
 ) -> Result<(), bowden::Error> {
-    ObserverStability::try_new(&observed.observer, law, &plant.within(share)).map(|_| ())
+    ObserverStability::try_new(observer, law, &plant.within(share)).map(|_| ())
 }
 
 /// The greatest share that is shown: of a wider range nothing more can be, so halving finds it.
-fn most(observed: &Observed, law: &Pid<f64>, plant: &Middle) -> f64 {
+fn most(observer: &DisturbanceObserver<f64>, law: &Pid<f64>, plant: &Middle) -> f64 {
     let share = |step: u32| f64::from(step) / f64::from(STEPS);
     let (mut good, mut bad) = (0, STEPS);
     while bad - good > 1 {
         let middle = u32::midpoint(good, bad);
-        match shown(observed, law, plant, share(middle)) {
+        match shown(observer, law, plant, share(middle)) {
             Ok(()) => good = middle,
             Err(_) => bad = middle,
         }

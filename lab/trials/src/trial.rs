@@ -1,8 +1,10 @@
 //! One controller on one rig: the errors, and what the figures need.
 
 use super::feed::FeedForward;
-use super::observed::{Observed, Observing};
-use bowden::control::{Adaptive, AdaptiveInput, AdaptiveState, Pid, PidInput, PidState};
+use super::observed::Observing;
+use bowden::control::{
+    Adaptive, AdaptiveInput, AdaptiveState, DisturbanceObserver, Pid, PidInput, PidState,
+};
 use bowden::{model::Term, Error};
 use bowden_rig::{Reference, Rig, RigConfig, RigSample};
 
@@ -40,12 +42,29 @@ pub struct Controller {
     /// Added to its command.
     pub feed: Option<FeedForward>,
     /// A disturbance observer, with the feed-forward of its nominal plant; both are added as well.
-    pub observed: Option<Observed>,
+    pub observer: Option<DisturbanceObserver<f64>>,
     /// Command that the law itself gives for a torque \[units/(N·m)\]: the adaptive law
     /// feeds the reference forward by beta_hat, and the model's command must not repeat it.
     pub own_share: f64,
     /// What the third regressor reads: the found effects along the reference.
     pub regressor: Option<FeedForward>,
+}
+
+impl Controller {
+    /// A law by itself, called on every step.
+    #[must_use]
+    pub fn alone(name: &str, law: Law, rate: f64) -> Self {
+        Self {
+            name: name.to_owned(),
+            law,
+            rate,
+            every: 1,
+            feed: None,
+            observer: None,
+            own_share: 0.0,
+            regressor: None,
+        }
+    }
 }
 
 /// What a trial is run under.
@@ -209,7 +228,7 @@ pub fn run(
     let mut state = rig.start(seed);
     let mut running = Running::new(&controller.law);
     let (mut feed, mut regressor) = (controller.feed.clone(), controller.regressor.clone());
-    let mut observing = controller.observed.as_ref().map(Observing::new);
+    let mut observing = controller.observer.as_ref().map(Observing::new);
     let dt = 1.0 / controller.rate;
     let own_dt = dt * controller.every.max(1) as f64;
     let (mut command, mut estimates) = (0.0, None);
