@@ -43,6 +43,13 @@ pub fn observer(
     rig: &RigConfig<f64>,
     rate: f64,
 ) -> Result<DisturbanceObserver<f64>, Error> {
+    // By the name that the file has for it.
+    if !gains.frequency.is_finite() {
+        return Err(Error::NonFinite("frequency"));
+    }
+    if gains.frequency <= 0.0 {
+        return Err(Error::OutOfRange("frequency"));
+    }
     let own = nominal(rig)?;
     let plant = NominalPlant::try_new(
         gains.gain.unwrap_or(own.gain()),

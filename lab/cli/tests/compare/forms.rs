@@ -54,6 +54,11 @@ fn numbers_that_the_core_refuses_are_named() {
     refused("[rig]\njoint_inertia = 0.0\n", &["[rig]", "joint_inertia"]);
     refused("[pi]\nk_p = 30.0\nk_i = -1.0\n", &["[pi]", "k_p and k_i"]);
     refused("[adaptive]\nlambda = nan\n", &["[adaptive]", "lambda"]);
+    refused(
+        "[observer]\nfrequency = 0.0\n",
+        &["[observer]", "frequency"],
+    );
+    refused("[observer]\nlimit = -1.0\n", &["[observer]", "limit"]);
 }
 
 #[test]
