@@ -98,18 +98,27 @@ fn run(from: &mut Numbers) -> Option<()> {
     let free = law.settings().limits == Limits::unlimited();
     let lags = matches!(law.settings().form, Form::Lag { .. });
     let mut state = AdaptiveState::new(&law);
-    let mut lag = Some(state.command());
+    // Of a law without limits: its share of the command, where it is known.
+    let mut lag = Some(0.0_f32);
+    let mut acknowledged = false;
     loop {
         match from.byte()? {
             0..=15 => {
+                let out = state.command();
                 state.reset(&law);
-                lag = Some(state.command());
+                assert!(state.command() == out, "a reset leaves what is out");
+                lag = (!acknowledged).then_some(0.0_f32);
             }
             16..=31 => {
                 state = AdaptiveState::resume_from(&law, from.any()?, &sample(from)?);
-                lag = None;
+                (lag, acknowledged) = (None, false);
             }
-            48..=55 => state.acknowledge(),
+            48..=55 => {
+                if state.is_latched() {
+                    (lag, acknowledged) = (None, true);
+                }
+                state.acknowledge();
+            }
             32..=47 => {
                 law.take_over(&mut state, &sample(from)?);
                 lag = None;
@@ -126,9 +135,10 @@ fn run(from: &mut Numbers) -> Option<()> {
                     assert!(the_lag_does_not_pass_its_target(before, owed, &out));
                 }
                 match out.status {
-                    Status::Good => lag = Some(out.terms.law),
+                    Status::Good => (lag, acknowledged) = (Some(out.terms.law), false),
+                    Status::Degraded(_) => (lag, acknowledged) = (None, false),
                     // The next good sample starts from the safe command, once it was seen.
-                    Status::Safe(_) | Status::Degraded(_) => lag = None,
+                    Status::Safe(_) => lag = None,
                     Status::Held(_) => {}
                 }
             }
