@@ -6,7 +6,8 @@
  * Memory. Nothing is allocated. An object (bowden_pid_f32, ...) is a struct of the caller: static,
  * on the stack, in another struct. NAME_init checks the settings and makes it usable; it may be
  * copied and moved as a whole, and needs no end. Every other function on an object that was not
- * initialised gives BOWDEN_RESULT_ERROR_UNINITIALISED.
+ * initialised gives BOWDEN_RESULT_ERROR_UNINITIALISED. The arrays of a bowden_learning_f32 are the
+ * caller's too, and stay where they are for as long as it is used.
  *
  * Pointers. A pointer is null or leads to memory of its type. Null and misaligned ones are told,
  * others cannot be. No object is used from two threads, or from a task and its interrupt, at once.
@@ -68,6 +69,15 @@
 // Room of a bowden_inverse_f64, in words of 64 bits.
 #define BOWDEN_INVERSE_F64_WORDS 20
 
+// Most cells of a cycle.
+#define BOWDEN_CELLS 65535
+
+// Room of a bowden_learning_f32, in words of 64 bits.
+#define BOWDEN_LEARNING_F32_WORDS 14
+
+// Room of a bowden_learning_f64, in words of 64 bits.
+#define BOWDEN_LEARNING_F64_WORDS 18
+
 // Most terms of a model.
 #define BOWDEN_TERMS 16
 
@@ -124,7 +134,8 @@ enum bowden_result
     BOWDEN_RESULT_SETTLING = 1,
     // Rates: a good position after a time that is unknown; the rates are held.
     BOWDEN_RESULT_RESUMED = 2,
-    // A regressor was bad and its term was left out; the loop is closed, the estimates wait.
+    // A regressor was bad and its term was left out; the loop is closed, the estimates wait. Of a
+    // learning: the feed-forward is of this phase, but nothing was learned from the sample.
     BOWDEN_RESULT_DEGRADED = 3,
     // A bad sample: the state is as it was, the last good command or value is held.
     BOWDEN_RESULT_HELD = 4,
@@ -190,6 +201,8 @@ enum bowden_fault
     BOWDEN_FAULT_POSITION = 11,
     // Another one, of a later version.
     BOWDEN_FAULT_OTHER = 12,
+    // The phase of a cycle is not from 0 to 1, or has jumped.
+    BOWDEN_FAULT_PHASE = 13,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -826,6 +839,78 @@ typedef struct bowden_inverse_f64 {
     uint64_t opaque[BOWDEN_INVERSE_F64_WORDS];
 } bowden_inverse_f64;
 
+// A learning with its state but for two arrays of the caller; made by
+// bowden_learning_init or bowden_learning_resume.
+typedef struct bowden_learning_f32 {
+    // Not for use.
+    uint64_t opaque[BOWDEN_LEARNING_F32_WORDS];
+} bowden_learning_f32;
+
+// Settings of a learning. A cycle is divided into cells of equal phase; with e the mean
+// of reference - measured over a cell, and w(k) a triangle of area 1:
+//
+//     v(c) = (1 - forgetting)*learned(c) + gain*e(c + lead)
+//     learned(c) = sum of w(k)*v(c + k), k from -half_width to half_width
+typedef struct bowden_learning_settings_f32 {
+    // Of the error, not zero, of the sign of the plant's [command unit/output unit].
+    float gain;
+    // Greatest magnitude of what is learned, above zero [command unit].
+    float limit;
+    // Share of what a cell has learned that is forgotten each time, from 0 to 1.
+    float forgetting;
+    // How many cells a command comes before its effect.
+    uint16_t lead;
+    // Half width of the triangle [cells]; 0 filters nothing.
+    uint16_t half_width;
+} bowden_learning_settings_f32;
+
+// What a step of a learning gives.
+typedef struct bowden_learning_output_f32 {
+    // To be added to the command, as feed_forward of a controller [command unit];
+    // finite and within the limit in any case.
+    float feed_forward;
+    // What the step did: the same as it returns.
+    bowden_result result;
+    // What was wrong.
+    bowden_fault fault;
+} bowden_learning_output_f32;
+
+// A learning with its state but for two arrays of the caller; made by
+// bowden_learning_init or bowden_learning_resume.
+typedef struct bowden_learning_f64 {
+    // Not for use.
+    uint64_t opaque[BOWDEN_LEARNING_F64_WORDS];
+} bowden_learning_f64;
+
+// Settings of a learning. A cycle is divided into cells of equal phase; with e the mean
+// of reference - measured over a cell, and w(k) a triangle of area 1:
+//
+//     v(c) = (1 - forgetting)*learned(c) + gain*e(c + lead)
+//     learned(c) = sum of w(k)*v(c + k), k from -half_width to half_width
+typedef struct bowden_learning_settings_f64 {
+    // Of the error, not zero, of the sign of the plant's [command unit/output unit].
+    double gain;
+    // Greatest magnitude of what is learned, above zero [command unit].
+    double limit;
+    // Share of what a cell has learned that is forgotten each time, from 0 to 1.
+    double forgetting;
+    // How many cells a command comes before its effect.
+    uint16_t lead;
+    // Half width of the triangle [cells]; 0 filters nothing.
+    uint16_t half_width;
+} bowden_learning_settings_f64;
+
+// What a step of a learning gives.
+typedef struct bowden_learning_output_f64 {
+    // To be added to the command, as feed_forward of a controller [command unit];
+    // finite and within the limit in any case.
+    double feed_forward;
+    // What the step did: the same as it returns.
+    bowden_result result;
+    // What was wrong.
+    bowden_fault fault;
+} bowden_learning_output_f64;
+
 // One sample for a model.
 typedef struct bowden_model_sample_f32 {
     // Since the previous sample, above zero, also at the first one [s].
@@ -1360,6 +1445,94 @@ bowden_result bowden_inverse_step_f64(struct bowden_inverse_f64 *inverse,
                                       double desired,
                                       double *input);
 
+// Starts a learning that has learned nothing, over two arrays of `cells` numbers, which
+// it sets to zero: at least lead + 2*half_width + 9, at most BOWDEN_CELLS.
+//
+// The arrays stay the caller's. They must be there, and nobody may write to them, for
+// as long as the object is used: a local array of the function that calls this is
+// wrong where the object outlives it. Between two calls `learned` may be read, for a
+// plot or to be stored. They overlap neither each other nor the object
+// (BOWDEN_RESULT_ERROR_INADMISSIBLE), and serve one object at a time; a copy of the
+// object goes on with the same arrays, so only one of the two may be used.
+//
+// On an error object and arrays are as they were. `about` may be null.
+bowden_result bowden_learning_init_f32(struct bowden_learning_f32 *learning,
+                                       const struct bowden_learning_settings_f32 *settings,
+                                       float *learned,
+                                       float *smoothing,
+                                       size_t cells,
+                                       struct bowden_about *about);
+
+// The same where `learned` holds what was learned before, such as a copy from before a
+// reset, or an array that another object has learned in and is used with no more; it is
+// confined to the limit, and zero for NaN. `smoothing` may hold anything.
+bowden_result bowden_learning_resume_f32(struct bowden_learning_f32 *learning,
+                                         const struct bowden_learning_settings_f32 *settings,
+                                         float *learned,
+                                         float *smoothing,
+                                         size_t cells,
+                                         struct bowden_about *about);
+
+// One sample, before the controller's own: where in the cycle it is, from 0 to 1, the
+// reference and the measured output [output unit]. `learns` is 0 where the error is not
+// to be learned from: where a limit cut the command, or the task is another one.
+//
+// A phase that is not from 0 to 1 moves nothing and holds the feed-forward:
+// BOWDEN_RESULT_HELD. BOWDEN_RESULT_DEGRADED where the feed-forward is of this phase
+// but reference or measured output are not finite, so that nothing was learned, or where
+// the phase has jumped, by more than four cells: the cell that was left does not learn
+// then. `out` is written with every result that is not negative.
+bowden_result bowden_learning_step_f32(struct bowden_learning_f32 *learning,
+                                       float phase,
+                                       float reference,
+                                       float measured,
+                                       uint32_t learns,
+                                       struct bowden_learning_output_f32 *out);
+
+// Starts a learning that has learned nothing, over two arrays of `cells` numbers, which
+// it sets to zero: at least lead + 2*half_width + 9, at most BOWDEN_CELLS.
+//
+// The arrays stay the caller's. They must be there, and nobody may write to them, for
+// as long as the object is used: a local array of the function that calls this is
+// wrong where the object outlives it. Between two calls `learned` may be read, for a
+// plot or to be stored. They overlap neither each other nor the object
+// (BOWDEN_RESULT_ERROR_INADMISSIBLE), and serve one object at a time; a copy of the
+// object goes on with the same arrays, so only one of the two may be used.
+//
+// On an error object and arrays are as they were. `about` may be null.
+bowden_result bowden_learning_init_f64(struct bowden_learning_f64 *learning,
+                                       const struct bowden_learning_settings_f64 *settings,
+                                       double *learned,
+                                       double *smoothing,
+                                       size_t cells,
+                                       struct bowden_about *about);
+
+// The same where `learned` holds what was learned before, such as a copy from before a
+// reset, or an array that another object has learned in and is used with no more; it is
+// confined to the limit, and zero for NaN. `smoothing` may hold anything.
+bowden_result bowden_learning_resume_f64(struct bowden_learning_f64 *learning,
+                                         const struct bowden_learning_settings_f64 *settings,
+                                         double *learned,
+                                         double *smoothing,
+                                         size_t cells,
+                                         struct bowden_about *about);
+
+// One sample, before the controller's own: where in the cycle it is, from 0 to 1, the
+// reference and the measured output [output unit]. `learns` is 0 where the error is not
+// to be learned from: where a limit cut the command, or the task is another one.
+//
+// A phase that is not from 0 to 1 moves nothing and holds the feed-forward:
+// BOWDEN_RESULT_HELD. BOWDEN_RESULT_DEGRADED where the feed-forward is of this phase
+// but reference or measured output are not finite, so that nothing was learned, or where
+// the phase has jumped, by more than four cells: the cell that was left does not learn
+// then. `out` is written with every result that is not negative.
+bowden_result bowden_learning_step_f64(struct bowden_learning_f64 *learning,
+                                       double phase,
+                                       double reference,
+                                       double measured,
+                                       uint32_t learns,
+                                       struct bowden_learning_output_f64 *out);
+
 // Loads a model from the bytes that `bowden close --model-out FILE.postcard` or
 // `bowden export --c` writes, four bytes of CRC-32 last, and starts it.
 //
@@ -1727,6 +1900,8 @@ BOWDEN_ASSERT_SIZE(bowden_rates_f32, BOWDEN_RATES_F32_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_rates_f64, BOWDEN_RATES_F64_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_observer_f32, BOWDEN_OBSERVER_F32_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_observer_f64, BOWDEN_OBSERVER_F64_WORDS);
+BOWDEN_ASSERT_SIZE(bowden_learning_f32, BOWDEN_LEARNING_F32_WORDS);
+BOWDEN_ASSERT_SIZE(bowden_learning_f64, BOWDEN_LEARNING_F64_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_play_f32, BOWDEN_PLAY_F32_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_play_f64, BOWDEN_PLAY_F64_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_adaptive_f32, BOWDEN_ADAPTIVE_F32_WORDS);

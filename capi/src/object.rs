@@ -6,7 +6,9 @@
 
 use crate::bowden_result;
 use core::ffi::CStr;
+use core::ops::Range;
 use core::ptr;
+use core::slice;
 
 /// Memory of a caller with something of Rust's inside.
 ///
@@ -164,6 +166,77 @@ pub(crate) unsafe fn write<X: Copy>(to: *mut X, value: X) -> Result<(), bowden_r
 /// Whether something can be written there, asked before a step moves its state.
 pub(crate) fn writable<X>(to: *const X) -> Result<(), bowden_result> {
     is_placed(to)
+}
+
+/// An array of numbers that a caller lends an object for as long as that is used.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub(crate) struct Lent<X> {
+    first: *mut X,
+    count: usize,
+}
+
+impl<X: Copy> Lent<X> {
+    /// An array that is placed and lies within the memory that a pointer can reach.
+    ///
+    /// # Safety
+    /// `first` is null or leads to writable memory for so many numbers, which stays so, and is used
+    /// by nobody else during a call, for as long as this or a copy of it is used.
+    pub(crate) unsafe fn new(first: *mut X, count: usize) -> Result<Self, bowden_result> {
+        is_placed(first)?;
+        let end = count
+            .checked_mul(size_of::<X>())
+            .filter(|bytes| isize::try_from(*bytes).is_ok())
+            .and_then(|bytes| first.addr().checked_add(bytes));
+        match end {
+            Some(_) => Ok(Self { first, count }),
+            None => Err(bowden_result::ErrorCapacity),
+        }
+    }
+
+    /// The addresses of its bytes.
+    fn bytes(&self) -> Range<usize> {
+        self.first.addr()..self.first.wrapping_add(self.count).addr()
+    }
+
+    /// Whether a byte of it is one of the other's too.
+    pub(crate) fn overlaps(&self, other: &Self) -> bool {
+        meet(&self.bytes(), &other.bytes())
+    }
+
+    /// Whether a byte of it is one of the object's too.
+    pub(crate) fn overlaps_object<O: Object>(&self, object: *const O) -> bool {
+        let end = object.wrapping_add(1);
+        meet(&self.bytes(), &(object.addr()..end.addr()))
+    }
+
+    /// Writes the same number everywhere, whatever was there.
+    pub(crate) fn fill(&mut self, value: X) {
+        for index in 0..self.count {
+            // SAFETY: writable memory for so many, as of `new`.
+            unsafe { ptr::write(self.first.wrapping_add(index), value) };
+        }
+    }
+}
+
+/// Whether two ranges have something in common.
+fn meet(one: &Range<usize>, other: &Range<usize>) -> bool {
+    one.start < other.end && other.start < one.end
+}
+
+impl<X> AsRef<[X]> for Lent<X> {
+    fn as_ref(&self) -> &[X] {
+        // SAFETY: placed, so many, and of no more bytes than there can be, as of `new`; whoever lends
+        // it or calls `fill` has written numbers there, and nobody writes to it during a call.
+        unsafe { slice::from_raw_parts(self.first, self.count) }
+    }
+}
+
+impl<X> AsMut<[X]> for Lent<X> {
+    fn as_mut(&mut self) -> &mut [X] {
+        // SAFETY: as of `as_ref`; nobody else uses it during a call.
+        unsafe { slice::from_raw_parts_mut(self.first, self.count) }
+    }
 }
 
 /// A literal with a NUL behind it.

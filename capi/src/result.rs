@@ -17,7 +17,8 @@ pub enum bowden_result {
     Settling = 1,
     /// Rates: a good position after a time that is unknown; the rates are held.
     Resumed = 2,
-    /// A regressor was bad and its term was left out; the loop is closed, the estimates wait.
+    /// A regressor was bad and its term was left out; the loop is closed, the estimates wait. Of a
+    /// learning: the feed-forward is of this phase, but nothing was learned from the sample.
     Degraded = 3,
     /// A bad sample: the state is as it was, the last good command or value is held.
     Held = 4,
@@ -74,6 +75,8 @@ pub enum bowden_fault {
     Position = 11,
     /// Another one, of a later version.
     Other = 12,
+    /// The phase of a cycle is not from 0 to 1, or has jumped.
+    Phase = 13,
 }
 
 /// The name of the setting that was refused, or the condition that is not met.
@@ -193,6 +196,7 @@ impl From<Fault> for bowden_fault {
             Fault::Command => Self::Command,
             Fault::Regressor(_) => Self::Regressor,
             Fault::Overflow => Self::Overflow,
+            Fault::Phase => Self::Phase,
             _ => Self::Other,
         }
     }
@@ -243,7 +247,7 @@ pub extern "C" fn bowden_result_text(result: i32) -> *const c_char {
         0 => c"all well",
         1 => c"a good sample, but the rates have not settled yet",
         2 => c"a good position after an unknown time: the rates are held",
-        3 => c"a regressor was bad: its term is left out, the estimates wait",
+        3 => c"a regressor was bad: its term is left out, the estimates wait; or nothing was learned",
         4 => c"a bad sample: the last good command or value is held",
         5 => c"too many bad samples: the safe command is out until it is acknowledged",
         -1 => c"a pointer is null",
@@ -276,6 +280,7 @@ pub extern "C" fn bowden_fault_text(fault: i32) -> *const c_char {
         9 => c"a regressor, or what a term reads, is NaN, infinite or missing",
         10 => c"an overflow: the inputs are too large",
         11 => c"the position is NaN or infinite",
+        13 => c"the phase is not from 0 to 1, or has jumped",
         _ => c"another fault",
     };
     text.as_ptr()

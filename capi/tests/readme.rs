@@ -55,6 +55,11 @@ fn the_table_has_the_sizes_of_the_objects() {
             size_of::<bowden_observer_f64>(),
         ),
         (
+            "learning",
+            size_of::<bowden_learning_f32>(),
+            size_of::<bowden_learning_f64>(),
+        ),
+        (
             "play",
             size_of::<bowden_play_f32>(),
             size_of::<bowden_play_f64>(),

@@ -97,6 +97,9 @@ def constructors():
         "ramp": b"\x03" + numbers(20, 0.01, 0) + b"".join(x(r) + DT for r in points),
         "rates": b"\x04" + numbers(0.01, 0.1, 6) + b"".join(x(r) + DT for r in points),
         "fallback": b"\x05\x14\x04" + x(0),
+        # A lead of 2 cells and a half width of 1; a cycle and a half with two samples in a cell.
+        "learning": b"\x07" + numbers(4, 30) + b"\x02\x01" + numbers(0.05, 1, 0) + b"\x01"
+        + b"".join(b"\x10" + numbers(3, k % 32 / 10) + b"\x01" for k in range(96)),
     }
 
 

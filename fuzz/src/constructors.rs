@@ -3,22 +3,24 @@
 use crate::adaptive;
 use crate::numbers::Numbers;
 use crate::pid;
-use crate::properties::control::estimates_keep_their_limit;
+use crate::properties::control::{estimates_keep_their_limit, learning_keeps_its_limit};
 use bowden::control::{Adaptive, Fallback, Limits, Pid};
 use bowden::control::{DisturbanceObserver, NominalPlant, ObserverInput, ObserverState};
+use bowden::control::{Learning, LearningInput};
 use bowden::signal::{Plausible, PlausibleState, Ramp, RampState, Rates, RatesState};
 
 /// Whatever the arguments: a constant is accepted where the run time accepts it, and refused
 /// in the same words; the blocks in front of a controller do what their docs say.
 pub fn check(data: &[u8]) {
     let mut from = Numbers::new(data);
-    let _ = match from.byte().map(|byte| byte % 7) {
+    let _ = match from.byte().map(|byte| byte % 8) {
         Some(0) => limits(&mut from),
         Some(1) => laws(&mut from),
         Some(2) => plausible(&mut from),
         Some(3) => ramp(&mut from),
         Some(4) => rates(&mut from),
         Some(6) => observer(&mut from),
+        Some(7) => learning(&mut from),
         _ => fallback(&mut from),
     };
 }
@@ -142,4 +144,58 @@ fn observer(from: &mut Numbers) -> Option<()> {
         assert!(estimates_keep_their_limit(&observer, state, &at));
         observer.step(&mut state, &at);
     }
+}
+
+/// Cells of the cycle: fewer than the largest lead and half width need.
+const CELLS: usize = 32;
+
+fn learning(from: &mut Numbers) -> Option<()> {
+    let (gain, limit) = (from.any()?, from.any()?);
+    let (lead, half_width) = (from.byte()? % 16, from.byte()? % 16);
+    let (lead, half_width) = (u16::from(lead), u16::from(half_width));
+    let learning = Learning::<f32>::try_new(gain, limit, lead, half_width);
+    assert!(learning == Learning::<f32>::const_new(gain, limit, lead, half_width));
+    let share: f32 = from.any()?;
+    let learning = learning.ok()?;
+    let forgetful = learning.with_forgetting(share);
+    assert!(forgetful == learning.const_with_forgetting(share));
+    assert!(forgetful.is_ok() == (0.0..=1.0).contains(&share));
+    let learning = forgetful.unwrap_or(learning);
+    let (stored, smoothing) = ([from.any()?; CELLS], [from.any()?; CELLS]);
+    let state = if from.flag()? {
+        learning.resume(stored, smoothing)
+    } else {
+        learning.start(stored, smoothing)
+    };
+    assert!(state.is_ok() == (learning.fewest_cells() <= CELLS));
+    let mut state = state.ok()?;
+    assert!(state.learned().iter().all(|x| x.abs() <= learning.limit()));
+    let (mut along, mut before) = (0.0, [0.0; CELLS]);
+    loop {
+        let at = LearningInput {
+            phase: phase(from, &mut along)?,
+            reference: from.any()?,
+            measured: from.any()?,
+            learns: from.flag()?,
+        };
+        assert!(learning_keeps_its_limit(
+            &learning,
+            &mut state,
+            &at,
+            &mut before
+        ));
+    }
+}
+
+/// Mostly a little farther along the cycle, now and then a little back, or anything.
+fn phase(from: &mut Numbers, along: &mut f32) -> Option<f32> {
+    let byte = from.byte()?;
+    let by = match byte {
+        0..=207 => f32::from(byte),
+        208..=239 => 207.0 - f32::from(byte),
+        _ => return from.any(),
+    };
+    // A cell is 32 of these, and most go over less than five.
+    *along = (*along + by / 1024.0).rem_euclid(1.0);
+    Some(*along)
 }

@@ -4,6 +4,7 @@ use bowden::control::{Adaptive, AdaptiveInput, AdaptiveOutput, AdaptiveState, Li
 use bowden::control::{Compensator, CompensatorInput, CompensatorState};
 use bowden::control::{Damping, Fallback, Fault, Missing, Pid, PidInput, PidState, Status};
 use bowden::control::{DisturbanceObserver, ObserverInput, ObserverState};
+use bowden::control::{Learning, LearningInput, LearningState};
 use bowden::signal::clamp;
 
 /// The command nearest to what is wanted: within the range, and within the slew rate of
@@ -352,4 +353,37 @@ pub fn estimates_keep_their_limit(
     };
     let held = out.status == Status::Good || !within(before) || out.estimate == before;
     within(out.estimate) && out.estimate == state.estimate() && told && held
+}
+
+/// The feed-forward of a learning is finite and within its limit, and so is each cell that has
+/// learned; every sample is told for what it is. Without a phase nothing moves, but for a feed-forward
+/// that was none of this learning.
+///
+/// `before` is for a copy of what the cells had learned.
+pub fn learning_keeps_its_limit<M: AsRef<[f32]> + AsMut<[f32]>>(
+    learning: &Learning<f32>,
+    state: &mut LearningState<f32, M>,
+    at: &LearningInput<f32>,
+    before: &mut [f32],
+) -> bool {
+    before.copy_from_slice(state.learned());
+    let last = state.feed_forward();
+    let out = learning.step(state, at);
+    let within = |x: f32| x.abs() <= learning.limit();
+    let same = |(now, was): (&f32, &f32)| now.to_bits() == was.to_bits();
+    let mut cells = state.learned().iter().zip(before.iter());
+    let phase = 0.0 <= at.phase && at.phase <= 1.0;
+    let numbers = at.reference.is_finite() && at.measured.is_finite();
+    let told = match out.status {
+        Status::Good => phase && numbers,
+        Status::Degraded(Fault::Phase | Fault::Overflow) => phase && numbers,
+        Status::Degraded(Fault::Reference) => phase && !at.reference.is_finite(),
+        Status::Degraded(Fault::Measured) => phase && !at.measured.is_finite(),
+        Status::Held(Fault::Phase) => {
+            !phase && cells.clone().all(same) && (!within(last) || out.feed_forward == last)
+        }
+        _ => false,
+    };
+    let learned = cells.all(|(now, was)| within(*now) || same((now, was)));
+    within(out.feed_forward) && out.feed_forward == state.feed_forward() && told && learned
 }

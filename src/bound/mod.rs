@@ -1,4 +1,4 @@
-//! What can be promised of the adaptive law and of an observer, and under which assumptions.
+//! What can be promised of the adaptive law, of an observer and of learning, and under which assumptions.
 //!
 //! | certificate | of | what it bounds |
 //! |---|---|---|
@@ -13,7 +13,8 @@
 //!
 //! [`ObserverStability`] says something else, of a PI with a
 //! [`DisturbanceObserver`](crate::control::DisturbanceObserver): that it is stable with every plant
-//! of a range.
+//! of a range. [`LearningConvergence`] says of a PI with [`Learning`](crate::control::Learning) that
+//! every tone of the error shrinks from cycle to cycle, with every plant of a range.
 //!
 //! Each of the table is made from an [`Adaptive`](crate::control::Adaptive) law and a [`Plant`]: what is
 //! known of it. What the two types can check is checked; what is left for the user to
@@ -34,24 +35,30 @@
 
 mod certificate;
 mod dyadic;
+mod learning;
 mod observer;
 mod peak;
 mod per_step;
 mod plant;
+mod plants;
 mod rms;
 mod rms_sampled;
 mod rounded;
 mod sampled;
+mod span;
 mod theorem_1;
 mod tightest;
 mod truth;
+mod zeros;
 
 pub use certificate::{Certificate, Kind};
 pub use dyadic::{Dyadic, Enclosure};
-pub use observer::{ObserverStability, PlantRange};
+pub use learning::LearningConvergence;
+pub use observer::ObserverStability;
 pub use peak::PeakContinuous;
 pub use per_step::PerStep;
 pub use plant::{Interval, Known, Plant};
+pub use plants::PlantRange;
 pub use rms::Rms;
 pub use rms_sampled::RmsSampled;
 pub use rounded::{Inequality, Named, PeakRounded, Roundings};

@@ -1,43 +1,10 @@
 //! Robust stability of a PI with a disturbance observer, over a whole range of plants.
 
-use super::plant::ordered;
-use super::Interval;
-use crate::control::{Damping, DisturbanceObserver, Pid};
+use super::plants::{PlantRange, Plants};
+use super::span::{Plane, Span};
+use super::zeros::{excluded, Closed};
+use crate::control::{Damping, DisturbanceObserver, Pid, PidSettings};
 use crate::{Error, Real};
-use span::{Plane, Span};
-
-mod span;
-
-/// Where the plant between command and measured output lies: a data sheet with its tolerances.
-///
-/// ```text
-/// P~(s) = f·alpha·e^(−theta·s)/(1 + f·(s²/wn² + 2·zeta·s/wn)/(1 + c/K·s))
-/// ```
-/// With `f = 1` and `c/K = 0` it is the [`NominalPlant`](crate::control::NominalPlant) behind a delay. A
-/// damping c of the joint beside the stiffness K that it works against leads: 3 ms of it make up
-/// for 3 ms of latency, and a rig may be stable by that alone. Where the cable's output changes by f
-/// times as much as its input, as along the loop of its hysteresis, the motor works against a
-/// stiffness of K/f.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct PlantRange {
-    /// alpha \[output unit/command unit\], of the sign of the nominal one.
-    pub gain: Interval<f64>,
-    /// wn \[rad/s\], above zero.
-    pub natural_frequency: Interval<f64>,
-    /// zeta, that of the drive alone; not below zero.
-    pub damping_ratio: Interval<f64>,
-    /// c/K of the joint \[s\], not below zero.
-    pub joint: Interval<f64>,
-    /// f, above zero: 1 without a hysteresis; with one, in torque, with kappa_eta above zero and sigma
-    /// not below, from `1 − kappa_eta·rho·max(1, 2·sigma)/B` to 1.
-    pub slope: Interval<f64>,
-    /// theta \[s\], not below zero: samples of delay, half a sample of hold, the lags of drive and
-    /// sensor.
-    pub latency: Interval<f64>,
-}
 
 /// A P or PI with a disturbance observer that is stable with every plant of a range.
 ///
@@ -106,12 +73,6 @@ pub struct ObserverStability {
     pub boxes: u32,
 }
 
-/// Most boxes of a proof: a tenth of a second or so on a computer.
-const MOST_BOXES: u32 = 400_000;
-
-/// Most halvings of a box.
-const MOST_HALVINGS: u32 = 60;
-
 /// What is the same for every plant.
 struct Loop {
     k_p: f64,
@@ -122,155 +83,6 @@ struct Loop {
     /// `1/wn²` and `2·zeta/wn` of the nominal plant.
     curvature: Span,
     rate: Span,
-}
-
-/// Plants between bounds of every number, and the observer's latency beside them.
-#[derive(Clone, Copy)]
-struct Plants {
-    gain: Span,
-    natural_frequency: Span,
-    damping_ratio: Span,
-    joint: Span,
-    slope: Span,
-    latency: Span,
-    observed: Span,
-}
-
-/// Plants that are looked at together.
-#[derive(Clone, Copy)]
-enum Set {
-    /// Those of a part of the way from the nominal plant, from 0 to 1.
-    Way(Span),
-    /// All between bounds.
-    All(Plants),
-}
-
-impl Plants {
-    /// `f/wn²` and `f·2·zeta/wn + c/K`.
-    fn denominator(&self) -> (Span, Span) {
-        let slow = self.natural_frequency.recip();
-        let rate = Span::at(2.0) * self.damping_ratio * slow;
-        (self.slope * slow.square(), self.slope * rate + self.joint)
-    }
-
-    /// Two halves, along the number that moves F most, and by how much that does.
-    fn halves(&self, frequency: f64) -> (f64, [Self; 2]) {
-        let share = |span: Span| span.width() / span.middle().abs();
-        let sizes = [
-            share(self.gain),
-            2.0 * share(self.natural_frequency),
-            self.damping_ratio.width(),
-            self.joint.width() * frequency,
-            share(self.slope),
-            self.latency.width() * frequency,
-        ];
-        let most = sizes.iter().fold(0.0_f64, |m, x| m.max(*x));
-        let [gain, natural_frequency, damping_ratio, joint, slope, _] = sizes.map(|x| x >= most);
-        let (mut first, mut second) = (*self, *self);
-        let split = |low: &mut Span, high: &mut Span| [*low, *high] = low.halves();
-        if gain {
-            split(&mut first.gain, &mut second.gain);
-        } else if natural_frequency {
-            split(&mut first.natural_frequency, &mut second.natural_frequency);
-        } else if damping_ratio {
-            split(&mut first.damping_ratio, &mut second.damping_ratio);
-        } else if joint {
-            split(&mut first.joint, &mut second.joint);
-        } else if slope {
-            split(&mut first.slope, &mut second.slope);
-        } else {
-            split(&mut first.latency, &mut second.latency);
-        }
-        (most, [first, second])
-    }
-
-    /// One in their middle.
-    fn middle(&self) -> Self {
-        let middle = |span: Span| Span::at(span.middle());
-        Self {
-            gain: middle(self.gain),
-            natural_frequency: middle(self.natural_frequency),
-            damping_ratio: middle(self.damping_ratio),
-            joint: middle(self.joint),
-            slope: middle(self.slope),
-            latency: middle(self.latency),
-            observed: self.observed,
-        }
-    }
-
-    /// These, others, and all between.
-    fn hull(&self, other: &Self) -> Self {
-        let hull = |a: Span, b: Span| Span {
-            low: a.low.min(b.low),
-            high: a.high.max(b.high),
-        };
-        Self {
-            gain: hull(self.gain, other.gain),
-            natural_frequency: hull(self.natural_frequency, other.natural_frequency),
-            damping_ratio: hull(self.damping_ratio, other.damping_ratio),
-            joint: hull(self.joint, other.joint),
-            slope: hull(self.slope, other.slope),
-            latency: hull(self.latency, other.latency),
-            observed: hull(self.observed, other.observed),
-        }
-    }
-
-    /// Between the one and the other, at a part of the way.
-    fn between(&self, other: &Self, part: Span) -> Self {
-        let mix = |a: Span, b: Span| a + (b - a) * part;
-        Self {
-            gain: mix(self.gain, other.gain),
-            natural_frequency: mix(self.natural_frequency, other.natural_frequency),
-            damping_ratio: mix(self.damping_ratio, other.damping_ratio),
-            joint: mix(self.joint, other.joint),
-            slope: mix(self.slope, other.slope),
-            latency: mix(self.latency, other.latency),
-            observed: mix(self.observed, other.observed),
-        }
-    }
-}
-
-/// What is to be shown: the loop, its nominal plant without latency, one plant of the range, and
-/// how many boxes it took so far.
-struct Search {
-    closed: Loop,
-    nominal: Plants,
-    middle: Plants,
-    boxes: u32,
-}
-
-impl Search {
-    /// Whether F is not zero for any of the plants at any of the frequencies.
-    fn is_off_zero(&mut self, frequency: Span, set: Set, halvings: u32) -> bool {
-        self.boxes = self.boxes.saturating_add(1);
-        if self.boxes > MOST_BOXES {
-            return false;
-        }
-        let plants = match set {
-            Set::Way(part) => self.nominal.between(&self.middle, part),
-            Set::All(plants) => plants,
-        };
-        if self.closed.values(frequency, &plants).is_off_zero() {
-            return true;
-        }
-        let Some(left) = halvings.checked_sub(1) else {
-            return false;
-        };
-        let (size, [first, second]) = match set {
-            Set::Way(part) => (part.width(), part.halves().map(Set::Way)),
-            Set::All(plants) => {
-                let (size, halves) = plants.halves(frequency.high);
-                (size, halves.map(Set::All))
-            }
-        };
-        // Far below 1/tau F hardly changes.
-        let scale = frequency.middle() + 0.1 / self.closed.filter;
-        if frequency.width() >= size * scale {
-            let [low, high] = frequency.halves();
-            return self.is_off_zero(low, set, left) && self.is_off_zero(high, set, left);
-        }
-        self.is_off_zero(frequency, first, left) && self.is_off_zero(frequency, second, left)
-    }
 }
 
 impl ObserverStability {
@@ -287,11 +99,7 @@ impl ObserverStability {
         plants: &PlantRange,
     ) -> Result<Self, Error> {
         plants.check()?;
-        let settings = law.settings();
-        let damps = settings.k_d != T::ZERO || matches!(settings.damping, Damping::Velocity);
-        if damps {
-            return Err(Error::Inadmissible("the law is a P or a PI"));
-        }
+        let (k_p, k_i) = proportional_and_integral(law.settings())?;
         let nominal = observer.plant();
         let first = Plants {
             gain: Span::at(nominal.gain().as_f64()),
@@ -304,8 +112,8 @@ impl ObserverStability {
         };
         let (curvature, rate) = first.denominator();
         let closed = Loop {
-            k_p: settings.k_p.as_f64(),
-            k_i: settings.k_i.as_f64(),
+            k_p,
+            k_i,
             filter: observer.time_constant().as_f64(),
             gain: nominal.gain().as_f64(),
             curvature,
@@ -322,26 +130,7 @@ impl ObserverStability {
         let shown = Error::Inadmissible("no plant of the range comes near the edge of stability");
         let all = plants.all(observer.latency().as_f64());
         let highest = closed.highest(&first, &all).ok_or(shown)?;
-        let frequencies = Span {
-            low: 0.0,
-            high: highest,
-        };
-        let mut search = Search {
-            closed,
-            nominal: first,
-            middle: all.middle(),
-            boxes: 0,
-        };
-        let way = Span {
-            low: 0.0,
-            high: 1.0,
-        };
-        for set in [Set::Way(way), Set::All(all)] {
-            if !search.is_off_zero(frequencies, set, MOST_HALVINGS) {
-                return Err(shown);
-            }
-        }
-        let boxes = search.boxes;
+        let boxes = excluded(&closed, first, all, highest).ok_or(shown)?;
         Ok(Self {
             plants: *plants,
             highest,
@@ -350,49 +139,14 @@ impl ObserverStability {
     }
 }
 
-impl PlantRange {
-    fn check(&self) -> Result<(), Error> {
-        ordered(&self.gain, "gain")?;
-        if self.gain.low <= 0.0 && self.gain.high >= 0.0 {
-            return Err(Error::OutOfRange("gain"));
-        }
-        ordered(&self.natural_frequency, "natural_frequency")?;
-        if self.natural_frequency.low <= 0.0 {
-            return Err(Error::OutOfRange("natural_frequency"));
-        }
-        ordered(&self.slope, "slope")?;
-        if self.slope.low <= 0.0 {
-            return Err(Error::OutOfRange("slope"));
-        }
-        for (interval, name) in [
-            (&self.damping_ratio, "damping_ratio"),
-            (&self.joint, "joint"),
-            (&self.latency, "latency"),
-        ] {
-            ordered(interval, name)?;
-            if interval.low < 0.0 {
-                return Err(Error::OutOfRange(name));
-            }
-        }
-        Ok(())
+/// k_p and k_i of a P or PI.
+pub(super) fn proportional_and_integral<T: Real>(
+    law: &PidSettings<T>,
+) -> Result<(f64, f64), Error> {
+    if law.k_d != T::ZERO || matches!(law.damping, Damping::Velocity) {
+        return Err(Error::Inadmissible("the law is a P or a PI"));
     }
-
-    /// All of it, beside an observer of this latency.
-    fn all(&self, observed: f64) -> Plants {
-        let span = |of: &Interval<f64>| Span {
-            low: of.low,
-            high: of.high,
-        };
-        Plants {
-            gain: span(&self.gain),
-            natural_frequency: span(&self.natural_frequency),
-            damping_ratio: span(&self.damping_ratio),
-            joint: span(&self.joint),
-            slope: span(&self.slope),
-            latency: span(&self.latency),
-            observed: Span::at(observed),
-        }
-    }
+    Ok((law.k_p.as_f64(), law.k_i.as_f64()))
 }
 
 impl Loop {
@@ -432,6 +186,13 @@ impl Loop {
             r *= 2.0;
         }
         None
+    }
+}
+
+impl Closed for Loop {
+    /// Far below 1/tau F hardly changes.
+    fn scale(&self) -> f64 {
+        0.1 / self.filter
     }
 
     /// A box around all values of F at these frequencies; of F/s for a P.

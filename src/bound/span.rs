@@ -64,6 +64,12 @@ impl Span {
         Self { low, ..all }
     }
 
+    /// What it has in common with another.
+    pub(super) fn meets(self, other: Self) -> Option<Self> {
+        let (low, high) = (self.low.max(other.low), self.high.min(other.high));
+        (low <= high).then_some(Self { low, high })
+    }
+
     /// Two halves.
     pub(super) fn halves(self) -> [Self; 2] {
         let middle = self.middle();

@@ -1,7 +1,7 @@
 //! What a command may be: a range and, if wanted, a slew rate.
 
 use crate::error::{above_zero, ordered};
-use crate::signal::clamp;
+use crate::signal::{clamp, confined};
 use crate::{Error, Real};
 
 /// Range \[command unit\] and slew rate \[command unit/s\] of a command.
@@ -165,8 +165,7 @@ impl<T: Real> Limits<T> {
     #[inline]
     #[must_use]
     pub fn confine(&self, command: T) -> T {
-        let known = if command.is_nan() { T::ZERO } else { command };
-        clamp(known, self.low, self.high)
+        confined(command, self.low, self.high)
     }
 }
 

@@ -21,12 +21,14 @@
 //! | [`Adaptive`] | the robust adaptive law over any number of regressors | (17)-(26) |
 //! | [`Compensator`] | the identified model turned round, as a feed-forward | (5)-(7) |
 //! | [`DisturbanceObserver`] | what friction and load take, given back through a feed-forward | |
+//! | [`Learning`] | what a task that repeats has lacked so far, through a feed-forward | |
 //!
 //! [`Controller`] is what the first two have in common: a loop can be written once.
 
 mod adaptive;
 mod compensator;
 mod controller;
+mod learning;
 pub(crate) mod limits;
 mod observer;
 pub(crate) mod pid;
@@ -41,6 +43,7 @@ pub use compensator::{
     Lowered,
 };
 pub use controller::{Controller, LoopSample, Output};
+pub use learning::{Learning, LearningInput, LearningOutput, LearningState};
 pub use limits::Limits;
 pub use observer::{
     DisturbanceObserver, NominalPlant, ObserverInput, ObserverOutput, ObserverState,

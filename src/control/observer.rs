@@ -24,7 +24,7 @@
 use super::status::{fault_of_dt, unless_finite};
 use super::{Fault, Status};
 use crate::error::{above_zero, is_usable, not_below_zero, rarely};
-use crate::signal::{clamp, gap_after};
+use crate::signal::{clamp, confined, gap_after};
 use crate::{Error, Real};
 
 mod plant;
@@ -264,11 +264,7 @@ impl<T: Real> DisturbanceObserver<T> {
             rarely();
             Status::Held(self.refused(state, at))
         };
-        let known = match state.estimate.is_nan() {
-            true => T::ZERO,
-            false => state.estimate,
-        };
-        state.estimate = clamp(known, -self.limit, self.limit);
+        state.estimate = confined(state.estimate, -self.limit, self.limit);
         ObserverOutput {
             estimate: state.estimate,
             status,

@@ -30,6 +30,8 @@ pub enum Fault {
     Regressor(u8),
     /// Every input is finite, but the command could not be computed: an overflow.
     Overflow,
+    /// The phase of a cycle is not from 0 to 1, or has jumped.
+    Phase,
 }
 
 /// What a step did.
@@ -48,7 +50,8 @@ pub enum Fault {
 pub enum Status {
     /// All samples were good; the state has moved on.
     Good,
-    /// A regressor was bad and its term was dropped; the loop is closed, the estimates wait.
+    /// A regressor was bad and its term was dropped; the loop is closed, the estimates wait. Of
+    /// [`Learning`](crate::control::Learning): an error could not be learned from, or the phase has jumped.
     Degraded(Fault),
     /// A bad sample: the state is as it was, the last good command is held.
     Held(Fault),

@@ -24,3 +24,10 @@ pub fn clamp<T: Real>(x: T, low: T, high: T) -> T {
         x
     }
 }
+
+/// `x` within `[low, high]`, and what is nearest to zero there for NaN.
+#[inline]
+pub(crate) fn confined<T: Real>(x: T, low: T, high: T) -> T {
+    let known = if x.is_nan() { T::ZERO } else { x };
+    clamp(known, low, high)
+}

@@ -20,6 +20,7 @@ mod rates;
 mod stored;
 
 pub use clamp::clamp;
+pub(crate) use clamp::confined;
 pub(crate) use compensated::two_sum;
 pub use compensated::Compensated;
 pub use derivative::{Derivative, DerivativeState};

@@ -7,10 +7,12 @@ mod adversary;
 mod continuous;
 mod dyadic;
 mod figures;
+mod learning;
 mod observer;
 mod refused;
 mod rounded;
 mod sampled;
+mod simulated;
 mod step;
 
 /// xorshift64*: uniform, the same in every run.

@@ -1,6 +1,7 @@
 //! Stability with a disturbance observer: what is proved, against the controllers that ship on
 //! simulated plants.
 
+use super::simulated::{at, One, Simulated, DT};
 use bowden::bound::{Interval, ObserverStability, PlantRange};
 use bowden::control::{
     DisturbanceObserver, NominalPlant, ObserverInput, ObserverState, Pid, PidInput, PidSettings,
@@ -8,20 +9,6 @@ use bowden::control::{
 };
 use bowden::Error;
 use proptest::prelude::*;
-
-/// Sampling of the loop \[s\]; its hold is half a sample of latency.
-const DT: f64 = 2e-4;
-
-/// One plant: alpha, wn, zeta, c/K, slope, and samples of delay.
-#[derive(Debug, Clone, Copy)]
-struct One {
-    gain: f64,
-    wn: f64,
-    zeta: f64,
-    joint: f64,
-    slope: f64,
-    late: usize,
-}
 
 fn loops(tau: f64, latency: f64, k_p: f64, k_i: f64) -> (DisturbanceObserver<f64>, Pid<f64>) {
     let plant = NominalPlant::try_new(0.6, 25.5, 0.265).unwrap();
@@ -38,17 +25,15 @@ fn peaks(
     seconds: usize,
 ) -> Vec<f64> {
     let (mut seen, mut state) = (ObserverState::new(), PidState::new());
-    // f·alpha·(1 + c/K·s)/(f·s²/wn² + (f·2·zeta/wn + c/K)·s + 1), by steps that are a tenth as long.
-    let (mut x, mut v) = (1.0, 0.0);
-    let mut sent = vec![0.0; plant.late + 1];
+    let mut simulated = Simulated::new(plant);
     let per_second = (1.0 / DT).round() as usize;
     let mut all = Vec::new();
     for _ in 0..seconds {
         let mut peak = 0.0_f64;
         for _ in 0..per_second {
-            let measured = plant.slope * plant.gain * (x + plant.joint * v);
+            let measured = simulated.measured();
             peak = peak.max(measured.abs());
-            let last = sent[plant.late];
+            let last = simulated.last();
             let at = ObserverInput {
                 dt: DT,
                 sent: last,
@@ -59,15 +44,7 @@ fn peaks(
                 feed_forward,
                 ..PidInput::new(DT, 0.0, measured)
             };
-            sent.remove(0);
-            sent.push(law.step(&mut state, &at).command);
-            let input = sent[0];
-            for _ in 0..10 {
-                let h = 0.1 * DT;
-                let rate = plant.slope * 2.0 * plant.zeta / plant.wn + plant.joint;
-                v += h * plant.wn * plant.wn / plant.slope * (input - x - rate * v);
-                x += h * v;
-            }
+            simulated.step(law.step(&mut state, &at).command);
         }
         all.push(peak);
         if peak.is_nan() || peak > 1e6 {
@@ -75,18 +52,6 @@ fn peaks(
         }
     }
     all
-}
-
-fn at(plant: One) -> PlantRange {
-    let latency = (plant.late as f64 + 0.5) * DT;
-    PlantRange {
-        gain: Interval::exactly(plant.gain),
-        natural_frequency: Interval::exactly(plant.wn),
-        damping_ratio: Interval::exactly(plant.zeta),
-        joint: Interval::exactly(plant.joint),
-        slope: Interval::exactly(plant.slope),
-        latency: Interval::exactly(latency),
-    }
 }
 
 /// Whether the loop swings out (the last second below half of the second one) or up.

@@ -6,6 +6,7 @@
 mod bad_samples;
 mod bumpless;
 mod compensator;
+mod learning;
 mod observer;
 mod peers;
 mod pid;

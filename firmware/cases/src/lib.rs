@@ -15,6 +15,7 @@
 pub mod adaptive;
 pub mod cable;
 pub mod closed_loop;
+pub mod learning;
 pub mod model;
 pub mod observer;
 pub mod pid;
@@ -142,6 +143,8 @@ cases! {
     "compensator": model::Compensated;
     "observer": observer::Loaded;
     "observer-constant": observer::Constant;
+    "learning": learning::Loaded;
+    "learning-constant": learning::Constant;
     "model-2": model::TwoEffects;
     "model-8": model::EightEffects;
     "model-2-constant": model::TwoConstant;

@@ -21,6 +21,8 @@ fn a_constant_configuration_gives_the_outputs_of_the_loaded_one() {
         "adaptive-2-lag-tanh",
         "adaptive-2-literal-clamp",
         "adaptive-2-literal-tanh",
+        "observer",
+        "learning",
         "model-2",
         "model-8",
     ] {

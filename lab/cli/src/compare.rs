@@ -19,6 +19,10 @@ pub struct Compare {
     /// The conduit is moved during the trials: B, kappa_eta and T0 wander.
     #[arg(long)]
     varying: bool,
+    /// Follow a gait, an ankle's push-off once a second, in place of the paper's reference; a
+    /// controller that learns from step to step runs beside the others.
+    #[arg(long, conflicts_with = "effect")]
+    gait: bool,
     /// Length of a trial [s].
     #[arg(long, default_value_t = 60.0, value_name = "S")]
     seconds: f64,
@@ -152,6 +156,7 @@ impl Compare {
             rig: self.rig.changes(),
             noise: self.noise,
             varying: self.varying,
+            gait: self.gait,
             seconds: self.seconds,
             seeds: self.seeds,
             effect: self.effect.as_deref(),

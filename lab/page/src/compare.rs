@@ -42,13 +42,14 @@ impl Compare<'_> {
                 (of(k, part))
             } }
         };
+        let gait = self.compared.first().is_some_and(|c| c.heading.gait);
+        let tracking = match gait {
+            true => "Tracking: the last three steps, and all errors",
+            false => "Tracking, as in Figures 7 and 8",
+        };
         let sections = [
             section("errors", "Errors", each(|_, part| part.errors())),
-            section(
-                "tracking",
-                "Tracking, as in Figures 7 and 8",
-                each(Part::tracking),
-            ),
+            section("tracking", tracking, each(Part::tracking)),
             section(
                 "transient",
                 "The first seconds, as in Figure 9",
@@ -89,11 +90,18 @@ fn own(heading: &Heading) -> Vec<String> {
 }
 
 fn time(until: f64) -> Axis {
+    between(0.0, until)
+}
+
+fn between(from: f64, until: f64) -> Axis {
     Axis {
         label: "time [s]".to_owned(),
-        scale: Scale::exactly(0.0, until),
+        scale: Scale::exactly(from, until),
     }
 }
+
+/// Seconds of a gait that a figure can show step by step.
+const STEPS: f64 = 3.0;
 
 fn error(row: &Row) -> f64 {
     row.tau_o - row.reference
@@ -183,13 +191,17 @@ impl<'a> Part<'a> {
         let output = part.torque_axis(seconds, |row| [row.reference, row.tau_o]);
         let errors = part.error_axis(seconds, from);
         let both = part.torque_axis(seconds, |row| [row.tau_i, row.tau_o]);
+        let first = match heading.gait {
+            true => seconds - STEPS,
+            false => 0.0,
+        };
         html! {
             @for (n, line) in part.lines.iter().enumerate() {
                 h4 { (line.controller) }
                 div class="grid-of" {
-                    (following(&format!("follow-{k}-{n}"), line, time(seconds), output.clone()).figure())
+                    (following(&format!("follow-{k}-{n}"), line, between(first, seconds), output.clone()).figure())
                     (tracking_error(&format!("error-{k}-{n}"), line, time(seconds), errors.clone()).figure())
-                    (torques(&format!("torques-{k}-{n}"), line, time(seconds), both.clone()).figure())
+                    (torques(&format!("torques-{k}-{n}"), line, between(first, seconds), both.clone()).figure())
                 }
             }
         }

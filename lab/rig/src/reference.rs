@@ -3,7 +3,7 @@
 use bowden::effect::Motion;
 use bowden::Real;
 
-/// A torque reference: a mean and two sines, ramped in if wanted.
+/// A torque reference: the paper's mean and two sines, or a gait's push-off; ramped in if wanted.
 ///
 /// The paper's is `25 + 10·sin(2·pi·0.25·t) + 3·sin(2·pi·0.2·sqrt(3)·t)` \[N·m\] (section
 /// 4.2, Figure 7); at most 38.
@@ -17,11 +17,24 @@ use bowden::Real;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Reference<T> {
+    /// Where the task rests, or its mean \[N·m\].
     mean: T,
-    /// Amplitude \[N·m\] and angular frequency \[rad/s\].
-    tones: [(T, T); 2],
+    task: Task<T>,
     ramp: T,
 }
+
+/// What is added to the mean.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+enum Task<T> {
+    /// Amplitude \[N·m\] and angular frequency \[rad/s\].
+    Tones([(T, T); 2]),
+    /// Once a second up to this \[N·m\] and down again.
+    Push(T),
+}
+
+/// When a push-off begins, is highest and has ended \[s\], in a cycle of one second.
+const PUSH: [f64; 3] = [0.2, 0.5, 0.65];
 
 impl<T: Real> Reference<T> {
     /// The paper's, at its full value from the first sample on.
@@ -30,11 +43,39 @@ impl<T: Real> Reference<T> {
         let turn = 2.0 * core::f64::consts::PI;
         Self {
             mean: T::of(25.0),
-            tones: [
+            task: Task::Tones([
                 (T::of(10.0), T::of(turn * 0.25)),
                 (T::of(3.0), T::of(turn * 0.2 * Real::sqrt(3.0_f64))),
-            ],
+            ]),
             ramp: T::zero(),
+        }
+    }
+
+    /// Steps of an ankle, one a second: 5 N·m, and a push-off of 30 N·m more that rises from a
+    /// fifth of the cycle to its half and ends at 0.65 of it, along fifth-order polynomials without a
+    /// jump of rate or acceleration.
+    ///
+    /// ```
+    /// use bowden_rig::Reference;
+    /// let gait = Reference::<f64>::gait();
+    /// assert_eq!((gait.at(3.1), gait.at(3.5), gait.at(3.7)), (5.0, 35.0, 5.0));
+    /// assert_eq!((gait.period(), Reference::<f64>::paper().period()), (Some(1.0), None));
+    /// ```
+    #[must_use]
+    pub fn gait() -> Self {
+        Self {
+            mean: T::of(5.0),
+            task: Task::Push(T::of(30.0)),
+            ramp: T::zero(),
+        }
+    }
+
+    /// After what time it repeats \[s\]; the paper's never does.
+    #[must_use]
+    pub fn period(&self) -> Option<T> {
+        match self.task {
+            Task::Tones(_) => None,
+            Task::Push(_) => Some(T::one()),
         }
     }
 
@@ -63,15 +104,20 @@ impl<T: Real> Reference<T> {
     #[must_use]
     pub fn between(&self, low: T, high: T) -> Self {
         let half = T::of(0.5) * (high - low);
-        let own = self.maximum() - self.mean;
-        let (mean, factor) = (low + half, half / own);
+        let factor = half / (T::of(0.5) * (self.maximum() - self.minimum()));
+        let (mean, task) = match self.task {
+            Task::Tones(tones) => {
+                let tones = tones.map(|(amplitude, w)| (factor * amplitude, w));
+                (low + half, Task::Tones(tones))
+            }
+            Task::Push(height) => (low, Task::Push(factor * height)),
+        };
         if !(half > T::zero() && mean.is_finite() && factor.is_finite()) {
             return *self;
         }
-        let tones = self.tones.map(|(amplitude, w)| (factor * amplitude, w));
         Self {
             mean,
-            tones,
+            task,
             ..*self
         }
     }
@@ -79,9 +125,18 @@ impl<T: Real> Reference<T> {
     /// The greatest value \[N·m\].
     #[must_use]
     pub fn maximum(&self) -> T {
-        self.tones
-            .iter()
-            .fold(self.mean, |sum, (amplitude, _)| sum + *amplitude)
+        match &self.task {
+            Task::Tones(tones) => tones.iter().fold(self.mean, |sum, (a, _)| sum + *a),
+            Task::Push(height) => self.mean + *height,
+        }
+    }
+
+    /// The least value \[N·m\].
+    fn minimum(&self) -> T {
+        match &self.task {
+            Task::Tones(tones) => tones.iter().fold(self.mean, |sum, (a, _)| sum - *a),
+            Task::Push(_) => self.mean,
+        }
     }
 
     /// The greatest magnitude \[N·m\], whatever its sign.
@@ -93,8 +148,7 @@ impl<T: Real> Reference<T> {
     /// ```
     #[must_use]
     pub fn magnitude(&self) -> T {
-        let tones = self.tones.iter();
-        tones.fold(self.mean.abs(), |sum, (amplitude, _)| sum + amplitude.abs())
+        self.maximum().abs().max(self.minimum().abs())
     }
 
     /// The reference \[N·m\] at time `t` \[s\].
@@ -111,11 +165,21 @@ impl<T: Real> Reference<T> {
             velocity: T::zero(),
             acceleration: T::zero(),
         };
-        for (amplitude, w) in self.tones {
-            let (s, c) = ((w * t).sin(), (w * t).cos());
-            full.position += amplitude * s;
-            full.velocity += amplitude * w * c;
-            full.acceleration -= amplitude * w * w * s;
+        match self.task {
+            Task::Tones(tones) => {
+                for (amplitude, w) in tones {
+                    let (s, c) = ((w * t).sin(), (w * t).cos());
+                    full.position += amplitude * s;
+                    full.velocity += amplitude * w * c;
+                    full.acceleration -= amplitude * w * w * s;
+                }
+            }
+            Task::Push(height) => {
+                let push = push(t);
+                full.position += height * push.position;
+                full.velocity = height * push.velocity;
+                full.acceleration = height * push.acceleration;
+            }
         }
         if t >= self.ramp {
             return full;
@@ -130,5 +194,27 @@ impl<T: Real> Reference<T> {
             velocity: f * full.velocity + df * full.position,
             acceleration: f * full.acceleration + two * df * full.velocity + ddf * full.position,
         }
+    }
+}
+
+/// A push-off of height one, in a cycle of one second.
+fn push<T: Real>(t: T) -> Motion<T> {
+    let [start, highest, end] = PUSH.map(T::of);
+    let into = t - t.floor();
+    let (since, length) = if into < highest {
+        (into - start, highest - start)
+    } else {
+        (end - into, end - highest)
+    };
+    let x = (since / length).max(T::zero());
+    // `10·x³ - 15·x⁴ + 6·x⁵` from 0 to 1; the second half runs backwards.
+    let (one, two) = (T::one(), T::of(2.0));
+    let sign = if into < highest { one } else { -one };
+    let rate = T::of(30.0) * x * x * (one - x) * (one - x) / length;
+    let curvature = T::of(60.0) * x * (one - x) * (one - two * x) / (length * length);
+    Motion {
+        position: x * x * x * (T::of(10.0) - x * (T::of(15.0) - T::of(6.0) * x)),
+        velocity: sign * rate,
+        acceleration: curvature,
     }
 }

@@ -15,6 +15,13 @@ pub fn latency(rig: &RigConfig<f64>, rate: f64) -> f64 {
     f64::from(rig.delay) / rate + rig.drive_lag
 }
 
+/// How long a command takes to show in what is measured \[s\]: it is held over a sample, and acts
+/// half of one later in the mean.
+#[must_use]
+pub fn shown(rig: &RigConfig<f64>, rate: f64) -> f64 {
+    latency(rig, rate) + 0.5 / rate + rig.sensor_lag
+}
+
 /// Command and torque without friction.
 ///
 /// The torque is that of the joint's spring, damping and inertia N(s)·phi_d; the motor works
@@ -57,7 +64,6 @@ pub fn observer(
         gains.damping_ratio.unwrap_or(own.damping_ratio()),
     )?;
     let time_constant = (TAU * gains.frequency).recip();
-    // The command is held over a sample, and acts half of one later in the mean.
-    let lead = latency(rig, rate) + 0.5 / rate + rig.sensor_lag;
-    DisturbanceObserver::try_new(plant, time_constant, gains.limit, LONGEST_DT)?.with_latency(lead)
+    DisturbanceObserver::try_new(plant, time_constant, gains.limit, LONGEST_DT)?
+        .with_latency(shown(rig, rate))
 }

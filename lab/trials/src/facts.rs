@@ -3,7 +3,7 @@
 use super::certificates::named;
 use super::found::outcome;
 use super::gains::{is_of_design, GainsFile};
-use super::heading::{file_name, is_paper, with_drive_gain};
+use super::heading::{file_name, is_paper, lag_error, with_drive_gain};
 use super::lineup::{declared_feed, lineup};
 use super::own_rig;
 use super::setup::Setup;
@@ -60,6 +60,8 @@ pub struct Question<'a> {
     pub seconds: f64,
     /// Number of trials, each with its own seed.
     pub seeds: u64,
+    /// Whether the reference is a gait, and not the paper's.
+    pub gait: bool,
     /// The effect that nobody declares, where there is one.
     pub effect: Option<&'a str>,
     /// Whether the signals of the first trial are wanted.
@@ -144,12 +146,16 @@ pub fn compare(question: &Question<'_>) -> Result<Compared, String> {
     };
     setup.rig = with_drive_gain(question.rig, gains.as_ref()).apply(setup.rig)?;
     let range = own.as_ref().and_then(|own| own.reference);
+    let task = match question.gait {
+        true => Reference::gait(),
+        false => Reference::paper(),
+    };
     let conditions = Conditions {
         rig: setup.rig,
         undeclared: own
             .as_ref()
             .map_or_else(Vec::new, |own| own.effects.clone()),
-        reference: range.map_or_else(Reference::paper, own_rig::scaled),
+        reference: range.map_or(task, |[low, high]| task.between(low, high)),
         seconds: question.seconds,
         from: FROM,
     };
@@ -171,8 +177,14 @@ pub fn compare(question: &Question<'_>) -> Result<Compared, String> {
         setup: own_setup.map(file_name),
         drive_gain: setup.rig.drive_gain,
         rig: question.rig,
+        gait: question.gait,
         reference: range,
-        is_paper: own.is_none() && gains.is_none() && is_paper(&setup),
+        lag_error: lag_error(
+            &conditions.reference,
+            setup.rig.sensor_lag,
+            (FROM, question.seconds),
+        ),
+        is_paper: !question.gait && own.is_none() && gains.is_none() && is_paper(&setup),
     };
     let results = match effect {
         None => Results::Lineup(declared(
@@ -266,13 +278,16 @@ fn inputs(question: &Question<'_>) -> Result<(Setup, Option<GainsFile>, bool), S
     }
 }
 
-/// What is promised of a setup: of its adaptive law, and of its PI with an observer.
+/// What is promised of a setup: of its adaptive law, of its PI with an observer, and of its PI with
+/// learning.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Certified {
     /// Of the adaptive law.
     pub certificates: Vec<Promise>,
     /// Of the PI with an observer.
     pub tolerance: Tolerance,
+    /// Of the PI with learning.
+    pub learning: Tolerance,
 }
 
 /// The certificates of a setup.
@@ -298,6 +313,7 @@ pub fn certify(setup: Option<&Path>) -> Result<Certified, String> {
         _ => Ok(Certified {
             certificates: super::certificates::all(&own)?,
             tolerance: super::tolerance::tolerance(&own)?,
+            learning: super::tolerance::convergence(&own)?,
         }),
     }
 }
@@ -335,11 +351,11 @@ fn declared(
     let seeds: Vec<u64> = (1..=question.seeds).collect();
     let controllers = match gains {
         Some(gains) => own_rig::designed(setup, gains)?,
-        None => lineup(setup)?,
+        None => lineup(setup, question.gait)?,
     };
     let lines = run_all(&controllers, conditions, &seeds, question.traced)?;
     // The certificates are of the paper's gains, reference and rig.
-    let certificates = match gains.is_some() || is_model {
+    let certificates = match gains.is_some() || is_model || question.gait {
         true => BTreeMap::new(),
         false => named(setup)?,
     };

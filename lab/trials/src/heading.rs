@@ -5,7 +5,7 @@ use super::gains::GainsFile;
 use super::lineup::Laws;
 use super::own_rig::RigChanges;
 use super::setup::Setup;
-use bowden_rig::{Drift, RigConfig};
+use bowden_rig::{Drift, Reference, RigConfig};
 use std::path::Path;
 
 /// What the trials were run under.
@@ -39,8 +39,13 @@ pub struct Heading {
     pub drive_gain: f64,
     /// The rig's numbers that were given one by one.
     pub rig: RigChanges,
-    /// Between which values the reference moves \[N·m\], where it is not the paper's.
+    /// Whether the reference is a gait, and not the paper's.
+    pub gait: bool,
+    /// Between which values the reference moves \[N·m\], where those are not its own.
     pub reference: Option<[f64; 2]>,
+    /// True error that the lag of the sensor alone makes of a law whose measured error is zero
+    /// \[N·m rms\].
+    pub lag_error: f64,
     /// Whether rig, gains and reference are those of the paper's experiment, whatever the noise.
     pub is_paper: bool,
 }
@@ -79,7 +84,20 @@ impl Heading {
         if let Some([low, high]) = self.reference {
             let places = places(low.abs().max(high.abs()), 2);
             all.push(format!(
-                "Reference: the paper's between {low:.places$} and {high:.places$} N·m, within what the model's record has covered."
+                "Reference: {} between {low:.places$} and {high:.places$} N·m, within what the model's record has covered.",
+                match self.gait {
+                    true => "a push-off a second",
+                    false => "the paper's",
+                }
+            ));
+        }
+        if self.gait && self.reference.is_none() {
+            all.push("Reference: 5 N·m and a push-off of 30 N·m more, once a second.".to_owned());
+        }
+        if self.gait {
+            let error = self.lag_error;
+            all.push(format!(
+                "The lag of the torque sensor alone makes a true error of {error:.3} N·m rms where the measured one is zero."
             ));
         }
         let rig = &self.rig;
@@ -121,6 +139,14 @@ const PAPER: [(&str, [f64; 2], [f64; 2]); 4] = [
     ("piv", [0.5320, 0.0134], [0.5323, 0.0186]),
     ("adaptive", [0.3027, 0.0081], [0.3195, 0.0120]),
 ];
+
+/// Rms of the reference's rate over a part of a trial \[s\], times the lag of the sensor \[s\].
+pub(super) fn lag_error(reference: &Reference<f64>, lag: f64, (from, to): (f64, f64)) -> f64 {
+    let steps = 1000.0 * (to - from).max(0.0);
+    let times = (0..steps as usize).map(|k| from + k as f64 * 1e-3);
+    let squares = times.map(|t| reference.motion(t).velocity.powi(2));
+    lag * (squares.sum::<f64>() / steps.max(1.0)).sqrt()
+}
 
 /// Whether rig and gains of a setup are those of Table 3: the noise may be another, since the
 /// comparison without it is told beside the paper's.

@@ -16,6 +16,7 @@ pub mod feed;
 pub mod found;
 pub mod gains;
 pub mod heading;
+pub mod learned;
 pub mod lineup;
 mod observed;
 pub mod own_rig;

@@ -2,6 +2,7 @@
 
 use super::data_sheet::{latency, observer};
 use super::feed::{FeedForward, Surroundings, MOST_TERMS};
+use super::learned::Learned;
 use super::setup::{AdaptiveGains, Setup};
 use super::trial::{Controller, Law, ThreeRegressors};
 use bowden::control::{
@@ -14,6 +15,9 @@ use bowden_rig::RigConfig;
 
 /// The rate of the paper's experiment, and of the reference rig \[Hz\].
 pub const RATE: f64 = 1000.0;
+
+/// The cycle that is learned over, that of [`Reference::gait`](bowden_rig::Reference::gait) \[s\].
+pub const GAIT: f64 = 1.0;
 
 /// All laws of a setup, checked.
 #[derive(Debug, Clone, Copy)]
@@ -30,6 +34,10 @@ pub struct Laws {
     pub observed_pi: Pid<f64>,
     /// The observer.
     pub observer: DisturbanceObserver<f64>,
+    /// The PI beside the learning.
+    pub learning_pi: Pid<f64>,
+    /// Learning over the gait's cycle.
+    pub learning: Learned,
     /// The adaptive law.
     pub adaptive: ThreeRegressors,
 }
@@ -55,6 +63,12 @@ impl Laws {
                 PidSettings::unlimited(setup.observer.k_p, setup.observer.k_i),
             )?,
             observer: observer(&setup.observer, &setup.rig, RATE).map_err(|e| ("observer", e))?,
+            learning_pi: pid(
+                "learning",
+                PidSettings::unlimited(setup.learning.k_p, setup.learning.k_i),
+            )?,
+            learning: Learned::new(&setup.learning, GAIT, &setup.rig, RATE)
+                .map_err(|e| ("learning", e))?,
             adaptive: adaptive(&setup.adaptive, 0.0).map_err(|e| ("adaptive", e))?,
         })
     }
@@ -84,14 +98,14 @@ impl Surroundings {
     }
 }
 
-/// The eight of `bowden compare`, in its order.
+/// The eight of `bowden compare`, in its order, and a ninth that learns where the reference repeats.
 ///
 /// # Errors
 /// One sentence where a law is refused or the model cannot be turned round.
-pub fn lineup(setup: &Setup) -> Result<Vec<Controller>, String> {
+pub fn lineup(setup: &Setup, repeats: bool) -> Result<Vec<Controller>, String> {
     let laws = Laws::new(setup).map_err(|(what, e)| format!("[{what}]: {e}"))?;
     let plain = |name: &str, law: Law| Controller::alone(name, law, RATE);
-    Ok(vec![
+    let mut all = vec![
         plain("pi", Law::Pid(laws.pi)),
         plain("pid", Law::Pid(laws.pid)),
         plain("piv", Law::Pid(laws.piv)),
@@ -107,7 +121,14 @@ pub fn lineup(setup: &Setup) -> Result<Vec<Controller>, String> {
             own_share: 1.0 / (setup.rig.drive_gain * setup.rig.b),
             ..plain("adaptive-feed-forward", Law::Adaptive(laws.adaptive))
         },
-    ])
+    ];
+    if repeats {
+        all.push(Controller {
+            learned: Some(laws.learning),
+            ..plain("pi-learning", Law::Pid(laws.learning_pi))
+        });
+    }
+    Ok(all)
 }
 
 /// The adaptive law whose estimates stay: beta_hat at the drive's own gain.

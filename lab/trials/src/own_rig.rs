@@ -9,7 +9,7 @@ use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Missing, Pid};
 use bowden::model::{Source, Term};
 use bowden::transmission::Transmission;
 use bowden_lab::export::{ModelFile, MOST_TERMS};
-use bowden_rig::{Reference, Rig, RigConfig};
+use bowden_rig::{Rig, RigConfig};
 
 /// Numbers of the rig that are given one by one; what is not given stays.
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
@@ -136,7 +136,7 @@ pub fn effects(file: &ModelFile) -> Result<Vec<Term<f64>>, String> {
 /// Share of what the record of the model has covered that the reference uses.
 const SHARE: f64 = 0.8;
 
-/// The paper's reference, within what the record of a model has covered \[N·m\]; `None` where
+/// Where the reference moves, within what the record of a model has covered \[N·m\]; `None` where
 /// the file does not say.
 ///
 /// # Errors
@@ -156,12 +156,6 @@ pub fn reference(file: &ModelFile, cable: &Transmission<f64>) -> Result<Option<[
         true => Ok(Some([middle - half, middle + half])),
         false => Err(crate::design::TOO_SHORT.to_owned()),
     }
-}
-
-/// The paper's reference between these \[N·m\].
-#[must_use]
-pub fn scaled([low, high]: [f64; 2]) -> Reference<f64> {
-    Reference::paper().between(low, high)
 }
 
 /// The controllers of a gains file, and PI with the model turned round in front of it.

@@ -28,6 +28,15 @@
 //! natural_frequency = 25.5
 //! damping_ratio = 0.265
 //!
+//! [learning]               # a PI with learning over the cycle of --gait, on the rig's own drive
+//! k_p = 30.0
+//! k_i = 18.0
+//! gain = 4.0               # [units/(N·m)]
+//! lead = 0.012             # [s]
+//! frequency = 16.0         # of the filter Q [Hz]
+//! cells = 250              # of a cycle
+//! limit = 30.0             # of what is learned [units]
+//!
 //! [adaptive]               # Table 2, in its own terms
 //! k = 24.0
 //! lambda = 8.0
@@ -81,6 +90,8 @@ pub struct Setup {
     pub matched_pi: PidGains,
     /// The PI with a disturbance observer.
     pub observer: ObserverGains,
+    /// The PI with learning, where the reference repeats.
+    pub learning: LearningGains,
     /// The adaptive law.
     pub adaptive: AdaptiveGains,
     /// The model that is fed forward; the rig's own transmission where there is none.
@@ -155,6 +166,41 @@ impl Default for ObserverGains {
             gain: None,
             natural_frequency: None,
             damping_ratio: None,
+        }
+    }
+}
+
+/// A PI with learning over the cycle of a reference that repeats.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LearningGains {
+    /// Proportional gain \[units/(N·m)\].
+    pub k_p: f64,
+    /// Integral gain \[units/(N·m·s)\].
+    pub k_i: f64,
+    /// Gain of the learning \[units/(N·m)\].
+    pub gain: f64,
+    /// How long a command comes before its effect \[s\].
+    pub lead: f64,
+    /// Corner of Q \[Hz\].
+    pub frequency: f64,
+    /// Cells of a cycle.
+    pub cells: usize,
+    /// Greatest magnitude of what is learned \[units\].
+    pub limit: f64,
+}
+
+impl Default for LearningGains {
+    /// The paper's PI.
+    fn default() -> Self {
+        Self {
+            k_p: 30.0,
+            k_i: 18.0,
+            gain: 4.0,
+            lead: 0.012,
+            frequency: 16.0,
+            cells: 250,
+            limit: 30.0,
         }
     }
 }

@@ -1,23 +1,24 @@
-//! How far a data sheet may be off before the loop with the observer may swing.
+//! How far a data sheet may be off before the loop with the observer may swing, and before what is
+//! learned may grow from cycle to cycle.
 
-use super::data_sheet::nominal;
-use super::lineup::Laws;
+use super::data_sheet::{nominal, shown};
+use super::lineup::{Laws, GAIT, RATE};
 use super::setup::Setup;
-use bowden::bound::{Interval, ObserverStability, PlantRange};
-use bowden::control::{DisturbanceObserver, Pid};
+use bowden::bound::{Interval, LearningConvergence, ObserverStability, PlantRange};
+use bowden::Error;
 use bowden_rig::RigConfig;
 use serde::Serialize;
 
 /// The greatest share by which all numbers of the plant may be off at once, with the loop shown to
-/// be stable for every one of them.
+/// be stable, or its learning to converge, for every one of them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Tolerance {
     /// The law that it is of.
     pub law: &'static str,
-    /// `stability`.
+    /// `stability` or `convergence`.
     pub kind: &'static str,
     /// Of gain, damping ratio, c/K of the joint and latency; of wn half of it. Rounded down to
-    /// 0.001.
+    /// 0.001, of the learning to 0.01.
     pub share: Option<f64>,
     /// Why there is none.
     pub refused: Option<String>,
@@ -44,8 +45,14 @@ pub struct Middle {
     pub latency: f64,
 }
 
-/// Steps of the share that is told, from 0 to 1.
+/// Steps of the share that is told of a stability, from 0 to 1.
 const STEPS: u32 = 1000;
+
+/// What is left of a tone of the error after a cycle, at most.
+const FACTOR: f64 = 0.99;
+
+/// By how much a cycle may be longer or shorter than the gait's, as a share.
+const CADENCE: f64 = 0.1;
 
 static ASSUMPTIONS: &[&str] = &[
     "the plant is f*alpha*e^(-theta*s)/(1 + f*(s^2/wn^2 + 2*zeta*s/wn)/(1 + c/K*s)), its numbers constant",
@@ -55,9 +62,18 @@ static ASSUMPTIONS: &[&str] = &[
     "neither a limit of the command nor that of the observer is met, and no sample is bad",
 ];
 
+static OF_LEARNING: &[&str] = &[
+    ASSUMPTIONS[0],
+    ASSUMPTIONS[1],
+    "continuous time: many samples a cell; hold, delay and the lags of drive and sensor act as a delay",
+    "what a cycle has changed has settled within the next; the mean is left to the law's integral",
+    "friction and load repeat, or are disturbances that stay bounded; f is any slope of the hysteresis, and does not change",
+    "no limit of what is learned is met; samples of which a limit cut the command are not learned from",
+];
+
 impl Middle {
     /// The numbers of a rig whose commands take so long to show \[s\].
-    fn of(rig: &RigConfig<f64>, latency: f64) -> Result<Self, bowden::Error> {
+    fn of(rig: &RigConfig<f64>, latency: f64) -> Result<Self, Error> {
         let sheet = nominal(rig)?;
         Ok(Self {
             gain: sheet.gain(),
@@ -93,13 +109,13 @@ impl Middle {
 /// # Errors
 /// One sentence where the core refuses the gains or the rig's numbers.
 pub fn tolerance(setup: &Setup) -> Result<Tolerance, String> {
-    let laws = Laws::new(setup).map_err(|(what, e)| format!("[{what}]: {e}"))?;
-    let plant =
-        Middle::of(&setup.rig, laws.observer.latency()).map_err(|e| format!("[rig]: {e}"))?;
-    let (share, refused) = match shown(&laws.observer, &laws.observed_pi, &plant, 0.0) {
-        Ok(()) => (Some(most(&laws.observer, &laws.observed_pi, &plant)), None),
-        Err(e) => (None, Some(e.to_string())),
+    let laws = laws(setup)?;
+    let plant = middle(setup, laws.observer.latency())?;
+    let stable = |share: f64| {
+        let range = plant.within(share);
+        ObserverStability::try_new(&laws.observer, &laws.observed_pi, &range).map(drop)
     };
+    let (share, refused) = found(stable, most);
     Ok(Tolerance {
         law: "pi-observer",
         kind: "stability",
@@ -108,6 +124,52 @@ pub fn tolerance(setup: &Setup) -> Result<Tolerance, String> {
         plant,
         assumptions: ASSUMPTIONS,
     })
+}
+
+/// The same of the setup's PI with its learning, over a gait whose cycle is a tenth longer or shorter.
+///
+/// # Errors
+/// As [`tolerance`].
+pub fn convergence(setup: &Setup) -> Result<Tolerance, String> {
+    let laws = laws(setup)?;
+    let plant = middle(setup, shown(&setup.rig, RATE))?;
+    let cycle = Interval {
+        low: GAIT * (1.0 - CADENCE),
+        high: GAIT * (1.0 + CADENCE),
+    };
+    let (learning, cells) = (&laws.learning.learning, laws.learning.cells);
+    let converges = |share: f64| {
+        let (law, range) = (&laws.learning_pi, plant.within(share));
+        LearningConvergence::try_new(learning, cells, &cycle, law, &range, FACTOR).map(drop)
+    };
+    let (share, refused) = found(converges, most_in_hundredths);
+    Ok(Tolerance {
+        law: "pi-learning",
+        kind: "convergence",
+        share,
+        refused,
+        plant,
+        assumptions: OF_LEARNING,
+    })
+}
+
+fn laws(setup: &Setup) -> Result<Laws, String> {
+    Laws::new(setup).map_err(|(what, e)| format!("[{what}]: {e}"))
+}
+
+fn middle(setup: &Setup, latency: f64) -> Result<Middle, String> {
+    Middle::of(&setup.rig, latency).map_err(|e| format!("[rig]: {e}"))
+}
+
+/// The greatest share that is shown, or why the rig's own plant is not.
+fn found<S: Fn(f64) -> Result<(), Error>>(
+    shown: S,
+    most: fn(&S) -> f64,
+) -> (Option<f64>, Option<String>) {
+    match shown(0.0) {
+        Ok(()) => (Some(most(&shown)), None),
+        Err(e) => (None, Some(e.to_string())),
+    }
 }
 
 /// Least and greatest slope of the torque over the input torque, as a share of B: along a path
@@ -120,25 +182,23 @@ fn slopes(rig: &RigConfig<f64>) -> [f64; 2] {
     [a.min(b), a.max(b)]
 }
 
-fn shown(
-    observer: &DisturbanceObserver<f64>,
-    law: &Pid<f64>,
-    plant: &Middle,
-    share: f64,
-) -> Result<(), bowden::Error> {
-    ObserverStability::try_new(observer, law, &plant.within(share)).map(|_| ())
-}
-
 /// The greatest share that is shown: of a wider range nothing more can be, so halving finds it.
-fn most(observer: &DisturbanceObserver<f64>, law: &Pid<f64>, plant: &Middle) -> f64 {
+fn most<S: Fn(f64) -> Result<(), Error>>(shown: &S) -> f64 {
     let share = |step: u32| f64::from(step) / f64::from(STEPS);
     let (mut good, mut bad) = (0, STEPS);
     while bad - good > 1 {
         let middle = u32::midpoint(good, bad);
-        match shown(observer, law, plant, share(middle)) {
+        match shown(share(middle)) {
             Ok(()) => good = middle,
             Err(_) => bad = middle,
         }
     }
     share(good)
+}
+
+/// The same by steps of 0.01: a proof that fails takes far longer than one that does not.
+fn most_in_hundredths<S: Fn(f64) -> Result<(), Error>>(shown: &S) -> f64 {
+    let share = |step: u32| f64::from(step) / 100.0;
+    let failed = (1..100).find(|step| shown(share(*step)).is_err());
+    share(failed.map_or(99, |step| step - 1))
 }

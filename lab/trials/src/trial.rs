@@ -1,6 +1,7 @@
 //! One controller on one rig: the errors, and what the figures need.
 
 use super::feed::FeedForward;
+use super::learned::{Learned, Running as Learns};
 use super::observed::Observing;
 use bowden::control::{
     Adaptive, AdaptiveInput, AdaptiveState, DisturbanceObserver, Pid, PidInput, PidState,
@@ -43,6 +44,8 @@ pub struct Controller {
     pub feed: Option<FeedForward>,
     /// A disturbance observer, with the feed-forward of its nominal plant; both are added as well.
     pub observer: Option<DisturbanceObserver<f64>>,
+    /// Learning over the reference's cycle, likewise.
+    pub learned: Option<Learned>,
     /// Command that the law itself gives for a torque \[units/(N·m)\]: the adaptive law
     /// feeds the reference forward by beta_hat, and the model's command must not repeat it.
     pub own_share: f64,
@@ -61,6 +64,7 @@ impl Controller {
             every: 1,
             feed: None,
             observer: None,
+            learned: None,
             own_share: 0.0,
             regressor: None,
         }
@@ -229,6 +233,7 @@ pub fn run(
     let mut running = Running::new(&controller.law);
     let (mut feed, mut regressor) = (controller.feed.clone(), controller.regressor.clone());
     let mut observing = controller.observer.as_ref().map(Observing::new);
+    let mut learning = controller.learned.as_ref().map(Learns::new).transpose()?;
     let dt = 1.0 / controller.rate;
     let own_dt = dt * controller.every.max(1) as f64;
     let (mut command, mut estimates) = (0.0, None);
@@ -248,16 +253,19 @@ pub fn run(
             found.step(&conditions.reference, t, dt).effects
         });
         if step % controller.every.max(1) == 0 {
+            let ahead = |lead| conditions.reference.motion(t + lead);
             let observed = observing.as_mut().map_or(0.0, |observing| {
-                let ahead = |lead| conditions.reference.motion(t + lead);
                 observing.step(own_dt, command, now.measured, ahead)
+            });
+            let learned = learning.as_mut().map_or(0.0, |learning| {
+                learning.step(t, (reference, now.measured), ahead)
             });
             (command, estimates) = running.step(&Reading {
                 now: &now,
                 dt: own_dt,
                 reference,
                 next_reference: conditions.reference.at(t + own_dt),
-                feed_forward: feed_forward + observed,
+                feed_forward: feed_forward + observed + learned,
                 found,
             });
         }

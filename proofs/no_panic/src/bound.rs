@@ -3,7 +3,7 @@
 use crate::control::law;
 use crate::{any, never_panics};
 use bowden::bound::*;
-use bowden::control::{DisturbanceObserver, NominalPlant, Pid};
+use bowden::control::{DisturbanceObserver, Learning, NominalPlant, Pid};
 use bowden::Real;
 use std::hint::black_box;
 
@@ -43,6 +43,7 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(bound_per_step_certificate, per_step.certificate());
 
     observer::<T>();
+    learning::<T>();
     dyadic::<T>();
     rounded::<T>()?;
     let certificate = black_box(rms.certificate());
@@ -92,23 +93,43 @@ fn rounded<T: Real>() -> Option<()> {
     Some(())
 }
 
-/// Stability with an observer.
-fn observer<T: Real>() -> Option<()> {
-    let plant = black_box(NominalPlant::<T>::try_new(any(), any(), any())).ok()?;
-    let observer = black_box(DisturbanceObserver::try_new(plant, any(), any(), any())).ok()?;
-    let law = black_box(Pid::<T>::paper_pi());
+/// Any range of plants.
+fn plants() -> PlantRange {
     let interval = || Interval::<f64>::between(any(), any());
-    let plants = black_box(PlantRange {
+    black_box(PlantRange {
         gain: interval(),
         natural_frequency: interval(),
         damping_ratio: interval(),
         joint: interval(),
         slope: interval(),
         latency: interval(),
-    });
+    })
+}
+
+/// Stability with an observer.
+fn observer<T: Real>() -> Option<()> {
+    let plant = black_box(NominalPlant::<T>::try_new(any(), any(), any())).ok()?;
+    let observer = black_box(DisturbanceObserver::try_new(plant, any(), any(), any())).ok()?;
+    let law = black_box(Pid::<T>::paper_pi());
+    let plants = plants();
     never_panics!(
         bound_observer_try_new,
         ObserverStability::try_new(&observer, &law, &plants)
+    );
+    Some(())
+}
+
+/// Convergence of a learning.
+fn learning<T: Real>() -> Option<()> {
+    let number = || black_box(2_u16);
+    let learning = Learning::<T>::try_new(any(), any(), number(), number());
+    let learning = black_box(learning).ok()?;
+    let law = black_box(Pid::<T>::paper_pi());
+    let cycle = black_box(Interval::<f64>::between(any(), any()));
+    let (plants, cells) = (plants(), black_box(250));
+    never_panics!(
+        bound_learning_try_new,
+        LearningConvergence::try_new(&learning, cells, &cycle, &law, &plants, any())
     );
     Some(())
 }

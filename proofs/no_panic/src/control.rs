@@ -2,6 +2,7 @@
 
 mod adaptive;
 mod compensator;
+mod learning;
 mod observer;
 mod pid;
 
@@ -64,6 +65,7 @@ pub fn all<T: Real>() -> Option<()> {
 
     pid::all::<T>()?;
     observer::all::<T>()?;
+    learning::all::<T>()?;
     adaptive::all::<T>()?;
     compensator::all::<T>()
 }

@@ -12,7 +12,9 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(rig_drift_reference, Drift::<T>::reference());
 
     never_panics!(rig_reference_paper, Reference::<T>::paper());
+    never_panics!(rig_reference_gait, Reference::<T>::gait());
     let reference = black_box(Reference::<T>::paper());
+    never_panics!(rig_reference_period, reference.period());
     never_panics!(rig_reference_with_ramp, reference.with_ramp(any()));
     never_panics!(rig_reference_between, reference.between(any(), any()));
     never_panics!(rig_reference_maximum, reference.maximum());

@@ -9,11 +9,13 @@ pub fn json(all: &Certified) -> String {
     let Certified {
         certificates,
         tolerance,
+        learning,
     } = all;
     serde_json::json!({
         "schema": "bowden.certify/1",
         "certificates": certificates,
         "tolerance": tolerance,
+        "learning": learning,
     })
     .to_string()
 }
@@ -57,7 +59,8 @@ pub fn text(all: &Certified) -> String {
             told.push(line.assumptions);
         }
     }
-    out += &stable(&all.tolerance);
+    out += &within(&all.tolerance, "stable");
+    out += &within(&all.learning, "errors shrink each cycle");
     out.push_str(
         "\nBeta within p %: the box of beta_hat about 1/alpha, alpha = N_A·B of the rig.\n\
          The proofs check the line at rest in f32, with room for rounding: |s| <= 0.43 N·m and\n\
@@ -80,20 +83,25 @@ pub fn text(all: &Certified) -> String {
             let _ = writeln!(out, "  - {assumption}");
         }
     }
-    if all.tolerance.share.is_some() {
-        let _ = writeln!(out, "\nTo check for {}:", all.tolerance.kind);
-        for assumption in all.tolerance.assumptions {
-            let _ = writeln!(out, "  - {assumption}");
+    for tolerance in [&all.tolerance, &all.learning] {
+        if tolerance.share.is_some() {
+            let _ = writeln!(out, "\nTo check for {}:", tolerance.kind);
+            for assumption in tolerance.assumptions {
+                let _ = writeln!(out, "  - {assumption}");
+            }
         }
     }
     out
 }
 
-/// How far the plant may be off with an observer.
-fn stable(tolerance: &Tolerance) -> String {
-    let what = match (tolerance.share, &tolerance.refused) {
+/// How far the plant may be off until something is no longer so.
+fn within(tolerance: &Tolerance, what: &str) -> String {
+    let told = match (tolerance.share, &tolerance.refused) {
+        (Some(share), _) if share <= 0.0 => {
+            format!("{what} with the rig's own plant; nothing is shown of others")
+        }
         (Some(share), _) => format!(
-            "stable with every plant within {:.1} % of the rig's\n{:<66}alpha, zeta, c/K and latency and {:.2} % of its wn, all at once",
+            "{what} with every plant within {:.1} % of the rig's\n{:<66}alpha, zeta, c/K and latency and {:.2} % of its wn, all at once",
             100.0 * share,
             "",
             50.0 * share
@@ -101,5 +109,5 @@ fn stable(tolerance: &Tolerance) -> String {
         (None, Some(reason)) => format!("none: {reason}"),
         (None, None) => "none".to_owned(),
     };
-    format!("{:<47} {:<17} {what}\n", tolerance.law, tolerance.kind)
+    format!("{:<47} {:<17} {told}\n", tolerance.law, tolerance.kind)
 }

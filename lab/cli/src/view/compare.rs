@@ -59,10 +59,11 @@ fn lineup_text(heading: &Heading, lineup: &Lineup) -> String {
             "The model has no inverse as it is: fed forward with {changed}.\n"
         );
     }
-    let notes = match (heading.is_paper, &heading.model) {
-        (true, _) => NOTES,
-        (false, Some(_)) => OWN_NOTES,
-        (false, None) => CHANGED_NOTES,
+    let notes = match (heading.is_paper, &heading.model, heading.gait) {
+        (true, ..) => NOTES,
+        (false, Some(_), _) => OWN_NOTES,
+        (false, None, true) => GAIT_NOTES,
+        (false, None, false) => CHANGED_NOTES,
     };
     out + &steady(heading, lineup)
         + &transient(heading, &lineup.lines)
@@ -75,6 +76,7 @@ fn without_certificate(heading: &Heading, lineup: &Lineup) -> &'static str {
     match (lineup.certificates.is_empty(), &heading.gains) {
         (false, _) => NO_CERTIFICATE,
         (true, Some(_)) => NOT_OF_THESE_GAINS,
+        (true, None) if heading.gait && heading.model.is_none() => NOT_OF_A_GAIT,
         (true, None) => NOT_OF_THIS_RIG,
     }
 }
@@ -174,6 +176,19 @@ nothing of the friction. The frozen law starts with beta_hat at 1/alpha and delt
 and never adapts; the feed-forward knows the rig's own transmission, or the model that is given.
 A certificate bounds an idealised plant without sensor noise: `bowden certify` lists what each
 assumes.
+";
+
+const GAIT_NOTES: &str = "
+pi-learning is the paper's PI with what the steps before have lacked, a number for each cell of the
+cycle, and with its nominal plant turned round along the reference; it needs the phase of the cycle,
+and five to twenty cycles. What else differs from the paper's table: `bowden compare` without --gait
+says so. matched-pi has the integral gain that the adaptive law has in effect (320); pi-observer
+knows the rig's drive gain, inertia, damping and stiffness, and nothing of the friction; the
+feed-forward of adaptive-feed-forward knows the rig's own transmission, or the model that is given.
+";
+
+const NOT_OF_A_GAIT: &str = "\
+certificate -: the table has those of the paper's reference alone.
 ";
 
 const NO_CERTIFICATE: &str = "\

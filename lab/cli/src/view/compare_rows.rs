@@ -34,7 +34,9 @@ pub(super) fn conditions(heading: &Heading) -> Value {
         "setup": heading.setup,
         "drive_gain": heading.drive_gain,
         "rig": heading.rig,
+        "task": if heading.gait { "gait" } else { "paper" },
         "reference": heading.reference,
+        "lag_error": heading.lag_error,
     })
 }
 

@@ -244,25 +244,55 @@ fn the_reference_is_the_papers_and_its_rates_are_its_derivatives() {
         25.0 + 10.0 * (tau * 0.25 * t).sin() + 3.0 * (tau * 0.2 * 3.0_f64.sqrt() * t).sin()
     };
     for reference in [Reference::paper(), Reference::paper().with_ramp(4.0)] {
-        for k in 0..100 {
-            let (t, h) = (0.0973 * f64::from(k) + 0.01, 1e-5);
-            let here = reference.motion(t);
-            if t > 4.0 {
-                assert_relative_eq!(here.position, paper(t), max_relative = 1e-14);
-            }
-            let (before, after) = (reference.motion(t - h), reference.motion(t + h));
-            // Central differences: h² times a third derivative of 1e2, and rounding.
-            let slope = |a: f64, b: f64| (b - a) / (2.0 * h);
-            assert_relative_eq!(
-                here.velocity,
-                slope(before.position, after.position),
-                epsilon = 1e-6
-            );
-            assert_relative_eq!(
-                here.acceleration,
-                slope(before.velocity, after.velocity),
-                epsilon = 1e-6
-            );
+        for t in times().filter(|t| *t > 4.0) {
+            assert_relative_eq!(reference.at(t), paper(t), max_relative = 1e-14);
         }
+        // Central differences: h² times a third derivative of 1e2, and rounding.
+        assert_rates(&reference, 1e-6);
+    }
+}
+
+#[test]
+fn a_gait_pushes_off_once_a_second_without_a_jump() {
+    for (reference, low, high) in [
+        (Reference::<f64>::gait(), 5.0, 35.0),
+        (Reference::gait().between(-2.0, 1.0), -2.0, 1.0),
+    ] {
+        for t in [0.0, 0.2, 0.65, 0.9, 1.0, 7.19] {
+            assert_eq!(reference.at(t), low);
+        }
+        assert_relative_eq!(reference.at(3.5), high, epsilon = 1e-12);
+        // Halfway up and halfway down.
+        let half = 0.5 * (low + high);
+        assert_relative_eq!(reference.at(2.35), half, epsilon = 1e-9);
+        assert_relative_eq!(reference.at(2.575), half, epsilon = 1e-9);
+        assert_relative_eq!(reference.maximum(), high, epsilon = 1e-12);
+        // h² times a fourth derivative of 30·360/0.15⁴ = 2e7, and a sixth of it.
+        assert_rates(&reference, 1e-3);
+        for knot in [0.2, 0.5, 0.65] {
+            let (before, after) = (reference.motion(knot - 1e-9), reference.motion(knot + 1e-9));
+            assert_relative_eq!(before.velocity, after.velocity, epsilon = 1e-4);
+            assert_relative_eq!(before.acceleration, after.acceleration, epsilon = 1e-3);
+        }
+    }
+}
+
+fn times() -> impl Iterator<Item = f64> {
+    (0..100).map(|k| 0.0973 * f64::from(k) + 0.01)
+}
+
+/// Velocity and acceleration are the derivatives of what stands before them.
+fn assert_rates(reference: &Reference<f64>, epsilon: f64) {
+    for t in times() {
+        let h = 1e-5;
+        let here = reference.motion(t);
+        let (before, after) = (reference.motion(t - h), reference.motion(t + h));
+        let slope = |a: f64, b: f64| (b - a) / (2.0 * h);
+        let (velocity, acceleration) = (
+            slope(before.position, after.position),
+            slope(before.velocity, after.velocity),
+        );
+        assert_relative_eq!(here.velocity, velocity, epsilon = epsilon);
+        assert_relative_eq!(here.acceleration, acceleration, epsilon = epsilon);
     }
 }

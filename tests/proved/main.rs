@@ -3,7 +3,8 @@
 //! The same functions: `proofs/properties`. A harness tries every state and one step; here a
 //! few thousand runs, but with the controller, the plant and the libm that ship.
 
-#[path = "../proofs/properties/mod.rs"]
+mod feed_forwards;
+#[path = "../../proofs/properties/mod.rs"]
 mod properties;
 
 use bowden::bound::{Plant, Theorem1};
@@ -451,25 +452,4 @@ fn a_start_outside_of_the_box_is_outside_for_a_while() {
     assert!(most > 0.43);
     // That it comes in is a theorem, not a harness; this run does.
     assert!(tracking::in_box(&law, at, 0.43));
-}
-
-proptest! {
-    #[test]
-    fn an_observer_keeps_its_limit(
-        plant in (0.01..100.0_f32, 0.1..1000.0_f32, 0.0..3.0_f32),
-        numbers in (1e-4..1.0_f32, 0.1..1e3_f32, 0.0..0.1_f32),
-        samples in prop::collection::vec((any_float(), any_float(), any_float(), any::<bool>()), 1..200),
-    ) {
-        let plant = NominalPlant::try_new(plant.0, plant.1, plant.2).unwrap();
-        let (time_constant, limit, latency) = numbers;
-        let observer = DisturbanceObserver::try_new(plant, time_constant, limit, 0.005).unwrap();
-        let observer = observer.with_latency(latency).unwrap();
-        let mut state = ObserverState::new();
-        for (dt, sent, measured, usual) in samples {
-            let dt = if usual { 0.001 } else { dt };
-            let at = ObserverInput { dt, sent, measured };
-            prop_assert!(control::estimates_keep_their_limit(&observer, state, &at));
-            observer.step(&mut state, &at);
-        }
-    }
 }

@@ -1,0 +1,106 @@
+//! Learning beside a law, with its nominal plant turned round along the reference.
+
+use super::data_sheet::{nominal, shown};
+use super::setup::LearningGains;
+use bowden::control::{Learning, LearningInput, LearningState, NominalPlant};
+use bowden::effect::Motion;
+use bowden::Error;
+use bowden_rig::RigConfig;
+
+/// Learning over the cycle of a reference, and what goes beside it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Learned {
+    /// Its gain, lead, filter and limit.
+    pub learning: Learning<f64>,
+    /// Cells of a cycle.
+    pub cells: usize,
+    /// The cycle \[s\].
+    pub period: f64,
+    /// The plant whose inverse is fed forward.
+    pub plant: NominalPlant<f64>,
+    /// How long before its time the reference is read for that \[s\].
+    pub latency: f64,
+}
+
+/// Corner of the triangle of one cell \[share of the cells a second\]: `sin(x)/x` is `2^(−1/4)`.
+const CORNER: f64 = 0.319;
+
+impl Learned {
+    /// Over a cycle of `period` \[s\], on a rig at a rate \[Hz\].
+    ///
+    /// # Errors
+    /// What the core refuses of the numbers.
+    pub fn new(
+        gains: &LearningGains,
+        period: f64,
+        rig: &RigConfig<f64>,
+        rate: f64,
+    ) -> Result<Self, Error> {
+        for (value, name) in [(gains.frequency, "frequency"), (gains.lead, "lead")] {
+            if !value.is_finite() {
+                return Err(Error::NonFinite(name));
+            }
+            if value < 0.0 {
+                return Err(Error::OutOfRange(name));
+            }
+        }
+        if gains.cells > usize::from(u16::MAX) {
+            return Err(Error::Capacity("cells"));
+        }
+        let a_second = gains.cells as f64 / period;
+        let width = (CORNER * a_second / gains.frequency).round().max(1.0);
+        let whole = |cells: f64, name| match cells <= f64::from(u16::MAX) {
+            true => Ok(cells as u16),
+            false => Err(Error::OutOfRange(name)),
+        };
+        let lead = whole((gains.lead * a_second).round(), "lead")?;
+        let half_width = whole(width - 1.0, "frequency")?;
+        let learning = Learning::try_new(gains.gain, gains.limit, lead, half_width)?;
+        let learned = Self {
+            learning,
+            cells: gains.cells,
+            period,
+            plant: nominal(rig)?,
+            latency: shown(rig, rate),
+        };
+        // What a start would refuse, before one.
+        learned.start()?;
+        Ok(learned)
+    }
+
+    fn start(&self) -> Result<LearningState<f64, Vec<f64>>, Error> {
+        self.learning
+            .start(vec![0.0; self.cells], vec![0.0; self.cells])
+    }
+}
+
+/// Learning while it runs.
+pub(crate) struct Running {
+    learned: Learned,
+    state: LearningState<f64, Vec<f64>>,
+}
+
+impl Running {
+    /// # Errors
+    /// What the core refuses of the cells, which [`Learned::new`] has refused before.
+    pub(crate) fn new(learned: &Learned) -> Result<Self, Error> {
+        Ok(Self {
+            learned: *learned,
+            state: learned.start()?,
+        })
+    }
+
+    /// What is added to the next command \[units\] at time `t` \[s\].
+    pub(crate) fn step(
+        &mut self,
+        t: f64,
+        (reference, measured): (f64, f64),
+        ahead: impl Fn(f64) -> Motion<f64>,
+    ) -> f64 {
+        let cycles = t / self.learned.period;
+        let at = LearningInput::new(cycles - cycles.floor(), reference, measured);
+        let out = self.learned.learning.step(&mut self.state, &at);
+        let wanted = ahead(self.learned.latency);
+        out.feed_forward + self.learned.plant.feed_forward(&wanted)
+    }
+}

@@ -1,0 +1,93 @@
+//! `control/learning.rs`, `control/learning/`
+
+use crate::{any, never_panics};
+use bowden::control::{Learning, LearningInput, LearningState};
+use bowden::Real;
+use std::hint::black_box;
+
+/// Cells of the cycle.
+const CELLS: usize = 32;
+
+type State<T> = LearningState<T, [T; CELLS]>;
+
+/// Any contents of a memory.
+fn memory<T: Real>() -> [T; CELLS] {
+    black_box([T::zero(); CELLS])
+}
+
+/// Any number of cells.
+fn cells() -> u16 {
+    black_box(2)
+}
+
+pub fn all<T: Real>() -> Option<()> {
+    constants()?;
+    never_panics!(
+        control_learning_try_new,
+        Learning::<T>::try_new(any(), any(), cells(), cells())
+    );
+    let learning = black_box(Learning::<T>::try_new(any(), any(), cells(), cells())).ok()?;
+    never_panics!(
+        control_learning_with_forgetting,
+        learning.with_forgetting(any())
+    );
+    let learning = black_box(learning.with_forgetting(any())).ok()?;
+    never_panics!(control_learning_gain, learning.gain());
+    never_panics!(control_learning_limit, learning.limit());
+    never_panics!(control_learning_lead, learning.lead());
+    never_panics!(control_learning_half_width, learning.half_width());
+    never_panics!(control_learning_forgetting, learning.forgetting());
+    never_panics!(control_learning_fewest_cells, learning.fewest_cells());
+    never_panics!(
+        control_learning_start,
+        learning.start(memory::<T>(), memory())
+    );
+    never_panics!(
+        control_learning_resume,
+        learning.resume(memory::<T>(), memory())
+    );
+    let state = learning.start(memory::<T>(), memory());
+    let mut state: State<T> = black_box(state).ok()?;
+    never_panics!(
+        control_learning_new,
+        LearningInput::<T>::new(any(), any(), any())
+    );
+    let at = black_box(LearningInput::<T>::new(any(), any(), any()));
+    never_panics!(control_learning_step, learning.step(&mut state, &at));
+    never_panics!(control_learning_state_learned, state.learned());
+    never_panics!(control_learning_state_feed_forward, state.feed_forward());
+    slices::<T>(&learning, &at)
+}
+
+/// The same over memory that somebody else owns: its length is known to nobody.
+fn slices<T: Real>(learning: &Learning<T>, at: &LearningInput<T>) -> Option<()> {
+    let (mut learned, mut smoothing) = (memory::<T>(), memory::<T>());
+    let learned = black_box(&mut learned[..]);
+    let smoothing = black_box(&mut smoothing[..]);
+    never_panics!(
+        control_learning_start,
+        learning.start(&mut *learned, &mut *smoothing)
+    );
+    never_panics!(
+        control_learning_resume,
+        learning.resume(&mut *learned, &mut *smoothing)
+    );
+    let mut state = black_box(learning.start(learned, smoothing)).ok()?;
+    never_panics!(control_learning_step, learning.step(&mut state, at));
+    never_panics!(control_learning_state_learned, state.learned());
+    Some(())
+}
+
+/// The constructors of constants.
+fn constants() -> Option<()> {
+    never_panics!(
+        control_learning_const_new,
+        Learning::<f32>::const_new(any(), any(), cells(), cells())
+    );
+    let learning = black_box(Learning::<f32>::const_new(any(), any(), cells(), cells())).ok()?;
+    never_panics!(
+        control_learning_const_with_forgetting,
+        learning.const_with_forgetting(any())
+    );
+    Some(())
+}

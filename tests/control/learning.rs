@@ -1,0 +1,405 @@
+//! Learning: an unrolled oracle, closed forms, a static plant, bad samples, jumps.
+
+use bowden::constant;
+use bowden::control::{Fault, Learning, LearningInput, LearningState, Status};
+use bowden::Error;
+use proptest::prelude::*;
+
+fn learning(gain: f64, lead: u16, half_width: u16) -> Learning<f64> {
+    Learning::try_new(gain, 1e6, lead, half_width).unwrap()
+}
+
+/// Goes through cells `from..to`, counted on over the cycles, a few samples in each; the error of a
+/// cell and its feed-forward are told by the cell's number.
+fn pass(
+    learning: &Learning<f64>,
+    state: &mut LearningState<f64, Vec<f64>>,
+    (from, to): (usize, usize),
+    mut error: impl FnMut(usize, f64) -> f64,
+) {
+    let cells = state.learned().len();
+    for cell in from..to {
+        for part in [0.1, 0.5, 0.9] {
+            let phase = ((cell % cells) as f64 + part) / cells as f64;
+            // The feed-forward in the middle of a cell is what the cell has learned.
+            let own = state.learned()[cell % cells];
+            let at = LearningInput::new(phase, error(cell, own), 0.0);
+            let out = learning.step(state, &at);
+            assert_eq!(out.status, Status::Good);
+            if part == 0.5 {
+                assert!((out.feed_forward - state.learned()[cell % cells]).abs() < 1e-9);
+            }
+        }
+    }
+}
+
+/// The recursion over all cells that ever were, without a ring and without a running sum:
+/// `v(j) = (1 − f)·u(j) + g·e(j + lead)`, `u(j + n) = Σ w(k)·v(j + k)`.
+struct Unrolled {
+    cells: usize,
+    offset: usize,
+    u: Vec<f64>,
+}
+
+impl Unrolled {
+    fn new(
+        errors: &[f64],
+        cells: usize,
+        (gain, lead, half, forgetting): (f64, usize, usize, f64),
+    ) -> Self {
+        // What comes before the first cell is at rest.
+        let offset = lead + 2 * half + 1;
+        let total = errors.len() + cells + offset;
+        let (mut u, mut v) = (vec![0.0; total + cells], vec![0.0; total + cells]);
+        let width = (half + 1) as f64;
+        for j in 0..offset + errors.len() {
+            let of = |j: usize| j.checked_sub(offset).and_then(|j| errors.get(j));
+            let Some(error) = of(j + lead) else { continue };
+            v[j] = (1.0 - forgetting) * u[j] + gain * error;
+            if let Some(s) = j.checked_sub(half) {
+                u[s + cells] = (s.saturating_sub(half)..=s + half)
+                    .map(|k| (width - k.abs_diff(s) as f64) / (width * width) * v[k])
+                    .sum();
+            }
+        }
+        Self { cells, offset, u }
+    }
+
+    /// What stands in the cells after so many were passed, `lead` and `half` of which are behind.
+    fn learned(&self, passed: usize, behind: usize) -> Vec<f64> {
+        let mut all = vec![0.0; self.cells];
+        // The newest that is finished is of the next cycle.
+        let newest = self.offset + passed + self.cells - behind;
+        for j in newest - self.cells..newest {
+            all[(j + self.cells * 8 - self.offset) % self.cells] = self.u[j];
+        }
+        all
+    }
+}
+
+proptest! {
+    #[test]
+    fn a_ring_of_cells_learns_what_an_endless_row_of_them_does(
+        errors in prop::collection::vec(-3.0..3.0_f64, 41..150),
+        shape in (0..6_u16, 0..4_u16, 0.0..0.5_f64, 0.1..2.0_f64),
+        cells in 24..40_usize,
+    ) {
+        let (lead, half, forgetting, gain) = shape;
+        let learning = learning(gain, lead, half).with_forgetting(forgetting).unwrap();
+        let (own, smoothing) = (vec![0.0; cells], vec![0.0; cells]);
+        let mut state = learning.start(own, smoothing).unwrap();
+        let last = errors.len() - 1;
+        pass(&learning, &mut state, (0, errors.len()), |cell, _| errors[cell]);
+        // The last cell was not left.
+        let numbers = (gain, usize::from(lead), usize::from(half), forgetting);
+        let unrolled = Unrolled::new(&errors[..last], cells, numbers);
+        let expected = unrolled.learned(last, usize::from(lead + half));
+        for (own, expected) in state.learned().iter().zip(&expected) {
+            // Sums of a hundred terms of at most 100.
+            prop_assert!((own - expected).abs() < 1e-10, "{own} {expected}");
+        }
+    }
+}
+
+/// Fejér's kernel.
+fn fejer(half_width: u16, turn: f64) -> f64 {
+    let (m, x) = (f64::from(half_width) + 1.0, 0.5 * turn);
+    ((m * x).sin() / (m * x.sin())).powi(2)
+}
+
+#[test]
+fn the_filter_is_fejers_kernel_without_a_phase() {
+    let cells = 120;
+    for half_width in [0, 1, 2, 5, 11] {
+        for cycles in [1, 3, 10, 30, 59] {
+            let turn = std::f64::consts::TAU * f64::from(cycles) / cells as f64;
+            let learning = learning(1.0, 0, half_width);
+            let (own, smoothing) = (vec![0.0; cells], vec![0.0; cells]);
+            let mut state = learning.start(own, smoothing).unwrap();
+            // Not the first cells, whose neighbours had learned nothing.
+            let all = (0, cells + 13);
+            pass(&learning, &mut state, all, |cell, _| {
+                (turn * (cell % cells) as f64).cos()
+            });
+            let gain = fejer(half_width, turn);
+            assert!((0.0..=1.0).contains(&gain));
+            for (cell, learned) in state.learned().iter().enumerate().skip(20).take(60) {
+                let expected = gain * (turn * cell as f64).cos();
+                assert!((learned - expected).abs() < 1e-12, "{learned} {expected}");
+            }
+        }
+    }
+    // What the docs say of the corner.
+    let m = 40.0;
+    assert!((fejer(39, std::f64::consts::TAU * 0.32 / m) - 0.71).abs() < 0.005);
+}
+
+#[test]
+fn an_error_is_learned_as_many_cells_before_as_the_lead_says() {
+    let learning = learning(2.0, 3, 2);
+    let (own, smoothing) = (vec![0.0; 50], vec![0.0; 50]);
+    let mut state = learning.start(own, smoothing).unwrap();
+    pass(&learning, &mut state, (0, 50), |cell, _| {
+        f64::from(cell == 20)
+    });
+    for (cell, learned) in state.learned().iter().enumerate() {
+        // A triangle of area 2 around cell 17.
+        let expected = (3.0 - (cell as f64 - 17.0).abs()).max(0.0) * 2.0 / 9.0;
+        assert!((learned - expected).abs() < 1e-15, "{cell}");
+    }
+}
+
+/// A plant that answers at once, `y = a·(u + d)` against a reference of one: what is left is
+/// `(1 − gain·a)` of the error before.
+#[test]
+fn a_static_plant_is_learned_by_a_geometric_series() {
+    let (a, gain) = (0.6, 0.5);
+    let learning = learning(gain, 0, 0);
+    let (own, smoothing) = (vec![0.0; 40], vec![0.0; 40]);
+    let mut state = learning.start(own, smoothing).unwrap();
+    let disturbance = |cell: usize| (cell % 40) as f64 * 0.05;
+    for cycle in 0..30 {
+        let mut worst = 0.0_f64;
+        pass(
+            &learning,
+            &mut state,
+            (40 * cycle, 40 * (cycle + 1)),
+            |cell, own| {
+                let error = 1.0 - a * (own + disturbance(cell));
+                let first = 1.0 - a * disturbance(cell);
+                let left = (1.0 - gain * a).powi(i32::try_from(cycle).unwrap()) * first;
+                worst = worst.max((error - left).abs());
+                error
+            },
+        );
+        assert!(worst < 1e-12, "{cycle} {worst}");
+    }
+}
+
+#[test]
+fn what_is_forgotten_leaves_an_error() {
+    let (a, gain, forgetting) = (0.6, 0.5, 0.1);
+    let learning = learning(gain, 0, 0).with_forgetting(forgetting).unwrap();
+    let (own, smoothing) = (vec![0.0; 20], vec![0.0; 20]);
+    let mut state = learning.start(own, smoothing).unwrap();
+    pass(&learning, &mut state, (0, 20 * 100), |_, own| 1.0 - a * own);
+    // u = (1 − f)·u + g·(1 − a·u).
+    let expected = gain / (forgetting + gain * a);
+    // (1 − f − g·a)^100 = 2e-22 of it is left.
+    assert!(state.learned().iter().all(|u| (u - expected).abs() < 1e-12));
+}
+
+#[test]
+fn what_is_learned_stops_at_the_limit_and_comes_back_at_once() {
+    let learning = Learning::try_new(1.0, 2.5, 0, 1).unwrap();
+    let (own, smoothing) = (vec![0.0; 20], vec![0.0; 20]);
+    let mut state = learning.start(own, smoothing).unwrap();
+    pass(&learning, &mut state, (0, 20 * 9), |_, _| 1.0);
+    assert!(state.learned().iter().all(|u| *u == 2.5));
+    pass(&learning, &mut state, (20 * 9, 20 * 10 + 1), |_, _| -1.0);
+    // Around the start: both edges have neighbours of the other cycle.
+    let learned = state.learned();
+    assert_eq!((learned[0], learned[19]), (1.75, 2.25));
+    assert!(learned[1..18].iter().all(|u| (u - 1.5).abs() < 1e-12));
+}
+
+#[test]
+fn a_sample_that_is_not_to_be_learned_from_changes_nothing() {
+    let learning = learning(1.0, 1, 2);
+    let start: Vec<f64> = (0..30).map(|k| f64::from(k % 7)).collect();
+    let (own, smoothing) = (start.clone(), vec![9.0; 30]);
+    let mut state = learning.resume(own, smoothing).unwrap();
+    for k in 0..3000 {
+        let at = LearningInput {
+            learns: false,
+            ..LearningInput::new(f64::from(k % 300) / 300.0, 5.0, 0.0)
+        };
+        assert_eq!(learning.step(&mut state, &at).status, Status::Good);
+    }
+    assert_eq!(state.learned(), start);
+}
+
+#[test]
+fn bad_samples_teach_nothing_and_the_phase_goes_on() {
+    let learning = learning(1.0, 1, 1);
+    let teach = |spoil: bool| {
+        let (own, smoothing) = (vec![0.0; 30], vec![0.0; 30]);
+        let mut state = learning.start(own, smoothing).unwrap();
+        for k in 0..900_u32 {
+            let phase = f64::from(k % 300) / 300.0;
+            let good = LearningInput::new(phase, 1.0, 0.5);
+            if spoil && k % 7 == 3 {
+                let (held, before) = (state.feed_forward(), state.learned().to_vec());
+                for (bad, expected) in [
+                    (f64::NAN, Status::Held(Fault::Phase)),
+                    (1.0001, Status::Held(Fault::Phase)),
+                    (-0.0001, Status::Held(Fault::Phase)),
+                    (f64::INFINITY, Status::Held(Fault::Phase)),
+                ] {
+                    let out = learning.step(&mut state, &LearningInput { phase: bad, ..good });
+                    assert_eq!((out.status, out.feed_forward), (expected, held));
+                }
+                assert_eq!(state.learned(), before);
+                let measured = f64::NAN;
+                let out = learning.step(&mut state, &LearningInput { measured, ..good });
+                assert_eq!(out.status, Status::Degraded(Fault::Measured));
+                let reference = f64::INFINITY;
+                let out = learning.step(&mut state, &LearningInput { reference, ..good });
+                assert_eq!(out.status, Status::Degraded(Fault::Reference));
+                let huge = LearningInput::new(phase, f64::MAX, -f64::MAX);
+                let out = learning.step(&mut state, &huge);
+                assert_eq!(out.status, Status::Degraded(Fault::Overflow));
+            }
+            let out = learning.step(&mut state, &good);
+            assert_eq!(out.status, Status::Good);
+        }
+        state.learned().to_vec()
+    };
+    assert_eq!(teach(true), teach(false));
+}
+
+#[test]
+fn the_end_of_a_cycle_is_the_start_of_the_next() {
+    let learning = learning(1.0, 0, 0);
+    let start: Vec<f64> = (0..20).map(f64::from).collect();
+    let (own, smoothing) = (start, vec![0.0; 20]);
+    let mut state = learning.resume(own, smoothing).unwrap();
+    let mut at = |phase: f64| {
+        let input = LearningInput::new(phase, 0.0, 0.0);
+        learning.step(&mut state, &input).feed_forward
+    };
+    // Halfway between the middles of the last cell and the first.
+    assert_eq!((at(0.0), at(1.0), at(0.025)), (9.5, 9.5, 0.0));
+    assert!((at(0.9999) - 9.5).abs() < 0.1);
+}
+
+#[test]
+fn a_phase_that_trembles_or_jumps_teaches_no_wrong_cell() {
+    let learning = learning(1.0, 0, 0);
+    let (own, smoothing) = (vec![0.0; 100], vec![0.0; 100]);
+    let mut state = learning.start(own, smoothing).unwrap();
+    let mut step = |cell: usize, error: f64| {
+        let at = LearningInput::new((cell as f64 + 0.5) / 100.0, error, 0.0);
+        let status = learning.step(&mut state, &at).status;
+        (status, state.learned().to_vec())
+    };
+    // Forth and back at an edge: the cell behind is not learned twice, nor from later errors.
+    for cell in [10, 11, 10, 11, 10, 11, 12] {
+        assert_eq!(
+            step(cell, if cell == 10 { 1.0 } else { 2.0 }).0,
+            Status::Good
+        );
+    }
+    let (_, learned) = step(12, 0.0);
+    assert_eq!((learned[10], learned[11], learned[12]), (1.0, 2.0, 0.0));
+    // Over four cells: they learn what the last one had.
+    assert_eq!(step(13, 3.0).0, Status::Good);
+    assert_eq!(step(17, 0.0).0, Status::Good);
+    let (_, learned) = step(17, 0.0);
+    assert_eq!(learned[13..18], [3.0, 3.0, 3.0, 3.0, 0.0]);
+    // Over five: a jump, which is told, and the cell that was left has learned nothing.
+    step(18, 5.0);
+    assert_eq!(step(23, 1.0).0, Status::Degraded(Fault::Phase));
+    let (_, learned) = step(24, 0.0);
+    assert_eq!((learned[18], learned[22], learned[23]), (0.0, 0.0, 1.0));
+    // The heel's contact ends a step early; the next one begins.
+    step(93, 1.0);
+    assert_eq!(step(0, 4.0).0, Status::Degraded(Fault::Phase));
+    assert_eq!(step(1, 0.0).0, Status::Good);
+    let (_, learned) = step(2, 0.0);
+    assert_eq!((learned[93], learned[99], learned[0]), (0.0, 0.0, 4.0));
+    // Backwards, far.
+    assert_eq!(step(90, 7.0).0, Status::Degraded(Fault::Phase));
+}
+
+#[test]
+fn more_cells_than_samples_can_follow_are_told_at_once() {
+    let learning = learning(1.0, 0, 0);
+    let (own, smoothing) = (vec![0.0; 1000], vec![0.0; 1000]);
+    let mut state = learning.start(own, smoothing).unwrap();
+    // A hundred samples a cycle pass over ten cells each.
+    for k in 0..100 {
+        let at = LearningInput::new(f64::from(k) / 100.0, 1.0, 0.0);
+        let status = learning.step(&mut state, &at).status;
+        let told = status == Status::Degraded(Fault::Phase);
+        assert_eq!(told, k > 0);
+    }
+    assert!(state.learned().iter().all(|u| *u == 0.0));
+}
+
+#[test]
+fn what_cannot_be_is_refused_by_name() {
+    let refused = |gain: f64, limit: f64| Learning::try_new(gain, limit, 1, 1).err();
+    assert_eq!(refused(0.0, 1.0), Some(Error::OutOfRange("gain")));
+    assert_eq!(refused(f64::NAN, 1.0), Some(Error::NonFinite("gain")));
+    assert_eq!(refused(1.0, 0.0), Some(Error::OutOfRange("limit")));
+    assert_eq!(refused(1.0, f64::INFINITY), Some(Error::NonFinite("limit")));
+    // A drive that turns the other way.
+    assert_eq!(refused(-1.0, 1.0), None);
+    let learning = learning(1.0, 3, 2);
+    for (share, expected) in [
+        (f64::NAN, Error::NonFinite("forgetting")),
+        (-0.1, Error::OutOfRange("forgetting")),
+        (1.1, Error::OutOfRange("forgetting")),
+    ] {
+        assert_eq!(learning.with_forgetting(share), Err(expected));
+    }
+    assert_eq!(learning.fewest_cells(), 16);
+    let start = |first: usize, second: usize| {
+        let (mut own, mut smoothing) = (vec![0.0; first], vec![0.0; second]);
+        learning.start(&mut own, &mut smoothing).map(drop).err()
+    };
+    assert_eq!(start(16, 16), None);
+    let lengths = Error::Inadmissible("both memories have one length");
+    assert_eq!(start(16, 17), Some(lengths));
+    let few = Error::Inadmissible("as many cells as lead and filter need");
+    assert_eq!(start(15, 15), Some(few));
+    assert_eq!(start(65_536, 65_536), Some(Error::Capacity("cells")));
+}
+
+#[test]
+fn what_was_stored_is_confined_and_goes_on() {
+    let learning = Learning::try_new(1.0_f32, 3.0, 1, 1).unwrap();
+    let mut own = [
+        1.0,
+        -7.0,
+        f32::NAN,
+        f32::INFINITY,
+        2.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+    ];
+    let mut smoothing = [f32::NAN; 12];
+    let state = learning.resume(&mut own, &mut smoothing).unwrap();
+    assert_eq!(state.learned()[..5], [1.0, -3.0, 0.0, 3.0, 2.0]);
+    let mut state = state;
+    let out = learning.step(&mut state, &LearningInput::new(0.5 / 12.0, 0.0, 0.0));
+    assert_eq!(out.feed_forward, 1.0);
+}
+
+#[test]
+fn it_can_live_in_flash() {
+    static LEARNING: Learning<f32> = constant!(constant!(Learning::<f32>::const_new(
+        4.0, 30.0, 2, 2
+    ))
+    .const_with_forgetting(0.01));
+    let same = Learning::try_new(4.0_f32, 30.0, 2, 2).and_then(|l| l.with_forgetting(0.01));
+    assert_eq!(Ok(LEARNING), same);
+}
+
+#[cfg(feature = "serde")]
+#[test]
+fn what_is_stored_is_checked_when_it_is_read() {
+    let own = learning(4.0, 2, 2).with_forgetting(0.25).unwrap();
+    let text = serde_json::to_string(&own).unwrap();
+    assert_eq!(serde_json::from_str::<Learning<f64>>(&text).unwrap(), own);
+    for (from, to) in [("4.0", "0.0"), ("0.25", "1.25"), ("lead", "leads")] {
+        let bad = text.replace(from, to);
+        assert!(bad != text && serde_json::from_str::<Learning<f64>>(&bad).is_err());
+    }
+}
