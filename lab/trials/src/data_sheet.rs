@@ -40,6 +40,18 @@ pub fn nominal(rig: &RigConfig<f64>) -> Result<NominalPlant<f64>, Error> {
     )
 }
 
+/// Refuses a number by the name that the file has for it.
+///
+/// # Errors
+/// [`Error::NonFinite`] or [`Error::OutOfRange`] with the name.
+pub fn above_zero(value: f64, name: &'static str) -> Result<(), Error> {
+    match value.is_finite() {
+        false => Err(Error::NonFinite(name)),
+        true if value <= 0.0 => Err(Error::OutOfRange(name)),
+        true => Ok(()),
+    }
+}
+
 /// The observer of these gains at a rate \[Hz\]; of the nominal plant what is left out is the
 /// rig's.
 ///
@@ -50,13 +62,7 @@ pub fn observer(
     rig: &RigConfig<f64>,
     rate: f64,
 ) -> Result<DisturbanceObserver<f64>, Error> {
-    // By the name that the file has for it.
-    if !gains.frequency.is_finite() {
-        return Err(Error::NonFinite("frequency"));
-    }
-    if gains.frequency <= 0.0 {
-        return Err(Error::OutOfRange("frequency"));
-    }
+    above_zero(gains.frequency, "frequency")?;
     let own = nominal(rig)?;
     let plant = NominalPlant::try_new(
         gains.gain.unwrap_or(own.gain()),

@@ -351,7 +351,7 @@ fn declared(
     let seeds: Vec<u64> = (1..=question.seeds).collect();
     let controllers = match gains {
         Some(gains) => own_rig::designed(setup, gains)?,
-        None => lineup(setup, question.gait)?,
+        None => lineup(setup, conditions.reference.period().is_some())?,
     };
     let lines = run_all(&controllers, conditions, &seeds, question.traced)?;
     // The certificates are of the paper's gains, reference and rig.

@@ -1,6 +1,6 @@
 //! Learning beside a law, with its nominal plant turned round along the reference.
 
-use super::data_sheet::{nominal, shown};
+use super::data_sheet::{above_zero, nominal, shown};
 use super::setup::LearningGains;
 use bowden::control::{Learning, LearningInput, LearningState, NominalPlant};
 use bowden::effect::Motion;
@@ -36,22 +36,16 @@ impl Learned {
         rig: &RigConfig<f64>,
         rate: f64,
     ) -> Result<Self, Error> {
-        for (value, name) in [(gains.frequency, "frequency"), (gains.lead, "lead")] {
-            if !value.is_finite() {
-                return Err(Error::NonFinite(name));
-            }
-            if value < 0.0 {
-                return Err(Error::OutOfRange(name));
-            }
-        }
+        above_zero(gains.frequency, "frequency")?;
         if gains.cells > usize::from(u16::MAX) {
             return Err(Error::Capacity("cells"));
         }
         let a_second = gains.cells as f64 / period;
         let width = (CORNER * a_second / gains.frequency).round().max(1.0);
-        let whole = |cells: f64, name| match cells <= f64::from(u16::MAX) {
+        let whole = |cells: f64, name| match (0.0..=f64::from(u16::MAX)).contains(&cells) {
             true => Ok(cells as u16),
-            false => Err(Error::OutOfRange(name)),
+            false if cells.is_finite() => Err(Error::OutOfRange(name)),
+            false => Err(Error::NonFinite(name)),
         };
         let lead = whole((gains.lead * a_second).round(), "lead")?;
         let half_width = whole(width - 1.0, "frequency")?;
