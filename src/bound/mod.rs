@@ -14,7 +14,7 @@
 //! [`ObserverStability`] says something else, of a PI with a
 //! [`DisturbanceObserver`](crate::control::DisturbanceObserver): that it is stable with every plant
 //! of a range. [`LearningConvergence`] says of a PI with [`Learning`](crate::control::Learning) that
-//! every tone of the error shrinks from cycle to cycle, with every plant of a range.
+//! it converges, with every plant of a range.
 //!
 //! Each of the table is made from an [`Adaptive`](crate::control::Adaptive) law and a [`Plant`]: what is
 //! known of it. What the two types can check is checked; what is left for the user to

@@ -48,7 +48,7 @@ pub struct Middle {
 /// Steps of the share that is told of a stability, from 0 to 1.
 const STEPS: u32 = 1000;
 
-/// What is left of a tone of the error after a cycle, at most.
+/// What a cycle leaves of what is yet to be learned of a tone, at most.
 const FACTOR: f64 = 0.99;
 
 /// By how much a cycle may be longer or shorter than the gait's, as a share.
@@ -66,9 +66,10 @@ static OF_LEARNING: &[&str] = &[
     ASSUMPTIONS[0],
     ASSUMPTIONS[1],
     "continuous time: many samples a cell; hold, delay and the lags of drive and sensor act as a delay",
-    "what a cycle has changed has settled within the next; the mean is left to the law's integral",
+    "one cycle time throughout, from 0.9 to 1.1 s, and a phase that is uniform in time",
     "friction and load repeat, or are disturbances that stay bounded; f is any slope of the hysteresis, and does not change",
-    "no limit of what is learned is met; samples of which a limit cut the command are not learned from",
+    "neither a limit of the command nor that of what is learned is met, and no sample is bad",
+    "what stays of the error is not bounded: near the filter's corner and above it may exceed what was there without",
 ];
 
 impl Middle {

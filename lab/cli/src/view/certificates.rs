@@ -60,7 +60,7 @@ pub fn text(all: &Certified) -> String {
         }
     }
     out += &within(&all.tolerance, "stable");
-    out += &within(&all.learning, "errors shrink each cycle");
+    out += &within(&all.learning, "converges");
     out.push_str(
         "\nBeta within p %: the box of beta_hat about 1/alpha, alpha = N_A·B of the rig.\n\
          The proofs check the line at rest in f32, with room for rounding: |s| <= 0.43 N·m and\n\

@@ -136,12 +136,12 @@ fn what_is_learned_converges_for_a_data_sheet_that_is_off() {
     let tight = with("[learning]\nlead = 0.008\nfrequency = 25.0\n").unwrap();
     assert!(tight < own, "{tight} {own}");
     assert_eq!(with("[learning]\nlead = 0.0\nfrequency = 25.0\n"), None);
-    assert!(text(&[]).contains("errors shrink each cycle with every plant within"));
+    assert!(text(&[]).contains("converges with every plant within"));
     let path = folder.path().join("setup.toml");
     std::fs::write(&path, "[learning]\nlead = 0.008\nfrequency = 25.0\n").unwrap();
     let tight = text(&["--gains", path.to_str().unwrap()]);
     assert!(
-        tight.contains("errors shrink each cycle with the rig's own plant"),
+        tight.contains("converges with the rig's own plant"),
         "{tight}"
     );
 }
