@@ -368,8 +368,8 @@ impl<T: Real> Inverse<T> {
     /// The secant method along the path, begun with its slope, inside a bracket that always
     /// holds the answer: one or two evaluations are usual, 100 the most. A state that has
     /// seen no input keeps its eta in this step, as the forward model does. A desired output
-    /// that is not finite, or out of the reach of floats, leaves the state and returns the
-    /// last input (zero if there is none).
+    /// that is not finite, or whose input or the way to it is out of the reach of floats, leaves the
+    /// state and returns the last input (zero if there is none).
     pub fn step(&self, state: &mut BoucWen<T>, desired_output: T) -> T {
         let last = state.input();
         let target = self.sign * (desired_output - self.offset);
@@ -386,8 +386,7 @@ impl<T: Real> Inverse<T> {
             return input;
         };
         let (input, eta) = self.solve(start, state.eta(), target, lowest, highest);
-        state.arrive(input, eta);
-        input
+        state.arrive(input, eta)
     }
 
     /// Root of `gain·u + hysteresis·eta(u) - target`, which rises with `u`, and eta there.

@@ -340,9 +340,7 @@ impl<T: Real> Way<'_, T> {
     pub(crate) fn after(&self, input_change: T) -> T {
         let shape = self.shape;
         if !T::SHORT {
-            // A change that overflows is the longest one, as for `step`.
-            let change = crate::signal::clamp(input_change, T::LOWEST, T::HIGHEST);
-            return shape.advance(self.eta, change);
+            return shape.advance(self.eta, input_change);
         }
         let path = shape.rho * input_change.abs();
         self.direction * bounded::follow_powered(self.zeta, path, self.powered, &shape.constants)

@@ -64,13 +64,15 @@ impl<T: Real> BoucWen<T> {
         self.eta
     }
 
-    /// The state at another input, whose eta is known already.
+    /// Goes to an input and eta of the model's, from one that it has seen, unless the way overflows,
+    /// which the model takes for the longest one; the input that is known then.
     #[inline]
-    pub(crate) fn arrive(&mut self, input: T, eta: T) {
-        if input.is_finite() {
-            self.eta = eta;
+    pub(crate) fn arrive(&mut self, input: T, eta: T) -> T {
+        if (input - self.input).is_finite() {
             self.input = input;
+            self.eta = eta;
         }
+        self.input
     }
 
     /// The last good input, `None` before the first sample.
