@@ -122,7 +122,7 @@ impl ObserverStability {
         if closed.gain * plants.gain.low <= 0.0 {
             return Err(Error::Inadmissible("gain and nominal gain have one sign"));
         }
-        if !closed.is_stable_at_first() {
+        if !first.is_stable_with(k_p, k_i) {
             return Err(Error::Inadmissible(
                 "the nominal loop without latency is stable",
             ));
@@ -150,16 +150,6 @@ pub(super) fn proportional_and_integral<T: Real>(
 }
 
 impl Loop {
-    /// Routh's criterion of `s·D + alpha·(k_p·s + k_i)`, or of `D + alpha·k_p`.
-    fn is_stable_at_first(&self) -> bool {
-        let gain = Span::at(self.gain);
-        let one = Span::at(1.0) + gain * Span::at(self.k_p);
-        let (rate, integral) = (self.rate, gain * Span::at(self.k_i));
-        let margin = rate * one - self.curvature * integral;
-        let holds = rate.low > 0.0 && one.low > 0.0;
-        holds && (self.k_i == 0.0 || (integral.low > 0.0 && margin.low > 0.0))
-    }
-
     /// A frequency r so that for all `|s| >= r` on the right the first term of F is the
     /// greater one, for all plants on the way from the first one. Both are divided by `|s|⁵`; then
     /// the one falls and the other grows with `1/|s|`.

@@ -93,6 +93,17 @@ impl Plants {
         (most, [first, second])
     }
 
+    /// Routh's criterion of `s·D~ + alpha~·(k_p·s + k_i)`, or of `D~ + alpha~·k_p`: of plants without
+    /// latency, joint and hysteresis, beside a P or PI.
+    pub(super) fn is_stable_with(&self, k_p: f64, k_i: f64) -> bool {
+        let (curvature, rate) = self.denominator();
+        let one = Span::at(1.0) + self.gain * Span::at(k_p);
+        let integral = self.gain * Span::at(k_i);
+        let margin = rate * one - curvature * integral;
+        let holds = rate.low > 0.0 && one.low > 0.0;
+        holds && (k_i == 0.0 || (integral.low > 0.0 && margin.low > 0.0))
+    }
+
     /// One in their middle.
     pub(super) fn middle(&self) -> Self {
         let middle = |span: Span| Span::at(span.middle());

@@ -17,19 +17,14 @@ impl Loop {
     /// the right, for any plant; without the s of the first term for a P.
     pub(super) fn is_stable(&self, all: &Plants) -> Option<u32> {
         let middle = all.middle();
-        // The plant in the middle without latency, joint and hysteresis: stable by Routh.
+        // The plant in the middle, without latency, joint and hysteresis.
         let first = Plants {
             joint: Span::at(0.0),
             slope: Span::at(1.0),
             latency: Span::at(0.0),
             ..middle
         };
-        let (curvature, rate) = first.denominator();
-        let one = Span::at(1.0) + first.gain * Span::at(self.k_p);
-        let integral = first.gain * Span::at(self.k_i);
-        let margin = rate * one - curvature * integral;
-        let holds = rate.low > 0.0 && one.low > 0.0;
-        if !(holds && (self.k_i == 0.0 || (integral.low > 0.0 && margin.low > 0.0))) {
+        if !first.is_stable_with(self.k_p, self.k_i) {
             return None;
         }
         let highest = self.highest(&first.hull(all))?;

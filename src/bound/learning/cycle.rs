@@ -75,8 +75,8 @@ impl Cycle<'_> {
 
     /// Whether `|H| <= factor`, without a division by what may be small: with `W = e^(−jw·lead·T)/G`,
     /// `a = gain·S³` and s, what Q and the images leave of the factor, it is so where
-    /// `|kept·W − a|² − s²·|W|²` is not above zero. (A box around H itself, whose every number then
-    /// stands in it twice, took so many more that 1 % about the reference rig was not shown.)
+    /// `|kept·W − a|² − s²·|W|²` is not above zero. (A box around H itself needs many more boxes: in a
+    /// version that is not in the repository 1 % about the reference rig was not shown.)
     fn is_small(&self, all: &Boxed) -> bool {
         let w = all.frequency;
         let Some(x) = (Span::at(0.5) * w * all.cell).meets(self.half_phases) else {
