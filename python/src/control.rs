@@ -1,6 +1,7 @@
 //! Controllers, as many side by side as a caller has lanes; settings come as TOML, so that the
 //! core itself reads and checks them.
 
+use crate::beside::{Beside, Cycle};
 use crate::failure;
 use bowden::control::{
     Adaptive, AdaptiveState, Controller, LoopSample, Output, Pid, PidState, Status,
@@ -98,7 +99,7 @@ fn lane(text: &str, regressors: Option<usize>) -> PyResult<Box<dyn Lane>> {
 }
 
 /// 0 good, 1 degraded, 2 held, 3 safe.
-pub fn code(status: Status) -> u8 {
+fn code(status: Status) -> u8 {
     match status {
         Status::Good => 0,
         Status::Degraded(_) => 1,
@@ -107,10 +108,33 @@ pub fn code(status: Status) -> u8 {
     }
 }
 
+/// A controller and what goes beside it.
+pub struct Helped {
+    law: Box<dyn Lane>,
+    beside: Beside,
+}
+
+impl Helped {
+    /// The command and the code of its status: degraded where the law had a good sample, and what goes
+    /// beside it could not use it.
+    pub fn step(&mut self, at: &LoopSample<'_, f64>, cycle: Cycle) -> (f64, u8) {
+        let (added, unused) = self.beside.step(self.law.command(), at, cycle);
+        let out = self.law.step(&LoopSample {
+            feed_forward: at.feed_forward + added,
+            ..*at
+        });
+        (out.command, code(out.status).max(u8::from(unused)))
+    }
+
+    pub fn regressors(&self) -> usize {
+        self.law.regressors()
+    }
+}
+
 /// Controllers side by side.
 #[pyclass(module = "bowden._bowden")]
 pub struct Controllers {
-    pub lanes: Vec<Box<dyn Lane>>,
+    pub lanes: Vec<Helped>,
 }
 
 type Signal<'py> = PyReadonlyArray2<'py, f64>;
@@ -119,8 +143,19 @@ type Answer<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<u8>>);
 #[pymethods]
 impl Controllers {
     #[new]
-    fn new(settings: Vec<String>, regressors: Option<usize>) -> PyResult<Self> {
-        let lanes = settings.iter().map(|text| lane(text, regressors));
+    #[pyo3(signature = (settings, regressors, observer=None, learning=None))]
+    fn new(
+        settings: Vec<String>,
+        regressors: Option<usize>,
+        observer: Option<&str>,
+        learning: Option<(String, Vec<f64>)>,
+    ) -> PyResult<Self> {
+        let lanes = settings.iter().map(|text| {
+            Ok(Helped {
+                law: lane(text, regressors)?,
+                beside: Beside::new(observer, learning.as_ref())?,
+            })
+        });
         Ok(Self {
             lanes: lanes.collect::<PyResult<_>>()?,
         })
@@ -130,7 +165,8 @@ impl Controllers {
         self.lanes.len()
     }
 
-    /// Samples by lanes: commands, and the status of each. `regressors` are one array each.
+    /// Samples by lanes: commands, and the status of each. `regressors` are one array each; `learns` is
+    /// zero where a sample is not learned from.
     #[allow(clippy::too_many_arguments)]
     fn run<'py>(
         &mut self,
@@ -141,6 +177,8 @@ impl Controllers {
         measured: Signal<'py>,
         velocity: Signal<'py>,
         feed_forward: Signal<'py>,
+        phase: Signal<'py>,
+        learns: Signal<'py>,
         regressors: Vec<Signal<'py>>,
     ) -> PyResult<Answer<'py>> {
         let signals = [
@@ -149,6 +187,8 @@ impl Controllers {
             &measured,
             &velocity,
             &feed_forward,
+            &phase,
+            &learns,
         ];
         let views = signals.map(PyReadonlyArray2::as_array);
         let more: Vec<_> = regressors.iter().map(PyReadonlyArray2::as_array).collect();
@@ -169,7 +209,7 @@ impl Controllers {
                     let place = [row, column];
                     read.clear();
                     read.extend(more.iter().map(|own| own[place]));
-                    let out = lane.step(&LoopSample {
+                    let sample = LoopSample {
                         dt: dt[row],
                         reference: views[0][place],
                         next_reference: views[1][place],
@@ -177,9 +217,12 @@ impl Controllers {
                         velocity: views[3][place],
                         feed_forward: views[4][place],
                         regressors: &read,
-                    });
-                    commands[place] = out.command;
-                    statuses[place] = code(out.status);
+                    };
+                    let cycle = Cycle {
+                        phase: views[5][place],
+                        learns: views[6][place] != 0.0,
+                    };
+                    (commands[place], statuses[place]) = lane.step(&sample, cycle);
                 }
             }
             (commands, statuses)
@@ -187,19 +230,40 @@ impl Controllers {
         Ok((commands.into_pyarray(py), statuses.into_pyarray(py)))
     }
 
-    fn restart(&mut self) {
-        self.lanes.iter_mut().for_each(|lane| lane.restart());
+    fn restart(&mut self) -> PyResult<()> {
+        self.lanes.iter_mut().try_for_each(|lane| {
+            lane.law.restart();
+            lane.beside.restart()
+        })
     }
 
     fn acknowledge(&mut self) {
-        self.lanes.iter_mut().for_each(|lane| lane.acknowledge());
+        self.lanes
+            .iter_mut()
+            .for_each(|lane| lane.law.acknowledge());
     }
 
     fn commands(&self) -> Vec<f64> {
-        self.lanes.iter().map(|lane| lane.command()).collect()
+        self.lanes.iter().map(|lane| lane.law.command()).collect()
     }
 
     fn estimates(&self) -> Vec<Vec<f64>> {
-        self.lanes.iter().map(|lane| lane.estimates()).collect()
+        self.lanes.iter().map(|lane| lane.law.estimates()).collect()
+    }
+
+    /// d_hat of each observer; `None` without one.
+    fn disturbances(&self) -> Option<Vec<f64>> {
+        self.lanes
+            .iter()
+            .map(|lane| lane.beside.disturbance())
+            .collect()
+    }
+
+    /// What each cell of each controller has learned; `None` without learning.
+    fn learned(&self) -> Option<Vec<Vec<f64>>> {
+        self.lanes
+            .iter()
+            .map(|lane| lane.beside.learned())
+            .collect()
     }
 }

@@ -5,6 +5,7 @@
 //! [`bowden_cli::view`] and pages from [`bowden_page`], so that Python and the program give the
 //! same bytes.
 
+mod beside;
 mod check;
 mod close;
 mod control;
@@ -18,6 +19,8 @@ use pyo3::prelude::*;
 
 #[pymodule]
 mod _bowden {
+    #[pymodule_export]
+    use super::beside::{check_beside, nominal_feed_forward};
     #[pymodule_export]
     use super::check::{check, Checked};
     #[pymodule_export]

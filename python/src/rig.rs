@@ -1,6 +1,7 @@
 //! Simulated rigs side by side, alone or in a loop with controllers.
 
-use crate::control::{code, Controllers};
+use crate::beside::Cycle;
+use crate::control::Controllers;
 use crate::failure;
 use bowden::control::LoopSample;
 use bowden::model::Model;
@@ -141,19 +142,25 @@ impl Rigs {
         Ok(taken.named(py))
     }
 
-    /// The loop: each controller on its rig, all on one reference. What is read off before each
-    /// command, the commands, and the status of each.
+    /// The loop: each controller on its rig, all on one reference, feed-forward and phase. What is read
+    /// off before each command, the commands, and the status of each.
     fn track<'py>(
         &mut self,
         py: Python<'py>,
         mut controllers: PyRefMut<'py, Controllers>,
         reference: PyReadonlyArray1<'py, f64>,
+        feed_forward: PyReadonlyArray1<'py, f64>,
+        phase: PyReadonlyArray1<'py, f64>,
         dt: f64,
     ) -> PyResult<Tracked<'py>> {
         if controllers.lanes.len() != self.all.len() {
             return Err(failure::plain("as many controllers as rigs were expected"));
         }
-        let reference = reference.as_array();
+        let [reference, feed_forward, phase] =
+            [&reference, &feed_forward, &phase].map(|own| own.as_array());
+        if [feed_forward.len(), phase.len()] != [reference.len(); 2] {
+            return Err(failure::plain("as many samples of each were expected"));
+        }
         let shape = (reference.len(), self.all.len());
         let (all, lanes) = (&mut self.all, &mut controllers.lanes);
         let (taken, commands, statuses) = py.detach(|| {
@@ -165,16 +172,22 @@ impl Rigs {
                     let (place, now) = ([row, column], state.sample());
                     let known = [now.proximal.velocity, now.proximal.acceleration];
                     let read = known.get(..lane.regressors()).unwrap_or(&known);
-                    let out = lane.step(&LoopSample {
+                    let sample = LoopSample {
                         next_reference: next,
                         velocity: now.distal.velocity,
+                        feed_forward: feed_forward[row],
                         regressors: read,
                         ..LoopSample::new(dt, reference[row], now.measured)
-                    });
+                    };
+                    let cycle = Cycle {
+                        phase: phase[row],
+                        learns: true,
+                    };
+                    let (command, status) = lane.step(&sample, cycle);
                     taken.put(place, &now);
-                    commands[place] = out.command;
-                    statuses[place] = code(out.status);
-                    rig.step(state, out.command, dt);
+                    commands[place] = command;
+                    statuses[place] = status;
+                    rig.step(state, command, dt);
                 }
             }
             (taken, commands, statuses)

@@ -61,13 +61,15 @@ def test_the_page_states_what_was_read(tmp_path: Path, plain: dict[str, Any]) ->
     assert all(digest in report.page() for report in reports)
 
 
-@pytest.mark.parametrize("kind", ["datetime64[ns]", "timedelta64[ns]"])
+@pytest.mark.parametrize("kind", ["datetime64[ns]", "timedelta64[ns]", "int64", "uint64", "Int64"])
 def test_nanoseconds_are_kept_far_from_where_time_began(plain: dict[str, Any], kind: str) -> None:
     # 200 days and 55 years: a double has steps of 2 and 256 ns there.
-    start = {"datetime64[ns]": 1_750_000_000 * 10**9, "timedelta64[ns]": 200 * 86_400 * 10**9}[kind]
+    start = 200 * 86_400 * 10**9 if kind == "timedelta64[ns]" else 1_750_000_000 * 10**9
     count = np.arange(len(plain["t"]), dtype=np.int64)
-    t = (start + 1_000_001 * count).astype(kind)
-    found = bowden.read({**plain, "t": t}, mode="torque").t
+    t: Any = start + 1_000_001 * count
+    units = {} if "[ns]" in kind else {"t": "ns"}
+    t = pytest.importorskip("pandas").array(t, dtype=kind) if kind == "Int64" else t.astype(kind)
+    found = bowden.read({**plain, "t": t}, mode="torque", units=units).t
     # Half a nanosecond would be seen; 30 s in doubles have steps of 4e-15 s.
     assert np.abs(np.diff(found) - 1.000001e-3).max() < 1e-13
 

@@ -68,7 +68,8 @@ impl<T: Real> LoopSample<'_, T> {
 /// assert!(tick(&pi, &mut state, &LoopSample::new(0.001, 1.0, 0.5)) > 15.0);
 /// ```
 pub trait Controller<T: Real> {
-    /// What is remembered between samples; `Copy`, so that it can be saved.
+    /// What is remembered between samples; `Copy`, so that it can be saved. One that was read back
+    /// after the power was off goes through [`power_up`](Self::power_up) before its first step.
     type State: Copy;
 
     /// A state that has seen no sample.
@@ -77,14 +78,23 @@ pub trait Controller<T: Real> {
     /// One sample: the command \[command unit\], finite and within the limits from any state.
     fn step(&self, state: &mut Self::State, at: &LoopSample<'_, T>) -> Output<T>;
 
+    /// Makes a state that was stored fit for a start: the power was off, and the command nearest to
+    /// zero is out. What an adaptive law has learned stays, and so does a fault that nobody has seen.
+    fn power_up(&self, state: &mut Self::State);
+
     /// Starts so that the command goes on from `output` \[command unit\] without a jump.
     ///
-    /// Does nothing where the safe command is latched.
+    /// Does nothing where the safe command is latched. A state of [`start`](Self::start) knows of no
+    /// fault: where one law follows another, ask [`is_latched`](Self::is_latched) of the one that ran,
+    /// and change over when it is not.
     fn resume_from(&self, state: &mut Self::State, output: T, at: &LoopSample<'_, T>) -> Status;
 
     /// Takes note that somebody has seen the fault: the next good sample closes the loop
     /// again, from the safe command on.
     fn acknowledge(&self, state: &mut Self::State);
+
+    /// Whether the safe command is out until somebody has seen the fault.
+    fn is_latched(&self, state: &Self::State) -> bool;
 
     /// The command that is out \[command unit\].
     fn command(&self, state: &Self::State) -> T;
@@ -145,6 +155,14 @@ impl<T: Real> Controller<T> for Pid<T> {
         state.acknowledge();
     }
 
+    fn power_up(&self, state: &mut PidState<T>) {
+        state.power_up(self);
+    }
+
+    fn is_latched(&self, state: &PidState<T>) -> bool {
+        state.is_latched()
+    }
+
     fn command(&self, state: &PidState<T>) -> T {
         self.settings().limits.confine(state.command())
     }
@@ -177,6 +195,14 @@ impl<T: Real, const N: usize> Controller<T> for Adaptive<T, N> {
 
     fn acknowledge(&self, state: &mut AdaptiveState<T, N>) {
         state.acknowledge();
+    }
+
+    fn power_up(&self, state: &mut AdaptiveState<T, N>) {
+        state.power_up(self);
+    }
+
+    fn is_latched(&self, state: &AdaptiveState<T, N>) -> bool {
+        state.is_latched()
     }
 
     fn command(&self, state: &AdaptiveState<T, N>) -> T {

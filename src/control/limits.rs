@@ -6,7 +6,7 @@ use crate::{Error, Real};
 
 /// Range \[command unit\] and slew rate \[command unit/s\] of a command.
 ///
-/// The range may be asymmetric. [`Limits::unlimited`] is the range of the float itself, so
+/// In a stored form a missing `slew` is none. The range may be asymmetric. [`Limits::unlimited`] is the range of the float itself, so
 /// that a command is finite in any case.
 ///
 /// ```

@@ -298,6 +298,21 @@ impl<T: Real> Held<T> {
         .remembering()
     }
 
+    /// The same after the power was off, with this command out: what is latched stays so; else the
+    /// next good sample starts from there.
+    #[must_use]
+    pub(crate) fn after_power_off(self, command: T) -> Self {
+        let latch = match self.latch {
+            Latch::Safe(fault) => Latch::Safe(fault),
+            _ => Latch::Returning,
+        };
+        Self {
+            command,
+            latch,
+            ..self
+        }
+    }
+
     /// Whether the next good sample is the first one after a safe command.
     pub(crate) fn is_returning(&self) -> bool {
         self.latch == Latch::Returning

@@ -168,6 +168,7 @@ impl<T: Real> DerivativeState<T> {
 
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Unchecked<T> {
     time_constant: T,
 }

@@ -112,6 +112,7 @@ impl<T: Real> GuardState<T> {
 
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Unchecked<T> {
     limit: T,
 }

@@ -110,6 +110,7 @@ impl<T: Real> PlayState<T> {
 
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Unchecked<T> {
     half_width: T,
 }

@@ -248,13 +248,19 @@ fn a_plant_that_acts_in_reverse_takes_negative_gains() {
 #[cfg(feature = "serde")]
 #[test]
 fn settings_and_states_are_read_through_their_checks() {
-    let pid: Pid<f64> = serde_json::from_str(r#"{"k_p": 30.0, "k_i": 18.0}"#).unwrap();
-    assert_eq!(pid, Pid::paper_pi());
-    for pid in [Pid::paper_pid(), Pid::paper_piv()] {
+    let pid = Pid::paper_pi();
+    for pid in [pid, Pid::paper_pid(), Pid::paper_piv()] {
         let text = serde_json::to_string(&pid).unwrap();
         assert_eq!(serde_json::from_str::<Pid<f64>>(&text).unwrap(), pid);
     }
-    assert!(serde_json::from_str::<Pid<f64>>(r#"{"k_p": 30.0, "k_i": -18.0}"#).is_err());
+    // The gains alone, where limits, longest dt and fallback are said.
+    let rest = r#""limits": {"low": -1.7976931348623157e308, "high": 1.7976931348623157e308},
+        "longest_dt": 1.7976931348623157e308, "fallback": {"after": 4294967295}"#;
+    let read = |own: &str| serde_json::from_str::<Pid<f64>>(&format!("{{{own}, {rest}}}"));
+    assert_eq!(read(r#""k_p": 30.0, "k_i": 18.0"#).unwrap(), pid);
+    let error = |own: &str| read(own).err().unwrap().to_string();
+    assert!(error(r#""k_p": 30.0, "k_i": -18.0"#).contains("same sign"));
+    assert!(error(r#""k_p": 1, "k_i": 1, "kd": 1"#).contains("kd"));
     // A line that was lost must not turn a safe command into none.
     let fallback = |text: &str| serde_json::from_str::<Fallback<f64>>(text);
     for lost in [
@@ -269,7 +275,6 @@ fn settings_and_states_are_read_through_their_checks() {
         fallback(&serde_json::to_string(&hold).unwrap()).unwrap(),
         hold
     );
-    assert!(serde_json::from_str::<Pid<f64>>(r#"{"k_p": 1, "k_i": 1, "kd": 1}"#).is_err());
 
     let mut state = PidState::new();
     pid.step_with_terms(&mut state, &PidInput::new(1e-3, 1.0, 0.5));

@@ -1,27 +1,11 @@
 //! How the safe command goes out, and how it ends.
 
-use super::{fallback, law, limits, pi, DT, LONGEST};
+use super::{bad, fallback, good, law, limits, pi, DT, LONGEST};
 use bowden::control::{
     Adaptive, AdaptiveSettings, Controller, Damping, Fallback, Fault, LoopSample, Pid, PidInput,
     PidSettings, PidState, Status,
 };
 use proptest::prelude::*;
-
-const VELOCITY: [f64; 1] = [0.2];
-
-fn good() -> LoopSample<'static, f64> {
-    LoopSample {
-        regressors: &VELOCITY,
-        ..LoopSample::new(DT, 25.0, 24.5)
-    }
-}
-
-fn bad() -> LoopSample<'static, f64> {
-    LoopSample {
-        measured: f64::NAN,
-        ..good()
-    }
-}
 
 fn steps<C: Controller<f64>>(
     law: &C,

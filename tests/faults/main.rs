@@ -8,8 +8,11 @@ mod inputs;
 mod latch;
 mod pid;
 mod score;
+mod stored;
 
-use bowden::control::{AdaptiveSettings, Estimator, Fallback, Form, Limits, PidSettings};
+use bowden::control::{
+    AdaptiveSettings, Estimator, Fallback, Form, Limits, LoopSample, PidSettings,
+};
 
 /// Nominal step \[s\], and the longest: five of them.
 const DT: f64 = 1e-3;
@@ -22,6 +25,21 @@ fn fallback() -> Fallback<f64> {
 
 fn limits(most: f64) -> Limits<f64> {
     Limits::try_new(-most, most).unwrap()
+}
+
+/// A good sample in a loop that moves, and one whose sensor is dead.
+fn good() -> LoopSample<'static, f64> {
+    LoopSample {
+        regressors: &[0.2],
+        ..LoopSample::new(DT, 25.0, 24.5)
+    }
+}
+
+fn bad() -> LoopSample<'static, f64> {
+    LoopSample {
+        measured: f64::NAN,
+        ..good()
+    }
 }
 
 /// A PI with limits of ±60.

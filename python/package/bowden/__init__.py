@@ -9,6 +9,7 @@
 from importlib.metadata import version as _version
 
 from ._bowden import Record
+from ._beside import DisturbanceObserver, Learning, NominalPlant
 from ._check import check
 from ._close import close
 from ._control import PI, PID, PIV, STATUS, Adaptive, Controller, Rig, paper_reference
@@ -28,9 +29,12 @@ __all__ = [
     "Adaptive",
     "CheckReport",
     "Controller",
+    "DisturbanceObserver",
     "Error",
     "Fields",
+    "Learning",
     "Model",
+    "NominalPlant",
     "Record",
     "Report",
     "Rig",

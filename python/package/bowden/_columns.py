@@ -119,6 +119,8 @@ def _array(column: Any) -> Optional[np.ndarray[Any, Any]]:
         if hasattr(dtype, "na_value") and not isinstance(dtype, np.dtype):
             if getattr(dtype, "kind", "O") not in "fiub":
                 return np.asarray(column) if getattr(dtype, "kind", "O") in "mM" else None
+            if dtype.kind in "iu" and not column.isna().any():
+                return np.asarray(column.to_numpy(dtype=dtype.kind + "8"))
             return np.asarray(column.to_numpy(dtype="float64", na_value=np.nan))
         return np.asarray(column.to_numpy())
     try:
@@ -132,9 +134,13 @@ def _numbers(
 ) -> Optional[tuple[np.ndarray[Any, np.dtype[np.float64]], Optional[str]]]:
     """As doubles, without a copy where they are.
 
-    Points in time count from the first, and so do durations of more nanoseconds than a double
-    counts.
+    Points in time count from the first, and so do durations and whole numbers (time stamps in
+    nanoseconds) beyond what a double counts.
     """
+    if values.dtype.kind in "iu" and values.ndim == 1 and _is_beyond(values):
+        # Differences of 64 bits are right, whatever the sign of the first.
+        since = values.astype(np.int64) - values[:1].astype(np.int64)
+        return since.astype(np.float64), None
     if values.dtype.kind in "fiub":
         return np.ascontiguousarray(values, dtype=np.float64), None
     if values.dtype.kind in "mM" and values.ndim == 1:
@@ -150,5 +156,9 @@ def _numbers(
 
 
 def _is_long(durations: np.ndarray[Any, Any]) -> bool:
-    nanoseconds = durations.astype("timedelta64[ns]").astype(np.int64)
-    return bool(np.abs(nanoseconds).max() > 2**53)
+    return _is_beyond(durations.astype("timedelta64[ns]").astype(np.int64))
+
+
+def _is_beyond(numbers: np.ndarray[Any, Any]) -> bool:
+    """Whether a double does not count every one of these whole numbers."""
+    return bool(numbers.size) and (int(numbers.max()) > 2**53 or int(numbers.min()) < -(2**53))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any, Optional, Union
@@ -10,35 +9,20 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from . import _bowden
+from ._beside import DisturbanceObserver, Learning
 from ._columns import unmasked, whole
 from ._error import Error
+from ._toml import document
 
 _Floats = np.ndarray[Any, np.dtype[np.float64]]
 
+#: Without a limit: every float.
+GREATEST = float(np.finfo(np.float64).max)
+#: Without a safe command.
+HOLD_FOR_EVER = {"after": 2**32 - 1}
+
 #: What the numbers of :attr:`Controller.status` mean.
 STATUS = ("good", "degraded", "held", "safe")
-
-
-def _toml(value: Any) -> str:
-    """A value as TOML, so that each float comes back digit by digit."""
-    if isinstance(value, (bool, np.bool_)):
-        return "true" if value else "false"
-    if isinstance(value, str):
-        return json.dumps(value, ensure_ascii=False)
-    if isinstance(value, (int, np.integer)):
-        return str(int(value))
-    if isinstance(value, (float, np.floating)):
-        return repr(float(value))
-    if isinstance(value, Mapping):
-        inside = (f"{key} = {_toml(one)}" for key, one in value.items() if one is not None)
-        return "{ " + ", ".join(inside) + " }"
-    if isinstance(value, Sequence):
-        return "[" + ", ".join(map(_toml, value)) + "]"
-    raise Error(f"{type(value).__name__}: a number, a text, a list or a mapping was expected")
-
-
-def _document(settings: Mapping[str, Any]) -> str:
-    return "".join(f"{k} = {_toml(v)}\n" for k, v in settings.items() if v is not None)
 
 
 def _lanes(settings: Mapping[str, Any], lanes: Optional[int]) -> tuple[list[str], bool]:
@@ -53,10 +37,10 @@ def _lanes(settings: Mapping[str, Any], lanes: Optional[int]) -> tuple[list[str]
         raise Error("settings of no lane: arrays of one value or more were expected")
     alone = {k: (v.item() if isinstance(v, np.ndarray) and not v.ndim else v) for k, v in settings.items()}
     if not lengths:
-        return [_document(alone)], True
+        return [document(alone)], True
     count = lengths.pop()
     each = ({**alone, **{k: v[lane].item() for k, v in arrays.items()}} for lane in range(count))
-    return [_document(one) for one in each], False
+    return [document(one) for one in each], False
 
 
 class Controller:
@@ -69,11 +53,32 @@ class Controller:
     out, without ``longest_dt`` [s] any positive ``dt`` is a good one, and without ``fallback``,
     ``(bad samples, safe command)``, the last good command is held for ever. A machine needs all
     three.
+
+    What an ``observer`` estimates and what ``learning`` knows of a phase are added to the command
+    before its limits, for each lane by itself. A status is ``degraded`` where the law had a good
+    sample that one of these could not use.
     """
 
-    def __init__(self, settings: Mapping[str, Any], regressors: Optional[int], lanes: Optional[int]):
+    def __init__(
+        self,
+        settings: Mapping[str, Any],
+        regressors: Optional[int],
+        lanes: Optional[int],
+        observer: Optional[DisturbanceObserver] = None,
+        learning: Optional[Learning] = None,
+    ):
         texts, self._alone = _lanes(settings, lanes)
-        self._native = _bowden.Controllers(texts, regressors)
+        if not isinstance(observer, (DisturbanceObserver, type(None))):
+            raise Error(f"observer: a DisturbanceObserver was expected, not {type(observer).__name__}")
+        if not isinstance(learning, (Learning, type(None))):
+            raise Error(f"learning: a Learning was expected, not {type(learning).__name__}")
+        self._native = _bowden.Controllers(
+            texts,
+            regressors,
+            None if observer is None else observer._document,
+            None if learning is None else learning._native,
+        )
+        self._learning = learning
         self._regressors = regressors or 0
         self._status: np.ndarray[Any, np.dtype[np.uint8]] = np.zeros(len(texts), dtype=np.uint8)
 
@@ -102,17 +107,19 @@ class Controller:
         velocity: Any = 0.0,
         feed_forward: Any = 0.0,
         regressors: Sequence[Any] = (),
+        phase: Any = None,
+        learns: Any = True,
     ) -> Any:
         """Many samples: commands of shape (samples,), or (samples, lanes) of several lanes.
 
         Each signal is a number, (samples,) for all lanes, or (samples, lanes). The reference at
-        the next sample is the next row of the reference unless it is given.
+        the next sample is the next row of the reference unless it is given. ``phase`` from 0 to 1
+        and ``learns`` are for learning: see :meth:`step`.
         """
         sizes = [np.shape(s)[0] for s in (reference, measured) if np.ndim(s)]
         samples = max(sizes, default=1)
-        return self._run(
-            dt, samples, reference, measured, next_reference, velocity, feed_forward, regressors
-        )
+        more = (velocity, feed_forward, phase, learns, regressors)
+        return self._run(dt, samples, reference, measured, next_reference, *more)
 
     def step(
         self,
@@ -124,17 +131,20 @@ class Controller:
         velocity: Any = 0.0,
         feed_forward: Any = 0.0,
         regressors: Sequence[Any] = (),
+        phase: Any = None,
+        learns: Any = True,
     ) -> Any:
         """One sample: the command, of several lanes one for each.
 
         ``dt`` [s]; ``reference``, ``measured`` [N·m]; ``velocity`` [rad/s] for PIV;
-        ``regressors`` one number (or one for each lane) each, for the adaptive law. A bad sample
+        ``regressors`` one number (or one for each lane) each, for the adaptive law; ``phase`` where
+        in its cycle a sample is, from 0 to 1, for learning, and ``learns`` whether it is learned
+        from (not where a limit cut the command, nor during another task). A bad sample
         raises nothing: the command is held, and :attr:`status` says so.
         """
         following = reference if next_reference is None else next_reference
-        commands = self._run(
-            dt, 1, reference, measured, following, velocity, feed_forward, regressors
-        )
+        more = (velocity, feed_forward, phase, learns, regressors)
+        commands = self._run(dt, 1, reference, measured, following, *more)
         return float(commands[0]) if self._alone else commands[0]
 
     def _run(
@@ -146,6 +156,8 @@ class Controller:
         next_reference: Any,
         velocity: Any,
         feed_forward: Any,
+        phase: Any,
+        learns: Any,
         regressors: Sequence[Any],
     ) -> Any:
         if len(regressors) != self._regressors:
@@ -163,13 +175,20 @@ class Controller:
             self._signal("measured", measured, samples),
             self._signal("velocity", velocity, samples),
             self._signal("feed_forward", feed_forward, samples),
+            self._signal("phase", self._phase(phase), samples),
+            self._signal("learns", learns, samples),
             [self._signal(f"regressors[{k}]", own, samples) for k, own in enumerate(regressors)],
         )
         self._status = status[-1]
         return commands[:, 0] if self._alone else commands
 
+    def _phase(self, phase: Any) -> Any:
+        if (phase is None) != (self._learning is None):
+            raise Error("phase: one was expected beside learning, and only there")
+        return 0.0 if phase is None else phase
+
     def restart(self) -> None:
-        """Back to a state that has seen no sample."""
+        """Back to a state that has seen no sample, and has learned nothing from one."""
         self._native.restart()
         self._status = np.zeros(self.lanes, dtype=np.uint8)
 
@@ -195,6 +214,19 @@ class Controller:
         all = self._native.estimates()
         return np.asarray(all[0] if self._alone else all)
 
+    @property
+    def disturbance(self) -> Any:
+        """d_hat of the observer, which is added to the command [units]; ``None`` without one."""
+        all = self._native.disturbances()
+        return all if all is None else all[0] if self._alone else np.asarray(all)
+
+    @property
+    def learned(self) -> Any:
+        """What each cell of a cycle has learned [units], (cells,) or (lanes, cells); ``None``
+        without learning. ``Learning(…, learned=…)`` goes on from it."""
+        all = self._native.learned()
+        return all if all is None else np.asarray(all[0] if self._alone else all)
+
 
 def _shared(
     limits: Optional[tuple[float, float]],
@@ -205,11 +237,11 @@ def _shared(
     if slew is not None and limits is None:
         raise Error("slew: limits=(low, high) were expected beside it")
     return {
-        "longest_dt": longest_dt,
-        "limits": None
+        "longest_dt": GREATEST if longest_dt is None else longest_dt,
+        "limits": {"low": -GREATEST, "high": GREATEST}
         if limits is None
         else {"low": float(limits[0]), "high": float(limits[1]), "slew": slew},
-        "fallback": None
+        "fallback": HOLD_FOR_EVER
         if fallback is None
         else {"after": int(fallback[0]), "weight": 4, "command": float(fallback[1])},
     }
@@ -231,10 +263,13 @@ class PI(Controller):
         slew: Optional[float] = None,
         longest_dt: Any = None,
         fallback: Optional[tuple[int, float]] = None,
+        observer: Optional[DisturbanceObserver] = None,
+        learning: Optional[Learning] = None,
         lanes: Optional[int] = None,
     ) -> None:
         settings = {"k_p": k_p, "k_i": k_i, "setpoint_weight": setpoint_weight}
-        super().__init__({**settings, **_shared(limits, slew, longest_dt, fallback)}, None, lanes)
+        shared = _shared(limits, slew, longest_dt, fallback)
+        super().__init__({**settings, **shared}, None, lanes, observer, learning)
 
 
 class PID(Controller):
@@ -253,6 +288,8 @@ class PID(Controller):
         slew: Optional[float] = None,
         longest_dt: Any = None,
         fallback: Optional[tuple[int, float]] = None,
+        observer: Optional[DisturbanceObserver] = None,
+        learning: Optional[Learning] = None,
         lanes: Optional[int] = None,
     ) -> None:
         settings = {
@@ -263,7 +300,8 @@ class PID(Controller):
             "damping": {"rate": {"weight": float(derivative_weight)}},
             "setpoint_weight": setpoint_weight,
         }
-        super().__init__({**settings, **_shared(limits, slew, longest_dt, fallback)}, None, lanes)
+        shared = _shared(limits, slew, longest_dt, fallback)
+        super().__init__({**settings, **shared}, None, lanes, observer, learning)
 
 
 class PIV(Controller):
@@ -280,6 +318,8 @@ class PIV(Controller):
         slew: Optional[float] = None,
         longest_dt: Any = None,
         fallback: Optional[tuple[int, float]] = None,
+        observer: Optional[DisturbanceObserver] = None,
+        learning: Optional[Learning] = None,
         lanes: Optional[int] = None,
     ) -> None:
         settings = {
@@ -289,7 +329,8 @@ class PIV(Controller):
             "damping": "velocity",
             "setpoint_weight": setpoint_weight,
         }
-        super().__init__({**settings, **_shared(limits, slew, longest_dt, fallback)}, None, lanes)
+        shared = _shared(limits, slew, longest_dt, fallback)
+        super().__init__({**settings, **shared}, None, lanes, observer, learning)
 
 
 class Adaptive(Controller):
@@ -320,6 +361,8 @@ class Adaptive(Controller):
         slew: Optional[float] = None,
         longest_dt: Any = None,
         fallback: Optional[tuple[int, float]] = None,
+        observer: Optional[DisturbanceObserver] = None,
+        learning: Optional[Learning] = None,
         lanes: Optional[int] = None,
     ) -> None:
         settings = {
@@ -334,7 +377,7 @@ class Adaptive(Controller):
             "frozen": bool(frozen),
         }
         shared = _shared(limits, slew, longest_dt, fallback)
-        super().__init__({**settings, **shared}, len(theta), lanes)
+        super().__init__({**settings, **shared}, len(theta), lanes, observer, learning)
 
 
 def _form(form: tuple[Any, ...]) -> dict[str, Any]:
@@ -351,8 +394,7 @@ def _estimator(one: Mapping[str, float]) -> dict[str, Any]:
     leakage = settings.pop("leakage", 0.0)
     if leakage:
         settings["leakage"] = {"constant": {"rate": leakage}}
-    greatest = float(np.finfo(np.float64).max)
-    return {"low": -greatest, "high": greatest, **settings}
+    return {"low": -GREATEST, "high": GREATEST, **settings}
 
 
 class Rig:
@@ -377,7 +419,7 @@ class Rig:
         texts, self._alone = _lanes(config, lanes)
         terms = None
         if undeclared:
-            terms = _document(
+            terms = document(
                 {
                     "schema": "bowden.model/1",
                     "mode": "torque",
@@ -430,8 +472,19 @@ class Rig:
         both = [np.ascontiguousarray(np.broadcast_to(v, shape)) for v in (given, loads)]
         return self._named(self._native.run(both[0], both[1], float(dt)), None)
 
-    def track(self, controller: Controller, reference: Any, dt: float = 0.001) -> dict[str, Any]:
+    def track(
+        self,
+        controller: Controller,
+        reference: Any,
+        dt: float = 0.001,
+        *,
+        feed_forward: Any = 0.0,
+        phase: Any = None,
+    ) -> dict[str, Any]:
         """The closed loop: each controller on its rig, all on one reference [N·m].
+
+        ``feed_forward`` [units] is added to each command; ``phase``, from 0 to 1, is where in its
+        cycle a sample is, for learning. Each is a number or (samples,).
 
         Gives what was read off before each command, ``command``, ``status`` (places in
         :data:`STATUS`) and ``error`` = tau_o - reference. The adaptive law's regressors are
@@ -440,7 +493,14 @@ class Rig:
         wanted = np.ascontiguousarray(reference, dtype=np.float64)
         if wanted.ndim != 1 or not len(wanted):
             raise Error(f"reference: shape {wanted.shape}, (samples,) was expected")
-        signals, commands, status = self._native.track(controller._native, wanted, float(dt))
+        more = {"feed_forward": feed_forward, "phase": controller._phase(phase)}
+        feeds = {name: np.asarray(unmasked(own), dtype=np.float64) for name, own in more.items()}
+        for name, own in feeds.items():
+            if own.shape not in ((), wanted.shape):
+                raise Error(f"{name}: shape {own.shape}, {wanted.shape} was expected")
+        both = [np.ascontiguousarray(np.broadcast_to(own, wanted.shape)) for own in feeds.values()]
+        native = controller._native
+        signals, commands, status = self._native.track(native, wanted, both[0], both[1], float(dt))
         controller._status = status[-1]
         found = self._named(signals, None)
         found["command"] = commands[:, 0] if self._alone else commands

@@ -17,6 +17,9 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
     /// leave its box, where the limits exclude `output`, or where the sample is bad: then
     /// the slew rate or the lag alone softens the jump.
     ///
+    /// It is a new state, which knows of no fault and of no bad sample: for one that has run,
+    /// [`Adaptive::resume`].
+    ///
     /// ```
     /// use bowden::control::{Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState};
     /// use bowden::control::{Estimator, Form};

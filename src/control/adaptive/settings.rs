@@ -54,6 +54,9 @@ pub enum Missing {
 
 /// Settings of an [`Adaptive`](super::Adaptive) law over `N` regressors, (19)-(26).
 ///
+/// A stored form without `limits`, `longest_dt` or `fallback` is refused: a table that was lost must
+/// not take them away. One of a simulation states them as `unlimited` gives them.
+///
 /// ```
 /// use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form};
 /// let settings = AdaptiveSettings {
@@ -118,21 +121,13 @@ pub struct AdaptiveSettings<T, const N: usize> {
     )]
     pub missing: [Missing; N],
     /// Range and slew rate of the command.
-    #[cfg_attr(feature = "serde", serde(default = "Limits::unlimited"))]
     pub limits: Limits<T>,
     /// Longest `dt` that is a sample, above zero \[s\]: five nominal steps, say.
     ///
     /// The lag form accepts none longer than [`largest_step`](Self::largest_step) either.
-    #[cfg_attr(feature = "serde", serde(default = "any_dt"))]
     pub longest_dt: T,
     /// What to command when samples stay bad.
-    #[cfg_attr(feature = "serde", serde(default = "Fallback::hold_for_ever"))]
     pub fallback: Fallback<T>,
-}
-
-#[cfg(feature = "serde")]
-fn any_dt<T: Real>() -> T {
-    T::HIGHEST
 }
 
 #[cfg(feature = "serde")]

@@ -157,6 +157,24 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
         };
     }
 
+    /// Makes a state that was stored fit for a start: the power was off, nothing is out.
+    ///
+    /// As [`reset`](Self::reset), but the estimates stay and the command is the one nearest to zero
+    /// that the limits allow. A safe command that was latched stays so, and so does the score of the
+    /// bad samples. The first good sample starts from that command, as after
+    /// [`acknowledge`](Self::acknowledge). A step on a stored state *without* this goes on with the
+    /// command of then.
+    pub fn power_up(&mut self, law: &Adaptive<T, N>) {
+        let fresh = Self::new(law);
+        *self = Self {
+            beta: self.beta,
+            delta: self.delta,
+            theta: self.theta,
+            held: self.held.after_power_off(fresh.held.command),
+            ..fresh
+        };
+    }
+
     /// Takes note that somebody has seen the fault: the loop may be closed again.
     ///
     /// While the safe command is latched ([`Status::Safe`]) nothing else closes it. The next

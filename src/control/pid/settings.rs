@@ -92,6 +92,9 @@ pub enum AntiWindup<T> {
 
 /// Settings of a [`Pid`](super::Pid), with public fields; [`Pid::try_new`] checks them.
 ///
+/// A stored form without `limits`, `longest_dt` or `fallback` is refused: a table that was lost must
+/// not take them away. One of a simulation states them as `unlimited` gives them.
+///
 /// ```
 /// use bowden::control::{Damping, Fallback, Limits, Pid, PidSettings};
 /// let pid = Pid::try_new(PidSettings {
@@ -146,26 +149,18 @@ pub struct PidSettings<T> {
     #[cfg_attr(feature = "serde", serde(default = "conditional"))]
     pub anti_windup: AntiWindup<T>,
     /// Range and slew rate of the command.
-    #[cfg_attr(feature = "serde", serde(default = "Limits::unlimited"))]
     pub limits: Limits<T>,
     /// Longest `dt` that is a sample, above zero \[s\]: five nominal steps, say.
     ///
     /// A longer one (a counter that wrapped, a task that was starved) is a bad sample.
-    #[cfg_attr(feature = "serde", serde(default = "any_dt"))]
     pub longest_dt: T,
     /// What goes out when samples stay bad; a safe command lies within `limits`.
-    #[cfg_attr(feature = "serde", serde(default = "Fallback::hold_for_ever"))]
     pub fallback: Fallback<T>,
 }
 
 #[cfg(feature = "serde")]
 fn conditional<T>() -> AntiWindup<T> {
     AntiWindup::Conditional
-}
-
-#[cfg(feature = "serde")]
-fn any_dt<T: Real>() -> T {
-    T::HIGHEST
 }
 
 /// A number within 0..=1, or the error with its name.

@@ -175,6 +175,32 @@ impl<T: Real> PidState<T> {
         };
     }
 
+    /// Makes a state that was stored fit for a start: the power was off, nothing is out.
+    ///
+    /// Integral, rate and samples are forgotten, and the command is the one nearest to zero that
+    /// the limits allow. A safe command that was latched stays so, and so does the score of the bad
+    /// samples. The first good sample starts from that command without a jump, as after
+    /// [`acknowledge`](Self::acknowledge). A step on a stored state *without* this
+    /// goes on with the command of then.
+    ///
+    /// ```
+    /// use bowden::control::{Pid, PidInput, PidState};
+    /// let pi = Pid::paper_pi();
+    /// let mut state = PidState::new();
+    /// pi.step(&mut state, &PidInput::new(0.001, 2.0, 0.0_f64));
+    /// let stored = state; // 60 units are out; then the power fails
+    /// let mut state = stored;
+    /// state.power_up(&pi);
+    /// assert_eq!(pi.step(&mut state, &PidInput::new(0.001, 2.0, 0.0)).command, 0.0);
+    /// ```
+    pub fn power_up(&mut self, pid: &Pid<T>) {
+        let command = pid.settings().limits.confine(T::ZERO);
+        *self = Self {
+            held: self.held.after_power_off(command),
+            ..Self::new()
+        };
+    }
+
     /// The command that is out \[command unit\].
     #[inline]
     #[must_use]
