@@ -41,7 +41,7 @@ fn compensator() -> Result<Compensator<f32, 1>, Error> {
     } else {
         Transmission::displacement(gain, kappa_eta, offset, shape)
     }?;
-    Compensator::try_new(&Model::try_new(Some(transmission), &[])?)
+    Compensator::try_new(&Model::try_new(Some(transmission), &[])?)?.with_play(kani::any())
 }
 
 /// K1. The compensator: for any sample the command is finite and eta within ±1, and a bad

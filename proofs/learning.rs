@@ -28,7 +28,7 @@ fn any_reading<T: Real>(_: &[T], _: usize, _: T) -> T {
     T::of(kani::any())
 }
 
-/// K15. Learning: for any sample, any state and any contents of the memories, NaN included, the
+/// K15. Learning: for any sample, any state and any contents of the buffers, NaN included, the
 /// feed-forward is finite and within its limit, a cell that learns ends within it, nothing moves
 /// without a phase, and every sample is told for what it is.
 ///
@@ -41,11 +41,13 @@ fn learning_from_any_state() {
     let learning = learning();
     let mut state = LearningState::<f32, [f32; CELLS]> {
         learned: kani::any(),
-        smoothing: kani::any(),
+        unfiltered: kani::any(),
         cell: kani::any(),
         sum: kani::any(),
         count: kani::any(),
         output: kani::any(),
+        missed: kani::any(),
+        since: kani::any(),
     };
     let at = LearningInput::<f32> {
         phase: kani::any(),

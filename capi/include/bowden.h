@@ -135,7 +135,8 @@ enum bowden_result
     // Rates: a good position after a time that is unknown; the rates are held.
     BOWDEN_RESULT_RESUMED = 2,
     // A regressor was bad and its term was left out; the loop is closed, the estimates wait. Of a
-    // learning: the feed-forward is of this phase, but nothing was learned from the sample.
+    // learning: the feed-forward is of this phase, but an error was not learned from, that of the
+    // sample or that of the cell that was left.
     BOWDEN_RESULT_DEGRADED = 3,
     // A bad sample: the state is as it was, the last good command or value is held.
     BOWDEN_RESULT_HELD = 4,
@@ -1259,8 +1260,20 @@ bowden_result bowden_adaptive_acknowledge_f32(struct bowden_adaptive_f32 *law);
 // stays known, and a safe command that is latched stays so.
 bowden_result bowden_adaptive_reset_f32(struct bowden_adaptive_f32 *law);
 
-// Starts so that the next step on this sample commands `command` [command unit], as
-// bowden_pid_resume.
+// Makes an object that was stored fit for a start, as bowden_pid_power_up; what was
+// estimated stays.
+bowden_result bowden_adaptive_power_up_f32(struct bowden_adaptive_f32 *law);
+
+// Other settings for a loop that runs, without a jump of the command on this sample, as
+// bowden_pid_change. What was estimated stays, each in its new box, and so does a safe
+// command that is latched.
+bowden_result bowden_adaptive_change_f32(struct bowden_adaptive_f32 *law,
+                                         const struct bowden_adaptive_settings_f32 *settings,
+                                         const struct bowden_adaptive_sample_f32 *sample,
+                                         struct bowden_about *about);
+
+// Starts with the initial estimates, so that the next step on this sample commands
+// `command` [command unit], as bowden_pid_resume.
 bowden_result bowden_adaptive_resume_f32(struct bowden_adaptive_f32 *law,
                                          float command,
                                          const struct bowden_adaptive_sample_f32 *sample,
@@ -1308,8 +1321,20 @@ bowden_result bowden_adaptive_acknowledge_f64(struct bowden_adaptive_f64 *law);
 // stays known, and a safe command that is latched stays so.
 bowden_result bowden_adaptive_reset_f64(struct bowden_adaptive_f64 *law);
 
-// Starts so that the next step on this sample commands `command` [command unit], as
-// bowden_pid_resume.
+// Makes an object that was stored fit for a start, as bowden_pid_power_up; what was
+// estimated stays.
+bowden_result bowden_adaptive_power_up_f64(struct bowden_adaptive_f64 *law);
+
+// Other settings for a loop that runs, without a jump of the command on this sample, as
+// bowden_pid_change. What was estimated stays, each in its new box, and so does a safe
+// command that is latched.
+bowden_result bowden_adaptive_change_f64(struct bowden_adaptive_f64 *law,
+                                         const struct bowden_adaptive_settings_f64 *settings,
+                                         const struct bowden_adaptive_sample_f64 *sample,
+                                         struct bowden_about *about);
+
+// Starts with the initial estimates, so that the next step on this sample commands
+// `command` [command unit], as bowden_pid_resume.
 bowden_result bowden_adaptive_resume_f64(struct bowden_adaptive_f64 *law,
                                          double command,
                                          const struct bowden_adaptive_sample_f64 *sample,
@@ -1333,6 +1358,17 @@ bowden_result bowden_compensator_init_f32(struct bowden_compensator_f32 *compens
                                           const struct bowden_range_f32 *ranges,
                                           size_t range_count,
                                           struct bowden_about *about);
+
+// Lets what the cable has to transmit pass through a play of this half-width, zero or
+// more [output unit]; zero, as init has it, is none.
+//
+// A term that reads a velocity from an encoder's counts makes a reversal of each count,
+// after which the inverse is steep, and the command chatters. A little more than half of
+// what one count makes of torque takes that out: |gain|*count/(2*time constant). On an
+// error the object is as it was.
+bowden_result bowden_compensator_set_play_f32(struct bowden_compensator_f32 *compensator,
+                                              float half_width,
+                                              struct bowden_about *about);
 
 // One sample: the input that makes the model's output `desired`.
 //
@@ -1360,6 +1396,17 @@ bowden_result bowden_compensator_init_f64(struct bowden_compensator_f64 *compens
                                           const struct bowden_range_f64 *ranges,
                                           size_t range_count,
                                           struct bowden_about *about);
+
+// Lets what the cable has to transmit pass through a play of this half-width, zero or
+// more [output unit]; zero, as init has it, is none.
+//
+// A term that reads a velocity from an encoder's counts makes a reversal of each count,
+// after which the inverse is steep, and the command chatters. A little more than half of
+// what one count makes of torque takes that out: |gain|*count/(2*time constant). On an
+// error the object is as it was.
+bowden_result bowden_compensator_set_play_f64(struct bowden_compensator_f64 *compensator,
+                                              double half_width,
+                                              struct bowden_about *about);
 
 // One sample: the input that makes the model's output `desired`.
 //
@@ -1459,29 +1506,33 @@ bowden_result bowden_inverse_step_f64(struct bowden_inverse_f64 *inverse,
 bowden_result bowden_learning_init_f32(struct bowden_learning_f32 *learning,
                                        const struct bowden_learning_settings_f32 *settings,
                                        float *learned,
-                                       float *smoothing,
+                                       float *unfiltered,
                                        size_t cells,
                                        struct bowden_about *about);
 
 // The same where `learned` holds what was learned before, such as a copy from before a
 // reset, or an array that another object has learned in and is used with no more; it is
-// confined to the limit, and zero for NaN. `smoothing` may hold anything.
+// confined to the limit, and zero for NaN. `unfiltered` may hold anything.
 bowden_result bowden_learning_resume_f32(struct bowden_learning_f32 *learning,
                                          const struct bowden_learning_settings_f32 *settings,
                                          float *learned,
-                                         float *smoothing,
+                                         float *unfiltered,
                                          size_t cells,
                                          struct bowden_about *about);
 
 // One sample, before the controller's own: where in the cycle it is, from 0 to 1, the
-// reference and the measured output [output unit]. `learns` is 0 where the error is not
-// to be learned from: where a limit cut the command, or the task is another one.
+// reference and the measured output [output unit]. `learns` is 0 where what is out is not
+// to be learned from: where a limit cut the command, the safe one is out, or the task is
+// another one. Where that is so of more than half of a cell's samples, the errors of the
+// next `lead` cells teach nothing either.
 //
 // A phase that is not from 0 to 1 moves nothing and holds the feed-forward:
-// BOWDEN_RESULT_HELD. BOWDEN_RESULT_DEGRADED where the feed-forward is of this phase
-// but reference or measured output are not finite, so that nothing was learned, or where
-// the phase has jumped, by more than four cells: the cell that was left does not learn
-// then. `out` is written with every result that is not negative.
+// BOWDEN_RESULT_HELD, for as long as there is none; the controller's samples are good
+// meanwhile. BOWDEN_RESULT_DEGRADED where the feed-forward is of this phase but
+// reference or measured output are not finite, so that nothing was learned, or where the
+// phase has jumped, by more than four cells: the cell that was left does not learn then,
+// and the feed-forward jumps with the phase. Give the controller a slew rate. `out` is
+// written with every result that is not negative.
 bowden_result bowden_learning_step_f32(struct bowden_learning_f32 *learning,
                                        float phase,
                                        float reference,
@@ -1503,29 +1554,33 @@ bowden_result bowden_learning_step_f32(struct bowden_learning_f32 *learning,
 bowden_result bowden_learning_init_f64(struct bowden_learning_f64 *learning,
                                        const struct bowden_learning_settings_f64 *settings,
                                        double *learned,
-                                       double *smoothing,
+                                       double *unfiltered,
                                        size_t cells,
                                        struct bowden_about *about);
 
 // The same where `learned` holds what was learned before, such as a copy from before a
 // reset, or an array that another object has learned in and is used with no more; it is
-// confined to the limit, and zero for NaN. `smoothing` may hold anything.
+// confined to the limit, and zero for NaN. `unfiltered` may hold anything.
 bowden_result bowden_learning_resume_f64(struct bowden_learning_f64 *learning,
                                          const struct bowden_learning_settings_f64 *settings,
                                          double *learned,
-                                         double *smoothing,
+                                         double *unfiltered,
                                          size_t cells,
                                          struct bowden_about *about);
 
 // One sample, before the controller's own: where in the cycle it is, from 0 to 1, the
-// reference and the measured output [output unit]. `learns` is 0 where the error is not
-// to be learned from: where a limit cut the command, or the task is another one.
+// reference and the measured output [output unit]. `learns` is 0 where what is out is not
+// to be learned from: where a limit cut the command, the safe one is out, or the task is
+// another one. Where that is so of more than half of a cell's samples, the errors of the
+// next `lead` cells teach nothing either.
 //
 // A phase that is not from 0 to 1 moves nothing and holds the feed-forward:
-// BOWDEN_RESULT_HELD. BOWDEN_RESULT_DEGRADED where the feed-forward is of this phase
-// but reference or measured output are not finite, so that nothing was learned, or where
-// the phase has jumped, by more than four cells: the cell that was left does not learn
-// then. `out` is written with every result that is not negative.
+// BOWDEN_RESULT_HELD, for as long as there is none; the controller's samples are good
+// meanwhile. BOWDEN_RESULT_DEGRADED where the feed-forward is of this phase but
+// reference or measured output are not finite, so that nothing was learned, or where the
+// phase has jumped, by more than four cells: the cell that was left does not learn then,
+// and the feed-forward jumps with the phase. Give the controller a slew rate. `out` is
+// written with every result that is not negative.
 bowden_result bowden_learning_step_f64(struct bowden_learning_f64 *learning,
                                        double phase,
                                        double reference,
@@ -1702,6 +1757,13 @@ bowden_result bowden_pid_acknowledge_f32(struct bowden_pid_f32 *pid);
 // safe command that is latched stays so.
 bowden_result bowden_pid_reset_f32(struct bowden_pid_f32 *pid);
 
+// Makes an object that was stored fit for a start, before its first step: the power was
+// off, and the command is the one nearest to zero that the limits allow. Integral, rate
+// and samples are forgotten; a safe command that was latched stays so. The first good
+// sample starts from there, without a jump. A step without this goes on with the command
+// of then.
+bowden_result bowden_pid_power_up_f32(struct bowden_pid_f32 *pid);
+
 // Starts anew so that the command goes on from `command` [command unit] without a
 // jump. A number that is not finite counts as a bad sample; a latched safe command
 // stays. `out` has the command that is out then, and may be null.
@@ -1710,8 +1772,9 @@ bowden_result bowden_pid_resume_f32(struct bowden_pid_f32 *pid,
                                     const struct bowden_pid_sample_f32 *sample,
                                     struct bowden_output_f32 *out);
 
-// Other settings for a loop that runs, without a jump of the command. On an error
-// the loop goes on with the old ones.
+// Other settings for a loop that runs, without a jump of the command; but where the new
+// range excludes what is out, the next command is the nearest in it, past any slew rate:
+// narrow a range step by step. On an error the loop goes on with the old ones.
 bowden_result bowden_pid_change_f32(struct bowden_pid_f32 *pid,
                                     const struct bowden_pid_settings_f32 *settings,
                                     struct bowden_about *about);
@@ -1764,6 +1827,13 @@ bowden_result bowden_pid_acknowledge_f64(struct bowden_pid_f64 *pid);
 // safe command that is latched stays so.
 bowden_result bowden_pid_reset_f64(struct bowden_pid_f64 *pid);
 
+// Makes an object that was stored fit for a start, before its first step: the power was
+// off, and the command is the one nearest to zero that the limits allow. Integral, rate
+// and samples are forgotten; a safe command that was latched stays so. The first good
+// sample starts from there, without a jump. A step without this goes on with the command
+// of then.
+bowden_result bowden_pid_power_up_f64(struct bowden_pid_f64 *pid);
+
 // Starts anew so that the command goes on from `command` [command unit] without a
 // jump. A number that is not finite counts as a bad sample; a latched safe command
 // stays. `out` has the command that is out then, and may be null.
@@ -1772,8 +1842,9 @@ bowden_result bowden_pid_resume_f64(struct bowden_pid_f64 *pid,
                                     const struct bowden_pid_sample_f64 *sample,
                                     struct bowden_output_f64 *out);
 
-// Other settings for a loop that runs, without a jump of the command. On an error
-// the loop goes on with the old ones.
+// Other settings for a loop that runs, without a jump of the command; but where the new
+// range excludes what is out, the next command is the nearest in it, past any slew rate:
+// narrow a range step by step. On an error the loop goes on with the old ones.
 bowden_result bowden_pid_change_f64(struct bowden_pid_f64 *pid,
                                     const struct bowden_pid_settings_f64 *settings,
                                     struct bowden_about *about);

@@ -425,8 +425,45 @@ macro_rules! adaptive {
                 })())
             }
 
-            /// Starts so that the next step on this sample commands `command` [command unit], as
-            /// bowden_pid_resume.
+            /// Makes an object that was stored fit for a start, as bowden_pid_power_up; what was
+            /// estimated stays.
+            #[no_mangle]
+            pub unsafe extern "C" fn [<bowden_adaptive_power_up_ $f>](
+                law: *mut [<bowden_adaptive_ $f>],
+            ) -> bowden_result {
+                // SAFETY: the caller's rule of pointers.
+                code((|| unsafe {
+                    let (own, state) = kept(law)?;
+                    state.power_up(&own.law);
+                    Ok(bowden_result::Ok)
+                })())
+            }
+
+            /// Other settings for a loop that runs, without a jump of the command on this sample, as
+            /// bowden_pid_change. What was estimated stays, each in its new box, and so does a safe
+            /// command that is latched.
+            #[no_mangle]
+            pub unsafe extern "C" fn [<bowden_adaptive_change_ $f>](
+                law: *mut [<bowden_adaptive_ $f>],
+                settings: *const [<bowden_adaptive_settings_ $f>],
+                sample: *const [<bowden_adaptive_sample_ $f>],
+                about: *mut bowden_about,
+            ) -> bowden_result {
+                // SAFETY: the caller's rule of pointers.
+                let tried = || -> Result<(), Refused> { unsafe {
+                    let new = read(settings)?.law()?;
+                    let sample = read(sample)?;
+                    let (own, state) = kept(law)?;
+                    new.law.take_over(state, &sample.input(new.count));
+                    *own = new;
+                    Ok(())
+                } };
+                // SAFETY: the caller's rule of pointers.
+                unsafe { told(tried(), about) }
+            }
+
+            /// Starts with the initial estimates, so that the next step on this sample commands
+            /// `command` [command unit], as bowden_pid_resume.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_resume_ $f>](
                 law: *mut [<bowden_adaptive_ $f>],

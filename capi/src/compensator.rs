@@ -129,6 +129,29 @@ macro_rules! compensator {
                 unsafe { told(parts(), about) }
             }
 
+            /// Lets what the cable has to transmit pass through a play of this half-width, zero or
+            /// more [output unit]; zero, as init has it, is none.
+            ///
+            /// A term that reads a velocity from an encoder's counts makes a reversal of each count,
+            /// after which the inverse is steep, and the command chatters. A little more than half of
+            /// what one count makes of torque takes that out: |gain|*count/(2*time constant). On an
+            /// error the object is as it was.
+            #[no_mangle]
+            pub unsafe extern "C" fn [<bowden_compensator_set_play_ $f>](
+                compensator: *mut [<bowden_compensator_ $f>],
+                half_width: $f,
+                about: *mut bowden_about,
+            ) -> bowden_result {
+                // SAFETY: the caller's rule of pointers.
+                let tried = || -> Result<(), Refused> { unsafe {
+                    let (own, _) = kept(compensator)?;
+                    *own = own.with_play(half_width)?;
+                    Ok(())
+                } };
+                // SAFETY: the caller's rule of pointers.
+                unsafe { told(tried(), about) }
+            }
+
             /// One sample: the input that makes the model's output `desired`.
             ///
             /// A bad sample leaves the state and holds the last good command, zero before the

@@ -12,44 +12,42 @@ pub const BOWDEN_LEARNING_F32_WORDS: usize = 14;
 /// Room of a bowden_learning_f64, in words of 64 bits.
 pub const BOWDEN_LEARNING_F64_WORDS: usize = 18;
 
-/// Both arrays, of which the second is set to zero, and the first one where nothing is kept: after
-/// all that can be refused.
+/// Starts over both arrays, of which the second is set to zero, and the first one where nothing is
+/// kept: after all that can be refused.
 ///
 /// # Safety
-/// As [`Lent::new`] of both arrays; where it is kept, numbers stand in the first one.
-unsafe fn lent<T: Real, O: Object>(
-    own: &Learning<T>,
-    object: *const O,
-    [learned, smoothing]: [*mut T; 2],
+/// The caller's rule of pointers; of the arrays as [`Lent::new`], and where the first one is kept
+/// numbers stand in it.
+unsafe fn begin<T: Real, O: Object<Inner = (Learning<T>, LearningState<T, Lent<T>>)>>(
+    own: Result<Learning<T>, Refused>,
+    object: *mut O,
+    [learned, unfiltered]: [*mut T; 2],
     cells: usize,
     is_kept: bool,
-) -> Result<[Lent<T>; 2], Refused> {
+) -> Result<(), Refused> {
+    let own = own?;
     writable(object)?;
     writable(learned)?;
-    writable(smoothing)?;
-    if cells > BOWDEN_CELLS {
-        return Err(Refused::capacity("cells"));
-    }
+    writable(unfiltered)?;
     // SAFETY: as of this function.
-    let (learned, smoothing) = unsafe { (Lent::new(learned, cells), Lent::new(smoothing, cells)) };
+    let arrays = unsafe { (Lent::new(learned, cells), Lent::new(unfiltered, cells)) };
     // Both are placed: they would reach beyond the end of all memory.
-    let (Ok(mut learned), Ok(mut smoothing)) = (learned, smoothing) else {
+    let (Ok(mut learned), Ok(mut unfiltered)) = arrays else {
         return Err(Refused::capacity("cells"));
     };
-    if cells < own.fewest_cells() {
-        return Err(Error::Inadmissible("as many cells as lead and filter need").into());
+    own.check_cells(cells)?;
+    if learned.overlaps(&unfiltered) {
+        return Err(Error::Inadmissible("learned and unfiltered do not overlap").into());
     }
-    if learned.overlaps(&smoothing) {
-        return Err(Error::Inadmissible("learned and smoothing do not overlap").into());
-    }
-    if learned.overlaps_object(object) || smoothing.overlaps_object(object) {
+    if learned.overlaps_object(object) || unfiltered.overlaps_object(object) {
         return Err(Error::Inadmissible("the arrays do not overlap the object").into());
     }
     if !is_kept {
         learned.fill(T::ZERO);
     }
-    smoothing.fill(T::ZERO);
-    Ok([learned, smoothing])
+    unfiltered.fill(T::ZERO);
+    // SAFETY: as of this function.
+    Ok(unsafe { start(object, (own, own.resume(learned, unfiltered)?)) }?)
 }
 
 macro_rules! learning {
@@ -126,53 +124,49 @@ macro_rules! learning {
                 learning: *mut [<bowden_learning_ $f>],
                 settings: *const [<bowden_learning_settings_ $f>],
                 learned: *mut $f,
-                smoothing: *mut $f,
+                unfiltered: *mut $f,
                 cells: usize,
                 about: *mut bowden_about,
             ) -> bowden_result {
                 // SAFETY: the caller's rule of pointers.
-                let parts = || -> Result<(), Refused> { unsafe {
-                    let own = read(settings)?.learning()?;
-                    let arrays = [learned, smoothing];
-                    let [learned, smoothing] = lent(&own, learning, arrays, cells, false)?;
-                    Ok(start(learning, (own, own.start(learned, smoothing)?))?)
-                } };
-                // SAFETY: the caller's rule of pointers.
-                unsafe { told(parts(), about) }
+                unsafe {
+                    let own = read(settings).map_err(Refused::from).and_then(|own| own.learning());
+                    told(begin(own, learning, [learned, unfiltered], cells, false), about)
+                }
             }
 
             /// The same where `learned` holds what was learned before, such as a copy from before a
             /// reset, or an array that another object has learned in and is used with no more; it is
-            /// confined to the limit, and zero for NaN. `smoothing` may hold anything.
+            /// confined to the limit, and zero for NaN. `unfiltered` may hold anything.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_learning_resume_ $f>](
                 learning: *mut [<bowden_learning_ $f>],
                 settings: *const [<bowden_learning_settings_ $f>],
                 learned: *mut $f,
-                smoothing: *mut $f,
+                unfiltered: *mut $f,
                 cells: usize,
                 about: *mut bowden_about,
             ) -> bowden_result {
                 // SAFETY: the caller's rule of pointers.
-                let parts = || -> Result<(), Refused> { unsafe {
-                    let own = read(settings)?.learning()?;
-                    let arrays = [learned, smoothing];
-                    let [learned, smoothing] = lent(&own, learning, arrays, cells, true)?;
-                    Ok(start(learning, (own, own.resume(learned, smoothing)?))?)
-                } };
-                // SAFETY: the caller's rule of pointers.
-                unsafe { told(parts(), about) }
+                unsafe {
+                    let own = read(settings).map_err(Refused::from).and_then(|own| own.learning());
+                    told(begin(own, learning, [learned, unfiltered], cells, true), about)
+                }
             }
 
             /// One sample, before the controller's own: where in the cycle it is, from 0 to 1, the
-            /// reference and the measured output [output unit]. `learns` is 0 where the error is not
-            /// to be learned from: where a limit cut the command, or the task is another one.
+            /// reference and the measured output [output unit]. `learns` is 0 where what is out is not
+            /// to be learned from: where a limit cut the command, the safe one is out, or the task is
+            /// another one. Where that is so of more than half of a cell's samples, the errors of the
+            /// next `lead` cells teach nothing either.
             ///
             /// A phase that is not from 0 to 1 moves nothing and holds the feed-forward:
-            /// BOWDEN_RESULT_HELD. BOWDEN_RESULT_DEGRADED where the feed-forward is of this phase
-            /// but reference or measured output are not finite, so that nothing was learned, or where
-            /// the phase has jumped, by more than four cells: the cell that was left does not learn
-            /// then. `out` is written with every result that is not negative.
+            /// BOWDEN_RESULT_HELD, for as long as there is none; the controller's samples are good
+            /// meanwhile. BOWDEN_RESULT_DEGRADED where the feed-forward is of this phase but
+            /// reference or measured output are not finite, so that nothing was learned, or where the
+            /// phase has jumped, by more than four cells: the cell that was left does not learn then,
+            /// and the feed-forward jumps with the phase. Give the controller a slew rate. `out` is
+            /// written with every result that is not negative.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_learning_step_ $f>](
                 learning: *mut [<bowden_learning_ $f>],

@@ -315,6 +315,23 @@ macro_rules! pid {
                 })())
             }
 
+            /// Makes an object that was stored fit for a start, before its first step: the power was
+            /// off, and the command is the one nearest to zero that the limits allow. Integral, rate
+            /// and samples are forgotten; a safe command that was latched stays so. The first good
+            /// sample starts from there, without a jump. A step without this goes on with the command
+            /// of then.
+            #[no_mangle]
+            pub unsafe extern "C" fn [<bowden_pid_power_up_ $f>](
+                pid: *mut [<bowden_pid_ $f>],
+            ) -> bowden_result {
+                // SAFETY: the caller's rule of pointers.
+                code((|| unsafe {
+                    let (law, state) = kept(pid)?;
+                    state.power_up(law);
+                    Ok(bowden_result::Ok)
+                })())
+            }
+
             /// Starts anew so that the command goes on from `command` [command unit] without a
             /// jump. A number that is not finite counts as a bad sample; a latched safe command
             /// stays. `out` has the command that is out then, and may be null.
@@ -342,8 +359,9 @@ macro_rules! pid {
                 })())
             }
 
-            /// Other settings for a loop that runs, without a jump of the command. On an error
-            /// the loop goes on with the old ones.
+            /// Other settings for a loop that runs, without a jump of the command; but where the new
+            /// range excludes what is out, the next command is the nearest in it, past any slew rate:
+            /// narrow a range step by step. On an error the loop goes on with the old ones.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_change_ $f>](
                 pid: *mut [<bowden_pid_ $f>],

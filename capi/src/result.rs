@@ -18,7 +18,8 @@ pub enum bowden_result {
     /// Rates: a good position after a time that is unknown; the rates are held.
     Resumed = 2,
     /// A regressor was bad and its term was left out; the loop is closed, the estimates wait. Of a
-    /// learning: the feed-forward is of this phase, but nothing was learned from the sample.
+    /// learning: the feed-forward is of this phase, but an error was not learned from, that of the
+    /// sample or that of the cell that was left.
     Degraded = 3,
     /// A bad sample: the state is as it was, the last good command or value is held.
     Held = 4,
@@ -247,7 +248,7 @@ pub extern "C" fn bowden_result_text(result: i32) -> *const c_char {
         0 => c"all well",
         1 => c"a good sample, but the rates have not settled yet",
         2 => c"a good position after an unknown time: the rates are held",
-        3 => c"a regressor was bad: its term is left out, the estimates wait; or nothing was learned",
+        3 => c"a regressor was bad: its term is left out, the estimates wait; or an error was not learned from",
         4 => c"a bad sample: the last good command or value is held",
         5 => c"too many bad samples: the safe command is out until it is acknowledged",
         -1 => c"a pointer is null",

@@ -65,8 +65,8 @@ macro_rules! learning {
                     .unwrap();
                 let mut state = own.start([0.0; CELLS], [0.0; CELLS]).unwrap();
                 // Whatever stands in the arrays.
-                let (mut learned, mut smoothing) = ([7.0; CELLS], [<$f>::NAN; CELLS]);
-                let (first, second) = (learned.as_mut_ptr(), smoothing.as_mut_ptr());
+                let (mut learned, mut unfiltered) = ([7.0; CELLS], [<$f>::NAN; CELLS]);
+                let (first, second) = (learned.as_mut_ptr(), unfiltered.as_mut_ptr());
                 let mut learning = blank::<$object>();
                 let begun =
                     unsafe { $init(&mut learning, &settings, first, second, CELLS, null_mut()) };
@@ -166,8 +166,8 @@ fn begin(
     cells: usize,
 ) -> (bowden_result, String) {
     let mut about = blank::<bowden_about>();
-    let [learned, smoothing] = arrays;
-    let result = unsafe { begin(object, settings, learned, smoothing, cells, &mut about) };
+    let [learned, unfiltered] = arrays;
+    let result = unsafe { begin(object, settings, learned, unfiltered, cells, &mut about) };
     let text = unsafe { CStr::from_ptr(about.text.as_ptr()) };
     (result, text.to_str().unwrap().to_owned())
 }
@@ -182,7 +182,7 @@ fn arrays_that_cannot_be_are_refused_and_nothing_is_written() {
     let (null, far) = (null_mut(), NonNull::<f32>::dangling().as_ptr());
     // The last place that a pointer can lead to.
     let last = far.with_addr(usize::MAX - 3);
-    let overlap = "learned and smoothing do not overlap";
+    let overlap = "learned and unfiltered do not overlap";
     let few = "as many cells as lead and filter need";
     for (arrays, cells, result, about) in [
         ([null, at(250)], 250, R::ErrorNull, ""),

@@ -153,6 +153,8 @@ impl Scenario {
         let wanted = rise * (8.0 + 4.0 * Real::sin(1.571 * t));
         let (angle, velocity) = (0.5 * Real::sin(1.571 * t), 0.7855 * Real::cos(1.571 * t));
         let measured = self.joint.measured();
+        // An encoder that was reset, for good.
+        let shift = if k < 7000 { 0.0 } else { 2.0 };
         let action = self.control.tick(&Sensors {
             dt: if k == 8000 { 4295.0 } else { DT }, // a counter that wrapped
             wanted,
@@ -161,7 +163,7 @@ impl Scenario {
                 5000..=5099 => f32::NAN, // a connector that comes off, and is put back
                 _ => measured,
             },
-            counts: counts(angle),
+            counts: counts(angle + shift),
         });
         // The first comes while the sensor is still dead, and is refused.
         let acknowledged = matches!(k, 5050 | 6000).then(|| self.control.acknowledge());

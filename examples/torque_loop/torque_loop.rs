@@ -11,10 +11,11 @@
 //! a loop that no longer runs, and a chip that restarts would forget the fault.
 
 use bowden::control::{
-    AntiWindup, Compensator, CompensatorInput, CompensatorState, Fallback, Limits, Pid, PidInput,
-    PidSettings, PidState, Status,
+    AntiWindup, BenchRange, Compensator, CompensatorInput, CompensatorState, Fallback, Limits, Pid,
+    PidInput, PidSettings, PidState, Status,
 };
-use bowden::model::Model;
+use bowden::effect::Motion;
+use bowden::model::{Model, Source};
 use bowden::signal::{Rates, RatesState};
 use bowden::Error;
 
@@ -26,6 +27,26 @@ const COUNT: f32 = core::f32::consts::TAU / COUNTS;
 const SAFE: f32 = 0.0;
 /// Longest time between two ticks that is a sample \[s\].
 const LONGEST_DT: f32 = 0.005;
+/// How the pulley has moved on the bench, as `model.rs` has it in `ranges()`: \[rad\], \[rad/s\],
+/// \[rad/s²\]. An encoder that was reset looks like a motion; the feed-forward takes none for true
+/// that is faster than this.
+const PULLEY: BenchRange<f32> = BenchRange {
+    source: Source::Channel(0),
+    low: Motion {
+        position: -0.45185134,
+        velocity: -1.5794401,
+        acceleration: -5.8742285,
+    },
+    high: Motion {
+        position: 0.5994563,
+        velocity: 1.608444,
+        acceleration: 4.6569395,
+    },
+};
+/// A little more than half of what a count of the encoder makes of torque, through the filter of the
+/// rates and the friction of `model.rs`: 0.73 N·m·s/rad · COUNT / (2 · 8 ms) \[N·m\]. Without it the
+/// feed-forward takes each count for a reversal.
+const PLAY: f32 = 0.02;
 /// As `bowden close --model-out` writes it into the file.
 const CHECKSUM: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
 
@@ -105,7 +126,10 @@ impl TorqueLoop {
                     Fallback::try_new(20, SAFE)?,
                 )
             })?,
-            compensator: Compensator::try_new(&model)?.with_longest_dt(LONGEST_DT)?,
+            compensator: Compensator::try_new(&model)?
+                .with_longest_dt(LONGEST_DT)?
+                .with_ranges(&[PULLEY])?
+                .with_play(PLAY)?,
             rates: Rates::try_new(0.008)?.with_period(COUNTS * COUNT)?,
             pi_state: PidState::new(),
             compensator_state: CompensatorState::new(),
@@ -119,7 +143,9 @@ impl TorqueLoop {
         let dt = now.dt;
         let feed = dt > 0.0 && dt <= LONGEST_DT;
         let angle = f32::from(now.counts) * COUNT;
-        let pulley = self.rates.step(&mut self.rates_state, angle, dt);
+        // A time that makes no sense is not known: the rates are held, not started anew.
+        let known = if feed { dt } else { f32::NAN };
+        let pulley = self.rates.step(&mut self.rates_state, angle, known);
         // From what is wanted, not from the noisy measurement. A bad sample holds it.
         let wish = CompensatorInput {
             channels: &[pulley.motion],

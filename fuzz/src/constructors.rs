@@ -161,11 +161,11 @@ fn learning(from: &mut Numbers) -> Option<()> {
     assert!(forgetful == learning.const_with_forgetting(share));
     assert!(forgetful.is_ok() == (0.0..=1.0).contains(&share));
     let learning = forgetful.unwrap_or(learning);
-    let (stored, smoothing) = ([from.any()?; CELLS], [from.any()?; CELLS]);
+    let (stored, unfiltered) = ([from.any()?; CELLS], [from.any()?; CELLS]);
     let state = if from.flag()? {
-        learning.resume(stored, smoothing)
+        learning.resume(stored, unfiltered)
     } else {
-        learning.start(stored, smoothing)
+        learning.start(stored, unfiltered)
     };
     assert!(state.is_ok() == (learning.fewest_cells() <= CELLS));
     let mut state = state.ok()?;

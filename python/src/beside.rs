@@ -91,8 +91,8 @@ impl Beside {
 
 impl Learns {
     fn new(learning: Learning<f64>, first: Vec<f64>) -> PyResult<Self> {
-        let smoothing = vec![0.0; first.len()];
-        let state = learning.resume(first.clone(), smoothing);
+        let unfiltered = vec![0.0; first.len()];
+        let state = learning.resume(first.clone(), unfiltered);
         Ok(Self {
             state: state.map_err(|e| failure::plain(format!("learning: {e}")))?,
             learning,

@@ -70,10 +70,9 @@ def learned_by_hand(error: np.ndarray, cells: int, gain: float, lead: int, half:
     raw = np.zeros(4 * cells)
     for j in range(half, 4 * cells - half):
         # The error `lead` cells after this one, a cycle ago; before the first there was nothing.
-        for k in range(max(j, cells - lead), j + half + 1):
-            before = smoothed[k - cells] if k >= cells else 0.0
+        for k in range(max(j, cells), j + half + 1):
             if k - cells + lead < len(mean):
-                raw[k] = kept * before + gain * mean[k - cells + lead]
+                raw[k] = kept * smoothed[k - cells] + gain * mean[k - cells + lead]
         smoothed[j] = weights @ raw[j - half : j + half + 1]
     return smoothed
 

@@ -1,5 +1,6 @@
 //! Whether what is learned from cycle to cycle converges, over a whole range of plants.
 
+use super::halving::Halving;
 use super::observer::proportional_and_integral;
 use super::plant::ordered;
 use super::plants::PlantRange;
@@ -8,10 +9,16 @@ use super::Interval;
 use crate::control::{Learning, Pid};
 use crate::{Error, Real};
 use alone::Loop;
-use cycle::{Asked, Boxed, Cycle};
+use cycle::{Boxed, Cycle};
 
 mod alone;
 mod cycle;
+
+/// Most boxes of a proof: a second or less on a computer.
+const MOST_BOXES: u32 = 500_000;
+
+/// Most halvings of a box.
+const MOST_HALVINGS: u32 = 80;
 
 /// Learning beside a P or PI that converges on every plant of a range.
 ///
@@ -26,17 +33,17 @@ mod cycle;
 /// [`Learning`]. Shown is, for every plant and every cycle time of the range,
 /// - that the loop without learning is stable, by zero exclusion as in
 ///   [`ObserverStability`](super::ObserverStability);
-/// - that `|H| <= factor` at every frequency from the cycle's own to half a cell's, those between the
+/// - that `|H| <= factor` at every frequency from the cycle's own to the cells' Nyquist, those between the
 ///   harmonics included; beside a P, from zero on; and
 /// - beside a PI, that `|H| < 1` between zero and the cycle's own.
 ///
 /// All by intervals that are rounded outwards and halved until they show it. In the images `|G|` is at
-/// most its bound above half a cell's frequency, and what stands before it at most `0.32·|sin(w·T/2)|³`
+/// most its bound above the cells' Nyquist frequency, and what stands before it at most `0.32·|sin(w·T/2)|³`
 /// in sum.
 ///
 /// So the error goes to what stays of it, e*, from wherever it was. *Proof.* In the cells' own time the
 /// learned feed-forward is `z⁻ⁿ·H` of itself, n cells before, and what comes from outside. That is
-/// causal, as `lead + half_width < n`, stable as the loop is, and below 1 in magnitude on the unit circle;
+/// causal, as `lead + half_width + 1 < n`, stable as the loop is, and below 1 in magnitude on the unit circle;
 /// hence everywhere outside of it, so that `1 − z⁻ⁿ·H` has no zero there. Beside a PI without forgetting
 /// it is 1 at `z = 1`: the mean that was learned and the law's integral stand for each other, and the
 /// output shows neither. ∎ Of `e − e*` at a tone about |H| is left from cycle to cycle, exactly so where
@@ -85,7 +92,8 @@ pub struct LearningConvergence {
     pub plants: PlantRange,
     /// The times of a cycle that it holds for \[s\].
     pub cycle: Interval<f64>,
-    /// |H| at most.
+    /// |H| at most, from the cycle's own frequency on, beside a P from zero on; below that it is less
+    /// than one.
     pub factor: f64,
     /// How many boxes of plants, cycle times and frequencies it took.
     pub boxes: u32,
@@ -94,13 +102,13 @@ pub struct LearningConvergence {
 impl LearningConvergence {
     /// Shows that it converges, with `|H| <= factor` from the cycle's own frequency on.
     ///
-    /// `cells` is the length of the learning's memories, `cycle` the range of what a cycle takes
+    /// `cells` is the length of the learning's buffers, `cycle` the range of what a cycle takes
     /// \[s\].
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with what is wrong with the range, the `"cycle"`
     /// or the `"factor"`; [`Error::Inadmissible`] where the law is no P or PI, where there are too few
-    /// cells for lead and filter, or so few that the loop still answers above half a cell's
+    /// cells for lead and filter, or so few that the loop still answers above their Nyquist
     /// frequency, where the loop without learning is not shown to be stable, or where nothing could be
     /// shown: what is yet to be learned of a tone grows on some plant, or shrinks by less.
     pub fn try_new<T: Real>(
@@ -119,9 +127,7 @@ impl LearningConvergence {
         if !(factor > 0.0 && factor <= 1.0) {
             return Err(Error::OutOfRange("factor"));
         }
-        if cells < learning.fewest_cells() {
-            return Err(Error::Inadmissible("as many cells as lead and filter need"));
-        }
+        learning.check_cells(cells)?;
         let (k_p, k_i) = proportional_and_integral(law.settings())?;
         let all = plants.all(0.0);
         let closed = Loop {
@@ -138,7 +144,7 @@ impl LearningConvergence {
             high: (Span::at(cycle.high) * count.recip()).high,
         };
         let beyond = closed.beyond(&all, cell).ok_or(Error::Inadmissible(
-            "the loop hardly answers above half a cell's frequency",
+            "the loop hardly answers above the cells' Nyquist frequency",
         ))?;
         let turn = Span::at(core::f64::consts::TAU);
         let own = |cycle: f64| turn * Span::at(cycle).recip();
@@ -148,7 +154,7 @@ impl LearningConvergence {
             true => (0.0, 0.0),
             false => (own(cycle.high).low, phase),
         };
-        let mut proof = Cycle {
+        let proof = Cycle {
             closed: &closed,
             gain: learning.gain().as_f64(),
             kept: Span::at(1.0) - Span::at(learning.forgetting().as_f64()),
@@ -160,7 +166,6 @@ impl LearningConvergence {
                 high: Span::outward(0.0, core::f64::consts::FRAC_PI_2).high,
             },
             images: (Span::at(learning.gain().as_f64().abs()) * Span::at(beyond)).high,
-            boxes: stable,
         };
         let at = |low: f64, high: f64| Boxed {
             frequency: Span { low, high },
@@ -168,8 +173,12 @@ impl LearningConvergence {
             plants: all,
         };
         let half = Span::at(core::f64::consts::PI) * Span::at(cell.low).recip();
-        let shrinks = proof.holds(&at(lowest, half.high), Asked::Factor)
-            && (k_i == 0.0 || proof.holds(&at(0.0, own(cycle.low).high), Asked::BelowOne));
+        let mut halving = Halving::at_most(MOST_BOXES, MOST_HALVINGS);
+        let halves = |of: &Boxed| proof.halves(of);
+        let to_nyquist = at(lowest, half.high);
+        let below = at(0.0, own(cycle.low).high);
+        let shrinks = halving.all(&to_nyquist, &|of| proof.is_small(of), &halves)
+            && (k_i == 0.0 || halving.all(&below, &|of| proof.is_below_one(of), &halves));
         if !shrinks {
             return Err(Error::Inadmissible(
                 "every tone shrinks by the factor on every plant of the range",
@@ -179,7 +188,7 @@ impl LearningConvergence {
             plants: *plants,
             cycle: *cycle,
             factor,
-            boxes: proof.boxes,
+            boxes: stable.saturating_add(halving.boxes),
         })
     }
 }

@@ -35,6 +35,7 @@
 
 mod certificate;
 mod dyadic;
+mod halving;
 mod learning;
 mod observer;
 mod peak;

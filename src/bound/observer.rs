@@ -119,7 +119,7 @@ impl ObserverStability {
             curvature,
             rate,
         };
-        if closed.gain * plants.gain.low <= 0.0 {
+        if (closed.gain > 0.0) != (plants.gain.low > 0.0) {
             return Err(Error::Inadmissible("gain and nominal gain have one sign"));
         }
         if !first.is_stable_with(k_p, k_i) {

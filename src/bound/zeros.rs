@@ -1,5 +1,6 @@
 //! Zero exclusion: no zero of a function on the imaginary axis, for any plant of a range.
 
+use super::halving::Halving;
 use super::plants::Plants;
 use super::span::{Plane, Span};
 
@@ -27,18 +28,26 @@ pub(super) fn excluded<C: Closed>(
     all: Plants,
     highest: f64,
 ) -> Option<u32> {
-    let mut search = Search {
-        closed,
-        nominal,
-        middle: all.middle(),
-        boxes: 0,
+    let middle = all.middle();
+    let shows = |(frequency, set): &(Span, Set)| {
+        let plants = match set {
+            Set::Way(part) => nominal.between(&middle, *part),
+            Set::All(plants) => *plants,
+        };
+        closed.values(*frequency, &plants).is_off_zero()
     };
-    let up_to = |high: f64| Span { low: 0.0, high };
-    let sets = [Set::Way(up_to(1.0)), Set::All(all)];
-    let shown = sets
-        .iter()
-        .all(|set| search.is_off_zero(up_to(highest), *set, MOST_HALVINGS));
-    shown.then_some(search.boxes)
+    let halves = |of: &(Span, Set)| halves(of, closed.scale());
+    let frequency = Span {
+        low: 0.0,
+        high: highest,
+    };
+    let way = Set::Way(Span {
+        low: 0.0,
+        high: 1.0,
+    });
+    let mut halving = Halving::at_most(MOST_BOXES, MOST_HALVINGS);
+    let mut shown = |set: Set| halving.all(&(frequency, set), &shows, &halves);
+    (shown(way) && shown(Set::All(all))).then_some(halving.boxes)
 }
 
 /// Plants that are looked at together.
@@ -50,44 +59,17 @@ enum Set {
     All(Plants),
 }
 
-/// What is to be shown: the loop, its nominal plant without latency, one plant of the range, and
-/// how many boxes it took so far.
-struct Search<'a, C> {
-    closed: &'a C,
-    nominal: Plants,
-    middle: Plants,
-    boxes: u32,
-}
-
-impl<C: Closed> Search<'_, C> {
-    /// Whether F is not zero for any of the plants at any of the frequencies.
-    fn is_off_zero(&mut self, frequency: Span, set: Set, halvings: u32) -> bool {
-        self.boxes = self.boxes.saturating_add(1);
-        if self.boxes > MOST_BOXES {
-            return false;
+/// Two halves: of the frequencies, or along the number of the plants that moves the function most.
+fn halves((frequency, set): &(Span, Set), scale: f64) -> [(Span, Set); 2] {
+    let (size, halves) = match set {
+        Set::Way(part) => (part.width(), part.halves().map(Set::Way)),
+        Set::All(plants) => {
+            let (size, halves) = plants.halves(frequency.high);
+            (size, halves.map(Set::All))
         }
-        let plants = match set {
-            Set::Way(part) => self.nominal.between(&self.middle, part),
-            Set::All(plants) => plants,
-        };
-        if self.closed.values(frequency, &plants).is_off_zero() {
-            return true;
-        }
-        let Some(left) = halvings.checked_sub(1) else {
-            return false;
-        };
-        let (size, [first, second]) = match set {
-            Set::Way(part) => (part.width(), part.halves().map(Set::Way)),
-            Set::All(plants) => {
-                let (size, halves) = plants.halves(frequency.high);
-                (size, halves.map(Set::All))
-            }
-        };
-        let scale = frequency.middle() + self.closed.scale();
-        if frequency.width() >= size * scale {
-            let [low, high] = frequency.halves();
-            return self.is_off_zero(low, set, left) && self.is_off_zero(high, set, left);
-        }
-        self.is_off_zero(frequency, first, left) && self.is_off_zero(frequency, second, left)
+    };
+    if frequency.width() >= size * (frequency.middle() + scale) {
+        return frequency.halves().map(|half| (half, *set));
     }
+    halves.map(|half| (*frequency, half))
 }

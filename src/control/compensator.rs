@@ -19,7 +19,7 @@ use crate::effect::{Effect, Motion, Situation};
 use crate::error::finite;
 use crate::hysteresis::BoucWen;
 use crate::model::{Model, ModelState, Sample, Source};
-use crate::signal::clamp;
+use crate::signal::{clamp, Play, PlayState};
 use crate::transmission::{Inverse, Mode, Transmission};
 use crate::{Error, Real};
 
@@ -172,6 +172,7 @@ pub struct Compensator<T, const N: usize> {
     input_range: Option<BenchRange<T>>,
     term_ranges: [Option<BenchRange<T>>; N],
     longest_dt: T,
+    play: Play<T>,
 }
 
 impl<T: Real, const N: usize> Compensator<T, N> {
@@ -197,13 +198,19 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         if any(Effect::is_input_stage) {
             return Err(Error::Inadmissible("no term is an input stage"));
         }
+        Self::of(transmission, model.without_transmission())
+    }
+
+    /// Of both parts, without ranges, longest `dt` and play.
+    fn of(transmission: Transmission<T>, effects: Model<T, N>) -> Result<Self, Error> {
         Ok(Self {
             transmission,
             inverse: transmission.inverse()?,
-            effects: model.without_transmission(),
+            effects,
             input_range: None,
             term_ranges: [None; N],
             longest_dt: T::HIGHEST,
+            play: Play::NONE,
         })
     }
 
@@ -219,6 +226,24 @@ impl<T: Real, const N: usize> Compensator<T, N> {
             return Err(Error::OutOfRange("longest_dt"));
         }
         Ok(Self { longest_dt, ..self })
+    }
+
+    /// The same, where what the cable has to transmit passes through a [`Play`] of this half-width
+    /// \[output unit\], zero or more; zero is none.
+    ///
+    /// After each reversal the inverse is steep, the steeper the larger kappa_eta is within the bound
+    /// of [`Transmission::inverse`](crate::transmission::Transmission::inverse), and a model that was
+    /// fitted *at* that bound (`bowden close --invertible`) has no greatest steepness. A term that reads
+    /// a velocity from an encoder's counts reverses what is to be transmitted from sample to sample, and
+    /// the command chatters. A play of a little more than half of what one count makes of output takes
+    /// these reversals out, `|gain|·count/(2·time constant)` behind [`Rates`](crate::signal::Rates); the
+    /// model's output is then `desired` within the half-width.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"half_width"`.
+    pub fn with_play(self, half_width: T) -> Result<Self, Error> {
+        let play = Play::try_new(half_width)?;
+        Ok(Self { play, ..self })
     }
 
     /// The same, with motions clamped to what the bench has seen of each source.
@@ -310,7 +335,13 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         let (before, clock) = (memories.memories(), memories.ticked(dt));
         let now = (clock.value, state.hysteresis.eta());
         let effects = self.effects.effects(memories, &sample, now, confine);
-        let target = desired - effects;
+        let wanted = desired - effects;
+        let mut play = state.play;
+        let target = if wanted.is_finite() {
+            self.play.step(&mut play, wanted)
+        } else {
+            wanted
+        };
         // The inverse holds what is out of the reach of floats; here that must be told.
         let cable = &self.transmission;
         let most = target.abs() + cable.offset().abs() + cable.kappa_eta().abs();
@@ -320,6 +351,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         }
         state.effects.set_clock(clock);
         self.inverse.step(&mut state.hysteresis, target);
+        state.play = play;
         state.bad = 0;
         Ok(effects)
     }
@@ -338,7 +370,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     }
 }
 
-/// State of a [`Compensator`]: the hysteresis and the memories of the effects.
+/// State of a [`Compensator`]: the hysteresis, the play and the memories of the effects.
 ///
 /// ```
 /// use bowden::control::CompensatorState;
@@ -361,6 +393,8 @@ impl<T: Real, const N: usize> Compensator<T, N> {
 pub struct CompensatorState<T, const N: usize> {
     hysteresis: BoucWen<T>,
     effects: ModelState<T, N>,
+    #[cfg_attr(feature = "serde", serde(default = "PlayState::new"))]
+    play: PlayState<T>,
     bad: u32,
 }
 
@@ -383,6 +417,7 @@ impl<T: Real, const N: usize> CompensatorState<T, N> {
         Self {
             hysteresis,
             effects: ModelState::new(),
+            play: PlayState::new(),
             bad: 0,
         }
     }

@@ -46,15 +46,19 @@ mod proofs;
 /// Most cells that one sample may pass over.
 const MOST_PASSED: usize = 4;
 
+/// Samples of a cell after which its mean is taken to be known: a sum of many more would be wrong in
+/// `f32`, where somebody stands still for hours.
+const MOST_SAMPLES: f64 = 65_536.0;
+
 /// Learning over a cycle that repeats: gain, lead, filter, limit, forgetting.
 ///
-/// What is learned stands in two memories of one length, a number a cell each: arrays, or slices
+/// What is learned stands in two buffers of the same length, a number a cell each: arrays, or slices
 /// that somebody else owns. A gait of 200 cells in `f32` takes 1600 bytes. Choose as many cells as the
 /// filter needs, some ten times its corner a second, and fewer than there are samples in the shortest
 /// cycle.
 ///
 /// ```
-/// use bowden::control::{Learning, LearningInput};
+/// use bowden::control::{Learning, LearningInput, Status};
 /// // 4 units a N·m, at most 30 units, two cells ahead, Q over five cells.
 /// let learning = Learning::try_new(4.0_f32, 30.0, 2, 2)?;
 /// let mut state = learning.start([0.0; 250], [0.0; 250])?;
@@ -63,9 +67,10 @@ const MOST_PASSED: usize = 4;
 ///     let phase = (k % 1000) as f32 / 1000.0;
 ///     let at = LearningInput::new(phase, 20.0, 19.5); // [N·m], [N·m]
 ///     let out = learning.step(&mut state, &at); // out.feed_forward into LoopSample
-///     assert!(out.status.is_live());
+///     // Held where there is no phase: after a few, a push-off should not be held on.
+///     assert!(!matches!(out.status, Status::Held(_)));
 /// }
-/// // Twice in the first half of the cycle: 4 units a N·m, each time.
+/// // The cell has been taught twice: 4 units a N·m, each time.
 /// assert!((state.learned()[100] - 4.0).abs() < 1e-5);
 /// # Ok::<(), bowden::Error>(())
 /// ```
@@ -161,8 +166,10 @@ pub struct LearningInput<T> {
     pub reference: T,
     /// Measured output y \[output unit\].
     pub measured: T,
-    /// Whether the error of this sample is learned from. Not where a limit cut the command, and
-    /// not where the task is another one: while somebody stands still, or holds the joint.
+    /// Whether this sample is learned from. Not where a limit cut the command or the safe one is out,
+    /// and not where the task is another one: while somebody stands still, or holds the joint. Where
+    /// that is so of more than half of a cell's samples, the errors of the next `lead` cells, in which
+    /// its commands show, teach nothing either.
     pub learns: bool,
 }
 
@@ -193,6 +200,9 @@ pub struct LearningOutput<T> {
 }
 
 impl<T: Real> Learning<T> {
+    /// Most cells of a cycle.
+    pub const MOST_CELLS: usize = u16::MAX as usize;
+
     /// Learning without forgetting: `gain` of the error \[command unit/output unit\], not zero and
     /// of the sign of the plant's; `limit > 0` of what is learned \[command unit\]; `lead` \[cells\],
     /// by which a command comes before its effect; `half_width` of the triangle \[cells\].
@@ -254,23 +264,38 @@ impl<T: Real> Learning<T> {
         self.lead as usize + 2 * self.half_width as usize + 2 * MOST_PASSED + 1
     }
 
-    /// A state that has learned nothing, over two memories with a number a cell, which are set to
+    /// Refuses a number of cells that a cycle cannot have.
+    ///
+    /// # Errors
+    /// [`Error::Inadmissible`] with fewer than [`fewest_cells`](Self::fewest_cells);
+    /// [`Error::Capacity`] with more than [`MOST_CELLS`](Self::MOST_CELLS).
+    pub fn check_cells(&self, cells: usize) -> Result<(), Error> {
+        if cells < self.fewest_cells() {
+            return Err(Error::Inadmissible("as many cells as lead and filter need"));
+        }
+        if cells > Self::MOST_CELLS {
+            return Err(Error::Capacity("cells"));
+        }
+        Ok(())
+    }
+
+    /// A state that has learned nothing, over two buffers with a number a cell, which are set to
     /// zero.
     ///
     /// # Errors
-    /// [`Error::Inadmissible`] where the memories have not one length, or fewer cells than
-    /// [`fewest_cells`](Self::fewest_cells); [`Error::Capacity`] with more than 65 535.
+    /// [`Error::Inadmissible`] where the buffers differ in length, or as
+    /// [`check_cells`](Self::check_cells) of it.
     pub fn start<M: AsRef<[T]> + AsMut<[T]>>(
         &self,
         mut learned: M,
-        smoothing: M,
+        unfiltered: M,
     ) -> Result<LearningState<T, M>, Error> {
-        self.check(learned.as_ref(), smoothing.as_ref())?;
+        self.check(learned.as_ref(), unfiltered.as_ref())?;
         learned.as_mut().fill(T::ZERO);
-        self.resume(learned, smoothing)
+        self.resume(learned, unfiltered)
     }
 
-    /// A state that has learned what the first memory holds, such as a copy of
+    /// A state that has learned what the first buffer holds, such as a copy of
     /// [`LearningState::learned`] from before a reset; confined to the limit, and zero for NaN.
     ///
     /// # Errors
@@ -278,44 +303,45 @@ impl<T: Real> Learning<T> {
     pub fn resume<M: AsRef<[T]> + AsMut<[T]>>(
         &self,
         mut learned: M,
-        mut smoothing: M,
+        mut unfiltered: M,
     ) -> Result<LearningState<T, M>, Error> {
-        self.check(learned.as_ref(), smoothing.as_ref())?;
-        let both = learned.as_mut().iter_mut().zip(smoothing.as_mut());
-        for (cell, smooth) in both {
+        self.check(learned.as_ref(), unfiltered.as_ref())?;
+        let both = learned.as_mut().iter_mut().zip(unfiltered.as_mut());
+        for (cell, before) in both {
             *cell = self.confined(*cell);
-            *smooth = *cell;
+            *before = *cell;
         }
-        Ok(LearningState::over(learned, smoothing))
+        Ok(LearningState::over(learned, unfiltered))
     }
 
-    fn check(&self, learned: &[T], smoothing: &[T]) -> Result<(), Error> {
-        if learned.len() != smoothing.len() {
-            return Err(Error::Inadmissible("both memories have one length"));
+    fn check(&self, learned: &[T], unfiltered: &[T]) -> Result<(), Error> {
+        if learned.len() != unfiltered.len() {
+            return Err(Error::Inadmissible("both buffers have the same length"));
         }
-        if learned.len() < self.fewest_cells() {
-            return Err(Error::Inadmissible("as many cells as lead and filter need"));
-        }
-        if learned.len() > usize::from(u16::MAX) {
-            return Err(Error::Capacity("cells"));
-        }
-        Ok(())
+        self.check_cells(learned.len())
     }
 
     /// One sample: what is to be added to the command at this phase.
     ///
-    /// Call it at every sample, before the controller. Whatever state and memories hold, the
-    /// feed-forward is finite and within ±limit.
+    /// Call it at every sample, before the controller, with the state of this learning. Whatever
+    /// state and buffers hold, the feed-forward is finite and within ±limit. It moves as fast as what
+    /// was learned does from one phase to the next, and where the phase jumps it jumps too: a slew rate
+    /// of the controller's [`Limits`](crate::control::Limits) holds for the sum.
     ///
-    /// - A phase that is not from 0 to 1 moves nothing and holds the feed-forward.
+    /// - A phase that is not from 0 to 1 moves nothing and holds the feed-forward, for as long as there
+    ///   is none: the controller sees good samples, so its safe command does not come. Where a phase
+    ///   may stay away, add nothing after a few such samples.
     /// - Where reference or measured output are not finite, the feed-forward goes on from the phase, and
     ///   the sample teaches nothing.
     /// - Where the phase has jumped, by more than four cells in a sample or more than four back, the cell
-    ///   that was left does not learn. (A step that ends early at the heel's contact is one; the last
-    ///   `lead + half_width` cells before it do not learn then.)
+    ///   that was left does not learn. Nor do the `lead` cells before the one that it came to: they were
+    ///   not passed, and the errors are not theirs. (A step that ends early at the heel's contact is
+    ///   such a jump; the last `lead + half_width` cells before it do not learn then.)
     /// - While it is up to four cells behind, as one that trembles is, nothing is learned. One that
     ///   trembles by more goes through cells several times, and teaches them each time: filter it, or
     ///   let `learns` be false.
+    /// - The longest step is one in which four cells are passed; a cell that is left takes a sum over
+    ///   `2·half_width + 1` cells.
     #[inline]
     pub fn step<M: AsRef<[T]> + AsMut<[T]>>(
         &self,
@@ -333,6 +359,9 @@ impl<T: Real> Learning<T> {
                 Status::Held(Fault::Phase)
             }
         };
+        if !at.learns {
+            state.missed = state.missed.saturating_add(1);
+        }
         state.output = self.confined(state.output);
         LearningOutput {
             feed_forward: state.output,
@@ -360,7 +389,8 @@ impl<T: Real> Learning<T> {
             let of_measured = unless_finite(at.measured, Fault::Measured);
             return of_reference.or(of_measured).or(Some(Fault::Overflow));
         }
-        if at.learns && !matches!(moved, Moved::Back) {
+        let gathers = at.learns && !matches!(moved, Moved::Back);
+        if gathers && state.count < T::of(MOST_SAMPLES) {
             state.sum += error;
             state.count += T::ONE;
         }
@@ -383,14 +413,19 @@ impl<T: Real> Learning<T> {
             return Moved::Back;
         }
         let jumped = !first && passed > MOST_PASSED;
-        if !(first || jumped) && state.count > T::ZERO {
-            let error = state.sum / state.count;
+        if first || jumped {
+            state.since = 0;
+        } else {
+            let (error, is_known) = (state.sum / state.count, state.count > T::ZERO);
             let mut left = state.cell;
             for _ in 0..MOST_PASSED {
                 if left == cell {
                     break;
                 }
-                self.learn(state, left, error);
+                let may_teach = state.may_teach(self.lead);
+                if is_known && may_teach {
+                    self.learn(state, left, error);
+                }
                 left = next(left, cells);
             }
         }
@@ -410,16 +445,16 @@ impl<T: Real> Learning<T> {
         left: usize,
         error: T,
     ) {
-        let (learned, smoothing) = (state.learned.as_mut(), state.smoothing.as_mut());
+        let (learned, unfiltered) = (state.learned.as_mut(), state.unfiltered.as_mut());
         let cells = learned.len();
         let (lead, half) = (usize::from(self.lead), usize::from(self.half_width));
         let taught = back(left, lead, cells);
         let ready = back(taught, half, cells);
-        if let (Some(known), Some(smooth)) = (learned.get(taught), smoothing.get_mut(taught)) {
+        if let (Some(known), Some(own)) = (learned.get(taught), unfiltered.get_mut(taught)) {
             let kept = *known - self.forgetting * *known;
-            *smooth = self.confined(kept + self.gain * error);
+            *own = self.confined(kept + self.gain * error);
         }
-        let mean = triangle(smoothing, ready, half);
+        let mean = triangle(unfiltered, ready, half);
         if let Some(learned) = learned.get_mut(ready) {
             *learned = self.confined(mean);
         }

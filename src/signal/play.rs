@@ -57,6 +57,11 @@ pub struct PlayState<T> {
 }
 
 impl<T: Real> Play<T> {
+    /// None: the output is the input.
+    pub(crate) const NONE: Self = Self {
+        half_width: T::ZERO,
+    };
+
     /// A play of `half_width >= 0` [input unit]; at zero the output is the input.
     ///
     /// # Errors

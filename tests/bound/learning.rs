@@ -92,10 +92,15 @@ impl Numbers {
 
     /// The greatest |H| of a fine grid of frequencies, with 40 images.
     fn most(&self, learning: &Learning<f64>, cycle: f64) -> f64 {
+        self.most_at(learning, cycle).0
+    }
+
+    /// The same, and the frequency \[rad/s\] at which it is.
+    fn most_at(&self, learning: &Learning<f64>, cycle: f64) -> (f64, f64) {
         let cell = cycle / CELLS as f64;
         let (first, last) = (TAU / cycle, PI / cell);
         let width = f64::from(learning.half_width()) + 1.0;
-        let mut most = 0.0_f64;
+        let mut most = (0.0_f64, first);
         for k in 0..4000 {
             let w = first * (last / first).powf(f64::from(k) / 3999.0);
             let x = 0.5 * w * cell;
@@ -113,7 +118,10 @@ impl Numbers {
             let taught = Complex(-learning.gain(), 0.0).times(early).times(seen);
             let kept = Complex(1.0 - learning.forgetting(), 0.0);
             let filter = ((width * x).sin() / (width * x.sin())).powi(2);
-            most = most.max(filter * kept.plus(taught).size());
+            let left = filter * kept.plus(taught).size();
+            if left > most.0 {
+                most = (left, w);
+            }
         }
         most
     }
@@ -152,6 +160,71 @@ fn of_single_plants_the_proof_is_the_frequency_response() {
             }
         }
     }
+}
+
+/// Likewise where the greatest |H| is far above the cycle's own frequency, so that lead, latency and
+/// filter decide it.
+#[test]
+fn of_single_plants_the_proof_is_the_frequency_response_at_high_frequencies_too() {
+    let soft = One { slope: 0.4, ..BASE };
+    for (gain, lead, half_width, plant) in [
+        (12.0, 3, 4, soft),
+        (10.0, 4, 4, soft),
+        (10.0, 3, 4, BASE),
+        (10.0, 4, 4, BASE),
+        (8.0, 5, 5, BASE),
+        (6.0, 5, 4, BASE),
+        (4.0, 5, 3, BASE),
+    ] {
+        let learning = learning(gain, lead, half_width);
+        let (expected, w) = numbers(plant, 30.0, 18.0).most_at(&learning, 1.0);
+        assert!(
+            w > 90.0 && expected < 0.95,
+            "{gain} {lead}: {expected} at {w}"
+        );
+        let (law, cycle) = (pi(30.0, 18.0), Interval::exactly(1.0));
+        let shown = |factor: f64| proved(&learning, &cycle, &law, &at(plant), factor);
+        assert!(!shown(expected - 1e-4), "{gain} {lead} {expected}");
+        // The bound of the images has more of a greater gain.
+        assert!(shown(expected + 2e-3 * gain), "{gain} {lead} {expected}");
+    }
+}
+
+/// A range of cycle times is proved at both of its ends: what is true of the shortest cycle is refused
+/// where the longest is worse.
+#[test]
+fn a_range_of_cycle_times_is_no_better_than_its_worst_end() {
+    let learning = learning(4.0, 5, 3);
+    let plant = One { late: 0, ..BASE };
+    let latency = 0.0031;
+    let of = |cycle: f64| {
+        let numbers = Numbers {
+            plant,
+            latency,
+            k_p: 30.0,
+            k_i: 18.0,
+        };
+        numbers.most(&learning, cycle)
+    };
+    let (short, long) = (of(0.8), of(1.25));
+    assert!(short < 0.88 && long > 0.94, "{short} {long}");
+    let range = PlantRange {
+        latency: Interval::exactly(latency),
+        ..at(plant)
+    };
+    let shown = |low: f64, high: f64, factor: f64| {
+        proved(
+            &learning,
+            &Interval { low, high },
+            &pi(30.0, 18.0),
+            &range,
+            factor,
+        )
+    };
+    assert!(shown(0.8, 0.8, 0.908));
+    assert!(!shown(0.8, 1.25, 0.908));
+    assert!(shown(0.8, 1.25, 0.951));
+    assert!(!shown(1.25, 1.25, long - 1e-4));
 }
 
 /// Over a range no plant and no cycle time that is drawn has a greater |H|.
@@ -321,7 +394,7 @@ fn what_cannot_be_shown_is_refused_by_name() {
     assert_eq!(refused(CELLS, Interval::exactly(0.0), 1.0), cycle);
     let few = Error::Inadmissible("as many cells as lead and filter need");
     assert_eq!(refused(19, one, 1.0), Some(few));
-    let slow = Error::Inadmissible("the loop hardly answers above half a cell's frequency");
+    let slow = Error::Inadmissible("the loop hardly answers above the cells' Nyquist frequency");
     assert_eq!(refused(21, one, 1.0), Some(slow));
     let of = |law: &Pid<f64>, plants: &PlantRange| {
         LearningConvergence::try_new(&good, CELLS, &one, law, plants, 1.0).err()

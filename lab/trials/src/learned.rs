@@ -37,7 +37,7 @@ impl Learned {
         rate: f64,
     ) -> Result<Self, Error> {
         above_zero(gains.frequency, "frequency")?;
-        if gains.cells > usize::from(u16::MAX) {
+        if gains.cells > Learning::<f64>::MOST_CELLS {
             return Err(Error::Capacity("cells"));
         }
         let a_second = gains.cells as f64 / period;

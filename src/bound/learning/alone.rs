@@ -1,4 +1,4 @@
-//! The loop of a P or PI without learning: stable, and quiet above half a cell's frequency.
+//! The loop of a P or PI without learning: stable, and quiet above the cells' Nyquist frequency.
 
 use crate::bound::plants::Plants;
 use crate::bound::span::{Plane, Span};
@@ -60,7 +60,7 @@ impl Loop {
         Span::at(self.k_p.abs()) + Span::at(self.k_i.abs()) * x
     }
 
-    /// |G| above half a cell's frequency, at most; `None` where there is no such bound.
+    /// |G| above the cells' Nyquist frequency, at most; `None` where there is no such bound.
     pub(super) fn beyond(&self, all: &Plants, cell: Span) -> Option<f64> {
         let x = Span::at(cell.high) * Span::at(core::f64::consts::PI).recip();
         let (least, most) = self.shares(all, Span::at(x.high))?;

@@ -4,24 +4,9 @@ use super::alone::Loop;
 use crate::bound::plants::Plants;
 use crate::bound::span::{Plane, Span};
 
-/// Most boxes of a proof: a second or less on a computer.
-const MOST_BOXES: u32 = 500_000;
-
-/// Most halvings of a box.
-const MOST_HALVINGS: u32 = 80;
-
 /// Sum over all images of `1/|x + pi·k|³` for x from 0 to pi/2: `(2/pi)³` of the nearest, 0.053 of all
 /// others.
 const IMAGES: f64 = 0.32;
-
-/// What is asked of a box.
-#[derive(Clone, Copy)]
-pub(super) enum Asked {
-    /// `|H| <= factor`.
-    Factor,
-    /// `|H| < 1` above frequency zero.
-    BelowOne,
-}
 
 /// What is the same for every box.
 pub(super) struct Cycle<'a> {
@@ -31,11 +16,10 @@ pub(super) struct Cycle<'a> {
     pub(super) lead: f64,
     pub(super) width: f64,
     pub(super) factor: f64,
-    /// Half the phase over a cell, of the cycle's own frequency and of half a cell's.
+    /// Half the phase over a cell, of the cycle's own frequency and of the cells' Nyquist.
     pub(super) half_phases: Span,
-    /// `gain·|G|` above half a cell's frequency, at most.
+    /// `gain·|G|` above the cells' Nyquist frequency, at most.
     pub(super) images: f64,
-    pub(super) boxes: u32,
 }
 
 /// Frequencies \[rad/s\], times of a cell, and plants.
@@ -47,37 +31,11 @@ pub(super) struct Boxed {
 }
 
 impl Cycle<'_> {
-    /// Whether what is asked is so for all of a box, halved until it is seen.
-    pub(super) fn holds(&mut self, all: &Boxed, asked: Asked) -> bool {
-        self.holds_within(all, asked, MOST_HALVINGS)
-    }
-
-    fn holds_within(&mut self, all: &Boxed, asked: Asked, halvings: u32) -> bool {
-        self.boxes = self.boxes.saturating_add(1);
-        if self.boxes > MOST_BOXES {
-            return false;
-        }
-        let seen = match asked {
-            Asked::Factor => self.is_small(all),
-            Asked::BelowOne => self.is_below_one(all),
-        };
-        if seen {
-            return true;
-        }
-        match halvings.checked_sub(1) {
-            Some(left) => {
-                let [first, second] = self.halves(all);
-                self.holds_within(&first, asked, left) && self.holds_within(&second, asked, left)
-            }
-            None => false,
-        }
-    }
-
     /// Whether `|H| <= factor`, without a division by what may be small: with `W = e^(−jw·lead·T)/G`,
     /// `a = gain·S³` and s, what Q and the images leave of the factor, it is so where
     /// `|kept·W − a|² − s²·|W|²` is not above zero. (A box around H itself needs many more boxes: in a
     /// version that is not in the repository 1 % about the reference rig was not shown.)
-    fn is_small(&self, all: &Boxed) -> bool {
+    pub(super) fn is_small(&self, all: &Boxed) -> bool {
         let w = all.frequency;
         let Some(x) = (Span::at(0.5) * w * all.cell).meets(self.half_phases) else {
             return true;
@@ -119,7 +77,7 @@ impl Cycle<'_> {
     /// `W = e^(−jw·L)/G` and `m >= 0.32·sin³` of the images, it is so where
     /// `(kept² − (1 − m)²)·|W|² + a² − 2·kept·a·Re(W)` is below zero. Of that Re(W) is finite,
     /// `Re(e^(−jw·L)·(1/P~ + k_p)) − k_i·sin(w·L)/w`, and so is `|w·W|`.
-    fn is_below_one(&self, all: &Boxed) -> bool {
+    pub(super) fn is_below_one(&self, all: &Boxed) -> bool {
         let (w, one) = (all.frequency, Span::at(1.0));
         let x = Span::at(0.5) * w * all.cell;
         let (lead, k_i) = (Span::at(self.lead) * all.cell, Span::at(self.closed.k_i));
@@ -193,7 +151,7 @@ impl Cycle<'_> {
     }
 
     /// Two halves, along the number that moves 1/G most across the box.
-    fn halves(&self, all: &Boxed) -> [Boxed; 2] {
+    pub(super) fn halves(&self, all: &Boxed) -> [Boxed; 2] {
         let (w, plants) = (all.frequency.middle(), &all.plants);
         let [gain, slow, damping, joint, slope, latency] = [
             plants.gain.middle().abs(),

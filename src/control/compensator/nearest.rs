@@ -93,14 +93,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         for (is_left_out, term) in left_out.iter_mut().zip(model.terms()) {
             *is_left_out = is_stage(term);
         }
-        let compensator = Self {
-            transmission,
-            inverse: transmission.inverse()?,
-            effects: model.without_terms(is_stage),
-            input_range: None,
-            term_ranges: [None; N],
-            longest_dt: T::HIGHEST,
-        };
+        let compensator = Self::of(transmission, model.without_terms(is_stage))?;
         let changed = Changed {
             sigma: lowered(before.sigma(), after.sigma()),
             rho: lowered(before.rho(), after.rho()),

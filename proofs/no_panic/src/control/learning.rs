@@ -10,8 +10,8 @@ const CELLS: usize = 32;
 
 type State<T> = LearningState<T, [T; CELLS]>;
 
-/// Any contents of a memory.
-fn memory<T: Real>() -> [T; CELLS] {
+/// Any contents of a buffer.
+fn buffer<T: Real>() -> [T; CELLS] {
     black_box([T::zero(); CELLS])
 }
 
@@ -39,14 +39,18 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(control_learning_forgetting, learning.forgetting());
     never_panics!(control_learning_fewest_cells, learning.fewest_cells());
     never_panics!(
+        control_learning_check_cells,
+        learning.check_cells(usize::from(cells()))
+    );
+    never_panics!(
         control_learning_start,
-        learning.start(memory::<T>(), memory())
+        learning.start(buffer::<T>(), buffer())
     );
     never_panics!(
         control_learning_resume,
-        learning.resume(memory::<T>(), memory())
+        learning.resume(buffer::<T>(), buffer())
     );
-    let state = learning.start(memory::<T>(), memory());
+    let state = learning.start(buffer::<T>(), buffer());
     let mut state: State<T> = black_box(state).ok()?;
     never_panics!(
         control_learning_new,
@@ -59,20 +63,20 @@ pub fn all<T: Real>() -> Option<()> {
     slices::<T>(&learning, &at)
 }
 
-/// The same over memory that somebody else owns: its length is known to nobody.
+/// The same over buffers that somebody else owns: its length is known to nobody.
 fn slices<T: Real>(learning: &Learning<T>, at: &LearningInput<T>) -> Option<()> {
-    let (mut learned, mut smoothing) = (memory::<T>(), memory::<T>());
+    let (mut learned, mut unfiltered) = (buffer::<T>(), buffer::<T>());
     let learned = black_box(&mut learned[..]);
-    let smoothing = black_box(&mut smoothing[..]);
+    let unfiltered = black_box(&mut unfiltered[..]);
     never_panics!(
         control_learning_start,
-        learning.start(&mut *learned, &mut *smoothing)
+        learning.start(&mut *learned, &mut *unfiltered)
     );
     never_panics!(
         control_learning_resume,
-        learning.resume(&mut *learned, &mut *smoothing)
+        learning.resume(&mut *learned, &mut *unfiltered)
     );
-    let mut state = black_box(learning.start(learned, smoothing)).ok()?;
+    let mut state = black_box(learning.start(learned, unfiltered)).ok()?;
     never_panics!(control_learning_step, learning.step(&mut state, at));
     never_panics!(control_learning_state_learned, state.learned());
     Some(())

@@ -1,0 +1,50 @@
+//! A property of all that lies in a box, shown by halving it until each part shows it.
+
+/// How much may be looked at, and how much was.
+pub(super) struct Halving {
+    most_boxes: u32,
+    most_halvings: u32,
+    /// Boxes that were looked at.
+    pub(super) boxes: u32,
+}
+
+impl Halving {
+    pub(super) const fn at_most(most_boxes: u32, most_halvings: u32) -> Self {
+        Self {
+            most_boxes,
+            most_halvings,
+            boxes: 0,
+        }
+    }
+
+    /// Whether `shows` holds for each part of a box; `false` where that took too many.
+    pub(super) fn all<B>(
+        &mut self,
+        of: &B,
+        shows: &impl Fn(&B) -> bool,
+        halves: &impl Fn(&B) -> [B; 2],
+    ) -> bool {
+        self.within(of, self.most_halvings, shows, halves)
+    }
+
+    fn within<B>(
+        &mut self,
+        of: &B,
+        halvings: u32,
+        shows: &impl Fn(&B) -> bool,
+        halves: &impl Fn(&B) -> [B; 2],
+    ) -> bool {
+        self.boxes = self.boxes.saturating_add(1);
+        if self.boxes > self.most_boxes {
+            return false;
+        }
+        if shows(of) {
+            return true;
+        }
+        let Some(left) = halvings.checked_sub(1) else {
+            return false;
+        };
+        let [first, second] = halves(of);
+        self.within(&first, left, shows, halves) && self.within(&second, left, shows, halves)
+    }
+}
