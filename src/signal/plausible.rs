@@ -152,6 +152,9 @@ impl<T: Real> Plausible<T> {
 
     /// The same where the signal moves by at most `rate` \[signal unit/s\], above zero.
     ///
+    /// Not for an angle that wraps: each wrap is too fast. Check the velocity behind
+    /// [`Rates`](crate::signal::Rates), which knows the period, within a range instead.
+    ///
     /// Through a gap the reach grows with its time, so that a signal that has really moved
     /// is taken up again. So is an encoder that was reset, and [`Rates`](crate::signal::Rates) behind
     /// it then shows a velocity of up to `rate`:

@@ -309,6 +309,72 @@ fn the_load_is_confined_with_the_input() {
 }
 
 #[test]
+fn a_play_passes_over_small_reversals_and_the_output_stays_within_it() {
+    let model = Model::<f64, 1>::try_new(Some(cable(0.6)), &[]).unwrap();
+    let plain = Compensator::try_new(&model).unwrap();
+    let played = plain.with_play(0.05).unwrap();
+    let travel = |compensator: &Compensator<f64, 1>| {
+        let (mut state, mut plant) = (CompensatorState::new(), ModelState::new());
+        let (mut travel, mut last, mut worst) = (0.0, 0.0, 0.0_f64);
+        for k in 0..4000 {
+            let wobble = if k % 2 == 0 { 0.04 } else { -0.04 };
+            let desired = 25.0 + 10.0 * (1.57e-3 * f64::from(k)).sin() + wobble;
+            let wish = CompensatorInput::new(1e-3, desired);
+            let out = compensator.step(&mut state, &wish);
+            assert_eq!(out.status, Status::Good);
+            let input = Motion {
+                position: out.command,
+                ..Motion::default()
+            };
+            let sample = Sample {
+                dt: 1e-3,
+                input,
+                load: out.command,
+                channels: &[],
+            };
+            worst = worst.max((model.step(&mut plant, &sample) - desired).abs());
+            travel += if k > 0 {
+                (out.command - last).abs()
+            } else {
+                0.0
+            };
+            last = out.command;
+        }
+        (travel, worst)
+    };
+    let (without, exact) = travel(&plain);
+    let (with, error) = travel(&played);
+    // To rounding; within the half-width.
+    assert!(exact < 1e-9 && error < 0.05 + 1e-9, "{exact} {error}");
+    // 25 at the start, 40 N·m of a whole sine, and two reversals of the friction: less than 90.
+    assert!(with < 90.0 && without > 300.0, "{with} {without}");
+    // Zero is none, and what cannot be a number is told and moves nothing.
+    assert_eq!(travel(&plain.with_play(0.0).unwrap()), (without, exact));
+    let mut state = CompensatorState::<f64, 1>::new();
+    played.step(&mut state, &CompensatorInput::new(1e-3, 5.0));
+    let before = state;
+    let huge = CompensatorInput::new(1e-3, f64::MAX);
+    assert_eq!(
+        played.step(&mut state, &huge).status,
+        Status::Held(Fault::Overflow)
+    );
+    assert_eq!(
+        (state.command(), state.eta()),
+        (before.command(), before.eta())
+    );
+    let next = played.step(&mut state, &CompensatorInput::new(1e-3, 5.03));
+    assert_eq!(next.command, before.command());
+    assert_eq!(
+        plain.with_play(-0.1).err(),
+        Some(Error::OutOfRange("half_width"))
+    );
+    assert_eq!(
+        plain.with_play(f64::NAN).err(),
+        Some(Error::NonFinite("half_width"))
+    );
+}
+
+#[test]
 fn ranges_are_checked() {
     let compensator = Compensator::try_new(&model()).unwrap();
     let (low, high) = (Motion::default(), motion(0.1, 1.0));

@@ -68,6 +68,10 @@ pub fn all<T: Real>() -> Option<()> {
     );
     never_panics!(control_adaptive_state_is_latched, state.is_latched());
     never_panics!(
+        control_adaptive_state_power_up,
+        black_box(&mut state).power_up(&law)
+    );
+    never_panics!(
         control_adaptive_resume_resume_from,
         AdaptiveState::resume_from(&law, any(), &at)
     );

@@ -34,6 +34,8 @@ pub fn all<T: Real>() -> Option<()> {
         control_compensator_with_ranges,
         compensator.with_ranges(ranges)
     );
+    never_panics!(control_compensator_with_play, compensator.with_play(any()));
+    let compensator = black_box(compensator.with_play(any())).ok()?;
     never_panics!(
         control_compensator_transmission,
         *compensator.transmission()

@@ -55,6 +55,10 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(control_pid_state_bad_score, state.bad_score());
     never_panics!(control_pid_state_is_latched, state.is_latched());
     never_panics!(
+        control_pid_state_power_up,
+        black_box(&mut state).power_up(&pid)
+    );
+    never_panics!(
         control_pid_state_acknowledge,
         black_box(&mut state).acknowledge()
     );
