@@ -38,7 +38,7 @@ pub type Failure = String;
     version,
     about = "Hysteretic cable transmissions: closes the loop between a model and measured data",
     disable_help_subcommand = true,
-    after_help = "Without a subcommand: `bowden close` on the embedded record.\nThe words of its ledger: `bowden help terms`.\nExit status: 0 with any verdict, 1 where certify does not prove your gains, 2 for bad use or a bad record."
+    after_help = "Without a subcommand: `bowden close` on the embedded record.\nThe words of its ledger: `bowden help terms`.\nExit status: 0 with any verdict, 1 where certify does not prove your gains or plan has nothing to write to --out, 2 for bad use or a bad record."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -82,13 +82,13 @@ enum Command {
 pub fn run() -> Result<ExitCode, Failure> {
     match usage::arguments()?.command {
         Some(Command::Certify(certify)) => return certify.run(),
+        Some(Command::Plan(plan)) => return plan.run(),
         None => close::Close::default().run(),
         Some(Command::Close(close)) => close.run(),
         Some(Command::Check(check)) => check.run(),
         Some(Command::Design(design)) => design.run(),
         Some(Command::Compare(compare)) => compare.run(),
         Some(Command::Power(power)) => power.run(),
-        Some(Command::Plan(plan)) => plan.run(),
         Some(Command::Export(export)) => export.run(),
         Some(Command::Generate(generate)) => generate.run(),
         Some(Command::Completions(completions)) => completions.run(),

@@ -6,6 +6,7 @@ use super::{outputs, Failure};
 use bowden_lab::facts::plan;
 use clap::Args;
 use std::path::PathBuf;
+use std::process::ExitCode;
 
 #[derive(Args)]
 pub struct Plan {
@@ -13,13 +14,17 @@ pub struct Plan {
     record: PathBuf,
     #[command(flatten)]
     reading: Reading,
-    /// Where to write the trajectory; stdout where it is not given.
+    /// Where to write the trajectory; stdout where it is not given. Exit status 1 where nothing
+    /// is planned: no file is written then.
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
 }
 
+/// Exit status where a file was asked for and nothing is planned that could be written.
+const NOTHING_TO_WRITE: u8 = 1;
+
 impl Plan {
-    pub fn run(self) -> Result<(), Failure> {
+    pub fn run(self) -> Result<ExitCode, Failure> {
         let asked = self.reading.asked()?;
         let path = file(&self.record)?;
         if let Some(out) = &self.out {
@@ -34,8 +39,17 @@ impl Plan {
             anstream::eprintln!("{verdict}");
         }
         let Some(planned) = &found.planned else {
-            anstream::eprintln!("{}", nothing_planned(&found));
-            return Ok(());
+            let why = nothing_planned(&found);
+            return Ok(match &self.out {
+                Some(path) => {
+                    anstream::eprintln!("{why}; {} is not written", path.display());
+                    ExitCode::from(NOTHING_TO_WRITE)
+                }
+                None => {
+                    anstream::eprintln!("{why}");
+                    ExitCode::SUCCESS
+                }
+            });
         };
         match &self.out {
             Some(path) => outputs::write_whole(path, planned.csv.as_bytes())?,
@@ -59,7 +73,7 @@ impl Plan {
             let open = found.inseparable.join("; nor ");
             anstream::eprintln!("it does not tell {open}{}", apart(&found));
         }
-        Ok(())
+        Ok(ExitCode::SUCCESS)
     }
 }
 

@@ -92,6 +92,16 @@ fn what_no_motion_tells_apart_is_said_and_not_called_settled() {
         "{told}"
     );
     assert!(!told.contains("nothing is confounded"), "{told}");
+    assert!(!told.contains("is not written"), "{told}");
+    // A script that asked for a file learns that there is none.
+    let out = folder.path().join("plan.csv").display().to_string();
+    let plan = bowden(&[&["plan", &path, "--out", &out], &declared[..]].concat());
+    assert_eq!(plan.status.code(), Some(1));
+    assert!(plan.stdout.is_empty() && !std::path::Path::new(&out).exists());
+    let with_file = String::from_utf8(plan.stderr).unwrap();
+    let own = format!("{}; {out} is not written\n", told.trim_end());
+    assert_eq!(with_file, own);
+    assert_eq!(with_file.lines().count(), 1, "{with_file}");
     let closed = bowden(&[&["close", &path], &declared[..]].concat()).stdout;
     let closed = String::from_utf8(closed).unwrap();
     for text in [
