@@ -68,6 +68,7 @@ impl Close {
         if self.rows.is_wanted() {
             return self.rows.run(&self.reading.asked()?);
         }
+        self.rows.check_unused()?;
         self.records = files(&self.records)?;
         let asked = self.reading.asked()?;
         if self.per_file.is_some() && self.records.len() < 2 {

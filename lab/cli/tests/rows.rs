@@ -187,3 +187,22 @@ fn bad_use_of_glob_leaves_the_rows_of_before() {
     }
     assert_eq!(std::fs::read_to_string(&out).unwrap(), "rows of before");
 }
+
+#[test]
+fn an_option_of_glob_without_it_is_refused_and_not_passed_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = file(folder.path(), "model.toml");
+    // A record that is not there would be complained of first if it were read first.
+    let record = file(folder.path(), "later.csv");
+    for asked in [&["close"][..], &["close", &record], &["close", "--json"]] {
+        let line = refused(&[asked, &["--out", &out]].concat());
+        assert_eq!(
+            line,
+            format!("bowden: --out {out}: only --glob writes rows; --model-out FILE.toml writes the model")
+        );
+        let line = refused(&[asked, &["--workers", "3"]].concat());
+        assert!(line.contains("--workers 3: only --glob"), "{line}");
+        refused(&[asked, &["--out", &out, "--workers", "3"]].concat());
+    }
+    assert!(!Path::new(&out).exists());
+}

@@ -32,11 +32,11 @@ pub struct Rows {
     #[arg(long, value_name = "PATTERN", requires = "out", conflicts_with_all = ["records", "per_file", "json", "model_out", "trace", "invertible", "Drawing"])]
     glob: Option<PathBuf>,
     /// Where --glob writes its rows.
-    #[arg(long, value_name = "ROWS.parquet", requires = "glob")]
+    #[arg(long, value_name = "ROWS.parquet")]
     out: Option<PathBuf>,
     /// How many records --glob closes at a time; as many as there are processors where it is not
     /// given.
-    #[arg(long, value_name = "N", requires = "glob")]
+    #[arg(long, value_name = "N")]
     workers: Option<NonZeroUsize>,
     /// Print the row of this record as JSON: what --glob has its processes do.
     #[arg(long, hide = true, value_name = "FILE")]
@@ -47,6 +47,23 @@ impl Rows {
     /// Whether rows are asked for, and not a ledger.
     pub fn is_wanted(&self) -> bool {
         self.glob.is_some() || self.row.is_some()
+    }
+
+    /// Whether nothing here is given that `--glob` alone reads. The parser does not ask for an option
+    /// that another argument excludes, as a record excludes `--glob`.
+    pub fn check_unused(&self) -> Result<(), Failure> {
+        if let Some(out) = &self.out {
+            return Err(format!(
+                "--out {}: only --glob writes rows; --model-out FILE.toml writes the model",
+                out.display()
+            ));
+        }
+        match self.workers {
+            Some(workers) => Err(format!(
+                "--workers {workers}: only --glob closes records side by side"
+            )),
+            None => Ok(()),
+        }
     }
 
     /// Closes the one record or all of them.
