@@ -13,6 +13,7 @@ pub mod intervals;
 mod lacks;
 mod no_model;
 pub mod resolution;
+pub mod rivals;
 mod shares;
 pub mod signals;
 mod signs;

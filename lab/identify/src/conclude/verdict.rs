@@ -18,6 +18,7 @@ use super::intervals::term_title;
 use super::lacks::{lacks, rises};
 use super::no_model::{is_no_model, no_model};
 use super::resolution::coarse_words;
+use super::rivals::each_pair_once;
 use super::signs::{falls, of_temperature, of_tension, of_the_motion, turns_against};
 use crate::fit::Solution;
 use crate::ledger::Ledger;
@@ -169,16 +170,13 @@ fn coloured(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
 }
 
 fn confounded(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
-    let rivals: Vec<String> = ledger
-        .rounds
-        .iter()
-        .filter(|r| !r.rivals.is_empty())
-        .map(|r| {
-            let names: Vec<String> = r.rivals.iter().map(|c| term_title(data, &c.term)).collect();
-            format!("{} from {}", done.title_of(r), names.join(", "))
-        })
-        .collect();
-    format!("This record cannot tell {}.", rivals.join("; nor "))
+    let rounds = ledger.rounds.iter().map(|round| {
+        let rivals = round.rivals.iter();
+        let rivals = rivals.map(|rival| term_title(data, &rival.term));
+        (done.title_of(round), rivals.collect())
+    });
+    let pairs = each_pair_once(rounds);
+    format!("This record cannot tell {}.", pairs.join("; nor "))
 }
 
 /// `backlash`, `play(x) - x`, is `presliding`, `(x - play(x))/r`, with another factor: what is to be

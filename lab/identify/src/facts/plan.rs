@@ -3,6 +3,7 @@
 use super::asked::Asked;
 use crate::conclude::final_fit::FinalFit;
 use crate::conclude::intervals::term_name;
+use crate::conclude::rivals::each_pair_once;
 use crate::conclude::verdict::{sentence, verdict, Verdict};
 use crate::foresight::plan::{
     separate_first, strengthen, trajectory, unidentified, Aim, Experiment,
@@ -22,7 +23,7 @@ pub struct Plan {
     /// determines its parameters mends that.
     pub undescribed: Option<String>,
     /// Effects that the record confounds, each with the rivals from which the planned motion does not
-    /// separate it ("presliding from backlash").
+    /// separate it ("presliding from backlash"), each pair once.
     pub inseparable: Vec<String>,
     /// Channels that such effects and their rivals read, where these are two.
     pub together: Vec<[String; 2]>,
@@ -70,9 +71,9 @@ pub fn plan(record: &Record, asked: &Asked, tell: &dyn Fn(&str)) -> Result<Plan,
     let separated = separate_first(&data, &ledger);
     let confounded = separated.is_some();
     let aims = separated.as_ref().map_or(&[][..], |one| &one.aims);
-    let open = |round| still_open(&data, round, aims);
-    let open: Vec<(String, Vec<[String; 2]>)> = ledger.rounds.iter().filter_map(open).collect();
-    let (inseparable, together): (Vec<String>, Vec<Vec<_>>) = open.into_iter().unzip();
+    let open = ledger.rounds.iter().map(|r| still_open(&data, r, aims));
+    let (open, together): (Vec<(String, Vec<String>)>, Vec<Vec<_>>) = open.unzip();
+    let inseparable = each_pair_once(open);
     let mut together: Vec<[String; 2]> = together.concat();
     together.sort();
     together.dedup();
@@ -91,15 +92,21 @@ pub fn plan(record: &Record, asked: &Asked, tell: &dyn Fn(&str)) -> Result<Plan,
     })
 }
 
-/// "presliding from backlash", of the rivals that are no aims, and the pairs of channels that these and the
-/// effect read; `None` without such rivals.
-fn still_open(data: &Prepared, round: &Round, aims: &[Aim]) -> Option<(String, Vec<[String; 2]>)> {
+/// An effect with its rivals that are no aims, and the pairs of channels that these and the effect read.
+fn still_open(
+    data: &Prepared,
+    round: &Round,
+    aims: &[Aim],
+) -> ((String, Vec<String>), Vec<[String; 2]>) {
     let own = term_name(data, round.term());
     let name = |rival: &Candidate| term_name(data, &rival.term);
     let is_aim = |rival: &Candidate| {
         let rival = name(rival);
-        let mut aims = aims.iter();
-        aims.any(|aim| aim.what == own && aim.rival.as_ref() == Some(&rival))
+        // An aim of another round may be the same pair, named the other way round.
+        aims.iter().any(|aim| {
+            let pair = (Some(&aim.what), aim.rival.as_ref());
+            pair == (Some(&own), Some(&rival)) || pair == (Some(&rival), Some(&own))
+        })
     };
     let rivals: Vec<&Candidate> = round.rivals.iter().filter(|r| !is_aim(r)).collect();
     let channel = |term: &FitTerm| data.channel(term.source).map(|c| c.name.clone());
@@ -107,6 +114,7 @@ fn still_open(data: &Prepared, round: &Round, aims: &[Aim]) -> Option<(String, V
         let pair = [channel(round.term())?, channel(&rival.term)?];
         (pair[0] != pair[1]).then_some(pair)
     });
-    let names: Vec<String> = rivals.iter().copied().map(name).collect();
-    (!names.is_empty()).then(|| (format!("{own} from {}", names.join(", ")), apart.collect()))
+    let names = rivals.iter().copied().map(name).collect();
+    let apart = apart.collect();
+    ((own, names), apart)
 }

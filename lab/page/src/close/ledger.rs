@@ -5,7 +5,8 @@ use crate::chart::{Axis, Chart};
 use crate::document::{data, share_bar, table};
 use crate::words::{in_brackets, unit, value};
 use bowden_lab::facts::{
-    number, percent, Facts, Figures, Grade, Parameter, RoundFacts, Segments, Size, BLOCKS, HALVES,
+    number, percent, Experiment, Facts, Figures, Grade, Parameter, RoundFacts, Segments, Size,
+    BLOCKS, HALVES,
 };
 use maud::{html, Markup};
 
@@ -194,13 +195,25 @@ pub(super) fn blocks(facts: &Facts, figures: &Figures) -> Markup {
                 b { (round.title) } " cannot be told from "
                 @for (k, rival) in round.rivals.iter().enumerate() { @if k > 0 { ", " } b { (rival.title) } }
                 " on this record."
-                @if let Some(experiment) = &round.experiment { " To separate them: " (experiment.trajectory) }
+                @if let Some(experiment) = &round.experiment {
+                    " To separate it from "
+                    @for (k, rival) in rivals_of(experiment).enumerate() { @if k > 0 { ", " } b { (rival) } }
+                    ": " (experiment.trajectory)
+                }
             }
         }
         @if !facts.rounds.is_empty() && facts.rounds.iter().all(|r| r.rivals.is_empty()) {
             p { "No other effect of the catalogue does as well as any of these." }
         }
     }
+}
+
+/// What an experiment separates from the effect that was named, which need not be all of its rivals.
+fn rivals_of(experiment: &Experiment) -> impl Iterator<Item = &str> {
+    experiment
+        .aims
+        .iter()
+        .filter_map(|aim| aim.rival.as_deref())
 }
 
 fn block_chart(k: usize, round: &RoundFacts, removed: &[f64; BLOCKS]) -> Chart {

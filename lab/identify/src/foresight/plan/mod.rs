@@ -107,23 +107,26 @@ fn refined(data: &Prepared, round: &Round, rival: &Candidate) -> Option<FitTerm>
 }
 
 /// The experiment that separates what one round confounds; `None` where it has no rivals or
-/// where no motion that is known here would separate any of them.
+/// where no motion that is known here would separate any of them. A rival that is the same function
+/// is no aim of any: where its shapes end in another place than those of the named effect, it only
+/// looks as if a motion told the two apart.
 #[must_use]
 pub fn separate(data: &Prepared, round: &Round) -> Option<Experiment> {
     use rayon::prelude::*;
-    if round.rivals.is_empty() {
+    let last = round.solution.structure.terms.len().checked_sub(1)?;
+    let named = &round.solution.structure.terms[last];
+    let others = round.rivals.iter().filter(|rival| !rival.is_twin_of(named));
+    let others: Vec<&Candidate> = others.collect();
+    if others.is_empty() {
         return None;
     }
     let model = Model::before_last(&round.solution)?;
-    let last = round.solution.structure.terms.len() - 1;
-    let named = &round.solution.structure.terms[last];
     let gain = round.solution.gain(last);
     let here = model.on(data)?;
     let own = here.beside(named)?;
     // A rival is as large as it must be to look like the named one on this record.
-    let rivals: Vec<(FitTerm, f64, Apart)> = round
-        .rivals
-        .iter()
+    let rivals: Vec<(FitTerm, f64, Apart)> = others
+        .into_iter()
         .filter_map(|rival| {
             let term = refined(data, round, rival)?;
             let rival = here.beside(&term)?;
