@@ -19,7 +19,8 @@ use std::path::Path;
 pub use super::certificates::Promise;
 pub use super::decimal::{above, fixed, places, scientific, Towards};
 pub use super::design::{
-    design, rust as design_rust, AdaptiveDesign, Designed, PidDesign, Question as DesignQuestion,
+    design, rust as design_rust, AdaptiveDesign, Certifies, Designed, PidDesign,
+    Question as DesignQuestion,
 };
 pub use super::found::{Outcome, Pair};
 pub use super::heading::Heading;

@@ -1,6 +1,6 @@
 //! The report of `bowden design`, and its JSON.
 
-use bowden_trials::facts::{above, AdaptiveDesign, Designed, PidDesign};
+use bowden_trials::facts::{above, AdaptiveDesign, Certifies, Designed, PidDesign};
 use serde_json::{json, Value};
 use std::fmt::Write as _;
 
@@ -89,6 +89,13 @@ pub fn text(designed: &Designed) -> String {
         row("note", note.clone());
     }
     out.push_str(LEGEND);
+    out.push_str(match designed.bounds.output {
+        Some(_) => {
+            ": try the gains\nwith `bowden compare --model MODEL.toml --gains GAINS.toml`.\n"
+        }
+        None => ".\n`bowden compare` refuses this model: it has no reference for it.\n",
+    });
+    let _ = writeln!(out, "{}", certifies(designed));
     out
 }
 
@@ -97,10 +104,19 @@ slope      between B and B - kappa_eta·rho·max(1, 2·sigma), from the Bouc-Wen
 Re L       least real part of the open loop: above -1 no sequence of slopes between zero and the
            one it was designed for makes the loop unstable (circle criterion)
 reference  a faster one needs inputs that move faster than in the record of the model
-The plant is the transmission behind the delay. A joint that swings is not in it: try the gains
-with `bowden compare --model MODEL.toml --gains GAINS.toml`. `bowden certify GAINS.toml` proves the
-box of the adaptive law's error, roundings included, or says which gain or limit stands in the way.
+The plant is the transmission behind the delay. A joint that swings is not in it\
 ";
+
+/// What becomes of a file of these gains.
+fn certifies(designed: &Designed) -> String {
+    match designed.certifies() {
+        Certifies::Proves => "`bowden certify GAINS.toml` proves the box of the adaptive law's error, roundings included.".to_owned(),
+        Certifies::NamesWhatFails => "`bowden certify GAINS.toml` says which gain or limit stands in the way of a proof of the adaptive law's error.".to_owned(),
+        Certifies::Refuses(why) => {
+            format!("`bowden certify` refuses a file of these gains: {why}.")
+        }
+    }
+}
 
 fn gains(own: &PidDesign) -> String {
     let mut out = format!(

@@ -25,6 +25,15 @@ fn a_stroke_shorter_than_the_hysteresis_has_no_reference_and_no_certificate() {
             && report.contains("no certificate"),
         "{report}"
     );
+    // Neither of the two that refuse it is recommended.
+    assert!(
+        report.contains("`bowden compare` refuses this model")
+            && report.contains("`bowden certify` refuses a file of these gains: it has no [plant]"),
+        "{report}"
+    );
+    let gains = place.path("gains.toml");
+    said(&[["design", &model, "--out", &gains].as_slice(), &asked].concat());
+    assert!(refused(&["certify", &gains]).contains("has no [plant]"));
     let report = said(&[["design", &model, "--json"].as_slice(), &asked].concat());
     let report: Value = serde_json::from_str(&report).unwrap();
     assert!(report["bounds"]["output"].is_null());
@@ -71,11 +80,21 @@ fn limits_on_one_side_of_zero_are_told_before_certify_refuses_them() {
     assert!(!both.contains("one side of zero"));
     assert!(both.contains("certificate (peak-rounded)"), "{both}");
     assert!(said(&["certify", &gains]).contains("\nPROVED"));
+    assert!(
+        both.contains("\n`bowden certify GAINS.toml` proves the box"),
+        "{both}"
+    );
     let one = report(2.0);
     assert!(one.contains("limits are on one side of zero"));
     assert!(one.contains("certificate (peak-sampled)"), "{one}");
     let line = refused(&["certify", &gains]);
     assert!(line.contains("on both sides of zero"), "{line}");
+    assert!(
+        one.contains(
+            "\n`bowden certify` refuses a file of these gains: [adaptive]: limits 2 to 40"
+        ),
+        "{one}"
+    );
 }
 
 #[test]
@@ -87,6 +106,10 @@ fn a_rate_that_is_too_low_for_the_law_is_named() {
         ["--rate", "10", "--delay", "0.3"],
     ] {
         let report = said(&[["design", &model].as_slice(), &asked].concat());
+        assert!(
+            report.contains("these gains: it has no [adaptive]"),
+            "{report}"
+        );
         let line = report.lines().find(|l| l.contains("exclude each other"));
         let line = line.unwrap_or_else(|| panic!("{report}"));
         let (step, most) = line

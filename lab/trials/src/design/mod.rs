@@ -40,6 +40,7 @@ pub use adaptive::AdaptiveDesign;
 pub use linear::Margins;
 pub use pi::{Asked, ASKED};
 pub use plant::Slopes;
+pub use promised::Certifies;
 pub use rust::rust;
 
 use crate::gains::{message, DesignedFor, GainsFile, SCHEMA};

@@ -5,6 +5,7 @@
 //! command faster than any input of the record moved. So the file promises less, or its slew
 //! rate allows more, until `bowden certify` proves it.
 
+use super::Designed;
 use crate::decimal::digits;
 use crate::gains::GainsFile;
 use crate::proof::{designed, Named, Proof, Sides};
@@ -38,6 +39,36 @@ pub(super) fn settled(gains: &GainsFile) -> Result<(GainsFile, Proof), String> {
         }
     }
     Err(why)
+}
+
+/// What `bowden certify` answers to the file of a design.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Certifies {
+    /// It proves the box of the error.
+    Proves,
+    /// It says which inequality does not hold, and what would mend that.
+    NamesWhatFails,
+    /// There is nothing that it could prove: it refuses the file, for this reason.
+    Refuses(String),
+}
+
+impl Designed {
+    /// What `bowden certify` answers to the file as it stands.
+    #[must_use]
+    pub fn certifies(&self) -> Certifies {
+        let lacks = match (&self.gains.adaptive, &self.gains.plant) {
+            (None, _) => "it has no [adaptive], since no gains of that law are admissible",
+            (_, None) => "it has no [plant], for the reason that stands beside \"no certificate\"",
+            _ => {
+                return match designed::prove(&self.gains) {
+                    Ok(proof) if proof.proved => Certifies::Proves,
+                    Ok(_) => Certifies::NamesWhatFails,
+                    Err(why) => Certifies::Refuses(why),
+                }
+            }
+        };
+        Certifies::Refuses(lacks.to_owned())
+    }
 }
 
 /// The reference that the limits hold against the disturbance and the box of the error.
