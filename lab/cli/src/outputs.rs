@@ -4,8 +4,19 @@ use super::Failure;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+/// Endings of the files of an option that writes one form; none where it may be any.
+fn endings(option: &str) -> &'static [&'static str] {
+    match option {
+        "--report" => &["html", "htm"],
+        "--plot" => &["svg"],
+        "--trace" => &["csv"],
+        _ => &[],
+    }
+}
+
 /// Whether each output could be written, found out before anything is read: its folder exists
-/// and takes a file, it is none of the files that are read, and no other option writes it.
+/// and takes a file, it is none of the files that are read, no other option writes it, and its name
+/// is one of its form.
 pub fn check(read: &[&Path], outputs: &[(&str, &Path)]) -> Result<(), Failure> {
     for (index, (option, path)) in outputs.iter().enumerate() {
         writable(option, path, read)?;
@@ -17,7 +28,25 @@ pub fn check(read: &[&Path], outputs: &[(&str, &Path)]) -> Result<(), Failure> {
             ));
         }
     }
-    Ok(())
+    outputs
+        .iter()
+        .try_for_each(|(option, path)| named(option, path))
+}
+
+/// Whether the name ends as one of that form does: a model that is named by mistake stays. A device
+/// or a pipe may have any name.
+fn named(option: &str, path: &Path) -> Result<(), Failure> {
+    let endings = endings(option);
+    let own = path.extension().and_then(|own| own.to_str());
+    let is_one = own.is_some_and(|own| endings.iter().any(|e| own.eq_ignore_ascii_case(e)));
+    if endings.is_empty() || is_one || is_stream(path) {
+        return Ok(());
+    }
+    Err(format!(
+        "{option} {}: a name that ends in .{} was expected",
+        path.display(),
+        endings.join(" or .")
+    ))
 }
 
 fn writable(option: &str, path: &Path, read: &[&Path]) -> Result<(), Failure> {

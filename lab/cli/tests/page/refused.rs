@@ -95,6 +95,58 @@ fn no_output_takes_the_place_of_another_file_of_the_command() {
     assert!(line.contains("--trace"), "{line}");
 }
 
+/// A model or a record that is named by mistake stays, and a name says what is in its file.
+#[test]
+fn a_name_of_another_form_is_refused_before_anything_is_read() {
+    let folder = Folder::new();
+    let missing = folder.path("later.csv");
+    let short = ["compare", "--seconds", "8", "--seeds", "1"];
+    let names = [
+        "kept.toml",
+        "f.png",
+        "r.csv",
+        "p.html",
+        "s.svg",
+        "c.csv.gz",
+        "none",
+    ];
+    for name in names {
+        std::fs::write(folder.path(name), "before").unwrap();
+    }
+    let before = folder.names();
+    for (option, fits, expected) in [
+        ("--report", "p.html", ".html or .htm"),
+        ("--plot", "s.svg", ".svg"),
+        ("--trace", "r.csv", ".csv"),
+    ] {
+        for name in names.into_iter().filter(|name| *name != fits) {
+            let path = folder.path(name);
+            let mut commands = vec![
+                vec!["close", &missing, option, &path],
+                vec!["check", &missing, &missing, option, &path],
+            ];
+            if option != "--plot" {
+                commands.push([&short[..], &[option, &path]].concat());
+            }
+            for command in commands {
+                assert_eq!(
+                    refused(&command),
+                    format!("bowden: {option} {path}: a name that ends in {expected} was expected")
+                );
+            }
+            assert_eq!(folder.read(name), "before");
+        }
+        // Of a name that fits the record is what is complained of.
+        let line = refused(&["close", &missing, option, &folder.path(fits)]);
+        assert!(line.contains("later.csv"), "{line}");
+    }
+    for name in ["P.HTM", "p.Html"] {
+        let line = refused(&["close", &missing, "--report", &folder.path(name)]);
+        assert!(line.contains("later.csv"), "{line}");
+    }
+    assert_eq!(folder.names(), before);
+}
+
 #[test]
 fn a_bad_record_leaves_the_page_that_was_there() {
     let folder = Folder::new();
