@@ -69,7 +69,9 @@ impl Close {
             return self.rows.run(&self.reading.asked()?);
         }
         self.rows.check_unused()?;
-        self.records = files(&self.records)?;
+        let found = files(&self.records)?;
+        let left_out = found.note();
+        self.records = found.paths;
         let asked = self.reading.asked()?;
         if self.per_file.is_some() && self.records.len() < 2 {
             return Err("--per-file gains: more than one file was expected".to_owned());
@@ -95,7 +97,8 @@ impl Close {
             },
             meter,
         };
-        let closed = close(&records, &question, &telling(&bar))?;
+        let mut closed = close(&records, &question, &telling(&bar))?;
+        closed.facts.record.notes.extend(left_out);
         outputs::write_together(&self.files(&closed, sources)?)?;
         let report = match self.json {
             true => json(&closed.facts, Some(&closed.cost)).map_err(|e| e.to_string())?,

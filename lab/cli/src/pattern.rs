@@ -4,9 +4,11 @@
 //! UTF-8. Such a name is matched with a replacement character for what cannot be read in it.
 
 use super::Failure;
+use bowden_lab::facts::is_header_of_vector;
 use glob::{MatchOptions, Pattern};
 use std::ffi::OsString;
 use std::fs;
+use std::io::{BufRead as _, BufReader, Read as _};
 use std::path::{is_separator, Component, Path, PathBuf};
 
 /// As in a shell: `*` stays in its folder and shows no hidden files.
@@ -53,6 +55,24 @@ pub fn files(pattern: &Path) -> Result<Vec<PathBuf>, Failure> {
     found.sort();
     found.dedup();
     Ok(found)
+}
+
+/// Bytes of a header that are looked at: more than any model's channels need.
+const HEADER: u64 = 1 << 16;
+
+/// Whether this is a test vector that `close --model-out` has written: by its name and its first
+/// line.
+pub fn is_vector(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let first = || {
+        let mut line = String::new();
+        let file = fs::File::open(path).ok()?;
+        BufReader::new(file.take(HEADER))
+            .read_line(&mut line)
+            .ok()?;
+        Some(line)
+    };
+    name.ends_with(".vector.csv") && first().is_some_and(|line| is_header_of_vector(&line))
 }
 
 /// Adds the files that the parts match from this path on.

@@ -138,28 +138,58 @@ impl Reading {
     }
 }
 
+/// The files of arguments.
+#[derive(Default)]
+pub struct Files {
+    pub paths: Vec<PathBuf>,
+    /// How many test vectors their patterns have matched besides.
+    vectors: usize,
+}
+
+impl Files {
+    /// What a pattern has left out.
+    pub fn note(&self) -> Option<String> {
+        (self.vectors > 0).then(|| format!("{} left out of the pattern", vectors(self.vectors)))
+    }
+}
+
+fn vectors(count: usize) -> String {
+    match count {
+        1 => "1 test vector of --model-out".to_owned(),
+        _ => format!("{count} test vectors of --model-out"),
+    }
+}
+
 /// The files of arguments that may be patterns (`runs/*.csv`), where the shell has not put
-/// files in their place: those of a pattern by name. A file of that very name comes first.
-pub fn files(arguments: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
-    let mut files = Vec::new();
+/// files in their place: those of a pattern by name. A file of that very name comes first. Of the
+/// files of a pattern test vectors, which this program writes beside a model, are no records.
+pub fn files(arguments: &[PathBuf]) -> Result<Files, Failure> {
+    let mut files = Files::default();
     for argument in arguments {
         let text = argument.to_string_lossy();
         if !text.contains(['*', '?', '[']) || argument.exists() {
-            files.push(argument.clone());
+            files.paths.push(argument.clone());
             continue;
         }
         let found = pattern::files(argument)?;
+        let (left_out, found): (Vec<_>, Vec<_>) =
+            found.into_iter().partition(|path| pattern::is_vector(path));
         if found.is_empty() {
-            return Err(format!("{text}: no file has such a name"));
+            let but = match left_out.len() {
+                0 => String::new(),
+                count => format!(" but {}", vectors(count)),
+            };
+            return Err(format!("{text}: no file has such a name{but}"));
         }
-        files.extend(found);
+        files.vectors += left_out.len();
+        files.paths.extend(found);
     }
     Ok(files)
 }
 
 /// The one file of an argument that may be a pattern.
 pub fn file(argument: &Path) -> Result<PathBuf, Failure> {
-    let files = files(&[argument.to_owned()])?;
+    let files = files(&[argument.to_owned()])?.paths;
     match <[PathBuf; 1]>::try_from(files) {
         Ok([one]) => Ok(one),
         Err(several) => Err(format!(

@@ -91,6 +91,64 @@ fn files_that_do_not_go_together_give_one_line_with_file_and_column() {
     assert!(line.contains("bouc-wen"), "{line}");
 }
 
+/// What `--model-out` writes beside a model lies where the records are.
+#[test]
+fn a_pattern_leaves_out_the_test_vectors_that_the_program_has_written_and_says_so() {
+    let folder = Folder::new();
+    let a = folder.record("a.csv", &["--seed", "1"]);
+    let (model, vector) = (folder.path("a.toml"), folder.path("a.vector.csv"));
+    let quick = ["--rounds", "0"];
+    let written = bowden(&[&["close", &a, "--model-out", &model], &quick[..]].concat());
+    assert_eq!(written.status.code(), Some(0));
+    assert!(std::path::Path::new(&vector).exists());
+    let pattern = folder.path("*.csv");
+    let json = |arguments: &[&str]| -> serde_json::Value {
+        let output = bowden(&[&["close", "--json"], arguments, &quick].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    let (alone, of_pattern) = (json(&[&a]), json(&[&pattern]));
+    assert_eq!(of_pattern["record"]["path"], a.as_str());
+    assert_eq!(of_pattern["final"], alone["final"]);
+    let note = "1 test vector of --model-out left out of the pattern";
+    let noted = |json: &serde_json::Value| {
+        let notes = json["notes"].as_array().unwrap();
+        notes.iter().filter(|own| *own == note).count()
+    };
+    assert_eq!((noted(&alone), noted(&of_pattern)), (0, 1));
+    let ledger = bowden(&[&["close", &pattern], &quick[..]].concat());
+    assert!(text(&ledger.stdout).contains(&format!("note      {note}")));
+    // Named in full it is read; where a pattern has nothing else, that is said.
+    assert!(refused(&["close", &vector]).contains("a.vector.csv:1: neither `tau_i`"));
+    let line = refused(&["close", &folder.path("*.vector.csv")]);
+    assert!(
+        line.ends_with("no file has such a name but 1 test vector of --model-out"),
+        "{line}"
+    );
+    // A record of such a name stays one.
+    std::fs::copy(&a, folder.path("b.vector.csv")).unwrap();
+    let line = refused(&["close", &pattern]);
+    assert!(
+        line.contains("b.vector.csv: the same samples as in"),
+        "{line}"
+    );
+    let rows = folder.path("rows.parquet");
+    let glob = [
+        "close",
+        "--glob",
+        &pattern,
+        "--out",
+        &rows,
+        "--workers",
+        "1",
+    ];
+    let output = bowden(&[&glob, &quick[..]].concat());
+    assert_eq!(
+        text(&output.stdout),
+        format!("{rows}: 2 records, a row each; 0 of them could not be closed; {note}\n")
+    );
+}
+
 #[test]
 fn more_files_than_can_be_fitted_together_are_refused_before_any_is_read() {
     let names: Vec<String> = (1..=65).map(|k| format!("{k}.csv")).collect();

@@ -74,14 +74,18 @@ impl Rows {
         let (Some(pattern), Some(out)) = (&self.glob, &self.out) else {
             return Err("--glob and --out go together".to_owned());
         };
-        let files = reading::files(std::slice::from_ref(pattern))?;
+        let found = reading::files(std::slice::from_ref(pattern))?;
+        let left_out = found
+            .note()
+            .map_or_else(String::new, |note| format!("; {note}"));
+        let files = found.paths;
         let read: Vec<&Path> = files.iter().map(PathBuf::as_path).collect();
         outputs::check(&read, &[("--out", out)])?;
         let rows = all(&files, self.workers)?;
         let errors = rows.iter().filter(|row| row.is_error()).count();
         outputs::write_whole(out, &table::parquet(&rows)?)?;
         crate::say(&format!(
-            "{}: {} records, a row each; {errors} of them could not be closed",
+            "{}: {} records, a row each; {errors} of them could not be closed{left_out}",
             out.display(),
             rows.len()
         ))

@@ -68,6 +68,14 @@ fn header(file: &ModelFile) -> String {
     )
 }
 
+/// Whether a file that begins with this line is a test vector, of whatever channels.
+#[must_use]
+pub fn is_header(line: &str) -> bool {
+    let line = line.trim_end();
+    line.starts_with("dt,input,input.velocity,input.acceleration,load,")
+        && line.ends_with(",output_f32,output_f64")
+}
+
 /// Samples of the record, evenly thinned.
 fn rows(data: &Prepared, record: usize) -> Vec<Row> {
     let whole = data.pieces.get(record).map_or(0..0, |p| p.work.clone());

@@ -49,6 +49,7 @@ pub use crate::conclude::unneeded::Unneeded;
 pub use crate::conclude::verdict::{percent, Verdict};
 pub use crate::export::hand_over::Calmed;
 pub use crate::export::invertible::{three_digits, FeedForward, Nearest};
+pub use crate::export::vector::is_header as is_header_of_vector;
 pub use crate::export::{LeftOut, ModelFile};
 pub use crate::fit::Segments;
 pub use crate::foresight::plan::{Aim, Experiment};
