@@ -4,7 +4,7 @@
 #[allow(dead_code)]
 mod shared;
 
-use bowden_lab::record::{parse, read, Mode, Options, Record};
+use bowden_lab::record::{of_columns, parse, read, Column, Mode, Options, Record};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -193,6 +193,98 @@ fn holds_quantisation_and_dry_friction_are_not_clipping() {
     accepted(of(|t| sine(t).round(), |t| (3.0 * sine(t)).round()));
     // A friction force without noise that is flat while the input slides.
     accepted(of(sine, |t| (1e3 * t.cos()).clamp(-1.0, 1.0)));
+}
+
+/// Gravity is sin q, whatever unit the encoder's log has.
+#[test]
+fn angles_are_read_in_radians_and_an_output_stays_as_it_is() {
+    let angle = |unit: &str, of_a_radian: f64| {
+        let row = |(i, row): (usize, &String)| {
+            let q = 0.8 * (0.02 * i as f64).sin();
+            format!("{row},{},{}", q * of_a_radian, 0.5 * q)
+        };
+        let rows: Vec<String> = rows().iter().enumerate().map(row).collect();
+        let text = csv(&format!("t,tau_i,tau_o,phi_p [{unit}],phi_d [rad]"), &rows);
+        let options = Options {
+            channels: vec![("stretch".into(), "phi_p-phi_d".into())],
+            ..Options::default()
+        };
+        parse(text.as_bytes(), "r.csv", &options).unwrap()
+    };
+    let plain = angle("rad", 1.0);
+    assert_eq!(plain.notes, [""; 0]);
+    let turn = 1.0 / std::f64::consts::TAU;
+    for (unit, of_a_radian) in [
+        ("deg", 360.0 * turn),
+        ("°", 360.0 * turn),
+        ("degrees", 360.0 * turn),
+        // As a German header has it; 400 to the turn are gon.
+        ("Grad", 360.0 * turn),
+        ("gon", 400.0 * turn),
+        ("rev", turn),
+        ("turns", turn),
+        ("mrad", 1e3),
+    ] {
+        let record = angle(unit, of_a_radian);
+        let said = |name: &str| {
+            format!(
+                "`{name}` converted from {unit} to rad, which gravity and ripple are functions of"
+            )
+        };
+        assert_eq!(record.notes, [said("stretch"), said("phi_p")]);
+        for name in ["phi_p", "stretch"] {
+            let (own, true_one) = (record.channel(name).unwrap(), plain.channel(name).unwrap());
+            assert_eq!(own.unit.as_deref(), Some("rad"), "{unit}");
+            // The sum is of channels, which are in radians, and so says the firmware's file.
+            assert_eq!(own.definition, true_one.definition, "{unit}");
+            let pairs = own.values.iter().zip(&true_one.values);
+            // Three roundings of values below one.
+            assert!(pairs.fold(0.0, |most: f64, (a, b)| (a - b).abs().max(most)) < 1e-15);
+        }
+    }
+    // The input of displacement mode is what effects are functions of, its output is not.
+    let record = accepted(csv("t,x [deg],f [deg]", &rows()));
+    assert_eq!(record.input.unit.as_deref(), Some("rad"));
+    assert_eq!(record.output.unit.as_deref(), Some("deg"));
+    assert_eq!(
+        record.output.values,
+        accepted(csv("t,x,f", &rows())).output.values
+    );
+    // Columns in memory go the same way.
+    let column = |name: &str, values: &[f64]| Column {
+        name: name.to_owned(),
+        unit: None,
+        values: values.to_vec(),
+        definition: None,
+    };
+    let columns = vec![
+        column("t", &record.time),
+        column("x [deg]", &accepted(csv("t,x,f", &rows())).input.values),
+        column("f", &record.output.values),
+    ];
+    let arrays = of_columns(columns, "arrays", &Options::default()).unwrap();
+    assert_eq!(arrays.input, record.input);
+    assert_eq!(arrays.notes, record.notes);
+}
+
+/// A single-turn encoder leaps in the unit of its log.
+#[test]
+fn an_angle_in_degrees_is_unwrapped_before_it_is_converted() {
+    let row = |(i, row): (usize, &String)| {
+        let q = (170.0 + 0.1 * i as f64 + 180.0).rem_euclid(360.0) - 180.0;
+        format!("{row},{q:.4}")
+    };
+    let rows: Vec<String> = rows().iter().enumerate().map(row).collect();
+    let record = accepted(csv("t,tau_i,tau_o,phi_p [deg]", &rows));
+    assert_eq!(
+        record.notes,
+        [
+            "`phi_p` wraps around at 360 once: unwrapped",
+            "`phi_p` converted from deg to rad, which gravity and ripple are functions of"
+        ]
+    );
+    let last = record.channel("phi_p").unwrap().values[399];
+    assert!((last - 209.9_f64.to_radians()).abs() < 1e-12);
 }
 
 /// Columns and cuts of each measured record.

@@ -1,9 +1,13 @@
 //! Several records of one rig: the same mode, channels and units in all of them.
 
 use super::{Column, Mode, Record, RecordError};
+use std::f64::consts::{PI, TAU};
 
 /// One pound-force \[N\], exactly: 0.45359237 kg under 9.80665 m/s².
 const POUND: f64 = 4.448_221_615_260_5;
+
+/// One degree \[rad\]. In German it is `Grad`; a hundredth of a right angle is `gon` there and here.
+const DEGREE: f64 = PI / 180.0;
 
 /// Units of one kind, each with its size in the first one.
 const SIZES: [&[(&str, f64)]; 7] = [
@@ -20,8 +24,20 @@ const SIZES: [&[(&str, f64)]; 7] = [
     &[
         ("rad", 1.0),
         ("mrad", 1e-3),
-        ("deg", std::f64::consts::PI / 180.0),
-        ("°", std::f64::consts::PI / 180.0),
+        ("µrad", 1e-6),
+        ("urad", 1e-6),
+        ("deg", DEGREE),
+        ("°", DEGREE),
+        ("degree", DEGREE),
+        ("degrees", DEGREE),
+        ("Grad", DEGREE),
+        ("gon", 0.9 * DEGREE),
+        ("rev", TAU),
+        ("revs", TAU),
+        ("revolution", TAU),
+        ("revolutions", TAU),
+        ("turn", TAU),
+        ("turns", TAU),
     ],
     &[
         ("N", 1.0),

@@ -23,6 +23,7 @@
 //! ```
 
 mod agree;
+mod angles;
 mod blanks;
 mod checks;
 mod clipping;
@@ -127,7 +128,7 @@ pub struct Options {
 pub struct Column {
     /// The channel's name (`phi_d`), or the file's own for input and output.
     pub name: String,
-    /// The unit in the header, if it states one.
+    /// The unit in the header, if it states one; `rad` where an angle was converted.
     pub unit: Option<String>,
     /// One finite value a sample.
     pub values: Vec<f64>,
@@ -351,9 +352,12 @@ fn record(
         columns: [&input, &output].into_iter().chain(&channels).collect(),
         parts,
     });
+    // Last, so that what is said of the file has the file's numbers.
+    let angles = angles::in_radians(roles.mode, &mut input, &mut channels);
     let mut notes = roles.notes;
     notes.extend(table.notes);
     notes.extend(mended);
+    notes.extend(angles);
     Ok(Record {
         path: String::new(),
         mode: roles.mode,

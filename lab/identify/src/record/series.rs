@@ -1,6 +1,7 @@
 //! What a series of a record is read from: a column, or the sum or difference of two.
 
 use super::agree::factor;
+use super::angles::is_angle;
 use super::error::{shown, RecordError, NAME_LENGTH};
 use super::header::{require, Header};
 use super::Options;
@@ -36,7 +37,8 @@ impl Series {
     }
 
     /// A sum or difference in words: `phi_p + phi_d`, `s_p - 0.001 s_d` where the units differ.
-    /// Each column has its name in the file, or that of the channel that is read from it.
+    /// Each column has its name in the file, or that of the channel that is read from it; angles
+    /// are in radians there.
     pub(super) fn definition(
         self,
         header: &Header,
@@ -53,9 +55,10 @@ impl Series {
                 .map_or(own, |(channel, _)| channel)
         };
         let sign = if factor < 0.0 { '-' } else { '+' };
+        let unit = header.columns[self.first()].unit.as_deref();
         let size = match factor.abs() {
-            1.0 => String::new(),
-            other => format!("{other} "),
+            other if other != 1.0 && !unit.is_some_and(is_angle) => format!("{other} "),
+            _ => String::new(),
         };
         let (first, second) = (name(self.first()), name(second));
         Ok(Some(format!("{first} {sign} {size}{second}")))

@@ -1,0 +1,33 @@
+//! Angles in radians, whatever unit the file has: gravity is sin q and a ripple cos(k·q).
+
+use super::agree::factor;
+use super::{Column, Mode};
+
+/// The unit of every angle that an effect may be a function of.
+const UNIT: &str = "rad";
+
+/// Whether a unit is one of angles.
+pub(super) fn is_angle(unit: &str) -> bool {
+    factor(unit, UNIT).is_some()
+}
+
+/// Brings channels, and an input that is a displacement, from another unit of angles to radians;
+/// returns what is to be said of it. No effect is a function of the output, which stays as it is.
+pub(super) fn in_radians(mode: Mode, input: &mut Column, channels: &mut [Column]) -> Vec<String> {
+    let input = Some(input).filter(|_| mode == Mode::Displacement);
+    let all = input.into_iter().chain(channels);
+    all.filter_map(converted).collect()
+}
+
+fn converted(column: &mut Column) -> Option<String> {
+    let factor = factor(column.unit.as_deref()?, UNIT)?;
+    let unit = column.unit.replace(UNIT.to_owned())?;
+    if factor == 1.0 {
+        return None;
+    }
+    column.values.iter_mut().for_each(|value| *value *= factor);
+    Some(format!(
+        "`{}` converted from {unit} to {UNIT}, which gravity and ripple are functions of",
+        column.name
+    ))
+}
