@@ -1,87 +1,7 @@
 //! Several records of one rig: the same mode, channels and units in all of them.
 
+use super::sizes::factor;
 use super::{Column, Mode, Record, RecordError};
-use std::f64::consts::{PI, TAU};
-
-/// One pound-force \[N\], exactly: 0.45359237 kg under 9.80665 m/s².
-const POUND: f64 = 4.448_221_615_260_5;
-
-/// One degree \[rad\]. In German it is `Grad`; a hundredth of a right angle is `gon` there and here.
-const DEGREE: f64 = PI / 180.0;
-
-/// Units of one kind, each with its size in the first one.
-const SIZES: [&[(&str, f64)]; 7] = [
-    &[
-        ("m", 1.0),
-        ("cm", 1e-2),
-        ("mm", 1e-3),
-        ("µm", 1e-6),
-        ("um", 1e-6),
-        ("nm", 1e-9),
-        ("in", 0.0254),
-        ("ft", 0.3048),
-    ],
-    &[
-        ("rad", 1.0),
-        ("mrad", 1e-3),
-        ("µrad", 1e-6),
-        ("urad", 1e-6),
-        ("deg", DEGREE),
-        ("°", DEGREE),
-        ("degree", DEGREE),
-        ("degrees", DEGREE),
-        ("Grad", DEGREE),
-        ("gon", 0.9 * DEGREE),
-        ("rev", TAU),
-        ("revs", TAU),
-        ("revolution", TAU),
-        ("revolutions", TAU),
-        ("turn", TAU),
-        ("turns", TAU),
-    ],
-    &[
-        ("N", 1.0),
-        ("kN", 1e3),
-        ("MN", 1e6),
-        ("mN", 1e-3),
-        ("µN", 1e-6),
-        ("lbf", POUND),
-        ("kip", 1e3 * POUND),
-    ],
-    &[
-        ("N·m", 1.0),
-        ("Nm", 1.0),
-        ("N*m", 1.0),
-        ("mN·m", 1e-3),
-        ("mNm", 1e-3),
-        ("kN·m", 1e3),
-        ("kNm", 1e3),
-        ("N·cm", 1e-2),
-        ("Ncm", 1e-2),
-        ("lbf·in", 0.0254 * POUND),
-        ("lbf·ft", 0.3048 * POUND),
-    ],
-    &[("V", 1.0), ("mV", 1e-3)],
-    &[("A", 1.0), ("mA", 1e-3)],
-    &[
-        ("Pa", 1.0),
-        ("kPa", 1e3),
-        ("MPa", 1e6),
-        ("bar", 1e5),
-        ("psi", POUND / (0.0254 * 0.0254)),
-    ],
-];
-
-/// By what a value is to be multiplied to go from one unit to the other.
-pub(super) fn factor(from: &str, to: &str) -> Option<f64> {
-    let size = |kind: &[(&str, f64)], unit: &str| {
-        let named = kind.iter().find(|(name, _)| *name == unit);
-        named.map(|(_, size)| *size)
-    };
-    SIZES
-        .iter()
-        .find_map(|kind| Some(size(kind, from)? / size(kind, to)?))
-}
 
 /// Whether two texts name one unit, `Nm` and `N·m` for example.
 #[must_use]
@@ -211,21 +131,4 @@ fn convert(first: &Column, other: &mut Column, path: &str) -> Result<Option<Stri
         "`{}` converted from {from} to {to}",
         other.name
     )))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn units_of_one_kind_convert_and_others_do_not() {
-        assert_eq!(factor("mm", "mm"), Some(1.0));
-        // One rounding of the quotient.
-        assert!((factor("mm", "µm").unwrap() / 1000.0 - 1.0).abs() < 1e-15);
-        assert!((factor("deg", "rad").unwrap() * 180.0 / std::f64::consts::PI - 1.0).abs() < 1e-15);
-        assert!((factor("kip", "kN").unwrap() / 4.448_221_615_260_5 - 1.0).abs() < 1e-15);
-        assert!((factor("in", "mm").unwrap() / 25.4 - 1.0).abs() < 1e-15);
-        assert_eq!(factor("mm", "N"), None);
-        assert_eq!(factor("K", "°C"), None);
-    }
 }

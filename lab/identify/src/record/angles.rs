@@ -1,6 +1,6 @@
 //! Angles in radians, whatever unit the file has: gravity is sin q and a ripple cos(k·q).
 
-use super::agree::factor;
+use super::sizes::factor;
 use super::{Column, Mode};
 
 /// The unit of every angle that an effect may be a function of.

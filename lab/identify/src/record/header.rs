@@ -2,7 +2,7 @@
 
 use super::error::{shown, RecordError, NAME_LENGTH};
 use super::text::Rows;
-use super::{number, units};
+use super::{number, sizes, units};
 
 /// At most this many names are listed in a message.
 const LISTED: usize = 24;
@@ -69,7 +69,7 @@ impl Header {
         let named = |(name, unit, cell): (String, Option<String>, String)| {
             let (stem, own) = units::split(&name);
             Named {
-                unit: unit.or(own),
+                unit: unit.map(|unit| sizes::written(&unit)).or(own),
                 name: stem.to_owned(),
                 cell,
             }

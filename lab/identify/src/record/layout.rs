@@ -5,7 +5,7 @@
 //! before is a preamble, what stands between names and numbers a row of units. Nothing else
 //! is guessed; if the names are nowhere, the first line is refused as a header.
 
-use super::error::RecordError;
+use super::error::{shown, RecordError, NAME_LENGTH};
 use super::header::{self, Header};
 use super::number::is_data;
 use super::roles::{self, Roles};
@@ -36,12 +36,12 @@ pub(super) fn find<'a>(text: &'a str, options: &Options) -> Result<Table<'a>, Re
     }
     if let Some(line) = options.header_line {
         let (start, before) = start_of(text, line)?;
-        return named(Rows::new(&text[start..]).after(before), options);
+        return named(Rows::new(&text[start..]).after(before), options).and_then(with_units);
     }
-    named(Rows::new(text), options).or_else(|error| match below(text, options) {
-        Some(found) => found,
-        None => Err(error),
-    })
+    match named(Rows::new(text), options) {
+        Ok(table) => with_units(table),
+        Err(error) => below(text, options).unwrap_or(Err(error)),
+    }
 }
 
 /// Where a line of the text begins, and how many lines are before it.
@@ -65,44 +65,101 @@ fn start_of(text: &str, line: usize) -> Result<(usize, usize), RecordError> {
 fn named<'a>(mut rows: Rows<'a>, options: &Options) -> Result<Table<'a>, RecordError> {
     let header = header::read(&mut rows)?;
     let roles = roles::assign(&header, options)?;
-    let separator = rows.separator();
-    let (rest, before) = rows.rest();
-    let (first, behind) = rest.split_once('\n').unwrap_or((rest, ""));
-    let mut table = Table {
+    Ok(Table {
         header,
         roles,
         rows,
         notes: Vec::new(),
-    };
-    if units_row(&mut table, &cells(first, separator)) {
-        table.notes.push(format!("units from line {}", before + 1));
-        table.rows = Rows::separated_by(separator, behind).after(before + 1);
+    })
+}
+
+/// Takes the units from the row behind the names, if it is one of units.
+fn with_units(mut table: Table<'_>) -> Result<Table<'_>, RecordError> {
+    let separator = table.rows.separator();
+    let (rest, before) = table.rows.rest();
+    let (first, behind) = rest.split_once('\n').unwrap_or((rest, ""));
+    let cells = cells(first, separator);
+    match units_row(&mut table, &cells) {
+        Between::Units => {
+            table.notes.push(format!("units from line {}", before + 1));
+            table.rows = Rows::separated_by(separator, behind).after(before + 1);
+        }
+        Between::Unknown { index, .. } => {
+            return Err(unknown(&table.header, &cells, index, before + 1));
+        }
+        Between::Words => {}
     }
     Ok(table)
 }
 
+/// What a row between names and values is.
+enum Between {
+    Units,
+    /// Units, but for the cell of this column that is read.
+    Unknown {
+        index: usize,
+        /// At least half of the cells are known units.
+        most: bool,
+    },
+    Words,
+}
+
 /// Takes the units from a row of them: no cell is a number, and each under a column that is
 /// read is a known unit or empty.
-fn units_row(table: &mut Table<'_>, cells: &[&str]) -> bool {
+fn units_row(table: &mut Table<'_>, cells: &[&str]) -> Between {
     let Table { header, roles, .. } = table;
-    let mut used = roles.read().chain(roles.time);
     let cell = |index: usize| cells.get(index).copied().unwrap_or_default();
-    let known = |index: usize| cell(index).is_empty() || units::alone(cell(index)).is_some();
-    let is_unit = |index: usize| units::alone(cell(index)).is_some();
-    if cells
-        .iter()
-        .any(|cell| cell.parse::<f64>().is_ok() && *cell != "1")
-        || !used.all(known)
-        || !(0..cells.len()).any(|index| is_unit(index) && cell(index) != "1")
-    {
-        return false;
+    let is_number = |cell: &&str| cell.parse::<f64>().is_ok() && *cell != "1";
+    if cells.iter().any(is_number) {
+        return Between::Words;
+    }
+    let mut stated: Vec<usize> = roles.read().chain(roles.time).collect();
+    stated.sort_unstable();
+    stated.dedup();
+    stated.retain(|index| !cell(*index).is_empty());
+    let is_unit = |index: &usize| units::alone(cell(*index)).is_some();
+    // `hh:mm:ss` and `ISO 8601` say how the stamps are written.
+    let is_form = |cell: &str| cell.contains(':') || cell.to_uppercase().starts_with("ISO");
+    let is_known =
+        |index: &usize| is_unit(index) || roles.time == Some(*index) && is_form(cell(*index));
+    if let Some(index) = stated.iter().copied().find(|index| !is_known(index)) {
+        // A letter alone may be a unit or number the channels.
+        let is_clear = |index: &usize| {
+            let own = cell(*index);
+            is_unit(index)
+                && match roles.time == Some(*index) {
+                    true => units::seconds(Some(own)).is_some(),
+                    false => own == "°" || own.chars().count() > 1,
+                }
+        };
+        let most = 2 * stated.iter().filter(|index| is_known(index)).count() >= stated.len();
+        return match stated.iter().any(is_clear) {
+            true => Between::Unknown { index, most },
+            false => Between::Words,
+        };
+    }
+    if !(0..cells.len()).any(|index| is_unit(&index) && cell(index) != "1") {
+        return Between::Words;
     }
     for (column, cell) in header.columns.iter_mut().zip(cells) {
-        if let Some(unit) = units::alone(cell).filter(|unit| !["-", "–", "1"].contains(unit)) {
-            column.unit = Some(unit.to_owned());
+        let known = units::alone(cell);
+        if let Some(unit) = known.filter(|unit| !["-", "–", "1"].contains(&unit.as_str())) {
+            column.unit = Some(unit);
         }
     }
-    true
+    Between::Units
+}
+
+/// The refusal of a row of units for one cell of it.
+fn unknown(header: &Header, cells: &[&str], index: usize, line: usize) -> RecordError {
+    let cell = shown(cells.get(index).copied().unwrap_or_default(), NAME_LENGTH);
+    let name = &header.columns[index].name;
+    let message = format!(
+        "`{cell}` is no unit that is known; mm, N, N·m, deg or another was expected in a row of \
+         units, or an empty cell (`{} [{cell}]` as a name states any unit)",
+        shown(name, NAME_LENGTH)
+    );
+    RecordError::at(line, message).on(name)
 }
 
 /// A line as cells: where it is a number that counts, quotes need no second look.
@@ -228,11 +285,12 @@ fn below<'a>(text: &'a str, options: &Options) -> Option<Result<Table<'a>, Recor
                     continue;
                 }
                 let own = Rows::separated_by(separator, &text[head.lines[names].0..]);
-                match names_above(own.after(names), &head, (names, first), options) {
-                    Ok(mut table) => {
+                match named(own.after(names), options) {
+                    Ok(table) => {
                         let rows = &text[head.lines[first].0..];
-                        table.rows = Rows::separated_by(separator, rows).after(first);
-                        return Some(Ok(table));
+                        let rows = Rows::separated_by(separator, rows).after(first);
+                        let found = units_between(table, &head, (names, first));
+                        return Some(found.map(|table| Table { rows, ..table }));
                     }
                     Err(_) if head.is_units(names) => {}
                     Err(error) => {
@@ -245,30 +303,35 @@ fn below<'a>(text: &'a str, options: &Options) -> Option<Result<Table<'a>, Recor
     refused.flatten().map(Err)
 }
 
-/// A table by its line of names and its first line of numbers.
-fn names_above<'a>(
-    mut rows: Rows<'a>,
+/// Takes the units from the rows between its line of names and its first line of numbers.
+fn units_between<'a>(
+    mut table: Table<'a>,
     head: &Head<'_>,
     (names, first): (usize, usize),
-    options: &Options,
 ) -> Result<Table<'a>, RecordError> {
-    let header = header::read(&mut rows)?;
-    let roles = roles::assign(&header, options)?;
-    let mut table = Table {
-        header,
-        roles,
-        rows,
-        notes: Vec::new(),
-    };
     if names > 0 {
         table.notes.push(passed_over(1, names, "above the names"));
     }
-    let (mut units, mut others) = (None, Vec::new());
+    let (mut units, mut others, mut strange) = (None, Vec::new(), Vec::new());
     for between in names + 1..first {
-        match units.is_none() && units_row(&mut table, &head.lines[between].1) {
-            true => units = Some(between + 1),
-            false => others.push((between + 1).to_string()),
+        let (cells, line) = (&head.lines[between].1, between + 1);
+        if units.is_none() {
+            match units_row(&mut table, cells) {
+                Between::Units => {
+                    units = Some(line);
+                    continue;
+                }
+                Between::Unknown { index, most: true } => {
+                    return Err(unknown(&table.header, cells, index, line));
+                }
+                Between::Unknown { index, most: false } => strange.push(format!(
+                    "`{}` in line {line} is no unit that is known: no unit of that line counts",
+                    shown(cells[index], NAME_LENGTH)
+                )),
+                Between::Words => {}
+            }
         }
+        others.push(line.to_string());
     }
     table
         .notes
@@ -279,6 +342,7 @@ fn names_above<'a>(
         let note = format!("{lines} {list} between names and values passed over");
         table.notes.push(note);
     }
+    table.notes.extend(strange);
     Ok(table)
 }
 

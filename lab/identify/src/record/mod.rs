@@ -44,6 +44,7 @@ mod roles;
 mod rows;
 mod series;
 mod sheet;
+mod sizes;
 mod source;
 mod sparse;
 mod text;

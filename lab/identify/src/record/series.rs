@@ -1,9 +1,9 @@
 //! What a series of a record is read from: a column, or the sum or difference of two.
 
-use super::agree::factor;
 use super::angles::is_angle;
 use super::error::{shown, RecordError, NAME_LENGTH};
 use super::header::{require, Header};
+use super::sizes::factor;
 use super::Options;
 
 const HINT: &str = "--channel NAME=COL names another one";

@@ -1,7 +1,9 @@
 //! Units as headers state them.
 
+use super::sizes::{is_known, written};
+
 /// Endings such as `_mm` in `position_mm`, and the unit that they stand for.
-const SUFFIXES: [(&str, &str); 39] = [
+const SUFFIXES: [(&str, &str); 40] = [
     ("nm", "nm"),
     ("um", "µm"),
     ("mm", "mm"),
@@ -21,6 +23,7 @@ const SUFFIXES: [(&str, &str); 39] = [
     ("kip", "kip"),
     ("mNm", "mN·m"),
     ("Ncm", "N·cm"),
+    ("Nmm", "N·mm"),
     ("Nm", "N·m"),
     ("kNm", "kN·m"),
     ("lbfin", "lbf·in"),
@@ -43,57 +46,16 @@ const SUFFIXES: [(&str, &str); 39] = [
     ("uA", "µA"),
 ];
 
-/// Other spellings of units, in brackets or in a row of units, beside those of [`SUFFIXES`].
-const SPELLINGS: [&str; 44] = [
-    "N*m",
-    "N m",
-    "Nmm",
-    "mNm",
-    "kN·m",
-    "N/m",
-    "N/mm",
-    "°",
-    "°C",
-    "C",
-    "degC",
-    "°F",
-    "deg/s",
-    "°/s",
-    "rad/s",
-    "rad/s²",
-    "1/min",
-    "rpm",
-    "Hz",
-    "kHz",
-    "m/s",
-    "mm/s",
-    "m/s²",
-    "kg",
-    "g",
-    "%",
-    "1",
-    "-",
-    "–",
-    "sec",
-    "min",
-    "W",
-    "µrad",
-    "urad",
-    "degree",
-    "degrees",
-    "Grad",
-    "gon",
-    "rev",
-    "revs",
-    "revolution",
-    "revolutions",
-    "turn",
-    "turns",
+/// Units of no size that is needed here, in brackets or in a row of units.
+const PLAIN: [&str; 26] = [
+    "N/m", "N/mm", "°C", "C", "degC", "°F", "deg/s", "°/s", "rad/s", "rad/s²", "1/min", "rpm",
+    "Hz", "kHz", "m/s", "mm/s", "m/s²", "kg", "g", "%", "1", "-", "–", "sec", "min", "W",
 ];
 
 /// Whether a text is a unit that the reader knows.
 pub(super) fn is_unit(text: &str) -> bool {
-    SPELLINGS.contains(&text)
+    PLAIN.contains(&text)
+        || is_known(&written(text))
         || SUFFIXES
             .iter()
             .any(|(suffix, unit)| *suffix == text || *unit == text)
@@ -102,12 +64,13 @@ pub(super) fn is_unit(text: &str) -> bool {
 
 /// The unit in a cell of a row of units, where it is one that the reader knows; brackets may
 /// stand round it.
-pub(super) fn alone(cell: &str) -> Option<&str> {
+pub(super) fn alone(cell: &str) -> Option<String> {
     let inner = [('[', ']'), ('(', ')')].iter().find_map(|(open, close)| {
         let inner = cell.strip_prefix(*open)?.strip_suffix(*close)?;
         Some(inner.trim())
     });
-    Some(inner.unwrap_or(cell)).filter(|unit| is_unit(unit))
+    let unit = inner.unwrap_or(cell);
+    is_unit(unit).then(|| written(unit))
 }
 
 /// Names of lengths, of which `_in` is the unit; `torque_in` is an input.
@@ -156,7 +119,7 @@ pub(super) fn split(cell: &str) -> (&str, Option<String>) {
     {
         let (name, unit) = (name.trim(), unit.trim());
         if !name.is_empty() {
-            return (name, (!unit.is_empty()).then(|| unit.to_owned()));
+            return (name, (!unit.is_empty()).then(|| written(unit)));
         }
     }
     let round = cell
@@ -166,7 +129,7 @@ pub(super) fn split(cell: &str) -> (&str, Option<String>) {
     if let Some((name, unit)) = round {
         let (name, unit) = (name.trim(), unit.trim());
         if !name.is_empty() && is_unit(unit) {
-            return (name, Some(unit.to_owned()));
+            return (name, Some(written(unit)));
         }
     }
     (cell, ending(cell).map(|(_, unit)| unit.to_owned()))
@@ -242,6 +205,8 @@ mod tests {
         );
         assert_eq!(split("Weg (mm)"), ("Weg", Some("mm".to_owned())));
         assert_eq!(split("Kraft / N"), ("Kraft", Some("N".to_owned())));
+        assert_eq!(split("tau (N mm)"), ("tau", Some("N·mm".to_owned())));
+        assert_eq!(unit("tau [wide-ish]").as_deref(), Some("wide-ish"));
         assert_eq!(unit("force_kip").as_deref(), Some("kip"));
         assert_eq!(unit("displacement_in").as_deref(), Some("in"));
         assert_eq!(unit("x_mm").as_deref(), Some("mm"));

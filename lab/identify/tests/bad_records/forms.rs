@@ -130,10 +130,10 @@ fn a_preamble_and_a_row_of_units_are_found() {
     );
     read(format!("t,x,f\ns,mm,N\n{values}\n"), &["units from line 2"]);
     read(format!("# t,x,f\n{values}\n"), &[]);
-    // What is not a unit is not taken for one.
+    // A row of words is none of units.
     refused(
-        format!("t,x,f\ns,mm,wide\n{values}\n"),
-        "r.csv:2: column `t`: `s` is not a number",
+        format!("t,x,f\nclock,pot,cell\n{values}\n"),
+        "r.csv:2: column `t`: `clock` is not a number",
     );
 }
 

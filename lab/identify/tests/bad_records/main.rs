@@ -5,6 +5,7 @@ mod forms;
 mod plain;
 mod signals;
 mod sparse;
+mod units;
 
 use bowden_lab::record::{parse, read, Mode, Options, Record};
 use proptest::prelude::*;

@@ -1,0 +1,114 @@
+//! Units below the names or in brackets: their spellings, and what is no unit.
+
+use super::{accepted, csv, refused, rows};
+use bowden_lab::record::{agree, Record};
+
+fn with_row(above: &str, units: &str) -> String {
+    let values = rows().join("\n").replace(',', ";");
+    format!("{above}t;tau_i;tau_o\n{units}\n{values}\n")
+}
+
+/// Units of input and output.
+fn units(record: &Record) -> (Option<&str>, Option<&str>) {
+    (record.input.unit.as_deref(), record.output.unit.as_deref())
+}
+
+/// The same row with and without lines above the names.
+const ABOVE: [&str; 2] = ["", "# Rig 4\nWhen;now\n"];
+
+#[test]
+fn a_row_of_units_has_torques_in_every_spelling() {
+    for (cell, unit) in [
+        ("N·m", "N·m"),
+        ("N-m", "N·m"),
+        ("N.m", "N·m"),
+        ("N m", "N·m"),
+        ("N·mm", "N·mm"),
+        ("N*mm", "N·mm"),
+        ("N mm", "N·mm"),
+        ("Nmm", "Nmm"),
+        ("[N-mm]", "N·mm"),
+        ("kgf·cm", "kgf·cm"),
+        ("in-lb", "in·lb"),
+        ("ft-lbf", "ft·lbf"),
+    ] {
+        for above in ABOVE {
+            // Time stamps may have no unit, or their form.
+            for time in ["s", "", "-", "ISO 8601", "hh:mm:ss"] {
+                let record = accepted(with_row(above, &format!("{time};{cell};{cell}")));
+                assert_eq!(units(&record), (Some(unit), Some(unit)), "{cell} {time}");
+                let said = |note: &String| note.starts_with("units from line ");
+                assert!(record.notes.iter().any(said), "{:?}", record.notes);
+            }
+        }
+    }
+    let angles = rows().join("\n").replace(',', ";");
+    let record = accepted(format!("t;tau_i;tau_o;phi_p\ns;Nm;Nm;Grad\n{}\n", {
+        let wide: Vec<String> = angles.lines().map(|row| format!("{row};90")).collect();
+        wide.join("\n")
+    }));
+    let angle = record.channel("phi_p").unwrap();
+    assert_eq!(angle.unit.as_deref(), Some("rad"));
+    assert_eq!(angle.values[0], std::f64::consts::FRAC_PI_2);
+}
+
+#[test]
+fn the_cell_of_a_row_of_units_that_is_no_unit_is_named() {
+    let says = |line: usize, name: &str, cell: &str| {
+        format!(
+            "r.csv:{line}: column `{name}`: `{cell}` is no unit that is known; mm, N, N·m, deg or \
+             another was expected in a row of units, or an empty cell (`{name} [{cell}]` as a name \
+             states any unit)"
+        )
+    };
+    for (above, line) in [(ABOVE[0], 2), (ABOVE[1], 4)] {
+        refused(with_row(above, "s;Nm;wide"), &says(line, "tau_o", "wide"));
+        refused(with_row(above, "s;wide;Nm"), &says(line, "tau_i", "wide"));
+        refused(with_row(above, "when;Nm;Nm"), &says(line, "t", "when"));
+        refused(with_row(above, ";N·x;Nm"), &says(line, "tau_i", "N·x"));
+    }
+    // Below a preamble a row with fewer units is passed over, and the note says why.
+    let record = accepted(with_row(ABOVE[1], "s;wide;long"));
+    assert_eq!(units(&record), (None, None));
+    assert_eq!(
+        record.notes,
+        [
+            "lines 1–2 above the names passed over",
+            "line 4 between names and values passed over",
+            "`wide` in line 4 is no unit that is known: no unit of that line counts"
+        ]
+    );
+    // Letters that number the channels are words, although two of them are units.
+    let record = accepted(with_row(ABOVE[1], "T;A;B"));
+    assert_eq!(units(&record), (None, None));
+    assert_eq!(record.notes.len(), 2, "{:?}", record.notes);
+}
+
+#[test]
+fn spellings_of_one_unit_are_one_and_newton_millimetres_convert() {
+    let of = |unit: &str| accepted(csv(&format!("t,tau_i [{unit}],tau_o [{unit}]"), &rows()));
+    for unit in ["N*mm", "N mm", "N-mm", "Nmm", "mN·m"] {
+        // Another output, since the same samples twice are refused.
+        let mut other = of(unit);
+        other.output.values[7] += 1.0;
+        let mut both = [of("N·mm"), other];
+        agree(&mut both).unwrap();
+        assert_eq!(both[1].notes, [""; 0], "{unit}");
+        assert_eq!(both[1].input, both[0].input);
+    }
+    let mut both = [of("N·m"), of("N mm")];
+    agree(&mut both).unwrap();
+    let (a, b) = (both[0].output.values[9], both[1].output.values[9]);
+    assert!((1e3 * b / a - 1.0).abs() < 1e-15);
+    assert_eq!(
+        both[1].notes[0],
+        "`tau_i` converted from unit N·mm to unit N·m"
+    );
+    // What is not known stays as it is, and is not taken for anything else.
+    let mut both = [of("N·m"), of("wide")];
+    let line = agree(&mut both).unwrap_err().to_string();
+    assert!(
+        line.contains("has unit wide; unit N·m was expected"),
+        "{line}"
+    );
+}
