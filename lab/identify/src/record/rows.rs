@@ -277,6 +277,7 @@ pub(super) fn read(
         .iter_mut()
         .for_each(|own| leave_out(&lacking.out, own));
     long_enough(time.len(), &clock, dropped.all(), rows.line())?;
+    clock.check_unit(header, &time)?;
     let mut notes: Vec<String> = rows.note().into_iter().collect();
     notes.extend(clock.notes(&time));
     let start = time.first().copied().unwrap_or_default();

@@ -35,6 +35,14 @@ pub(super) enum Stamp {
 /// samples a second or fewer say nothing of hysteresis in motion.
 const LONG_STEP: f64 = 0.5;
 
+/// A median step without a unit from which on it is none of seconds, where a smaller unit makes it
+/// one of a logger \[s\]: nobody logs hysteresis twice in three minutes.
+const NO_STEP: f64 = 100.0;
+
+/// A first stamp without a unit from which on it is none of seconds \[s\], three thousand years: those
+/// since 1970 have ten digits, in milliseconds thirteen.
+const NO_STAMP: f64 = 1e11;
+
 /// A mean step without a unit below which stamps are not taken for seconds \[s\]: spreadsheets
 /// count days, and nobody samples a cable a million times a second.
 const SHORT_STEP: f64 = 1e-6;
@@ -203,6 +211,48 @@ impl Clock {
         Err(RecordError::at(*line, message).on(name).from(Bad::Repeated))
     }
 
+    /// Refuses stamps without a unit that cannot be seconds and may well be milliseconds or less.
+    pub(super) fn check_unit(&self, header: &Header, kept: &[f64]) -> Result<(), RecordError> {
+        let step = median_step(kept);
+        let first = self.first.unwrap_or_default();
+        let is_long = step > NO_STEP || first.abs() > NO_STAMP;
+        match self
+            .asked_for_a_unit(step)
+            .filter(|_| is_long && is_quick(step))
+        {
+            Some((name, asked)) => {
+                let start = match first.abs() > NO_STAMP {
+                    true => format!("; the first stamp is {first:.3e} s, thousands of years"),
+                    false => String::new(),
+                };
+                let shown = shown(name, NAME_LENGTH);
+                let message = format!("{asked}, or `{shown} [s]` if it is s{start}");
+                Err(RecordError::at(header.line, message).on(name))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// The column of stamps without a unit whose median step is long for seconds, and the question
+    /// after its unit.
+    fn asked_for_a_unit(&self, step: f64) -> Option<(&str, String)> {
+        let Source::Column {
+            name,
+            unitless: true,
+            ..
+        } = &self.source
+        else {
+            return None;
+        };
+        let (shown, unit) = (shown(name, NAME_LENGTH), likely_unit(step));
+        (!self.of_day && step >= LONG_STEP).then(|| {
+            let asked = format!(
+                "states no unit and was read as seconds; its median step is {step} s: is that {unit}? Then call it `{shown} [{unit}]`"
+            );
+            (name.as_str(), asked)
+        })
+    }
+
     pub(super) fn notes(&self, kept: &[f64]) -> Vec<String> {
         let mut notes = Vec::new();
         if let Source::Rate(rate) = self.source {
@@ -211,20 +261,9 @@ impl Clock {
         if self.of_day {
             notes.push("time stamps are times of day".to_owned());
         }
-        let step = median_step(kept);
-        if let Source::Column {
-            name,
-            unitless: true,
-            ..
-        } = &self.source
-        {
-            if !self.of_day && step >= LONG_STEP {
-                let name = shown(name, NAME_LENGTH);
-                let unit = likely_unit(step);
-                notes.push(format!(
-                    "column `{name}` states no unit and was read as seconds; its median step is {step} s: is that {unit}? Then call it `{name} [{unit}]`"
-                ));
-            }
+        if let Some((name, asked)) = self.asked_for_a_unit(median_step(kept)) {
+            let name = shown(name, NAME_LENGTH);
+            notes.push(format!("column `{name}` {asked}"));
         }
         if self.cut > 0 {
             notes.push(format!("{} of {} samples cut away", self.cut, self.rows));
@@ -233,12 +272,21 @@ impl Clock {
     }
 }
 
-/// The unit in which a step of so many would be one of a logger: of ten samples a second or more,
-/// where there is one.
+/// Units below a second, and their size.
+const SMALLER: [(&str, f64); 3] = [("ms", 1e-3), ("µs", 1e-6), ("ns", 1e-9)];
+
+/// A step of a logger \[s\]: ten samples a second or more.
+const QUICK: f64 = 0.1;
+
+/// The unit in which a step of so many would be one of a logger, where there is one.
 fn likely_unit(step: f64) -> &'static str {
-    let units = [("ms", 1e-3), ("µs", 1e-6), ("ns", 1e-9)];
-    let is_quick = |(_, seconds): &&(&str, f64)| step * seconds <= 0.1;
-    units.iter().find(is_quick).map_or("ms", |(unit, _)| unit)
+    let is_quick = |(_, seconds): &&(&str, f64)| step * seconds <= QUICK;
+    SMALLER.iter().find(is_quick).map_or("ms", |(unit, _)| unit)
+}
+
+/// Whether a step of so many would be one of a logger in a unit below a second.
+fn is_quick(step: f64) -> bool {
+    SMALLER.iter().any(|(_, seconds)| step * seconds <= QUICK)
 }
 
 /// The time of day in a cell, if the first one has one; then all must have one.

@@ -1,6 +1,7 @@
 //! Every bad record gets one clear line, and no bytes at all make the reader panic.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod expected;
 mod forms;
 mod plain;
 mod signals;
