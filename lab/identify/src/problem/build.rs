@@ -234,7 +234,7 @@ fn place(
     let noise_floor = match record.held.contains(&record.output.name) {
         true => 0.0,
         false if uniform.is_finer() => floor::of_slower(record, uniform, cutoff)?,
-        false => floor::of(&output, &smoothed_output, cutoff, rate),
+        false => floor::of(&output, &smoothed_output, uniform.noise(), (cutoff, rate)),
     };
     let Range { start, end } = without_rest((&motion, &on_work), noise_floor, grid);
     let row = dt * stride as f64;

@@ -7,23 +7,32 @@ use super::ZeroPhase;
 use crate::record::Record;
 
 /// Rms of white noise behind the filter at `cutoff`, estimated from what the
-/// smoother at 2.5 times that took away.
-pub(super) fn of(output: &[f64], smoothed: &[f64], cutoff: f64, rate: f64) -> f64 {
+/// smoother at 2.5 times that took away; `[variance, covariance]` are those of noise of unit variance
+/// and its neighbours on this grid ([`Uniform::noise`]).
+pub(super) fn of(
+    output: &[f64],
+    smoothed: &[f64],
+    [variance, covariance]: [f64; 2],
+    (cutoff, rate): (f64, f64),
+) -> f64 {
     // Differences of neighbours see the noise at the top of the band and not the signal.
     let n = output.len();
     let removed: Vec<f64> = output.iter().zip(smoothed).map(|(a, b)| a - b).collect();
     let passed = ZeroPhase::new(2.5 * cutoff, rate).noise_gain();
-    // What is left of white noise after taking away its smoothed part: 1 − 2 h0 + sum h².
+    // What is left of white noise after taking away its smoothed part: 1 − 2 h0 + sum h²; and of its
+    // neighbours: sum h·(h one sample on) − 2 h1.
     let mut impulse = vec![0.0; 4001];
     impulse[2000] = 1.0;
-    let centre = ZeroPhase::new(2.5 * cutoff, rate).apply(&impulse)[2000];
-    let share = 1.0 - 2.0 * centre + passed * passed;
+    let smooth = ZeroPhase::new(2.5 * cutoff, rate).apply(&impulse);
+    let squares = 1.0 - 2.0 * smooth[2000] + passed * passed;
+    let neighbours = smooth.windows(2).map(|h| h[0] * h[1]).sum::<f64>() - 2.0 * smooth[2001];
+    let share = variance * squares + 2.0 * covariance * neighbours;
     if share <= 0.02 {
         return 0.0;
     }
     let noise = 1.0 - share_of_lines(&power(&removed), 5.0 * cutoff / rate);
-    let variance = noise * removed.iter().map(|v| v * v).sum::<f64>() / n as f64 / share;
-    variance.sqrt() * ZeroPhase::new(cutoff, rate).noise_gain()
+    let of_samples = noise * removed.iter().map(|v| v * v).sum::<f64>() / n as f64 / share;
+    of_samples.sqrt() * ZeroPhase::new(cutoff, rate).noise_gain()
 }
 
 /// A bin of the spectrum is part of a line from this many medians of its neighbours on. Of white
@@ -70,7 +79,7 @@ pub(super) fn of_slower(record: &Record, on_grid: &Uniform, cutoff: f64) -> Resu
     let output = own.signal(&bridged(record, &record.output));
     let rate = 1.0 / own.dt;
     let smoothed = ZeroPhase::new(2.5 * cutoff, rate).apply(&output);
-    Ok(of(&output, &smoothed, cutoff, rate))
+    Ok(of(&output, &smoothed, own.noise(), (cutoff, rate)))
 }
 
 #[cfg(test)]
@@ -93,7 +102,44 @@ mod tests {
     fn floor(output: &[f64]) -> f64 {
         let (cutoff, rate) = (7.0, 500.0);
         let smoothed = ZeroPhase::new(2.5 * cutoff, rate).apply(output);
-        of(output, &smoothed, cutoff, rate)
+        of(output, &smoothed, [1.0, 0.0], (cutoff, rate))
+    }
+
+    /// A record whose stamps jitter, or of which rows are lost, has the noise of its sensor.
+    #[test]
+    fn what_lies_between_the_samples_of_a_grid_is_less_noisy_than_they_are() {
+        let (cutoff, rate, samples) = (7.0, 500.0, 20_000);
+        let plain = noise(samples);
+        let alone = floor(&plain);
+        let of_record = |time: &[f64], values: &[f64]| {
+            let own = super::super::uniform::usual_step(time);
+            let grid = Uniform::new(time, own, own).unwrap();
+            let output = grid.signal(values);
+            let smoothed = ZeroPhase::new(2.5 * cutoff, 1.0 / own).apply(&output);
+            (
+                of(&output, &smoothed, grid.noise(), (cutoff, 1.0 / own)),
+                own,
+            )
+        };
+        let even = |i: usize| i as f64 / rate;
+        // Jitter of 45 % of a step either way.
+        let jitter: Vec<f64> = noise(samples)
+            .iter()
+            .enumerate()
+            .map(|(i, n)| even(i) + 0.26 * n / rate)
+            .collect();
+        let (jittered, _) = of_record(&jitter, &plain);
+        assert!((jittered / alone - 1.0).abs() < 0.03, "{jittered} {alone}");
+        // Every 97th row is lost: the others stay where they are.
+        let kept = |i: &usize| i % 97 != 50;
+        let time: Vec<f64> = (0..samples).filter(kept).map(even).collect();
+        let values: Vec<f64> = (0..samples).filter(kept).map(|i| plain[i]).collect();
+        let (with_gaps, step) = of_record(&time, &values);
+        assert!((step * rate - 1.0).abs() < 1e-8, "{step}");
+        assert!(
+            (with_gaps / alone - 1.0).abs() < 0.03,
+            "{with_gaps} {alone}"
+        );
     }
 
     #[test]

@@ -5,14 +5,25 @@ use std::ops::Range;
 /// Rates that differ by less than this share are one rate: clocks drift by less.
 const SAME_RATE: f64 = 1e-3;
 
+/// A clock is steady where the steps but for a tenth on either side are off by less than this share.
+const STEADY: f64 = 0.1;
+
 /// The usual step of a record \[s\].
 pub(super) fn usual_step(time: &[f64]) -> f64 {
     let mut steps: Vec<f64> = time.windows(2).map(|w| w[1] - w[0]).collect();
     steps.sort_by(f64::total_cmp);
     let median = steps[steps.len() / 2];
-    // The mean of the steps that are no gaps.
-    let usual = steps.partition_point(|s| *s <= 3.0 * median);
-    let mean = steps[..usual].iter().sum::<f64>() / usual as f64;
+    // The mean of the steps that are no gaps. Where the clock is steady, a step over a row that was lost
+    // is two of them: counted as one it would move every sample behind it off the grid.
+    let usual = &steps[..steps.partition_point(|s| *s <= 3.0 * median)];
+    let single = steps.partition_point(|s| *s <= 1.5 * median);
+    let off = |i: usize| (steps[i] - median).abs() / median;
+    let steady = off(single / 10).max(off(single - 1 - single / 10)) < STEADY;
+    let samples = usual.iter().map(|s| match steady {
+        true => (s / median).round().max(1.0),
+        false => 1.0,
+    });
+    let mean = usual.iter().sum::<f64>() / samples.sum::<f64>();
     // Nine digits: what is beyond them is the rounding of the sum.
     format!("{mean:.9e}").parse().unwrap_or(mean)
 }
@@ -74,6 +85,23 @@ impl Uniform {
     /// Whether the grid is finer than the record.
     pub(super) fn is_finer(&self) -> bool {
         self.own / self.dt > 1.0 + SAME_RATE
+    }
+
+    /// What the grid makes of white noise of unit variance in the samples: its variance, and the
+    /// covariance of neighbours. A point between two samples is the mean of both noises.
+    pub(super) fn noise(&self) -> [f64; 2] {
+        let Some(position) = &self.position else {
+            return [1.0, 0.0];
+        };
+        let common = |a: &(usize, f64), b: &(usize, f64)| match b.0 - a.0 {
+            0 => (1.0 - a.1) * (1.0 - b.1) + a.1 * b.1,
+            1 => a.1 * (1.0 - b.1),
+            _ => 0.0,
+        };
+        let own = position.iter().map(|p| common(p, p)).sum::<f64>();
+        let next = position.windows(2).map(|w| common(&w[0], &w[1]));
+        let points = position.len() as f64;
+        [own / points, next.sum::<f64>() / points]
     }
 
     /// A grid over the same record at its own rate.
