@@ -3,7 +3,7 @@
 use crate::chart::scale::Scale;
 use crate::chart::{Axis, Chart};
 use crate::document::{data, page, table, Opening, Provenance, Section};
-use bowden_trials::facts::{Compared, Heading, Line, Results, Row};
+use bowden_trials::facts::{told_of_limits, Compared, Heading, Line, Results, Row};
 use maud::{html, Markup};
 
 /// What the page shows: comparisons under one or several configurations.
@@ -161,7 +161,10 @@ impl<'a> Part<'a> {
             "peak",
             "paper, Table 3",
         ];
-        table(&label, &head, 1..5, &rows)
+        html! {
+            (table(&label, &head, 1..5, &rows))
+            @if let Some(told) = told_of_limits(&self.lines) { p { (told) } }
+        }
     }
 
     /// The axis of all errors but those of laws that ran away.

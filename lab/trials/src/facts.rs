@@ -24,9 +24,10 @@ pub use super::design::{
 };
 pub use super::found::{Outcome, Pair};
 pub use super::heading::Heading;
+pub use super::limited::AtLimit;
 pub use super::own_rig::RigChanges;
 pub use super::proof::{coq, gappa, prove, Proof, Sides};
-pub use super::table::{Line, Spread};
+pub use super::table::{told_of_limits, Line, Spread};
 pub use super::tolerance::Tolerance;
 pub use super::trial::Row;
 pub use super::undeclared::Undeclared;

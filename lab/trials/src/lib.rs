@@ -17,6 +17,7 @@ pub mod found;
 pub mod gains;
 pub mod heading;
 pub mod learned;
+pub mod limited;
 pub mod lineup;
 mod observed;
 pub mod own_rig;

@@ -1,5 +1,6 @@
 //! Several seeds of one controller: mean and standard deviation.
 
+use super::limited::AtLimit;
 use super::trial::{run, Conditions, Controller, Trial};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -42,6 +43,8 @@ pub struct Line {
     pub effort: f64,
     /// Reversals of the command, mean \[1/s\].
     pub reversals: f64,
+    /// How much of the steady part the command is at a limit, mean.
+    pub at_limit: AtLimit,
     /// Rms of the true error in the first 12 s \[N·m\].
     pub transient: Spread,
     /// Largest true error in the first 12 s \[N·m\].
@@ -104,6 +107,10 @@ fn line(name: &str, trials: &[Trial], conditions: &Conditions) -> Line {
         peak: most(|t| t.steady.peak),
         effort: spread(|t| t.effort).mean,
         reversals: spread(|t| t.reversals).mean,
+        at_limit: AtLimit {
+            range: spread(|t| t.at_limit.range).mean,
+            slew: spread(|t| t.at_limit.slew).mean,
+        },
         transient: spread(|t| t.transient.rmse_true),
         transient_peak: most(|t| t.transient.peak),
         command: most(|t| t.command),
@@ -115,4 +122,19 @@ fn line(name: &str, trials: &[Trial], conditions: &Conditions) -> Line {
         first: trials.first().cloned().unwrap_or_default(),
         each: trials.iter().map(|t| t.steady.rmse_true).collect(),
     }
+}
+
+/// Which commands are at a limit for much of the steady part; `None` where none is.
+#[must_use]
+pub fn told_of_limits(lines: &[Line]) -> Option<String> {
+    let lines = lines.iter().filter(|line| line.diverged == 0);
+    let own =
+        lines.filter_map(|line| Some(format!("{} {}", line.controller, line.at_limit.words()?)));
+    let all: Vec<String> = own.collect();
+    (!all.is_empty()).then(|| {
+        format!(
+            "At a limit of the command: {}. Such a row shows what the limit does, and not what the gains can do.",
+            all.join("; ")
+        )
+    })
 }

@@ -2,9 +2,10 @@
 
 use super::feed::FeedForward;
 use super::learned::{Learned, Running as Learns};
+use super::limited::{AtLimit, Counted};
 use super::observed::Observing;
 use bowden::control::{
-    Adaptive, AdaptiveInput, AdaptiveState, DisturbanceObserver, Pid, PidInput, PidState,
+    Adaptive, AdaptiveInput, AdaptiveState, DisturbanceObserver, Limits, Pid, PidInput, PidState,
 };
 use bowden::{model::Term, Error};
 use bowden_rig::{Reference, Rig, RigConfig, RigSample};
@@ -24,6 +25,16 @@ pub enum Law {
     Pid(Pid<f64>),
     /// The adaptive law; the third regressor is what the bench has found, or nothing.
     Adaptive(ThreeRegressors),
+}
+
+impl Law {
+    /// Of its command.
+    fn limits(&self) -> Limits<f64> {
+        match self {
+            Self::Pid(pid) => pid.settings().limits,
+            Self::Adaptive(law) => law.settings().limits,
+        }
+    }
 }
 
 /// The adaptive law over velocity, acceleration and what was found.
@@ -110,6 +121,8 @@ pub struct Trial {
     pub effort: f64,
     /// Changes of direction of the command \[1/s\] over the steady part.
     pub reversals: f64,
+    /// How much of the steady part the command is at a limit.
+    pub at_limit: AtLimit,
     /// When the loop ran away \[s\]; `None` where it did not.
     pub ran_away: Option<f64>,
     /// One row a sample, where it was asked for.
@@ -240,8 +253,8 @@ pub fn run(
     let steps = (conditions.seconds * controller.rate).round() as usize;
     let (mut steady, mut transient) = (Sums::default(), Sums::default());
     let mut trial = Trial::default();
-    let (mut last, mut before) = (0.0_f64, 0.0_f64);
-    let mut turns = 0.0;
+    let mut counted = Counted::new(controller.law.limits());
+    let (mut last, mut before, mut turns) = (0.0_f64, 0.0_f64, 0.0);
     for step in 0..steps {
         let now = state.sample();
         let t = step as f64 * dt;
@@ -268,6 +281,9 @@ pub fn run(
                 feed_forward: feed_forward + observed + learned,
                 found,
             });
+            if t > conditions.from {
+                counted.add(last, command, own_dt);
+            }
         }
         if traced {
             trial.trace.push(Row {
@@ -301,6 +317,7 @@ pub fn run(
     let span = (conditions.seconds - conditions.from).max(dt);
     trial.steady = steady.errors();
     trial.transient = transient.errors();
+    trial.at_limit = counted.shares();
     trial.effort /= span;
     trial.reversals = turns / span;
     Ok(trial)

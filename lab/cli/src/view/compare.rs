@@ -2,7 +2,9 @@
 
 use super::compare_found;
 use super::compare_rows::{conditions, configuration, own, row};
-use bowden_trials::facts::{places, Compared, Heading, Line, Lineup, Promise, Results, Spread};
+use bowden_trials::facts::{
+    places, told_of_limits, Compared, Heading, Line, Lineup, Promise, Results, Spread,
+};
 use serde_json::{json, Value};
 use std::fmt::Write as _;
 
@@ -65,7 +67,9 @@ fn lineup_text(heading: &Heading, lineup: &Lineup) -> String {
         (false, None, true) => GAIT_NOTES,
         (false, None, false) => CHANGED_NOTES,
     };
+    let at_limits = told_of_limits(&lineup.lines);
     out + &steady(heading, lineup)
+        + &at_limits.map_or_else(String::new, |told| format!("{told}\n"))
         + &transient(heading, &lineup.lines)
         + notes
         + without_certificate(heading, lineup)

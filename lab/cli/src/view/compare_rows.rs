@@ -55,6 +55,7 @@ pub(super) fn row(line: &Line) -> Value {
         "reversals": number(line.reversals),
         "transient": { "rmse_true": spread(line.transient), "peak": number(line.transient_peak) },
         "largest_command": line.command,
+        "at_limit": told.then_some(line.at_limit),
         "diverged": line.diverged,
         "ran_away_at": line.ran_away,
         "certificate": Value::Null,

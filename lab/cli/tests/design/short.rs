@@ -166,6 +166,45 @@ fn gains_of_another_model_are_told() {
     );
 }
 
+/// A loop that its slew rate rules has an error that says nothing of its gains.
+#[test]
+fn a_command_that_is_at_its_limit_much_of_the_time_is_told_beside_its_errors() {
+    let place = Place::new();
+    let (model, gains) = super::designed(&place);
+    let fixed = ["--seeds", "1", "--seconds", "9"];
+    let light = super::LIGHT.as_slice();
+    let compared = |gains: &str, more: &[&str]| {
+        let asked = ["compare", "--model", &model, "--gains", gains];
+        said(&[asked.as_slice(), &fixed, light, more].concat())
+    };
+    assert!(!compared(&gains, &[]).contains("At a limit of the command"));
+    // PI alone is slowed down.
+    let mut table: toml::Table = toml::from_str(&text(&gains)).unwrap();
+    let limits = &mut table["pi"].as_table_mut().unwrap()["limits"];
+    let limits = limits.as_table_mut().unwrap();
+    let designed = limits["slew"].as_float().unwrap();
+    limits.insert("slew".to_owned(), (0.02 * designed).into());
+    let slow = place.write("slow.toml", &toml::to_string(&table).unwrap());
+    let report = compared(&slow, &[]);
+    let told = report.lines().find(|l| l.starts_with("At a limit"));
+    let told = told.unwrap_or_else(|| panic!("{report}"));
+    assert!(told.contains("command: pi at its slew rate in "), "{told}");
+    assert!(!told.contains("adaptive"), "{told}");
+    let json: Value = serde_json::from_str(&compared(&slow, &["--json"])).unwrap();
+    let rows = json["rows"].as_array().unwrap();
+    let share = |name: &str| {
+        let row = rows.iter().find(|row| row["controller"] == name).unwrap();
+        row["at_limit"]["slew"].as_f64().unwrap()
+    };
+    assert!(share("pi") > 0.2 && share("pi") <= 1.0, "{json}");
+    assert!(share("adaptive") < 0.2, "{json}");
+    let percent = format!("{:.0} % of the samples", 100.0 * share("pi"));
+    assert!(told.contains(&percent), "{told}");
+    let page = place.path("page.html");
+    compared(&slow, &["--report", &page]);
+    assert!(text(&page).contains("command: pi at its slew rate in "));
+}
+
 /// Certificates without a model's cable would be believed to be of it.
 #[test]
 fn certificates_of_the_reference_rig_are_not_asked_for_a_model() {

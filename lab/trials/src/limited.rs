@@ -1,0 +1,102 @@
+//! How much of a trial a command spends at its limits: there the limits rule the loop, and not the gains.
+
+use bowden::control::Limits;
+use serde::Serialize;
+
+/// Share of the samples from which it is told. A choice: a command that meets a limit now and then is
+/// what limits are for.
+pub const TOLD: f64 = 0.2;
+
+/// Of what a slew rate admits in a step, from here on it is met: a sum of floats need not reach it.
+const MET: f64 = 1.0 - 1e-9;
+
+/// Shares of the samples of the steady part.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct AtLimit {
+    /// At an end of the range.
+    pub range: f64,
+    /// At the slew rate.
+    pub slew: f64,
+}
+
+impl AtLimit {
+    /// In words, where one of the two is more than [`TOLD`].
+    #[must_use]
+    pub fn words(&self) -> Option<String> {
+        let told = |share: f64, limit: &str| {
+            (share > TOLD).then(|| format!("{limit} in {:.0} % of the samples", 100.0 * share))
+        };
+        let both = [
+            told(self.slew, "at its slew rate"),
+            told(self.range, "at an end of its range"),
+        ];
+        let both: Vec<String> = both.into_iter().flatten().collect();
+        (!both.is_empty()).then(|| both.join(" and "))
+    }
+}
+
+/// Counts the samples of one trial.
+pub(super) struct Counted {
+    limits: Limits<f64>,
+    range: f64,
+    slew: f64,
+    count: f64,
+}
+
+impl Counted {
+    pub(super) fn new(limits: Limits<f64>) -> Self {
+        Self {
+            limits,
+            range: 0.0,
+            slew: 0.0,
+            count: 0.0,
+        }
+    }
+
+    /// One step of the law, from the command before to the one that it gave.
+    pub(super) fn add(&mut self, before: f64, command: f64, dt: f64) {
+        let Self { limits, .. } = *self;
+        self.count += 1.0;
+        if command >= limits.high() || command <= limits.low() {
+            self.range += 1.0;
+        }
+        let reach = limits.slew().map(|slew| slew * dt * MET);
+        if reach.is_some_and(|reach| (command - before).abs() >= reach) {
+            self.slew += 1.0;
+        }
+    }
+
+    pub(super) fn shares(&self) -> AtLimit {
+        let count = self.count.max(1.0);
+        AtLimit {
+            range: self.range / count,
+            slew: self.slew / count,
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::{AtLimit, Counted};
+    use bowden::control::Limits;
+
+    #[test]
+    fn ends_of_the_range_and_whole_steps_of_the_slew_rate_are_counted_each_by_itself() {
+        let limits = Limits::try_new(-1.0, 2.0).unwrap().with_slew(3.0).unwrap();
+        let mut counted = Counted::new(limits);
+        // In steps of 0.1 s the slew rate is 0.3.
+        let commands = [0.0, 0.3, 0.5, 0.2, -0.1, -0.4, -0.7, -1.0, -1.0, -0.9];
+        for pair in commands.windows(2) {
+            counted.add(pair[0], pair[1], 0.1);
+        }
+        let shares = counted.shares();
+        assert!((shares.range - 2.0 / 9.0).abs() < 1e-12, "{shares:?}");
+        assert!((shares.slew - 6.0 / 9.0).abs() < 1e-12, "{shares:?}");
+        assert_eq!(
+            shares.words().unwrap(),
+            "at its slew rate in 67 % of the samples and at an end of its range in 22 % of the samples"
+        );
+        assert!(AtLimit::default().words().is_none());
+    }
+}
