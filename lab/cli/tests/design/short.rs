@@ -97,6 +97,31 @@ fn limits_on_one_side_of_zero_are_told_before_certify_refuses_them() {
     );
 }
 
+/// Small limits and a slow loop: `certify` reads the file, and says what is missing.
+#[test]
+fn gains_that_are_not_proved_are_said_to_be_that_and_certify_names_what_fails() {
+    let place = Place::new();
+    let gains = place.path("gains.toml");
+    let model = STIFF.replace("kappa_eta = 1.0", "kappa_eta = 0.1");
+    for (stroke, above) in [("3.0", "no certificate: "), ("6.0", "certificate (peak-")] {
+        let model = model.replace("LOW", &format!("-{stroke}"));
+        let model = model.replace("40.0]\nvelocity", &format!("{stroke}]\nvelocity"));
+        let model = place.write("model.toml", &model);
+        let asked = ["--rate", "50", "--delay", "0.01", "--out", &gains];
+        let report = said(&[["design", &model].as_slice(), &asked].concat());
+        assert!(report.contains(above), "{report}");
+        let last = report.trim_end().lines().last().unwrap();
+        assert!(
+            last.starts_with("`bowden certify GAINS.toml` says which gain or limit stands"),
+            "{last}"
+        );
+        let output = bowden(&["certify", &gains]);
+        assert_eq!(output.status.code(), Some(1));
+        let named = String::from_utf8(output.stdout).unwrap();
+        assert!(named.contains("mended by "), "{named}");
+    }
+}
+
 #[test]
 fn a_rate_that_is_too_low_for_the_law_is_named() {
     let place = Place::new();

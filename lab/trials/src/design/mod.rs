@@ -470,7 +470,7 @@ fn notes(plant: &Plant, adaptive: &AdaptiveDesign) -> Vec<String> {
         );
     } else if let Some(why) = &adaptive.unproved {
         notes.push(format!(
-            "`bowden certify` refuses this file as it stands, since {why}; the certificate above counts neither the limits nor the slew rate"
+            "`bowden certify` does not prove this file as it stands, since {why}; the certificate above counts neither the limits nor the slew rate"
         ));
     }
     if plant.own_delay > 0.0 {
