@@ -65,6 +65,24 @@ fn of_day(time: &str) -> Option<f64> {
     Some(f64::from(60 * minutes) + seconds)
 }
 
+/// What to write in place of a cell that is no stamp; `None` where it does not look like a time.
+pub(super) fn expected(cell: &str) -> Option<&'static str> {
+    let digits = cell.starts_with(|c: char| c.is_ascii_digit());
+    let upper = cell.to_uppercase();
+    if !digits || !cell.contains([':', '/', '-']) || cell.parse::<f64>().is_ok() {
+        return None;
+    }
+    Some(if cell.contains('/') {
+        "1/2/2026 may be two days; ISO 8601 (2026-02-01T23:59:50.250) or 1.2.2026 23:59:50.250 was \
+         expected"
+    } else if upper.ends_with('M') {
+        "hours from 0 to 23 without AM and PM were expected, as in 23:59:50.250"
+    } else {
+        "seconds, 23:59:50.250, 2026-02-01T23:59:50.250 (ISO 8601) or 1.2.2026 23:59:50.250 was \
+         expected"
+    })
+}
+
 /// Days of a date in the Gregorian calendar.
 fn days(date: &str) -> Option<i64> {
     let parts = |separator: char| -> Option<[i64; 3]> {

@@ -53,6 +53,11 @@ impl RecordError {
         }
     }
 
+    /// The same place with another message.
+    pub(super) fn but(self, message: String) -> Self {
+        Self { message, ..self }
+    }
+
     pub(super) fn from(self, bad: Bad) -> Self {
         Self {
             bad: Some(bad),

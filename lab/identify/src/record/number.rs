@@ -100,7 +100,7 @@ impl Notation {
                 "`{text}` has a decimal point, a decimal comma was expected as in line {}",
                 self.decided.get()
             ),
-            Err(_) => format!("`{text}` is not a number"),
+            Err(_) => no_number(cell),
         };
         Err(RecordError::at(line, message).on(column))
     }
@@ -130,8 +130,77 @@ fn refuse(cell: &str, parsed: Option<f64>, line: usize, column: &str) -> Result<
         None if cell.replacen(',', ".", 1).parse::<f64>().is_ok() => refuse(format!(
             "`{text}` has a decimal comma, a decimal point was expected"
         )),
-        None => refuse(format!("`{text}` is not a number")),
+        None => refuse(no_number(cell)),
     }
+}
+
+/// What instruments and spreadsheets write in place of a number, in capitals.
+const MARKS: [&str; 21] = [
+    "OVL",
+    "OL",
+    "O.L",
+    "OVLD",
+    "OVR",
+    "OVER",
+    "OVF",
+    "OVFL",
+    "OVERLOAD",
+    "OVERFLOW",
+    "OVERRANGE",
+    "OPEN",
+    "ERR",
+    "ERROR",
+    "NULL",
+    "NONE",
+    "NA",
+    "N/A",
+    "-",
+    "--",
+    "---",
+];
+
+/// That a cell is no number, and what was expected where that can be told.
+fn no_number(cell: &str) -> String {
+    let text = shown(cell, CELL_LENGTH);
+    let upper = cell.to_uppercase();
+    // `#N/A`, `#VALUE!` and their like in other languages.
+    let of_a_sheet = upper
+        .strip_prefix('#')
+        .is_some_and(|own| own.starts_with(char::is_alphabetic));
+    let is_mark = of_a_sheet || MARKS.contains(&upper.trim_start_matches('+'));
+    if is_mark || MARKS.contains(&upper.trim_start_matches('-')) {
+        return format!(
+            "`{text}` is not a number but a mark in place of one; leave the cell empty and \
+             --drop-bad leaves such rows out"
+        );
+    }
+    match has_thousands(cell) {
+        true => format!(
+            "`{text}` is not a number: separators of thousands are not read, digits without them \
+             were expected"
+        ),
+        false => format!("`{text}` is not a number"),
+    }
+}
+
+/// Whether a cell is a number whose digits stand in groups of three.
+fn has_thousands(cell: &str) -> bool {
+    let own = cell.strip_prefix(['+', '-']).unwrap_or(cell);
+    let Some(separator) = own.chars().find(|c| !c.is_ascii_digit()) else {
+        return false;
+    };
+    let decimal = own.rfind(|c: char| ".,".contains(c) && c != separator);
+    let (whole, decimals) = own.split_at(decimal.unwrap_or(own.len()));
+    let is_digits = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
+    let mut groups = whole.split(separator);
+    let first = groups.next().unwrap_or_default();
+    let mut groups = groups.peekable();
+    ['.', ',', ' ', '\'', '’', '\u{a0}', '\u{202f}'].contains(&separator)
+        && (1..=3).contains(&first.len())
+        && is_digits(first)
+        && groups.peek().is_some()
+        && groups.all(|group| group.len() == 3 && is_digits(group))
+        && is_digits(decimals.get(1..).unwrap_or_default())
 }
 
 fn not_finite(text: &str) -> String {

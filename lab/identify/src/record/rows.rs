@@ -331,6 +331,15 @@ fn long_enough(left: usize, clock: &Clock, dropped: usize, line: usize) -> Resul
         (true, false) => format!(" of {all} are left after cutting"),
         _ => String::new(),
     };
-    let message = format!("too short: {left} {samples}{cut}, at least {MIN_SAMPLES} are needed");
+    // An option in the file's own stamps, which may be seconds since 1970.
+    let counts = match all > 0 && clock.cut() == all {
+        true => format!(
+            "; --skip and --until count seconds from the first time stamp, the last one is at {:.3} s",
+            clock.last()
+        ),
+        false => String::new(),
+    };
+    let message =
+        format!("too short: {left} {samples}{cut}, at least {MIN_SAMPLES} are needed{counts}");
     Err(RecordError::at(line, message))
 }

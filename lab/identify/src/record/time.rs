@@ -122,7 +122,11 @@ impl Clock {
                         self.of_day = true;
                         stamp
                     }
-                    None => row.number(index, name)? * scale,
+                    None => {
+                        row.number(index, name)
+                            .map_err(|error| no_stamp(row, index, error))?
+                            * scale
+                    }
                 };
                 let fresh = self.first.is_none();
                 let first = *self.first.get_or_insert(stamp);
@@ -165,6 +169,16 @@ impl Clock {
         self.rows
     }
 
+    /// Rows that were cut.
+    pub(super) fn cut(&self) -> usize {
+        self.cut
+    }
+
+    /// Time of the last row \[s\], since the first one.
+    pub(super) fn last(&self) -> f64 {
+        self.last
+    }
+
     /// Refuses time stamps that repeat, and says what they look like; and such without a unit
     /// that cannot be seconds.
     pub(super) fn finish(&self, header: &Header) -> Result<(), RecordError> {
@@ -193,6 +207,11 @@ impl Clock {
         }
         let name = &header.columns[*index].name;
         let cell = shown(cell, 24);
+        // Where most rows would go, what is left is another record.
+        let drop = match 2 * self.repeated > self.rows {
+            true => "",
+            false => ", --drop-bad leaves such rows out",
+        };
         let message = if self.repeated * 100 >= self.rows && self.last > 0.0 {
             let stamps = (self.rows - self.repeated).max(2) as f64;
             let rate = match 2 * self.repeated > self.rows {
@@ -202,11 +221,11 @@ impl Clock {
             };
             format!(
                 "time stands still at {cell}, as at {} of {} rows: the stamps are rounded; \
-                 --rate HZ takes time from the row number (about {rate:.1} Hz), --drop-bad leaves such rows out",
+                 --rate HZ takes time from the row number (about {rate:.1} Hz){drop}",
                 self.repeated, self.rows
             )
         } else {
-            format!("time stands still at {cell}; --rate HZ takes time from the row number, --drop-bad leaves such rows out")
+            format!("time stands still at {cell}; --rate HZ takes time from the row number{drop}")
         };
         Err(RecordError::at(*line, message).on(name).from(Bad::Repeated))
     }
@@ -306,6 +325,19 @@ fn of_day(row: &Row<'_>, index: usize, all: bool, first: bool) -> Result<Option<
             Err(RecordError::at(row.line(), message))
         }
         stamp => Ok(stamp),
+    }
+}
+
+/// The refusal of a cell that is neither a number nor a time, with the forms that are read where it
+/// looks like a time.
+fn no_stamp(row: &Row<'_>, index: usize, error: RecordError) -> RecordError {
+    let cell = row.text(index).unwrap_or_default();
+    match clock_time::expected(cell) {
+        Some(expected) => error.but(format!(
+            "`{}` is not a number nor a time that is read: {expected}",
+            shown(cell, 24)
+        )),
+        None => error,
     }
 }
 

@@ -1,6 +1,7 @@
 //! A refusal says what was expected, where that can be told from the cell.
 
-use super::{accepted, refused, with_time};
+use super::{accepted, refusal, refused, with_line, with_time};
+use bowden_lab::record::Options;
 
 #[test]
 fn stamps_without_a_unit_that_cannot_be_seconds_are_refused() {
@@ -42,4 +43,89 @@ fn stamps_without_a_unit_that_cannot_be_seconds_are_refused() {
     accepted(of(31_557_600_000, 0));
     let stated = of(2_000, 0).replacen("t,", "t [s],", 1);
     assert_eq!(accepted(stated).time[1], 2000.0);
+}
+
+#[test]
+fn a_stamp_of_another_form_says_which_forms_are_read() {
+    let cell = |cell: &str, expected: &str| {
+        refused(
+            with_line(2, &format!("{cell},1,2")),
+            &format!(
+                "r.csv:2: column `t`: `{cell}` is not a number nor a time that is read: {expected}"
+            ),
+        );
+    };
+    cell(
+        "3/1/2026 23:59:50.000",
+        "1/2/2026 may be two days; ISO 8601 (2026-02-01T23:59:50.250) or 1.2.2026 23:59:50.250 was \
+         expected",
+    );
+    cell(
+        "11:59:50.000 PM",
+        "hours from 0 to 23 without AM and PM were expected, as in 23:59:50.250",
+    );
+    cell(
+        "2026-03-01",
+        "seconds, 23:59:50.250, 2026-02-01T23:59:50.250 (ISO 8601) or 1.2.2026 23:59:50.250 was \
+         expected",
+    );
+}
+
+#[test]
+fn marks_and_separators_of_thousands_are_told_from_other_words() {
+    for mark in ["OVL", "OL", "-OL", "ovl", "#N/A", "#NUM!", "N/A", "---"] {
+        refused(
+            with_line(9, &format!("0.07,{mark},2")),
+            &format!(
+                "r.csv:9: column `x`: `{mark}` is not a number but a mark in place of one; leave the \
+                 cell empty and --drop-bad leaves such rows out"
+            ),
+        );
+    }
+    for cell in ["3.763,8", "-1,234.5", "1,234,567", "12'345.5", "1 234"] {
+        refused(
+            with_line(9, &format!("0.07,{cell},2").replace(cell, "CELL"))
+                .replace(',', "\t")
+                .replace("CELL", cell),
+            &format!(
+                "r.csv:9: column `x`: `{cell}` is not a number: separators of thousands are not read, \
+                 digits without them were expected"
+            ),
+        );
+    }
+    // A date is none.
+    refused(
+        with_line(9, "0.07,1.3.2026,2"),
+        "r.csv:9: column `x`: `1.3.2026` is not a number",
+    );
+}
+
+#[test]
+fn cuts_that_leave_nothing_say_from_where_they_count() {
+    let options = Options {
+        skip: 1_772_373_805.0,
+        ..Options::default()
+    };
+    let text = with_time("t,x,f", |i| {
+        format!("{:.2}", 1_772_373_801.0 + 0.01 * i as f64)
+    });
+    assert_eq!(
+        refusal(text, &options),
+        "r.csv:401: too short: 0 samples of 400 are left after cutting, at least 200 are needed; \
+         --skip and --until count seconds from the first time stamp, the last one is at 3.990 s"
+    );
+}
+
+/// Of 400 rows 10 have a stamp of their own, or 300.
+#[test]
+fn rows_are_to_be_left_out_only_where_most_stay() {
+    let of = |rows: usize| with_time("t,x,f", move |i| (i / rows).to_string());
+    let line = refusal(of(40), &Options::default());
+    assert!(line.contains("--rate HZ"), "{line}");
+    assert!(!line.contains("--drop-bad"), "{line}");
+    let some = with_time("t,x,f", |i| (i - i % 4 / 3).to_string());
+    let line = refusal(some, &Options::default());
+    assert!(line.ends_with("--drop-bad leaves such rows out"), "{line}");
+    let line = refusal(with_time("t,x,f", |_| "7".to_owned()), &Options::default());
+    assert!(!line.contains("--drop-bad"), "{line}");
 }

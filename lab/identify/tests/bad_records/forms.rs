@@ -43,7 +43,8 @@ fn a_decimal_comma_is_read_behind_semicolons_and_tabs() {
     let thousands = comma(&plain, ";").replace("0,20;", "1.000,20;");
     refused(
         thousands,
-        "r.csv:22: column `t`: `1.000,20` is not a number",
+        "r.csv:22: column `t`: `1.000,20` is not a number: separators of thousands are not read, \
+         digits without them were expected",
     );
 }
 
