@@ -1,5 +1,6 @@
 //! The robust adaptive law, (17)-(26).
 
+use crate::choices::{bowden_form, bowden_leakage, bowden_missing, bowden_smooth_sign};
 use crate::object::{kept, read, seen, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_result, code, told, Refused};
 use crate::{bowden_fallback_f32, bowden_fallback_f64, bowden_limits_f32, bowden_limits_f64};
@@ -8,50 +9,6 @@ use core_bowden::control::{
     Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Form, Leakage, Missing,
     Output, SmoothSign,
 };
-
-/// How the error's rate enters the law: each form is for one kind of plant.
-#[repr(u32)]
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum bowden_form {
-    /// (23) as it stands, with a filtered difference of the error: for a plant with inertia.
-    Literal = 0,
-    /// The error's rate solved for: for a plant that answers within a sample.
-    Lag = 1,
-}
-
-/// Which smooth sign stands in (23) and (25).
-#[repr(u32)]
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum bowden_smooth_sign {
-    /// tanh(x), as the paper has it.
-    Tanh = 0,
-    /// x within [-1, 1]: cheaper, and leaves less.
-    Clamp = 1,
-}
-
-/// How an estimate leaks back to its prior.
-#[repr(u32)]
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum bowden_leakage {
-    /// Not at all: the box alone holds the estimate.
-    None = 0,
-    /// At `leakage_rate` always: the sigma of (24)-(26).
-    Constant = 1,
-    /// Only where it is further than `leakage_bound` from its prior; at twice that, at
-    /// `leakage_rate`.
-    Switching = 2,
-}
-
-/// What a regressor that is not finite does.
-#[repr(u32)]
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum bowden_missing {
-    /// A bad sample: the command is held.
-    Hold = 0,
-    /// Its term is left out, the estimates wait, the loop stays closed:
-    /// BOWDEN_RESULT_DEGRADED.
-    Drop = 1,
-}
 
 /// Most regressors of an adaptive law.
 pub const BOWDEN_REGRESSORS: usize = 4;

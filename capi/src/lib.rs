@@ -19,6 +19,7 @@
 extern crate core;
 
 mod adaptive;
+mod choices;
 mod compensator;
 mod hysteresis;
 mod learning;
@@ -32,6 +33,7 @@ mod rates;
 mod result;
 
 pub use adaptive::*;
+pub use choices::*;
 pub use compensator::*;
 pub use hysteresis::*;
 pub use learning::*;

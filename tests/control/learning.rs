@@ -458,20 +458,8 @@ fn what_cannot_be_is_refused_by_name() {
 #[test]
 fn what_was_stored_is_confined_and_goes_on() {
     let learning = Learning::try_new(1.0_f32, 3.0, 1, 1).unwrap();
-    let mut own = [
-        1.0,
-        -7.0,
-        f32::NAN,
-        f32::INFINITY,
-        2.0,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-    ];
+    let mut own = [0.0; 12];
+    own[..5].copy_from_slice(&[1.0, -7.0, f32::NAN, f32::INFINITY, 2.0]);
     let mut unfiltered = [f32::NAN; 12];
     let state = learning.resume(&mut own, &mut unfiltered).unwrap();
     assert_eq!(state.learned()[..5], [1.0, -3.0, 0.0, 3.0, 2.0]);
