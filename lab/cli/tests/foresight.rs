@@ -69,8 +69,14 @@ fn a_plan_is_a_table_of_motion_and_names_what_it_is_for() {
         .status
         .success());
     assert_eq!(std::fs::read_to_string(&out).unwrap(), csv);
-    let closed = bowden(&["close", &path]).stdout;
+    let page = folder.path().join("page.html").display().to_string();
+    let closed = bowden(&["close", &path, "--report", &page]).stdout;
     assert!(String::from_utf8(closed).unwrap().contains("to separate: "));
+    // The page names what the motion separates, which may be less than all rivals.
+    let page = std::fs::read_to_string(page).unwrap();
+    let (_, aims) = page.split_once(" To separate it from ").unwrap();
+    let (aims, _) = aims.split_once(": ").unwrap();
+    assert!(aims.contains("<b>delay</b>"), "{aims}");
     let closed = bowden(&["close", &path, "--json"]).stdout;
     let report: serde_json::Value = serde_json::from_slice(&closed).unwrap();
     let experiment = &report["rounds"][0]["experiment"];
