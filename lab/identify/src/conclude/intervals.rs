@@ -365,18 +365,13 @@ pub(crate) fn jackknife(
         let residual =
             DVector::from_iterator(block.len(), block.map(|k| solution.residual[rows[k]]));
         let score = part.tr_mul(&residual);
-        // By how much each parameter would move without this block.
-        let rest = inverse(gram - part.tr_mul(&part));
         let plain = &bread * &score;
-        let moved = rest.as_ref().map(|rest| rest * &score);
+        let moved = moved_without(&(gram - part.tr_mul(&part)), &score, &bread);
         let mut all = vec![f64::NAN; columns.len()];
         for (j, &column) in used.iter().enumerate() {
-            // What hangs on this block alone (eta0 does) cannot be told without it: then
-            // the step is that of the whole fit.
-            let step = match (&rest, &moved) {
-                (Some(rest), Some(moved)) if rest[(j, j)] <= ALONE * bread[(j, j)] => moved[j],
-                _ => plain[j],
-            };
+            // What hangs on this block alone cannot be told without it: then the step is that of the
+            // whole fit.
+            let step = moved[j].unwrap_or(plain[j]);
             if bread[(j, j)] < 1e10 {
                 all[column] = correction * step / scale[column];
             }
@@ -384,6 +379,44 @@ pub(crate) fn jackknife(
         steps.push(all);
     }
     Some(steps)
+}
+
+/// How far each parameter moves where the rows with this score are left out and the others have this
+/// Gram matrix; `None` where it is known from those rows alone, as eta0 is from the first ones.
+///
+/// Such a parameter stays where it is: if it were free, the others would go with it wherever what little
+/// the rest knows of it leads, up to a hundred times as far as they do.
+fn moved_without(
+    rest: &DMatrix<f64>,
+    score: &DVector<f64>,
+    bread: &DMatrix<f64>,
+) -> Vec<Option<f64>> {
+    let mut moved = vec![None; score.len()];
+    let mut free: Vec<usize> = (0..score.len()).collect();
+    loop {
+        let own = inverse(rest.select_rows(&free).select_columns(&free));
+        // By how much the variance of each grows. Where they have no inverse, the one that the rest sees
+        // least of is not among them.
+        let grown = |k: usize| match &own {
+            Some(own) => own[(k, k)] / bread[(free[k], free[k])],
+            None => ALONE + 1.0 / rest[(free[k], free[k])].max(f64::MIN_POSITIVE),
+        };
+        let worst = (0..free.len()).max_by(|a, b| grown(*a).total_cmp(&grown(*b)));
+        let alone = worst.filter(|k| grown(*k).is_nan() || grown(*k) > ALONE);
+        match (alone, own) {
+            (Some(k), _) => {
+                free.remove(k);
+            }
+            (None, Some(own)) => {
+                let steps = own * score.select_rows(&free);
+                for (step, j) in steps.iter().zip(free) {
+                    moved[j] = Some(*step);
+                }
+                return moved;
+            }
+            (None, None) => return moved,
+        }
+    }
 }
 
 /// Student's t with one degree of freedom less than there are blocks, for 95 %.

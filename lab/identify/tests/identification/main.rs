@@ -19,6 +19,7 @@
 //! * [`stretch`]: the stretch of a cable is one name beside the two angles.
 //! * [`torque_alone`]: without an angle in the record, viscous friction follows the torque's rate.
 //! * [`turned`]: a sensor or a scale that was mounted the other way round changes signs, no names.
+//! * [`widths`]: an interval is as wide as the noise makes it, whatever its seed.
 //! * [`exported`]: what was fitted is what runs in firmware.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
@@ -40,3 +41,4 @@ mod stretch;
 mod torque_alone;
 mod turned;
 mod unneeded;
+mod widths;
