@@ -117,10 +117,11 @@ def _array(column: Any) -> Optional[np.ndarray[Any, Any]]:
     if hasattr(column, "to_numpy"):
         # Of pandas' own types: those with a mask have no array of their own.
         if hasattr(dtype, "na_value") and not isinstance(dtype, np.dtype):
-            if getattr(dtype, "kind", "O") not in "fiub":
-                return np.asarray(column) if getattr(dtype, "kind", "O") in "mM" else None
-            if dtype.kind in "iu" and not column.isna().any():
-                return np.asarray(column.to_numpy(dtype=dtype.kind + "8"))
+            kind = getattr(dtype, "kind", "O")
+            if kind not in "fiub":
+                return np.asarray(column) if kind in "mM" else None
+            if kind in "iu" and not column.isna().any():
+                return np.asarray(column.to_numpy(dtype=kind + "8"))
             return np.asarray(column.to_numpy(dtype="float64", na_value=np.nan))
         return np.asarray(column.to_numpy())
     try:
