@@ -20,5 +20,6 @@ mod signs;
 pub mod trace;
 pub mod unneeded;
 pub mod verdict;
+mod without;
 
 pub use shares::Shares;

@@ -1,0 +1,46 @@
+//! What a fit becomes without some of its rows.
+
+use crate::algebra::inverse;
+use nalgebra::{DMatrix, DVector};
+
+/// A parameter whose variance grows by more than this without one block is known from
+/// that block alone.
+const ALONE: f64 = 30.0;
+
+/// How far each parameter moves where the rows with this score are left out and the others have this
+/// Gram matrix; `None` where it is known from those rows alone, as eta0 is from the first ones.
+///
+/// Such a parameter stays where it is: if it were free, the others would go with it wherever what little
+/// the rest knows of it leads, up to a hundred times as far as they do.
+pub(super) fn moved_without(
+    rest: &DMatrix<f64>,
+    score: &DVector<f64>,
+    bread: &DMatrix<f64>,
+) -> Vec<Option<f64>> {
+    let mut moved = vec![None; score.len()];
+    let mut free: Vec<usize> = (0..score.len()).collect();
+    loop {
+        let own = inverse(rest.select_rows(&free).select_columns(&free));
+        // By how much the variance of each grows. Where they have no inverse, the one that the rest sees
+        // least of is not among them.
+        let grown = |k: usize| match &own {
+            Some(own) => own[(k, k)] / bread[(free[k], free[k])],
+            None => ALONE + 1.0 / rest[(free[k], free[k])].max(f64::MIN_POSITIVE),
+        };
+        let worst = (0..free.len()).max_by(|a, b| grown(*a).total_cmp(&grown(*b)));
+        let alone = worst.filter(|k| grown(*k).is_nan() || grown(*k) > ALONE);
+        match (alone, own) {
+            (Some(k), _) => {
+                free.remove(k);
+            }
+            (None, Some(own)) => {
+                let steps = own * score.select_rows(&free);
+                for (step, j) in steps.iter().zip(free) {
+                    moved[j] = Some(*step);
+                }
+                return moved;
+            }
+            (None, None) => return moved,
+        }
+    }
+}
