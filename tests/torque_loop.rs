@@ -99,7 +99,7 @@ fn a_timer_that_wrapped_holds_one_sample_and_nothing_jumps() {
 }
 
 /// The command follows the friction's reversals, eight of 3 to 4 N·m, and what is wanted: some 50 N·m
-/// in eight seconds. It does not take the counts of the encoder for reversals, which made 1900 of it.
+/// in eight seconds. It does not take the counts of the encoder for reversals; without the play that made 1900 of it.
 #[test]
 fn the_command_does_not_chatter_at_the_counts_of_the_encoder() {
     let usual = run(2000, STEADY, STILL);
