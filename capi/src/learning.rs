@@ -7,6 +7,7 @@ use core_bowden::{Error, Real};
 
 /// Most cells of a cycle.
 pub const BOWDEN_CELLS: usize = 65535;
+const _: () = assert!(BOWDEN_CELLS == Learning::<f32>::MOST_CELLS);
 /// Room of a bowden_learning_f32, in words of 64 bits.
 pub const BOWDEN_LEARNING_F32_WORDS: usize = 14;
 /// Room of a bowden_learning_f64, in words of 64 bits.
