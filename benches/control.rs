@@ -9,7 +9,7 @@ use bowden::control::{
     AntiWindup, Compensator, CompensatorInput, CompensatorState, Limits, Pid, PidInput,
     PidSettings, PidState,
 };
-use bowden::hysteresis::Shape;
+use bowden::hysteresis::BoucWen;
 use bowden::model::Model;
 use bowden::transmission::Transmission;
 use bowden::{Error, Real};
@@ -26,8 +26,12 @@ fn samples<T: Real>() -> Vec<PidInput<T>> {
             let reference = 25.0 + 10.0 * (1.57 * t).sin();
             let measured = reference + 0.1 * (77.0 * t).sin();
             PidInput {
-                velocity: T::of(t.cos()),
-                ..PidInput::new(T::of(DT), T::of(reference), T::of(measured))
+                velocity: T::from_f64(t.cos()),
+                ..PidInput::new(
+                    T::from_f64(DT),
+                    T::from_f64(reference),
+                    T::from_f64(measured),
+                )
             }
         })
         .collect()
@@ -50,9 +54,10 @@ fn own<T: Real>(c: &mut Criterion, name: &str, pid: Pid<T>) {
 
 fn limited<T: Real>() -> Result<Pid<T>, Error> {
     Pid::try_new(PidSettings {
-        limits: Limits::try_new(T::of(-50.0), T::of(50.0))?.with_slew(T::of(1e3))?,
+        limits: Limits::try_new(T::from_f64(-50.0), T::from_f64(50.0))?
+            .with_slew(T::from_f64(1e3))?,
         anti_windup: AntiWindup::BackCalculation {
-            tracking_time: T::of(0.1),
+            tracking_time: T::from_f64(0.1),
         },
         ..*Pid::paper_pid().settings()
     })
@@ -77,7 +82,7 @@ fn controllers(c: &mut Criterion) {
 }
 
 fn compensator() -> Result<Compensator<f64, 0>, Error> {
-    let shape = Shape::try_new(0.095_82, 0.6, 3.871)?;
+    let shape = BoucWen::try_new(0.095_82, 0.6, 3.871)?;
     let cable = Transmission::torque(0.9978, 7.004, 0.051_74, shape)?;
     Compensator::try_new(&Model::try_new(Some(cable), &[])?)
 }

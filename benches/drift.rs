@@ -9,7 +9,7 @@ use bowden::control::{
     Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Fallback, Form, Limits,
     Pid, PidInput, PidSettings, PidState,
 };
-use bowden::hysteresis::Shape;
+use bowden::hysteresis::BoucWen;
 use bowden::model::{Model, ModelState, Sample};
 use bowden::signal::{Rates, RatesState};
 use bowden::{effect::Motion, Error, Real};
@@ -41,7 +41,7 @@ fn samples() -> Vec<[f64; 3]> {
 
 /// Everything that keeps a state, in one precision.
 struct Loop<T> {
-    shape: Shape<T>,
+    shape: BoucWen<T>,
     eta: [T; 2],
     last: T,
     model: Model<T, 0>,
@@ -65,8 +65,8 @@ struct Seen {
 
 impl<T: Real> Loop<T> {
     fn try_new() -> Result<Self, Error> {
-        let of = T::of;
-        let shape = Shape::try_new(of(0.095_82), of(98.36), of(3.871))?;
+        let of = T::from_f64;
+        let shape = BoucWen::try_new(of(0.095_82), of(98.36), of(3.871))?;
         let (range, longest) = (Limits::try_new(of(-1e3), of(1e3))?, of(0.005));
         let safe = Fallback::try_new(20, of(0.0))?;
         let boxed = |low, gain| {
@@ -82,7 +82,7 @@ impl<T: Real> Loop<T> {
             delta: boxed(0.0, 6e-3),
             theta: [boxed(-6.0, 5e-4); 2],
             ..AdaptiveSettings::new(
-                Form::Lag { step, plant_gain },
+                Form::FirstOrder { step, plant_gain },
                 of(24.0),
                 of(8.0),
                 of(0.1),
@@ -108,8 +108,8 @@ impl<T: Real> Loop<T> {
 
     #[inline]
     fn step(&mut self, [torque, angle, error]: [f64; 3]) -> Seen {
-        let [torque, angle, error] = [torque, angle, error].map(T::of);
-        let (dt, zero) = (T::of(f64::from(1e-4_f32)), T::zero());
+        let [torque, angle, error] = [torque, angle, error].map(T::from_f64);
+        let (dt, zero) = (T::from_f64(f64::from(1e-4_f32)), T::zero());
         let change = torque - self.last;
         self.last = torque;
         let [eta, split] = self.eta;

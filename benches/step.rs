@@ -4,7 +4,7 @@
 //! runs on `16·sin(pi·t)` at 1 kHz with the first set of the paper; one iteration is
 //! one sample.
 
-use bowden::hysteresis::{Sensitivity, Shape};
+use bowden::hysteresis::{BoucWen, Sensitivity};
 use bowden::Real;
 use criterion::{criterion_group, criterion_main, Criterion};
 use std::hint::black_box;
@@ -12,8 +12,8 @@ use std::hint::black_box;
 const KAPPA_ETA: f64 = 7.004;
 const SAMPLES: usize = 4000;
 
-fn shape<T: Real>(n: f64) -> Shape<T> {
-    match Shape::try_new(T::of(0.095_82), T::of(98.36), T::of(n)) {
+fn shape<T: Real>(n: f64) -> BoucWen<T> {
+    match BoucWen::try_new(T::from_f64(0.095_82), T::from_f64(98.36), T::from_f64(n)) {
         Ok(shape) => shape,
         Err(_) => unreachable!(),
     }
@@ -21,7 +21,7 @@ fn shape<T: Real>(n: f64) -> Shape<T> {
 
 /// The right side of (7) over the rate, with the power as the crate takes it.
 #[inline]
-fn right_side<T: Real>(shape: &Shape<T>, eta: T, direction: T) -> T {
+fn right_side<T: Real>(shape: &BoucWen<T>, eta: T, direction: T) -> T {
     let one = T::one();
     let power = Real::exp((shape.n() - one) * Real::ln(eta.abs()));
     let loss = shape.sigma() * power * eta - (shape.sigma() - one) * direction * power * eta.abs();
@@ -30,19 +30,19 @@ fn right_side<T: Real>(shape: &Shape<T>, eta: T, direction: T) -> T {
 
 /// One classical Runge-Kutta step of (7) over an increment.
 #[inline]
-fn runge_kutta<T: Real>(shape: &Shape<T>, eta: T, change: T) -> T {
+fn runge_kutta<T: Real>(shape: &BoucWen<T>, eta: T, change: T) -> T {
     let direction = change.signum();
-    let (h, half) = (change.abs(), T::of(0.5));
+    let (h, half) = (change.abs(), T::from_f64(0.5));
     let k1 = right_side(shape, eta, direction);
     let k2 = right_side(shape, eta + half * h * k1, direction);
     let k3 = right_side(shape, eta + half * h * k2, direction);
     let k4 = right_side(shape, eta + h * k3, direction);
-    eta + h * (k1 + T::of(2.0) * (k2 + k3) + k4) / T::of(6.0)
+    eta + h * (k1 + T::from_f64(2.0) * (k2 + k3) + k4) / T::from_f64(6.0)
 }
 
 /// One explicit Euler step of (7).
 #[inline]
-fn euler<T: Real>(shape: &Shape<T>, eta: T, change: T) -> T {
+fn euler<T: Real>(shape: &BoucWen<T>, eta: T, change: T) -> T {
     eta + change.abs() * right_side(shape, eta, change.signum())
 }
 
@@ -53,7 +53,7 @@ fn input(k: usize) -> f64 {
 /// The changes of the input, sample by sample.
 fn changes<T: Real>() -> Vec<T> {
     (1..SAMPLES)
-        .map(|k| T::of(input(k) - input(k - 1)))
+        .map(|k| T::from_f64(input(k) - input(k - 1)))
         .collect()
 }
 
@@ -68,13 +68,13 @@ fn jumps<T: Real>() -> Vec<T> {
             let now = 32.0 * ((state >> 11) as f64 / (1_u64 << 53) as f64) - 16.0;
             let change = now - last;
             last = now;
-            T::of(change)
+            T::from_f64(change)
         })
         .collect()
 }
 
 /// Largest error in kappa_eta·eta [N·m]; the reference takes the change in many parts.
-fn error<T: Real>(n: f64, changes: &[T], parts: u32, step: impl Fn(&Shape<T>, T, T) -> T) -> f64 {
+fn error<T: Real>(n: f64, changes: &[T], parts: u32, step: impl Fn(&BoucWen<T>, T, T) -> T) -> f64 {
     let (exact, shape) = (shape::<f64>(n), shape::<T>(n));
     let (mut reference, mut eta, mut most) = (0.0, T::zero(), 0.0_f64);
     for &change in changes {
@@ -99,7 +99,7 @@ fn accuracy(_: &mut Criterion) {
     let line =
         |name: &str, slow: f64, fast: f64| println!("{name:<38} {slow:>12.1e} {fast:>15.1e}");
     let general = 3.871;
-    let row = |name: &str, n: f64, step: fn(&Shape<f64>, f64, f64) -> f64| {
+    let row = |name: &str, n: f64, step: fn(&BoucWen<f64>, f64, f64) -> f64| {
         line(
             name,
             error(n, &record, 64, step),
@@ -120,7 +120,7 @@ fn accuracy(_: &mut Criterion) {
     });
     row("Runge-Kutta 4, f64", general, runge_kutta);
     row("explicit Euler, f64", general, euler);
-    let row = |name: &str, step: fn(&Shape<f32>, f32, f32) -> f32| {
+    let row = |name: &str, step: fn(&BoucWen<f32>, f32, f32) -> f32| {
         line(
             name,
             error(general, &record32, 64, step),
@@ -140,8 +140,8 @@ fn jump_error(n: f64, sigma: f64, size: f64) -> (f64, f64) {
     const JUMPS: usize = 4000;
     let rho = 0.095_82;
     let (Ok(exact), Ok(short)) = (
-        Shape::<f64>::try_new(rho, sigma, n),
-        Shape::<f32>::try_new(rho as f32, sigma as f32, n as f32),
+        BoucWen::<f64>::try_new(rho, sigma, n),
+        BoucWen::<f32>::try_new(rho as f32, sigma as f32, n as f32),
     ) else {
         return (f64::NAN, f64::NAN);
     };
@@ -188,7 +188,7 @@ fn jump_table() {
     }
 }
 
-fn time<T: Real>(c: &mut Criterion, name: &str, n: f64, step: impl Fn(&Shape<T>, T, T) -> T) {
+fn time<T: Real>(c: &mut Criterion, name: &str, n: f64, step: impl Fn(&BoucWen<T>, T, T) -> T) {
     let (shape, changes) = (shape::<T>(n), changes::<T>());
     let (mut eta, mut k) = (T::zero(), 0);
     c.bench_function(name, |b| {

@@ -8,7 +8,7 @@
 
 use bowden::control::{Limits, Pid, PidInput, PidSettings, PidState};
 use bowden::effect::{Coulomb, Motion, Viscous};
-use bowden::hysteresis::Shape;
+use bowden::hysteresis::BoucWen;
 use bowden::model::{FixedModel, ModelState, Sample, Source, Term};
 use bowden::transmission::Transmission;
 use bowden::{Error, Real};
@@ -28,8 +28,12 @@ fn samples<T: Real>() -> Vec<PidInput<T>> {
         let reference = 25.0 + 10.0 * (1.57 * t).sin();
         let measured = reference + 0.1 * (77.0 * t).sin();
         PidInput {
-            velocity: T::of(t.cos()),
-            ..PidInput::new(T::of(DT), T::of(reference), T::of(measured))
+            velocity: T::from_f64(t.cos()),
+            ..PidInput::new(
+                T::from_f64(DT),
+                T::from_f64(reference),
+                T::from_f64(measured),
+            )
         }
     };
     (0..SAMPLES).map(sample).collect()
@@ -51,18 +55,23 @@ fn own<T: Real>(count: u64, pid: &Pid<T>) -> Result<(), Error> {
 
 fn limited<T: Real>() -> Result<Pid<T>, Error> {
     Pid::try_new(PidSettings {
-        limits: Limits::try_new(T::of(-50.0), T::of(50.0))?.with_slew(T::of(1e3))?,
+        limits: Limits::try_new(T::from_f64(-50.0), T::from_f64(50.0))?
+            .with_slew(T::from_f64(1e3))?,
         ..*Pid::paper_pid().settings()
     })
 }
 
-fn shape<T: Real>() -> Result<Shape<T>, Error> {
-    Shape::try_new(T::of(0.095_82), T::of(98.36), T::of(3.871))
+fn shape<T: Real>() -> Result<BoucWen<T>, Error> {
+    BoucWen::try_new(
+        T::from_f64(0.095_82),
+        T::from_f64(98.36),
+        T::from_f64(3.871),
+    )
 }
 
 /// Follows 16·sin(pi·t) sample by sample.
 fn hysteresis<T: Real>(count: u64, mut step: impl FnMut(T, T) -> T) -> Result<(), Error> {
-    let input = |k: usize| T::of(16.0 * (PI * k as f64 * DT).sin());
+    let input = |k: usize| T::from_f64(16.0 * (PI * k as f64 * DT).sin());
     let changes: Vec<T> = (1..SAMPLES).map(|k| input(k) - input(k - 1)).collect();
     let mut eta = T::zero();
     for &change in changes.iter().cycle().take(count as usize) {
@@ -74,7 +83,7 @@ fn hysteresis<T: Real>(count: u64, mut step: impl FnMut(T, T) -> T) -> Result<()
 
 /// One classical Runge-Kutta step of (7), with this power.
 #[inline]
-fn runge_kutta<T: Real>(shape: &Shape<T>, eta: T, change: T, power: impl Fn(T, T) -> T) -> T {
+fn runge_kutta<T: Real>(shape: &BoucWen<T>, eta: T, change: T, power: impl Fn(T, T) -> T) -> T {
     let (one, direction) = (T::one(), change.signum());
     let right = |eta: T| {
         let power = power(eta.abs(), shape.n() - one);
@@ -82,18 +91,18 @@ fn runge_kutta<T: Real>(shape: &Shape<T>, eta: T, change: T, power: impl Fn(T, T
             shape.sigma() * power * eta - (shape.sigma() - one) * direction * power * eta.abs();
         shape.rho() * (direction - loss)
     };
-    let (h, half) = (change.abs(), T::of(0.5));
+    let (h, half) = (change.abs(), T::from_f64(0.5));
     let k1 = right(eta);
     let k2 = right(eta + half * h * k1);
     let k3 = right(eta + half * h * k2);
     let k4 = right(eta + h * k3);
-    eta + h * (k1 + T::of(2.0) * (k2 + k3) + k4) / T::of(6.0)
+    eta + h * (k1 + T::from_f64(2.0) * (k2 + k3) + k4) / T::from_f64(6.0)
 }
 
 fn model<T: Real>(count: u64) -> Result<(), Error> {
     let (source, origin) = (Source::Channel(0), T::zero());
-    let (viscous, coulomb) = (T::of(-0.4), T::of(-0.8));
-    let effect = Coulomb::try_new(T::of(0.05))?;
+    let (viscous, coulomb) = (T::from_f64(-0.4), T::from_f64(-0.8));
+    let effect = Coulomb::try_new(T::from_f64(0.05))?;
     let terms = (
         Term {
             effect: Viscous,
@@ -108,7 +117,12 @@ fn model<T: Real>(count: u64) -> Result<(), Error> {
             gain: coulomb,
         },
     );
-    let cable = Transmission::torque(T::of(0.9978), T::of(7.004), T::of(0.051_74), shape()?)?;
+    let cable = Transmission::torque(
+        T::from_f64(0.9978),
+        T::from_f64(7.004),
+        T::from_f64(0.051_74),
+        shape()?,
+    )?;
     let (model, mut state) = (FixedModel::try_new(Some(cable), terms)?, ModelState::new());
     over::<T>(count, |at| {
         let motion = |position, velocity| Motion {

@@ -1,6 +1,6 @@
 //! From the bench to the motor: a written model drives a compensator.
 //!
-//! `bowden close --invertible --model-out examples/data/demo.rs` has written the module
+//! `bowden identify --invertible --model-out examples/data/demo.rs` has written the module
 //! `demo` from the program's embedded record. Here it is the feed-forward of a torque on a
 //! pulley that turns: the command is what the model needs, and the model behind it gives the
 //! torque that was wanted. `cargo run --release --example feed_forward` prints how nearly.

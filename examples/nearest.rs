@@ -10,21 +10,26 @@
 
 use bowden::control::{Compensator, CompensatorInput, CompensatorState, Status};
 use bowden::effect::{Effect, Motion};
-use bowden::hysteresis::Shape;
+use bowden::hysteresis::BoucWen;
 use bowden::model::{Model, ModelState, Sample, Source, Term};
 use bowden::signal::{Rates, RatesState};
 use bowden::transmission::Transmission;
 use bowden::{Error, Real};
 
-/// What `bowden close` has identified: torques in N·m, the proximal pulley in rad.
+/// What `bowden identify` has identified: torques in N·m, the proximal pulley in rad.
 fn identified<T: Real>() -> Result<Model<T, 1>, Error> {
-    let shape = Shape::try_new(T::of(0.382), T::of(2.97), T::of(1.02))?;
-    let cable = Transmission::torque(T::of(0.952), T::of(2.29), T::of(0.050), shape)?;
+    let shape = BoucWen::try_new(T::from_f64(0.382), T::from_f64(2.97), T::from_f64(1.02))?;
+    let cable = Transmission::torque(
+        T::from_f64(0.952),
+        T::from_f64(2.29),
+        T::from_f64(0.050),
+        shape,
+    )?;
     let friction = Term {
         effect: Effect::Viscous,
         source: Source::Channel(0),
         origin: T::zero(),
-        gain: T::of(-0.264),
+        gain: T::from_f64(-0.264),
     };
     Model::try_new(Some(cable), &[friction])
 }

@@ -24,10 +24,10 @@ pub(crate) fn limits() -> Limits<f32> {
 /// Any fallback that its constructors accept.
 pub(crate) fn fallback() -> Fallback<f32> {
     if kani::any() {
-        return Fallback::hold_for_ever();
+        return Fallback::hold_indefinitely();
     }
     let safe =
         Fallback::try_new(kani::any(), kani::any()).and_then(|safe| safe.with_weight(kani::any()));
     kani::assume(safe.is_ok());
-    safe.unwrap_or(Fallback::hold_for_ever())
+    safe.unwrap_or(Fallback::hold_indefinitely())
 }

@@ -5,7 +5,7 @@
 //! and what a row before it has proved stands for the function that it proved it of.
 
 use super::*;
-use crate::hysteresis::Shape;
+use crate::hysteresis::BoucWen;
 use crate::proofs::any::{finite, within};
 use crate::proofs::stubs;
 
@@ -17,7 +17,7 @@ fn path() -> f32 {
 /// Any number of the solver's, as the step computes with it.
 fn any_number<N: Number>(admitted: impl Fn(N::Float) -> bool) -> N {
     let x: f32 = kani::any();
-    let x = N::Float::of(x.into());
+    let x = N::Float::from_f64(x.into());
     kani::assume(admitted(x));
     N::constant(x)
 }
@@ -56,8 +56,8 @@ fn bounded_approach() {
 
 /// What `bounded_approach` proves, and no more.
 fn any_approach<N: Number>(zeta: N, _: N, r: N, _: N) -> N {
-    assert!(!(r.value() < N::Float::of(0.0)));
-    any_number(|next| zeta.value() <= next && next <= N::Float::of(1.0))
+    assert!(!(r.value() < N::Float::from_f64(0.0)));
+    any_number(|next| zeta.value() <= next && next <= N::Float::from_f64(1.0))
 }
 
 /// K3, bounded. A path above zero ends between its start and 1.
@@ -132,12 +132,12 @@ fn bounded_unloading() {
 
 /// What `bounded_loading` proves, and no more.
 fn any_load<N: Number>(zeta: N, _: N, _: N, _: N) -> N {
-    any_number(|next| zeta.value() <= next && next <= N::Float::of(1.0))
+    any_number(|next| zeta.value() <= next && next <= N::Float::from_f64(1.0))
 }
 
 /// What `bounded_unloading` proves, and no more.
 fn any_unload<N: Number>(a: N, _: N, _: N, _: &Constants<N>) -> Result<N, N> {
-    let zero = N::Float::of(0.0);
+    let zero = N::Float::from_f64(0.0);
     if kani::any() {
         Ok(any_number(|forward| {
             zero <= forward && forward <= a.value()
@@ -149,7 +149,7 @@ fn any_unload<N: Number>(a: N, _: N, _: N, _: &Constants<N>) -> Result<N, N> {
 
 /// What `bounded_from_zero` proves, and no more.
 fn any_from_zero<N: Number>(p: N, _: &Constants<N>) -> N {
-    let (zero, one) = (N::Float::of(0.0), N::Float::of(1.0));
+    let (zero, one) = (N::Float::from_f64(0.0), N::Float::from_f64(1.0));
     assert!(!(p.value() < zero));
     any_number(|next| zero <= next && next <= one)
 }
@@ -174,7 +174,7 @@ fn bounded_joined() {
 
 /// What `bounded_joined` proves, and no more.
 fn any_step<N: Number>(zeta: N, _: N, _: &Constants<N>) -> N {
-    any_number(|next| zeta.value() <= next && next <= N::Float::of(1.0))
+    any_number(|next| zeta.value() <= next && next <= N::Float::from_f64(1.0))
 }
 
 /// K3. The step of any accepted shape in `f32`: eta ends within ±1, and a finite change of
@@ -185,7 +185,7 @@ fn any_step<N: Number>(zeta: N, _: N, _: &Constants<N>) -> N {
 #[kani::proof]
 #[kani::stub(follow, any_step)]
 fn eta_stays_within_1() {
-    let shape = Shape::<f32>::try_new(kani::any(), kani::any(), kani::any());
+    let shape = BoucWen::<f32>::try_new(kani::any(), kani::any(), kani::any());
     kani::assume(shape.is_ok());
     if let Ok(shape) = shape {
         let (eta, change): (f32, f32) = (within(-1.0, 1.0), kani::any());
@@ -216,7 +216,7 @@ fn any_step_powered<N: Number>(zeta: N, p: N, _: N, shape: &Constants<N>) -> N {
 #[kani::stub(crate::real::short::log2, stubs::garbage)]
 #[kani::stub(crate::real::short::exp2, stubs::garbage)]
 fn a_way_stays_within_1() {
-    let shape = Shape::<f32>::try_new(kani::any(), kani::any(), kani::any());
+    let shape = BoucWen::<f32>::try_new(kani::any(), kani::any(), kani::any());
     kani::assume(shape.is_ok());
     if let Ok(shape) = shape {
         let (eta, direction): (f32, f32) = (within(-1.0, 1.0), kani::any());

@@ -1,7 +1,7 @@
 //! K1: any sample to the compensator, whatever model it turns round.
 
 use super::*;
-use crate::hysteresis::Shape;
+use crate::hysteresis::BoucWen;
 use crate::proofs::any::{finite, within};
 use crate::proofs::properties::control::compensator_commands_are_finite;
 
@@ -11,9 +11,9 @@ fn any_share<T: Real, const N: usize>(
     _: &mut ModelState<T, N>,
     _: &Sample<T>,
     _: (T, T),
-    _: impl Fn(usize, &mut Situation<T>),
+    _: impl Fn(usize, &mut Inputs<T>),
 ) -> T {
-    T::of(kani::any())
+    T::from_f64(kani::any())
 }
 
 /// Any term, or none, that cannot read what it needs.
@@ -24,17 +24,17 @@ fn any_blind_term<T: Real, const N: usize>(_: &Model<T, N>, _: &Sample<T>) -> Op
 /// Any root of the inverse, NaN included, with an eta as the hysteresis' rows prove of a step.
 fn any_root<T: Real>(_: &Inverse<T>, _: T, _: T, _: T, _: T, _: T) -> (T, T) {
     let eta = kani::any_where(|eta: &f64| eta.abs() <= 1.0);
-    (T::of(kani::any()), T::of(eta))
+    (T::from_f64(kani::any()), T::from_f64(eta))
 }
 
 /// What the hysteresis' rows prove of a step, and no more.
-fn any_eta<T: Real>(_: &Shape<T>, _: T, _: T) -> T {
-    T::of(kani::any_where(|eta: &f64| eta.abs() <= 1.0))
+fn any_eta<T: Real>(_: &BoucWen<T>, _: T, _: T) -> T {
+    T::from_f64(kani::any_where(|eta: &f64| eta.abs() <= 1.0))
 }
 
 /// Any transmission that has an inverse, with any one term.
 fn compensator() -> Result<Compensator<f32, 1>, Error> {
-    let shape = Shape::try_new(kani::any(), kani::any(), kani::any())?;
+    let shape = BoucWen::try_new(kani::any(), kani::any(), kani::any())?;
     let (gain, kappa_eta, offset) = (kani::any(), kani::any(), kani::any());
     let transmission = if kani::any() {
         Transmission::torque(gain, kappa_eta, offset, shape)
@@ -54,12 +54,12 @@ fn compensator() -> Result<Compensator<f32, 1>, Error> {
 #[kani::stub(Model::effects, any_share)]
 #[kani::stub(Model::first_blind_term, any_blind_term)]
 #[kani::stub(Inverse::solve, any_root)]
-#[kani::stub(Shape::advance, any_eta)]
-#[kani::stub(Shape::bounded, any_eta)]
+#[kani::stub(BoucWen::advance, any_eta)]
+#[kani::stub(BoucWen::bounded, any_eta)]
 fn compensator_any_sample() {
     let compensator = compensator();
     kani::assume(compensator.is_ok());
-    let hysteresis = BoucWen::with_eta(within(-1.0, 1.0));
+    let hysteresis = BoucWenState::with_eta(within(-1.0, 1.0));
     if let (Ok(compensator), Ok(mut hysteresis)) = (compensator, hysteresis) {
         if kani::any() {
             // The first sample is taken over as it is: any input that there can be.

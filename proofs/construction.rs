@@ -2,8 +2,8 @@
 
 use super::any::{fallback, limits};
 use bowden::control::{Adaptive, AdaptiveSettings, AdaptiveState, Estimator, Form, Leakage};
-use bowden::control::{Fallback, Limits, Missing, SmoothSign};
-use bowden::hysteresis::{BoucWen, Shape};
+use bowden::control::{Fallback, Limits, OnMissing, SmoothSign};
+use bowden::hysteresis::{BoucWen, BoucWenState};
 use bowden::signal::{Derivative, Guard, Play};
 use bowden::transmission::{Mode, Transmission};
 
@@ -47,11 +47,11 @@ fn signals_of_any_argument() {
 #[kani::proof]
 fn transmissions_of_any_argument() {
     let start: f32 = kani::any();
-    let state = BoucWen::with_eta(start);
+    let state = BoucWenState::with_eta(start);
     kani::cover!(state.is_ok());
     assert!(state.is_ok() == (start.abs() <= 1.0));
     let (rho, sigma, n): (f32, f32, f32) = (kani::any(), kani::any(), kani::any());
-    let shape = Shape::try_new(rho, sigma, n);
+    let shape = BoucWen::try_new(rho, sigma, n);
     let admitted = (0.5..=1e9).contains(&sigma) && (1.0..=1e9).contains(&n);
     assert!(shape.is_ok() == (is_positive(rho) && admitted));
     if let Ok(shape) = shape {
@@ -100,12 +100,12 @@ fn estimator() -> Estimator<f32> {
 #[kani::unwind(3)]
 fn laws_of_any_settings() {
     let form = if kani::any() {
-        Form::Lag {
+        Form::FirstOrder {
             step: kani::any(),
             plant_gain: kani::any(),
         }
     } else {
-        Form::Literal {
+        Form::AsPublished {
             time_constant: kani::any(),
         }
     };
@@ -120,7 +120,7 @@ fn laws_of_any_settings() {
         theta: [estimator(), estimator()],
         z_limit: kani::any(),
         frozen: kani::any(),
-        missing: [Missing::Hold; 2],
+        missing: [OnMissing::Hold; 2],
         limits: limits(),
         longest_dt: kani::any(),
         fallback: fallback(),

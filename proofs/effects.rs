@@ -9,13 +9,13 @@ use crate::proofs::properties::effect::a_late_output_is_finite;
 use crate::proofs::stubs;
 
 /// All bit patterns.
-fn situation() -> Situation<f32> {
+fn situation() -> Inputs<f32> {
     let motion = || Motion {
         position: kani::any(),
         velocity: kani::any(),
         acceleration: kani::any(),
     };
-    Situation {
+    Inputs {
         dt: kani::any(),
         time: kani::any(),
         motion: motion(),
@@ -81,7 +81,7 @@ impl Regressor<f32> for Anything {
         ..*<Offset as Regressor<f32>>::INFO
     };
 
-    fn value(&self, _: &mut EffectState<f32>, _: &Situation<f32>) -> f32 {
+    fn value(&self, _: &mut EffectState<f32>, _: &Inputs<f32>) -> f32 {
         kani::any()
     }
 }
@@ -157,7 +157,7 @@ fn late_output_is_finite() {
 
 /// What `sum_is_finite` proves of a step of the sum, and no more.
 fn any_sum<T: Real>([sum, carry]: [T; 2], step: T) -> [T; 2] {
-    let [total, lost] = [T::of(kani::any()), T::of(kani::any())];
+    let [total, lost] = [T::from_f64(kani::any()), T::from_f64(kani::any())];
     let finite = sum.is_finite() && carry.is_finite() && step.is_finite();
     kani::assume(!finite || (total.is_finite() && lost.is_finite()));
     [total, lost]

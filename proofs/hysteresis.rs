@@ -8,7 +8,7 @@
 
 use super::number::Number;
 use super::path::{follow, leave_zero, load, load_part, unload, unload_part, NEAR_ZERO};
-use super::{closed, Shape};
+use super::{closed, BoucWen};
 use crate::proofs::any::{finite, within};
 use crate::proofs::stubs;
 use crate::Real;
@@ -67,7 +67,7 @@ fn part_from_zero() {
 /// Any number of the solver's that is not NaN, as the step computes with it.
 fn any_number<N: Number>(admitted: impl Fn(N::Float) -> bool) -> N {
     let x: f32 = kani::any();
-    let x = N::Float::of(x.into());
+    let x = N::Float::from_f64(x.into());
     kani::assume(admitted(x));
     N::constant(x)
 }
@@ -75,32 +75,32 @@ fn any_number<N: Number>(admitted: impl Fn(N::Float) -> bool) -> N {
 /// What `unloading_part` proves of a part, and no more; of the last pass of the loop, so that
 /// the loop ends after it.
 fn last_unloading_part<N: Number>(zeta: N, _: N, _: bool, _: N, _: N) -> (N, N) {
-    let zero = N::Float::of(0.0);
+    let zero = N::Float::from_f64(0.0);
     let next: N = any_number(|next| zeta.value() <= next && next <= zero);
     let left: N = any_number(|_| true);
-    let near = next.value() >= -N::Float::of(NEAR_ZERO);
+    let near = next.value() >= -N::Float::from_f64(NEAR_ZERO);
     kani::assume(near || !(left.value() > zero));
     (next, left)
 }
 
 /// What `loading_part` proves of a part, and no more; of the last pass of the loop.
 fn last_loading_part<N: Number>(zeta: N, _: N, _: bool, _: N) -> (N, N) {
-    let next: N = any_number(|next| zeta.value() <= next && next <= N::Float::of(1.0));
+    let next: N = any_number(|next| zeta.value() <= next && next <= N::Float::from_f64(1.0));
     let left: N = any_number(|_| true);
-    kani::assume(!(left.value() > N::Float::of(0.0)));
+    kani::assume(!(left.value() > N::Float::from_f64(0.0)));
     (next, left)
 }
 
 /// Whether the state has not moved backward. A start above zero but nearer to it than 1e-9
 /// counts as zero, so that the general step may end at zero then; `advance` clamps that.
 fn not_before<T: Real>(start: T, end: T) -> bool {
-    start <= end || (start <= T::of(NEAR_ZERO) && T::of(0.0) <= end)
+    start <= end || (start <= T::from_f64(NEAR_ZERO) && T::from_f64(0.0) <= end)
 }
 
 /// What `part_from_zero` proves, and no more.
 fn any_part_from_zero<N: Number>(_: N, _: N) -> (N, N) {
-    let zero = N::Float::of(0.0);
-    let next = any_number(|next| zero <= next && next <= N::Float::of(1.0));
+    let zero = N::Float::from_f64(0.0);
+    let next = any_number(|next| zero <= next && next <= N::Float::from_f64(1.0));
     (next, any_number(|left| left >= zero))
 }
 
@@ -141,7 +141,7 @@ fn loading_loop() {
 
 /// What `unloading_loop` proves of the branch below zero, and no more.
 fn any_unloading<N: Number>(zeta: N, path: N, _: N, _: N) -> (N, N) {
-    let zero = N::Float::of(0.0);
+    let zero = N::Float::from_f64(0.0);
     if zeta.value() >= zero {
         return (zeta, path);
     }
@@ -154,10 +154,10 @@ fn any_unloading<N: Number>(zeta: N, path: N, _: N, _: N) -> (N, N) {
 /// What `loading_loop` proves of the branch above zero, and no more; where nothing is left of
 /// the path, `load` returns at once.
 fn any_loading<N: Number>(zeta: N, path: N, _: N) -> N {
-    if !(path.value() > N::Float::of(0.0)) {
+    if !(path.value() > N::Float::from_f64(0.0)) {
         return zeta;
     }
-    any_number(|next| not_before(zeta.value(), next) && next <= N::Float::of(1.0))
+    any_number(|next| not_before(zeta.value(), next) && next <= N::Float::from_f64(1.0))
 }
 
 /// K3. The general step, both branches joined, ends between its start, or 0 where that is
@@ -211,12 +211,12 @@ fn closed_form_of_n_2() {
 fn any_closed_form<T: Real>(_: T, _: T, _: T) -> T {
     let next: f32 = kani::any();
     kani::assume(!next.is_nan());
-    T::of(next.into())
+    T::from_f64(next.into())
 }
 
 /// What `both_branches` proves of the general step, and no more.
 fn any_step<N: Number>(zeta: N, _: N, _: N, _: N) -> N {
-    any_number(|next| not_before(zeta.value(), next) && next <= N::Float::of(1.0))
+    any_number(|next| not_before(zeta.value(), next) && next <= N::Float::from_f64(1.0))
 }
 
 /// K3. The step that splits its path, of any accepted shape: eta ends within ±1, and a finite change of the input
@@ -229,7 +229,7 @@ fn any_step<N: Number>(zeta: N, _: N, _: N, _: N) -> N {
 #[kani::stub(closed::linear, any_closed_form)]
 #[kani::stub(closed::quadratic, any_closed_form)]
 fn split_eta_stays_within_1() {
-    let shape = Shape::<f32>::try_new(kani::any(), kani::any(), kani::any());
+    let shape = BoucWen::<f32>::try_new(kani::any(), kani::any(), kani::any());
     kani::assume(shape.is_ok());
     if let Ok(shape) = shape {
         let (eta, change): (f32, f32) = (within(-1.0, 1.0), kani::any());

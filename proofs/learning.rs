@@ -7,9 +7,9 @@ use crate::proofs::properties::control::learning_keeps_its_limit;
 const CELLS: usize = 13;
 
 /// Any learning that its constructors accept and that fits the cells.
-fn learning() -> Learning<f32> {
+fn learning() -> IterativeLearning<f32> {
     let (lead, half_width): (u16, u16) = (kani::any(), kani::any());
-    let learning = Learning::try_new(kani::any(), kani::any(), lead, half_width)
+    let learning = IterativeLearning::try_new(kani::any(), kani::any(), lead, half_width)
         .and_then(|learning| learning.with_forgetting(kani::any()));
     kani::assume(learning.is_ok() && lead <= 2 && half_width <= 1);
     match learning {
@@ -20,15 +20,15 @@ fn learning() -> Learning<f32> {
 
 /// Any number, NaN included: what the cells around one come to is not needed.
 fn any_mean<T: Real>(_: &[T], _: usize, _: usize) -> T {
-    T::of(kani::any())
+    T::from_f64(kani::any())
 }
 
 /// Any number between the middles of two cells, likewise.
 fn any_reading<T: Real>(_: &[T], _: usize, _: T) -> T {
-    T::of(kani::any())
+    T::from_f64(kani::any())
 }
 
-/// K15. Learning: for any sample, any state and any contents of the buffers, NaN included, the
+/// K15. Iterative learning: for any sample, any state and any contents of the buffers, NaN included, the
 /// feed-forward is finite and within its limit, a cell that learns ends within it, nothing moves
 /// without a phase, and every sample is told for what it is.
 ///
@@ -39,7 +39,7 @@ fn any_reading<T: Real>(_: &[T], _: usize, _: T) -> T {
 #[kani::stub(between, any_reading)]
 fn learning_from_any_state() {
     let learning = learning();
-    let mut state = LearningState::<f32, [f32; CELLS]> {
+    let mut state = IterativeLearningState::<f32, [f32; CELLS]> {
         learned: kani::any(),
         unfiltered: kani::any(),
         cell: kani::any(),
@@ -49,7 +49,7 @@ fn learning_from_any_state() {
         missed: kani::any(),
         since: kani::any(),
     };
-    let at = LearningInput::<f32> {
+    let at = IterativeLearningInput::<f32> {
         phase: kani::any(),
         reference: kani::any(),
         measured: kani::any(),

@@ -19,7 +19,7 @@ static COMMAND: AtomicU64 = AtomicU64::new(0);
 /// That the command before and dt do not matter for it is `slew_limit_from_any_command`.
 pub(crate) fn apply<T: Real>(limits: &Limits<T>, last: T, wanted: T, dt: T) -> T {
     let command: f32 = kani::any();
-    let there = T::of(command.into());
+    let there = T::from_f64(command.into());
     kani::assume(wanted.is_nan() || limits.contains(there));
     LAST.store(last.as_f64().to_bits(), Ordering::Relaxed);
     DT.store(dt.as_f64().to_bits(), Ordering::Relaxed);

@@ -38,7 +38,7 @@ fn any_state() -> ObserverState<f32> {
 
 /// Any estimate, NaN included: what lags and plant make of a sample is not needed.
 fn any_estimate<T: Real>(_: &DisturbanceObserver<T>, _: &Lags<T>, _: T) -> T {
-    T::of(kani::any())
+    T::from_f64(kani::any())
 }
 
 /// Lags that have moved anywhere, NaN included.
@@ -49,8 +49,8 @@ fn any_lags<T: Real>(
     _: T,
 ) -> Lags<T> {
     let lag = || Compensated {
-        value: T::of(kani::any()),
-        carry: T::of(kani::any()),
+        value: T::from_f64(kani::any()),
+        carry: T::from_f64(kani::any()),
     };
     Lags {
         sent: [lag(), lag(), lag()],

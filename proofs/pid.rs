@@ -1,6 +1,6 @@
 //! K1 and K10 of PI, PID and PIV.
 
-use super::any::{fallback, limits};
+use super::any::{fallback, finite, limits};
 use super::properties::control::{
     a_pid_start_keeps_the_command, follows, pid_commands_within_its_limits,
     pid_commands_within_its_limits_from_any_state, the_score_keeps_up,
@@ -8,11 +8,13 @@ use super::properties::control::{
 use super::{limited, stubs};
 use bowden::control::pid::state::{Last, Unchecked};
 use bowden::control::status::{Held, Latch};
-use bowden::control::{AntiWindup, Damping, Fault, Limits, Pid, PidInput, PidSettings, PidState};
-use bowden::signal::Compensated;
+use bowden::control::{
+    AntiWindup, Applied, DerivativeSource, Fault, Limits, Pid, PidInput, PidSettings, PidState,
+};
+use bowden::signal::{wrapped, Compensated};
 
 /// Any settings that the constructor accepts, with this anti-windup.
-fn pid(anti_windup: AntiWindup<f32>, damping: Damping<f32>) -> Pid<f32> {
+fn pid(anti_windup: AntiWindup<f32>, damping: DerivativeSource<f32>) -> Pid<f32> {
     let settings = PidSettings {
         k_p: kani::any(),
         k_i: kani::any(),
@@ -21,6 +23,9 @@ fn pid(anti_windup: AntiWindup<f32>, damping: Damping<f32>) -> Pid<f32> {
         derivative_time: kani::any(),
         setpoint_weight: kani::any(),
         anti_windup,
+        integral_limit: kani::any::<bool>().then(|| kani::any()),
+        deadband: kani::any(),
+        period: kani::any::<bool>().then(|| kani::any()),
         limits: limits(),
         longest_dt: kani::any(),
         fallback: fallback(),
@@ -37,6 +42,7 @@ pub(crate) fn latch() -> Latch {
         0 => Latch::Closed,
         1 => Latch::Returning,
         2 => Latch::Counting,
+        4 => Latch::Told,
         fault => Latch::Safe(if fault == 3 {
             Fault::Dt
         } else {
@@ -52,8 +58,8 @@ fn raw() -> Unchecked<f32> {
         measured: kani::any(),
         velocity: kani::any(),
         feed_forward: kani::any(),
-        command: kani::any(),
         unlimited: kani::any(),
+        change: kani::any(),
     };
     Unchecked {
         integral: Compensated {
@@ -89,7 +95,7 @@ fn input() -> PidInput<f32> {
     }
 }
 
-fn any_sample(anti_windup: AntiWindup<f32>, damping: Damping<f32>) {
+fn any_sample(anti_windup: AntiWindup<f32>, damping: DerivativeSource<f32>) {
     let (pid, mut state, input) = (pid(anti_windup, damping), state(), input());
     let before = state;
     let kept = pid_commands_within_its_limits(&pid, &mut state, &input);
@@ -98,8 +104,8 @@ fn any_sample(anti_windup: AntiWindup<f32>, damping: Damping<f32>) {
     assert!(kept && state.is_valid());
 }
 
-fn rate() -> Damping<f32> {
-    Damping::Rate {
+fn rate() -> DerivativeSource<f32> {
+    DerivativeSource::Rate {
         weight: kani::any(),
     }
 }
@@ -111,6 +117,7 @@ fn rate() -> Damping<f32> {
 /// Assumes: nothing of gains, sample or valid state; the limits as by slew_limit_any_rate.
 #[kani::proof]
 #[kani::stub(libm::expm1f, stubs::expm1f)]
+#[kani::stub(wrapped, stubs::any_turn)]
 #[kani::stub(Limits::apply, limited::apply)]
 #[kani::stub(follows, limited::follows)]
 fn pid_any_sample_none() {
@@ -122,6 +129,7 @@ fn pid_any_sample_none() {
 /// Assumes: as pid_any_sample_none.
 #[kani::proof]
 #[kani::stub(libm::expm1f, stubs::expm1f)]
+#[kani::stub(wrapped, stubs::any_turn)]
 #[kani::stub(Limits::apply, limited::apply)]
 #[kani::stub(follows, limited::follows)]
 fn pid_any_sample_clamp() {
@@ -133,6 +141,7 @@ fn pid_any_sample_clamp() {
 /// Assumes: as pid_any_sample_none.
 #[kani::proof]
 #[kani::stub(libm::expm1f, stubs::expm1f)]
+#[kani::stub(wrapped, stubs::any_turn)]
 #[kani::stub(Limits::apply, limited::apply)]
 #[kani::stub(follows, limited::follows)]
 fn pid_any_sample_conditional() {
@@ -144,6 +153,7 @@ fn pid_any_sample_conditional() {
 /// Assumes: as pid_any_sample_none.
 #[kani::proof]
 #[kani::stub(libm::expm1f, stubs::expm1f)]
+#[kani::stub(wrapped, stubs::any_turn)]
 #[kani::stub(Limits::apply, limited::apply)]
 #[kani::stub(follows, limited::follows)]
 fn pid_any_sample_back_calculation() {
@@ -155,10 +165,24 @@ fn pid_any_sample_back_calculation() {
 ///
 /// Assumes: as pid_any_sample_none.
 #[kani::proof]
+#[kani::stub(wrapped, stubs::any_turn)]
 #[kani::stub(Limits::apply, limited::apply)]
 #[kani::stub(follows, limited::follows)]
 fn piv_any_sample() {
-    any_sample(AntiWindup::Conditional, Damping::Velocity);
+    any_sample(AntiWindup::Conditional, DerivativeSource::Velocity);
+}
+
+/// K1. A difference that is no number stays none when it is wrapped, whatever the period: the
+/// rows above replace `wrapped` by any float for a number, and by none otherwise.
+///
+/// Assumes: nothing.
+#[kani::proof]
+fn wrapped_of_no_number_is_none() {
+    let (difference, period): (f32, f32) = (kani::any(), kani::any());
+    kani::assume(!difference.is_finite());
+    kani::cover!(difference.is_nan() && period > 0.0);
+    kani::cover!(!difference.is_nan() && period > 0.0);
+    assert!(!wrapped(difference, period).is_finite());
 }
 
 /// K15. From any state, of whatever bits: the command is finite and within the limits, and a
@@ -166,6 +190,7 @@ fn piv_any_sample() {
 ///
 /// Assumes: nothing of gains, sample or state; the limits as by slew_limit_any_rate.
 #[kani::proof]
+#[kani::stub(wrapped, stubs::garbage_of_two_real)]
 #[kani::stub(Limits::apply, limited::apply)]
 fn pid_from_any_state() {
     let (pid, at) = (pid(AntiWindup::Conditional, rate()), input());
@@ -211,13 +236,99 @@ fn score_keeps_up() {
     assert!(out == held.is_latched());
 }
 
+/// K17. A change of the integral that takes the command beyond its range is whole where it points
+/// away from that end; else it is cut, to what fills the range or, of an integral beyond that, to
+/// where it was.
+///
+/// Assumes: any law with conditional integration or a clamp, any numbers of which the sum is finite.
+#[kani::proof]
+fn a_change_is_whole_or_fills_the_limit() {
+    let clamps = kani::any();
+    let anti_windup = match clamps {
+        true => AntiWindup::Clamp,
+        false => AntiWindup::Conditional,
+    };
+    let pid = pid(anti_windup, rate());
+    let (before, value, carry, rest) = (finite(), finite(), finite(), finite());
+    let (limits, wanted) = (pid.settings().limits, rest + value);
+    kani::assume(wanted.is_finite() && !limits.contains(wanted));
+    let above = wanted > limits.high();
+    let end = if above { limits.high() } else { limits.low() };
+    let kept = pid
+        .cut(before, Compensated { value, carry }, rest, end)
+        .value;
+    let towards = if above {
+        value > before
+    } else {
+        value < before
+    };
+    kani::cover!(towards && kept == before);
+    kani::cover!(towards && kept == end - rest && kept > before);
+    kani::cover!(!towards && value < before && kept == value);
+    assert!(towards || kept == value);
+    assert!(!towards || (before.min(value) <= kept && kept <= before.max(value)));
+    let own = if above { end.max(0.0) } else { end.min(0.0) };
+    let fills = kept == end - rest || kept == before || (clamps && kept == own);
+    assert!(kept == value || fills);
+}
+
+/// K17. Without `k_i` the integral comes nearer to zero with every sample, keeps its sign, and is
+/// zero in the end: a float has finitely many values between.
+///
+/// Assumes: any law without `k_i`, any valid state, a finite dt of 1 µs or more: below an epsilon of
+/// the float, in seconds, a sample is too short to move it.
+#[kani::proof]
+fn without_k_i_the_integral_returns_to_zero() {
+    let pid = pid(AntiWindup::Conditional, rate());
+    kani::assume(pid.settings().k_i == 0.0);
+    let (state, dt) = (state(), finite());
+    kani::assume(dt >= 1e-6);
+    let (before, after) = (state.integral(), pid.returned(&state, dt).value);
+    kani::cover!(after > 1.0 && after < before);
+    kani::cover!(before > 0.0 && after == 0.0);
+    assert!(after == 0.0 || (after.abs() < before.abs() && (after > 0.0) == (before > 0.0)));
+}
+
+/// K17. A law is told what the drive did: the next step goes on from the command that went out, the
+/// integral moves towards where it was before the last change and no further, and a second time
+/// moves nothing.
+///
+/// Assumes: nothing of law and valid state.
+#[kani::proof]
+fn what_the_drive_did_takes_a_change_back_once() {
+    let (pid, mut state) = (pid(AntiWindup::Conditional, rate()), state());
+    let (before, sent) = (state, kani::any());
+    let told = match kani::any::<u8>() {
+        0 => Applied::AtUpperLimit,
+        1 => Applied::AtLowerLimit,
+        _ => Applied::Command(sent),
+    };
+    pid.applied(&mut state, told);
+    let known = matches!(told, Applied::Command(_)) && sent.is_finite();
+    let out = if known { sent } else { before.command() };
+    let (was, is) = (before.integral(), state.integral());
+    kani::cover!(is < was && known);
+    kani::cover!(is > was && told == Applied::AtLowerLimit);
+    assert!(state.command() == out);
+    let change = before.last.map_or(0.0, |last| last.change);
+    let last = was - change;
+    assert!(is == was || (last.min(was) <= is && is <= last.max(was)));
+    let once = state.integral();
+    pid.applied(&mut state, Applied::AtUpperLimit);
+    pid.applied(&mut state, Applied::AtUpperLimit);
+    let twice = state.integral();
+    pid.applied(&mut state, Applied::AtUpperLimit);
+    assert!(state.integral() == twice && (twice == once || is == was));
+}
+
 /// K10. Other settings take a running PID over: the command that is out stays, from which a
 /// slew rate goes on, the state stays valid, and only the integral moves.
 #[kani::proof]
+#[kani::stub(wrapped, stubs::garbage_of_two_real)]
 fn pid_take_over() {
     let (pid, mut state) = (pid(AntiWindup::Conditional, rate()), state());
     let before = state;
-    pid.take_over(&mut state);
+    pid.bumpless_transfer(&mut state);
     kani::cover!(state.integral() != before.integral());
     let kept = state.command().to_bits() == before.command().to_bits();
     assert!(kept && state.rate() == before.rate() && state.is_valid());
@@ -226,6 +337,7 @@ fn pid_take_over() {
 /// K10. A PID that starts from an output: whatever output and sample, the command is that
 /// output within the range and the state is valid, or integral, rate and command stay.
 #[kani::proof]
+#[kani::stub(wrapped, stubs::garbage_of_two_real)]
 fn pid_resume_from() {
     let (pid, mut state, at) = (pid(AntiWindup::Clamp, rate()), state(), input());
     let output = kani::any();

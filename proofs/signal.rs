@@ -3,9 +3,12 @@
 use super::any::{finite, within};
 use super::properties::control::limits_are_kept;
 use super::properties::signal::*;
+use super::stubs;
 use bowden::control::limits::around;
 use bowden::control::{Limits, SmoothSign};
-use bowden::signal::{Derivative, DerivativeState, Play, PlayState};
+use bowden::signal::{Biquad, BiquadState, EdgeStatus, EdgeVelocity, EdgeVelocityState};
+use bowden::signal::{Derivative, DerivativeState, LowPass, LowPassState, Play, PlayState};
+use bowden::signal::{Implausible, Plausible, PlausibleState};
 use bowden::Real;
 use core::sync::atomic::{AtomicU32, Ordering};
 
@@ -93,7 +96,7 @@ static HIGH: AtomicU32 = AtomicU32::new(0);
 /// What `slew_reaches_around` proves of the limit's ends, and no more; they are kept.
 fn any_ends<T: Real>(last: T, _: T) -> (T, T) {
     let (low, high): (f32, f32) = (kani::any(), kani::any());
-    let (there, back) = (T::of(low.into()), T::of(high.into()));
+    let (there, back) = (T::from_f64(low.into()), T::from_f64(high.into()));
     kani::assume(there <= last && last <= back);
     LOW.store(low.to_bits(), Ordering::Relaxed);
     HIGH.store(high.to_bits(), Ordering::Relaxed);
@@ -134,7 +137,7 @@ fn slew_limit_from_any_command() {
 
 /// Any two numbers, NaN included.
 fn all_ends<T: Real>(_: T, _: T) -> (T, T) {
-    (T::of(kani::any()), T::of(kani::any()))
+    (T::from_f64(kani::any()), T::from_f64(kani::any()))
 }
 
 /// K10. The same as slew_limit for any slew rate, any finite dt above zero and any command:
@@ -158,4 +161,172 @@ fn slew_limit_any_rate() {
         let slewed = low <= command && command <= high;
         assert!(limits.contains(command) && (slewed || !limits.contains(last)));
     }
+}
+
+/// A number that may be missing; a finite one where it is there.
+fn maybe_finite() -> Option<f32> {
+    kani::any::<bool>().then(finite)
+}
+
+fn is_usable(sample: f32, dt: f32) -> bool {
+    sample.is_finite() && dt.is_finite() && dt > 0.0
+}
+
+/// K15. The first-order low-pass: for any sample the output is finite, so that the next step
+/// starts from such a state again; a bad sample leaves the state.
+///
+/// Assumes: any filter, any finite numbers in the state.
+#[kani::proof]
+fn low_pass_any_sample() {
+    if let Ok(filter) = LowPass::try_new(kani::any()) {
+        let before = LowPassState::of(maybe_finite(), finite());
+        let (sample, dt): (f32, f32) = (kani::any(), kani::any());
+        let mut state = before;
+        let output = filter.step(&mut state, sample, dt);
+        kani::cover!(is_usable(sample, dt) && output > before.value());
+        assert!(output.is_finite() && output == state.value());
+        assert!(is_usable(sample, dt) || state == before);
+    }
+}
+
+/// Any number above zero, infinity included, for the tangent of the prewarping.
+fn any_slope(_: f64, _: f64) -> f64 {
+    kani::any_where(|slope: &f64| *slope > 0.0)
+}
+
+/// Any filter that its constructors accept.
+fn biquad() -> Biquad<f32> {
+    let design = if kani::any() {
+        Biquad::low_pass
+    } else {
+        Biquad::notch
+    };
+    let filter = design(kani::any(), kani::any(), kani::any());
+    kani::assume(filter.is_ok());
+    match filter {
+        Ok(filter) => filter,
+        Err(_) => unreachable!(),
+    }
+}
+
+/// K15. The second-order section, as the first-order one: for any sample the output is finite;
+/// a bad sample leaves the state.
+///
+/// Assumes: any filter, any finite numbers in the state.
+#[kani::proof]
+#[kani::stub(crate::signal::biquad::prewarped::slope, any_slope)]
+fn biquad_any_sample() {
+    let filter = biquad();
+    let before = BiquadState::of(maybe_finite(), [finite(), finite(), finite(), finite()]);
+    let (sample, dt): (f32, f32) = (kani::any(), kani::any());
+    let mut state = before;
+    let output = filter.step(&mut state, sample, dt);
+    kani::cover!(is_usable(sample, dt) && output > before.value());
+    assert!(output.is_finite() && output == state.value());
+    assert!(is_usable(sample, dt) || state == before);
+}
+
+/// K15. The velocity between counts: for any sample it is finite, a bad sample leaves it, and a
+/// stop that is told has the velocity zero.
+///
+/// Assumes: any settings, any finite numbers in the state.
+#[kani::proof]
+#[kani::stub(libm::expm1f, stubs::expm1f)]
+fn edge_velocity_any_sample() {
+    let edges = EdgeVelocity::try_new(kani::any(), kani::any(), kani::any());
+    let wrapping = edges.and_then(|edges| edges.with_period(kani::any()));
+    let chosen = if kani::any() { edges } else { wrapping };
+    if let Ok(edges) = chosen {
+        let before = EdgeVelocityState::of(
+            [maybe_finite(), maybe_finite()],
+            kani::any(),
+            (finite(), kani::any()),
+        );
+        let (position, dt): (f32, f32) = (kani::any(), kani::any());
+        let mut state = before;
+        let out = edges.step(&mut state, position, dt);
+        kani::cover!(out.status == EdgeStatus::Good && out.velocity > before.velocity());
+        kani::cover!(out.status == EdgeStatus::Stopped && before.velocity() > 1.0);
+        assert!(out.velocity.is_finite());
+        assert!(is_usable(position, dt) || out.velocity == before.velocity());
+        assert!(out.status != EdgeStatus::Stopped || out.velocity == 0.0);
+    }
+}
+
+/// K15. Plausibility: for any sample and any state, NaN included, the value is the sample, finite
+/// and within the range, or NaN with a fault; a number that repeats is never too fast.
+///
+/// Assumes: a range of ±100, any rate, sample period, longest dt and count of stuck samples.
+#[kani::proof]
+fn plausible_any_sample() {
+    let (rate, period) = (kani::any::<bool>(), kani::any::<bool>());
+    let sensor = Plausible::try_new(-100.0_f32, 100.0)
+        .and_then(|it| {
+            if rate {
+                it.with_rate(kani::any())
+            } else {
+                Ok(it)
+            }
+        })
+        .and_then(|it| {
+            if period {
+                it.with_sample_period(kani::any())
+            } else {
+                Ok(it)
+            }
+        })
+        .and_then(|it| it.with_longest_dt(kani::any()));
+    if let Ok(sensor) = sensor {
+        let sensor = sensor.with_stuck_after(kani::any());
+        let last = kani::any::<bool>().then(kani::any);
+        let mut state = PlausibleState::of(last, finite(), kani::any());
+        let (sample, dt, moves): (f32, f32, bool) = (kani::any(), kani::any(), kani::any());
+        let out = sensor.step(&mut state, sample, dt, moves);
+        kani::cover!(out.fault == Some(Implausible::TooFast) && rate && period);
+        kani::cover!(out.fault.is_none() && last.is_some_and(|last| sample > last + 1.0));
+        let is_sample = out.value == sample && (-100.0..=100.0).contains(&out.value);
+        assert!(if out.fault.is_none() {
+            is_sample
+        } else {
+            out.value.is_nan()
+        });
+        let repeats = last == Some(sample);
+        assert!(!repeats || out.fault != Some(Implausible::TooFast));
+    }
+}
+
+/// K13. Filters, the velocity between counts and the sample period: any bit pattern is accepted
+/// exactly where the docs say so, without a panic.
+///
+/// Assumes: a slope of the second-order section that is a finite float.
+#[kani::proof]
+#[kani::stub(crate::signal::biquad::prewarped::slope, any_finite_slope)]
+fn filters_of_any_argument() {
+    let (a, b, c): (f32, f32, f32) = (kani::any(), kani::any(), kani::any());
+    let is_positive = |x: f32| x.is_finite() && x > 0.0;
+    let low_pass = LowPass::try_new(a);
+    kani::cover!(low_pass.is_ok());
+    assert!(low_pass.is_ok() == (a.is_finite() && a >= 0.0));
+    let edges = EdgeVelocity::try_new(a, b, c);
+    kani::cover!(edges.is_ok());
+    assert!(edges.is_ok() == (is_positive(a) && is_positive(b) && is_positive(c)));
+    let wrapping = edges.and_then(|edges| edges.with_period(a));
+    assert!(wrapping.is_ok() == edges.is_ok());
+    let sensor = Plausible::try_new(-1.0_f32, 1.0).and_then(|it| it.with_sample_period(a));
+    kani::cover!(sensor.is_ok());
+    assert!(sensor.is_ok() == is_positive(a));
+    // A sample time of a power of two, and a frequency and a quality of one: the products that
+    // decide are exact, and no second multiplier has to be proved equal to the first.
+    let notch = Biquad::notch(a, b, 1.0 / 1024.0);
+    kani::cover!(notch.is_ok());
+    let is_below_nyquist = is_positive(a) && a < 512.0;
+    assert!(notch.is_err() || is_below_nyquist && is_positive(b));
+    assert!(notch.is_ok() || !(is_below_nyquist && b.is_normal() && b > 0.0));
+    let sampled = Biquad::notch(1.0, 1.0, c);
+    assert!(sampled.is_ok() == (is_positive(c) && c < 0.5));
+}
+
+/// Any number above zero that is finite in `f32` too.
+fn any_finite_slope(_: f64, _: f64) -> f64 {
+    kani::any_where(|slope: &f64| *slope > 0.0 && *slope < 1e38)
 }

@@ -46,3 +46,18 @@ pub(crate) fn garbage(_: f32) -> f32 {
 pub(crate) fn garbage_of_two(_: f32, _: f32) -> f32 {
     kani::any()
 }
+
+/// The same for any float.
+pub(crate) fn garbage_of_two_real<T: crate::Real>(_: T, _: T) -> T {
+    T::from_f64(kani::any::<f32>().into())
+}
+
+/// Any float for `wrapped`, and none for a difference that is none:
+/// `wrapped_of_no_number_is_none` proves it of the real one.
+pub(crate) fn any_turn<T: crate::Real>(difference: T, _: T) -> T {
+    if difference.is_finite() {
+        T::from_f64(kani::any::<f32>().into())
+    } else {
+        T::nan()
+    }
+}

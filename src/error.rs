@@ -1,22 +1,22 @@
-//! The one error of the crate: what was wrong, with the parameter's name.
+//! The error type of the crate: the cause and the parameter's name.
 //!
-//! Everything is checked once, in the constructors. After that no arithmetic
-//! returns a `Result` and nothing panics.
+//! The constructors check all parameters. After that no arithmetic returns a `Result`, and
+//! nothing panics.
 
 use core::fmt;
 
-/// Why a parameter was refused. Every variant carries the parameter's name.
+/// Cause of a refused parameter. Every variant carries the parameter's name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Error {
     /// The parameter is NaN or infinite.
     NonFinite(&'static str),
-    /// The parameter is finite but outside the range that the docs state.
+    /// The parameter is finite but outside its documented range.
     OutOfRange(&'static str),
-    /// The parameters are fine one by one, but together break the named condition.
+    /// Each parameter is valid alone, but together they violate the named condition.
     Inadmissible(&'static str),
-    /// More items were given than the fixed capacity holds.
+    /// The number of items exceeds the fixed capacity.
     Capacity(&'static str),
 }
 
@@ -32,9 +32,9 @@ impl fmt::Display for Error {
 }
 
 impl Error {
-    /// The parameter's name, or the condition that is not met.
+    /// The parameter's name, or the violated condition.
     #[must_use]
-    pub const fn about(&self) -> &'static str {
+    pub const fn parameter(&self) -> &'static str {
         match self {
             Self::NonFinite(name)
             | Self::OutOfRange(name)
@@ -46,10 +46,10 @@ impl Error {
 
 impl core::error::Error for Error {}
 
-/// What a `const` constructor gives, checked by the compiler.
+/// The value of a `const` constructor, checked by the compiler.
 ///
-/// What the constructor refuses does not compile; the compiler's message holds the name of
-/// the parameter. The configuration lives in flash and costs nothing at start-up.
+/// A refused parameter is a compile error; the compiler's message contains the parameter's
+/// name. The configuration is stored in flash and costs nothing at start-up.
 ///
 /// ```
 /// use bowden::constant;
@@ -74,13 +74,13 @@ macro_rules! constant {
         const {
             match $checked {
                 Ok(it) => it,
-                Err(error) => ::core::panic!("{}", error.about()),
+                Err(error) => ::core::panic!("{}", error.parameter()),
             }
         }
     };
 }
 
-/// Passes a finite value on, refuses NaN and infinities with the parameter's name.
+/// Returns a finite value, refuses NaN and infinities with the parameter's name.
 ///
 /// # Errors
 /// [`Error::NonFinite`] with `name`.
@@ -92,23 +92,24 @@ pub(crate) fn finite<T: crate::Real>(value: T, name: &'static str) -> Result<T, 
     }
 }
 
-/// Says that the branch around it is taken rarely: the usual one needs no jump.
+/// Marks the surrounding branch as rare: the usual branch needs no jump.
 #[cold]
 #[inline]
 pub(crate) const fn rarely() {}
 
-/// Whether a number is finite. Of several, add them up first: one test for all.
+/// Whether a number is finite. For several numbers, test their sum: one test for all.
 #[inline]
 #[allow(clippy::eq_op)]
 pub(crate) fn is_usable<T: crate::Real>(sum: T) -> bool {
-    // An infinity minus itself is NaN, and no constant is loaded for the test.
+    // An infinity minus itself is NaN; the test loads no constant.
     sum - sum == T::ZERO
 }
 
-/// Returns the error of a number that is not finite from the function around it.
+/// Returns the error of a number that is not finite from the surrounding function.
 ///
-/// These three checks mean the same on a generic `T: Real` and, in a `const fn`, on `f32` and
-/// `f64`: so that a constructor at compile time has the checks of the one at run time.
+/// These three checks are the same on a generic `T: Real` and, in a `const fn`, on `f32` and
+/// `f64`. A constructor at compile time therefore has the checks of the constructor at run
+/// time.
 macro_rules! must_be_finite {
     ($value:expr, $name:expr) => {
         if !$value.is_finite() {
@@ -117,7 +118,7 @@ macro_rules! must_be_finite {
     };
 }
 
-/// The same of a number that is not finite or not above zero.
+/// The same for a number that is not finite or not above zero.
 macro_rules! above_zero {
     ($value:expr, $zero:expr, $name:expr) => {
         crate::error::must_be_finite!($value, $name);
@@ -127,7 +128,7 @@ macro_rules! above_zero {
     };
 }
 
-/// The same of a number that is not finite or below zero.
+/// The same for a number that is not finite or below zero.
 macro_rules! not_below_zero {
     ($value:expr, $zero:expr, $name:expr) => {
         crate::error::must_be_finite!($value, $name);
@@ -137,7 +138,7 @@ macro_rules! not_below_zero {
     };
 }
 
-/// The same of two ends of a range, `"low"` and `"high"`.
+/// The same for both ends of a range, `"low"` and `"high"`.
 macro_rules! ordered {
     ($low:expr, $high:expr) => {
         crate::error::must_be_finite!($low, "low");

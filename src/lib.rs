@@ -1,48 +1,75 @@
-//! Hysteretic cable transmissions: models fitted on the bench that run in firmware.
+//! Bouc-Wen models of cable transmissions, and torque controllers, for firmware.
 //!
-//! A pair of Bowden cables transmits a torque with friction that remembers: the output
-//! depends on where the input came from. This crate models that with a **Bouc-Wen**
-//! hysteresis whose input is a torque or a displacement, and with a catalogue of the
-//! **effects** that real rigs have beside it. `no_std`, no allocation, no unsafe code,
-//! generic over `f32` and `f64`; run-time dependencies `num-traits` and `libm`.
+//! A pair of Bowden cables transmits a torque with hysteretic friction. The output torque
+//! depends on the present input and on the inputs before it. This crate models the friction
+//! with a **Bouc-Wen** hysteresis whose input is a torque or a displacement. A catalogue of
+//! further **effects** covers viscous friction, backlash, creep and others. The crate is
+//! `no_std`, allocates nothing, has no unsafe code, and is generic over `f32` and `f64`. Its
+//! run-time dependencies are `num-traits` and `libm`.
 //!
-//! A newcomer may read [the book](book) first: idea, equations, verdicts, controllers, and the
-//! way from the bench to the motor.
+//! ```
+//! use bowden::control::{Fallback, Limits, Pid, PidInput, PidSettings, PidState};
+//! use bowden::effect::Motion;
+//! use bowden::hysteresis::BoucWen;
+//! use bowden::model::{Model, ModelState, Sample};
+//! use bowden::transmission::Transmission;
 //!
-//! | module | what it is | equations |
+//! // The cable: rho [1/(N·m)], sigma and n, then B, kappa_eta [N·m] and T0 [N·m].
+//! let shape = BoucWen::try_new(0.382_f32, 0.54, 1.02)?;
+//! let cable = Transmission::torque(0.952, 2.29, 0.05, shape)?;
+//! let model = Model::<f32, 1>::try_new(Some(cable), &[])?;
+//!
+//! // The PI: k_p, k_i, limits [N·m], longest dt [s], safe command after 20 bad samples [N·m].
+//! let limits = Limits::try_new(-20.0_f32, 60.0)?;
+//! let pi = Pid::try_new(PidSettings::new(0.5, 25.0, limits, 0.005, Fallback::try_new(20, 0.0)?))?;
+//!
+//! let (mut cable_state, mut pi_state) = (ModelState::new(), PidState::new());
+//! let mut tau_o = 0.0;
+//! for _ in 0..1000 {
+//!     let command = pi.step(&mut pi_state, &PidInput::new(0.001, 10.0, tau_o)).command;
+//!     let input = Motion { position: command, velocity: 0.0, acceleration: 0.0 };
+//!     let sample = Sample { dt: 0.001, input, load: command, channels: &[] };
+//!     tau_o = model.step(&mut cable_state, &sample);
+//! }
+//! assert!((tau_o - 10.0).abs() < 0.1); // after 1 s the output is at the reference [N·m]
+//! # Ok::<(), bowden::Error>(())
+//! ```
+//!
+//! # The book
+//! 1. [The idea](book::idea): hysteresis in a cable, and its effect on a torque controller.
+//! 2. [The equations](book::equations): the model, its conventions, and corrections to the
+//!    paper.
+//! 3. [Reading a verdict](book::verdict): the results of `bowden identify`, and the next step
+//!    after each.
+//! 4. [Choosing a controller](book::controller): controllers, gains, and cost in instructions.
+//! 5. [From bench to motor](book::motor): the model in firmware, step by step, and the tests on
+//!    the board.
+//!
+//! # Modules
+//! | module | contents | equations |
 //! |---|---|---|
-//! | [`hysteresis`] | the Bouc-Wen state, bounded for any step | (2), (7) |
+//! | [`hysteresis`] | the Bouc-Wen state equation, bounded for any step | (2), (7) |
 //! | [`transmission`] | displacement to force, torque to torque, and the inverse | (1), (5), (6) |
 //! | [`effect`] | viscous, Coulomb, Stribeck, backlash, …: one regressor each | |
 //! | [`model`] | a transmission plus effects: the predicted output | |
-//! | [`control`] | torque controllers that a bad sample cannot poison | (14)-(26) |
-//! | [`bound`] | what can be promised of the adaptive law | (27)-(38) |
-//! | [`signal`] | clamp, guard, play operator, rates of a position | |
+//! | [`control`] | torque controllers that reject bad samples | (14)-(26) |
+//! | [`bound`] | error bounds and stability certificates for the controllers | (27)-(38) |
+//! | [`signal`] | filters, rates of a position, play operator, plausibility checks | |
 //!
-//! Conventions: config and state are two types; everything is checked once, in
-//! `try_new`, and nothing panics after that; a bad sample (NaN, an infinity, a `dt` that
-//! is not positive) leaves the state as it was. Equation numbers are those of the paper
-//! on torque control of cable-conduit mechanisms that the project started from.
+//! # Conventions
+//! - Configuration and state are two types.
+//! - `try_new` checks every parameter. After it nothing panics.
+//! - A bad sample leaves the state unchanged. A sample is bad if it has a NaN, an infinity, or
+//!   a `dt` that is not positive.
+//! - Equation numbers refer to the paper on torque control of cable-conduit mechanisms that
+//!   [the equations](book::equations) cite.
 //!
 //! # Features
-//! All off: `serde` (configs deserialise through their checks; a [model](model::Model) is
-//! the file that `bowden close --model-out` writes), `defmt`, `std`.
-//!
-//! ```
-//! use bowden::hysteresis::{BoucWen, Shape};
-//! use bowden::transmission::Transmission;
-//!
-//! // The paper's first identified set: rho, sigma, n, then B, kappa_eta, T0.
-//! let shape = Shape::try_new(0.09582_f32, 98.36, 3.871)?;
-//! let cable = Transmission::torque(0.9978, 7.004, 0.05174, shape)?;
-//! let mut state = BoucWen::new();
-//! cable.step(&mut state, 0.0);
-//! let up = cable.step(&mut state, 16.0);
-//! cable.step(&mut state, 20.0);
-//! let down = cable.step(&mut state, 16.0);
-//! assert!(down - up > 2.0); // the same input, another output [N·m]
-//! # Ok::<(), bowden::Error>(())
-//! ```
+//! All features are off by default:
+//! - `serde`: configurations deserialise through their checks. A [model](model::Model) has the
+//!   file format that `bowden identify --model-out` writes.
+//! - `defmt`: types implement `defmt::Format`.
+//! - `std`: the crate links the standard library.
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -64,14 +91,19 @@ pub mod transmission;
 pub use error::Error;
 pub use real::Real;
 
-/// What is proved of this crate; `proofs/README.md` says how to run it.
+/// The proofs of this crate; `proofs/README.md` states how to run them.
 #[cfg(kani)]
 #[path = "../proofs/mod.rs"]
 mod proofs;
 #[cfg(kani)]
 extern crate self as bowden;
 
-/// The README's example is compiled and run with the tests.
+/// The tests compile and run the example of the README.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
+
+/// The tests compile and run the examples of the page on drives and loops.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/howto/drives-and-loops.md")]
+struct DrivesAndLoops;

@@ -1,21 +1,21 @@
-//! The model: a transmission plus effects, sample by sample.
+//! The predicted output: a transmission plus effects, sample by sample.
 //!
 //! ```text
 //! u = input + Σ gain·regressor                         (the input stages)
-//! y = transmission(u, eta) + Σ gain·regressor          (all terms that are no stages)
+//! y = transmission(u, eta) + Σ gain·regressor          (all terms that are not stages)
 //! y ← y + gain·regressor(y)                            (then each output stage, in order)
 //! ```
-//! Only the transmission sees u; every effect reads what the sensors say.
+//! Only the transmission reads u; every effect reads the measured signals.
 //!
-//! A regressor's x is the position less the term's origin, see [`Term`].
+//! A regressor's x is the position minus the origin of the term, see [`Term`].
 //!
-//! What is fitted on the bench is this struct, and it is what runs in firmware:
-//! no heap, a fixed capacity of `N` terms, config and state apart. Either part may
-//! be missing: no transmission (effects alone) or no terms.
+//! The bench fits this struct, and the firmware runs it. It uses no heap, has a fixed capacity
+//! of `N` terms, and separates configuration and state. A model may have no transmission
+//! (effects alone) or no terms.
 //!
-//! A bad sample never poisons: where `dt` is not positive, a channel is missing or
-//! a number that the model reads is not finite, the state stays as it was and the
-//! last good output is returned. Numbers that no term reads may be anything.
+//! A bad sample leaves the state unchanged, and the step returns the last good output. A sample
+//! is bad if `dt` is not positive, a channel is missing, or a number that the model reads is
+//! not finite. The model ignores numbers that no term reads.
 
 #[cfg(feature = "serde")]
 mod file;
@@ -24,14 +24,14 @@ mod fixed;
 mod serial;
 mod state;
 
-use crate::effect::{saturate, Effect, Motion, Situation, Stage};
+use crate::effect::{saturate, Effect, Inputs, Motion, Stage};
 use crate::error::finite;
 use crate::transmission::Transmission;
 use crate::{Error, Real};
 pub use fixed::{FixedModel, Terms};
 pub use state::ModelState;
 
-/// Which motion an effect reads.
+/// The motion that an effect reads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
@@ -43,16 +43,16 @@ pub enum Source {
     Channel(u8),
 }
 
-/// One effect of a model, with its gain and its zero of position.
+/// One effect of a model, with its gain and its origin.
 ///
 /// # Origin
-/// The effect reads `motion.position − origin`; velocity and acceleration are the
-/// sensor's own. Where a sensor reads zero is arbitrary, but an effect such as `x·|x|`
-/// or `x·tanh(v/v_e)` is even, odd or largest about a place of its own: from another
-/// zero it is another function, which no gain mends. The bench finds that place, or
-/// picks it, and the firmware must use the same one with the same gain. Shapes that are
-/// positions (`x_h`) count from it. The transmission's input, also where an effect
-/// reads it beside its source (`degradation`), is not moved.
+/// The effect reads `motion.position − origin`; velocity and acceleration come unchanged from
+/// the sensor. The zero of a sensor is arbitrary. An effect such as `x·|x|` or `x·tanh(v/v_e)`
+/// is even, odd or largest about a specific position. A different zero gives a different
+/// function, which no gain corrects. The bench identifies or selects this position. The
+/// firmware must use the same origin with the same gain. Shape parameters that are positions
+/// (`x_h`) count from the origin. The origin does not shift the transmission's input, even if
+/// an effect reads the input in addition to its source (`degradation`).
 ///
 /// ```
 /// use bowden::effect::{Effect, Motion};
@@ -74,11 +74,11 @@ pub enum Source {
 )]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Term<T, E = Effect<T>> {
-    /// The regressor: any, or one with a type of its own (see [`FixedModel`]).
+    /// The regressor: any effect, or an effect with its own type (see [`FixedModel`]).
     pub effect: E,
-    /// What it reads.
+    /// The motion that the effect reads.
     pub source: Source,
-    /// Where its position counts from \[channel unit\]; 0 where a file leaves it out.
+    /// Origin of its position \[channel unit\]; default in a file: 0.
     #[cfg_attr(feature = "serde", serde(default))]
     pub origin: T,
     /// Its coefficient \[output unit / unit of the regressor\].
@@ -88,11 +88,11 @@ pub struct Term<T, E = Effect<T>> {
 /// One sample of the record, or of the firmware's sensors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample<'a, T> {
-    /// Since the previous sample \[s\]; above zero, also at the first one.
+    /// Time since the previous sample \[s\]; above zero, also at the first sample.
     pub dt: T,
     /// The transmission's input, x or `tau_i`, with its rates.
     pub input: Motion<T>,
-    /// The transmitted load: `tau_i` in torque mode, else a load channel.
+    /// The transmitted load: `tau_i` in torque mode, otherwise a load channel.
     pub load: T,
     /// All other channels, in the order that [`Source::Channel`] counts.
     pub channels: &'a [Motion<T>],
@@ -101,17 +101,18 @@ pub struct Sample<'a, T> {
 /// A transmission plus at most `N` effects.
 ///
 /// # Formats (feature `serde`)
-/// In a human-readable format (TOML, JSON) it is a file of schema `bowden.model/1`, as
-/// `bowden close --model-out model.toml` writes it, read and written without a heap (2 KB
-/// of stack hold the channels' names, 64 bits of each): a term names its effect, its
-/// shapes, and `input` or one of `channels`, the order of [`Sample::channels`]. The table
-/// `about` may hold anything, every other key is checked. A model knows the numbers of its
-/// channels only, and writes them as `channel_0`, ….
+/// In a human-readable format (TOML, JSON) a model is a file of schema `bowden.model/1`, as
+/// `bowden identify --model-out model.toml` writes it. Reading and writing use no heap; 2 KB of
+/// stack hold the channels' names, 64 bits of each. A term names its effect, its shape
+/// parameters, and its source. The source is `input` or one of `channels`, in the order of
+/// [`Sample::channels`]. The table `about` may hold any keys; every other key is checked. A
+/// model stores only the numbers of its channels and writes them as `channel_0`, ….
 ///
-/// Every other format (postcard) gets the parts in order, without names: 143 bytes in `f32`
-/// for eight terms with eight shapes. The bytes hold neither precision nor version, and the
-/// effect by its place in [`CATALOGUE`](crate::effect::CATALOGUE): keep them with a checksum
-/// (postcard's `to_slice_crc32`), and write them anew for a new version of this crate.
+/// Every other format (postcard) stores the parts in order, without names: 143 bytes in `f32`
+/// for eight terms with eight shape parameters. The bytes contain neither precision nor
+/// version. They identify an effect by its index in [`CATALOGUE`](crate::effect::CATALOGUE).
+/// Store them with a checksum (postcard's `to_slice_crc32`), and write them again for a new
+/// version of this crate.
 ///
 /// ```
 /// # #[cfg(feature = "serde")] {
@@ -155,7 +156,7 @@ pub struct Model<T, const N: usize> {
     stages: Stages,
 }
 
-/// Which stages the terms have beside the sum, so that a step need not look for others.
+/// The stages among the terms, so a step need not search for them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Stages {
@@ -173,7 +174,7 @@ impl Stages {
     }
 }
 
-/// What stands in the places that are free: a term that adds nothing.
+/// Filler of the free slots: a term that adds nothing.
 fn padding<T: Real>() -> Term<T> {
     Term {
         effect: Effect::Offset,
@@ -184,11 +185,12 @@ fn padding<T: Real>() -> Term<T> {
 }
 
 impl<T: Real, const N: usize> Model<T, N> {
-    /// Checks the number of terms, their origins and gains; all else was checked before.
+    /// Checks the number of terms, their origins and gains; other constructors have checked the
+    /// rest.
     ///
     /// # Errors
-    /// [`Error::Capacity`] where there are more than `N` terms, [`Error::NonFinite`]
-    /// where an origin or a gain is not finite.
+    /// [`Error::Capacity`] if there are more than `N` terms, [`Error::NonFinite`] if an origin
+    /// or a gain is not finite.
     pub fn try_new(
         transmission: Option<Transmission<T>>,
         terms: &[Term<T>],
@@ -210,7 +212,7 @@ impl<T: Real, const N: usize> Model<T, N> {
         })
     }
 
-    /// The same of terms that were checked, as many as there is room for.
+    /// The same for checked terms, up to the capacity.
     fn full(transmission: Option<Transmission<T>>, terms: [Term<T>; N]) -> Self {
         Self {
             transmission,
@@ -220,13 +222,13 @@ impl<T: Real, const N: usize> Model<T, N> {
         }
     }
 
-    /// The transmission, where there is one.
+    /// The transmission, if there is one.
     #[must_use]
     pub fn transmission(&self) -> Option<&Transmission<T>> {
         self.transmission.as_ref()
     }
 
-    /// The effects with their gains, in the order given.
+    /// The effects with their gains, in their order.
     #[must_use]
     pub fn terms(&self) -> &[Term<T>] {
         self.terms.get(..self.len).unwrap_or(&self.terms)
@@ -240,7 +242,7 @@ impl<T: Real, const N: usize> Model<T, N> {
         }
     }
 
-    /// The terms alone, without those that are chosen; the others keep their places.
+    /// The terms alone, without the selected ones; the others keep their indices.
     pub(crate) fn without_terms(&self, is_left_out: impl Fn(&Term<T>) -> bool) -> Self {
         let mut kept = self.without_transmission();
         for term in &mut kept.terms {
@@ -252,7 +254,7 @@ impl<T: Real, const N: usize> Model<T, N> {
         kept
     }
 
-    /// Whether the model can use this sample; if not, a step holds everything.
+    /// Whether the model can use this sample; otherwise a step holds its output and state.
     #[must_use]
     pub fn accepts(&self, at: &Sample<T>) -> bool {
         let input_is_read = self.transmission.is_some();
@@ -263,7 +265,7 @@ impl<T: Real, const N: usize> Model<T, N> {
                 || self.sees_enough(at))
     }
 
-    /// The first term that cannot read what it needs from this sample.
+    /// The first term that cannot read its source from this sample.
     #[inline(always)]
     pub(crate) fn first_blind_term(&self, at: &Sample<T>) -> Option<usize> {
         let sees = |source| motion_of(source, at).is_some_and(|motion| is_finite(&motion));
@@ -285,8 +287,8 @@ impl<T: Real, const N: usize> Model<T, N> {
         })
     }
 
-    /// Whether every number that a term may read is finite. It is in the usual sample, and then
-    /// no effect has to be asked what it reads.
+    /// Whether every number that a term may read is finite. This is true of the usual sample,
+    /// which then needs no test per effect.
     #[inline]
     fn sees_all(&self, at: &Sample<T>, sees_source: impl Fn(Source) -> bool) -> bool {
         let mut sees = at.dt.is_finite() && at.dt >= T::ZERO && at.load.is_finite();
@@ -297,7 +299,7 @@ impl<T: Real, const N: usize> Model<T, N> {
         sees
     }
 
-    /// Whether the numbers that the terms do read are finite.
+    /// Whether the numbers that the terms actually read are finite.
     #[cold]
     #[inline(never)]
     fn sees_enough(&self, at: &Sample<T>) -> bool {
@@ -305,20 +307,20 @@ impl<T: Real, const N: usize> Model<T, N> {
     }
 
     /// Advances the memories of the effects by one good sample, for models without stages;
-    /// the sum of their shares. The clock is left as it is.
+    /// returns the sum of their shares. The clock is unchanged.
     ///
-    /// `time` and `eta` are the caller's. `own` changes what a term reads of the sample: its
-    /// motion, the input and the load.
+    /// The caller sets `time` and `eta`. `own` changes the data that a term reads of the
+    /// sample: its motion, the input and the load.
     pub(crate) fn effects(
         &self,
         state: &mut ModelState<T, N>,
         at: &Sample<T>,
         (time, eta): (T, T),
-        own: impl Fn(usize, &mut Situation<T>),
+        own: impl Fn(usize, &mut Inputs<T>),
     ) -> T {
         let mut sum = T::ZERO;
         for (index, (term, memory)) in self.terms().iter().zip(&mut state.effects).enumerate() {
-            // The origin is subtracted behind `own`.
+            // The origin is subtracted after `own`.
             if let Some(motion) = motion_of(term.source, at) {
                 let mut there = around(at, time, eta);
                 there.motion = motion;
@@ -332,17 +334,17 @@ impl<T: Real, const N: usize> Model<T, N> {
 
     /// Advances by one sample and returns the predicted output.
     ///
-    /// A bad sample leaves the state and returns the last good output, 0 before
-    /// the first one; see [`Model::accepts`].
+    /// A bad sample leaves the state unchanged and returns the last good output, 0 before the
+    /// first one; see [`Model::accepts`].
     pub fn step(&self, state: &mut ModelState<T, N>, at: &Sample<T>) -> T {
         self.step_with(state, at, |_, _| {})
     }
 
-    /// The same step, which also tells each term's share of the output.
+    /// The same step, which also reports each term's share of the output.
     ///
-    /// `share(index, gain·regressor)` is called once a term, output stages last; on
-    /// a bad sample it is not called. What the shares leave is the transmission's, to
-    /// which the work of the input stages belongs: for them it is not called either.
+    /// The step calls `share(index, gain·regressor)` once a term, output stages last. A bad
+    /// sample makes no call. The difference between the output and the shares is the share of
+    /// the transmission. It contains the effect of the input stages, which make no call either.
     ///
     /// ```
     /// use bowden::effect::{Effect, Motion};
@@ -397,9 +399,9 @@ impl<T: Real, const N: usize> Model<T, N> {
         output
     }
 
-    /// What the transmission makes of the input, and its hysteresis state.
+    /// The output of the transmission for the input, and its hysteresis state.
     ///
-    /// A call: its stack shall not add to that of the effects.
+    /// A call: its stack must not add to the stack of the effects.
     #[inline(never)]
     fn transmitted(&self, state: &mut ModelState<T, N>, at: &Sample<T>) -> (T, T) {
         let Some(transmission) = &self.transmission else {
@@ -414,7 +416,7 @@ impl<T: Real, const N: usize> Model<T, N> {
         (saturate(force), state.hysteresis.eta())
     }
 
-    /// What the input stages make of the input.
+    /// The input after the input stages.
     fn staged_input(&self, state: &mut ModelState<T, N>, at: &Sample<T>) -> T {
         let mut there = around(at, state.time.value, T::ZERO);
         let places = self.terms().iter().zip(&mut state.effects);
@@ -429,7 +431,7 @@ impl<T: Real, const N: usize> Model<T, N> {
     }
 }
 
-/// The motion of a source, or nothing where its channel is missing.
+/// The motion of a source, or `None` if its channel is missing.
 #[inline]
 fn motion<'a, T>(source: Source, at: &'a Sample<T>) -> Option<&'a Motion<T>> {
     match source {
@@ -438,7 +440,7 @@ fn motion<'a, T>(source: Source, at: &'a Sample<T>) -> Option<&'a Motion<T>> {
     }
 }
 
-/// The same as a value: a sample that a caller puts together need not be in memory for it.
+/// The same as a value: a sample that a caller builds need not be in memory.
 #[inline]
 fn motion_of<T: Real>(source: Source, at: &Sample<T>) -> Option<Motion<T>> {
     match source {
@@ -453,26 +455,26 @@ fn is_finite<T: Real>(motion: &Motion<T>) -> bool {
     motion.position.is_finite() && motion.velocity.is_finite() && motion.acceleration.is_finite()
 }
 
-/// What one term's source says of the sample, or nothing where its channel is missing.
+/// The data of one term's source in the sample, or `None` if its channel is missing.
 #[inline]
 fn seen<T: Real>(source: Source, origin: T, at: &Sample<T>) -> Option<Motion<T>> {
     Some(counted_from(origin, *motion(source, at)?))
 }
 
-/// The same motion, its position from the origin.
+/// The same motion, with its position relative to the origin.
 #[inline]
 fn counted_from<T: Real>(origin: T, mut motion: Motion<T>) -> Motion<T> {
-    // A difference that overflows is a far place; a bad position stays a bad one.
+    // A difference that overflows is a distant position; a bad position stays bad.
     if motion.position.is_finite() {
         motion.position = saturate(motion.position - origin);
     }
     motion
 }
 
-/// What all terms see of the sample; the motion is each term's own.
+/// The data of the sample for all terms; each term has its own motion.
 #[inline]
-fn around<T: Real>(at: &Sample<T>, time: T, eta: T) -> Situation<T> {
-    Situation {
+fn around<T: Real>(at: &Sample<T>, time: T, eta: T) -> Inputs<T> {
+    Inputs {
         dt: at.dt,
         time,
         motion: at.input,

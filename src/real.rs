@@ -1,8 +1,8 @@
-//! The few functions that the crate needs of a float, for `f32` and `f64`.
+//! The float functions that the crate uses, for `f32` and `f64`.
 //!
-//! Arithmetic, comparison, `abs`, `is_finite` and the like come from
-//! [`num_traits::float::FloatCore`]; the elementary functions come from `libm`
-//! on every target, so that host and firmware compute the same bits.
+//! Arithmetic, comparison, `abs`, `is_finite` and similar functions come from
+//! [`num_traits::float::FloatCore`]. The elementary functions come from `libm` on every target,
+//! so host and firmware compute the same bits.
 
 use core::fmt::{Debug, Display};
 use num_traits::float::FloatCore;
@@ -11,21 +11,23 @@ use num_traits::NumAssign;
 mod angle;
 mod short;
 
-/// What the hysteresis needs of a float besides, no part of the interface.
+/// Further float functions for the hysteresis, not part of the interface.
 pub(crate) mod sealed {
     use super::short;
 
     pub trait Sealed: Sized {
-        /// Whether a step must be short (firmware) rather than exact for any jump (the lab).
+        /// Whether a step must be short (firmware) rather than exact for any jump
+        /// (identification).
         const SHORT: bool;
         fn log2(self) -> Self;
         fn exp2(self) -> Self;
-        /// The functions of the effects: short where a step must be, else libm's. The base of
-        /// a power is zero or above, its exponent above zero.
+        /// The functions of the effects: short if a step must be short, otherwise from libm.
+        /// The base of a power is zero or above, its exponent above zero.
         fn short_exp(self) -> Self;
         fn short_pow(self, exponent: Self) -> Self;
         fn short_tanh(self) -> Self;
-        /// tanh with the sign of its argument, no further from zero than that and than 1.
+        /// tanh with the sign of its argument, and with a magnitude of at most the argument's
+        /// and 1.
         fn confined_tanh(self) -> Self;
         /// Base-2 logarithm by straight lines between the powers of 2.
         fn coarse_log2(self) -> Self;
@@ -62,7 +64,7 @@ pub(crate) mod sealed {
         fn short_tanh(self) -> Self {
             short::tanh(self)
         }
-        /// libm's keeps to it at all 2^32 arguments, to a unit in the last place, which the
+        /// libm satisfies this at all 2^32 arguments, to a unit in the last place, which the
         /// bounds allow for: `tests/exhaustive.rs`.
         #[inline]
         fn confined_tanh(self) -> Self {
@@ -112,7 +114,7 @@ pub(crate) mod sealed {
         fn short_tanh(self) -> Self {
             libm::tanh(self)
         }
-        /// Made true, whatever libm returns: its arguments are too many to try.
+        /// Enforced for any result of libm: its arguments are too many to test.
         #[inline]
         fn confined_tanh(self) -> Self {
             confined(self, libm::tanh(self))
@@ -146,7 +148,7 @@ pub(crate) mod sealed {
     pub(crate) fn confined(x: f64, value: f64) -> f64 {
         let (reach, size) = (libm::fabs(x), libm::fabs(value));
         let most = if reach < 1.0 { reach } else { 1.0 };
-        // A value that is NaN, of an argument that is none, is the most that it may be.
+        // NaN from an argument that is not NaN becomes the greatest permitted value.
         let size = if size <= most || x.is_nan() {
             size
         } else {
@@ -164,14 +166,14 @@ pub(crate) mod sealed {
 /// ```
 /// use bowden::Real;
 /// fn circumference<T: Real>(radius: T) -> T {
-///     T::of(2.0 * core::f64::consts::PI) * radius
+///     T::from_f64(2.0 * core::f64::consts::PI) * radius
 /// }
 /// assert!((circumference(1.0_f32) - 6.283_185_5).abs() < 1e-6);
 /// ```
 pub trait Real:
     FloatCore + NumAssign + Debug + Display + Default + Send + Sync + 'static + sealed::Sealed
 {
-    /// Zero; a constant, so that configurations can be built at compile time.
+    /// Zero; a constant, so configurations can be built at compile time.
     const ZERO: Self;
     /// One.
     const ONE: Self;
@@ -180,7 +182,7 @@ pub trait Real:
     /// The highest finite value.
     const HIGHEST: Self;
     /// The nearest value to `x`. Used for constants.
-    fn of(x: f64) -> Self;
+    fn from_f64(x: f64) -> Self;
     /// The value as `f64`, exact.
     fn as_f64(self) -> f64;
     /// e to the power of `self`.
@@ -217,7 +219,7 @@ macro_rules! real {
             const HIGHEST: Self = <$float>::MAX;
             #[inline]
             #[allow(clippy::cast_possible_truncation)]
-            fn of(x: f64) -> Self {
+            fn from_f64(x: f64) -> Self {
                 x as $float
             }
             #[inline]
@@ -307,7 +309,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Whatever libm might return.
+        /// Any result that libm might return.
         #[test]
         fn any_value_is_confined_to_its_argument(x in any::<f64>(), value in any::<f64>()) {
             let t = confined(x, value);
@@ -338,7 +340,7 @@ mod tests {
             prop_assert!(f32::from_bits(1).positive_up_to(longest) && f64::from_bits(1).positive_up_to(1.0));
         }
 
-        /// What libm returns rightly stays to the bit.
+        /// A correct result of libm stays the same to the bit.
         #[test]
         fn a_right_value_keeps_its_bits(x in any::<f64>()) {
             let value = libm::tanh(x);

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use bowden::effect::*;
-use bowden::hysteresis::Shape;
+use bowden::hysteresis::BoucWen;
 use bowden::model::{FixedModel, Model, ModelState, Sample, Source, Term, Terms};
 use bowden::transmission::Transmission;
 use bowden::{Error, Real};
@@ -15,8 +15,14 @@ fn cable<T: Real>() -> Option<Transmission<T>> {
 
 /// With a gain above one the output of a huge input overflows before any effect is added.
 fn cable_of_gain<T: Real>(gain: f64) -> Option<Transmission<T>> {
-    let shape = Shape::try_new(T::of(0.6), T::of(2.0), T::of(1.5)).unwrap();
-    Transmission::torque(T::of(gain), T::of(1.2), T::of(0.05), shape).ok()
+    let shape = BoucWen::try_new(T::from_f64(0.6), T::from_f64(2.0), T::from_f64(1.5)).unwrap();
+    Transmission::torque(
+        T::from_f64(gain),
+        T::from_f64(1.2),
+        T::from_f64(0.05),
+        shape,
+    )
+    .ok()
 }
 
 /// A tuple of terms in turn on the input and on two channels, each from an origin of its own.
@@ -30,7 +36,7 @@ macro_rules! terms {
                     0 => Source::Input,
                     channel => Source::Channel(channel - 1),
                 };
-                let (origin, gain) = (T::of(0.1 * f64::from(place)), T::of(1.3 - 0.2 * f64::from(place)));
+                let (origin, gain) = (T::from_f64(0.1 * f64::from(place)), T::from_f64(1.3 - 0.2 * f64::from(place)));
                 Term { effect: $effect, source, origin, gain }
             },
         )+)
@@ -61,7 +67,7 @@ fn plain<T: Real>() -> impl Terms<T, 16> {
 
 /// With two output stages and an input stage among the others.
 fn staged<T: Real>() -> Result<impl Terms<T, 16>, Error> {
-    let one = T::of(0.7);
+    let one = T::from_f64(0.7);
     Ok(terms![
         Lag::try_new(one)?,
         Rate,
@@ -84,7 +90,7 @@ fn staged<T: Real>() -> Result<impl Terms<T, 16>, Error> {
 
 /// With memories of their own.
 fn remembering<T: Real>() -> Result<impl Terms<T, 16>, Error> {
-    let one = T::of(0.7);
+    let one = T::from_f64(0.7);
     Ok(terms![
         PositionFriction::try_new(one)?,
         Backlash::try_new(one)?,
@@ -107,7 +113,7 @@ fn remembering<T: Real>() -> Result<impl Terms<T, 16>, Error> {
 
 /// What there was no room for above.
 fn others<T: Real>() -> Result<impl Terms<T, 2>, Error> {
-    let one = T::of(0.7);
+    let one = T::from_f64(0.7);
     Ok(terms![
         Hardening::try_new(one, one)?,
         PowerLaw::try_new(one)?
@@ -116,7 +122,7 @@ fn others<T: Real>() -> Result<impl Terms<T, 2>, Error> {
 
 /// Nothing that is added to the sum: an input stage and two output stages.
 fn stages<T: Real>() -> Result<impl Terms<T, 3>, Error> {
-    let one = T::of(0.7);
+    let one = T::from_f64(0.7);
     Ok(terms![
         Delay,
         PlayInSeries::try_new(one)?,
@@ -134,7 +140,7 @@ fn same<T: Real, const N: usize, L: Terms<T, N>>(terms: L, rows: &[Row], gain: O
     let any = fixed.to_model();
     let (mut a, mut b) = (ModelState::new(), ModelState::new());
     for row in rows {
-        let [dt, x, v, acceleration, y, w, load, z] = row.map(T::of);
+        let [dt, x, v, acceleration, y, w, load, z] = row.map(T::from_f64);
         let motion = |position, velocity| Motion {
             position,
             velocity,

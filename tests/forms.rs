@@ -3,7 +3,7 @@
 
 use bowden::control::{Adaptive, AdaptiveInput, AdaptiveState};
 use bowden::effect::{Effect, CATALOGUE};
-use bowden::hysteresis::Shape;
+use bowden::hysteresis::BoucWen;
 use bowden::model::{Model, ModelState, Source, Term};
 use bowden::signal::{Derivative, DerivativeState, GuardState, Plausible, PlausibleState};
 use bowden::signal::{Play, PlayState, RampState};
@@ -67,18 +67,18 @@ because = "its interval is wider than it"
 "#;
 
 fn term<T: Real>(name: &str, shapes: &[f64], source: Source, origin: f64, gain: f64) -> Term<T> {
-    let shapes: Vec<T> = shapes.iter().map(|&shape| T::of(shape)).collect();
+    let shapes: Vec<T> = shapes.iter().map(|&shape| T::from_f64(shape)).collect();
     Term {
         effect: Effect::try_from_name(name, &shapes).unwrap(),
         source,
-        origin: T::of(origin),
-        gain: T::of(gain),
+        origin: T::from_f64(origin),
+        gain: T::from_f64(gain),
     }
 }
 
 fn cable<T: Real>() -> Transmission<T> {
-    let [b, kappa_eta, t0, rho, sigma, n] = [0.952, 2.29, 0.05, 0.382, 2.97, 1.02].map(T::of);
-    Transmission::torque(b, kappa_eta, t0, Shape::try_new(rho, sigma, n).unwrap()).unwrap()
+    let [b, kappa_eta, t0, rho, sigma, n] = [0.952, 2.29, 0.05, 0.382, 2.97, 1.02].map(T::from_f64);
+    Transmission::torque(b, kappa_eta, t0, BoucWen::try_new(rho, sigma, n).unwrap()).unwrap()
 }
 
 /// What `FILE` says.
@@ -270,7 +270,7 @@ fn whole_catalogue<T: Real>() -> Model<T, 64> {
         .enumerate()
         .map(|(k, info)| {
             let known = |count: &usize| {
-                let shapes: Vec<T> = shapes[..*count].iter().map(|&x| T::of(x)).collect();
+                let shapes: Vec<T> = shapes[..*count].iter().map(|&x| T::from_f64(x)).collect();
                 Effect::try_from_name(info.name, &shapes).is_ok()
             };
             let count = (0..=2).find(known).unwrap();

@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use approx::assert_relative_eq;
-use bowden::effect::{Effect, EffectState, Motion, Situation, CATALOGUE};
-use bowden::hysteresis::{BoucWen, Shape};
+use bowden::effect::{Effect, EffectState, Inputs, Motion, CATALOGUE};
+use bowden::hysteresis::{BoucWen, BoucWenState};
 use bowden::model::{Model, ModelState, Sample, Source, Term};
 use bowden::signal::{Play, PlayState};
 use bowden::transmission::Transmission;
@@ -12,18 +12,18 @@ use proptest::prelude::*;
 use proptest::sample::select;
 
 fn cable<T: Real>() -> Transmission<T> {
-    let shape = Shape::try_new(T::of(0.6), T::of(2.0), T::of(1.5)).unwrap();
-    Transmission::torque(T::of(0.9), T::of(1.2), T::of(0.05), shape).unwrap()
+    let shape = BoucWen::try_new(T::from_f64(0.6), T::from_f64(2.0), T::from_f64(1.5)).unwrap();
+    Transmission::torque(T::from_f64(0.9), T::from_f64(1.2), T::from_f64(0.05), shape).unwrap()
 }
 
 fn term<T: Real>(name: &str, shapes: &[f64], source: Source, gain: f64) -> Term<T> {
-    let shapes: Vec<T> = shapes.iter().map(|&shape| T::of(shape)).collect();
+    let shapes: Vec<T> = shapes.iter().map(|&shape| T::from_f64(shape)).collect();
     let effect = Effect::try_from_name(name, &shapes).unwrap();
     Term {
         effect,
         source,
         origin: T::zero(),
-        gain: T::of(gain),
+        gain: T::from_f64(gain),
     }
 }
 
@@ -78,10 +78,10 @@ fn by_hand(record: &Record, advance: impl Fn(f64, f64) -> f64) -> Vec<(f64, f64,
         let (x, v) = (at.input.position, at.input.velocity);
         eta = last.map_or(eta, |last: f64| advance(eta, x - last));
         last = Some(x);
-        let situation = Situation {
+        let situation = Inputs {
             dt: at.dt,
             motion: at.channels[1],
-            ..Situation::default()
+            ..Inputs::default()
         };
         let backlash = several::<f64>()[3].effect.regressor(&mut play, &situation);
         let sum = 0.9 * x - 1.2 * eta - 0.05 + 0.3 * v + 0.2 * at.load.abs() * (v / 0.1).tanh()
@@ -164,7 +164,7 @@ proptest! {
         let terms = [term("viscous", &[], Source::Input, 0.3), term("play-in-series", &[half], Source::Input, 1.0)];
         let model = Model::<f64, 2>::try_new(Some(cable()), &terms).unwrap();
         let (play, mut at_play) = (Play::try_new(half).unwrap(), PlayState::new());
-        let (mut state, mut eta) = (ModelState::new(), BoucWen::new());
+        let (mut state, mut eta) = (ModelState::new(), BoucWenState::new());
         for row in &record {
             let at = sample(row);
             let force = cable().step(&mut eta, play.step(&mut at_play, at.input.position));
@@ -179,7 +179,7 @@ proptest! {
     #[test]
     fn the_shares_and_the_transmission_add_up_to_the_output(record in record()) {
         let model = Model::<f64, 8>::try_new(Some(cable()), &several()).unwrap();
-        let (mut state, mut silent, mut eta) = (ModelState::new(), ModelState::new(), BoucWen::new());
+        let (mut state, mut silent, mut eta) = (ModelState::new(), ModelState::new(), BoucWenState::new());
         for row in &record {
             let mut shares = [f64::NAN; 7];
             let mut order = vec![];
@@ -275,7 +275,7 @@ proptest! {
 
 /// Every effect of the catalogue, with shapes of 0.7.
 fn every_effect<T: Real>() -> Vec<Effect<T>> {
-    let shapes = [T::of(0.7); 2];
+    let shapes = [T::from_f64(0.7); 2];
     let make = |name| (0..=2).find_map(|n| Effect::try_from_name(name, &shapes[..n]).ok());
     CATALOGUE
         .iter()
@@ -295,7 +295,7 @@ proptest! {
                 let term = Term { effect, source, origin, gain: 1.0 };
                 let model = Model::<f64, 1>::try_new(Some(cable()), &[term]).unwrap();
                 let (mut state, mut memory) = (ModelState::new(), EffectState::new());
-                let mut eta = BoucWen::new();
+                let mut eta = BoucWenState::new();
                 for row in &record {
                     let at = sample(row);
                     let mut seen = [0.0];
@@ -305,7 +305,7 @@ proptest! {
                     let motion = Motion { position: read.position - origin, ..read };
                     let (dt, input, load, time) = (at.dt, at.input, at.load, state.time());
                     let eta = eta.eta();
-                    let situation = Situation { dt, time, motion, input, load, eta, output: 0.0 };
+                    let situation = Inputs { dt, time, motion, input, load, eta, output: 0.0 };
                     prop_assert_eq!(seen[0], effect.regressor(&mut memory, &situation), "{}", effect.name());
                 }
             }
@@ -425,7 +425,7 @@ fn a_model_without_terms_is_its_transmission_and_one_without_both_is_zero() {
         channels: &[],
     };
     let bare = Model::<f64, 0>::try_new(Some(cable()), &[]).unwrap();
-    let (mut state, mut eta) = (ModelState::new(), BoucWen::new());
+    let (mut state, mut eta) = (ModelState::new(), BoucWenState::new());
     for x in [0.0, 1.0, -3.0, 2.0] {
         assert_eq!(bare.step(&mut state, &at(x)), cable().step(&mut eta, x));
     }

@@ -11,7 +11,7 @@ const DT: f64 = 1e-3;
 const TIME_CONSTANT: f64 = 0.01;
 
 fn rates<T: Real>() -> Rates<T> {
-    Rates::try_new(T::of(TIME_CONSTANT)).unwrap()
+    Rates::try_new(T::from_f64(TIME_CONSTANT)).unwrap()
 }
 
 /// All motions of `x(t)`, sampled at the given times; the first `dt` is the second's.
@@ -19,7 +19,7 @@ fn run<T: Real>(rates: &Rates<T>, times: &[f64], x: impl Fn(f64) -> f64) -> Vec<
     let mut state = RatesState::new();
     let mut before = times[0] - (times[1] - times[0]);
     let step = |&t: &f64| {
-        let out = rates.step(&mut state, T::of(x(t)), T::of(t - before));
+        let out = rates.step(&mut state, T::from_f64(x(t)), T::from_f64(t - before));
         assert!(!matches!(out.status, RatesStatus::Held(_)));
         before = t;
         Motion {

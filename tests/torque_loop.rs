@@ -8,8 +8,10 @@
 mod torque_loop;
 
 use bowden::control::{Fault, Status};
-use bowden::hysteresis::{BoucWen, Shape};
+use bowden::hysteresis::{BoucWen, BoucWenState};
 use bowden::transmission::Transmission;
+use std::path::Path;
+use std::process::Command;
 use torque_loop::{Sensors, TorqueLoop, COUNTS};
 
 const MODEL: &[u8] = include_bytes!("../examples/data/demo.postcard");
@@ -29,9 +31,9 @@ struct Shown {
 /// Ten seconds of a joint that swings; `dt` and the shift of the encoder \[rad\] by tick.
 fn run(from: u32, dt: impl Fn(u32) -> f32, shift: impl Fn(u32) -> f32) -> Shown {
     let mut control = TorqueLoop::try_new(MODEL).unwrap();
-    let shape = Shape::try_new(0.5_f32, 0.5, 1.3).unwrap();
+    let shape = BoucWen::try_new(0.5_f32, 0.5, 1.3).unwrap();
     let cable = Transmission::torque(0.93, 1.9, 0.1, shape).unwrap();
-    let (mut eta, mut drive, mut torque, mut last) = (BoucWen::new(), 0.0, 0.0, 0.0);
+    let (mut eta, mut drive, mut torque, mut last) = (BoucWenState::new(), 0.0, 0.0, 0.0);
     let mut shown = Shown::default();
     for k in 0..10_000_u32 {
         let t = k as f32 * 1e-3;
@@ -104,4 +106,49 @@ fn a_timer_that_wrapped_holds_one_sample_and_nothing_jumps() {
 fn the_command_does_not_chatter_at_the_counts_of_the_encoder() {
     let usual = run(2000, STEADY, STILL);
     assert!(usual.travel < 70.0, "{}", usual.travel);
+}
+
+/// The lines of `Cargo.toml` that the loop names at its top.
+fn manifest_lines(source: &str) -> String {
+    let docs = source.lines().map_while(|line| line.strip_prefix("//!"));
+    let block = docs.skip_while(|line| line.trim() != "```toml").skip(1);
+    let lines = block.take_while(|line| line.trim() != "```");
+    lines
+        .map(|line| format!("{}\n", line.trim_start()))
+        .collect()
+}
+
+/// Copied alone into an empty crate, without a warning; `bowden` is this package, at its path.
+#[test]
+#[ignore = "slow: bash .ci/run packages"]
+fn the_loop_builds_in_an_empty_crate_with_the_dependencies_that_it_names() {
+    let Some(cargo) = std::env::var_os("CARGO") else {
+        println!("skipped: cargo is not there (the variable CARGO is not set)");
+        return;
+    };
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let source = package.join("examples/torque_loop/torque_loop.rs");
+    let source = std::fs::read_to_string(source).unwrap();
+    let lines = manifest_lines(&source);
+    assert!(lines.contains("path = \"../bowden\""), "{lines}");
+    let lines = lines.replace("\"../bowden\"", &format!("{package:?}"));
+
+    let folder = format!("bowden-torque-loop-{}", std::process::id());
+    let folder = std::env::temp_dir().join(folder);
+    std::fs::create_dir_all(folder.join("src")).unwrap();
+    let head = "[package]\nname = \"user\"\nversion = \"0.0.0\"\nedition = \"2021\"\n\n";
+    std::fs::write(folder.join("Cargo.toml"), format!("{head}{lines}")).unwrap();
+    let library = "#![no_std]\n#![deny(warnings)]\npub mod torque_loop;\n";
+    std::fs::write(folder.join("src/lib.rs"), library).unwrap();
+    std::fs::write(folder.join("src/torque_loop.rs"), source).unwrap();
+
+    let built = Command::new(cargo)
+        .args(["check", "--offline", "--quiet", "--target-dir"])
+        .arg(folder.join("target"))
+        .current_dir(&folder)
+        .output()
+        .unwrap();
+    std::fs::remove_dir_all(&folder).unwrap();
+    let said = String::from_utf8_lossy(&built.stderr);
+    assert!(built.status.success(), "{lines}\n{said}");
 }

@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 use approx::assert_abs_diff_eq;
-use bowden::hysteresis::{BoucWen, Shape};
+use bowden::hysteresis::{BoucWen, BoucWenState};
 use bowden::signal::{Play, PlayState};
 use bowden::transmission::{Mode, Transmission};
 use bowden::{Error, Real};
@@ -13,13 +13,13 @@ use std::f64::consts::PI;
 use std::f64::consts::TAU;
 
 fn paper(sigma: f64) -> Transmission<f64> {
-    let shape = Shape::try_new(0.095_82, sigma, 3.871).unwrap();
+    let shape = BoucWen::try_new(0.095_82, sigma, 3.871).unwrap();
     Transmission::torque(0.9978, 7.004, 0.051_74, shape).unwrap()
 }
 
 #[test]
 fn torque_mode_is_equation_six_and_displacement_mode_equation_one() {
-    let shape = Shape::try_new(0.1, 0.5, 2.0).unwrap();
+    let shape = BoucWen::try_new(0.1, 0.5, 2.0).unwrap();
     let torque = Transmission::torque(0.75, 4.0, 0.5, shape).unwrap();
     assert_eq!(torque.output(8.0, 0.25), 0.75 * 8.0 - 4.0 * 0.25 - 0.5);
     assert_eq!(
@@ -36,7 +36,7 @@ fn torque_mode_is_equation_six_and_displacement_mode_equation_one() {
 
 #[test]
 fn refusals_carry_the_parameters_name() {
-    let shape = Shape::try_new(0.1, 0.5, 2.0).unwrap();
+    let shape = BoucWen::try_new(0.1, 0.5, 2.0).unwrap();
     let nan = f64::NAN;
     assert_eq!(
         Transmission::torque(nan, 1.0, 0.0, shape),
@@ -53,7 +53,7 @@ fn refusals_carry_the_parameters_name() {
 #[test]
 fn a_bad_sample_returns_the_output_at_the_last_good_input() {
     let cable = paper(98.36);
-    let mut state = BoucWen::new();
+    let mut state = BoucWenState::new();
     assert_eq!(cable.step(&mut state, f64::NAN), 0.0);
     cable.step(&mut state, 0.0);
     let good = cable.step(&mut state, 5.0);
@@ -75,7 +75,7 @@ fn the_inverse_exists_up_to_the_sigma_where_the_output_turns_back() {
         Err(Error::Inadmissible(_))
     ));
     // A spring's hysteresis adds to the slope: any sigma will do.
-    let steep = Shape::try_new(0.095_82, 98.36, 3.871).unwrap();
+    let steep = BoucWen::try_new(0.095_82, 98.36, 3.871).unwrap();
     assert!(Transmission::displacement(1.0, 7.0, 0.0, steep)
         .unwrap()
         .inverse()
@@ -99,18 +99,18 @@ fn any_transmission<T: Real>() -> impl Strategy<Value = Transmission<T>> {
     let shape = (0.001..100.0_f64, 0.5..200.0_f64, 1.0..6.0_f64);
     let signed = || (1e-4..100.0_f64, any::<bool>()).prop_map(|(x, up)| if up { x } else { -x });
     (any::<bool>(), signed(), signed(), shape).prop_map(|(torque, b, kappa, (rho, sigma, n))| {
-        let shape = Shape::try_new(T::of(rho), T::of(sigma), T::of(n)).unwrap();
+        let shape = BoucWen::try_new(T::from_f64(rho), T::from_f64(sigma), T::from_f64(n)).unwrap();
         let build = if torque {
             Transmission::torque
         } else {
             Transmission::displacement
         };
-        build(T::of(b), T::of(kappa), T::of(0.05), shape).unwrap()
+        build(T::from_f64(b), T::from_f64(kappa), T::from_f64(0.05), shape).unwrap()
     })
 }
 
 fn with_shape<T: Real>(cable: &Transmission<T>, rho: T, sigma: T) -> Transmission<T> {
-    let shape = Shape::try_new(rho, sigma, cable.shape().n()).unwrap();
+    let shape = BoucWen::try_new(rho, sigma, cable.shape().n()).unwrap();
     let build = match cable.mode() {
         Mode::Torque => Transmission::torque,
         Mode::Displacement => Transmission::displacement,
@@ -121,15 +121,15 @@ fn with_shape<T: Real>(cable: &Transmission<T>, rho: T, sigma: T) -> Transmissio
 /// The greatest sigma has an inverse, one a few roundings above it has none.
 fn the_bound_is_tight<T: Real>(cable: &Transmission<T>) {
     let rho = cable.shape().rho();
-    let beyond = |x: T| x * (T::one() + T::of(16.0) * T::epsilon());
+    let beyond = |x: T| x * (T::one() + T::from_f64(16.0) * T::epsilon());
     match cable.greatest_invertible_sigma() {
         Some(most) => {
             assert!(with_shape(cable, rho, most).inverse().is_ok());
-            if most < T::of(1e8) {
+            if most < T::from_f64(1e8) {
                 assert!(with_shape(cable, rho, beyond(most)).inverse().is_err());
             }
         }
-        None => assert!(with_shape(cable, rho, T::of(0.5)).inverse().is_err()),
+        None => assert!(with_shape(cable, rho, T::from_f64(0.5)).inverse().is_err()),
     }
 }
 
@@ -147,8 +147,8 @@ fn the_nearest_is_no_further_than_it_must<T: Real>(cable: &Transmission<T>) {
     } else if is.rho() == was.rho() {
         assert_eq!(cable.greatest_invertible_sigma(), Some(is.sigma()));
     } else {
-        assert!(is.sigma() == T::of(0.5) && is.rho() < was.rho());
-        let beyond = is.rho() * (T::one() + T::of(16.0) * T::epsilon());
+        assert!(is.sigma() == T::from_f64(0.5) && is.rho() < was.rho());
+        let beyond = is.rho() * (T::one() + T::from_f64(16.0) * T::epsilon());
         assert!(with_shape(cable, beyond, is.sigma()).inverse().is_err());
     }
 }
@@ -181,7 +181,7 @@ proptest! {
         prop_assume!(cable.inverse().is_err());
         let cable = cable.nearest_invertible().unwrap();
         let inverse = cable.inverse().unwrap();
-        let (mut back, mut forth) = (BoucWen::new(), BoucWen::new());
+        let (mut back, mut forth) = (BoucWenState::new(), BoucWenState::new());
         for wanted in outputs {
             let input = inverse.step(&mut back, wanted);
             let got = cable.step(&mut forth, input);
@@ -201,7 +201,7 @@ fn without_a_gain_there_is_no_nearest_inverse() {
         flat.nearest_invertible(),
         Err(Error::Inadmissible(_))
     ));
-    let endless = Shape::try_new(f64::MIN_POSITIVE, 1e9, 1.0).unwrap();
+    let endless = BoucWen::try_new(f64::MIN_POSITIVE, 1e9, 1.0).unwrap();
     let tiny = Transmission::torque(1e-300, 1e300, 0.0, endless).unwrap();
     assert_eq!(tiny.nearest_invertible(), Err(Error::OutOfRange("rho")));
 }
@@ -209,7 +209,7 @@ fn without_a_gain_there_is_no_nearest_inverse() {
 /// Root mean square error of the plant's output, fed forward through another model.
 fn error_through(plant: &Transmission<f64>, model: &Transmission<f64>, reach: f64) -> f64 {
     let inverse = model.inverse().unwrap();
-    let (mut feed, mut state) = (BoucWen::new(), BoucWen::new());
+    let (mut feed, mut state) = (BoucWenState::new(), BoucWenState::new());
     let error = |k: u32| {
         let wanted = reach * (TAU * f64::from(k) / 1000.0).sin();
         let got = plant.step(&mut state, inverse.step(&mut feed, wanted));
@@ -223,14 +223,14 @@ fn error_through(plant: &Transmission<f64>, model: &Transmission<f64>, reach: f6
 fn a_rounder_knee_costs_less_than_a_lower_loop() {
     // B = 1, kappa_eta = 1, rho = 2: even sigma = 1/2 turns back.
     let plant = |sigma| {
-        Transmission::torque(1.0, 1.0, 0.0, Shape::try_new(2.0, sigma, 1.0).unwrap()).unwrap()
+        Transmission::torque(1.0, 1.0, 0.0, BoucWen::try_new(2.0, sigma, 1.0).unwrap()).unwrap()
     };
     for sigma in [0.5, 3.0] {
         let plant = plant(sigma);
         let rounder = plant.nearest_invertible().unwrap();
         assert_eq!((rounder.shape().rho(), rounder.shape().sigma()), (1.0, 0.5));
         let lower =
-            Transmission::torque(1.0, 0.5, 0.0, Shape::try_new(2.0, 0.5, 1.0).unwrap()).unwrap();
+            Transmission::torque(1.0, 0.5, 0.0, BoucWen::try_new(2.0, 0.5, 1.0).unwrap()).unwrap();
         for reach in [5.0, 20.0] {
             let [a, b] = [rounder, lower].map(|model| error_through(&plant, &model, reach));
             assert!(b > 2.0 * a, "sigma {sigma}, reach {reach}: {a} {b}");
@@ -241,9 +241,9 @@ fn a_rounder_knee_costs_less_than_a_lower_loop() {
 #[test]
 fn a_bad_desired_output_holds_the_input() {
     let inverse = paper(0.6).inverse().unwrap();
-    let mut state = BoucWen::new();
+    let mut state = BoucWenState::new();
     assert_eq!(inverse.step(&mut state, f64::NAN), 0.0);
-    assert_eq!(state, BoucWen::new());
+    assert_eq!(state, BoucWenState::new());
     inverse.step(&mut state, 1.0);
     let held = inverse.step(&mut state, 3.0);
     let before = state;
@@ -257,13 +257,13 @@ fn a_bad_desired_output_holds_the_input() {
 /// From one end of the floats to the other the change of the input is none: the model takes the
 /// longest one for it, the inverse says no.
 fn a_change_that_overflows_is_out_of_reach<T: Real>(least_gain: f64, rho: f64) {
-    let shape = Shape::try_new(T::of(rho), T::of(0.6), T::of(3.9)).unwrap();
+    let shape = BoucWen::try_new(T::from_f64(rho), T::from_f64(0.6), T::from_f64(3.9)).unwrap();
     let zero = T::zero();
-    let cable = Transmission::torque(T::of(least_gain), zero, zero, shape).unwrap();
+    let cable = Transmission::torque(T::from_f64(least_gain), zero, zero, shape).unwrap();
     let inverse = cable.inverse().unwrap();
-    let (mut solver, mut plant) = (BoucWen::new(), BoucWen::new());
+    let (mut solver, mut plant) = (BoucWenState::new(), BoucWenState::new());
     for desired in [0.0, 2.0, -3.9, 3.5, 0.1] {
-        let (before, input) = (solver, inverse.step(&mut solver, T::of(desired)));
+        let (before, input) = (solver, inverse.step(&mut solver, T::from_f64(desired)));
         cable.step(&mut plant, input);
         assert_eq!(plant, solver);
         assert_eq!(solver == before, desired == 3.5);
@@ -281,17 +281,17 @@ fn a_change_that_overflows_is_out_of_the_inverses_reach() {
 /// Largest error of forward(inverse(y)), in machine epsilons of the sum of its terms.
 fn round_trip<T: Real>(cable: &Transmission<T>, outputs: &[f64]) -> f64 {
     let inverse = cable.inverse().unwrap();
-    let (mut solver, mut plant) = (BoucWen::new(), BoucWen::new());
+    let (mut solver, mut plant) = (BoucWenState::new(), BoucWenState::new());
     let (mut most, mut last) = (0.0_f64, T::zero());
     for &y in outputs {
-        let u = inverse.step(&mut solver, T::of(y));
+        let u = inverse.step(&mut solver, T::from_f64(y));
         let got = cable.step(&mut plant, u);
         assert_eq!(solver, plant, "the solver is where the plant is");
         // The difference of the inputs is rounded like the larger of them.
         let inputs = cable.gain().abs() * (u.abs() + last.abs());
-        let terms = T::of(y).abs() + inputs + cable.kappa_eta().abs() + cable.offset().abs();
+        let terms = T::from_f64(y).abs() + inputs + cable.kappa_eta().abs() + cable.offset().abs();
         last = u;
-        most = most.max(((got - T::of(y)).abs() / terms / T::epsilon()).as_f64());
+        most = most.max(((got - T::from_f64(y)).abs() / terms / T::epsilon()).as_f64());
     }
     most
 }
@@ -305,7 +305,7 @@ fn a_reference_at_one_kilohertz_comes_out_as_it_went_in() {
     // 16 epsilons of the sum of all terms are documented.
     assert!(round_trip(&paper(0.6), &outputs) < 16.0);
     assert!(round_trip(&paper(0.743), &outputs) < 16.0);
-    let shape = Shape::try_new(0.095_82_f32, 0.6, 3.871).unwrap();
+    let shape = BoucWen::try_new(0.095_82_f32, 0.6, 3.871).unwrap();
     let cable = Transmission::torque(0.9978_f32, 7.004, 0.051_74, shape).unwrap();
     assert!(round_trip(&cable, &outputs) < 16.0);
 }
@@ -333,7 +333,7 @@ fn noise_error(sigma: f64, half_width: f64) -> f64 {
     let cable = paper(sigma);
     let play = Play::try_new(half_width).unwrap();
     let mut guard = PlayState::new();
-    let (mut clean, mut noisy, mut noise) = (BoucWen::new(), BoucWen::new(), Noise(1));
+    let (mut clean, mut noisy, mut noise) = (BoucWenState::new(), BoucWenState::new(), Noise(1));
     let (mut sum, samples) = (0.0, 20_000);
     for k in 0..samples {
         let t = f64::from(k) * 1e-3;
@@ -377,7 +377,7 @@ proptest! {
         // sigma anywhere up to the condition, where there is room above 1/2.
         let most = gain / (2.0 * kappa_eta.abs() * rho);
         prop_assume!(most > 0.5);
-        let shape = Shape::try_new(rho, (0.5 + margin * (most.min(200.0) - 0.5)) * 0.999_999, n);
+        let shape = BoucWen::try_new(rho, (0.5 + margin * (most.min(200.0) - 0.5)) * 0.999_999, n);
         prop_assume!(shape.is_ok());
         let shape = shape.unwrap();
         for cable in [
@@ -403,7 +403,7 @@ proptest! {
         prop_assume!(most > 0.5);
         // Below the condition by more than its roundings.
         let sigma = (0.5 + margin * (most.min(200.0) - 0.5)) * 0.999_99;
-        let shape = Shape::try_new(rho, sigma, n);
+        let shape = BoucWen::try_new(rho, sigma, n);
         prop_assume!(shape.is_ok());
         let shape = shape.unwrap();
         for cable in [
@@ -416,9 +416,9 @@ proptest! {
 
     #[test]
     fn the_inverse_never_fails_on_any_float(outputs in prop::collection::vec(prop::num::f32::ANY, 1..30)) {
-        let shape = Shape::try_new(0.095_82_f32, 0.7, 3.871).unwrap();
+        let shape = BoucWen::try_new(0.095_82_f32, 0.7, 3.871).unwrap();
         let inverse = Transmission::torque(0.9978_f32, 7.004, 0.05, shape).unwrap().inverse().unwrap();
-        let mut state = BoucWen::new();
+        let mut state = BoucWenState::new();
         for y in outputs {
             prop_assert!(inverse.step(&mut state, y).is_finite());
             prop_assert!(state.eta().abs() <= 1.0);

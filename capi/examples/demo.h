@@ -1,35 +1,35 @@
 /* Identified by bowden 0.2.0 from (embedded: bowden generate --mode torque --effect viscous --seed 7).
  *
  * Input [N·m], output [N·m], torque mode.
- * Fitted below 7.6 Hz to a record of 1000 samples a second.
+ * Fitted below 7.6 Hz to a record of 1000 samples per second.
  *
- * Error, of the output's standard deviation: fit 7.01 %, held out 10.83 %.
- * Held out sample by sample, with the rates as below: 10.74 %.
+ * Error as a share of the output's standard deviation: fit 7.01 %, held out 10.83 %.
+ * Held-out error sample by sample, with the rates below: 10.74 %.
  * Not identified: gain (held at 2·sigma·kappa_eta·rho by --invertible).
  * Not identified: sigma (at its lower bound).
  * Not identified: n (at its lower bound).
  * Feed-forward: yes.
  *
- * The prefix demo_ (of macros DEMO_) is that of the file name "demo".
+ * The prefix demo_ (of macros DEMO_) comes from the file name "demo".
  *
  * bowden_model_f32 model;
  * if (demo_load_f32(&model, NULL) < 0) ...
  */
 #ifdef BOWDEN_MODEL_DEMO_H
-#if BOWDEN_MODEL_DEMO_H != 0xd1dc41b0u
+#if BOWDEN_MODEL_DEMO_H != 0xa458ff90u
 #error "two headers of different models have the prefix DEMO_: export one under another file name"
 #endif
 #else
-#define BOWDEN_MODEL_DEMO_H 0xd1dc41b0u /* CRC-32 of what follows */
+#define BOWDEN_MODEL_DEMO_H 0xa458ff90u /* CRC-32 of what follows */
 
 #include "bowden.h"
 
-/* How many channels a sample has; at least those that the model reads. */
+/* Number of channels of a sample: at least those that the model reads. */
 #define DEMO_CHANNELS 2
 #define DEMO_CHANNEL_PHI_P 0 /* phi_p [rad] */
 #define DEMO_CHANNEL_PHI_D 1 /* phi_d [rad] */
 
-/* Time constant of bowden_rates_init for the rates of every source [s]. */
+/* time_constant of BOWDEN_RATES_SETTINGS_F32_INIT and _F64_INIT, for every source [s]. */
 #define DEMO_RATES_TIME_CONSTANT_F32 0.008376576f
 #define DEMO_RATES_TIME_CONSTANT_F64 0.008376575952205019
 
@@ -40,7 +40,7 @@ static const uint8_t demo_bytes_f32[42] = {
     0x00, 0x00, 0xa1, 0x92, 0x3a, 0xbf, 0xba, 0x42, 0xd4, 0xf4,
 };
 
-/* What the fit has seen of each source: position, velocity, acceleration. */
+/* Range of each source in the fitted record: position, velocity, acceleration. */
 static const bowden_range_f32 demo_ranges_f32[2] = {
     {BOWDEN_SOURCE_INPUT, {-12.495871f, -38.818592f, -170.3947f}, {16.00307f, 35.03235f, 142.7363f}}, /* input */
     {0, {-0.45185134f, -1.5794401f, -5.8742285f}, {0.5994563f, 1.608444f, 4.6569395f}}, /* phi_p */
@@ -51,7 +51,7 @@ static inline bowden_result demo_load_f32(bowden_model_f32 *model, bowden_about 
     return bowden_model_load_f32(model, demo_bytes_f32, sizeof demo_bytes_f32, 0, about);
 }
 
-/* Turns the loaded model round, within what the fit has seen. */
+/* Inverts the loaded model, within the ranges of the fitted record. */
 static inline bowden_result demo_compensator_f32(bowden_compensator_f32 *compensator,
     const bowden_model_f32 *model, float longest_dt, bowden_about *about) {
     return bowden_compensator_init_f32(compensator, model, longest_dt, demo_ranges_f32, 2, about);
@@ -66,7 +66,7 @@ static const uint8_t demo_bytes_f64[74] = {
     0xa0, 0x2a, 0x54, 0x52, 0xe7, 0xbf, 0x76, 0xd6, 0xf1, 0x3c,
 };
 
-/* What the fit has seen of each source: position, velocity, acceleration. */
+/* Range of each source in the fitted record: position, velocity, acceleration. */
 static const bowden_range_f64 demo_ranges_f64[2] = {
     {BOWDEN_SOURCE_INPUT, {-12.495870163090789, -38.81859093839668, -170.3946992519769}, {16.00307088385157, 35.032348942900825, 142.73629351444228}}, /* input */
     {0, {-0.45185133666744093, -1.5794401103037259, -5.8742286724527455}, {0.5994563317628282, 1.6084439743035723, 4.656939290962013}}, /* phi_p */
@@ -77,7 +77,7 @@ static inline bowden_result demo_load_f64(bowden_model_f64 *model, bowden_about 
     return bowden_model_load_f64(model, demo_bytes_f64, sizeof demo_bytes_f64, 0, about);
 }
 
-/* Turns the loaded model round, within what the fit has seen. */
+/* Inverts the loaded model, within the ranges of the fitted record. */
 static inline bowden_result demo_compensator_f64(bowden_compensator_f64 *compensator,
     const bowden_model_f64 *model, double longest_dt, bowden_about *about) {
     return bowden_compensator_init_f64(compensator, model, longest_dt, demo_ranges_f64, 2, about);

@@ -42,12 +42,17 @@ typedef struct tick {
 
 /* Everything is checked here, once. */
 static bowden_result start(torque_loop *own, bowden_about *about) {
-    bowden_pid_settings_f32 pid;
-    bowden_adaptive_settings_f32 law;
+    bowden_pid_settings_f32 pid = BOWDEN_PID_SETTINGS_F32_INIT;
+    bowden_adaptive_settings_f32 law = BOWDEN_ADAPTIVE_SETTINGS_F32_INIT;
+    bowden_rates_settings_f32 rates = BOWDEN_RATES_SETTINGS_F32_INIT;
     bowden_result result;
 
-    result = bowden_pid_settings_pi_f32(&pid, 0.5f, 25.0f, -10.0f, 40.0f, LONGEST_DT, 20, 0.0f);
-    if (result < 0) return result;
+    pid.k_p = 0.5f;          /* [N*m/(N*m)] */
+    pid.k_i = 25.0f;         /* [1/s] */
+    pid.limits.low = -10.0f; /* [N*m] */
+    pid.limits.high = 40.0f;
+    pid.longest_dt = LONGEST_DT;
+    pid.fallback.after = 20; /* bad samples; then 0 N*m */
     pid.k_d = 0.002f;
     pid.derivative_time = 0.01f;
     pid.anti_windup = BOWDEN_ANTI_WINDUP_BACK_CALCULATION;
@@ -56,10 +61,13 @@ static bowden_result start(torque_loop *own, bowden_about *about) {
     result = bowden_pid_init_f32(&own->pid, &pid, about);
     if (result < 0) return result;
 
-    result = bowden_adaptive_settings_start_f32(&law, -10.0f, 40.0f, LONGEST_DT, 20, 0.0f);
-    if (result < 0) return result;
-    law.form = BOWDEN_FORM_LAG;
+    law.limits = pid.limits;
+    law.limits.slew = 0.0f;
+    law.longest_dt = LONGEST_DT;
+    law.fallback = pid.fallback;
+    law.form = BOWDEN_FORM_FIRST_ORDER;
     law.step = DT;
+    law.plant_gain = 1.0f;
     law.epsilon = 0.1f;
     law.smooth_sign = BOWDEN_SMOOTH_SIGN_CLAMP;
     law.delta.initial = 1.0f;
@@ -71,7 +79,7 @@ static bowden_result start(torque_loop *own, bowden_about *about) {
     law.theta[0].low = -3.0f;
     law.theta[0].high = 3.0f;
     law.theta[0].gain = 0.02f;
-    law.missing[0] = BOWDEN_MISSING_DROP;
+    law.missing[0] = BOWDEN_ON_MISSING_DROP_REGRESSOR;
     result = bowden_adaptive_init_f32(&own->law, &law, about);
     if (result < 0) return result;
 
@@ -79,8 +87,9 @@ static bowden_result start(torque_loop *own, bowden_about *about) {
     if (result < 0) return result;
     result = demo_compensator_f32(&own->feed_forward, &own->model, LONGEST_DT, about);
     if (result < 0) return result;
-    return bowden_rates_init_f32(&own->rates, DEMO_RATES_TIME_CONSTANT_F32, COUNTS * COUNT, 0.0f,
-                                 about);
+    rates.time_constant = DEMO_RATES_TIME_CONSTANT_F32;
+    rates.period = COUNTS * COUNT;
+    return bowden_rates_init_f32(&own->rates, &rates, about);
 }
 
 /* One sample, from the timer's interrupt. Below zero only where an object was not started. */

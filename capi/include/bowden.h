@@ -1,27 +1,42 @@
 /* bowden: hysteretic cable transmissions and their control. Made by `cargo xtask header` from
  * the sources in capi/src; do not edit. C99, C++11.
  *
- * Every function is there for float and for double: NAME_f32 and NAME_f64.
+ * Every function exists for float and for double: NAME_f32 and NAME_f64.
  *
  * Memory. Nothing is allocated. An object (bowden_pid_f32, ...) is a struct of the caller: static,
- * on the stack, in another struct. NAME_init checks the settings and makes it usable; it may be
- * copied and moved as a whole, and needs no end. Every other function on an object that was not
- * initialised gives BOWDEN_RESULT_ERROR_UNINITIALISED. The arrays of a bowden_learning_f32 are the
- * caller's too, and stay where they are for as long as it is used.
+ * on the stack, in another struct. NAME_init checks the settings and initialises the object. It may
+ * be copied and moved as a whole, and needs no destructor. Every other function on an uninitialised
+ * object returns BOWDEN_RESULT_ERROR_UNINITIALISED. The caller also owns the arrays of a
+ * bowden_iterative_learning_f32, which must not move while the object is used.
  *
- * Pointers. A pointer is null or leads to memory of its type. Null and misaligned ones are told,
- * others cannot be. No object is used from two threads, or from a task and its interrupt, at once.
+ * Settings. Start a settings struct from its macro, then set its fields:
  *
- * Results. 0: all well. Above 0: a sample was not a good one; what was asked for is written all the
- * same. Below 0: nothing was done and nothing was written. Test for `< 0`, and look at which.
+ *     bowden_pid_settings_f32 settings = BOWDEN_PID_SETTINGS_F32_INIT;
+ *     settings.k_p = 30.0f;
+ *
+ * The macro sets the defaults and a mark. NAME_init refuses settings without the mark, because C
+ * sets fields that an initialiser does not name to zero. For a field that must be set, the macro has
+ * an invalid value, which NAME_init refuses by name. An estimate of the adaptive law has its own
+ * macro:
+ *
+ *     settings.theta[0] = (bowden_estimator_f32)BOWDEN_ESTIMATOR_F32_INIT;
+ *
+ * Limits and fallback are parts of settings and have no macro.
+ *
+ * Pointers. A pointer is null or points to memory of its type. Null and misaligned pointers are
+ * reported; other invalid pointers cannot be detected. Do not use an object from two threads, or from
+ * a task and its interrupt, at once.
+ *
+ * Results. 0: success. Above 0: a sample was not good; the output is written anyway. Below 0: nothing
+ * was done and nothing was written. Test for `< 0`, then read the value.
  *
  * Bad samples. A NaN or an infinity in a measurement, in the reference or in dt, or a dt that is
- * not positive or too long, leaves the state as it was and holds the last good command. After too
- * many the safe command is out, good samples or not, until it is acknowledged. The command is
- * finite and within the limits in every case.
+ * not positive or too long, leaves the state unchanged and holds the last good command. After too
+ * many bad samples the safe command is applied until it is acknowledged, even if samples are good.
+ * The command is always finite and within the limits.
  *
  * Numbers in brackets, such as (14), are the equations of the paper on torque control of
- * cable-conduit mechanisms that the project started from. Units stand in square brackets. */
+ * cable-conduit mechanisms that the project started from. Units are in square brackets. */
 
 
 #ifndef BOWDEN_H
@@ -30,137 +45,173 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Most regressors of an adaptive law.
+// Maximum number of regressors of an adaptive law.
 #define BOWDEN_REGRESSORS 4
 
-// Room of a bowden_adaptive_f32, in words of 64 bits.
+// Size of a bowden_adaptive_f32 in 64-bit words.
 #define BOWDEN_ADAPTIVE_F32_WORDS 56
 
-// Room of a bowden_adaptive_f64, in words of 64 bits.
+// Size of a bowden_adaptive_f64 in 64-bit words.
 #define BOWDEN_ADAPTIVE_F64_WORDS 104
 
-// Most ranges of a compensator.
+// Maximum number of ranges of a compensator.
 #define BOWDEN_RANGES 17
 
-// As the source of a range: the transmission's input.
+// Source of a range: the transmission's input.
 #define BOWDEN_SOURCE_INPUT 4294967295
 
-// Room of a bowden_compensator_f32, in words of 64 bits.
+// Size of a bowden_compensator_f32 in 64-bit words.
 #define BOWDEN_COMPENSATOR_F32_WORDS 184
 
-// Room of a bowden_compensator_f64, in words of 64 bits.
+// Size of a bowden_compensator_f64 in 64-bit words.
 #define BOWDEN_COMPENSATOR_F64_WORDS 360
 
-// Room of a bowden_hysteresis_f32, in words of 64 bits.
+// Size of a bowden_edge_velocity_f32 in 64-bit words.
+#define BOWDEN_EDGE_VELOCITY_F32_WORDS 8
+
+// Size of a bowden_edge_velocity_f64 in 64-bit words.
+#define BOWDEN_EDGE_VELOCITY_F64_WORDS 13
+
+// Size of a bowden_low_pass_f32 in 64-bit words.
+#define BOWDEN_LOW_PASS_F32_WORDS 4
+
+// Size of a bowden_low_pass_f64 in 64-bit words.
+#define BOWDEN_LOW_PASS_F64_WORDS 6
+
+// Size of a bowden_biquad_f32 in 64-bit words.
+#define BOWDEN_BIQUAD_F32_WORDS 8
+
+// Size of a bowden_biquad_f64 in 64-bit words.
+#define BOWDEN_BIQUAD_F64_WORDS 14
+
+// Size of a bowden_hysteresis_f32 in 64-bit words.
 #define BOWDEN_HYSTERESIS_F32_WORDS 8
 
-// Room of a bowden_hysteresis_f64, in words of 64 bits.
+// Size of a bowden_hysteresis_f64 in 64-bit words.
 #define BOWDEN_HYSTERESIS_F64_WORDS 14
 
-// Room of a bowden_cable_f32, in words of 64 bits.
+// Size of a bowden_cable_f32 in 64-bit words.
 #define BOWDEN_CABLE_F32_WORDS 10
 
-// Room of a bowden_cable_f64, in words of 64 bits.
+// Size of a bowden_cable_f64 in 64-bit words.
 #define BOWDEN_CABLE_F64_WORDS 20
 
-// Room of a bowden_inverse_f32, in words of 64 bits.
+// Size of a bowden_inverse_f32 in 64-bit words.
 #define BOWDEN_INVERSE_F32_WORDS 10
 
-// Room of a bowden_inverse_f64, in words of 64 bits.
+// Size of a bowden_inverse_f64 in 64-bit words.
 #define BOWDEN_INVERSE_F64_WORDS 20
 
-// Most cells of a cycle.
+// Maximum number of cells of a cycle.
 #define BOWDEN_CELLS 65535
 
-// Room of a bowden_learning_f32, in words of 64 bits.
-#define BOWDEN_LEARNING_F32_WORDS 14
+// Size of a bowden_iterative_learning_f32 in 64-bit words.
+#define BOWDEN_ITERATIVE_LEARNING_F32_WORDS 14
 
-// Room of a bowden_learning_f64, in words of 64 bits.
-#define BOWDEN_LEARNING_F64_WORDS 18
+// Size of a bowden_iterative_learning_f64 in 64-bit words.
+#define BOWDEN_ITERATIVE_LEARNING_F64_WORDS 18
 
-// Most terms of a model.
+// Maximum number of terms of a model.
 #define BOWDEN_TERMS 16
 
-// Most channels of a sample.
+// Maximum number of channels of a sample.
 #define BOWDEN_CHANNELS 16
 
-// Most bytes of a model: more than any with BOWDEN_TERMS terms has.
+// Maximum number of bytes of a model, more than any model with BOWDEN_TERMS terms has.
 #define BOWDEN_MODEL_BYTES 2048
 
-// Room of a bowden_model_f32, in words of 64 bits.
+// Size of a bowden_model_f32 in 64-bit words.
 #define BOWDEN_MODEL_F32_WORDS 112
 
-// Room of a bowden_model_f64, in words of 64 bits.
+// Size of a bowden_model_f64 in 64-bit words.
 #define BOWDEN_MODEL_F64_WORDS 216
 
-// Room of a bowden_observer_f32, in words of 64 bits.
+// Size of a bowden_observer_f32 in 64-bit words.
 #define BOWDEN_OBSERVER_F32_WORDS 14
 
-// Room of a bowden_observer_f64, in words of 64 bits.
+// Size of a bowden_observer_f64 in 64-bit words.
 #define BOWDEN_OBSERVER_F64_WORDS 25
 
-// For `after` of a fallback: the last good command is held for ever; for a simulation, not for
-// a machine.
+// For `after` of a fallback: holds the last good command indefinitely; for a simulation, not for a
+// machine.
 #define BOWDEN_HOLD_FOR_EVER 4294967295
 
-// Room of a bowden_pid_f32, in words of 64 bits.
+// Size of a bowden_pid_f32 in 64-bit words.
 #define BOWDEN_PID_F32_WORDS 24
 
-// Room of a bowden_pid_f64, in words of 64 bits.
+// Size of a bowden_pid_f64 in 64-bit words.
 #define BOWDEN_PID_F64_WORDS 40
 
-// Room of a bowden_play_f32, in words of 64 bits.
+// Size of a bowden_plausible_f32 in 64-bit words.
+#define BOWDEN_PLAUSIBLE_F32_WORDS 8
+
+// Size of a bowden_plausible_f64 in 64-bit words.
+#define BOWDEN_PLAUSIBLE_F64_WORDS 14
+
+// Size of a bowden_play_f32 in 64-bit words.
 #define BOWDEN_PLAY_F32_WORDS 4
 
-// Room of a bowden_play_f64, in words of 64 bits.
+// Size of a bowden_play_f64 in 64-bit words.
 #define BOWDEN_PLAY_F64_WORDS 6
 
-// Room of a bowden_rates_f32, in words of 64 bits.
+// Size of a bowden_rates_f32 in 64-bit words.
 #define BOWDEN_RATES_F32_WORDS 10
 
-// Room of a bowden_rates_f64, in words of 64 bits.
+// Size of a bowden_rates_f64 in 64-bit words.
 #define BOWDEN_RATES_F64_WORDS 16
 
-// What a function did: 0 for all well, above zero where a sample was not a good one and what
-// was asked for was written all the same, below zero where nothing was done or written.
+// Size of a bowden_relay_f32 in 64-bit words.
+#define BOWDEN_RELAY_F32_WORDS 26
+
+// Size of a bowden_relay_f64 in 64-bit words.
+#define BOWDEN_RELAY_F64_WORDS 44
+
+// Result of a function: 0 for success; above zero if a sample was not good and the output was
+// written anyway; below zero if nothing was written.
 enum bowden_result
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // All well; of a step: a good sample.
+    // Success; for a step: a good sample.
     BOWDEN_RESULT_OK = 0,
     // Rates: a good sample, but the rates started from zero less than five time constants ago.
     BOWDEN_RESULT_SETTLING = 1,
-    // Rates: a good position after a time that is unknown; the rates are held.
+    // Rates: a good position after an unknown time; the rates are held.
     BOWDEN_RESULT_RESUMED = 2,
-    // A regressor was bad and its term was left out; the loop is closed, the estimates wait. Of a
-    // learning: the feed-forward is of this phase, but an error was not learned from, that of the
-    // sample or that of the cell that was left.
+    // A regressor was bad and its term was omitted; the loop is closed, the estimates do not
+    // change. For iterative learning: the feed-forward belongs to this phase, but the error of the
+    // sample or of the cell before a jump was ignored.
     BOWDEN_RESULT_DEGRADED = 3,
-    // A bad sample: the state is as it was, the last good command or value is held.
+    // A bad sample: the state is unchanged, the last good command or value is held.
     BOWDEN_RESULT_HELD = 4,
-    // Too many bad samples: the safe command is out until it is acknowledged.
+    // Too many bad samples: the safe command is applied until it is acknowledged.
     BOWDEN_RESULT_SAFE = 5,
+    // Velocity from counts: no count for longer than the longest gap, so the velocity is zero.
+    BOWDEN_RESULT_STOPPED = 6,
+    // The sample is implausible: the value is NaN.
+    BOWDEN_RESULT_IMPLAUSIBLE = 7,
     // A pointer is null.
     BOWDEN_RESULT_ERROR_NULL = -1,
-    // A pointer is not aligned as its type must be.
+    // A pointer is not aligned for its type.
     BOWDEN_RESULT_ERROR_MISALIGNED = -2,
-    // The object was not initialised, or something has written over it.
+    // The object was not initialised, or it was overwritten.
     BOWDEN_RESULT_ERROR_UNINITIALISED = -3,
     // A setting is NaN or infinite.
     BOWDEN_RESULT_ERROR_NON_FINITE = -4,
-    // A setting is outside of its range.
+    // A setting is outside its range.
     BOWDEN_RESULT_ERROR_OUT_OF_RANGE = -5,
-    // Two settings break a condition together.
+    // Two settings together violate a condition.
     BOWDEN_RESULT_ERROR_INADMISSIBLE = -6,
-    // More items than there is room for.
+    // More items than the capacity.
     BOWDEN_RESULT_ERROR_CAPACITY = -7,
-    // A setting that is one of an enum has a value that the enum has not.
+    // A setting has a value that its enum does not have.
     BOWDEN_RESULT_ERROR_CHOICE = -8,
-    // The bytes of a model are damaged, too many, of the other precision or version, or of too
+    // The bytes of a model are damaged, too many, of the other precision or version, or have too
     // many terms.
     BOWDEN_RESULT_ERROR_MODEL = -9,
+    // The settings were not initialised with their macro NAME_INIT.
+    BOWDEN_RESULT_ERROR_SETTINGS = -10,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -170,7 +221,7 @@ typedef int32_t bowden_result;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// What was wrong with a sample.
+// The bad input of a sample.
 enum bowden_fault
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
@@ -180,9 +231,9 @@ enum bowden_fault
     BOWDEN_FAULT_NONE = 0,
     // dt is NaN or infinite.
     BOWDEN_FAULT_DT = 1,
-    // dt is zero or negative: time has not moved on.
+    // dt is zero or negative: time has not advanced.
     BOWDEN_FAULT_DT_NOT_POSITIVE = 2,
-    // dt is longer than the longest that was stated, or than the law is stable for.
+    // dt exceeds the longest dt of the settings, or the stability limit of the law.
     BOWDEN_FAULT_DT_TOO_LONG = 3,
     // The reference, or its next value.
     BOWDEN_FAULT_REFERENCE = 4,
@@ -194,15 +245,15 @@ enum bowden_fault
     BOWDEN_FAULT_FEED_FORWARD = 7,
     // The command to resume from.
     BOWDEN_FAULT_COMMAND = 8,
-    // A regressor, or what a term of a model reads; which one stands beside it.
+    // A regressor, or an input of a model's term; its index is in the output.
     BOWDEN_FAULT_REGRESSOR = 9,
     // Every input is finite, but the command could not be computed: an overflow.
     BOWDEN_FAULT_OVERFLOW = 10,
     // The position.
     BOWDEN_FAULT_POSITION = 11,
-    // Another one, of a later version.
+    // A fault of a later version.
     BOWDEN_FAULT_OTHER = 12,
-    // The phase of a cycle is not from 0 to 1, or has jumped.
+    // The phase of a cycle is outside 0 to 1, or has jumped.
     BOWDEN_FAULT_PHASE = 13,
 };
 #ifndef __cplusplus
@@ -213,38 +264,118 @@ typedef int32_t bowden_fault;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// What the gain `k_d` multiplies.
-enum bowden_damping
+// Why a sample is implausible.
+enum bowden_implausible
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    // The sample is plausible.
+    BOWDEN_IMPLAUSIBLE_NONE = 0,
+    // It is NaN or infinite.
+    BOWDEN_IMPLAUSIBLE_NOT_FINITE = 1,
+    // It lies outside the range.
+    BOWDEN_IMPLAUSIBLE_OUT_OF_RANGE = 2,
+    // It is further from the last plausible sample than the rate allows.
+    BOWDEN_IMPLAUSIBLE_TOO_FAST = 3,
+    // It has kept the same value for too long while the machine moved.
+    BOWDEN_IMPLAUSIBLE_STUCK = 4,
+    // A reason of a later version.
+    BOWDEN_IMPLAUSIBLE_OTHER = 5,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum bowden_implausible bowden_implausible;
+#else
+typedef int32_t bowden_implausible;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// Phase of a relay experiment.
+enum bowden_relay_phase
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    // The relay switches; after a bad sample the command is held.
+    BOWDEN_RELAY_PHASE_RUNNING = 0,
+    // The experiment has succeeded: the relay applies the centre.
+    BOWDEN_RELAY_PHASE_DONE = 1,
+    // The experiment has failed: the safe command is applied until bowden_relay_acknowledge.
+    BOWDEN_RELAY_PHASE_FAILED = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum bowden_relay_phase bowden_relay_phase;
+#else
+typedef int32_t bowden_relay_phase;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// Why a relay experiment failed.
+enum bowden_relay_failure
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    // It did not.
+    BOWDEN_RELAY_FAILURE_NONE = 0,
+    // Too many bad samples; the fault is the fault of the last one.
+    BOWDEN_RELAY_FAILURE_BAD_SAMPLES = 1,
+    // The output was further from the reference than `most_deviation`: choose a smaller
+    // amplitude, a centre that holds the reference, or the other sign of the amplitude.
+    BOWDEN_RELAY_FAILURE_OUTPUT_OUT_OF_RANGE = 2,
+    // `longest_time` has passed without a complete cycle: the amplitude does not move the output
+    // through the reference, its sign is wrong, or the time is too short for two periods.
+    BOWDEN_RELAY_FAILURE_NO_OSCILLATION = 3,
+    // `longest_time` has passed and the cycles did not agree: the time is too short, the noise
+    // exceeds the hysteresis, or a cycle has fewer than 2/agreement samples.
+    BOWDEN_RELAY_FAILURE_TIME_OUT = 4,
+    // A reason of a later version.
+    BOWDEN_RELAY_FAILURE_OTHER = 5,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum bowden_relay_failure bowden_relay_failure;
+#else
+typedef int32_t bowden_relay_failure;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// The signal that the gain `k_d` multiplies.
+enum bowden_derivative_source
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
     // The filtered derivative of y - c*y_r, PID (14).
-    BOWDEN_DAMPING_RATE = 0,
-    // The measured distal velocity as it is, PIV (16); nothing is filtered.
-    BOWDEN_DAMPING_VELOCITY = 1,
+    BOWDEN_DERIVATIVE_SOURCE_RATE = 0,
+    // The measured distal velocity, unfiltered, PIV (16).
+    BOWDEN_DERIVATIVE_SOURCE_VELOCITY = 1,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
-typedef enum bowden_damping bowden_damping;
+typedef enum bowden_derivative_source bowden_derivative_source;
 #else
-typedef uint32_t bowden_damping;
+typedef uint32_t bowden_derivative_source;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// What keeps the integral from growing while the command is limited.
+// Anti-windup: limits the integral while the command is limited.
 enum bowden_anti_windup
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // The integral does not grow in the direction in which the limit is passed.
+    // A change of the integral that would take the command beyond its range is cut to the value
+    // that fills the range; a change away from the limit acts in full.
     BOWDEN_ANTI_WINDUP_CONDITIONAL = 0,
-    // Nothing: the integral winds up.
+    // No anti-windup: the integral winds up.
     BOWDEN_ANTI_WINDUP_NONE = 1,
-    // The integral term stays within the range of the command, widened to hold zero.
+    // The integral term stays within the range of the command, widened to contain zero.
     BOWDEN_ANTI_WINDUP_CLAMP = 2,
-    // What the limits cut off flows back into the integral, over `tracking_time`.
+    // The part that the limits cut off returns to the integral with the time constant
+    // `tracking_time`.
     BOWDEN_ANTI_WINDUP_BACK_CALCULATION = 3,
 };
 #ifndef __cplusplus
@@ -274,16 +405,16 @@ typedef uint32_t bowden_mode;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// How the error's rate enters the law: each form is for one kind of plant.
+// Treatment of the error's rate in the law: each form is for one kind of plant.
 enum bowden_form
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // (23) as it stands, with a filtered difference of the error: for a plant with inertia.
-    BOWDEN_FORM_LITERAL = 0,
-    // The error's rate solved for: for a plant that answers within a sample.
-    BOWDEN_FORM_LAG = 1,
+    // (23) as published, with a filtered difference of the error: for a plant with inertia.
+    BOWDEN_FORM_AS_PUBLISHED = 0,
+    // The law solved for the error's rate: for a plant that responds within a sample.
+    BOWDEN_FORM_FIRST_ORDER = 1,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -293,7 +424,7 @@ typedef uint32_t bowden_form;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// Which smooth sign stands in (23) and (25).
+// The smooth sign in (23) and (25).
 enum bowden_smooth_sign
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -301,7 +432,7 @@ enum bowden_smooth_sign
  {
     // tanh(x), as the paper has it.
     BOWDEN_SMOOTH_SIGN_TANH = 0,
-    // x within [-1, 1]: cheaper, and leaves less.
+    // x within [-1, 1]: cheaper, with a smaller residual.
     BOWDEN_SMOOTH_SIGN_CLAMP = 1,
 };
 #ifndef __cplusplus
@@ -312,18 +443,18 @@ typedef uint32_t bowden_smooth_sign;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// How an estimate leaks back to its prior.
+// Leakage of an estimate to its prior.
 enum bowden_leakage
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // Not at all: the box alone holds the estimate.
+    // No leakage: only the bounds limit the estimate.
     BOWDEN_LEAKAGE_NONE = 0,
-    // At `leakage_rate` always: the sigma of (24)-(26).
+    // Leakage at `leakage_rate` at all times: the sigma of (24)-(26).
     BOWDEN_LEAKAGE_CONSTANT = 1,
-    // Only where it is further than `leakage_bound` from its prior; at twice that, at
-    // `leakage_rate`.
+    // Leakage only if the estimate is further than `leakage_bound` from its prior; the rate
+    // reaches `leakage_rate` at twice this distance.
     BOWDEN_LEAKAGE_SWITCHING = 2,
 };
 #ifndef __cplusplus
@@ -334,29 +465,81 @@ typedef uint32_t bowden_leakage;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// What a regressor that is not finite does.
-enum bowden_missing
+// Response to a regressor that is not finite.
+enum bowden_on_missing
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
     // A bad sample: the command is held.
-    BOWDEN_MISSING_HOLD = 0,
-    // Its term is left out, the estimates wait, the loop stays closed:
+    BOWDEN_ON_MISSING_HOLD = 0,
+    // Its term is omitted, the estimates do not change, and the loop stays closed:
     // BOWDEN_RESULT_DEGRADED.
-    BOWDEN_MISSING_DROP = 1,
+    BOWDEN_ON_MISSING_DROP_REGRESSOR = 1,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
-typedef enum bowden_missing bowden_missing;
+typedef enum bowden_on_missing bowden_on_missing;
 #else
-typedef uint32_t bowden_missing;
+typedef uint32_t bowden_on_missing;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
+// The active limit of a command or a drive.
+enum bowden_saturation
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    // No limit: the command was applied.
+    BOWDEN_SATURATION_NONE = 0,
+    // The applied command is below the law's command.
+    BOWDEN_SATURATION_UPPER = 1,
+    // The applied command is above the law's command.
+    BOWDEN_SATURATION_LOWER = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum bowden_saturation bowden_saturation;
+#else
+typedef uint32_t bowden_saturation;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// Tuning rule: PI gains from ultimate gain and period.
+enum bowden_pi_rule
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    // k_p = gain/3.2, k_i = k_p/(2.2*period): the conservative rule.
+    BOWDEN_PI_RULE_TYREUS_LUYBEN = 0,
+    // k_p = 0.45*gain, k_i = k_p/(period/1.2): fast, with an overshoot.
+    BOWDEN_PI_RULE_ZIEGLER_NICHOLS = 1,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum bowden_pi_rule bowden_pi_rule;
+#else
+typedef uint32_t bowden_pi_rule;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// An adaptive law with its state, in the caller's memory; made by
+// bowden_adaptive_init.
+typedef struct bowden_adaptive_f32 {
+    // Not for use.
+    uint64_t opaque[BOWDEN_ADAPTIVE_F32_WORDS];
+} bowden_adaptive_f32;
+
 // How one estimate adapts, (24)-(26), with a box.
+//
+// Start from NAME_INIT, as the estimates in the settings of the law do. By default the
+// estimate is fixed at 0: the gain is 0 and nothing leaks.
 typedef struct bowden_estimator_f32 {
-    // Where the estimate starts [unit of the estimate], within the box.
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
+    // Initial value of the estimate [unit of the estimate], within its bounds.
     float initial;
     // Least value [unit of the estimate].
     float low;
@@ -364,15 +547,30 @@ typedef struct bowden_estimator_f32 {
     float high;
     // Adaptation gain: gamma, mu or mu_i of (24)-(26), not negative.
     float gain;
-    // What the leakage pulls to [unit of the estimate]; 0 in the paper.
+    // Prior, the target of the leakage [unit of the estimate]; 0 in the paper.
     float prior;
     // One of bowden_leakage.
     uint32_t leakage;
     // Greatest leakage, not negative [1/s].
     float leakage_rate;
-    // Of BOWDEN_LEAKAGE_SWITCHING alone, above zero [unit of the estimate].
+    // For BOWDEN_LEAKAGE_SWITCHING only, above zero [unit of the estimate].
     float leakage_bound;
 } bowden_estimator_f32;
+
+// The defaults, in C99 and C++11:
+//
+//     bowden_estimator_f32 settings = BOWDEN_ESTIMATOR_F32_INIT;
+#define BOWDEN_ESTIMATOR_F32_INIT { \
+    1679694325u, /* init_mark */ \
+    0.0f, /* initial */ \
+    0.0f, /* low */ \
+    0.0f, /* high */ \
+    0.0f, /* gain */ \
+    0.0f, /* prior */ \
+    0u, /* leakage */ \
+    0.0f, /* leakage_rate */ \
+    0.0f /* leakage_bound */ \
+}
 
 // Range and slew rate of a command.
 typedef struct bowden_limits_f32 {
@@ -380,32 +578,41 @@ typedef struct bowden_limits_f32 {
     float low;
     // Greatest command [command unit]; above `low`.
     float high;
-    // Slew rate above zero [command unit/s]; 0 for none.
+    // Slew rate, above zero [command unit/s]; 0 for none.
     float slew;
 } bowden_limits_f32;
 
-// What to command when samples stay bad.
+// The safe command after repeated bad samples.
 //
-// A score counts: a bad sample adds the weight, a good one takes 1 away. At
-// after*weight the safe command goes out and stays out until it is acknowledged.
+// A score counts: a bad sample adds the weight, a good sample subtracts 1. At
+// after*weight the safe command is applied until it is acknowledged.
 typedef struct bowden_fallback_f32 {
-    // From which bad sample in a row on, at least 1; BOWDEN_HOLD_FOR_EVER for never.
+    // Number of bad samples in a row that applies the safe command, at least 1;
+    // BOWDEN_HOLD_FOR_EVER for never.
     uint32_t after;
-    // How many good samples make up for a bad one, at least 1; 4 is usual.
+    // Number of good samples that cancel a bad one, at least 1; 4 is usual.
     uint32_t weight;
     // The safe command [command unit], within the limits.
     float command;
 } bowden_fallback_f32;
 
 // Settings of the adaptive law, (17)-(26).
+//
+// Start from NAME_INIT. By default: no regressors, k, lambda and epsilon of the paper,
+// 5 ms for the form as published, beta_hat fixed at 1, delta_hat and theta_hat at 0,
+// tanh, no limit of z, no slew rate, 4 good samples to cancel a bad one, safe command
+// 0. The form (for the first-order form also step and plant_gain), limits, longest_dt
+//    and `after` must be set.
 typedef struct bowden_adaptive_settings_f32 {
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
     // One of bowden_form.
     uint32_t form;
-    // Of the literal form: filter of the error's rate, 2 to 20 ms [s].
+    // Form as published: time constant of the error rate's filter, 2 to 20 ms [s].
     float time_constant;
-    // Of the lag form: longest sample time that is intended [s].
+    // First-order form, required: longest intended sample time [s].
     float step;
-    // Of the lag form: upper bound of the plant's gain alpha [N*m/command unit].
+    // First-order form: upper bound of the plant's gain alpha [N*m/command unit].
     float plant_gain;
     // Control gain k, above zero.
     float gain;
@@ -419,69 +626,87 @@ typedef struct bowden_adaptive_settings_f32 {
     struct bowden_estimator_f32 beta;
     // Estimate of the bound of the disturbance [N*m], (25).
     struct bowden_estimator_f32 delta;
-    // How many regressors there are, at most BOWDEN_REGRESSORS.
+    // Number of regressors, at most BOWDEN_REGRESSORS.
     uint32_t regressors;
-    // Estimates of theta_i [N*m/unit of the regressor], (26); those from
-    // `regressors` on are not read.
+    // Estimates of theta_i [N*m/unit of the regressor], (26); those from index
+    // `regressors` on are ignored.
     struct bowden_estimator_f32 theta[BOWDEN_REGRESSORS];
-    // One of bowden_missing for each regressor.
+    // One of bowden_on_missing for each regressor.
     uint32_t missing[BOWDEN_REGRESSORS];
-    // Most that the accumulated error z may be, above zero [N*m*s].
+    // Greatest magnitude of the accumulated error z, above zero [N*m*s].
     float z_limit;
-    // 0, or anything else where the estimates stay as they are.
+    // 0; any other value freezes the estimates.
     uint32_t frozen;
     // Range and slew rate of the command.
     struct bowden_limits_f32 limits;
-    // Longest dt that is a sample, above zero [s]; the lag form accepts none longer
-    // than 1/(lambda*max(1, g*(k + delta.high/epsilon))) either.
+    // Longest dt that is a sample, above zero [s]; the first-order form also rejects a
+    // dt longer than 1/(lambda*max(1, g*(k + delta.high/epsilon))).
     float longest_dt;
-    // What goes out when samples stay bad.
+    // Fallback after repeated bad samples.
     struct bowden_fallback_f32 fallback;
 } bowden_adaptive_settings_f32;
 
-// An adaptive law with its state; the caller's memory, made by
-// bowden_adaptive_init.
-typedef struct bowden_adaptive_f32 {
-    // Not for use.
-    uint64_t opaque[BOWDEN_ADAPTIVE_F32_WORDS];
-} bowden_adaptive_f32;
+// The defaults, in C99 and C++11:
+//
+//     bowden_adaptive_settings_f32 settings = BOWDEN_ADAPTIVE_SETTINGS_F32_INIT;
+#define BOWDEN_ADAPTIVE_SETTINGS_F32_INIT { \
+    529839157u, /* init_mark */ \
+    4294967295u, /* form */ \
+    0.005f, /* time_constant */ \
+    0.0f, /* step */ \
+    0.0f, /* plant_gain */ \
+    24.0f, /* gain */ \
+    8.0f, /* lambda */ \
+    0.05f, /* epsilon */ \
+    0u, /* smooth_sign */ \
+    {1679694325u, 1.0f, 1.0f, 1.0f, 0.0f, 0.0f, 0u, 0.0f, 0.0f}, /* beta */ \
+    {1679694325u, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0u, 0.0f, 0.0f}, /* delta */ \
+    0u, /* regressors */ \
+    {{1679694325u, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0u, 0.0f, 0.0f}, {1679694325u, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0u, 0.0f, 0.0f}, {1679694325u, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0u, 0.0f, 0.0f}, {1679694325u, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0u, 0.0f, 0.0f}}, /* theta */ \
+    {0u, 0u, 0u, 0u}, /* missing */ \
+    3.4028235e38f, /* z_limit */ \
+    0u, /* frozen */ \
+    {3.4028235e38f, -3.4028235e38f, 0.0f}, /* limits */ \
+    0.0f, /* longest_dt */ \
+    {0u, 4u, 0.0f} /* fallback */ \
+}
 
-// The name of the setting that was refused, or the condition that is not met.
+// The name of the refused setting, or the violated condition.
 typedef struct bowden_about {
-    // ASCII with a NUL behind it, such as "k_p" or "low < high"; cut off where it is longer.
+    // ASCII with a NUL at the end, such as "k_p" or "low < high"; truncated if it is longer.
     char text[128];
 } bowden_about;
 
 // One sample for the adaptive law.
 typedef struct bowden_adaptive_sample_f32 {
-    // Since the last call, also where that was a bad sample [s].
+    // Time since the last call [s], after a bad sample too.
     float dt;
     // Reference y_r [N*m].
     float reference;
-    // Reference at the next sample [N*m]; only the lag form reads it.
+    // Reference at the next sample [N*m]; only the first-order form reads it.
     float next_reference;
     // Measured output torque y [N*m].
     float measured;
-    // Regressors x_i [their own units]: velocity and acceleration in the paper.
-    // Those beyond the law's number are not read.
+    // Regressors x_i [their own units]: velocity and acceleration in the paper. The
+    // law ignores regressors beyond its number.
     float regressors[BOWDEN_REGRESSORS];
     // Added to the law's command [command unit]; 0 for none.
     float feed_forward;
 } bowden_adaptive_sample_f32;
 
-// What a step of a controller gives.
+// Output of a step of a controller.
 typedef struct bowden_output_f32 {
-    // What goes to the drive [command unit]: finite and within the limits.
+    // Command for the drive [command unit]: finite and within the limits.
     float command;
-    // What the step did: the same as it returns.
+    // Status of the step, equal to its return value.
     bowden_result result;
     // What was wrong.
     bowden_fault fault;
-    // Which regressor or term, from 0, where the fault is BOWDEN_FAULT_REGRESSOR.
+    // Index of the regressor or term, from 0, if the fault is BOWDEN_FAULT_REGRESSOR.
     uint32_t regressor;
 } bowden_output_f32;
 
-// What the law has estimated.
+// The estimates of the law.
 typedef struct bowden_estimates_f32 {
     // Accumulated error z [N*m*s], (17).
     float z;
@@ -493,9 +718,21 @@ typedef struct bowden_estimates_f32 {
     float theta[BOWDEN_REGRESSORS];
 } bowden_estimates_f32;
 
+// An adaptive law with its state, in the caller's memory; made by
+// bowden_adaptive_init.
+typedef struct bowden_adaptive_f64 {
+    // Not for use.
+    uint64_t opaque[BOWDEN_ADAPTIVE_F64_WORDS];
+} bowden_adaptive_f64;
+
 // How one estimate adapts, (24)-(26), with a box.
+//
+// Start from NAME_INIT, as the estimates in the settings of the law do. By default the
+// estimate is fixed at 0: the gain is 0 and nothing leaks.
 typedef struct bowden_estimator_f64 {
-    // Where the estimate starts [unit of the estimate], within the box.
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
+    // Initial value of the estimate [unit of the estimate], within its bounds.
     double initial;
     // Least value [unit of the estimate].
     double low;
@@ -503,15 +740,30 @@ typedef struct bowden_estimator_f64 {
     double high;
     // Adaptation gain: gamma, mu or mu_i of (24)-(26), not negative.
     double gain;
-    // What the leakage pulls to [unit of the estimate]; 0 in the paper.
+    // Prior, the target of the leakage [unit of the estimate]; 0 in the paper.
     double prior;
     // One of bowden_leakage.
     uint32_t leakage;
     // Greatest leakage, not negative [1/s].
     double leakage_rate;
-    // Of BOWDEN_LEAKAGE_SWITCHING alone, above zero [unit of the estimate].
+    // For BOWDEN_LEAKAGE_SWITCHING only, above zero [unit of the estimate].
     double leakage_bound;
 } bowden_estimator_f64;
+
+// The defaults, in C99 and C++11:
+//
+//     bowden_estimator_f64 settings = BOWDEN_ESTIMATOR_F64_INIT;
+#define BOWDEN_ESTIMATOR_F64_INIT { \
+    4027205765u, /* init_mark */ \
+    0.0, /* initial */ \
+    0.0, /* low */ \
+    0.0, /* high */ \
+    0.0, /* gain */ \
+    0.0, /* prior */ \
+    0u, /* leakage */ \
+    0.0, /* leakage_rate */ \
+    0.0 /* leakage_bound */ \
+}
 
 // Range and slew rate of a command.
 typedef struct bowden_limits_f64 {
@@ -519,32 +771,41 @@ typedef struct bowden_limits_f64 {
     double low;
     // Greatest command [command unit]; above `low`.
     double high;
-    // Slew rate above zero [command unit/s]; 0 for none.
+    // Slew rate, above zero [command unit/s]; 0 for none.
     double slew;
 } bowden_limits_f64;
 
-// What to command when samples stay bad.
+// The safe command after repeated bad samples.
 //
-// A score counts: a bad sample adds the weight, a good one takes 1 away. At
-// after*weight the safe command goes out and stays out until it is acknowledged.
+// A score counts: a bad sample adds the weight, a good sample subtracts 1. At
+// after*weight the safe command is applied until it is acknowledged.
 typedef struct bowden_fallback_f64 {
-    // From which bad sample in a row on, at least 1; BOWDEN_HOLD_FOR_EVER for never.
+    // Number of bad samples in a row that applies the safe command, at least 1;
+    // BOWDEN_HOLD_FOR_EVER for never.
     uint32_t after;
-    // How many good samples make up for a bad one, at least 1; 4 is usual.
+    // Number of good samples that cancel a bad one, at least 1; 4 is usual.
     uint32_t weight;
     // The safe command [command unit], within the limits.
     double command;
 } bowden_fallback_f64;
 
 // Settings of the adaptive law, (17)-(26).
+//
+// Start from NAME_INIT. By default: no regressors, k, lambda and epsilon of the paper,
+// 5 ms for the form as published, beta_hat fixed at 1, delta_hat and theta_hat at 0,
+// tanh, no limit of z, no slew rate, 4 good samples to cancel a bad one, safe command
+// 0. The form (for the first-order form also step and plant_gain), limits, longest_dt
+//    and `after` must be set.
 typedef struct bowden_adaptive_settings_f64 {
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
     // One of bowden_form.
     uint32_t form;
-    // Of the literal form: filter of the error's rate, 2 to 20 ms [s].
+    // Form as published: time constant of the error rate's filter, 2 to 20 ms [s].
     double time_constant;
-    // Of the lag form: longest sample time that is intended [s].
+    // First-order form, required: longest intended sample time [s].
     double step;
-    // Of the lag form: upper bound of the plant's gain alpha [N*m/command unit].
+    // First-order form: upper bound of the plant's gain alpha [N*m/command unit].
     double plant_gain;
     // Control gain k, above zero.
     double gain;
@@ -558,63 +819,81 @@ typedef struct bowden_adaptive_settings_f64 {
     struct bowden_estimator_f64 beta;
     // Estimate of the bound of the disturbance [N*m], (25).
     struct bowden_estimator_f64 delta;
-    // How many regressors there are, at most BOWDEN_REGRESSORS.
+    // Number of regressors, at most BOWDEN_REGRESSORS.
     uint32_t regressors;
-    // Estimates of theta_i [N*m/unit of the regressor], (26); those from
-    // `regressors` on are not read.
+    // Estimates of theta_i [N*m/unit of the regressor], (26); those from index
+    // `regressors` on are ignored.
     struct bowden_estimator_f64 theta[BOWDEN_REGRESSORS];
-    // One of bowden_missing for each regressor.
+    // One of bowden_on_missing for each regressor.
     uint32_t missing[BOWDEN_REGRESSORS];
-    // Most that the accumulated error z may be, above zero [N*m*s].
+    // Greatest magnitude of the accumulated error z, above zero [N*m*s].
     double z_limit;
-    // 0, or anything else where the estimates stay as they are.
+    // 0; any other value freezes the estimates.
     uint32_t frozen;
     // Range and slew rate of the command.
     struct bowden_limits_f64 limits;
-    // Longest dt that is a sample, above zero [s]; the lag form accepts none longer
-    // than 1/(lambda*max(1, g*(k + delta.high/epsilon))) either.
+    // Longest dt that is a sample, above zero [s]; the first-order form also rejects a
+    // dt longer than 1/(lambda*max(1, g*(k + delta.high/epsilon))).
     double longest_dt;
-    // What goes out when samples stay bad.
+    // Fallback after repeated bad samples.
     struct bowden_fallback_f64 fallback;
 } bowden_adaptive_settings_f64;
 
-// An adaptive law with its state; the caller's memory, made by
-// bowden_adaptive_init.
-typedef struct bowden_adaptive_f64 {
-    // Not for use.
-    uint64_t opaque[BOWDEN_ADAPTIVE_F64_WORDS];
-} bowden_adaptive_f64;
+// The defaults, in C99 and C++11:
+//
+//     bowden_adaptive_settings_f64 settings = BOWDEN_ADAPTIVE_SETTINGS_F64_INIT;
+#define BOWDEN_ADAPTIVE_SETTINGS_F64_INIT { \
+    2340480325u, /* init_mark */ \
+    4294967295u, /* form */ \
+    0.005, /* time_constant */ \
+    0.0, /* step */ \
+    0.0, /* plant_gain */ \
+    24.0, /* gain */ \
+    8.0, /* lambda */ \
+    0.05, /* epsilon */ \
+    0u, /* smooth_sign */ \
+    {4027205765u, 1.0, 1.0, 1.0, 0.0, 0.0, 0u, 0.0, 0.0}, /* beta */ \
+    {4027205765u, 0.0, 0.0, 0.0, 0.0, 0.0, 0u, 0.0, 0.0}, /* delta */ \
+    0u, /* regressors */ \
+    {{4027205765u, 0.0, 0.0, 0.0, 0.0, 0.0, 0u, 0.0, 0.0}, {4027205765u, 0.0, 0.0, 0.0, 0.0, 0.0, 0u, 0.0, 0.0}, {4027205765u, 0.0, 0.0, 0.0, 0.0, 0.0, 0u, 0.0, 0.0}, {4027205765u, 0.0, 0.0, 0.0, 0.0, 0.0, 0u, 0.0, 0.0}}, /* theta */ \
+    {0u, 0u, 0u, 0u}, /* missing */ \
+    1.7976931348623157e308, /* z_limit */ \
+    0u, /* frozen */ \
+    {1.7976931348623157e308, -1.7976931348623157e308, 0.0}, /* limits */ \
+    0.0, /* longest_dt */ \
+    {0u, 4u, 0.0} /* fallback */ \
+}
 
 // One sample for the adaptive law.
 typedef struct bowden_adaptive_sample_f64 {
-    // Since the last call, also where that was a bad sample [s].
+    // Time since the last call [s], after a bad sample too.
     double dt;
     // Reference y_r [N*m].
     double reference;
-    // Reference at the next sample [N*m]; only the lag form reads it.
+    // Reference at the next sample [N*m]; only the first-order form reads it.
     double next_reference;
     // Measured output torque y [N*m].
     double measured;
-    // Regressors x_i [their own units]: velocity and acceleration in the paper.
-    // Those beyond the law's number are not read.
+    // Regressors x_i [their own units]: velocity and acceleration in the paper. The
+    // law ignores regressors beyond its number.
     double regressors[BOWDEN_REGRESSORS];
     // Added to the law's command [command unit]; 0 for none.
     double feed_forward;
 } bowden_adaptive_sample_f64;
 
-// What a step of a controller gives.
+// Output of a step of a controller.
 typedef struct bowden_output_f64 {
-    // What goes to the drive [command unit]: finite and within the limits.
+    // Command for the drive [command unit]: finite and within the limits.
     double command;
-    // What the step did: the same as it returns.
+    // Status of the step, equal to its return value.
     bowden_result result;
     // What was wrong.
     bowden_fault fault;
-    // Which regressor or term, from 0, where the fault is BOWDEN_FAULT_REGRESSOR.
+    // Index of the regressor or term, from 0, if the fault is BOWDEN_FAULT_REGRESSOR.
     uint32_t regressor;
 } bowden_output_f64;
 
-// What the law has estimated.
+// The estimates of the law.
 typedef struct bowden_estimates_f64 {
     // Accumulated error z [N*m*s], (17).
     double z;
@@ -626,14 +905,14 @@ typedef struct bowden_estimates_f64 {
     double theta[BOWDEN_REGRESSORS];
 } bowden_estimates_f64;
 
-// A model turned round, with its state; the caller's memory, made by
+// An inverted model with its state, in the caller's memory; made by
 // bowden_compensator_init.
 typedef struct bowden_compensator_f32 {
     // Not for use.
     uint64_t opaque[BOWDEN_COMPENSATOR_F32_WORDS];
 } bowden_compensator_f32;
 
-// An identified model with its state; the caller's memory, made by
+// An identified model with its state, in the caller's memory; made by
 // bowden_model_load.
 typedef struct bowden_model_f32 {
     // Not for use.
@@ -650,7 +929,7 @@ typedef struct bowden_motion_f32 {
     float acceleration;
 } bowden_motion_f32;
 
-// What the bench has seen of one source: the effects are not asked beyond it.
+// Range of one source in the bench record: the effects do not extrapolate beyond it.
 typedef struct bowden_range_f32 {
     // The channel, from 0, or BOWDEN_SOURCE_INPUT.
     uint32_t source;
@@ -664,22 +943,21 @@ typedef struct bowden_range_f32 {
 typedef struct bowden_compensator_sample_f32 {
     // Since the previous sample, above zero [s].
     float dt;
-    // The output that is wanted [output unit], such as tau_o [N*m]: the reference,
-    // not the measured output.
+    // Desired output [output unit], such as tau_o [N*m]: the reference, not the
+    // measured output.
     float desired;
-    // The transmission's input with its rates, as it is now, for effects that read
-    // it.
+    // The present input of the transmission with its rates, for effects that read it.
     struct bowden_motion_f32 input;
-    // The transmitted load: tau_i in torque mode, else a load channel.
+    // The transmitted load: tau_i in torque mode, otherwise a load channel.
     float load;
-    // All other channels, in the order of the model's file; may be null where
-    // there are none.
+    // All other channels, in the order of the model's file; may be null if there are
+    // none.
     const struct bowden_motion_f32 *channels;
-    // How many there are, at most BOWDEN_CHANNELS.
+    // Number of channels, at most BOWDEN_CHANNELS.
     size_t channel_count;
 } bowden_compensator_sample_f32;
 
-// What a step of a compensator gives.
+// Output of a step of a compensator.
 typedef struct bowden_compensator_output_f32 {
     // The transmission's input [input unit], such as tau_i [N*m]; finite.
     float command;
@@ -687,22 +965,22 @@ typedef struct bowden_compensator_output_f32 {
     float effects;
     // The model's hysteresis state, within -1 and 1.
     float eta;
-    // What the step did: the same as it returns.
+    // Status of the step, equal to its return value.
     bowden_result result;
     // What was wrong.
     bowden_fault fault;
-    // Which term, from 0, where the fault is BOWDEN_FAULT_REGRESSOR.
+    // Index of the term, from 0, if the fault is BOWDEN_FAULT_REGRESSOR.
     uint32_t regressor;
 } bowden_compensator_output_f32;
 
-// A model turned round, with its state; the caller's memory, made by
+// An inverted model with its state, in the caller's memory; made by
 // bowden_compensator_init.
 typedef struct bowden_compensator_f64 {
     // Not for use.
     uint64_t opaque[BOWDEN_COMPENSATOR_F64_WORDS];
 } bowden_compensator_f64;
 
-// An identified model with its state; the caller's memory, made by
+// An identified model with its state, in the caller's memory; made by
 // bowden_model_load.
 typedef struct bowden_model_f64 {
     // Not for use.
@@ -719,7 +997,7 @@ typedef struct bowden_motion_f64 {
     double acceleration;
 } bowden_motion_f64;
 
-// What the bench has seen of one source: the effects are not asked beyond it.
+// Range of one source in the bench record: the effects do not extrapolate beyond it.
 typedef struct bowden_range_f64 {
     // The channel, from 0, or BOWDEN_SOURCE_INPUT.
     uint32_t source;
@@ -733,22 +1011,21 @@ typedef struct bowden_range_f64 {
 typedef struct bowden_compensator_sample_f64 {
     // Since the previous sample, above zero [s].
     double dt;
-    // The output that is wanted [output unit], such as tau_o [N*m]: the reference,
-    // not the measured output.
+    // Desired output [output unit], such as tau_o [N*m]: the reference, not the
+    // measured output.
     double desired;
-    // The transmission's input with its rates, as it is now, for effects that read
-    // it.
+    // The present input of the transmission with its rates, for effects that read it.
     struct bowden_motion_f64 input;
-    // The transmitted load: tau_i in torque mode, else a load channel.
+    // The transmitted load: tau_i in torque mode, otherwise a load channel.
     double load;
-    // All other channels, in the order of the model's file; may be null where
-    // there are none.
+    // All other channels, in the order of the model's file; may be null if there are
+    // none.
     const struct bowden_motion_f64 *channels;
-    // How many there are, at most BOWDEN_CHANNELS.
+    // Number of channels, at most BOWDEN_CHANNELS.
     size_t channel_count;
 } bowden_compensator_sample_f64;
 
-// What a step of a compensator gives.
+// Output of a step of a compensator.
 typedef struct bowden_compensator_output_f64 {
     // The transmission's input [input unit], such as tau_i [N*m]; finite.
     double command;
@@ -756,13 +1033,191 @@ typedef struct bowden_compensator_output_f64 {
     double effects;
     // The model's hysteresis state, within -1 and 1.
     double eta;
-    // What the step did: the same as it returns.
+    // Status of the step, equal to its return value.
     bowden_result result;
     // What was wrong.
     bowden_fault fault;
-    // Which term, from 0, where the fault is BOWDEN_FAULT_REGRESSOR.
+    // Index of the term, from 0, if the fault is BOWDEN_FAULT_REGRESSOR.
     uint32_t regressor;
 } bowden_compensator_output_f64;
+
+// A velocity from counts with its state; made by bowden_edge_velocity_init.
+typedef struct bowden_edge_velocity_f32 {
+    // Not for use.
+    uint64_t opaque[BOWDEN_EDGE_VELOCITY_F32_WORDS];
+} bowden_edge_velocity_f32;
+
+// Settings of a velocity from the time between counts, see bowden_edge_velocity_step.
+//
+// Start from NAME_INIT. By default the position does not wrap; all other fields must be
+// set.
+typedef struct bowden_edge_velocity_settings_f32 {
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
+    // Size of one count, above zero [channel unit]: positions change by multiples of
+    // it.
+    float count;
+    // Averages counts that come faster than this, above zero [s].
+    float time_constant;
+    // After this time without a count the velocity is zero, above zero [s]. A speed
+    // below count/longest_gap reads as zero.
+    float longest_gap;
+    // Period of a position that wraps, such as that of a counter, above zero
+    // [channel unit]; 0 for none.
+    float period;
+} bowden_edge_velocity_settings_f32;
+
+// The defaults, in C99 and C++11:
+//
+//     bowden_edge_velocity_settings_f32 settings = BOWDEN_EDGE_VELOCITY_SETTINGS_F32_INIT;
+#define BOWDEN_EDGE_VELOCITY_SETTINGS_F32_INIT { \
+    4126558932u, /* init_mark */ \
+    0.0f, /* count */ \
+    0.0f, /* time_constant */ \
+    0.0f, /* longest_gap */ \
+    0.0f /* period */ \
+}
+
+// Output of a step of a velocity from counts.
+typedef struct bowden_edge_velocity_output_f32 {
+    // [channel unit/s]; finite, zero before two counts.
+    float velocity;
+    // Status of the step, equal to its return value.
+    bowden_result result;
+    // What was wrong.
+    bowden_fault fault;
+} bowden_edge_velocity_output_f32;
+
+// A velocity from counts with its state; made by bowden_edge_velocity_init.
+typedef struct bowden_edge_velocity_f64 {
+    // Not for use.
+    uint64_t opaque[BOWDEN_EDGE_VELOCITY_F64_WORDS];
+} bowden_edge_velocity_f64;
+
+// Settings of a velocity from the time between counts, see bowden_edge_velocity_step.
+//
+// Start from NAME_INIT. By default the position does not wrap; all other fields must be
+// set.
+typedef struct bowden_edge_velocity_settings_f64 {
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
+    // Size of one count, above zero [channel unit]: positions change by multiples of
+    // it.
+    double count;
+    // Averages counts that come faster than this, above zero [s].
+    double time_constant;
+    // After this time without a count the velocity is zero, above zero [s]. A speed
+    // below count/longest_gap reads as zero.
+    double longest_gap;
+    // Period of a position that wraps, such as that of a counter, above zero
+    // [channel unit]; 0 for none.
+    double period;
+} bowden_edge_velocity_settings_f64;
+
+// The defaults, in C99 and C++11:
+//
+//     bowden_edge_velocity_settings_f64 settings = BOWDEN_EDGE_VELOCITY_SETTINGS_F64_INIT;
+#define BOWDEN_EDGE_VELOCITY_SETTINGS_F64_INIT { \
+    1642208164u, /* init_mark */ \
+    0.0, /* count */ \
+    0.0, /* time_constant */ \
+    0.0, /* longest_gap */ \
+    0.0 /* period */ \
+}
+
+// Output of a step of a velocity from counts.
+typedef struct bowden_edge_velocity_output_f64 {
+    // [channel unit/s]; finite, zero before two counts.
+    double velocity;
+    // Status of the step, equal to its return value.
+    bowden_result result;
+    // What was wrong.
+    bowden_fault fault;
+} bowden_edge_velocity_output_f64;
+
+// A first-order low-pass with its state; made by bowden_low_pass_init.
+typedef struct bowden_low_pass_f32 {
+    // Not for use.
+    uint64_t opaque[BOWDEN_LOW_PASS_F32_WORDS];
+} bowden_low_pass_f32;
+
+// A second-order filter with its state; made by bowden_biquad_init_low_pass or
+// bowden_biquad_init_notch.
+typedef struct bowden_biquad_f32 {
+    // Not for use.
+    uint64_t opaque[BOWDEN_BIQUAD_F32_WORDS];
+} bowden_biquad_f32;
+
+// Settings of a second-order low-pass or notch, with s in units of 2*pi*frequency:
+//
+//     low-pass  1/(s^2 + s/q + 1)
+//     notch     (s^2 + 1)/(s^2 + s/q + 1)
+//
+// Start from NAME_INIT; all fields must be set.
+typedef struct bowden_biquad_settings_f32 {
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
+    // Corner of the low-pass or centre of the notch, above zero and below
+    // 1/(2*sample_time) [Hz].
+    float frequency;
+    // Quality, above zero. Low-pass: 0.7071 for Butterworth, 0.5 for critical damping.
+    // Notch: its width at -3 dB is frequency/q [Hz].
+    float q;
+    // Nominal sample time, above zero [s].
+    float sample_time;
+} bowden_biquad_settings_f32;
+
+// The defaults, in C99 and C++11:
+//
+//     bowden_biquad_settings_f32 settings = BOWDEN_BIQUAD_SETTINGS_F32_INIT;
+#define BOWDEN_BIQUAD_SETTINGS_F32_INIT { \
+    3823831408u, /* init_mark */ \
+    0.0f, /* frequency */ \
+    0.0f, /* q */ \
+    0.0f /* sample_time */ \
+}
+
+// A first-order low-pass with its state; made by bowden_low_pass_init.
+typedef struct bowden_low_pass_f64 {
+    // Not for use.
+    uint64_t opaque[BOWDEN_LOW_PASS_F64_WORDS];
+} bowden_low_pass_f64;
+
+// A second-order filter with its state; made by bowden_biquad_init_low_pass or
+// bowden_biquad_init_notch.
+typedef struct bowden_biquad_f64 {
+    // Not for use.
+    uint64_t opaque[BOWDEN_BIQUAD_F64_WORDS];
+} bowden_biquad_f64;
+
+// Settings of a second-order low-pass or notch, with s in units of 2*pi*frequency:
+//
+//     low-pass  1/(s^2 + s/q + 1)
+//     notch     (s^2 + 1)/(s^2 + s/q + 1)
+//
+// Start from NAME_INIT; all fields must be set.
+typedef struct bowden_biquad_settings_f64 {
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
+    // Corner of the low-pass or centre of the notch, above zero and below
+    // 1/(2*sample_time) [Hz].
+    double frequency;
+    // Quality, above zero. Low-pass: 0.7071 for Butterworth, 0.5 for critical damping.
+    // Notch: its width at -3 dB is frequency/q [Hz].
+    double q;
+    // Nominal sample time, above zero [s].
+    double sample_time;
+} bowden_biquad_settings_f64;
+
+// The defaults, in C99 and C++11:
+//
+//     bowden_biquad_settings_f64 settings = BOWDEN_BIQUAD_SETTINGS_F64_INIT;
+#define BOWDEN_BIQUAD_SETTINGS_F64_INIT { \
+    2013222912u, /* init_mark */ \
+    0.0, /* frequency */ \
+    0.0, /* q */ \
+    0.0 /* sample_time */ \
+}
 
 // The hysteresis (2), (7) with its state; made by bowden_hysteresis_init.
 typedef struct bowden_hysteresis_f32 {
@@ -770,21 +1225,52 @@ typedef struct bowden_hysteresis_f32 {
     uint64_t opaque[BOWDEN_HYSTERESIS_F32_WORDS];
 } bowden_hysteresis_f32;
 
+// Settings of a hysteresis (2), (7).
+//
+// Start from NAME_INIT. By default eta is 0; all other fields must be set.
+typedef struct bowden_hysteresis_settings_f32 {
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
+    // Initial slope of eta, above zero [1/input unit].
+    float rho;
+    // At least 1/2: the slope after a reversal is 2*sigma*rho.
+    float sigma;
+    // Sharpness of the knee, at least 1.
+    float n;
+    // The hysteresis state at the start, within -1 and 1; 0 if unknown.
+    float eta;
+} bowden_hysteresis_settings_f32;
+
+// The defaults, in C99 and C++11:
+//
+//     bowden_hysteresis_settings_f32 settings = BOWDEN_HYSTERESIS_SETTINGS_F32_INIT;
+#define BOWDEN_HYSTERESIS_SETTINGS_F32_INIT { \
+    3187750180u, /* init_mark */ \
+    0.0f, /* rho */ \
+    0.0f, /* sigma */ \
+    0.0f, /* n */ \
+    0.0f /* eta */ \
+}
+
 // A transmission (1), (5) with its state; made by bowden_cable_init.
 typedef struct bowden_cable_f32 {
     // Not for use.
     uint64_t opaque[BOWDEN_CABLE_F32_WORDS];
 } bowden_cable_f32;
 
-// The transmission's figures, (1), (2), (5), (7).
+// Parameters of the transmission, (1), (2), (5), (7).
+//
+// Start from NAME_INIT. By default offset and eta are 0; all other fields must be set.
 typedef struct bowden_cable_settings_f32 {
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
     // One of bowden_mode.
     uint32_t mode;
     // B of (5) or kappa of (1) [output unit/input unit].
     float gain;
-    // Share of the hysteresis [output unit].
+    // Gain of the hysteresis [output unit].
     float kappa_eta;
-    // T0 of (5) or the offset of (1) [output unit].
+    // T0 of (5) or the offset of (1) [output unit]; 0 by default.
     float offset;
     // Above zero [1/input unit].
     float rho;
@@ -792,9 +1278,24 @@ typedef struct bowden_cable_settings_f32 {
     float sigma;
     // At least 1.
     float n;
-    // The hysteresis state at the start, within -1 and 1; 0 where it is not known.
+    // The hysteresis state at the start, within -1 and 1; 0 if unknown.
     float eta;
 } bowden_cable_settings_f32;
+
+// The defaults, in C99 and C++11:
+//
+//     bowden_cable_settings_f32 settings = BOWDEN_CABLE_SETTINGS_F32_INIT;
+#define BOWDEN_CABLE_SETTINGS_F32_INIT { \
+    4164840447u, /* init_mark */ \
+    4294967295u, /* mode */ \
+    3.4028235e38f, /* gain */ \
+    3.4028235e38f, /* kappa_eta */ \
+    0.0f, /* offset */ \
+    0.0f, /* rho */ \
+    0.0f, /* sigma */ \
+    0.0f, /* n */ \
+    0.0f /* eta */ \
+}
 
 // The inverse (6) of a transmission, with its state; made by bowden_inverse_init.
 typedef struct bowden_inverse_f32 {
@@ -808,21 +1309,52 @@ typedef struct bowden_hysteresis_f64 {
     uint64_t opaque[BOWDEN_HYSTERESIS_F64_WORDS];
 } bowden_hysteresis_f64;
 
+// Settings of a hysteresis (2), (7).
+//
+// Start from NAME_INIT. By default eta is 0; all other fields must be set.
+typedef struct bowden_hysteresis_settings_f64 {
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
+    // Initial slope of eta, above zero [1/input unit].
+    double rho;
+    // At least 1/2: the slope after a reversal is 2*sigma*rho.
+    double sigma;
+    // Sharpness of the knee, at least 1.
+    double n;
+    // The hysteresis state at the start, within -1 and 1; 0 if unknown.
+    double eta;
+} bowden_hysteresis_settings_f64;
+
+// The defaults, in C99 and C++11:
+//
+//     bowden_hysteresis_settings_f64 settings = BOWDEN_HYSTERESIS_SETTINGS_F64_INIT;
+#define BOWDEN_HYSTERESIS_SETTINGS_F64_INIT { \
+    706045012u, /* init_mark */ \
+    0.0, /* rho */ \
+    0.0, /* sigma */ \
+    0.0, /* n */ \
+    0.0 /* eta */ \
+}
+
 // A transmission (1), (5) with its state; made by bowden_cable_init.
 typedef struct bowden_cable_f64 {
     // Not for use.
     uint64_t opaque[BOWDEN_CABLE_F64_WORDS];
 } bowden_cable_f64;
 
-// The transmission's figures, (1), (2), (5), (7).
+// Parameters of the transmission, (1), (2), (5), (7).
+//
+// Start from NAME_INIT. By default offset and eta are 0; all other fields must be set.
 typedef struct bowden_cable_settings_f64 {
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
     // One of bowden_mode.
     uint32_t mode;
     // B of (5) or kappa of (1) [output unit/input unit].
     double gain;
-    // Share of the hysteresis [output unit].
+    // Gain of the hysteresis [output unit].
     double kappa_eta;
-    // T0 of (5) or the offset of (1) [output unit].
+    // T0 of (5) or the offset of (1) [output unit]; 0 by default.
     double offset;
     // Above zero [1/input unit].
     double rho;
@@ -830,9 +1362,24 @@ typedef struct bowden_cable_settings_f64 {
     double sigma;
     // At least 1.
     double n;
-    // The hysteresis state at the start, within -1 and 1; 0 where it is not known.
+    // The hysteresis state at the start, within -1 and 1; 0 if unknown.
     double eta;
 } bowden_cable_settings_f64;
+
+// The defaults, in C99 and C++11:
+//
+//     bowden_cable_settings_f64 settings = BOWDEN_CABLE_SETTINGS_F64_INIT;
+#define BOWDEN_CABLE_SETTINGS_F64_INIT { \
+    1814706831u, /* init_mark */ \
+    4294967295u, /* mode */ \
+    1.7976931348623157e308, /* gain */ \
+    1.7976931348623157e308, /* kappa_eta */ \
+    0.0, /* offset */ \
+    0.0, /* rho */ \
+    0.0, /* sigma */ \
+    0.0, /* n */ \
+    0.0 /* eta */ \
+}
 
 // The inverse (6) of a transmission, with its state; made by bowden_inverse_init.
 typedef struct bowden_inverse_f64 {
@@ -840,77 +1387,111 @@ typedef struct bowden_inverse_f64 {
     uint64_t opaque[BOWDEN_INVERSE_F64_WORDS];
 } bowden_inverse_f64;
 
-// A learning with its state but for two arrays of the caller; made by
-// bowden_learning_init or bowden_learning_resume.
-typedef struct bowden_learning_f32 {
+// Iterative learning with its state, except for two arrays of the caller; made by
+// bowden_iterative_learning_init or bowden_iterative_learning_resume.
+typedef struct bowden_iterative_learning_f32 {
     // Not for use.
-    uint64_t opaque[BOWDEN_LEARNING_F32_WORDS];
-} bowden_learning_f32;
+    uint64_t opaque[BOWDEN_ITERATIVE_LEARNING_F32_WORDS];
+} bowden_iterative_learning_f32;
 
-// Settings of a learning. A cycle is divided into cells of equal phase; with e the mean
-// of reference - measured over a cell, and w(k) a triangle of area 1:
+// Settings of iterative learning. A cycle is divided into cells of equal phase; with e
+// the mean of reference - measured over a cell, and w(k) a triangle of area 1:
 //
 //     v(c) = (1 - forgetting)*learned(c) + gain*e(c + lead)
 //     learned(c) = sum of w(k)*v(c + k), k from -half_width to half_width
-typedef struct bowden_learning_settings_f32 {
-    // Of the error, not zero, of the sign of the plant's [command unit/output unit].
+//
+// Start from NAME_INIT. By default nothing is forgotten; all other fields must be set.
+typedef struct bowden_iterative_learning_settings_f32 {
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
+    // Gain of the error, not zero, with the sign of the plant's gain [command
+    // unit/output unit].
     float gain;
-    // Greatest magnitude of what is learned, above zero [command unit].
+    // Greatest magnitude of the learned values, above zero [command unit].
     float limit;
-    // Share of what a cell has learned that is forgotten each time, from 0 to 1.
+    // Share of a learned value that is forgotten per cycle, from 0 to 1.
     float forgetting;
-    // How many cells a command comes before its effect.
+    // Number of cells from a command to its effect.
     uint16_t lead;
-    // Half width of the triangle [cells]; 0 filters nothing.
+    // Half-width of the triangle [cells]; 0 means no filter.
     uint16_t half_width;
-} bowden_learning_settings_f32;
+} bowden_iterative_learning_settings_f32;
 
-// What a step of a learning gives.
-typedef struct bowden_learning_output_f32 {
-    // To be added to the command, as feed_forward of a controller [command unit];
-    // finite and within the limit in any case.
+// The defaults, in C99 and C++11:
+//
+//     bowden_iterative_learning_settings_f32 settings = BOWDEN_ITERATIVE_LEARNING_SETTINGS_F32_INIT;
+#define BOWDEN_ITERATIVE_LEARNING_SETTINGS_F32_INIT { \
+    1114661433u, /* init_mark */ \
+    0.0f, /* gain */ \
+    0.0f, /* limit */ \
+    0.0f, /* forgetting */ \
+    65535u, /* lead */ \
+    65535u /* half_width */ \
+}
+
+// Output of a step of iterative learning.
+typedef struct bowden_iterative_learning_output_f32 {
+    // Value to be added to the command, as feed_forward of a controller [command
+    // unit]; always finite and within the limit.
     float feed_forward;
-    // What the step did: the same as it returns.
+    // Status of the step, equal to its return value.
     bowden_result result;
     // What was wrong.
     bowden_fault fault;
-} bowden_learning_output_f32;
+} bowden_iterative_learning_output_f32;
 
-// A learning with its state but for two arrays of the caller; made by
-// bowden_learning_init or bowden_learning_resume.
-typedef struct bowden_learning_f64 {
+// Iterative learning with its state, except for two arrays of the caller; made by
+// bowden_iterative_learning_init or bowden_iterative_learning_resume.
+typedef struct bowden_iterative_learning_f64 {
     // Not for use.
-    uint64_t opaque[BOWDEN_LEARNING_F64_WORDS];
-} bowden_learning_f64;
+    uint64_t opaque[BOWDEN_ITERATIVE_LEARNING_F64_WORDS];
+} bowden_iterative_learning_f64;
 
-// Settings of a learning. A cycle is divided into cells of equal phase; with e the mean
-// of reference - measured over a cell, and w(k) a triangle of area 1:
+// Settings of iterative learning. A cycle is divided into cells of equal phase; with e
+// the mean of reference - measured over a cell, and w(k) a triangle of area 1:
 //
 //     v(c) = (1 - forgetting)*learned(c) + gain*e(c + lead)
 //     learned(c) = sum of w(k)*v(c + k), k from -half_width to half_width
-typedef struct bowden_learning_settings_f64 {
-    // Of the error, not zero, of the sign of the plant's [command unit/output unit].
+//
+// Start from NAME_INIT. By default nothing is forgotten; all other fields must be set.
+typedef struct bowden_iterative_learning_settings_f64 {
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
+    // Gain of the error, not zero, with the sign of the plant's gain [command
+    // unit/output unit].
     double gain;
-    // Greatest magnitude of what is learned, above zero [command unit].
+    // Greatest magnitude of the learned values, above zero [command unit].
     double limit;
-    // Share of what a cell has learned that is forgotten each time, from 0 to 1.
+    // Share of a learned value that is forgotten per cycle, from 0 to 1.
     double forgetting;
-    // How many cells a command comes before its effect.
+    // Number of cells from a command to its effect.
     uint16_t lead;
-    // Half width of the triangle [cells]; 0 filters nothing.
+    // Half-width of the triangle [cells]; 0 means no filter.
     uint16_t half_width;
-} bowden_learning_settings_f64;
+} bowden_iterative_learning_settings_f64;
 
-// What a step of a learning gives.
-typedef struct bowden_learning_output_f64 {
-    // To be added to the command, as feed_forward of a controller [command unit];
-    // finite and within the limit in any case.
+// The defaults, in C99 and C++11:
+//
+//     bowden_iterative_learning_settings_f64 settings = BOWDEN_ITERATIVE_LEARNING_SETTINGS_F64_INIT;
+#define BOWDEN_ITERATIVE_LEARNING_SETTINGS_F64_INIT { \
+    3596890953u, /* init_mark */ \
+    0.0, /* gain */ \
+    0.0, /* limit */ \
+    0.0, /* forgetting */ \
+    65535u, /* lead */ \
+    65535u /* half_width */ \
+}
+
+// Output of a step of iterative learning.
+typedef struct bowden_iterative_learning_output_f64 {
+    // Value to be added to the command, as feed_forward of a controller [command
+    // unit]; always finite and within the limit.
     double feed_forward;
-    // What the step did: the same as it returns.
+    // Status of the step, equal to its return value.
     bowden_result result;
     // What was wrong.
     bowden_fault fault;
-} bowden_learning_output_f64;
+} bowden_iterative_learning_output_f64;
 
 // One sample for a model.
 typedef struct bowden_model_sample_f32 {
@@ -918,12 +1499,12 @@ typedef struct bowden_model_sample_f32 {
     float dt;
     // The transmission's input, x or tau_i, with its rates.
     struct bowden_motion_f32 input;
-    // The transmitted load: tau_i in torque mode, else a load channel.
+    // The transmitted load: tau_i in torque mode, otherwise a load channel.
     float load;
-    // All other channels, in the order of the model's file; may be null where
-    // there are none.
+    // All other channels, in the order of the model's file; may be null if there are
+    // none.
     const struct bowden_motion_f32 *channels;
-    // How many there are, at most BOWDEN_CHANNELS.
+    // Number of channels, at most BOWDEN_CHANNELS.
     size_t channel_count;
 } bowden_model_sample_f32;
 
@@ -933,12 +1514,12 @@ typedef struct bowden_model_sample_f64 {
     double dt;
     // The transmission's input, x or tau_i, with its rates.
     struct bowden_motion_f64 input;
-    // The transmitted load: tau_i in torque mode, else a load channel.
+    // The transmitted load: tau_i in torque mode, otherwise a load channel.
     double load;
-    // All other channels, in the order of the model's file; may be null where
-    // there are none.
+    // All other channels, in the order of the model's file; may be null if there are
+    // none.
     const struct bowden_motion_f64 *channels;
-    // How many there are, at most BOWDEN_CHANNELS.
+    // Number of channels, at most BOWDEN_CHANNELS.
     size_t channel_count;
 } bowden_model_sample_f64;
 
@@ -952,32 +1533,50 @@ typedef struct bowden_observer_f32 {
 //
 //     P(s) = gain/(s^2/wn^2 + 2*zeta*s/wn + 1)
 //
-// of a motor with inertia J and damping c that works against a stiffness K:
-// wn = sqrt(K/J), zeta = c/(2*sqrt(K*J)). Where they are uncertain, err low with wn and gain.
+// for a motor with inertia J and damping c that works against a stiffness K: wn =
+// sqrt(K/J), zeta = c/(2*sqrt(K*J)). If wn and gain are uncertain, choose low values.
+//
+// Start from NAME_INIT. By default the latency is 0; all other fields must be set.
 typedef struct bowden_observer_settings_f32 {
-    // Of the nominal plant, not zero [output unit/command unit].
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
+    // Gain of the nominal plant, not zero [output unit/command unit].
     float gain;
     // wn of the nominal plant, above zero [rad/s].
     float natural_frequency;
-    // zeta of the nominal plant, not below zero.
+    // zeta of the nominal plant, zero or above.
     float damping_ratio;
     // tau of the filter Q = 1/(tau*s + 1)^2, above zero [s].
     float time_constant;
     // Greatest magnitude of the estimate, above zero [command unit].
     float limit;
-    // Longest dt that is a sample, above zero [s].
+    // Longest dt of a good sample, above zero [s].
     float longest_dt;
-    // How long a command takes to show in the measured output, beside what the nominal
-    // plant takes; not below zero [s].
+    // Time from a command to its effect in the measured output, without the response
+    // of the nominal plant; zero or above [s].
     float latency;
 } bowden_observer_settings_f32;
 
-// What a step of an observer gives.
+// The defaults, in C99 and C++11:
+//
+//     bowden_observer_settings_f32 settings = BOWDEN_OBSERVER_SETTINGS_F32_INIT;
+#define BOWDEN_OBSERVER_SETTINGS_F32_INIT { \
+    2085529698u, /* init_mark */ \
+    0.0f, /* gain */ \
+    0.0f, /* natural_frequency */ \
+    -1.0f, /* damping_ratio */ \
+    0.0f, /* time_constant */ \
+    0.0f, /* limit */ \
+    0.0f, /* longest_dt */ \
+    0.0f /* latency */ \
+}
+
+// Output of a step of an observer.
 typedef struct bowden_observer_output_f32 {
-    // To be added to the command, as feed_forward of a controller [command unit];
-    // finite and within the limit in any case.
+    // Value to be added to the command, as feed_forward of a controller [command
+    // unit]; always finite and within the limit.
     float estimate;
-    // What the step did: the same as it returns.
+    // Status of the step, equal to its return value.
     bowden_result result;
     // What was wrong.
     bowden_fault fault;
@@ -993,32 +1592,50 @@ typedef struct bowden_observer_f64 {
 //
 //     P(s) = gain/(s^2/wn^2 + 2*zeta*s/wn + 1)
 //
-// of a motor with inertia J and damping c that works against a stiffness K:
-// wn = sqrt(K/J), zeta = c/(2*sqrt(K*J)). Where they are uncertain, err low with wn and gain.
+// for a motor with inertia J and damping c that works against a stiffness K: wn =
+// sqrt(K/J), zeta = c/(2*sqrt(K*J)). If wn and gain are uncertain, choose low values.
+//
+// Start from NAME_INIT. By default the latency is 0; all other fields must be set.
 typedef struct bowden_observer_settings_f64 {
-    // Of the nominal plant, not zero [output unit/command unit].
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
+    // Gain of the nominal plant, not zero [output unit/command unit].
     double gain;
     // wn of the nominal plant, above zero [rad/s].
     double natural_frequency;
-    // zeta of the nominal plant, not below zero.
+    // zeta of the nominal plant, zero or above.
     double damping_ratio;
     // tau of the filter Q = 1/(tau*s + 1)^2, above zero [s].
     double time_constant;
     // Greatest magnitude of the estimate, above zero [command unit].
     double limit;
-    // Longest dt that is a sample, above zero [s].
+    // Longest dt of a good sample, above zero [s].
     double longest_dt;
-    // How long a command takes to show in the measured output, beside what the nominal
-    // plant takes; not below zero [s].
+    // Time from a command to its effect in the measured output, without the response
+    // of the nominal plant; zero or above [s].
     double latency;
 } bowden_observer_settings_f64;
 
-// What a step of an observer gives.
+// The defaults, in C99 and C++11:
+//
+//     bowden_observer_settings_f64 settings = BOWDEN_OBSERVER_SETTINGS_F64_INIT;
+#define BOWDEN_OBSERVER_SETTINGS_F64_INIT { \
+    3898276114u, /* init_mark */ \
+    0.0, /* gain */ \
+    0.0, /* natural_frequency */ \
+    -1.0, /* damping_ratio */ \
+    0.0, /* time_constant */ \
+    0.0, /* limit */ \
+    0.0, /* longest_dt */ \
+    0.0 /* latency */ \
+}
+
+// Output of a step of an observer.
 typedef struct bowden_observer_output_f64 {
-    // To be added to the command, as feed_forward of a controller [command unit];
-    // finite and within the limit in any case.
+    // Value to be added to the command, as feed_forward of a controller [command
+    // unit]; always finite and within the limit.
     double estimate;
-    // What the step did: the same as it returns.
+    // Status of the step, equal to its return value.
     bowden_result result;
     // What was wrong.
     bowden_fault fault;
@@ -1029,36 +1646,74 @@ typedef struct bowden_observer_output_f64 {
 //     u = -k_p*(y - b*y_r) - k_i*integral(e) - k_d*d/dt(y - c*y_r) + u_ff
 //     u = -k_p*(y - b*y_r) - k_i*integral(e) - k_d*v_d             + u_ff    (PIV)
 //     command = u within the range and the slew rate;  e = y - y_r
+//
+// Start from NAME_INIT. By default: full set-point weight, derivative on the
+// measurement, conditional anti-windup, no slew rate, 4 good samples to cancel a bad
+// one, gains and safe command 0. Limits, longest_dt and `after` must be set.
 typedef struct bowden_pid_settings_f32 {
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
     // Proportional gain [command unit/output unit].
     float k_p;
-    // Integral gain [command unit/(output unit*s)], of the sign of k_p.
+    // Integral gain [command unit/(output unit*s)], with the sign of k_p.
     float k_i;
-    // Derivative gain [command unit*s/output unit], of the sign of k_p; for PIV
+    // Derivative gain [command unit*s/output unit], with the sign of k_p; for PIV
     // [command unit*s/rad]. 0 for a PI.
     float k_d;
-    // One of bowden_damping: what k_d multiplies.
+    // One of bowden_derivative_source: the signal that k_d multiplies.
     uint32_t damping;
-    // Set-point weight c of the derivative, 0 to 1.
+    // Set-point weight c of the derivative, 0 to 1: 0, the default, on the
+    // measurement; 1 on the error, with a derivative kick at a step of the reference.
     float derivative_weight;
-    // Time constant of the derivative's filter, from 0 (none) up [s].
+    // Time constant of the derivative filter, zero (no filter) or above [s].
     float derivative_time;
-    // Set-point weight b of the proportional term, 0 to 1.
+    // Set-point weight b of the proportional term, 0 to 1; 1 by default.
     float setpoint_weight;
     // One of bowden_anti_windup.
     uint32_t anti_windup;
     // Of BOWDEN_ANTI_WINDUP_BACK_CALCULATION alone, above zero [s].
     float tracking_time;
+    // Greatest magnitude that the integral term integrates to, above zero
+    // [command unit]; 0 for none.
+    float integral_limit;
+    // The integral waits while |e| is at most this, from 0 (none) up [output unit].
+    // Against the limit cycle of static friction: wider than the jump.
+    float deadband;
+    // Period of an output that wraps, above zero [output unit], such as 360 degrees;
+    // 0 for none. Errors and changes are then taken the short way round.
+    float period;
     // Range and slew rate of the command.
     struct bowden_limits_f32 limits;
     // Longest dt that is a sample, above zero [s]: five nominal steps, say.
     float longest_dt;
-    // What goes out when samples stay bad.
+    // Fallback after repeated bad samples.
     struct bowden_fallback_f32 fallback;
 } bowden_pid_settings_f32;
 
-// A PI, PID or PIV with its state; the caller's memory, made by bowden_pid_init.
-// It may be copied and moved as a whole.
+// The defaults, in C99 and C++11:
+//
+//     bowden_pid_settings_f32 settings = BOWDEN_PID_SETTINGS_F32_INIT;
+#define BOWDEN_PID_SETTINGS_F32_INIT { \
+    769246782u, /* init_mark */ \
+    0.0f, /* k_p */ \
+    0.0f, /* k_i */ \
+    0.0f, /* k_d */ \
+    0u, /* damping */ \
+    0.0f, /* derivative_weight */ \
+    0.0f, /* derivative_time */ \
+    1.0f, /* setpoint_weight */ \
+    0u, /* anti_windup */ \
+    0.0f, /* tracking_time */ \
+    0.0f, /* integral_limit */ \
+    0.0f, /* deadband */ \
+    0.0f, /* period */ \
+    {3.4028235e38f, -3.4028235e38f, 0.0f}, /* limits */ \
+    0.0f, /* longest_dt */ \
+    {0u, 4u, 0.0f} /* fallback */ \
+}
+
+// A PI, PID or PIV with its state, in the caller's memory; made by bowden_pid_init.
+// The object may be copied and moved as a whole.
 typedef struct bowden_pid_f32 {
     // Not for use.
     uint64_t opaque[BOWDEN_PID_F32_WORDS];
@@ -1066,7 +1721,7 @@ typedef struct bowden_pid_f32 {
 
 // One sample for a PI, PID or PIV.
 typedef struct bowden_pid_sample_f32 {
-    // Since the last call, also where that was a bad sample [s].
+    // Time since the last call [s], after a bad sample too.
     float dt;
     // y_r [output unit], such as [N*m].
     float reference;
@@ -1084,17 +1739,17 @@ typedef struct bowden_pid_terms_f32 {
     float error;
     // -k_p*(y - b*y_r) [command unit].
     float proportional;
-    // -k_i*integral(e), with what the anti-windup did to it [command unit].
+    // -k_i*integral(e), after the anti-windup [command unit].
     float integral;
     // -k_d*d/dt(y - c*y_r), filtered [command unit]; zero with PIV.
     float derivative;
     // -k_d*v_d of PIV [command unit]; zero with PI and PID.
     float velocity;
-    // As it was given [command unit].
+    // Feed-forward of the sample [command unit].
     float feed_forward;
     // The sum before range and slew rate [command unit].
     float unlimited;
-    // 1 where range or slew rate changed the command, else 0.
+    // 1 if range or slew rate changed the command, otherwise 0.
     uint32_t saturated;
 } bowden_pid_terms_f32;
 
@@ -1103,36 +1758,74 @@ typedef struct bowden_pid_terms_f32 {
 //     u = -k_p*(y - b*y_r) - k_i*integral(e) - k_d*d/dt(y - c*y_r) + u_ff
 //     u = -k_p*(y - b*y_r) - k_i*integral(e) - k_d*v_d             + u_ff    (PIV)
 //     command = u within the range and the slew rate;  e = y - y_r
+//
+// Start from NAME_INIT. By default: full set-point weight, derivative on the
+// measurement, conditional anti-windup, no slew rate, 4 good samples to cancel a bad
+// one, gains and safe command 0. Limits, longest_dt and `after` must be set.
 typedef struct bowden_pid_settings_f64 {
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
     // Proportional gain [command unit/output unit].
     double k_p;
-    // Integral gain [command unit/(output unit*s)], of the sign of k_p.
+    // Integral gain [command unit/(output unit*s)], with the sign of k_p.
     double k_i;
-    // Derivative gain [command unit*s/output unit], of the sign of k_p; for PIV
+    // Derivative gain [command unit*s/output unit], with the sign of k_p; for PIV
     // [command unit*s/rad]. 0 for a PI.
     double k_d;
-    // One of bowden_damping: what k_d multiplies.
+    // One of bowden_derivative_source: the signal that k_d multiplies.
     uint32_t damping;
-    // Set-point weight c of the derivative, 0 to 1.
+    // Set-point weight c of the derivative, 0 to 1: 0, the default, on the
+    // measurement; 1 on the error, with a derivative kick at a step of the reference.
     double derivative_weight;
-    // Time constant of the derivative's filter, from 0 (none) up [s].
+    // Time constant of the derivative filter, zero (no filter) or above [s].
     double derivative_time;
-    // Set-point weight b of the proportional term, 0 to 1.
+    // Set-point weight b of the proportional term, 0 to 1; 1 by default.
     double setpoint_weight;
     // One of bowden_anti_windup.
     uint32_t anti_windup;
     // Of BOWDEN_ANTI_WINDUP_BACK_CALCULATION alone, above zero [s].
     double tracking_time;
+    // Greatest magnitude that the integral term integrates to, above zero
+    // [command unit]; 0 for none.
+    double integral_limit;
+    // The integral waits while |e| is at most this, from 0 (none) up [output unit].
+    // Against the limit cycle of static friction: wider than the jump.
+    double deadband;
+    // Period of an output that wraps, above zero [output unit], such as 360 degrees;
+    // 0 for none. Errors and changes are then taken the short way round.
+    double period;
     // Range and slew rate of the command.
     struct bowden_limits_f64 limits;
     // Longest dt that is a sample, above zero [s]: five nominal steps, say.
     double longest_dt;
-    // What goes out when samples stay bad.
+    // Fallback after repeated bad samples.
     struct bowden_fallback_f64 fallback;
 } bowden_pid_settings_f64;
 
-// A PI, PID or PIV with its state; the caller's memory, made by bowden_pid_init.
-// It may be copied and moved as a whole.
+// The defaults, in C99 and C++11:
+//
+//     bowden_pid_settings_f64 settings = BOWDEN_PID_SETTINGS_F64_INIT;
+#define BOWDEN_PID_SETTINGS_F64_INIT { \
+    3117258574u, /* init_mark */ \
+    0.0, /* k_p */ \
+    0.0, /* k_i */ \
+    0.0, /* k_d */ \
+    0u, /* damping */ \
+    0.0, /* derivative_weight */ \
+    0.0, /* derivative_time */ \
+    1.0, /* setpoint_weight */ \
+    0u, /* anti_windup */ \
+    0.0, /* tracking_time */ \
+    0.0, /* integral_limit */ \
+    0.0, /* deadband */ \
+    0.0, /* period */ \
+    {1.7976931348623157e308, -1.7976931348623157e308, 0.0}, /* limits */ \
+    0.0, /* longest_dt */ \
+    {0u, 4u, 0.0} /* fallback */ \
+}
+
+// A PI, PID or PIV with its state, in the caller's memory; made by bowden_pid_init.
+// The object may be copied and moved as a whole.
 typedef struct bowden_pid_f64 {
     // Not for use.
     uint64_t opaque[BOWDEN_PID_F64_WORDS];
@@ -1140,7 +1833,7 @@ typedef struct bowden_pid_f64 {
 
 // One sample for a PI, PID or PIV.
 typedef struct bowden_pid_sample_f64 {
-    // Since the last call, also where that was a bad sample [s].
+    // Time since the last call [s], after a bad sample too.
     double dt;
     // y_r [output unit], such as [N*m].
     double reference;
@@ -1158,19 +1851,129 @@ typedef struct bowden_pid_terms_f64 {
     double error;
     // -k_p*(y - b*y_r) [command unit].
     double proportional;
-    // -k_i*integral(e), with what the anti-windup did to it [command unit].
+    // -k_i*integral(e), after the anti-windup [command unit].
     double integral;
     // -k_d*d/dt(y - c*y_r), filtered [command unit]; zero with PIV.
     double derivative;
     // -k_d*v_d of PIV [command unit]; zero with PI and PID.
     double velocity;
-    // As it was given [command unit].
+    // Feed-forward of the sample [command unit].
     double feed_forward;
     // The sum before range and slew rate [command unit].
     double unlimited;
-    // 1 where range or slew rate changed the command, else 0.
+    // 1 if range or slew rate changed the command, otherwise 0.
     uint32_t saturated;
 } bowden_pid_terms_f64;
+
+// A check of samples with its state; made by bowden_plausible_init.
+typedef struct bowden_plausible_f32 {
+    // Not for use.
+    uint64_t opaque[BOWDEN_PLAUSIBLE_F32_WORDS];
+} bowden_plausible_f32;
+
+// Settings of a check of samples.
+//
+// Start from NAME_INIT. By default only the range is checked; low and high must be
+// set.
+typedef struct bowden_plausible_settings_f32 {
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
+    // Least plausible sample [signal unit].
+    float low;
+    // Greatest plausible sample [signal unit]; above `low`.
+    float high;
+    // Greatest rate of the signal, above zero [signal unit/s]; 0 for none. Do not use
+    // it for an angle that wraps.
+    float rate;
+    // Longest time of the sensor from one number to the next, jitter included, above
+    // zero [s]; 0 if unknown. A repeated number is then at most this old. Without a
+    // rate it has no effect.
+    float sample_period;
+    // Number of equal samples in a row that mean a stuck sensor, counted while the
+    // machine moves; 0 for never.
+    uint32_t stuck_after;
+    // A longer or unusable dt counts as this dt, above zero [s]; 0 if the time is then
+    // unknown.
+    float longest_dt;
+} bowden_plausible_settings_f32;
+
+// The defaults, in C99 and C++11:
+//
+//     bowden_plausible_settings_f32 settings = BOWDEN_PLAUSIBLE_SETTINGS_F32_INIT;
+#define BOWDEN_PLAUSIBLE_SETTINGS_F32_INIT { \
+    805770662u, /* init_mark */ \
+    3.4028235e38f, /* low */ \
+    -3.4028235e38f, /* high */ \
+    0.0f, /* rate */ \
+    0.0f, /* sample_period */ \
+    0u, /* stuck_after */ \
+    0.0f /* longest_dt */ \
+}
+
+// Output of a check of a sample.
+typedef struct bowden_plausible_output_f32 {
+    // The sample, or NaN if it is not plausible: for a controller, a bad sample.
+    float value;
+    // Status of the step, equal to its return value.
+    bowden_result result;
+    // Why the sample is implausible.
+    bowden_implausible reason;
+} bowden_plausible_output_f32;
+
+// A check of samples with its state; made by bowden_plausible_init.
+typedef struct bowden_plausible_f64 {
+    // Not for use.
+    uint64_t opaque[BOWDEN_PLAUSIBLE_F64_WORDS];
+} bowden_plausible_f64;
+
+// Settings of a check of samples.
+//
+// Start from NAME_INIT. By default only the range is checked; low and high must be
+// set.
+typedef struct bowden_plausible_settings_f64 {
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
+    // Least plausible sample [signal unit].
+    double low;
+    // Greatest plausible sample [signal unit]; above `low`.
+    double high;
+    // Greatest rate of the signal, above zero [signal unit/s]; 0 for none. Do not use
+    // it for an angle that wraps.
+    double rate;
+    // Longest time of the sensor from one number to the next, jitter included, above
+    // zero [s]; 0 if unknown. A repeated number is then at most this old. Without a
+    // rate it has no effect.
+    double sample_period;
+    // Number of equal samples in a row that mean a stuck sensor, counted while the
+    // machine moves; 0 for never.
+    uint32_t stuck_after;
+    // A longer or unusable dt counts as this dt, above zero [s]; 0 if the time is then
+    // unknown.
+    double longest_dt;
+} bowden_plausible_settings_f64;
+
+// The defaults, in C99 and C++11:
+//
+//     bowden_plausible_settings_f64 settings = BOWDEN_PLAUSIBLE_SETTINGS_F64_INIT;
+#define BOWDEN_PLAUSIBLE_SETTINGS_F64_INIT { \
+    2752726230u, /* init_mark */ \
+    1.7976931348623157e308, /* low */ \
+    -1.7976931348623157e308, /* high */ \
+    0.0, /* rate */ \
+    0.0, /* sample_period */ \
+    0u, /* stuck_after */ \
+    0.0 /* longest_dt */ \
+}
+
+// Output of a check of a sample.
+typedef struct bowden_plausible_output_f64 {
+    // The sample, or NaN if it is not plausible: for a controller, a bad sample.
+    double value;
+    // Status of the step, equal to its return value.
+    bowden_result result;
+    // Why the sample is implausible.
+    bowden_implausible reason;
+} bowden_plausible_output_f64;
 
 // A play with its state; made by bowden_play_init.
 typedef struct bowden_play_f32 {
@@ -1190,12 +1993,39 @@ typedef struct bowden_rates_f32 {
     uint64_t opaque[BOWDEN_RATES_F32_WORDS];
 } bowden_rates_f32;
 
-// What a step of the rates gives.
+// Settings of rates: two lags with the same time constant, see bowden_rates_step.
+//
+// Start from NAME_INIT. By default the position does not wrap and longest_gap is ten
+// time constants; time_constant must be set.
+typedef struct bowden_rates_settings_f32 {
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
+    // Time constant of both lags, above zero [s].
+    float time_constant;
+    // Period of a position that wraps, such as that of a counter, above zero
+    // [channel unit]; 0 for none.
+    float period;
+    // Longest gap between two good samples that the rates bridge, above zero [s]; 0
+    // for ten time constants.
+    float longest_gap;
+} bowden_rates_settings_f32;
+
+// The defaults, in C99 and C++11:
+//
+//     bowden_rates_settings_f32 settings = BOWDEN_RATES_SETTINGS_F32_INIT;
+#define BOWDEN_RATES_SETTINGS_F32_INIT { \
+    1685829321u, /* init_mark */ \
+    0.0f, /* time_constant */ \
+    0.0f, /* period */ \
+    0.0f /* longest_gap */ \
+}
+
+// Output of a step of the rates.
 typedef struct bowden_rates_output_f32 {
     // Position (unwrapped), velocity and acceleration; finite, zero before the
     // first good sample.
     struct bowden_motion_f32 motion;
-    // What the step did: the same as it returns.
+    // Status of the step, equal to its return value.
     bowden_result result;
     // What was wrong.
     bowden_fault fault;
@@ -1207,151 +2037,371 @@ typedef struct bowden_rates_f64 {
     uint64_t opaque[BOWDEN_RATES_F64_WORDS];
 } bowden_rates_f64;
 
-// What a step of the rates gives.
+// Settings of rates: two lags with the same time constant, see bowden_rates_step.
+//
+// Start from NAME_INIT. By default the position does not wrap and longest_gap is ten
+// time constants; time_constant must be set.
+typedef struct bowden_rates_settings_f64 {
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
+    // Time constant of both lags, above zero [s].
+    double time_constant;
+    // Period of a position that wraps, such as that of a counter, above zero
+    // [channel unit]; 0 for none.
+    double period;
+    // Longest gap between two good samples that the rates bridge, above zero [s]; 0
+    // for ten time constants.
+    double longest_gap;
+} bowden_rates_settings_f64;
+
+// The defaults, in C99 and C++11:
+//
+//     bowden_rates_settings_f64 settings = BOWDEN_RATES_SETTINGS_F64_INIT;
+#define BOWDEN_RATES_SETTINGS_F64_INIT { \
+    4033865657u, /* init_mark */ \
+    0.0, /* time_constant */ \
+    0.0, /* period */ \
+    0.0 /* longest_gap */ \
+}
+
+// Output of a step of the rates.
 typedef struct bowden_rates_output_f64 {
     // Position (unwrapped), velocity and acceleration; finite, zero before the
     // first good sample.
     struct bowden_motion_f64 motion;
-    // What the step did: the same as it returns.
+    // Status of the step, equal to its return value.
     bowden_result result;
     // What was wrong.
     bowden_fault fault;
 } bowden_rates_output_f64;
 
+// A relay experiment with its state, in the caller's memory; made by
+// bowden_relay_init.
+typedef struct bowden_relay_f32 {
+    // Not for use.
+    uint64_t opaque[BOWDEN_RELAY_F32_WORDS];
+} bowden_relay_f32;
+
+// Settings of a relay experiment, which makes the loop oscillate about the reference:
+//
+//     command = centre + amplitude   from y < reference - hysteresis on
+//     command = centre - amplitude   from y > reference + hysteresis on
+//
+// Start from NAME_INIT. By default 4 good samples cancel a bad one and the safe
+// command is 0; all other fields must be set.
+typedef struct bowden_relay_settings_f32 {
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
+    // y_r, about which the output oscillates [output unit].
+    float reference;
+    // Mean of the two levels of the command [command unit]. The command that holds the
+    // output at the reference gives equal half-periods.
+    float centre;
+    // Distance from the centre to each level, not zero, with the sign of the plant's
+    // gain [command unit].
+    float amplitude;
+    // Hysteresis of the relay, zero or above [output unit]: at least the peak of the
+    // noise.
+    float hysteresis;
+    // Greatest distance of the output from the reference, above `hysteresis`
+    // [output unit]. One sample beyond it ends the experiment.
+    float most_deviation;
+    // Number of successive cycles in the average, at least 2.
+    uint32_t cycles;
+    // Largest deviation of a cycle from the mean of earlier cycles, as a share of this
+    // mean, between 0 and 1.
+    float agreement;
+    // Maximum duration of the experiment, at least `longest_dt` [s].
+    float longest_time;
+    // Longest dt of a good sample, above zero [s].
+    float longest_dt;
+    // Range of the command, without a slew rate.
+    struct bowden_limits_f32 limits;
+    // Fallback after a failure; BOWDEN_HOLD_FOR_EVER is refused.
+    struct bowden_fallback_f32 fallback;
+} bowden_relay_settings_f32;
+
+// The defaults, in C99 and C++11:
+//
+//     bowden_relay_settings_f32 settings = BOWDEN_RELAY_SETTINGS_F32_INIT;
+#define BOWDEN_RELAY_SETTINGS_F32_INIT { \
+    3658256175u, /* init_mark */ \
+    3.4028235e38f, /* reference */ \
+    3.4028235e38f, /* centre */ \
+    0.0f, /* amplitude */ \
+    -1.0f, /* hysteresis */ \
+    0.0f, /* most_deviation */ \
+    0u, /* cycles */ \
+    0.0f, /* agreement */ \
+    0.0f, /* longest_time */ \
+    0.0f, /* longest_dt */ \
+    {3.4028235e38f, -3.4028235e38f, 0.0f}, /* limits */ \
+    {0u, 4u, 0.0f} /* fallback */ \
+}
+
+// Result of a relay experiment.
+typedef struct bowden_ultimate_f32 {
+    // Ultimate gain, with the sign of the relay's amplitude [command unit/output
+    // unit].
+    float gain;
+    // Ultimate period [s].
+    float period;
+    // Half the distance from the lowest to the highest output [output unit].
+    float amplitude;
+    // Share of the period in which the command is centre + amplitude.
+    float duty;
+} bowden_ultimate_f32;
+
+// Output of a step of a relay experiment.
+typedef struct bowden_relay_output_f32 {
+    // Command for the drive [command unit]: finite and within the limits.
+    float command;
+    // Status of the step, equal to its return value.
+    bowden_result result;
+    // The bad input of a sample.
+    bowden_fault fault;
+    // Phase of the experiment.
+    bowden_relay_phase phase;
+    // Why the experiment failed.
+    bowden_relay_failure failure;
+    // Number of complete cycles.
+    uint32_t cycles;
+    // The result; zero until the experiment is done.
+    struct bowden_ultimate_f32 ultimate;
+} bowden_relay_output_f32;
+
+// Gains of a PI, for bowden_pid_settings.
+typedef struct bowden_pi_gains_f32 {
+    // Proportional gain [command unit/output unit].
+    float k_p;
+    // Integral gain [command unit/(output unit*s)].
+    float k_i;
+} bowden_pi_gains_f32;
+
+// A relay experiment with its state, in the caller's memory; made by
+// bowden_relay_init.
+typedef struct bowden_relay_f64 {
+    // Not for use.
+    uint64_t opaque[BOWDEN_RELAY_F64_WORDS];
+} bowden_relay_f64;
+
+// Settings of a relay experiment, which makes the loop oscillate about the reference:
+//
+//     command = centre + amplitude   from y < reference - hysteresis on
+//     command = centre - amplitude   from y > reference + hysteresis on
+//
+// Start from NAME_INIT. By default 4 good samples cancel a bad one and the safe
+// command is 0; all other fields must be set.
+typedef struct bowden_relay_settings_f64 {
+    // Set by the macro NAME_INIT; settings without it are refused.
+    uint32_t init_mark;
+    // y_r, about which the output oscillates [output unit].
+    double reference;
+    // Mean of the two levels of the command [command unit]. The command that holds the
+    // output at the reference gives equal half-periods.
+    double centre;
+    // Distance from the centre to each level, not zero, with the sign of the plant's
+    // gain [command unit].
+    double amplitude;
+    // Hysteresis of the relay, zero or above [output unit]: at least the peak of the
+    // noise.
+    double hysteresis;
+    // Greatest distance of the output from the reference, above `hysteresis`
+    // [output unit]. One sample beyond it ends the experiment.
+    double most_deviation;
+    // Number of successive cycles in the average, at least 2.
+    uint32_t cycles;
+    // Largest deviation of a cycle from the mean of earlier cycles, as a share of this
+    // mean, between 0 and 1.
+    double agreement;
+    // Maximum duration of the experiment, at least `longest_dt` [s].
+    double longest_time;
+    // Longest dt of a good sample, above zero [s].
+    double longest_dt;
+    // Range of the command, without a slew rate.
+    struct bowden_limits_f64 limits;
+    // Fallback after a failure; BOWDEN_HOLD_FOR_EVER is refused.
+    struct bowden_fallback_f64 fallback;
+} bowden_relay_settings_f64;
+
+// The defaults, in C99 and C++11:
+//
+//     bowden_relay_settings_f64 settings = BOWDEN_RELAY_SETTINGS_F64_INIT;
+#define BOWDEN_RELAY_SETTINGS_F64_INIT { \
+    1310252639u, /* init_mark */ \
+    1.7976931348623157e308, /* reference */ \
+    1.7976931348623157e308, /* centre */ \
+    0.0, /* amplitude */ \
+    -1.0, /* hysteresis */ \
+    0.0, /* most_deviation */ \
+    0u, /* cycles */ \
+    0.0, /* agreement */ \
+    0.0, /* longest_time */ \
+    0.0, /* longest_dt */ \
+    {1.7976931348623157e308, -1.7976931348623157e308, 0.0}, /* limits */ \
+    {0u, 4u, 0.0} /* fallback */ \
+}
+
+// Result of a relay experiment.
+typedef struct bowden_ultimate_f64 {
+    // Ultimate gain, with the sign of the relay's amplitude [command unit/output
+    // unit].
+    double gain;
+    // Ultimate period [s].
+    double period;
+    // Half the distance from the lowest to the highest output [output unit].
+    double amplitude;
+    // Share of the period in which the command is centre + amplitude.
+    double duty;
+} bowden_ultimate_f64;
+
+// Output of a step of a relay experiment.
+typedef struct bowden_relay_output_f64 {
+    // Command for the drive [command unit]: finite and within the limits.
+    double command;
+    // Status of the step, equal to its return value.
+    bowden_result result;
+    // The bad input of a sample.
+    bowden_fault fault;
+    // Phase of the experiment.
+    bowden_relay_phase phase;
+    // Why the experiment failed.
+    bowden_relay_failure failure;
+    // Number of complete cycles.
+    uint32_t cycles;
+    // The result; zero until the experiment is done.
+    struct bowden_ultimate_f64 ultimate;
+} bowden_relay_output_f64;
+
+// Gains of a PI, for bowden_pid_settings.
+typedef struct bowden_pi_gains_f64 {
+    // Proportional gain [command unit/output unit].
+    double k_p;
+    // Integral gain [command unit/(output unit*s)].
+    double k_i;
+} bowden_pi_gains_f64;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
 
-// Settings to start from: no regressors, beta_hat fixed at 1, delta_hat and
-// theta_hat at 0, tanh, no limit of z, no slew rate, 4 good samples for a bad one.
-//
-// The form is the literal one with 5 ms, and `step` is `longest_dt`. `low` and
-// `high` [command unit] are what the drive may get, `safe` [command unit] goes out
-// from the `after`-th bad sample in a row on. k, lambda [1/s] and epsilon [N*m] are
-// the paper's 24, 8 and 0.05. Numbers are checked by bowden_adaptive_init.
-bowden_result bowden_adaptive_settings_start_f32(struct bowden_adaptive_settings_f32 *settings,
-                                                 float low,
-                                                 float high,
-                                                 float longest_dt,
-                                                 uint32_t after,
-                                                 float safe);
-
 // Checks the settings and starts with the initial estimates.
 //
-// `about` may be null; else it gets the name of what is refused. On an error the
-// object is as it was.
+// `about` may be null; otherwise it gets the name of the refused setting. On an error
+// the object does not change.
 bowden_result bowden_adaptive_init_f32(struct bowden_adaptive_f32 *law,
                                        const struct bowden_adaptive_settings_f32 *settings,
                                        struct bowden_about *about);
 
-// One sample: the command, and what happened; as bowden_pid_step.
+// One sample: the command and its status, as bowden_pid_step.
 bowden_result bowden_adaptive_step_f32(struct bowden_adaptive_f32 *law,
                                        const struct bowden_adaptive_sample_f32 *sample,
                                        struct bowden_output_f32 *out);
 
-// What the law has estimated so far.
+// The present estimates of the law.
 bowden_result bowden_adaptive_get_estimates_f32(const struct bowden_adaptive_f32 *law,
                                                 struct bowden_estimates_f32 *out);
 
-// Takes note that somebody has seen the fault, as bowden_pid_acknowledge.
+// Reports the command [command unit] that the drive applied after the last step, as
+// bowden_pid_applied. z then moves no further towards this limit of the drive, and the
+// estimates do not change.
+bowden_result bowden_adaptive_applied_f32(struct bowden_adaptive_f32 *law, float command);
+
+// Reports at which limit the drive was after the last step, as bowden_pid_at_limit.
+bowden_result bowden_adaptive_at_limit_f32(struct bowden_adaptive_f32 *law, uint32_t saturation);
+
+// Acknowledges the fault, as bowden_pid_acknowledge.
 bowden_result bowden_adaptive_acknowledge_f32(struct bowden_adaptive_f32 *law);
 
-// Forgets the accumulated error and what was estimated; the command that is out
-// stays known, and a safe command that is latched stays so.
+// Resets the accumulated error and the estimates; the applied command is kept, and a
+// latched safe command stays latched.
 bowden_result bowden_adaptive_reset_f32(struct bowden_adaptive_f32 *law);
 
-// Makes an object that was stored fit for a start, as bowden_pid_power_up; what was
-// estimated stays.
-bowden_result bowden_adaptive_power_up_f32(struct bowden_adaptive_f32 *law);
+// Prepares a stored object for a start, as bowden_pid_restore; the estimates are kept.
+bowden_result bowden_adaptive_restore_f32(struct bowden_adaptive_f32 *law);
 
-// Other settings for a loop that runs, without a jump of the command on this sample, as
-// bowden_pid_change. What was estimated stays, each in its new box, and so does a safe
-// command that is latched.
+// Changes the settings of a running loop without a jump of the command on this sample,
+// as bowden_pid_change. The estimates are kept, each within its new bounds, and a
+// latched safe command stays latched.
 bowden_result bowden_adaptive_change_f32(struct bowden_adaptive_f32 *law,
                                          const struct bowden_adaptive_settings_f32 *settings,
                                          const struct bowden_adaptive_sample_f32 *sample,
                                          struct bowden_about *about);
 
-// Starts with the initial estimates, so that the next step on this sample commands
+// Starts with the initial estimates; the next step on this sample then commands
 // `command` [command unit], as bowden_pid_resume.
 bowden_result bowden_adaptive_resume_f32(struct bowden_adaptive_f32 *law,
                                          float command,
                                          const struct bowden_adaptive_sample_f32 *sample,
                                          struct bowden_output_f32 *out);
 
-// 1 into `latched` while the safe command is out until it is acknowledged, else 0.
+// Sets `latched` to 1 while the safe command is latched, otherwise to 0.
 bowden_result bowden_adaptive_is_latched_f32(const struct bowden_adaptive_f32 *law,
                                              uint32_t *latched);
 
-// Settings to start from: no regressors, beta_hat fixed at 1, delta_hat and
-// theta_hat at 0, tanh, no limit of z, no slew rate, 4 good samples for a bad one.
-//
-// The form is the literal one with 5 ms, and `step` is `longest_dt`. `low` and
-// `high` [command unit] are what the drive may get, `safe` [command unit] goes out
-// from the `after`-th bad sample in a row on. k, lambda [1/s] and epsilon [N*m] are
-// the paper's 24, 8 and 0.05. Numbers are checked by bowden_adaptive_init.
-bowden_result bowden_adaptive_settings_start_f64(struct bowden_adaptive_settings_f64 *settings,
-                                                 double low,
-                                                 double high,
-                                                 double longest_dt,
-                                                 uint32_t after,
-                                                 double safe);
-
 // Checks the settings and starts with the initial estimates.
 //
-// `about` may be null; else it gets the name of what is refused. On an error the
-// object is as it was.
+// `about` may be null; otherwise it gets the name of the refused setting. On an error
+// the object does not change.
 bowden_result bowden_adaptive_init_f64(struct bowden_adaptive_f64 *law,
                                        const struct bowden_adaptive_settings_f64 *settings,
                                        struct bowden_about *about);
 
-// One sample: the command, and what happened; as bowden_pid_step.
+// One sample: the command and its status, as bowden_pid_step.
 bowden_result bowden_adaptive_step_f64(struct bowden_adaptive_f64 *law,
                                        const struct bowden_adaptive_sample_f64 *sample,
                                        struct bowden_output_f64 *out);
 
-// What the law has estimated so far.
+// The present estimates of the law.
 bowden_result bowden_adaptive_get_estimates_f64(const struct bowden_adaptive_f64 *law,
                                                 struct bowden_estimates_f64 *out);
 
-// Takes note that somebody has seen the fault, as bowden_pid_acknowledge.
+// Reports the command [command unit] that the drive applied after the last step, as
+// bowden_pid_applied. z then moves no further towards this limit of the drive, and the
+// estimates do not change.
+bowden_result bowden_adaptive_applied_f64(struct bowden_adaptive_f64 *law, double command);
+
+// Reports at which limit the drive was after the last step, as bowden_pid_at_limit.
+bowden_result bowden_adaptive_at_limit_f64(struct bowden_adaptive_f64 *law, uint32_t saturation);
+
+// Acknowledges the fault, as bowden_pid_acknowledge.
 bowden_result bowden_adaptive_acknowledge_f64(struct bowden_adaptive_f64 *law);
 
-// Forgets the accumulated error and what was estimated; the command that is out
-// stays known, and a safe command that is latched stays so.
+// Resets the accumulated error and the estimates; the applied command is kept, and a
+// latched safe command stays latched.
 bowden_result bowden_adaptive_reset_f64(struct bowden_adaptive_f64 *law);
 
-// Makes an object that was stored fit for a start, as bowden_pid_power_up; what was
-// estimated stays.
-bowden_result bowden_adaptive_power_up_f64(struct bowden_adaptive_f64 *law);
+// Prepares a stored object for a start, as bowden_pid_restore; the estimates are kept.
+bowden_result bowden_adaptive_restore_f64(struct bowden_adaptive_f64 *law);
 
-// Other settings for a loop that runs, without a jump of the command on this sample, as
-// bowden_pid_change. What was estimated stays, each in its new box, and so does a safe
-// command that is latched.
+// Changes the settings of a running loop without a jump of the command on this sample,
+// as bowden_pid_change. The estimates are kept, each within its new bounds, and a
+// latched safe command stays latched.
 bowden_result bowden_adaptive_change_f64(struct bowden_adaptive_f64 *law,
                                          const struct bowden_adaptive_settings_f64 *settings,
                                          const struct bowden_adaptive_sample_f64 *sample,
                                          struct bowden_about *about);
 
-// Starts with the initial estimates, so that the next step on this sample commands
+// Starts with the initial estimates; the next step on this sample then commands
 // `command` [command unit], as bowden_pid_resume.
 bowden_result bowden_adaptive_resume_f64(struct bowden_adaptive_f64 *law,
                                          double command,
                                          const struct bowden_adaptive_sample_f64 *sample,
                                          struct bowden_output_f64 *out);
 
-// 1 into `latched` while the safe command is out until it is acknowledged, else 0.
+// Sets `latched` to 1 while the safe command is latched, otherwise to 0.
 bowden_result bowden_adaptive_is_latched_f64(const struct bowden_adaptive_f64 *law,
                                              uint32_t *latched);
 
-// Turns a loaded model round, (5)-(7), and starts at zero:
+// Inverts a loaded model, (5)-(7), and starts at zero:
 //
 //     tau_i = inverse transmission(desired - sum of gain*regressor, eta)
 //
 // `longest_dt` [s]: a longer dt is a bad sample. `ranges`: motions are clamped to
-// them, each read by a term of the model; null where `range_count` is 0.
-// BOWDEN_RESULT_ERROR_INADMISSIBLE where the model has no inverse. The model is not
-// needed afterwards. On an error the object is as it was. `about` may be null.
+// them, each read by a term of the model; null if `range_count` is 0.
+// BOWDEN_RESULT_ERROR_INADMISSIBLE if the model has no inverse. The compensator does
+// not use the model afterwards. On an error the object does not change. `about` may be
+// null.
 bowden_result bowden_compensator_init_f32(struct bowden_compensator_f32 *compensator,
                                           const struct bowden_model_f32 *model,
                                           float longest_dt,
@@ -1359,37 +2409,56 @@ bowden_result bowden_compensator_init_f32(struct bowden_compensator_f32 *compens
                                           size_t range_count,
                                           struct bowden_about *about);
 
-// Lets what the cable has to transmit pass through a play of this half-width, zero or
-// more [output unit]; zero, as init has it, is none.
+// Puts a play of this half-width [output unit], zero or more, on the desired torque of
+// the cable; zero, the default of init, means no play.
 //
-// A term that reads a velocity from an encoder's counts makes a reversal of each count,
-// after which the inverse is steep, and the command chatters. A little more than half of
-// what one count makes of torque takes that out: |gain|*count/(2*time constant). On an
-// error the object is as it was.
+// A term that reads a velocity from encoder counts reverses the torque at each count.
+// After a reversal the inverse is steep, so the command chatters. A half-width a
+// little above half of one count's effect on the torque, |gain|*count/(2*time
+// constant), removes these reversals. On an error the object does not change.
 bowden_result bowden_compensator_set_play_f32(struct bowden_compensator_f32 *compensator,
                                               float half_width,
                                               struct bowden_about *about);
 
-// One sample: the input that makes the model's output `desired`.
+// One sample: the input for which the model's output is `desired`.
 //
-// A bad sample leaves the state and holds the last good command, zero before the
-// first one: BOWDEN_RESULT_HELD. `out` is written with every result that is not
+// A bad sample leaves the state unchanged and holds the last good command, zero before
+// the first one: BOWDEN_RESULT_HELD. `out` is written with every result that is not
 // negative.
 bowden_result bowden_compensator_step_f32(struct bowden_compensator_f32 *compensator,
                                           const struct bowden_compensator_sample_f32 *sample,
                                           struct bowden_compensator_output_f32 *out);
 
-// The state of the start again, with this hysteresis state, within -1 and 1.
+// Reports the actual input of the transmission [input unit] after the last step if it
+// differs from the step's command: the drive is off, or another law adds a command.
+//
+// Call it between two steps. The hysteresis then follows this input, and the next step
+// continues from there. Of two reports after one step the second one applies. A number
+// that is not finite changes nothing: BOWDEN_RESULT_HELD.
+bowden_result bowden_compensator_applied_f32(struct bowden_compensator_f32 *compensator,
+                                             float command);
+
+// Reports that the drive was at this limit after the last step: one of
+// bowden_saturation. Use it for a drive that does not report its command; otherwise
+// use bowden_compensator_applied.
+//
+// Call it between two steps. At the upper limit the input of the model does not rise, at
+// the lower one it does not fall. Another number gives BOWDEN_RESULT_ERROR_CHOICE.
+bowden_result bowden_compensator_at_limit_f32(struct bowden_compensator_f32 *compensator,
+                                              uint32_t saturation);
+
+// Resets the state to the start, with this hysteresis state, within -1 and 1.
 bowden_result bowden_compensator_reset_f32(struct bowden_compensator_f32 *compensator, float eta);
 
-// Turns a loaded model round, (5)-(7), and starts at zero:
+// Inverts a loaded model, (5)-(7), and starts at zero:
 //
 //     tau_i = inverse transmission(desired - sum of gain*regressor, eta)
 //
 // `longest_dt` [s]: a longer dt is a bad sample. `ranges`: motions are clamped to
-// them, each read by a term of the model; null where `range_count` is 0.
-// BOWDEN_RESULT_ERROR_INADMISSIBLE where the model has no inverse. The model is not
-// needed afterwards. On an error the object is as it was. `about` may be null.
+// them, each read by a term of the model; null if `range_count` is 0.
+// BOWDEN_RESULT_ERROR_INADMISSIBLE if the model has no inverse. The compensator does
+// not use the model afterwards. On an error the object does not change. `about` may be
+// null.
 bowden_result bowden_compensator_init_f64(struct bowden_compensator_f64 *compensator,
                                           const struct bowden_model_f64 *model,
                                           double longest_dt,
@@ -1397,209 +2466,332 @@ bowden_result bowden_compensator_init_f64(struct bowden_compensator_f64 *compens
                                           size_t range_count,
                                           struct bowden_about *about);
 
-// Lets what the cable has to transmit pass through a play of this half-width, zero or
-// more [output unit]; zero, as init has it, is none.
+// Puts a play of this half-width [output unit], zero or more, on the desired torque of
+// the cable; zero, the default of init, means no play.
 //
-// A term that reads a velocity from an encoder's counts makes a reversal of each count,
-// after which the inverse is steep, and the command chatters. A little more than half of
-// what one count makes of torque takes that out: |gain|*count/(2*time constant). On an
-// error the object is as it was.
+// A term that reads a velocity from encoder counts reverses the torque at each count.
+// After a reversal the inverse is steep, so the command chatters. A half-width a
+// little above half of one count's effect on the torque, |gain|*count/(2*time
+// constant), removes these reversals. On an error the object does not change.
 bowden_result bowden_compensator_set_play_f64(struct bowden_compensator_f64 *compensator,
                                               double half_width,
                                               struct bowden_about *about);
 
-// One sample: the input that makes the model's output `desired`.
+// One sample: the input for which the model's output is `desired`.
 //
-// A bad sample leaves the state and holds the last good command, zero before the
-// first one: BOWDEN_RESULT_HELD. `out` is written with every result that is not
+// A bad sample leaves the state unchanged and holds the last good command, zero before
+// the first one: BOWDEN_RESULT_HELD. `out` is written with every result that is not
 // negative.
 bowden_result bowden_compensator_step_f64(struct bowden_compensator_f64 *compensator,
                                           const struct bowden_compensator_sample_f64 *sample,
                                           struct bowden_compensator_output_f64 *out);
 
-// The state of the start again, with this hysteresis state, within -1 and 1.
+// Reports the actual input of the transmission [input unit] after the last step if it
+// differs from the step's command: the drive is off, or another law adds a command.
+//
+// Call it between two steps. The hysteresis then follows this input, and the next step
+// continues from there. Of two reports after one step the second one applies. A number
+// that is not finite changes nothing: BOWDEN_RESULT_HELD.
+bowden_result bowden_compensator_applied_f64(struct bowden_compensator_f64 *compensator,
+                                             double command);
+
+// Reports that the drive was at this limit after the last step: one of
+// bowden_saturation. Use it for a drive that does not report its command; otherwise
+// use bowden_compensator_applied.
+//
+// Call it between two steps. At the upper limit the input of the model does not rise, at
+// the lower one it does not fall. Another number gives BOWDEN_RESULT_ERROR_CHOICE.
+bowden_result bowden_compensator_at_limit_f64(struct bowden_compensator_f64 *compensator,
+                                              uint32_t saturation);
+
+// Resets the state to the start, with this hysteresis state, within -1 and 1.
 bowden_result bowden_compensator_reset_f64(struct bowden_compensator_f64 *compensator, double eta);
 
-// Starts a hysteresis at `eta`, within -1 and 1: rho above zero [1/input unit],
-// sigma at least 1/2, n at least 1. `about` may be null.
+// Checks the settings and starts a velocity from counts. `about` may be null.
+bowden_result bowden_edge_velocity_init_f32(struct bowden_edge_velocity_f32 *edges,
+                                            const struct bowden_edge_velocity_settings_f32 *settings,
+                                            struct bowden_about *about);
+
+// The velocity at a position [channel unit], `dt` [s] after the last call, good or
+// bad. With M counts in a time T since the sample with the last count:
+//
+//     v+ = v + (1 - exp(-T/time_constant))*(M*count/T - v)   at a sample with counts
+//     |v| <= count/(time since the last count)               at every other
+//
+// BOWDEN_RESULT_SETTLING before two counts; BOWDEN_RESULT_STOPPED after `longest_gap`
+// without one. A bad sample holds the velocity: BOWDEN_RESULT_HELD. `out` is written
+// with every result that is not negative.
+bowden_result bowden_edge_velocity_step_f32(struct bowden_edge_velocity_f32 *edges,
+                                            float position,
+                                            float dt,
+                                            struct bowden_edge_velocity_output_f32 *out);
+
+// Checks the settings and starts a velocity from counts. `about` may be null.
+bowden_result bowden_edge_velocity_init_f64(struct bowden_edge_velocity_f64 *edges,
+                                            const struct bowden_edge_velocity_settings_f64 *settings,
+                                            struct bowden_about *about);
+
+// The velocity at a position [channel unit], `dt` [s] after the last call, good or
+// bad. With M counts in a time T since the sample with the last count:
+//
+//     v+ = v + (1 - exp(-T/time_constant))*(M*count/T - v)   at a sample with counts
+//     |v| <= count/(time since the last count)               at every other
+//
+// BOWDEN_RESULT_SETTLING before two counts; BOWDEN_RESULT_STOPPED after `longest_gap`
+// without one. A bad sample holds the velocity: BOWDEN_RESULT_HELD. `out` is written
+// with every result that is not negative.
+bowden_result bowden_edge_velocity_step_f64(struct bowden_edge_velocity_f64 *edges,
+                                            double position,
+                                            double dt,
+                                            struct bowden_edge_velocity_output_f64 *out);
+
+// Starts a low-pass with `time_constant` at least zero [s], see bowden_low_pass_step; at
+// zero the output is the sample. `about` may be null.
+bowden_result bowden_low_pass_init_f32(struct bowden_low_pass_f32 *filter,
+                                       float time_constant,
+                                       struct bowden_about *about);
+
+// One sample, `dt` [s] after the last call: `output` gets
+//
+//     y+ = y + dt/(time_constant + dt)*(x - y)
+//
+// The corner frequency is 1/(2*pi*time_constant) [Hz]. The first good sample starts
+// the filter at rest. If the sample is not finite, or dt is not positive and finite,
+// the last output is held (zero before the first sample): BOWDEN_RESULT_HELD.
+bowden_result bowden_low_pass_step_f32(struct bowden_low_pass_f32 *filter,
+                                       float sample,
+                                       float dt,
+                                       float *output);
+
+// Checks the settings and starts a low-pass. `about` may be null.
+bowden_result bowden_biquad_init_low_pass_f32(struct bowden_biquad_f32 *filter,
+                                              const struct bowden_biquad_settings_f32 *settings,
+                                              struct bowden_about *about);
+
+// Checks the settings and starts a notch. `about` may be null.
+bowden_result bowden_biquad_init_notch_f32(struct bowden_biquad_f32 *filter,
+                                           const struct bowden_biquad_settings_f32 *settings,
+                                           struct bowden_about *about);
+
+// One sample, `dt` [s] after the last call: `output` gets the filtered value.
+//
+// The first good sample starts the filter at rest. If the sample is not finite, or dt
+// is not positive and finite, the last output is held (zero before the first sample):
+// BOWDEN_RESULT_HELD.
+bowden_result bowden_biquad_step_f32(struct bowden_biquad_f32 *filter,
+                                     float sample,
+                                     float dt,
+                                     float *output);
+
+// Starts a low-pass with `time_constant` at least zero [s], see bowden_low_pass_step; at
+// zero the output is the sample. `about` may be null.
+bowden_result bowden_low_pass_init_f64(struct bowden_low_pass_f64 *filter,
+                                       double time_constant,
+                                       struct bowden_about *about);
+
+// One sample, `dt` [s] after the last call: `output` gets
+//
+//     y+ = y + dt/(time_constant + dt)*(x - y)
+//
+// The corner frequency is 1/(2*pi*time_constant) [Hz]. The first good sample starts
+// the filter at rest. If the sample is not finite, or dt is not positive and finite,
+// the last output is held (zero before the first sample): BOWDEN_RESULT_HELD.
+bowden_result bowden_low_pass_step_f64(struct bowden_low_pass_f64 *filter,
+                                       double sample,
+                                       double dt,
+                                       double *output);
+
+// Checks the settings and starts a low-pass. `about` may be null.
+bowden_result bowden_biquad_init_low_pass_f64(struct bowden_biquad_f64 *filter,
+                                              const struct bowden_biquad_settings_f64 *settings,
+                                              struct bowden_about *about);
+
+// Checks the settings and starts a notch. `about` may be null.
+bowden_result bowden_biquad_init_notch_f64(struct bowden_biquad_f64 *filter,
+                                           const struct bowden_biquad_settings_f64 *settings,
+                                           struct bowden_about *about);
+
+// One sample, `dt` [s] after the last call: `output` gets the filtered value.
+//
+// The first good sample starts the filter at rest. If the sample is not finite, or dt
+// is not positive and finite, the last output is held (zero before the first sample):
+// BOWDEN_RESULT_HELD.
+bowden_result bowden_biquad_step_f64(struct bowden_biquad_f64 *filter,
+                                     double sample,
+                                     double dt,
+                                     double *output);
+
+// Checks the settings and starts a hysteresis. `about` may be null.
 bowden_result bowden_hysteresis_init_f32(struct bowden_hysteresis_f32 *hysteresis,
-                                         float rho,
-                                         float sigma,
-                                         float n,
-                                         float eta,
+                                         const struct bowden_hysteresis_settings_f32 *settings,
                                          struct bowden_about *about);
 
-// One input [input unit]: `eta` gets the state, within -1 and 1. The first sample
-// only sets the input. One that is not finite is held: BOWDEN_RESULT_HELD.
+// One input [input unit]: `eta` gets the state, within -1 and 1. The first sample only
+// sets the input. A value that is not finite is held: BOWDEN_RESULT_HELD.
 bowden_result bowden_hysteresis_step_f32(struct bowden_hysteresis_f32 *hysteresis,
                                          float input,
                                          float *eta);
 
-// Checks the figures and starts a transmission. `about` may be null.
+// Checks the parameters and starts a transmission. `about` may be null.
 bowden_result bowden_cable_init_f32(struct bowden_cable_f32 *cable,
                                     const struct bowden_cable_settings_f32 *settings,
                                     struct bowden_about *about);
 
-// One input [input unit]: `output` gets the output [output unit]. One that is not
-// finite is held: BOWDEN_RESULT_HELD, and the last output, zero before the first.
+// One input [input unit]: `output` gets the output [output unit]. If the input is not
+// finite, the last output is held (zero before the first sample): BOWDEN_RESULT_HELD.
 bowden_result bowden_cable_step_f32(struct bowden_cable_f32 *cable, float input, float *output);
 
-// The same figures turned round; BOWDEN_RESULT_ERROR_INADMISSIBLE where the
-// transmission has no inverse (sigma above gain/(2*kappa_eta*rho)).
+// Starts the inverse of the same transmission; BOWDEN_RESULT_ERROR_INADMISSIBLE if it
+// has no inverse (sigma above gain/(2*kappa_eta*rho)).
 bowden_result bowden_inverse_init_f32(struct bowden_inverse_f32 *inverse,
                                       const struct bowden_cable_settings_f32 *settings,
                                       struct bowden_about *about);
 
-// One output that is wanted [output unit]: `input` gets the input [input unit] that
-// gives it. One that is not finite is held: BOWDEN_RESULT_HELD.
+// One desired output [output unit]: `input` gets the input [input unit] that produces
+// it. A value that is not finite is held: BOWDEN_RESULT_HELD.
 bowden_result bowden_inverse_step_f32(struct bowden_inverse_f32 *inverse,
                                       float desired,
                                       float *input);
 
-// Starts a hysteresis at `eta`, within -1 and 1: rho above zero [1/input unit],
-// sigma at least 1/2, n at least 1. `about` may be null.
+// Checks the settings and starts a hysteresis. `about` may be null.
 bowden_result bowden_hysteresis_init_f64(struct bowden_hysteresis_f64 *hysteresis,
-                                         double rho,
-                                         double sigma,
-                                         double n,
-                                         double eta,
+                                         const struct bowden_hysteresis_settings_f64 *settings,
                                          struct bowden_about *about);
 
-// One input [input unit]: `eta` gets the state, within -1 and 1. The first sample
-// only sets the input. One that is not finite is held: BOWDEN_RESULT_HELD.
+// One input [input unit]: `eta` gets the state, within -1 and 1. The first sample only
+// sets the input. A value that is not finite is held: BOWDEN_RESULT_HELD.
 bowden_result bowden_hysteresis_step_f64(struct bowden_hysteresis_f64 *hysteresis,
                                          double input,
                                          double *eta);
 
-// Checks the figures and starts a transmission. `about` may be null.
+// Checks the parameters and starts a transmission. `about` may be null.
 bowden_result bowden_cable_init_f64(struct bowden_cable_f64 *cable,
                                     const struct bowden_cable_settings_f64 *settings,
                                     struct bowden_about *about);
 
-// One input [input unit]: `output` gets the output [output unit]. One that is not
-// finite is held: BOWDEN_RESULT_HELD, and the last output, zero before the first.
+// One input [input unit]: `output` gets the output [output unit]. If the input is not
+// finite, the last output is held (zero before the first sample): BOWDEN_RESULT_HELD.
 bowden_result bowden_cable_step_f64(struct bowden_cable_f64 *cable, double input, double *output);
 
-// The same figures turned round; BOWDEN_RESULT_ERROR_INADMISSIBLE where the
-// transmission has no inverse (sigma above gain/(2*kappa_eta*rho)).
+// Starts the inverse of the same transmission; BOWDEN_RESULT_ERROR_INADMISSIBLE if it
+// has no inverse (sigma above gain/(2*kappa_eta*rho)).
 bowden_result bowden_inverse_init_f64(struct bowden_inverse_f64 *inverse,
                                       const struct bowden_cable_settings_f64 *settings,
                                       struct bowden_about *about);
 
-// One output that is wanted [output unit]: `input` gets the input [input unit] that
-// gives it. One that is not finite is held: BOWDEN_RESULT_HELD.
+// One desired output [output unit]: `input` gets the input [input unit] that produces
+// it. A value that is not finite is held: BOWDEN_RESULT_HELD.
 bowden_result bowden_inverse_step_f64(struct bowden_inverse_f64 *inverse,
                                       double desired,
                                       double *input);
 
-// Starts a learning that has learned nothing, over two arrays of `cells` numbers, which
-// it sets to zero: at least lead + 2*half_width + 9, at most BOWDEN_CELLS.
+// Starts iterative learning over two arrays of `cells` numbers, which it sets to zero.
+// `cells` is at least lead + 2*half_width + 9 and at most BOWDEN_CELLS.
 //
-// The arrays stay the caller's. They must be there, and nobody may write to them, for
-// as long as the object is used: a local array of the function that calls this is
-// wrong where the object outlives it. Between two calls `learned` may be read, for a
-// plot or to be stored. They overlap neither each other nor the object
-// (BOWDEN_RESULT_ERROR_INADMISSIBLE), and serve one object at a time; a copy of the
-// object goes on with the same arrays, so only one of the two may be used.
+// The caller owns the arrays. They must exist, and nobody may write to them, as long
+// as the object is used. A local array is wrong if the object outlives the function.
+// Between two calls the caller may read `learned`, to plot or to store it. The
+// arrays must not overlap each other or the object
+// (BOWDEN_RESULT_ERROR_INADMISSIBLE), and they serve one object at a time. A copy of
+// the object uses the same arrays, so use only one of the two.
 //
-// On an error object and arrays are as they were. `about` may be null.
-bowden_result bowden_learning_init_f32(struct bowden_learning_f32 *learning,
-                                       const struct bowden_learning_settings_f32 *settings,
-                                       float *learned,
-                                       float *unfiltered,
-                                       size_t cells,
-                                       struct bowden_about *about);
+// On an error the object and the arrays do not change. `about` may be null.
+bowden_result bowden_iterative_learning_init_f32(struct bowden_iterative_learning_f32 *learning,
+                                                 const struct bowden_iterative_learning_settings_f32 *settings,
+                                                 float *learned,
+                                                 float *unfiltered,
+                                                 size_t cells,
+                                                 struct bowden_about *about);
 
-// The same where `learned` holds what was learned before, such as a copy from before a
-// reset, or an array that another object has learned in and is used with no more; it is
-// confined to the limit, and zero for NaN. `unfiltered` may hold anything.
-bowden_result bowden_learning_resume_f32(struct bowden_learning_f32 *learning,
-                                         const struct bowden_learning_settings_f32 *settings,
-                                         float *learned,
-                                         float *unfiltered,
-                                         size_t cells,
-                                         struct bowden_about *about);
+// The same with earlier values in `learned`: a copy from before a reset, or the array
+// of an object that is no longer used. Values are clamped to the limit, and NaN
+// becomes zero. `unfiltered` may have any contents.
+bowden_result bowden_iterative_learning_resume_f32(struct bowden_iterative_learning_f32 *learning,
+                                                   const struct bowden_iterative_learning_settings_f32 *settings,
+                                                   float *learned,
+                                                   float *unfiltered,
+                                                   size_t cells,
+                                                   struct bowden_about *about);
 
-// One sample, before the controller's own: where in the cycle it is, from 0 to 1, the
-// reference and the measured output [output unit]. `learns` is 0 where what is out is not
-// to be learned from: where a limit cut the command, the safe one is out, or the task is
-// another one. Where that is so of more than half of a cell's samples, the errors of the
-// next `lead` cells teach nothing either.
+// One sample, before the controller's step: the phase of the cycle, from 0 to 1, the
+// reference and the measured output [output unit]. Set `learns` to 0 if a limit cut
+// the command, the safe command is applied, or the task is different. If more than
+// half of a cell's samples have `learns` = 0, the errors of the next `lead` cells are
+// ignored too.
 //
-// A phase that is not from 0 to 1 moves nothing and holds the feed-forward:
-// BOWDEN_RESULT_HELD, for as long as there is none; the controller's samples are good
-// meanwhile. BOWDEN_RESULT_DEGRADED where the feed-forward is of this phase but
-// reference or measured output are not finite, so that nothing was learned, or where the
-// phase has jumped, by more than four cells: the cell that was left does not learn then,
-// and the feed-forward jumps with the phase. Give the controller a slew rate. `out` is
-// written with every result that is not negative.
-bowden_result bowden_learning_step_f32(struct bowden_learning_f32 *learning,
-                                       float phase,
-                                       float reference,
-                                       float measured,
-                                       uint32_t learns,
-                                       struct bowden_learning_output_f32 *out);
+// A phase outside 0 to 1 changes nothing and holds the feed-forward:
+// BOWDEN_RESULT_HELD. For the controller such samples are good. BOWDEN_RESULT_DEGRADED
+// has two causes. The reference or the measured output is not finite: the feed-forward
+// follows the phase, and nothing is learned. Or the phase has jumped by more than four
+// cells: the cell before the jump does not learn, and the feed-forward jumps with the
+// phase. Give the controller a slew rate. `out` is written with every result that is
+// not negative.
+bowden_result bowden_iterative_learning_step_f32(struct bowden_iterative_learning_f32 *learning,
+                                                 float phase,
+                                                 float reference,
+                                                 float measured,
+                                                 uint32_t learns,
+                                                 struct bowden_iterative_learning_output_f32 *out);
 
-// Starts a learning that has learned nothing, over two arrays of `cells` numbers, which
-// it sets to zero: at least lead + 2*half_width + 9, at most BOWDEN_CELLS.
+// Starts iterative learning over two arrays of `cells` numbers, which it sets to zero.
+// `cells` is at least lead + 2*half_width + 9 and at most BOWDEN_CELLS.
 //
-// The arrays stay the caller's. They must be there, and nobody may write to them, for
-// as long as the object is used: a local array of the function that calls this is
-// wrong where the object outlives it. Between two calls `learned` may be read, for a
-// plot or to be stored. They overlap neither each other nor the object
-// (BOWDEN_RESULT_ERROR_INADMISSIBLE), and serve one object at a time; a copy of the
-// object goes on with the same arrays, so only one of the two may be used.
+// The caller owns the arrays. They must exist, and nobody may write to them, as long
+// as the object is used. A local array is wrong if the object outlives the function.
+// Between two calls the caller may read `learned`, to plot or to store it. The
+// arrays must not overlap each other or the object
+// (BOWDEN_RESULT_ERROR_INADMISSIBLE), and they serve one object at a time. A copy of
+// the object uses the same arrays, so use only one of the two.
 //
-// On an error object and arrays are as they were. `about` may be null.
-bowden_result bowden_learning_init_f64(struct bowden_learning_f64 *learning,
-                                       const struct bowden_learning_settings_f64 *settings,
-                                       double *learned,
-                                       double *unfiltered,
-                                       size_t cells,
-                                       struct bowden_about *about);
+// On an error the object and the arrays do not change. `about` may be null.
+bowden_result bowden_iterative_learning_init_f64(struct bowden_iterative_learning_f64 *learning,
+                                                 const struct bowden_iterative_learning_settings_f64 *settings,
+                                                 double *learned,
+                                                 double *unfiltered,
+                                                 size_t cells,
+                                                 struct bowden_about *about);
 
-// The same where `learned` holds what was learned before, such as a copy from before a
-// reset, or an array that another object has learned in and is used with no more; it is
-// confined to the limit, and zero for NaN. `unfiltered` may hold anything.
-bowden_result bowden_learning_resume_f64(struct bowden_learning_f64 *learning,
-                                         const struct bowden_learning_settings_f64 *settings,
-                                         double *learned,
-                                         double *unfiltered,
-                                         size_t cells,
-                                         struct bowden_about *about);
+// The same with earlier values in `learned`: a copy from before a reset, or the array
+// of an object that is no longer used. Values are clamped to the limit, and NaN
+// becomes zero. `unfiltered` may have any contents.
+bowden_result bowden_iterative_learning_resume_f64(struct bowden_iterative_learning_f64 *learning,
+                                                   const struct bowden_iterative_learning_settings_f64 *settings,
+                                                   double *learned,
+                                                   double *unfiltered,
+                                                   size_t cells,
+                                                   struct bowden_about *about);
 
-// One sample, before the controller's own: where in the cycle it is, from 0 to 1, the
-// reference and the measured output [output unit]. `learns` is 0 where what is out is not
-// to be learned from: where a limit cut the command, the safe one is out, or the task is
-// another one. Where that is so of more than half of a cell's samples, the errors of the
-// next `lead` cells teach nothing either.
+// One sample, before the controller's step: the phase of the cycle, from 0 to 1, the
+// reference and the measured output [output unit]. Set `learns` to 0 if a limit cut
+// the command, the safe command is applied, or the task is different. If more than
+// half of a cell's samples have `learns` = 0, the errors of the next `lead` cells are
+// ignored too.
 //
-// A phase that is not from 0 to 1 moves nothing and holds the feed-forward:
-// BOWDEN_RESULT_HELD, for as long as there is none; the controller's samples are good
-// meanwhile. BOWDEN_RESULT_DEGRADED where the feed-forward is of this phase but
-// reference or measured output are not finite, so that nothing was learned, or where the
-// phase has jumped, by more than four cells: the cell that was left does not learn then,
-// and the feed-forward jumps with the phase. Give the controller a slew rate. `out` is
-// written with every result that is not negative.
-bowden_result bowden_learning_step_f64(struct bowden_learning_f64 *learning,
-                                       double phase,
-                                       double reference,
-                                       double measured,
-                                       uint32_t learns,
-                                       struct bowden_learning_output_f64 *out);
+// A phase outside 0 to 1 changes nothing and holds the feed-forward:
+// BOWDEN_RESULT_HELD. For the controller such samples are good. BOWDEN_RESULT_DEGRADED
+// has two causes. The reference or the measured output is not finite: the feed-forward
+// follows the phase, and nothing is learned. Or the phase has jumped by more than four
+// cells: the cell before the jump does not learn, and the feed-forward jumps with the
+// phase. Give the controller a slew rate. `out` is written with every result that is
+// not negative.
+bowden_result bowden_iterative_learning_step_f64(struct bowden_iterative_learning_f64 *learning,
+                                                 double phase,
+                                                 double reference,
+                                                 double measured,
+                                                 uint32_t learns,
+                                                 struct bowden_iterative_learning_output_f64 *out);
 
-// Loads a model from the bytes that `bowden close --model-out FILE.postcard` or
-// `bowden export --c` writes, four bytes of CRC-32 last, and starts it.
+// Loads a model from the bytes that `bowden identify --model-out FILE.postcard` or
+// `bowden export --c` writes, with four bytes of CRC-32 at the end, and starts it.
 //
-// `length` is that of the model, not of an array or a sector that is larger: bytes
-// behind the CRC-32 are refused as damaged ones are. `eta` is the hysteresis state
-// at the start, within -1 and 1; 0 where it is not known.
-// BOWDEN_RESULT_ERROR_MODEL where the bytes are damaged, too many, of the other
-// precision, of another version, or hold more than BOWDEN_TERMS terms; `about`,
-// which may be null, tells the first two ("checksum") from the others.
-// BOWDEN_RESULT_ERROR_CAPACITY where a term reads a channel from BOWDEN_CHANNELS
-// on, or there are more than BOWDEN_MODEL_BYTES bytes. The bytes are not needed
-// afterwards. On an error the object is as it was.
+// `length` is the length of the model, not of a larger array or sector: bytes behind
+// the CRC-32 are refused like damaged bytes. `eta` is the hysteresis state at the
+// start, within -1 and 1; 0 if unknown. BOWDEN_RESULT_ERROR_MODEL: the bytes are
+// damaged, too many, of the other precision or of another version, or have more than
+// BOWDEN_TERMS terms. `about`, which may be null, is "checksum" for the first two.
+// BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel with a number of
+// BOWDEN_CHANNELS or more, or there are more than BOWDEN_MODEL_BYTES bytes. The object
+// does not use the bytes afterwards. On an error the object does not change.
 bowden_result bowden_model_load_f32(struct bowden_model_f32 *model,
                                     const uint8_t *bytes,
                                     size_t length,
@@ -1610,9 +2802,9 @@ bowden_result bowden_model_load_f32(struct bowden_model_f32 *model,
 //
 //     y = transmission(input, eta) + sum of gain*regressor
 //
-// A bad sample (a dt that is not positive, a number that the model reads that is
-// not finite, a channel that is missing) leaves the state and gives the last good
-// output, 0 before the first one: BOWDEN_RESULT_HELD.
+// A bad sample (dt is not positive, a channel is missing, or a number that the model
+// reads is not finite) leaves the state unchanged and returns the last good output, 0
+// before the first one: BOWDEN_RESULT_HELD.
 bowden_result bowden_model_step_f32(struct bowden_model_f32 *model,
                                     const struct bowden_model_sample_f32 *sample,
                                     float *output);
@@ -1620,21 +2812,20 @@ bowden_result bowden_model_step_f32(struct bowden_model_f32 *model,
 // The hysteresis state, within -1 and 1.
 bowden_result bowden_model_eta_f32(const struct bowden_model_f32 *model, float *eta);
 
-// The state of the start again, with this hysteresis state.
+// Resets the state to the start, with this hysteresis state.
 bowden_result bowden_model_reset_f32(struct bowden_model_f32 *model, float eta);
 
-// Loads a model from the bytes that `bowden close --model-out FILE.postcard` or
-// `bowden export --c` writes, four bytes of CRC-32 last, and starts it.
+// Loads a model from the bytes that `bowden identify --model-out FILE.postcard` or
+// `bowden export --c` writes, with four bytes of CRC-32 at the end, and starts it.
 //
-// `length` is that of the model, not of an array or a sector that is larger: bytes
-// behind the CRC-32 are refused as damaged ones are. `eta` is the hysteresis state
-// at the start, within -1 and 1; 0 where it is not known.
-// BOWDEN_RESULT_ERROR_MODEL where the bytes are damaged, too many, of the other
-// precision, of another version, or hold more than BOWDEN_TERMS terms; `about`,
-// which may be null, tells the first two ("checksum") from the others.
-// BOWDEN_RESULT_ERROR_CAPACITY where a term reads a channel from BOWDEN_CHANNELS
-// on, or there are more than BOWDEN_MODEL_BYTES bytes. The bytes are not needed
-// afterwards. On an error the object is as it was.
+// `length` is the length of the model, not of a larger array or sector: bytes behind
+// the CRC-32 are refused like damaged bytes. `eta` is the hysteresis state at the
+// start, within -1 and 1; 0 if unknown. BOWDEN_RESULT_ERROR_MODEL: the bytes are
+// damaged, too many, of the other precision or of another version, or have more than
+// BOWDEN_TERMS terms. `about`, which may be null, is "checksum" for the first two.
+// BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel with a number of
+// BOWDEN_CHANNELS or more, or there are more than BOWDEN_MODEL_BYTES bytes. The object
+// does not use the bytes afterwards. On an error the object does not change.
 bowden_result bowden_model_load_f64(struct bowden_model_f64 *model,
                                     const uint8_t *bytes,
                                     size_t length,
@@ -1645,9 +2836,9 @@ bowden_result bowden_model_load_f64(struct bowden_model_f64 *model,
 //
 //     y = transmission(input, eta) + sum of gain*regressor
 //
-// A bad sample (a dt that is not positive, a number that the model reads that is
-// not finite, a channel that is missing) leaves the state and gives the last good
-// output, 0 before the first one: BOWDEN_RESULT_HELD.
+// A bad sample (dt is not positive, a channel is missing, or a number that the model
+// reads is not finite) leaves the state unchanged and returns the last good output, 0
+// before the first one: BOWDEN_RESULT_HELD.
 bowden_result bowden_model_step_f64(struct bowden_model_f64 *model,
                                     const struct bowden_model_sample_f64 *sample,
                                     double *output);
@@ -1655,7 +2846,7 @@ bowden_result bowden_model_step_f64(struct bowden_model_f64 *model,
 // The hysteresis state, within -1 and 1.
 bowden_result bowden_model_eta_f64(const struct bowden_model_f64 *model, double *eta);
 
-// The state of the start again, with this hysteresis state.
+// Resets the state to the start, with this hysteresis state.
 bowden_result bowden_model_reset_f64(struct bowden_model_f64 *model, double eta);
 
 // Starts an observer. `about` may be null.
@@ -1663,9 +2854,9 @@ bowden_result bowden_observer_init_f32(struct bowden_observer_f32 *observer,
                                        const struct bowden_observer_settings_f32 *settings,
                                        struct bowden_about *about);
 
-// One sample, before the controller's own: `dt` since the last call [s], the command
-// that went out at the last call behind all limits [command unit], the measured
-// output [output unit].
+// One sample, before the controller's step: `dt` since the last call [s], the applied
+// command of the last call after all limits [command unit], the measured output
+// [output unit].
 //
 // A bad sample holds the estimate: BOWDEN_RESULT_HELD. `out` is written with every
 // result that is not negative.
@@ -1675,14 +2866,14 @@ bowden_result bowden_observer_step_f32(struct bowden_observer_f32 *observer,
                                        float measured,
                                        struct bowden_observer_output_f32 *out);
 
-// The command that makes the nominal plant follow, [command unit]: of the output that
-// is wanted with its rates, taken as far ahead as the latency.
+// The command [command unit] for which the nominal plant follows the desired output,
+// given with its rates and ahead of time by the latency.
 bowden_result bowden_observer_feed_forward_f32(const struct bowden_observer_f32 *observer,
                                                const struct bowden_motion_f32 *wanted,
                                                float *command);
 
-// The state of the start again: where the drive was off, for a command that did not
-// reach the motor is no command.
+// Resets the state to the start. Call it after the drive was off: a command that did
+// not reach the motor does not count.
 bowden_result bowden_observer_reset_f32(struct bowden_observer_f32 *observer);
 
 // Starts an observer. `about` may be null.
@@ -1690,9 +2881,9 @@ bowden_result bowden_observer_init_f64(struct bowden_observer_f64 *observer,
                                        const struct bowden_observer_settings_f64 *settings,
                                        struct bowden_about *about);
 
-// One sample, before the controller's own: `dt` since the last call [s], the command
-// that went out at the last call behind all limits [command unit], the measured
-// output [output unit].
+// One sample, before the controller's step: `dt` since the last call [s], the applied
+// command of the last call after all limits [command unit], the measured output
+// [output unit].
 //
 // A bad sample holds the estimate: BOWDEN_RESULT_HELD. `out` is written with every
 // result that is not negative.
@@ -1702,22 +2893,22 @@ bowden_result bowden_observer_step_f64(struct bowden_observer_f64 *observer,
                                        double measured,
                                        struct bowden_observer_output_f64 *out);
 
-// The command that makes the nominal plant follow, [command unit]: of the output that
-// is wanted with its rates, taken as far ahead as the latency.
+// The command [command unit] for which the nominal plant follows the desired output,
+// given with its rates and ahead of time by the latency.
 bowden_result bowden_observer_feed_forward_f64(const struct bowden_observer_f64 *observer,
                                                const struct bowden_motion_f64 *wanted,
                                                double *command);
 
-// The state of the start again: where the drive was off, for a command that did not
-// reach the motor is no command.
+// Resets the state to the start. Call it after the drive was off: a command that did
+// not reach the motor does not count.
 bowden_result bowden_observer_reset_f64(struct bowden_observer_f64 *observer);
 
-// Settings of a plain PI (15): full set-point weight, conditional anti-windup, no
-// slew rate, 4 good samples for a bad one.
+// Settings of a plain PI (15): full set-point weight, conditional anti-windup, no slew
+// rate; 4 good samples cancel a bad one.
 //
-// `low` and `high` [command unit] are what the drive may get, `longest_dt` [s] the
-// longest sample time, `safe` [command unit] what goes out from the `after`-th bad
-// sample in a row on. Numbers are checked by bowden_pid_init.
+// `low` and `high` [command unit] are the limits of the drive, `longest_dt` [s] is the
+// longest sample time, and `safe` [command unit] is the safe command from the
+// `after`-th bad sample in a row on. bowden_pid_init checks the numbers.
 bowden_result bowden_pid_settings_pi_f32(struct bowden_pid_settings_f32 *settings,
                                          float k_p,
                                          float k_i,
@@ -1727,20 +2918,21 @@ bowden_result bowden_pid_settings_pi_f32(struct bowden_pid_settings_f32 *setting
                                          uint32_t after,
                                          float safe);
 
-// Checks the settings and starts with a state that has seen no sample.
+// Checks the settings and starts with a new state.
 //
-// `about` may be null; else it gets the name of what is refused. On an error the
-// object is as it was.
+// `about` may be null; otherwise it gets the name of the refused setting. On an error
+// the object does not change.
 bowden_result bowden_pid_init_f32(struct bowden_pid_f32 *pid,
                                   const struct bowden_pid_settings_f32 *settings,
                                   struct bowden_about *about);
 
-// One sample: the command, and what happened.
+// One sample: the command and its status.
 //
 // A bad sample (NaN, an infinity, a dt that is not positive or too long) leaves the
-// state as it was and holds the last good command: BOWDEN_RESULT_HELD. After too
-// many the safe command is out, good samples or not, until bowden_pid_acknowledge:
-// BOWDEN_RESULT_SAFE. `out` is written with every result that is not negative.
+// state unchanged and holds the last good command: BOWDEN_RESULT_HELD. After too many
+// bad samples the safe command is applied until bowden_pid_acknowledge, even if
+// samples are good: BOWDEN_RESULT_SAFE. `out` is written with every result that is not
+// negative.
 bowden_result bowden_pid_step_f32(struct bowden_pid_f32 *pid,
                                   const struct bowden_pid_sample_f32 *sample,
                                   struct bowden_output_f32 *out);
@@ -1749,45 +2941,68 @@ bowden_result bowden_pid_step_f32(struct bowden_pid_f32 *pid,
 bowden_result bowden_pid_get_terms_f32(const struct bowden_pid_f32 *pid,
                                        struct bowden_pid_terms_f32 *out);
 
-// Takes note that somebody has seen the fault: the next good sample closes the loop
-// again, from the safe command on. Nothing where no safe command is latched.
+// Reports the command [command unit] that the drive applied after the last step, if it
+// differs from the step's command: a drive that is off applies 0.
+//
+// Call it between two steps. Slew rate, anti-windup and a bumpless start then count
+// from this command. A number that is not finite changes nothing: BOWDEN_RESULT_HELD.
+bowden_result bowden_pid_applied_f32(struct bowden_pid_f32 *pid, float command);
+
+// Reports that the drive was at this limit after the last step: one of
+// bowden_saturation. Use it for a drive that does not report its command, such as the
+// inner loop of a cascade; otherwise use bowden_pid_applied.
+//
+// Call it between two steps. The integral then does not move further towards that
+// limit. Another number gives BOWDEN_RESULT_ERROR_CHOICE.
+bowden_result bowden_pid_at_limit_f32(struct bowden_pid_f32 *pid, uint32_t saturation);
+
+// Sets `saturation` to the active limit of the command at the last good sample, one of
+// bowden_saturation.
+//
+// In a cascade whose inner gains are positive, pass it on to bowden_pid_at_limit of
+// the outer loop.
+bowden_result bowden_pid_get_saturation_f32(const struct bowden_pid_f32 *pid, uint32_t *saturation);
+
+// Acknowledges the fault: the next good sample closes the loop again and starts from
+// the safe command. Without a latched safe command the call has no effect.
 bowden_result bowden_pid_acknowledge_f32(struct bowden_pid_f32 *pid);
 
-// Forgets integral, rate and samples; the command that is out stays known, and a
-// safe command that is latched stays so.
+// Clears integral, rate and samples; the applied command is kept, and a latched safe
+// command stays latched.
 bowden_result bowden_pid_reset_f32(struct bowden_pid_f32 *pid);
 
-// Makes an object that was stored fit for a start, before its first step: the power was
-// off, and the command is the one nearest to zero that the limits allow. Integral, rate
-// and samples are forgotten; a safe command that was latched stays so. The first good
-// sample starts from there, without a jump. A step without this goes on with the command
-// of then.
-bowden_result bowden_pid_power_up_f32(struct bowden_pid_f32 *pid);
+// Prepares a stored object for a start after a power-off, before its first step: the
+// command becomes the one nearest to zero within the limits. Integral, rate and
+// samples are cleared; a latched safe command stays latched. The first good sample
+// starts from this command without a jump. Without this call a step continues with the
+// stored command.
+bowden_result bowden_pid_restore_f32(struct bowden_pid_f32 *pid);
 
-// Starts anew so that the command goes on from `command` [command unit] without a
-// jump. A number that is not finite counts as a bad sample; a latched safe command
-// stays. `out` has the command that is out then, and may be null.
+// Restarts so that the command continues from `command` [command unit] without a jump.
+// A number that is not finite counts as a bad sample; a latched safe command stays.
+// `out` gets the applied command, and may be null.
 bowden_result bowden_pid_resume_f32(struct bowden_pid_f32 *pid,
                                     float command,
                                     const struct bowden_pid_sample_f32 *sample,
                                     struct bowden_output_f32 *out);
 
-// Other settings for a loop that runs, without a jump of the command; but where the new
-// range excludes what is out, the next command is the nearest in it, past any slew rate:
-// narrow a range step by step. On an error the loop goes on with the old ones.
+// Changes the settings of a running loop without a jump of the command. If the new
+// range excludes the applied command, the next command is the nearest one in the range
+// and ignores the slew rate: narrow a range step by step. On an error the loop
+// continues with the old settings.
 bowden_result bowden_pid_change_f32(struct bowden_pid_f32 *pid,
                                     const struct bowden_pid_settings_f32 *settings,
                                     struct bowden_about *about);
 
-// 1 into `latched` while the safe command is out until it is acknowledged, else 0.
+// Sets `latched` to 1 while the safe command is latched, otherwise to 0.
 bowden_result bowden_pid_is_latched_f32(const struct bowden_pid_f32 *pid, uint32_t *latched);
 
-// Settings of a plain PI (15): full set-point weight, conditional anti-windup, no
-// slew rate, 4 good samples for a bad one.
+// Settings of a plain PI (15): full set-point weight, conditional anti-windup, no slew
+// rate; 4 good samples cancel a bad one.
 //
-// `low` and `high` [command unit] are what the drive may get, `longest_dt` [s] the
-// longest sample time, `safe` [command unit] what goes out from the `after`-th bad
-// sample in a row on. Numbers are checked by bowden_pid_init.
+// `low` and `high` [command unit] are the limits of the drive, `longest_dt` [s] is the
+// longest sample time, and `safe` [command unit] is the safe command from the
+// `after`-th bad sample in a row on. bowden_pid_init checks the numbers.
 bowden_result bowden_pid_settings_pi_f64(struct bowden_pid_settings_f64 *settings,
                                          double k_p,
                                          double k_i,
@@ -1797,20 +3012,21 @@ bowden_result bowden_pid_settings_pi_f64(struct bowden_pid_settings_f64 *setting
                                          uint32_t after,
                                          double safe);
 
-// Checks the settings and starts with a state that has seen no sample.
+// Checks the settings and starts with a new state.
 //
-// `about` may be null; else it gets the name of what is refused. On an error the
-// object is as it was.
+// `about` may be null; otherwise it gets the name of the refused setting. On an error
+// the object does not change.
 bowden_result bowden_pid_init_f64(struct bowden_pid_f64 *pid,
                                   const struct bowden_pid_settings_f64 *settings,
                                   struct bowden_about *about);
 
-// One sample: the command, and what happened.
+// One sample: the command and its status.
 //
 // A bad sample (NaN, an infinity, a dt that is not positive or too long) leaves the
-// state as it was and holds the last good command: BOWDEN_RESULT_HELD. After too
-// many the safe command is out, good samples or not, until bowden_pid_acknowledge:
-// BOWDEN_RESULT_SAFE. `out` is written with every result that is not negative.
+// state unchanged and holds the last good command: BOWDEN_RESULT_HELD. After too many
+// bad samples the safe command is applied until bowden_pid_acknowledge, even if
+// samples are good: BOWDEN_RESULT_SAFE. `out` is written with every result that is not
+// negative.
 bowden_result bowden_pid_step_f64(struct bowden_pid_f64 *pid,
                                   const struct bowden_pid_sample_f64 *sample,
                                   struct bowden_output_f64 *out);
@@ -1819,38 +3035,93 @@ bowden_result bowden_pid_step_f64(struct bowden_pid_f64 *pid,
 bowden_result bowden_pid_get_terms_f64(const struct bowden_pid_f64 *pid,
                                        struct bowden_pid_terms_f64 *out);
 
-// Takes note that somebody has seen the fault: the next good sample closes the loop
-// again, from the safe command on. Nothing where no safe command is latched.
+// Reports the command [command unit] that the drive applied after the last step, if it
+// differs from the step's command: a drive that is off applies 0.
+//
+// Call it between two steps. Slew rate, anti-windup and a bumpless start then count
+// from this command. A number that is not finite changes nothing: BOWDEN_RESULT_HELD.
+bowden_result bowden_pid_applied_f64(struct bowden_pid_f64 *pid, double command);
+
+// Reports that the drive was at this limit after the last step: one of
+// bowden_saturation. Use it for a drive that does not report its command, such as the
+// inner loop of a cascade; otherwise use bowden_pid_applied.
+//
+// Call it between two steps. The integral then does not move further towards that
+// limit. Another number gives BOWDEN_RESULT_ERROR_CHOICE.
+bowden_result bowden_pid_at_limit_f64(struct bowden_pid_f64 *pid, uint32_t saturation);
+
+// Sets `saturation` to the active limit of the command at the last good sample, one of
+// bowden_saturation.
+//
+// In a cascade whose inner gains are positive, pass it on to bowden_pid_at_limit of
+// the outer loop.
+bowden_result bowden_pid_get_saturation_f64(const struct bowden_pid_f64 *pid, uint32_t *saturation);
+
+// Acknowledges the fault: the next good sample closes the loop again and starts from
+// the safe command. Without a latched safe command the call has no effect.
 bowden_result bowden_pid_acknowledge_f64(struct bowden_pid_f64 *pid);
 
-// Forgets integral, rate and samples; the command that is out stays known, and a
-// safe command that is latched stays so.
+// Clears integral, rate and samples; the applied command is kept, and a latched safe
+// command stays latched.
 bowden_result bowden_pid_reset_f64(struct bowden_pid_f64 *pid);
 
-// Makes an object that was stored fit for a start, before its first step: the power was
-// off, and the command is the one nearest to zero that the limits allow. Integral, rate
-// and samples are forgotten; a safe command that was latched stays so. The first good
-// sample starts from there, without a jump. A step without this goes on with the command
-// of then.
-bowden_result bowden_pid_power_up_f64(struct bowden_pid_f64 *pid);
+// Prepares a stored object for a start after a power-off, before its first step: the
+// command becomes the one nearest to zero within the limits. Integral, rate and
+// samples are cleared; a latched safe command stays latched. The first good sample
+// starts from this command without a jump. Without this call a step continues with the
+// stored command.
+bowden_result bowden_pid_restore_f64(struct bowden_pid_f64 *pid);
 
-// Starts anew so that the command goes on from `command` [command unit] without a
-// jump. A number that is not finite counts as a bad sample; a latched safe command
-// stays. `out` has the command that is out then, and may be null.
+// Restarts so that the command continues from `command` [command unit] without a jump.
+// A number that is not finite counts as a bad sample; a latched safe command stays.
+// `out` gets the applied command, and may be null.
 bowden_result bowden_pid_resume_f64(struct bowden_pid_f64 *pid,
                                     double command,
                                     const struct bowden_pid_sample_f64 *sample,
                                     struct bowden_output_f64 *out);
 
-// Other settings for a loop that runs, without a jump of the command; but where the new
-// range excludes what is out, the next command is the nearest in it, past any slew rate:
-// narrow a range step by step. On an error the loop goes on with the old ones.
+// Changes the settings of a running loop without a jump of the command. If the new
+// range excludes the applied command, the next command is the nearest one in the range
+// and ignores the slew rate: narrow a range step by step. On an error the loop
+// continues with the old settings.
 bowden_result bowden_pid_change_f64(struct bowden_pid_f64 *pid,
                                     const struct bowden_pid_settings_f64 *settings,
                                     struct bowden_about *about);
 
-// 1 into `latched` while the safe command is out until it is acknowledged, else 0.
+// Sets `latched` to 1 while the safe command is latched, otherwise to 0.
 bowden_result bowden_pid_is_latched_f64(const struct bowden_pid_f64 *pid, uint32_t *latched);
+
+// Checks the settings and starts a check of samples. `about` may be null.
+bowden_result bowden_plausible_init_f32(struct bowden_plausible_f32 *plausible,
+                                        const struct bowden_plausible_settings_f32 *settings,
+                                        struct bowden_about *about);
+
+// Checks a sample [signal unit], `dt` [s] after the last call. Set `moves` to 1 while
+// the machine moves, so the signal must change.
+//
+// BOWDEN_RESULT_IMPLAUSIBLE: the sample is implausible, and the value is NaN. `out` is
+// written with every result that is not negative.
+bowden_result bowden_plausible_step_f32(struct bowden_plausible_f32 *plausible,
+                                        float sample,
+                                        float dt,
+                                        uint32_t moves,
+                                        struct bowden_plausible_output_f32 *out);
+
+// Checks the settings and starts a check of samples. `about` may be null.
+bowden_result bowden_plausible_init_f64(struct bowden_plausible_f64 *plausible,
+                                        const struct bowden_plausible_settings_f64 *settings,
+                                        struct bowden_about *about);
+
+// Checks a sample [signal unit], `dt` [s] after the last call. Set `moves` to 1 while
+// the machine moves, so the signal must change.
+//
+// BOWDEN_RESULT_IMPLAUSIBLE: the sample is implausible, and the value is NaN. `out` is
+// written with every result that is not negative.
+bowden_result bowden_plausible_step_f64(struct bowden_plausible_f64 *plausible,
+                                        double sample,
+                                        double dt,
+                                        uint32_t moves,
+                                        struct bowden_plausible_output_f64 *out);
 
 // Starts a play of `half_width` at least zero [input unit], see bowden_play_step; at
 // zero the output is the input. `about` may be null.
@@ -1858,15 +3129,15 @@ bowden_result bowden_play_init_f32(struct bowden_play_f32 *play,
                                    float half_width,
                                    struct bowden_about *about);
 
-// One input [input unit]: `output` gets the last output, moved as little as keeps
-// it within the half-width r of the input:
+// One input [input unit]: `output` gets the last output, moved by the least amount
+// that keeps it within the half-width r of the input:
 //
 //     y+ = clamp(y, x - r, x + r)
 //
-// A wobble of the input within 2*r moves nothing: in front of a model with a
-// hysteresis it keeps the sensor's noise from being taken for reversals. The first
-// good sample is taken over as it is. One that is not finite is held:
-// BOWDEN_RESULT_HELD, and the last output, zero before the first.
+// An oscillation of the input within 2*r moves nothing. In front of a hysteresis a
+// play prevents reversals from sensor noise. The first good sample is passed on
+// unchanged. If the input is not finite, the last output is held (zero before the
+// first sample): BOWDEN_RESULT_HELD.
 bowden_result bowden_play_step_f32(struct bowden_play_f32 *play, float input, float *output);
 
 // Starts a play of `half_width` at least zero [input unit], see bowden_play_step; at
@@ -1875,31 +3146,23 @@ bowden_result bowden_play_init_f64(struct bowden_play_f64 *play,
                                    double half_width,
                                    struct bowden_about *about);
 
-// One input [input unit]: `output` gets the last output, moved as little as keeps
-// it within the half-width r of the input:
+// One input [input unit]: `output` gets the last output, moved by the least amount
+// that keeps it within the half-width r of the input:
 //
 //     y+ = clamp(y, x - r, x + r)
 //
-// A wobble of the input within 2*r moves nothing: in front of a model with a
-// hysteresis it keeps the sensor's noise from being taken for reversals. The first
-// good sample is taken over as it is. One that is not finite is held:
-// BOWDEN_RESULT_HELD, and the last output, zero before the first.
+// An oscillation of the input within 2*r moves nothing. In front of a hysteresis a
+// play prevents reversals from sensor noise. The first good sample is passed on
+// unchanged. If the input is not finite, the last output is held (zero before the
+// first sample): BOWDEN_RESULT_HELD.
 bowden_result bowden_play_step_f64(struct bowden_play_f64 *play, double input, double *output);
 
-// Starts rates: two lags of `time_constant` above zero [s], see
-// bowden_rates_step.
-//
-// `period` [channel unit] where the position wraps around, as a counter does; 0
-// where it does not. `longest_gap` [s] is the longest time between two good samples
-// that is bridged; 0 for ten time constants. `about` may be null.
+// Checks the settings and starts rates. `about` may be null.
 bowden_result bowden_rates_init_f32(struct bowden_rates_f32 *rates,
-                                    float time_constant,
-                                    float period,
-                                    float longest_gap,
+                                    const struct bowden_rates_settings_f32 *settings,
                                     struct bowden_about *about);
 
-// The motion at a position [channel unit] that came `dt` [s] after the last call,
-// good or bad:
+// The motion at a position [channel unit], `dt` [s] after the last call, good or bad:
 //
 //     s  = 1 - exp(-h/tau),  h = time since the last good sample
 //     v+ = v + s*((x - x_last)/h - v)
@@ -1912,20 +3175,12 @@ bowden_result bowden_rates_step_f32(struct bowden_rates_f32 *rates,
                                     float dt,
                                     struct bowden_rates_output_f32 *out);
 
-// Starts rates: two lags of `time_constant` above zero [s], see
-// bowden_rates_step.
-//
-// `period` [channel unit] where the position wraps around, as a counter does; 0
-// where it does not. `longest_gap` [s] is the longest time between two good samples
-// that is bridged; 0 for ten time constants. `about` may be null.
+// Checks the settings and starts rates. `about` may be null.
 bowden_result bowden_rates_init_f64(struct bowden_rates_f64 *rates,
-                                    double time_constant,
-                                    double period,
-                                    double longest_gap,
+                                    const struct bowden_rates_settings_f64 *settings,
                                     struct bowden_about *about);
 
-// The motion at a position [channel unit] that came `dt` [s] after the last call,
-// good or bad:
+// The motion at a position [channel unit], `dt` [s] after the last call, good or bad:
 //
 //     s  = 1 - exp(-h/tau),  h = time since the last good sample
 //     v+ = v + s*((x - x_last)/h - v)
@@ -1938,11 +3193,82 @@ bowden_result bowden_rates_step_f64(struct bowden_rates_f64 *rates,
                                     double dt,
                                     struct bowden_rates_output_f64 *out);
 
-// A sentence on a result, for a log: ASCII, static, never null; also for a number that is no
-// result.
+// Checks the settings and starts an experiment. `about` may be null.
+//
+// Start with the output near the reference: at the mean command of the loop that ran
+// before, or at rest.
+bowden_result bowden_relay_init_f32(struct bowden_relay_f32 *relay,
+                                    const struct bowden_relay_settings_f32 *settings,
+                                    struct bowden_about *about);
+
+// One sample: `dt` since the last call, good or bad [s], and the measured output
+// [output unit]. Call it while the phase is BOWDEN_RELAY_PHASE_RUNNING.
+//
+// A bad sample holds the command: BOWDEN_RESULT_HELD. After a failure the safe command
+// is applied until bowden_relay_acknowledge: BOWDEN_RESULT_SAFE. Every sample takes
+// time from `longest_time`, so the experiment ends. `out` is written with every
+// result that is not negative.
+bowden_result bowden_relay_step_f32(struct bowden_relay_f32 *relay,
+                                    float dt,
+                                    float measured,
+                                    struct bowden_relay_output_f32 *out);
+
+// Acknowledges the failure: the next good sample restarts the experiment with its full
+// duration. Without a failure the call has no effect.
+bowden_result bowden_relay_acknowledge_f32(struct bowden_relay_f32 *relay);
+
+// Sets `latched` to 1 while the safe command is latched, otherwise to 0.
+bowden_result bowden_relay_is_latched_f32(const struct bowden_relay_f32 *relay, uint32_t *latched);
+
+// The gains of a PI by `rule`, one of bowden_pi_rule, from the result of an experiment.
+//
+// Continue with bowden_pid_resume from the applied command. An unknown rule returns
+// BOWDEN_RESULT_ERROR_CHOICE. A result that is zero or not finite, as before the end
+// of the experiment, returns BOWDEN_RESULT_ERROR_OUT_OF_RANGE.
+bowden_result bowden_relay_gains_f32(const struct bowden_ultimate_f32 *ultimate,
+                                     uint32_t rule,
+                                     struct bowden_pi_gains_f32 *gains);
+
+// Checks the settings and starts an experiment. `about` may be null.
+//
+// Start with the output near the reference: at the mean command of the loop that ran
+// before, or at rest.
+bowden_result bowden_relay_init_f64(struct bowden_relay_f64 *relay,
+                                    const struct bowden_relay_settings_f64 *settings,
+                                    struct bowden_about *about);
+
+// One sample: `dt` since the last call, good or bad [s], and the measured output
+// [output unit]. Call it while the phase is BOWDEN_RELAY_PHASE_RUNNING.
+//
+// A bad sample holds the command: BOWDEN_RESULT_HELD. After a failure the safe command
+// is applied until bowden_relay_acknowledge: BOWDEN_RESULT_SAFE. Every sample takes
+// time from `longest_time`, so the experiment ends. `out` is written with every
+// result that is not negative.
+bowden_result bowden_relay_step_f64(struct bowden_relay_f64 *relay,
+                                    double dt,
+                                    double measured,
+                                    struct bowden_relay_output_f64 *out);
+
+// Acknowledges the failure: the next good sample restarts the experiment with its full
+// duration. Without a failure the call has no effect.
+bowden_result bowden_relay_acknowledge_f64(struct bowden_relay_f64 *relay);
+
+// Sets `latched` to 1 while the safe command is latched, otherwise to 0.
+bowden_result bowden_relay_is_latched_f64(const struct bowden_relay_f64 *relay, uint32_t *latched);
+
+// The gains of a PI by `rule`, one of bowden_pi_rule, from the result of an experiment.
+//
+// Continue with bowden_pid_resume from the applied command. An unknown rule returns
+// BOWDEN_RESULT_ERROR_CHOICE. A result that is zero or not finite, as before the end
+// of the experiment, returns BOWDEN_RESULT_ERROR_OUT_OF_RANGE.
+bowden_result bowden_relay_gains_f64(const struct bowden_ultimate_f64 *ultimate,
+                                     uint32_t rule,
+                                     struct bowden_pi_gains_f64 *gains);
+
+// A sentence on a result, for a log: ASCII, static, never null, also for an unknown number.
 const char *bowden_result_text(int32_t result);
 
-// What was wrong with a sample, for a log: ASCII, static, never null.
+// The bad input of a sample, for a log: ASCII, static, never null.
 const char *bowden_fault_text(int32_t fault);
 
 // The version of the library, such as "0.2.0": static, never null.
@@ -1971,10 +3297,20 @@ BOWDEN_ASSERT_SIZE(bowden_rates_f32, BOWDEN_RATES_F32_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_rates_f64, BOWDEN_RATES_F64_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_observer_f32, BOWDEN_OBSERVER_F32_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_observer_f64, BOWDEN_OBSERVER_F64_WORDS);
-BOWDEN_ASSERT_SIZE(bowden_learning_f32, BOWDEN_LEARNING_F32_WORDS);
-BOWDEN_ASSERT_SIZE(bowden_learning_f64, BOWDEN_LEARNING_F64_WORDS);
+BOWDEN_ASSERT_SIZE(bowden_iterative_learning_f32, BOWDEN_ITERATIVE_LEARNING_F32_WORDS);
+BOWDEN_ASSERT_SIZE(bowden_iterative_learning_f64, BOWDEN_ITERATIVE_LEARNING_F64_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_play_f32, BOWDEN_PLAY_F32_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_play_f64, BOWDEN_PLAY_F64_WORDS);
+BOWDEN_ASSERT_SIZE(bowden_low_pass_f32, BOWDEN_LOW_PASS_F32_WORDS);
+BOWDEN_ASSERT_SIZE(bowden_low_pass_f64, BOWDEN_LOW_PASS_F64_WORDS);
+BOWDEN_ASSERT_SIZE(bowden_biquad_f32, BOWDEN_BIQUAD_F32_WORDS);
+BOWDEN_ASSERT_SIZE(bowden_biquad_f64, BOWDEN_BIQUAD_F64_WORDS);
+BOWDEN_ASSERT_SIZE(bowden_edge_velocity_f32, BOWDEN_EDGE_VELOCITY_F32_WORDS);
+BOWDEN_ASSERT_SIZE(bowden_edge_velocity_f64, BOWDEN_EDGE_VELOCITY_F64_WORDS);
+BOWDEN_ASSERT_SIZE(bowden_plausible_f32, BOWDEN_PLAUSIBLE_F32_WORDS);
+BOWDEN_ASSERT_SIZE(bowden_plausible_f64, BOWDEN_PLAUSIBLE_F64_WORDS);
+BOWDEN_ASSERT_SIZE(bowden_relay_f32, BOWDEN_RELAY_F32_WORDS);
+BOWDEN_ASSERT_SIZE(bowden_relay_f64, BOWDEN_RELAY_F64_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_adaptive_f32, BOWDEN_ADAPTIVE_F32_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_adaptive_f64, BOWDEN_ADAPTIVE_F64_WORDS);
 BOWDEN_ASSERT_SIZE(bowden_model_f32, BOWDEN_MODEL_F32_WORDS);

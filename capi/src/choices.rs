@@ -1,45 +1,45 @@
-//! What a setting of the adaptive law chooses among.
+//! Choices for settings of the adaptive law.
 
-/// How the error's rate enters the law: each form is for one kind of plant.
+/// Treatment of the error's rate in the law: each form is for one kind of plant.
 #[repr(u32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_form {
-    /// (23) as it stands, with a filtered difference of the error: for a plant with inertia.
-    Literal = 0,
-    /// The error's rate solved for: for a plant that answers within a sample.
-    Lag = 1,
+    /// (23) as published, with a filtered difference of the error: for a plant with inertia.
+    AsPublished = 0,
+    /// The law solved for the error's rate: for a plant that responds within a sample.
+    FirstOrder = 1,
 }
 
-/// Which smooth sign stands in (23) and (25).
+/// The smooth sign in (23) and (25).
 #[repr(u32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_smooth_sign {
     /// tanh(x), as the paper has it.
     Tanh = 0,
-    /// x within [-1, 1]: cheaper, and leaves less.
+    /// x within [-1, 1]: cheaper, with a smaller residual.
     Clamp = 1,
 }
 
-/// How an estimate leaks back to its prior.
+/// Leakage of an estimate to its prior.
 #[repr(u32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_leakage {
-    /// Not at all: the box alone holds the estimate.
+    /// No leakage: only the bounds limit the estimate.
     None = 0,
-    /// At `leakage_rate` always: the sigma of (24)-(26).
+    /// Leakage at `leakage_rate` at all times: the sigma of (24)-(26).
     Constant = 1,
-    /// Only where it is further than `leakage_bound` from its prior; at twice that, at
-    /// `leakage_rate`.
+    /// Leakage only if the estimate is further than `leakage_bound` from its prior; the rate
+    /// reaches `leakage_rate` at twice this distance.
     Switching = 2,
 }
 
-/// What a regressor that is not finite does.
+/// Response to a regressor that is not finite.
 #[repr(u32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum bowden_missing {
+pub enum bowden_on_missing {
     /// A bad sample: the command is held.
     Hold = 0,
-    /// Its term is left out, the estimates wait, the loop stays closed:
+    /// Its term is omitted, the estimates do not change, and the loop stays closed:
     /// BOWDEN_RESULT_DEGRADED.
-    Drop = 1,
+    DropRegressor = 1,
 }

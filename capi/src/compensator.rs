@@ -1,19 +1,20 @@
-//! The identified model turned round, as a feed-forward.
+//! The inverse of the identified model, as a feed-forward.
 
+use crate::limit_of_drive;
 use crate::model::{channels_f32, channels_f64, counted_f32, counted_f64, BOWDEN_TERMS};
 use crate::object::{kept, read, read_all, seen, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_fault, bowden_result, code, of_status, told, Refused};
 use crate::{bowden_model_f32, bowden_model_f64, bowden_motion_f32, bowden_motion_f64};
-use core_bowden::control::{BenchRange, Compensator, CompensatorInput, CompensatorState};
+use core_bowden::control::{Applied, BenchRange, Compensator, CompensatorInput, CompensatorState};
 use core_bowden::model::Source;
 
-/// Most ranges of a compensator.
+/// Maximum number of ranges of a compensator.
 pub const BOWDEN_RANGES: usize = 17;
-/// As the source of a range: the transmission's input.
+/// Source of a range: the transmission's input.
 pub const BOWDEN_SOURCE_INPUT: u32 = 0xffff_ffff;
-/// Room of a bowden_compensator_f32, in words of 64 bits.
+/// Size of a bowden_compensator_f32 in 64-bit words.
 pub const BOWDEN_COMPENSATOR_F32_WORDS: usize = 184;
-/// Room of a bowden_compensator_f64, in words of 64 bits.
+/// Size of a bowden_compensator_f64 in 64-bit words.
 pub const BOWDEN_COMPENSATOR_F64_WORDS: usize = 360;
 
 /// The source of a range; a channel that no term can read is refused later.
@@ -28,7 +29,7 @@ fn source(number: u32) -> Result<Source, Refused> {
 macro_rules! compensator {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// What the bench has seen of one source: the effects are not asked beyond it.
+            /// Range of one source in the bench record: the effects do not extrapolate beyond it.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_range_ $f>] {
@@ -46,22 +47,21 @@ macro_rules! compensator {
             pub struct [<bowden_compensator_sample_ $f>] {
                 /// Since the previous sample, above zero [s].
                 pub dt: $f,
-                /// The output that is wanted [output unit], such as tau_o [N*m]: the reference,
-                /// not the measured output.
+                /// Desired output [output unit], such as tau_o [N*m]: the reference, not the
+                /// measured output.
                 pub desired: $f,
-                /// The transmission's input with its rates, as it is now, for effects that read
-                /// it.
+                /// The present input of the transmission with its rates, for effects that read it.
                 pub input: [<bowden_motion_ $f>],
-                /// The transmitted load: tau_i in torque mode, else a load channel.
+                /// The transmitted load: tau_i in torque mode, otherwise a load channel.
                 pub load: $f,
-                /// All other channels, in the order of the model's file; may be null where
-                /// there are none.
+                /// All other channels, in the order of the model's file; may be null if there are
+                /// none.
                 pub channels: *const [<bowden_motion_ $f>],
-                /// How many there are, at most BOWDEN_CHANNELS.
+                /// Number of channels, at most BOWDEN_CHANNELS.
                 pub channel_count: usize,
             }
 
-            /// What a step of a compensator gives.
+            /// Output of a step of a compensator.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_compensator_output_ $f>] {
@@ -71,15 +71,15 @@ macro_rules! compensator {
                 pub effects: $f,
                 /// The model's hysteresis state, within -1 and 1.
                 pub eta: $f,
-                /// What the step did: the same as it returns.
+                /// Status of the step, equal to its return value.
                 pub result: bowden_result,
                 /// What was wrong.
                 pub fault: bowden_fault,
-                /// Which term, from 0, where the fault is BOWDEN_FAULT_REGRESSOR.
+                /// Index of the term, from 0, if the fault is BOWDEN_FAULT_REGRESSOR.
                 pub regressor: u32,
             }
 
-            /// A model turned round, with its state; the caller's memory, made by
+            /// An inverted model with its state, in the caller's memory; made by
             /// bowden_compensator_init.
             #[repr(C)]
             pub struct [<bowden_compensator_ $f>] {
@@ -93,14 +93,15 @@ macro_rules! compensator {
                 const MAGIC: u64 = $magic;
             }
 
-            /// Turns a loaded model round, (5)-(7), and starts at zero:
+            /// Inverts a loaded model, (5)-(7), and starts at zero:
             ///
             ///     tau_i = inverse transmission(desired - sum of gain*regressor, eta)
             ///
             /// `longest_dt` [s]: a longer dt is a bad sample. `ranges`: motions are clamped to
-            /// them, each read by a term of the model; null where `range_count` is 0.
-            /// BOWDEN_RESULT_ERROR_INADMISSIBLE where the model has no inverse. The model is not
-            /// needed afterwards. On an error the object is as it was. `about` may be null.
+            /// them, each read by a term of the model; null if `range_count` is 0.
+            /// BOWDEN_RESULT_ERROR_INADMISSIBLE if the model has no inverse. The compensator does
+            /// not use the model afterwards. On an error the object does not change. `about` may be
+            /// null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_compensator_init_ $f>](
                 compensator: *mut [<bowden_compensator_ $f>],
@@ -129,13 +130,13 @@ macro_rules! compensator {
                 unsafe { told(parts(), about) }
             }
 
-            /// Lets what the cable has to transmit pass through a play of this half-width, zero or
-            /// more [output unit]; zero, as init has it, is none.
+            /// Puts a play of this half-width [output unit], zero or more, on the desired torque of
+            /// the cable; zero, the default of init, means no play.
             ///
-            /// A term that reads a velocity from an encoder's counts makes a reversal of each count,
-            /// after which the inverse is steep, and the command chatters. A little more than half of
-            /// what one count makes of torque takes that out: |gain|*count/(2*time constant). On an
-            /// error the object is as it was.
+            /// A term that reads a velocity from encoder counts reverses the torque at each count.
+            /// After a reversal the inverse is steep, so the command chatters. A half-width a
+            /// little above half of one count's effect on the torque, |gain|*count/(2*time
+            /// constant), removes these reversals. On an error the object does not change.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_compensator_set_play_ $f>](
                 compensator: *mut [<bowden_compensator_ $f>],
@@ -152,10 +153,10 @@ macro_rules! compensator {
                 unsafe { told(tried(), about) }
             }
 
-            /// One sample: the input that makes the model's output `desired`.
+            /// One sample: the input for which the model's output is `desired`.
             ///
-            /// A bad sample leaves the state and holds the last good command, zero before the
-            /// first one: BOWDEN_RESULT_HELD. `out` is written with every result that is not
+            /// A bad sample leaves the state unchanged and holds the last good command, zero before
+            /// the first one: BOWDEN_RESULT_HELD. `out` is written with every result that is not
             /// negative.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_compensator_step_ $f>](
@@ -192,7 +193,46 @@ macro_rules! compensator {
                 })())
             }
 
-            /// The state of the start again, with this hysteresis state, within -1 and 1.
+            /// Reports the actual input of the transmission [input unit] after the last step if it
+            /// differs from the step's command: the drive is off, or another law adds a command.
+            ///
+            /// Call it between two steps. The hysteresis then follows this input, and the next step
+            /// continues from there. Of two reports after one step the second one applies. A number
+            /// that is not finite changes nothing: BOWDEN_RESULT_HELD.
+            #[no_mangle]
+            pub unsafe extern "C" fn [<bowden_compensator_applied_ $f>](
+                compensator: *mut [<bowden_compensator_ $f>],
+                command: $f,
+            ) -> bowden_result {
+                // SAFETY: the caller's rule of pointers.
+                code((|| unsafe {
+                    let (own, state) = kept(compensator)?;
+                    own.applied(state, Applied::Command(command));
+                    Ok(if command.is_finite() { bowden_result::Ok } else { bowden_result::Held })
+                })())
+            }
+
+            /// Reports that the drive was at this limit after the last step: one of
+            /// bowden_saturation. Use it for a drive that does not report its command; otherwise
+            /// use bowden_compensator_applied.
+            ///
+            /// Call it between two steps. At the upper limit the input of the model does not rise, at
+            /// the lower one it does not fall. Another number gives BOWDEN_RESULT_ERROR_CHOICE.
+            #[no_mangle]
+            pub unsafe extern "C" fn [<bowden_compensator_at_limit_ $f>](
+                compensator: *mut [<bowden_compensator_ $f>],
+                saturation: u32,
+            ) -> bowden_result {
+                // SAFETY: the caller's rule of pointers.
+                code((|| unsafe {
+                    let applied = limit_of_drive(saturation)?;
+                    let (own, state) = kept(compensator)?;
+                    own.applied(state, applied);
+                    Ok(bowden_result::Ok)
+                })())
+            }
+
+            /// Resets the state to the start, with this hysteresis state, within -1 and 1.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_compensator_reset_ $f>](
                 compensator: *mut [<bowden_compensator_ $f>],

@@ -1,8 +1,9 @@
 //! The Bouc-Wen state, the transmission, and its inverse.
 
-use crate::object::{kept, start, writable, write, Object};
+use crate::object::{kept, read_settings, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_result, code, told, Refused};
-use core_bowden::hysteresis::{BoucWen, Shape};
+use crate::settings::{marked, Marked, UNSET};
+use core_bowden::hysteresis::{BoucWen, BoucWenState};
 use core_bowden::transmission::{Inverse, Transmission};
 
 /// What is transmitted.
@@ -15,17 +16,17 @@ pub enum bowden_mode {
     Displacement = 1,
 }
 
-/// Room of a bowden_hysteresis_f32, in words of 64 bits.
+/// Size of a bowden_hysteresis_f32 in 64-bit words.
 pub const BOWDEN_HYSTERESIS_F32_WORDS: usize = 8;
-/// Room of a bowden_hysteresis_f64, in words of 64 bits.
+/// Size of a bowden_hysteresis_f64 in 64-bit words.
 pub const BOWDEN_HYSTERESIS_F64_WORDS: usize = 14;
-/// Room of a bowden_cable_f32, in words of 64 bits.
+/// Size of a bowden_cable_f32 in 64-bit words.
 pub const BOWDEN_CABLE_F32_WORDS: usize = 10;
-/// Room of a bowden_cable_f64, in words of 64 bits.
+/// Size of a bowden_cable_f64 in 64-bit words.
 pub const BOWDEN_CABLE_F64_WORDS: usize = 20;
-/// Room of a bowden_inverse_f32, in words of 64 bits.
+/// Size of a bowden_inverse_f32 in 64-bit words.
 pub const BOWDEN_INVERSE_F32_WORDS: usize = 10;
-/// Room of a bowden_inverse_f64, in words of 64 bits.
+/// Size of a bowden_inverse_f64 in 64-bit words.
 pub const BOWDEN_INVERSE_F64_WORDS: usize = 20;
 
 /// Of a step that is fed one number: a good sample or a held one.
@@ -40,17 +41,21 @@ fn good(is_good: bool) -> bowden_result {
 macro_rules! hysteresis {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// The transmission's figures, (1), (2), (5), (7).
+            /// Parameters of the transmission, (1), (2), (5), (7).
+            ///
+            /// Start from NAME_INIT. By default offset and eta are 0; all other fields must be set.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_cable_settings_ $f>] {
+                /// Set by the macro NAME_INIT; settings without it are refused.
+                pub init_mark: u32,
                 /// One of bowden_mode.
                 pub mode: u32,
                 /// B of (5) or kappa of (1) [output unit/input unit].
                 pub gain: $f,
-                /// Share of the hysteresis [output unit].
+                /// Gain of the hysteresis [output unit].
                 pub kappa_eta: $f,
-                /// T0 of (5) or the offset of (1) [output unit].
+                /// T0 of (5) or the offset of (1) [output unit]; 0 by default.
                 pub offset: $f,
                 /// Above zero [1/input unit].
                 pub rho: $f,
@@ -58,20 +63,77 @@ macro_rules! hysteresis {
                 pub sigma: $f,
                 /// At least 1.
                 pub n: $f,
-                /// The hysteresis state at the start, within -1 and 1; 0 where it is not known.
+                /// The hysteresis state at the start, within -1 and 1; 0 if unknown.
                 pub eta: $f,
             }
 
+            marked!([<bowden_cable_settings_ $f>]);
+
             impl [<bowden_cable_settings_ $f>] {
-                fn parts(&self) -> Result<(Transmission<$f>, BoucWen<$f>), Refused> {
-                    let shape = Shape::try_new(self.rho, self.sigma, self.n)?;
+                /// The defaults; a field without a default has an invalid value.
+                pub const fn defaults() -> Self {
+                    Self {
+                        init_mark: Self::MARK,
+                        mode: UNSET,
+                        gain: $f::MAX,
+                        kappa_eta: $f::MAX,
+                        offset: 0.0,
+                        rho: 0.0,
+                        sigma: 0.0,
+                        n: 0.0,
+                        eta: 0.0,
+                    }
+                }
+            }
+
+            impl [<bowden_cable_settings_ $f>] {
+                fn parts(&self) -> Result<(Transmission<$f>, BoucWenState<$f>), Refused> {
+                    for (value, name) in [(self.gain, "gain"), (self.kappa_eta, "kappa_eta")] {
+                        if value == $f::MAX {
+                            return Err(Refused::unset(name));
+                        }
+                    }
+                    let shape = BoucWen::try_new(self.rho, self.sigma, self.n)?;
                     let build = match self.mode {
                         m if m == bowden_mode::Torque as u32 => Transmission::torque,
                         m if m == bowden_mode::Displacement as u32 => Transmission::displacement,
                         _ => return Err(Refused::choice("mode")),
                     };
                     let cable = build(self.gain, self.kappa_eta, self.offset, shape)?;
-                    Ok((cable, BoucWen::with_eta(self.eta)?))
+                    Ok((cable, BoucWenState::with_eta(self.eta)?))
+                }
+            }
+
+            /// Settings of a hysteresis (2), (7).
+            ///
+            /// Start from NAME_INIT. By default eta is 0; all other fields must be set.
+            #[repr(C)]
+            #[derive(Debug, Clone, Copy, PartialEq)]
+            pub struct [<bowden_hysteresis_settings_ $f>] {
+                /// Set by the macro NAME_INIT; settings without it are refused.
+                pub init_mark: u32,
+                /// Initial slope of eta, above zero [1/input unit].
+                pub rho: $f,
+                /// At least 1/2: the slope after a reversal is 2*sigma*rho.
+                pub sigma: $f,
+                /// Sharpness of the knee, at least 1.
+                pub n: $f,
+                /// The hysteresis state at the start, within -1 and 1; 0 if unknown.
+                pub eta: $f,
+            }
+
+            marked!([<bowden_hysteresis_settings_ $f>]);
+
+            impl [<bowden_hysteresis_settings_ $f>] {
+                /// The defaults; fields without a default are 0.
+                pub const fn defaults() -> Self {
+                    Self {
+                        init_mark: Self::MARK,
+                        rho: 0.0,
+                        sigma: 0.0,
+                        n: 0.0,
+                        eta: 0.0,
+                    }
                 }
             }
 
@@ -84,7 +146,7 @@ macro_rules! hysteresis {
 
             // SAFETY: `repr(C)` of one array of u64.
             unsafe impl Object for [<bowden_hysteresis_ $f>] {
-                type Inner = (Shape<$f>, BoucWen<$f>);
+                type Inner = (BoucWen<$f>, BoucWenState<$f>);
                 const MAGIC: u64 = $magic;
             }
 
@@ -97,7 +159,7 @@ macro_rules! hysteresis {
 
             // SAFETY: `repr(C)` of one array of u64.
             unsafe impl Object for [<bowden_cable_ $f>] {
-                type Inner = (Transmission<$f>, BoucWen<$f>);
+                type Inner = (Transmission<$f>, BoucWenState<$f>);
                 const MAGIC: u64 = $magic + 1;
             }
 
@@ -110,30 +172,28 @@ macro_rules! hysteresis {
 
             // SAFETY: `repr(C)` of one array of u64.
             unsafe impl Object for [<bowden_inverse_ $f>] {
-                type Inner = (Inverse<$f>, BoucWen<$f>);
+                type Inner = (Inverse<$f>, BoucWenState<$f>);
                 const MAGIC: u64 = $magic + 2;
             }
 
-            /// Starts a hysteresis at `eta`, within -1 and 1: rho above zero [1/input unit],
-            /// sigma at least 1/2, n at least 1. `about` may be null.
+            /// Checks the settings and starts a hysteresis. `about` may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_hysteresis_init_ $f>](
                 hysteresis: *mut [<bowden_hysteresis_ $f>],
-                rho: $f,
-                sigma: $f,
-                n: $f,
-                eta: $f,
+                settings: *const [<bowden_hysteresis_settings_ $f>],
                 about: *mut bowden_about,
             ) -> bowden_result {
                 let parts = || -> Result<_, Refused> {
-                    Ok((Shape::try_new(rho, sigma, n)?, BoucWen::with_eta(eta)?))
+                    // SAFETY: the caller's rule of pointers.
+                    let s = unsafe { read_settings(settings)? };
+                    Ok((BoucWen::try_new(s.rho, s.sigma, s.n)?, BoucWenState::with_eta(s.eta)?))
                 };
                 // SAFETY: the caller's rule of pointers.
                 unsafe { told(parts().and_then(|inner| Ok(start(hysteresis, inner)?)), about) }
             }
 
-            /// One input [input unit]: `eta` gets the state, within -1 and 1. The first sample
-            /// only sets the input. One that is not finite is held: BOWDEN_RESULT_HELD.
+            /// One input [input unit]: `eta` gets the state, within -1 and 1. The first sample only
+            /// sets the input. A value that is not finite is held: BOWDEN_RESULT_HELD.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_hysteresis_step_ $f>](
                 hysteresis: *mut [<bowden_hysteresis_ $f>],
@@ -150,7 +210,7 @@ macro_rules! hysteresis {
                 })())
             }
 
-            /// Checks the figures and starts a transmission. `about` may be null.
+            /// Checks the parameters and starts a transmission. `about` may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_cable_init_ $f>](
                 cable: *mut [<bowden_cable_ $f>],
@@ -159,16 +219,15 @@ macro_rules! hysteresis {
             ) -> bowden_result {
                 // SAFETY: the caller's rule of pointers.
                 unsafe {
-                    let tried = crate::object::read(settings)
-                        .map_err(Refused::from)
+                    let tried = read_settings(settings)
                         .and_then(|settings| settings.parts())
                         .and_then(|parts| Ok(start(cable, parts)?));
                     told(tried, about)
                 }
             }
 
-            /// One input [input unit]: `output` gets the output [output unit]. One that is not
-            /// finite is held: BOWDEN_RESULT_HELD, and the last output, zero before the first.
+            /// One input [input unit]: `output` gets the output [output unit]. If the input is not
+            /// finite, the last output is held (zero before the first sample): BOWDEN_RESULT_HELD.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_cable_step_ $f>](
                 cable: *mut [<bowden_cable_ $f>],
@@ -185,8 +244,8 @@ macro_rules! hysteresis {
                 })())
             }
 
-            /// The same figures turned round; BOWDEN_RESULT_ERROR_INADMISSIBLE where the
-            /// transmission has no inverse (sigma above gain/(2*kappa_eta*rho)).
+            /// Starts the inverse of the same transmission; BOWDEN_RESULT_ERROR_INADMISSIBLE if it
+            /// has no inverse (sigma above gain/(2*kappa_eta*rho)).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_inverse_init_ $f>](
                 inverse: *mut [<bowden_inverse_ $f>],
@@ -195,8 +254,7 @@ macro_rules! hysteresis {
             ) -> bowden_result {
                 // SAFETY: the caller's rule of pointers.
                 unsafe {
-                    let tried = crate::object::read(settings)
-                        .map_err(Refused::from)
+                    let tried = read_settings(settings)
                         .and_then(|settings| settings.parts())
                         .and_then(|(cable, state)| {
                             Ok(start(inverse, (cable.inverse()?, state))?)
@@ -205,8 +263,8 @@ macro_rules! hysteresis {
                 }
             }
 
-            /// One output that is wanted [output unit]: `input` gets the input [input unit] that
-            /// gives it. One that is not finite is held: BOWDEN_RESULT_HELD.
+            /// One desired output [output unit]: `input` gets the input [input unit] that produces
+            /// it. A value that is not finite is held: BOWDEN_RESULT_HELD.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_inverse_step_ $f>](
                 inverse: *mut [<bowden_inverse_ $f>],

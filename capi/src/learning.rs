@@ -1,17 +1,18 @@
-//! Iterative learning: what a task that repeats has lacked so far, fed forward.
+//! Iterative learning: a feed-forward from the error of earlier cycles of a repeating task.
 
-use crate::object::{kept, read, start, writable, write, Lent, Object};
+use crate::object::{kept, read_settings, start, writable, write, Lent, Object};
 use crate::result::{bowden_about, bowden_fault, bowden_result, code, of_status, told, Refused};
-use core_bowden::control::{Learning, LearningInput, LearningState};
+use crate::settings::{marked, Marked};
+use core_bowden::control::{IterativeLearning, IterativeLearningInput, IterativeLearningState};
 use core_bowden::{Error, Real};
 
-/// Most cells of a cycle.
+/// Maximum number of cells of a cycle.
 pub const BOWDEN_CELLS: usize = 65535;
-const _: () = assert!(BOWDEN_CELLS == Learning::<f32>::MOST_CELLS);
-/// Room of a bowden_learning_f32, in words of 64 bits.
-pub const BOWDEN_LEARNING_F32_WORDS: usize = 14;
-/// Room of a bowden_learning_f64, in words of 64 bits.
-pub const BOWDEN_LEARNING_F64_WORDS: usize = 18;
+const _: () = assert!(BOWDEN_CELLS == IterativeLearning::<f32>::MOST_CELLS);
+/// Size of a bowden_iterative_learning_f32 in 64-bit words.
+pub const BOWDEN_ITERATIVE_LEARNING_F32_WORDS: usize = 14;
+/// Size of a bowden_iterative_learning_f64 in 64-bit words.
+pub const BOWDEN_ITERATIVE_LEARNING_F64_WORDS: usize = 18;
 
 /// Starts over both arrays, of which the second is set to zero, and the first one where nothing is
 /// kept: after all that can be refused.
@@ -19,8 +20,11 @@ pub const BOWDEN_LEARNING_F64_WORDS: usize = 18;
 /// # Safety
 /// The caller's rule of pointers; of the arrays as [`Lent::new`], and where the first one is kept
 /// numbers stand in it.
-unsafe fn begin<T: Real, O: Object<Inner = (Learning<T>, LearningState<T, Lent<T>>)>>(
-    own: Result<Learning<T>, Refused>,
+unsafe fn begin<
+    T: Real,
+    O: Object<Inner = (IterativeLearning<T>, IterativeLearningState<T, Lent<T>>)>,
+>(
+    own: Result<IterativeLearning<T>, Refused>,
     object: *mut O,
     [learned, unfiltered]: [*mut T; 2],
     cells: usize,
@@ -54,76 +58,103 @@ unsafe fn begin<T: Real, O: Object<Inner = (Learning<T>, LearningState<T, Lent<T
 macro_rules! learning {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// A learning with its state but for two arrays of the caller; made by
-            /// bowden_learning_init or bowden_learning_resume.
+            /// Iterative learning with its state, except for two arrays of the caller; made by
+            /// bowden_iterative_learning_init or bowden_iterative_learning_resume.
             #[repr(C)]
-            pub struct [<bowden_learning_ $f>] {
+            pub struct [<bowden_iterative_learning_ $f>] {
                 /// Not for use.
-                pub opaque: [u64; [<BOWDEN_LEARNING_ $f:upper _WORDS>]],
+                pub opaque: [u64; [<BOWDEN_ITERATIVE_LEARNING_ $f:upper _WORDS>]],
             }
 
             // SAFETY: `repr(C)` of one array of u64.
-            unsafe impl Object for [<bowden_learning_ $f>] {
-                type Inner = (Learning<$f>, LearningState<$f, Lent<$f>>);
+            unsafe impl Object for [<bowden_iterative_learning_ $f>] {
+                type Inner = (IterativeLearning<$f>, IterativeLearningState<$f, Lent<$f>>);
                 const MAGIC: u64 = $magic;
             }
 
-            /// Settings of a learning. A cycle is divided into cells of equal phase; with e the mean
-            /// of reference - measured over a cell, and w(k) a triangle of area 1:
+            /// Settings of iterative learning. A cycle is divided into cells of equal phase; with e
+            /// the mean of reference - measured over a cell, and w(k) a triangle of area 1:
             ///
             ///     v(c) = (1 - forgetting)*learned(c) + gain*e(c + lead)
             ///     learned(c) = sum of w(k)*v(c + k), k from -half_width to half_width
+            ///
+            /// Start from NAME_INIT. By default nothing is forgotten; all other fields must be set.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
-            pub struct [<bowden_learning_settings_ $f>] {
-                /// Of the error, not zero, of the sign of the plant's [command unit/output unit].
+            pub struct [<bowden_iterative_learning_settings_ $f>] {
+                /// Set by the macro NAME_INIT; settings without it are refused.
+                pub init_mark: u32,
+                /// Gain of the error, not zero, with the sign of the plant's gain [command
+                /// unit/output unit].
                 pub gain: $f,
-                /// Greatest magnitude of what is learned, above zero [command unit].
+                /// Greatest magnitude of the learned values, above zero [command unit].
                 pub limit: $f,
-                /// Share of what a cell has learned that is forgotten each time, from 0 to 1.
+                /// Share of a learned value that is forgotten per cycle, from 0 to 1.
                 pub forgetting: $f,
-                /// How many cells a command comes before its effect.
+                /// Number of cells from a command to its effect.
                 pub lead: u16,
-                /// Half width of the triangle [cells]; 0 filters nothing.
+                /// Half-width of the triangle [cells]; 0 means no filter.
                 pub half_width: u16,
             }
 
-            impl [<bowden_learning_settings_ $f>] {
-                fn learning(&self) -> Result<Learning<$f>, Refused> {
+            marked!([<bowden_iterative_learning_settings_ $f>]);
+
+            impl [<bowden_iterative_learning_settings_ $f>] {
+                /// The defaults; a field without a default has an invalid value.
+                pub const fn defaults() -> Self {
+                    Self {
+                        init_mark: Self::MARK,
+                        gain: 0.0,
+                        limit: 0.0,
+                        forgetting: 0.0,
+                        lead: u16::MAX,
+                        half_width: u16::MAX,
+                    }
+                }
+            }
+
+            impl [<bowden_iterative_learning_settings_ $f>] {
+                fn learning(&self) -> Result<IterativeLearning<$f>, Refused> {
+                    for (cells, name) in [(self.lead, "lead"), (self.half_width, "half_width")] {
+                        // No array has so many cells: the field was not set.
+                        if cells == u16::MAX {
+                            return Err(Refused::unset(name));
+                        }
+                    }
                     let own =
-                        Learning::try_new(self.gain, self.limit, self.lead, self.half_width)?;
+                        IterativeLearning::try_new(self.gain, self.limit, self.lead, self.half_width)?;
                     Ok(own.with_forgetting(self.forgetting)?)
                 }
             }
 
-            /// What a step of a learning gives.
+            /// Output of a step of iterative learning.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
-            pub struct [<bowden_learning_output_ $f>] {
-                /// To be added to the command, as feed_forward of a controller [command unit];
-                /// finite and within the limit in any case.
+            pub struct [<bowden_iterative_learning_output_ $f>] {
+                /// Value to be added to the command, as feed_forward of a controller [command
+                /// unit]; always finite and within the limit.
                 pub feed_forward: $f,
-                /// What the step did: the same as it returns.
+                /// Status of the step, equal to its return value.
                 pub result: bowden_result,
                 /// What was wrong.
                 pub fault: bowden_fault,
             }
 
-            /// Starts a learning that has learned nothing, over two arrays of `cells` numbers, which
-            /// it sets to zero: at least lead + 2*half_width + 9, at most BOWDEN_CELLS.
+            /// Starts iterative learning over two arrays of `cells` numbers, which it sets to zero.
+            /// `cells` is at least lead + 2*half_width + 9 and at most BOWDEN_CELLS.
             ///
-            /// The arrays stay the caller's. They must be there, and nobody may write to them, for
-            /// as long as the object is used: a local array of the function that calls this is
-            /// wrong where the object outlives it. Between two calls `learned` may be read, for a
-            /// plot or to be stored. They overlap neither each other nor the object
-            /// (BOWDEN_RESULT_ERROR_INADMISSIBLE), and serve one object at a time; a copy of the
-            /// object goes on with the same arrays, so only one of the two may be used.
+            /// The caller owns the arrays. They must exist, and nobody may write to them, as long
+            /// as the object is used. A local array is wrong if the object outlives the function.
+            /// Between two calls the caller may read `learned`, to plot or to store it. The
+            /// arrays must not overlap each other or the object
+            /// (BOWDEN_RESULT_ERROR_INADMISSIBLE), and they serve one object at a time. A copy of
+            /// the object uses the same arrays, so use only one of the two.
             ///
-            /// On an error object and arrays are as they were. `about` may be null.
+            /// On an error the object and the arrays do not change. `about` may be null.
             #[no_mangle]
-            pub unsafe extern "C" fn [<bowden_learning_init_ $f>](
-                learning: *mut [<bowden_learning_ $f>],
-                settings: *const [<bowden_learning_settings_ $f>],
+            pub unsafe extern "C" fn [<bowden_iterative_learning_init_ $f>](
+                learning: *mut [<bowden_iterative_learning_ $f>],
+                settings: *const [<bowden_iterative_learning_settings_ $f>],
                 learned: *mut $f,
                 unfiltered: *mut $f,
                 cells: usize,
@@ -131,18 +162,18 @@ macro_rules! learning {
             ) -> bowden_result {
                 // SAFETY: the caller's rule of pointers.
                 unsafe {
-                    let own = read(settings).map_err(Refused::from).and_then(|own| own.learning());
+                    let own = read_settings(settings).and_then(|own| own.learning());
                     told(begin(own, learning, [learned, unfiltered], cells, false), about)
                 }
             }
 
-            /// The same where `learned` holds what was learned before, such as a copy from before a
-            /// reset, or an array that another object has learned in and is used with no more; it is
-            /// confined to the limit, and zero for NaN. `unfiltered` may hold anything.
+            /// The same with earlier values in `learned`: a copy from before a reset, or the array
+            /// of an object that is no longer used. Values are clamped to the limit, and NaN
+            /// becomes zero. `unfiltered` may have any contents.
             #[no_mangle]
-            pub unsafe extern "C" fn [<bowden_learning_resume_ $f>](
-                learning: *mut [<bowden_learning_ $f>],
-                settings: *const [<bowden_learning_settings_ $f>],
+            pub unsafe extern "C" fn [<bowden_iterative_learning_resume_ $f>](
+                learning: *mut [<bowden_iterative_learning_ $f>],
+                settings: *const [<bowden_iterative_learning_settings_ $f>],
                 learned: *mut $f,
                 unfiltered: *mut $f,
                 cells: usize,
@@ -150,43 +181,43 @@ macro_rules! learning {
             ) -> bowden_result {
                 // SAFETY: the caller's rule of pointers.
                 unsafe {
-                    let own = read(settings).map_err(Refused::from).and_then(|own| own.learning());
+                    let own = read_settings(settings).and_then(|own| own.learning());
                     told(begin(own, learning, [learned, unfiltered], cells, true), about)
                 }
             }
 
-            /// One sample, before the controller's own: where in the cycle it is, from 0 to 1, the
-            /// reference and the measured output [output unit]. `learns` is 0 where what is out is not
-            /// to be learned from: where a limit cut the command, the safe one is out, or the task is
-            /// another one. Where that is so of more than half of a cell's samples, the errors of the
-            /// next `lead` cells teach nothing either.
+            /// One sample, before the controller's step: the phase of the cycle, from 0 to 1, the
+            /// reference and the measured output [output unit]. Set `learns` to 0 if a limit cut
+            /// the command, the safe command is applied, or the task is different. If more than
+            /// half of a cell's samples have `learns` = 0, the errors of the next `lead` cells are
+            /// ignored too.
             ///
-            /// A phase that is not from 0 to 1 moves nothing and holds the feed-forward:
-            /// BOWDEN_RESULT_HELD, for as long as there is none; the controller's samples are good
-            /// meanwhile. BOWDEN_RESULT_DEGRADED where the feed-forward is of this phase but
-            /// reference or measured output are not finite, so that nothing was learned, or where the
-            /// phase has jumped, by more than four cells: the cell that was left does not learn then,
-            /// and the feed-forward jumps with the phase. Give the controller a slew rate. `out` is
-            /// written with every result that is not negative.
+            /// A phase outside 0 to 1 changes nothing and holds the feed-forward:
+            /// BOWDEN_RESULT_HELD. For the controller such samples are good. BOWDEN_RESULT_DEGRADED
+            /// has two causes. The reference or the measured output is not finite: the feed-forward
+            /// follows the phase, and nothing is learned. Or the phase has jumped by more than four
+            /// cells: the cell before the jump does not learn, and the feed-forward jumps with the
+            /// phase. Give the controller a slew rate. `out` is written with every result that is
+            /// not negative.
             #[no_mangle]
-            pub unsafe extern "C" fn [<bowden_learning_step_ $f>](
-                learning: *mut [<bowden_learning_ $f>],
+            pub unsafe extern "C" fn [<bowden_iterative_learning_step_ $f>](
+                learning: *mut [<bowden_iterative_learning_ $f>],
                 phase: $f,
                 reference: $f,
                 measured: $f,
                 learns: u32,
-                out: *mut [<bowden_learning_output_ $f>],
+                out: *mut [<bowden_iterative_learning_output_ $f>],
             ) -> bowden_result {
                 // SAFETY: the caller's rule of pointers.
                 code((|| unsafe {
                     writable(out)?;
                     let (own, state) = kept(learning)?;
                     let learns = learns != 0;
-                    let at = LearningInput { phase, reference, measured, learns };
+                    let at = IterativeLearningInput { phase, reference, measured, learns };
                     let output = own.step(state, &at);
                     let (result, fault, _) = of_status(output.status);
                     let feed_forward = output.feed_forward;
-                    write(out, [<bowden_learning_output_ $f>] { feed_forward, result, fault })?;
+                    write(out, [<bowden_iterative_learning_output_ $f>] { feed_forward, result, fault })?;
                     Ok(result)
                 })())
             }

@@ -1,12 +1,12 @@
 //! The C interface of bowden: `include/bowden.h`, a static and a shared library.
 //!
-//! Nothing allocates. Every object is a struct that the caller owns, with room for what Rust
-//! keeps in it between two magic words; every function gives a [`bowden_result`]. This package
-//! alone has unsafe code: all of it stands in `object.rs` and behind its functions, which read,
-//! check and write what a pointer leads to.
+//! Nothing allocates. Every object is a struct that the caller owns: the data of Rust between two
+//! magic words. Every function returns a [`bowden_result`]. Only this package has unsafe code. All
+//! of it is in `object.rs` and behind its functions, which read, check and write the memory behind
+//! a pointer.
 //!
-//! What a C caller must keep to is written once, at the head of the header: a pointer is null
-//! or leads to memory of its type, and no object is used from two threads at once.
+//! The head of the header states the rules for a C caller: a pointer is null or points to memory of
+//! its type, and no object is used from two threads at once.
 // On bare metal no_std; elsewhere the static library needs std for its panic handler alone.
 #![cfg_attr(target_os = "none", no_std)]
 #![allow(non_camel_case_types)]
@@ -19,8 +19,11 @@
 extern crate core;
 
 mod adaptive;
+mod adaptive_settings;
 mod choices;
 mod compensator;
+mod edges;
+mod filters;
 mod hysteresis;
 mod learning;
 mod model;
@@ -28,21 +31,31 @@ mod object;
 mod observer;
 mod parts;
 mod pid;
+mod pid_settings;
+mod plausible;
 mod play;
 mod rates;
+mod relay;
 mod result;
+mod settings;
 
 pub use adaptive::*;
+pub use adaptive_settings::*;
 pub use choices::*;
 pub use compensator::*;
+pub use edges::*;
+pub use filters::*;
 pub use hysteresis::*;
 pub use learning::*;
 pub use model::*;
 pub use observer::*;
 pub use parts::*;
 pub use pid::*;
+pub use pid_settings::*;
+pub use plausible::*;
 pub use play::*;
 pub use rates::*;
+pub use relay::*;
 pub use result::*;
 
 /// Nothing in the library panics; the linker wants a handler in any case.

@@ -1,4 +1,4 @@
-//! The identified model, from the bytes that the lab writes.
+//! The identified model, from the bytes of a model file.
 
 use crate::object::{kept, read, read_all, seen, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_result, code, told, Refused};
@@ -7,18 +7,18 @@ use core::slice;
 use core_bowden::model::{Model, ModelState, Sample, Source};
 use core_bowden::signal::Motion;
 
-/// Most terms of a model.
+/// Maximum number of terms of a model.
 pub const BOWDEN_TERMS: usize = 16;
-/// Most channels of a sample.
+/// Maximum number of channels of a sample.
 pub const BOWDEN_CHANNELS: usize = 16;
-/// Most bytes of a model: more than any with BOWDEN_TERMS terms has.
+/// Maximum number of bytes of a model, more than any model with BOWDEN_TERMS terms has.
 pub const BOWDEN_MODEL_BYTES: usize = 2048;
-/// Room of a bowden_model_f32, in words of 64 bits.
+/// Size of a bowden_model_f32 in 64-bit words.
 pub const BOWDEN_MODEL_F32_WORDS: usize = 112;
-/// Room of a bowden_model_f64, in words of 64 bits.
+/// Size of a bowden_model_f64 in 64-bit words.
 pub const BOWDEN_MODEL_F64_WORDS: usize = 216;
 
-/// As `bowden close --model-out` writes it behind the model.
+/// As `bowden identify --model-out` writes it behind the model.
 const CHECKSUM: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
 
 /// Whether a model reads no more channels than a sample holds.
@@ -32,7 +32,7 @@ fn reads_what_there_is<T: core_bowden::Real>(model: &Model<T, BOWDEN_TERMS>) -> 
 macro_rules! model {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// An identified model with its state; the caller's memory, made by
+            /// An identified model with its state, in the caller's memory; made by
             /// bowden_model_load.
             #[repr(C)]
             pub struct [<bowden_model_ $f>] {
@@ -54,12 +54,12 @@ macro_rules! model {
                 pub dt: $f,
                 /// The transmission's input, x or tau_i, with its rates.
                 pub input: [<bowden_motion_ $f>],
-                /// The transmitted load: tau_i in torque mode, else a load channel.
+                /// The transmitted load: tau_i in torque mode, otherwise a load channel.
                 pub load: $f,
-                /// All other channels, in the order of the model's file; may be null where
-                /// there are none.
+                /// All other channels, in the order of the model's file; may be null if there are
+                /// none.
                 pub channels: *const [<bowden_motion_ $f>],
-                /// How many there are, at most BOWDEN_CHANNELS.
+                /// Number of channels, at most BOWDEN_CHANNELS.
                 pub channel_count: usize,
             }
 
@@ -85,18 +85,17 @@ macro_rules! model {
                 channels.get(..count).unwrap_or(channels)
             }
 
-            /// Loads a model from the bytes that `bowden close --model-out FILE.postcard` or
-            /// `bowden export --c` writes, four bytes of CRC-32 last, and starts it.
+            /// Loads a model from the bytes that `bowden identify --model-out FILE.postcard` or
+            /// `bowden export --c` writes, with four bytes of CRC-32 at the end, and starts it.
             ///
-            /// `length` is that of the model, not of an array or a sector that is larger: bytes
-            /// behind the CRC-32 are refused as damaged ones are. `eta` is the hysteresis state
-            /// at the start, within -1 and 1; 0 where it is not known.
-            /// BOWDEN_RESULT_ERROR_MODEL where the bytes are damaged, too many, of the other
-            /// precision, of another version, or hold more than BOWDEN_TERMS terms; `about`,
-            /// which may be null, tells the first two ("checksum") from the others.
-            /// BOWDEN_RESULT_ERROR_CAPACITY where a term reads a channel from BOWDEN_CHANNELS
-            /// on, or there are more than BOWDEN_MODEL_BYTES bytes. The bytes are not needed
-            /// afterwards. On an error the object is as it was.
+            /// `length` is the length of the model, not of a larger array or sector: bytes behind
+            /// the CRC-32 are refused like damaged bytes. `eta` is the hysteresis state at the
+            /// start, within -1 and 1; 0 if unknown. BOWDEN_RESULT_ERROR_MODEL: the bytes are
+            /// damaged, too many, of the other precision or of another version, or have more than
+            /// BOWDEN_TERMS terms. `about`, which may be null, is "checksum" for the first two.
+            /// BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel with a number of
+            /// BOWDEN_CHANNELS or more, or there are more than BOWDEN_MODEL_BYTES bytes. The object
+            /// does not use the bytes afterwards. On an error the object does not change.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_model_load_ $f>](
                 model: *mut [<bowden_model_ $f>],
@@ -129,9 +128,9 @@ macro_rules! model {
             ///
             ///     y = transmission(input, eta) + sum of gain*regressor
             ///
-            /// A bad sample (a dt that is not positive, a number that the model reads that is
-            /// not finite, a channel that is missing) leaves the state and gives the last good
-            /// output, 0 before the first one: BOWDEN_RESULT_HELD.
+            /// A bad sample (dt is not positive, a channel is missing, or a number that the model
+            /// reads is not finite) leaves the state unchanged and returns the last good output, 0
+            /// before the first one: BOWDEN_RESULT_HELD.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_model_step_ $f>](
                 model: *mut [<bowden_model_ $f>],
@@ -171,7 +170,7 @@ macro_rules! model {
                 })())
             }
 
-            /// The state of the start again, with this hysteresis state.
+            /// Resets the state to the start, with this hysteresis state.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_model_reset_ $f>](
                 model: *mut [<bowden_model_ $f>],

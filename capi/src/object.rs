@@ -1,10 +1,12 @@
-//! What is behind a pointer from C: read, checked and written here.
+//! Reads, checks and writes the memory behind a pointer from C.
 //!
-//! An [`Object`] is memory that the caller owns: a magic word, what Rust keeps, the magic word
-//! turned round. The first word of memory that was not initialised is another one, but for one
-//! chance in 2^64; the last word tells of an array that was written over its end.
+//! An [`Object`] is memory that the caller owns: a magic word, the data of Rust, the inverted magic
+//! word. The first word of uninitialised memory differs, except with a probability of 2^-64. The
+//! last word reveals an array that was written beyond its end.
 
 use crate::bowden_result;
+use crate::result::Refused;
+use crate::settings::Marked;
 use core::ffi::CStr;
 use core::ops::Range;
 use core::ptr;
@@ -124,6 +126,19 @@ pub(crate) unsafe fn seen<'a, O: Object>(object: *const O) -> Result<&'a O::Inne
 pub(crate) unsafe fn read<X: Copy>(from: *const X) -> Result<X, bowden_result> {
     is_placed(from)?;
     // SAFETY: placed, and of numbers and pointers only.
+    Ok(unsafe { ptr::read(from) })
+}
+
+/// Settings of a caller. The mark is read before the other fields, so of memory that is not
+/// this struct no more is read.
+///
+/// # Safety
+/// `from` is null or leads to a `u32`; where that is the mark, to a value of its type.
+pub(crate) unsafe fn read_settings<S: Marked>(from: *const S) -> Result<S, Refused> {
+    is_placed(from)?;
+    // SAFETY: placed, and a `u32` is first.
+    S::is_marked(unsafe { ptr::read(from.cast::<u32>()) })?;
+    // SAFETY: placed, and of numbers only; the mark says that it is the struct.
     Ok(unsafe { ptr::read(from) })
 }
 

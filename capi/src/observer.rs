@@ -1,13 +1,14 @@
-//! The disturbance observer: what friction and load take from a command.
+//! The disturbance observer: estimates and compensates friction and load.
 
-use crate::object::{kept, read, seen, start, writable, write, Object};
+use crate::object::{kept, read, read_settings, seen, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_fault, bowden_result, code, of_status, told, Refused};
+use crate::settings::{marked, Marked};
 use crate::{bowden_motion_f32, bowden_motion_f64};
 use core_bowden::control::{DisturbanceObserver, NominalPlant, ObserverInput, ObserverState};
 
-/// Room of a bowden_observer_f32, in words of 64 bits.
+/// Size of a bowden_observer_f32 in 64-bit words.
 pub const BOWDEN_OBSERVER_F32_WORDS: usize = 14;
-/// Room of a bowden_observer_f64, in words of 64 bits.
+/// Size of a bowden_observer_f64 in 64-bit words.
 pub const BOWDEN_OBSERVER_F64_WORDS: usize = 25;
 
 macro_rules! observer {
@@ -30,36 +31,58 @@ macro_rules! observer {
             ///
             ///     P(s) = gain/(s^2/wn^2 + 2*zeta*s/wn + 1)
             ///
-            /// of a motor with inertia J and damping c that works against a stiffness K:
-            /// wn = sqrt(K/J), zeta = c/(2*sqrt(K*J)). Where they are uncertain, err low with wn and gain.
+            /// for a motor with inertia J and damping c that works against a stiffness K: wn =
+            /// sqrt(K/J), zeta = c/(2*sqrt(K*J)). If wn and gain are uncertain, choose low values.
+            ///
+            /// Start from NAME_INIT. By default the latency is 0; all other fields must be set.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_observer_settings_ $f>] {
-                /// Of the nominal plant, not zero [output unit/command unit].
+                /// Set by the macro NAME_INIT; settings without it are refused.
+                pub init_mark: u32,
+                /// Gain of the nominal plant, not zero [output unit/command unit].
                 pub gain: $f,
                 /// wn of the nominal plant, above zero [rad/s].
                 pub natural_frequency: $f,
-                /// zeta of the nominal plant, not below zero.
+                /// zeta of the nominal plant, zero or above.
                 pub damping_ratio: $f,
                 /// tau of the filter Q = 1/(tau*s + 1)^2, above zero [s].
                 pub time_constant: $f,
                 /// Greatest magnitude of the estimate, above zero [command unit].
                 pub limit: $f,
-                /// Longest dt that is a sample, above zero [s].
+                /// Longest dt of a good sample, above zero [s].
                 pub longest_dt: $f,
-                /// How long a command takes to show in the measured output, beside what the nominal
-                /// plant takes; not below zero [s].
+                /// Time from a command to its effect in the measured output, without the response
+                /// of the nominal plant; zero or above [s].
                 pub latency: $f,
             }
 
-            /// What a step of an observer gives.
+            marked!([<bowden_observer_settings_ $f>]);
+
+            impl [<bowden_observer_settings_ $f>] {
+                /// The defaults; a field without a default has an invalid value.
+                pub const fn defaults() -> Self {
+                    Self {
+                        init_mark: Self::MARK,
+                        gain: 0.0,
+                        natural_frequency: 0.0,
+                        damping_ratio: -1.0,
+                        time_constant: 0.0,
+                        limit: 0.0,
+                        longest_dt: 0.0,
+                        latency: 0.0,
+                    }
+                }
+            }
+
+            /// Output of a step of an observer.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_observer_output_ $f>] {
-                /// To be added to the command, as feed_forward of a controller [command unit];
-                /// finite and within the limit in any case.
+                /// Value to be added to the command, as feed_forward of a controller [command
+                /// unit]; always finite and within the limit.
                 pub estimate: $f,
-                /// What the step did: the same as it returns.
+                /// Status of the step, equal to its return value.
                 pub result: bowden_result,
                 /// What was wrong.
                 pub fault: bowden_fault,
@@ -74,7 +97,7 @@ macro_rules! observer {
             ) -> bowden_result {
                 let parts = || -> Result<_, Refused> {
                     // SAFETY: the caller's rule of pointers.
-                    let s = unsafe { read(settings)? };
+                    let s = unsafe { read_settings(settings)? };
                     let plant =
                         NominalPlant::try_new(s.gain, s.natural_frequency, s.damping_ratio)?;
                     let own =
@@ -86,9 +109,9 @@ macro_rules! observer {
                 unsafe { told(parts().and_then(|inner| Ok(start(observer, inner)?)), about) }
             }
 
-            /// One sample, before the controller's own: `dt` since the last call [s], the command
-            /// that went out at the last call behind all limits [command unit], the measured
-            /// output [output unit].
+            /// One sample, before the controller's step: `dt` since the last call [s], the applied
+            /// command of the last call after all limits [command unit], the measured output
+            /// [output unit].
             ///
             /// A bad sample holds the estimate: BOWDEN_RESULT_HELD. `out` is written with every
             /// result that is not negative.
@@ -112,8 +135,8 @@ macro_rules! observer {
                 })())
             }
 
-            /// The command that makes the nominal plant follow, [command unit]: of the output that
-            /// is wanted with its rates, taken as far ahead as the latency.
+            /// The command [command unit] for which the nominal plant follows the desired output,
+            /// given with its rates and ahead of time by the latency.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_observer_feed_forward_ $f>](
                 observer: *const [<bowden_observer_ $f>],
@@ -129,8 +152,8 @@ macro_rules! observer {
                 })())
             }
 
-            /// The state of the start again: where the drive was off, for a command that did not
-            /// reach the motor is no command.
+            /// Resets the state to the start. Call it after the drive was off: a command that did
+            /// not reach the motor does not count.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_observer_reset_ $f>](
                 observer: *mut [<bowden_observer_ $f>],

@@ -1,12 +1,34 @@
-//! What several parts of the interface share: limits, fallback, motions, the output.
+//! Types that several parts of the interface share: limits, fallback, motion, output.
 
 use crate::result::{bowden_fault, bowden_result, of_status, Refused};
-use core_bowden::control::{Fallback, Limits, Output};
+use core_bowden::control::{Applied, Fallback, Limits, Output};
 use core_bowden::signal::Motion;
 
-/// For `after` of a fallback: the last good command is held for ever; for a simulation, not for
-/// a machine.
+/// For `after` of a fallback: holds the last good command indefinitely; for a simulation, not for a
+/// machine.
 pub const BOWDEN_HOLD_FOR_EVER: u32 = 0xffff_ffff;
+
+/// The active limit of a command or a drive.
+#[repr(u32)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum bowden_saturation {
+    /// No limit: the command was applied.
+    None = 0,
+    /// The applied command is below the law's command.
+    Upper = 1,
+    /// The applied command is above the law's command.
+    Lower = 2,
+}
+
+/// What a drive at this limit did with the command; how far it cut is unknown.
+pub(crate) fn limit_of_drive<T>(saturation: u32) -> Result<Applied<T>, Refused> {
+    match saturation {
+        s if s == bowden_saturation::None as u32 => Ok(Applied::AsCommanded),
+        s if s == bowden_saturation::Upper as u32 => Ok(Applied::AtUpperLimit),
+        s if s == bowden_saturation::Lower as u32 => Ok(Applied::AtLowerLimit),
+        _ => Err(Refused::choice("saturation")),
+    }
+}
 
 macro_rules! parts {
     ($f:ident) => {
@@ -19,35 +41,31 @@ macro_rules! parts {
                 pub low: $f,
                 /// Greatest command [command unit]; above `low`.
                 pub high: $f,
-                /// Slew rate above zero [command unit/s]; 0 for none.
+                /// Slew rate, above zero [command unit/s]; 0 for none.
                 pub slew: $f,
             }
 
             impl [<bowden_limits_ $f>] {
+                /// An empty range, which is refused: until both ends are set.
+                pub(crate) const UNSET: Self = Self { low: $f::MAX, high: $f::MIN, slew: 0.0 };
+
                 pub(crate) fn limits(&self) -> Result<Limits<$f>, Refused> {
                     let range = Limits::try_new(self.low, self.high)?;
                     Ok(if self.slew == 0.0 { range } else { range.with_slew(self.slew)? })
                 }
-
-                pub(crate) fn of(limits: &Limits<$f>) -> Self {
-                    Self {
-                        low: limits.low(),
-                        high: limits.high(),
-                        slew: limits.slew().unwrap_or(0.0),
-                    }
-                }
             }
 
-            /// What to command when samples stay bad.
+            /// The safe command after repeated bad samples.
             ///
-            /// A score counts: a bad sample adds the weight, a good one takes 1 away. At
-            /// after*weight the safe command goes out and stays out until it is acknowledged.
+            /// A score counts: a bad sample adds the weight, a good sample subtracts 1. At
+            /// after*weight the safe command is applied until it is acknowledged.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_fallback_ $f>] {
-                /// From which bad sample in a row on, at least 1; BOWDEN_HOLD_FOR_EVER for never.
+                /// Number of bad samples in a row that applies the safe command, at least 1;
+                /// BOWDEN_HOLD_FOR_EVER for never.
                 pub after: u32,
-                /// How many good samples make up for a bad one, at least 1; 4 is usual.
+                /// Number of good samples that cancel a bad one, at least 1; 4 is usual.
                 pub weight: u32,
                 /// The safe command [command unit], within the limits.
                 pub command: $f,
@@ -56,17 +74,9 @@ macro_rules! parts {
             impl [<bowden_fallback_ $f>] {
                 pub(crate) fn fallback(&self) -> Result<Fallback<$f>, Refused> {
                     if self.after == BOWDEN_HOLD_FOR_EVER {
-                        return Ok(Fallback::hold_for_ever());
+                        return Ok(Fallback::hold_indefinitely());
                     }
                     Ok(Fallback::try_new(self.after, self.command)?.with_weight(self.weight)?)
-                }
-
-                pub(crate) fn of(fallback: &Fallback<$f>) -> Self {
-                    Self {
-                        after: fallback.after(),
-                        weight: fallback.weight(),
-                        command: fallback.command().unwrap_or(0.0),
-                    }
                 }
             }
 
@@ -100,17 +110,17 @@ macro_rules! parts {
                 }
             }
 
-            /// What a step of a controller gives.
+            /// Output of a step of a controller.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_output_ $f>] {
-                /// What goes to the drive [command unit]: finite and within the limits.
+                /// Command for the drive [command unit]: finite and within the limits.
                 pub command: $f,
-                /// What the step did: the same as it returns.
+                /// Status of the step, equal to its return value.
                 pub result: bowden_result,
                 /// What was wrong.
                 pub fault: bowden_fault,
-                /// Which regressor or term, from 0, where the fault is BOWDEN_FAULT_REGRESSOR.
+                /// Index of the regressor or term, from 0, if the fault is BOWDEN_FAULT_REGRESSOR.
                 pub regressor: u32,
             }
 

@@ -1,136 +1,27 @@
 //! PI, PID and PIV.
 
-use crate::object::{kept, read, seen, start, writable, write, Object};
+use crate::object::{kept, read, read_settings, seen, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_result, code, told, Refused};
 use crate::{bowden_fallback_f32, bowden_fallback_f64, bowden_limits_f32, bowden_limits_f64};
-use crate::{bowden_output_f32, bowden_output_f64};
-use core_bowden::control::{
-    AntiWindup, Damping, Output, Pid, PidInput, PidSettings, PidState, PidTerms,
+use crate::{
+    bowden_output_f32, bowden_output_f64, bowden_pid_settings_f32, bowden_pid_settings_f64,
 };
+use crate::{bowden_saturation, limit_of_drive};
+use core_bowden::control::{Applied, Output, Pid, PidInput, PidState, PidTerms};
 
-/// What the gain `k_d` multiplies.
-#[repr(u32)]
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum bowden_damping {
-    /// The filtered derivative of y - c*y_r, PID (14).
-    Rate = 0,
-    /// The measured distal velocity as it is, PIV (16); nothing is filtered.
-    Velocity = 1,
-}
-
-/// What keeps the integral from growing while the command is limited.
-#[repr(u32)]
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum bowden_anti_windup {
-    /// The integral does not grow in the direction in which the limit is passed.
-    Conditional = 0,
-    /// Nothing: the integral winds up.
-    None = 1,
-    /// The integral term stays within the range of the command, widened to hold zero.
-    Clamp = 2,
-    /// What the limits cut off flows back into the integral, over `tracking_time`.
-    BackCalculation = 3,
-}
-
-/// Room of a bowden_pid_f32, in words of 64 bits.
+/// Size of a bowden_pid_f32 in 64-bit words.
 pub const BOWDEN_PID_F32_WORDS: usize = 24;
-/// Room of a bowden_pid_f64, in words of 64 bits.
+/// Size of a bowden_pid_f64 in 64-bit words.
 pub const BOWDEN_PID_F64_WORDS: usize = 40;
 
 macro_rules! pid {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// Settings of a PI (15), PID (14) or PIV (16):
-            ///
-            ///     u = -k_p*(y - b*y_r) - k_i*integral(e) - k_d*d/dt(y - c*y_r) + u_ff
-            ///     u = -k_p*(y - b*y_r) - k_i*integral(e) - k_d*v_d             + u_ff    (PIV)
-            ///     command = u within the range and the slew rate;  e = y - y_r
-            #[repr(C)]
-            #[derive(Debug, Clone, Copy, PartialEq)]
-            pub struct [<bowden_pid_settings_ $f>] {
-                /// Proportional gain [command unit/output unit].
-                pub k_p: $f,
-                /// Integral gain [command unit/(output unit*s)], of the sign of k_p.
-                pub k_i: $f,
-                /// Derivative gain [command unit*s/output unit], of the sign of k_p; for PIV
-                /// [command unit*s/rad]. 0 for a PI.
-                pub k_d: $f,
-                /// One of bowden_damping: what k_d multiplies.
-                pub damping: u32,
-                /// Set-point weight c of the derivative, 0 to 1.
-                pub derivative_weight: $f,
-                /// Time constant of the derivative's filter, from 0 (none) up [s].
-                pub derivative_time: $f,
-                /// Set-point weight b of the proportional term, 0 to 1.
-                pub setpoint_weight: $f,
-                /// One of bowden_anti_windup.
-                pub anti_windup: u32,
-                /// Of BOWDEN_ANTI_WINDUP_BACK_CALCULATION alone, above zero [s].
-                pub tracking_time: $f,
-                /// Range and slew rate of the command.
-                pub limits: [<bowden_limits_ $f>],
-                /// Longest dt that is a sample, above zero [s]: five nominal steps, say.
-                pub longest_dt: $f,
-                /// What goes out when samples stay bad.
-                pub fallback: [<bowden_fallback_ $f>],
-            }
-
-            impl [<bowden_pid_settings_ $f>] {
-                fn of(s: &PidSettings<$f>) -> Self {
-                    // As `PidSettings::new` and `unlimited` have them.
-                    Self {
-                        k_p: s.k_p,
-                        k_i: s.k_i,
-                        k_d: s.k_d,
-                        damping: bowden_damping::Rate as u32,
-                        derivative_weight: 1.0,
-                        derivative_time: s.derivative_time,
-                        setpoint_weight: s.setpoint_weight,
-                        anti_windup: bowden_anti_windup::Conditional as u32,
-                        tracking_time: 0.0,
-                        limits: [<bowden_limits_ $f>]::of(&s.limits),
-                        longest_dt: s.longest_dt,
-                        fallback: [<bowden_fallback_ $f>]::of(&s.fallback),
-                    }
-                }
-
-                fn pid(&self) -> Result<Pid<$f>, Refused> {
-                    let damping = match self.damping {
-                        d if d == bowden_damping::Rate as u32 => {
-                            Damping::Rate { weight: self.derivative_weight }
-                        }
-                        d if d == bowden_damping::Velocity as u32 => Damping::Velocity,
-                        _ => return Err(Refused::choice("damping")),
-                    };
-                    let anti_windup = match self.anti_windup {
-                        w if w == bowden_anti_windup::Conditional as u32 => AntiWindup::Conditional,
-                        w if w == bowden_anti_windup::None as u32 => AntiWindup::None,
-                        w if w == bowden_anti_windup::Clamp as u32 => AntiWindup::Clamp,
-                        w if w == bowden_anti_windup::BackCalculation as u32 => {
-                            AntiWindup::BackCalculation { tracking_time: self.tracking_time }
-                        }
-                        _ => return Err(Refused::choice("anti_windup")),
-                    };
-                    Ok(Pid::try_new(PidSettings {
-                        k_p: self.k_p,
-                        k_i: self.k_i,
-                        k_d: self.k_d,
-                        damping,
-                        derivative_time: self.derivative_time,
-                        setpoint_weight: self.setpoint_weight,
-                        anti_windup,
-                        limits: self.limits.limits()?,
-                        longest_dt: self.longest_dt,
-                        fallback: self.fallback.fallback()?,
-                    })?)
-                }
-            }
-
             /// One sample for a PI, PID or PIV.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_pid_sample_ $f>] {
-                /// Since the last call, also where that was a bad sample [s].
+                /// Time since the last call [s], after a bad sample too.
                 pub dt: $f,
                 /// y_r [output unit], such as [N*m].
                 pub reference: $f,
@@ -162,17 +53,17 @@ macro_rules! pid {
                 pub error: $f,
                 /// -k_p*(y - b*y_r) [command unit].
                 pub proportional: $f,
-                /// -k_i*integral(e), with what the anti-windup did to it [command unit].
+                /// -k_i*integral(e), after the anti-windup [command unit].
                 pub integral: $f,
                 /// -k_d*d/dt(y - c*y_r), filtered [command unit]; zero with PIV.
                 pub derivative: $f,
                 /// -k_d*v_d of PIV [command unit]; zero with PI and PID.
                 pub velocity: $f,
-                /// As it was given [command unit].
+                /// Feed-forward of the sample [command unit].
                 pub feed_forward: $f,
                 /// The sum before range and slew rate [command unit].
                 pub unlimited: $f,
-                /// 1 where range or slew rate changed the command, else 0.
+                /// 1 if range or slew rate changed the command, otherwise 0.
                 pub saturated: u32,
             }
 
@@ -191,8 +82,8 @@ macro_rules! pid {
                 }
             }
 
-            /// A PI, PID or PIV with its state; the caller's memory, made by bowden_pid_init.
-            /// It may be copied and moved as a whole.
+            /// A PI, PID or PIV with its state, in the caller's memory; made by bowden_pid_init.
+            /// The object may be copied and moved as a whole.
             #[repr(C)]
             pub struct [<bowden_pid_ $f>] {
                 /// Not for use.
@@ -205,12 +96,12 @@ macro_rules! pid {
                 const MAGIC: u64 = $magic;
             }
 
-            /// Settings of a plain PI (15): full set-point weight, conditional anti-windup, no
-            /// slew rate, 4 good samples for a bad one.
+            /// Settings of a plain PI (15): full set-point weight, conditional anti-windup, no slew
+            /// rate; 4 good samples cancel a bad one.
             ///
-            /// `low` and `high` [command unit] are what the drive may get, `longest_dt` [s] the
-            /// longest sample time, `safe` [command unit] what goes out from the `after`-th bad
-            /// sample in a row on. Numbers are checked by bowden_pid_init.
+            /// `low` and `high` [command unit] are the limits of the drive, `longest_dt` [s] is the
+            /// longest sample time, and `safe` [command unit] is the safe command from the
+            /// `after`-th bad sample in a row on. bowden_pid_init checks the numbers.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_settings_pi_ $f>](
                 settings: *mut [<bowden_pid_settings_ $f>],
@@ -223,19 +114,21 @@ macro_rules! pid {
                 safe: $f,
             ) -> bowden_result {
                 let value = [<bowden_pid_settings_ $f>] {
+                    k_p,
+                    k_i,
                     limits: [<bowden_limits_ $f>] { low, high, slew: 0.0 },
                     longest_dt,
                     fallback: [<bowden_fallback_ $f>] { after, weight: 4, command: safe },
-                    ..[<bowden_pid_settings_ $f>]::of(&PidSettings::unlimited(k_p, k_i))
+                    ..[<bowden_pid_settings_ $f>]::defaults()
                 };
                 // SAFETY: the caller's rule of pointers.
                 code(unsafe { write(settings, value) }.map(|()| bowden_result::Ok).map_err(Refused::from))
             }
 
-            /// Checks the settings and starts with a state that has seen no sample.
+            /// Checks the settings and starts with a new state.
             ///
-            /// `about` may be null; else it gets the name of what is refused. On an error the
-            /// object is as it was.
+            /// `about` may be null; otherwise it gets the name of the refused setting. On an error
+            /// the object does not change.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_init_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -244,20 +137,20 @@ macro_rules! pid {
             ) -> bowden_result {
                 // SAFETY: the caller's rule of pointers.
                 unsafe {
-                    let tried = read(settings)
-                        .map_err(Refused::from)
+                    let tried = read_settings(settings)
                         .and_then(|settings| settings.pid())
                         .and_then(|law| Ok(start(pid, (law, PidState::new()))?));
                     told(tried, about)
                 }
             }
 
-            /// One sample: the command, and what happened.
+            /// One sample: the command and its status.
             ///
             /// A bad sample (NaN, an infinity, a dt that is not positive or too long) leaves the
-            /// state as it was and holds the last good command: BOWDEN_RESULT_HELD. After too
-            /// many the safe command is out, good samples or not, until bowden_pid_acknowledge:
-            /// BOWDEN_RESULT_SAFE. `out` is written with every result that is not negative.
+            /// state unchanged and holds the last good command: BOWDEN_RESULT_HELD. After too many
+            /// bad samples the safe command is applied until bowden_pid_acknowledge, even if
+            /// samples are good: BOWDEN_RESULT_SAFE. `out` is written with every result that is not
+            /// negative.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_step_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -289,8 +182,69 @@ macro_rules! pid {
                 })())
             }
 
-            /// Takes note that somebody has seen the fault: the next good sample closes the loop
-            /// again, from the safe command on. Nothing where no safe command is latched.
+            /// Reports the command [command unit] that the drive applied after the last step, if it
+            /// differs from the step's command: a drive that is off applies 0.
+            ///
+            /// Call it between two steps. Slew rate, anti-windup and a bumpless start then count
+            /// from this command. A number that is not finite changes nothing: BOWDEN_RESULT_HELD.
+            #[no_mangle]
+            pub unsafe extern "C" fn [<bowden_pid_applied_ $f>](
+                pid: *mut [<bowden_pid_ $f>],
+                command: $f,
+            ) -> bowden_result {
+                // SAFETY: the caller's rule of pointers.
+                code((|| unsafe {
+                    let (law, state) = kept(pid)?;
+                    law.applied(state, Applied::Command(command));
+                    Ok(if command.is_finite() { bowden_result::Ok } else { bowden_result::Held })
+                })())
+            }
+
+            /// Reports that the drive was at this limit after the last step: one of
+            /// bowden_saturation. Use it for a drive that does not report its command, such as the
+            /// inner loop of a cascade; otherwise use bowden_pid_applied.
+            ///
+            /// Call it between two steps. The integral then does not move further towards that
+            /// limit. Another number gives BOWDEN_RESULT_ERROR_CHOICE.
+            #[no_mangle]
+            pub unsafe extern "C" fn [<bowden_pid_at_limit_ $f>](
+                pid: *mut [<bowden_pid_ $f>],
+                saturation: u32,
+            ) -> bowden_result {
+                // SAFETY: the caller's rule of pointers.
+                code((|| unsafe {
+                    let applied = limit_of_drive(saturation)?;
+                    let (law, state) = kept(pid)?;
+                    law.applied(state, applied);
+                    Ok(bowden_result::Ok)
+                })())
+            }
+
+            /// Sets `saturation` to the active limit of the command at the last good sample, one of
+            /// bowden_saturation.
+            ///
+            /// In a cascade whose inner gains are positive, pass it on to bowden_pid_at_limit of
+            /// the outer loop.
+            #[no_mangle]
+            pub unsafe extern "C" fn [<bowden_pid_get_saturation_ $f>](
+                pid: *const [<bowden_pid_ $f>],
+                saturation: *mut u32,
+            ) -> bowden_result {
+                // SAFETY: the caller's rule of pointers.
+                code((|| unsafe {
+                    let (law, state) = seen(pid)?;
+                    let side = match law.saturation(state) {
+                        Applied::AtUpperLimit => bowden_saturation::Upper,
+                        Applied::AtLowerLimit => bowden_saturation::Lower,
+                        Applied::AsCommanded | Applied::Command(_) => bowden_saturation::None,
+                    };
+                    write(saturation, side as u32)?;
+                    Ok(bowden_result::Ok)
+                })())
+            }
+
+            /// Acknowledges the fault: the next good sample closes the loop again and starts from
+            /// the safe command. Without a latched safe command the call has no effect.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_acknowledge_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -302,8 +256,8 @@ macro_rules! pid {
                 })())
             }
 
-            /// Forgets integral, rate and samples; the command that is out stays known, and a
-            /// safe command that is latched stays so.
+            /// Clears integral, rate and samples; the applied command is kept, and a latched safe
+            /// command stays latched.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_reset_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -315,26 +269,26 @@ macro_rules! pid {
                 })())
             }
 
-            /// Makes an object that was stored fit for a start, before its first step: the power was
-            /// off, and the command is the one nearest to zero that the limits allow. Integral, rate
-            /// and samples are forgotten; a safe command that was latched stays so. The first good
-            /// sample starts from there, without a jump. A step without this goes on with the command
-            /// of then.
+            /// Prepares a stored object for a start after a power-off, before its first step: the
+            /// command becomes the one nearest to zero within the limits. Integral, rate and
+            /// samples are cleared; a latched safe command stays latched. The first good sample
+            /// starts from this command without a jump. Without this call a step continues with the
+            /// stored command.
             #[no_mangle]
-            pub unsafe extern "C" fn [<bowden_pid_power_up_ $f>](
+            pub unsafe extern "C" fn [<bowden_pid_restore_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
             ) -> bowden_result {
                 // SAFETY: the caller's rule of pointers.
                 code((|| unsafe {
                     let (law, state) = kept(pid)?;
-                    state.power_up(law);
+                    state.restore(law);
                     Ok(bowden_result::Ok)
                 })())
             }
 
-            /// Starts anew so that the command goes on from `command` [command unit] without a
-            /// jump. A number that is not finite counts as a bad sample; a latched safe command
-            /// stays. `out` has the command that is out then, and may be null.
+            /// Restarts so that the command continues from `command` [command unit] without a jump.
+            /// A number that is not finite counts as a bad sample; a latched safe command stays.
+            /// `out` gets the applied command, and may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_resume_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -350,7 +304,7 @@ macro_rules! pid {
                     }
                     let (law, state) = kept(pid)?;
                     let status = state.resume_from(law, command, &input);
-                    let command = law.settings().limits.confine(state.command());
+                    let command = law.settings().limits.clamp(state.command());
                     let output = [<bowden_output_ $f>]::of(Output { command, status });
                     if !out.is_null() {
                         write(out, output)?;
@@ -359,9 +313,10 @@ macro_rules! pid {
                 })())
             }
 
-            /// Other settings for a loop that runs, without a jump of the command; but where the new
-            /// range excludes what is out, the next command is the nearest in it, past any slew rate:
-            /// narrow a range step by step. On an error the loop goes on with the old ones.
+            /// Changes the settings of a running loop without a jump of the command. If the new
+            /// range excludes the applied command, the next command is the nearest one in the range
+            /// and ignores the slew rate: narrow a range step by step. On an error the loop
+            /// continues with the old settings.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_change_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -370,12 +325,11 @@ macro_rules! pid {
             ) -> bowden_result {
                 // SAFETY: the caller's rule of pointers.
                 unsafe {
-                    let tried = read(settings)
-                        .map_err(Refused::from)
+                    let tried = read_settings(settings)
                         .and_then(|settings| settings.pid())
                         .and_then(|new| {
                             let (law, state) = kept(pid)?;
-                            new.take_over(state);
+                            new.bumpless_transfer(state);
                             *law = new;
                             Ok(())
                         });
@@ -383,7 +337,7 @@ macro_rules! pid {
                 }
             }
 
-            /// 1 into `latched` while the safe command is out until it is acknowledged, else 0.
+            /// Sets `latched` to 1 while the safe command is latched, otherwise to 0.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_is_latched_ $f>](
                 pid: *const [<bowden_pid_ $f>],

@@ -1,12 +1,12 @@
-//! Play in front of a hysteresis, which the noise of its input would turn.
+//! A play in front of a hysteresis, so input noise does not drive it.
 
 use crate::object::{kept, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_result, code, told, Refused};
 use core_bowden::signal::{Play, PlayState};
 
-/// Room of a bowden_play_f32, in words of 64 bits.
+/// Size of a bowden_play_f32 in 64-bit words.
 pub const BOWDEN_PLAY_F32_WORDS: usize = 4;
-/// Room of a bowden_play_f64, in words of 64 bits.
+/// Size of a bowden_play_f64 in 64-bit words.
 pub const BOWDEN_PLAY_F64_WORDS: usize = 6;
 
 macro_rules! play {
@@ -40,15 +40,15 @@ macro_rules! play {
                 unsafe { told(parts().and_then(|inner| Ok(start(play, inner)?)), about) }
             }
 
-            /// One input [input unit]: `output` gets the last output, moved as little as keeps
-            /// it within the half-width r of the input:
+            /// One input [input unit]: `output` gets the last output, moved by the least amount
+            /// that keeps it within the half-width r of the input:
             ///
             ///     y+ = clamp(y, x - r, x + r)
             ///
-            /// A wobble of the input within 2*r moves nothing: in front of a model with a
-            /// hysteresis it keeps the sensor's noise from being taken for reversals. The first
-            /// good sample is taken over as it is. One that is not finite is held:
-            /// BOWDEN_RESULT_HELD, and the last output, zero before the first.
+            /// An oscillation of the input within 2*r moves nothing. In front of a hysteresis a
+            /// play prevents reversals from sensor noise. The first good sample is passed on
+            /// unchanged. If the input is not finite, the last output is held (zero before the
+            /// first sample): BOWDEN_RESULT_HELD.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_play_step_ $f>](
                 play: *mut [<bowden_play_ $f>],

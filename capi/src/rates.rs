@@ -1,13 +1,14 @@
 //! Velocity and acceleration from position samples.
 
-use crate::object::{kept, start, writable, write, Object};
+use crate::object::{kept, read_settings, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_fault, bowden_result, code, of_rates, told, Refused};
+use crate::settings::{marked, Marked};
 use crate::{bowden_motion_f32, bowden_motion_f64};
 use core_bowden::signal::{Rates, RatesState};
 
-/// Room of a bowden_rates_f32, in words of 64 bits.
+/// Size of a bowden_rates_f32 in 64-bit words.
 pub const BOWDEN_RATES_F32_WORDS: usize = 10;
-/// Room of a bowden_rates_f64, in words of 64 bits.
+/// Size of a bowden_rates_f64 in 64-bit words.
 pub const BOWDEN_RATES_F64_WORDS: usize = 16;
 
 macro_rules! rates {
@@ -26,40 +27,68 @@ macro_rules! rates {
                 const MAGIC: u64 = $magic;
             }
 
-            /// What a step of the rates gives.
+            /// Settings of rates: two lags with the same time constant, see bowden_rates_step.
+            ///
+            /// Start from NAME_INIT. By default the position does not wrap and longest_gap is ten
+            /// time constants; time_constant must be set.
+            #[repr(C)]
+            #[derive(Debug, Clone, Copy, PartialEq)]
+            pub struct [<bowden_rates_settings_ $f>] {
+                /// Set by the macro NAME_INIT; settings without it are refused.
+                pub init_mark: u32,
+                /// Time constant of both lags, above zero [s].
+                pub time_constant: $f,
+                /// Period of a position that wraps, such as that of a counter, above zero
+                /// [channel unit]; 0 for none.
+                pub period: $f,
+                /// Longest gap between two good samples that the rates bridge, above zero [s]; 0
+                /// for ten time constants.
+                pub longest_gap: $f,
+            }
+
+            marked!([<bowden_rates_settings_ $f>]);
+
+            impl [<bowden_rates_settings_ $f>] {
+                /// The defaults; fields without a default are 0.
+                pub const fn defaults() -> Self {
+                    Self {
+                        init_mark: Self::MARK,
+                        time_constant: 0.0,
+                        period: 0.0,
+                        longest_gap: 0.0,
+                    }
+                }
+            }
+
+            /// Output of a step of the rates.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_rates_output_ $f>] {
                 /// Position (unwrapped), velocity and acceleration; finite, zero before the
                 /// first good sample.
                 pub motion: [<bowden_motion_ $f>],
-                /// What the step did: the same as it returns.
+                /// Status of the step, equal to its return value.
                 pub result: bowden_result,
                 /// What was wrong.
                 pub fault: bowden_fault,
             }
 
-            /// Starts rates: two lags of `time_constant` above zero [s], see
-            /// bowden_rates_step.
-            ///
-            /// `period` [channel unit] where the position wraps around, as a counter does; 0
-            /// where it does not. `longest_gap` [s] is the longest time between two good samples
-            /// that is bridged; 0 for ten time constants. `about` may be null.
+            /// Checks the settings and starts rates. `about` may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_rates_init_ $f>](
                 rates: *mut [<bowden_rates_ $f>],
-                time_constant: $f,
-                period: $f,
-                longest_gap: $f,
+                settings: *const [<bowden_rates_settings_ $f>],
                 about: *mut bowden_about,
             ) -> bowden_result {
                 let parts = || -> Result<_, Refused> {
-                    let mut own = Rates::try_new(time_constant)?;
-                    if period != 0.0 {
-                        own = own.with_period(period)?;
+                    // SAFETY: the caller's rule of pointers.
+                    let s = unsafe { read_settings(settings)? };
+                    let mut own = Rates::try_new(s.time_constant)?;
+                    if s.period != 0.0 {
+                        own = own.with_period(s.period)?;
                     }
-                    if longest_gap != 0.0 {
-                        own = own.with_longest_gap(longest_gap)?;
+                    if s.longest_gap != 0.0 {
+                        own = own.with_longest_gap(s.longest_gap)?;
                     }
                     Ok((own, RatesState::new()))
                 };
@@ -67,8 +96,7 @@ macro_rules! rates {
                 unsafe { told(parts().and_then(|inner| Ok(start(rates, inner)?)), about) }
             }
 
-            /// The motion at a position [channel unit] that came `dt` [s] after the last call,
-            /// good or bad:
+            /// The motion at a position [channel unit], `dt` [s] after the last call, good or bad:
             ///
             ///     s  = 1 - exp(-h/tau),  h = time since the last good sample
             ///     v+ = v + s*((x - x_last)/h - v)

@@ -1,4 +1,4 @@
-//! What a function gives back, and what was wrong with a sample.
+//! Result of a function, and the bad input of a sample.
 
 use crate::object::{read_text, write};
 use core::ffi::{c_char, CStr};
@@ -6,47 +6,53 @@ use core_bowden::control::{Fault, Status};
 use core_bowden::signal::{RatesFault, RatesStatus};
 use core_bowden::Error;
 
-/// What a function did: 0 for all well, above zero where a sample was not a good one and what
-/// was asked for was written all the same, below zero where nothing was done or written.
+/// Result of a function: 0 for success; above zero if a sample was not good and the output was
+/// written anyway; below zero if nothing was written.
 #[repr(i32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_result {
-    /// All well; of a step: a good sample.
+    /// Success; for a step: a good sample.
     Ok = 0,
     /// Rates: a good sample, but the rates started from zero less than five time constants ago.
     Settling = 1,
-    /// Rates: a good position after a time that is unknown; the rates are held.
+    /// Rates: a good position after an unknown time; the rates are held.
     Resumed = 2,
-    /// A regressor was bad and its term was left out; the loop is closed, the estimates wait. Of a
-    /// learning: the feed-forward is of this phase, but an error was not learned from, that of the
-    /// sample or that of the cell that was left.
+    /// A regressor was bad and its term was omitted; the loop is closed, the estimates do not
+    /// change. For iterative learning: the feed-forward belongs to this phase, but the error of the
+    /// sample or of the cell before a jump was ignored.
     Degraded = 3,
-    /// A bad sample: the state is as it was, the last good command or value is held.
+    /// A bad sample: the state is unchanged, the last good command or value is held.
     Held = 4,
-    /// Too many bad samples: the safe command is out until it is acknowledged.
+    /// Too many bad samples: the safe command is applied until it is acknowledged.
     Safe = 5,
+    /// Velocity from counts: no count for longer than the longest gap, so the velocity is zero.
+    Stopped = 6,
+    /// The sample is implausible: the value is NaN.
+    Implausible = 7,
     /// A pointer is null.
     ErrorNull = -1,
-    /// A pointer is not aligned as its type must be.
+    /// A pointer is not aligned for its type.
     ErrorMisaligned = -2,
-    /// The object was not initialised, or something has written over it.
+    /// The object was not initialised, or it was overwritten.
     ErrorUninitialised = -3,
     /// A setting is NaN or infinite.
     ErrorNonFinite = -4,
-    /// A setting is outside of its range.
+    /// A setting is outside its range.
     ErrorOutOfRange = -5,
-    /// Two settings break a condition together.
+    /// Two settings together violate a condition.
     ErrorInadmissible = -6,
-    /// More items than there is room for.
+    /// More items than the capacity.
     ErrorCapacity = -7,
-    /// A setting that is one of an enum has a value that the enum has not.
+    /// A setting has a value that its enum does not have.
     ErrorChoice = -8,
-    /// The bytes of a model are damaged, too many, of the other precision or version, or of too
+    /// The bytes of a model are damaged, too many, of the other precision or version, or have too
     /// many terms.
     ErrorModel = -9,
+    /// The settings were not initialised with their macro NAME_INIT.
+    ErrorSettings = -10,
 }
 
-/// What was wrong with a sample.
+/// The bad input of a sample.
 #[repr(i32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_fault {
@@ -54,9 +60,9 @@ pub enum bowden_fault {
     None = 0,
     /// dt is NaN or infinite.
     Dt = 1,
-    /// dt is zero or negative: time has not moved on.
+    /// dt is zero or negative: time has not advanced.
     DtNotPositive = 2,
-    /// dt is longer than the longest that was stated, or than the law is stable for.
+    /// dt exceeds the longest dt of the settings, or the stability limit of the law.
     DtTooLong = 3,
     /// The reference, or its next value.
     Reference = 4,
@@ -68,23 +74,23 @@ pub enum bowden_fault {
     FeedForward = 7,
     /// The command to resume from.
     Command = 8,
-    /// A regressor, or what a term of a model reads; which one stands beside it.
+    /// A regressor, or an input of a model's term; its index is in the output.
     Regressor = 9,
     /// Every input is finite, but the command could not be computed: an overflow.
     Overflow = 10,
     /// The position.
     Position = 11,
-    /// Another one, of a later version.
+    /// A fault of a later version.
     Other = 12,
-    /// The phase of a cycle is not from 0 to 1, or has jumped.
+    /// The phase of a cycle is outside 0 to 1, or has jumped.
     Phase = 13,
 }
 
-/// The name of the setting that was refused, or the condition that is not met.
+/// The name of the refused setting, or the violated condition.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct bowden_about {
-    /// ASCII with a NUL behind it, such as "k_p" or "low < high"; cut off where it is longer.
+    /// ASCII with a NUL at the end, such as "k_p" or "low < high"; truncated if it is longer.
     pub text: [c_char; 128],
 }
 
@@ -127,12 +133,28 @@ impl From<Error> for Refused {
         };
         Self {
             code,
-            about: error.about(),
+            about: error.parameter(),
         }
     }
 }
 
 impl Refused {
+    /// Of settings without the mark of their macro.
+    pub(crate) fn unmarked(about: &'static str) -> Self {
+        Self {
+            code: bowden_result::ErrorSettings,
+            about,
+        }
+    }
+
+    /// Of a setting without a default that has the value of its macro.
+    pub(crate) fn unset(about: &'static str) -> Self {
+        Self {
+            code: bowden_result::ErrorOutOfRange,
+            about,
+        }
+    }
+
     pub(crate) fn choice(about: &'static str) -> Self {
         Self {
             code: bowden_result::ErrorChoice,
@@ -240,32 +262,34 @@ pub(crate) fn of_rates(status: RatesStatus) -> (bowden_result, bowden_fault) {
     }
 }
 
-/// A sentence on a result, for a log: ASCII, static, never null; also for a number that is no
-/// result.
+/// A sentence on a result, for a log: ASCII, static, never null, also for an unknown number.
 #[no_mangle]
 pub extern "C" fn bowden_result_text(result: i32) -> *const c_char {
     let text: &CStr = match result {
         0 => c"all well",
         1 => c"a good sample, but the rates have not settled yet",
         2 => c"a good position after an unknown time: the rates are held",
-        3 => c"a regressor was bad: its term is left out, the estimates wait; or an error was not learned from",
+        3 => c"a regressor was bad and its term is omitted; or an error was not learned",
         4 => c"a bad sample: the last good command or value is held",
-        5 => c"too many bad samples: the safe command is out until it is acknowledged",
+        5 => c"too many bad samples: the safe command is applied until it is acknowledged",
+        6 => c"no count for longer than the longest gap: the velocity is zero",
+        7 => c"the sample is implausible: the value is NaN",
         -1 => c"a pointer is null",
         -2 => c"a pointer is misaligned",
-        -3 => c"the object was not initialised, or was written over",
+        -3 => c"the object was not initialised, or was overwritten",
         -4 => c"a setting is NaN or infinite",
         -5 => c"a setting is out of range",
-        -6 => c"two settings break a condition together",
-        -7 => c"more items than there is room for",
-        -8 => c"a setting has a value that its enum has not",
-        -9 => c"the bytes of the model are damaged, too many, of the other precision or version, or of too many terms",
+        -6 => c"two settings together violate a condition",
+        -7 => c"more items than the capacity",
+        -8 => c"a setting has a value that its enum does not have",
+        -9 => c"the bytes of the model are damaged, too many, of the other precision or version, or have too many terms",
+        -10 => c"the settings were not initialised with their macro NAME_INIT",
         _ => c"no result of this library",
     };
     text.as_ptr()
 }
 
-/// What was wrong with a sample, for a log: ASCII, static, never null.
+/// The bad input of a sample, for a log: ASCII, static, never null.
 #[no_mangle]
 pub extern "C" fn bowden_fault_text(fault: i32) -> *const c_char {
     let text: &CStr = match fault {
@@ -278,10 +302,10 @@ pub extern "C" fn bowden_fault_text(fault: i32) -> *const c_char {
         6 => c"the velocity is NaN or infinite",
         7 => c"the feed-forward is NaN or infinite",
         8 => c"the command to resume from is NaN or infinite",
-        9 => c"a regressor, or what a term reads, is NaN, infinite or missing",
+        9 => c"a regressor, or an input of a term, is NaN, infinite or missing",
         10 => c"an overflow: the inputs are too large",
         11 => c"the position is NaN or infinite",
-        13 => c"the phase is not from 0 to 1, or has jumped",
+        13 => c"the phase is outside 0 to 1, or has jumped",
         _ => c"another fault",
     };
     text.as_ptr()

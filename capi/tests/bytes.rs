@@ -9,7 +9,7 @@ mod signal;
 
 use bowden::*;
 use core_bowden::effect::{Effect, CATALOGUE};
-use core_bowden::hysteresis::Shape;
+use core_bowden::hysteresis::BoucWen;
 use core_bowden::model::{Model, ModelState, Sample, Source, Term};
 use core_bowden::signal::Motion;
 use core_bowden::transmission::Transmission;
@@ -29,7 +29,7 @@ fn effect(name: &str) -> Effect<f32> {
 #[test]
 fn a_model_of_every_effect_loads_and_gives_the_crates_numbers() {
     assert!(CATALOGUE.len() > 40, "{}", CATALOGUE.len());
-    let shape = Shape::try_new(0.5, 0.6, 1.5).unwrap();
+    let shape = BoucWen::try_new(0.5, 0.6, 1.5).unwrap();
     let cable = Transmission::torque(0.95, 1.7, 0.01, shape).unwrap();
     for info in CATALOGUE {
         let term = Term {

@@ -116,7 +116,7 @@ fn an_exported_model_gives_the_labs_numbers() {
     let Some(cc) = first_of("demo.h", &C) else {
         return;
     };
-    // `bowden close --model-out` has written it beside the model that demo.h is exported from.
+    // `bowden identify --model-out` has written it next to the model that demo.h is exported from.
     let vector = root().join("../examples/data/demo.vector.csv");
     let vector = std::fs::read_to_string(vector).unwrap();
     let mut rows = vector.lines();

@@ -9,7 +9,7 @@ mod objects;
 mod signal;
 
 use bowden::*;
-use core_bowden::control::{Fault, Learning, LearningInput, Status};
+use core_bowden::control::{Fault, IterativeLearning, IterativeLearningInput, Status};
 use core_bowden::Error;
 use objects::blank;
 use signal::Signal;
@@ -59,8 +59,9 @@ macro_rules! learning {
                     forgetting,
                     lead,
                     half_width,
+                    ..$settings::defaults()
                 };
-                let own = Learning::<$f>::try_new(0.5, 12.0, lead, half_width)
+                let own = IterativeLearning::<$f>::try_new(0.5, 12.0, lead, half_width)
                     .and_then(|own| own.with_forgetting(forgetting))
                     .unwrap();
                 let mut state = own.start([0.0; CELLS], [0.0; CELLS]).unwrap();
@@ -75,7 +76,7 @@ macro_rules! learning {
                 for k in 0..4000 {
                     let (phase, measured) = (phase(k) as $f, signal.measured(k) as $f);
                     let (reference, learns) = (signal.next(20.0) as $f, k % 11 != 0);
-                    let at = LearningInput {
+                    let at = IterativeLearningInput {
                         phase,
                         reference,
                         measured,
@@ -119,35 +120,36 @@ macro_rules! learning {
 learning!(
     learning_in_f32,
     f32,
-    bowden_learning_f32,
-    bowden_learning_settings_f32,
-    bowden_learning_output_f32,
-    bowden_learning_init_f32,
-    bowden_learning_resume_f32,
-    bowden_learning_step_f32
+    bowden_iterative_learning_f32,
+    bowden_iterative_learning_settings_f32,
+    bowden_iterative_learning_output_f32,
+    bowden_iterative_learning_init_f32,
+    bowden_iterative_learning_resume_f32,
+    bowden_iterative_learning_step_f32
 );
 learning!(
     learning_in_f64,
     f64,
-    bowden_learning_f64,
-    bowden_learning_settings_f64,
-    bowden_learning_output_f64,
-    bowden_learning_init_f64,
-    bowden_learning_resume_f64,
-    bowden_learning_step_f64
+    bowden_iterative_learning_f64,
+    bowden_iterative_learning_settings_f64,
+    bowden_iterative_learning_output_f64,
+    bowden_iterative_learning_init_f64,
+    bowden_iterative_learning_resume_f64,
+    bowden_iterative_learning_step_f64
 );
 
-const SETTINGS: bowden_learning_settings_f32 = bowden_learning_settings_f32 {
+const SETTINGS: bowden_iterative_learning_settings_f32 = bowden_iterative_learning_settings_f32 {
     gain: 4.0,
     limit: 30.0,
     forgetting: 0.0,
     lead: 2,
     half_width: 2,
+    ..bowden_iterative_learning_settings_f32::defaults()
 };
 
 type Begin = unsafe extern "C" fn(
-    *mut bowden_learning_f32,
-    *const bowden_learning_settings_f32,
+    *mut bowden_iterative_learning_f32,
+    *const bowden_iterative_learning_settings_f32,
     *mut f32,
     *mut f32,
     usize,
@@ -155,13 +157,16 @@ type Begin = unsafe extern "C" fn(
 ) -> bowden_result;
 
 /// Both ways to begin.
-const BEGIN: [Begin; 2] = [bowden_learning_init_f32, bowden_learning_resume_f32];
+const BEGIN: [Begin; 2] = [
+    bowden_iterative_learning_init_f32,
+    bowden_iterative_learning_resume_f32,
+];
 
 /// What beginning gives, and the text of a refusal.
 fn begin(
     begin: Begin,
-    object: *mut bowden_learning_f32,
-    settings: &bowden_learning_settings_f32,
+    object: *mut bowden_iterative_learning_f32,
+    settings: &bowden_iterative_learning_settings_f32,
     arrays: [*mut f32; 2],
     cells: usize,
 ) -> (bowden_result, String) {
@@ -201,15 +206,15 @@ fn arrays_that_cannot_be_are_refused_and_nothing_is_written() {
         ([last, at(0)], 250, R::ErrorCapacity, "cells"),
     ] {
         for way in BEGIN {
-            let mut learning = blank::<bowden_learning_f32>();
+            let mut learning = blank::<bowden_iterative_learning_f32>();
             let tried = begin(way, &mut learning, &SETTINGS, arrays, cells);
             assert_eq!(tried, (result, about.to_owned()), "{cells}");
-            assert_eq!(learning.opaque, [0; BOWDEN_LEARNING_F32_WORDS]);
+            assert_eq!(learning.opaque, [0; BOWDEN_ITERATIVE_LEARNING_F32_WORDS]);
         }
     }
-    let mut learning = blank::<bowden_learning_f32>();
+    let mut learning = blank::<bowden_iterative_learning_f32>();
     // An object that is none must not let the arrays be written either.
-    let object: *mut bowden_learning_f32 = &mut learning;
+    let object: *mut bowden_iterative_learning_f32 = &mut learning;
     let beside = object.cast::<u8>().wrapping_add(4).cast();
     for (object, result) in [(null_mut(), R::ErrorNull), (beside, R::ErrorMisaligned)] {
         for way in BEGIN {
@@ -218,7 +223,7 @@ fn arrays_that_cannot_be_are_refused_and_nothing_is_written() {
         }
     }
     assert_eq!(memory, [5.0; 500]);
-    let core = Learning::try_new(4.0_f32, 30.0, 2, 2).unwrap();
+    let core = IterativeLearning::try_new(4.0_f32, 30.0, 2, 2).unwrap();
     let refused = core.start([0.0; 14], [0.0; 14]).err();
     assert_eq!(refused, Some(Error::Inadmissible(few)));
 }
@@ -234,8 +239,9 @@ fn arrays_side_by_side_are_good_and_as_few_cells_as_there_may_be() {
             let tried = begin(way, &mut learning, &SETTINGS, arrays, 15);
             assert_eq!(tried, (bowden_result::Ok, String::new()));
             let mut out = blank();
-            let result =
-                unsafe { bowden_learning_step_f32(&mut learning, 0.5, 1.0, 0.0, 1, &mut out) };
+            let result = unsafe {
+                bowden_iterative_learning_step_f32(&mut learning, 0.5, 1.0, 0.0, 1, &mut out)
+            };
             assert_eq!(result, bowden_result::Ok);
         }
     }
@@ -246,7 +252,7 @@ fn an_array_within_the_object_is_refused() {
     #[repr(C)]
     struct Nested {
         before: [f32; 14],
-        object: [u64; BOWDEN_LEARNING_F32_WORDS],
+        object: [u64; BOWDEN_ITERATIVE_LEARNING_F32_WORDS],
         behind: [f32; 20],
         other: [f32; 20],
     }
@@ -254,7 +260,7 @@ fn an_array_within_the_object_is_refused() {
     let own: *mut Nested = &mut nested;
     let (object, other, behind) = unsafe {
         (
-            (&raw mut (*own).object).cast::<bowden_learning_f32>(),
+            (&raw mut (*own).object).cast::<bowden_iterative_learning_f32>(),
             (&raw mut (*own).other).cast::<f32>(),
             (&raw mut (*own).behind).cast::<f32>(),
         )
@@ -277,25 +283,31 @@ fn an_array_within_the_object_is_refused() {
 #[test]
 fn a_setting_that_is_refused_is_named_and_object_and_arrays_are_as_they_were() {
     use bowden_result as R;
-    type Change = fn(&mut bowden_learning_settings_f32);
+    type Change = fn(&mut bowden_iterative_learning_settings_f32);
     let few = "as many cells as lead and filter need";
-    let cases: [(Change, R, &str); 6] = [
+    let cases: [(Change, R, &str); 8] = [
         (|s| s.gain = f32::NAN, R::ErrorNonFinite, "gain"),
         (|s| s.gain = 0.0, R::ErrorOutOfRange, "gain"),
         (|s| s.limit = 0.0, R::ErrorOutOfRange, "limit"),
         (|s| s.forgetting = 1.5, R::ErrorOutOfRange, "forgetting"),
-        (|s| s.lead = u16::MAX, R::ErrorInadmissible, few),
-        (|s| s.half_width = u16::MAX, R::ErrorInadmissible, few),
+        (|s| s.lead = u16::MAX - 1, R::ErrorInadmissible, few),
+        (|s| s.half_width = u16::MAX - 1, R::ErrorInadmissible, few),
+        (|s| s.lead = u16::MAX, R::ErrorOutOfRange, "lead"),
+        (
+            |s| s.half_width = u16::MAX,
+            R::ErrorOutOfRange,
+            "half_width",
+        ),
     ];
     let mut memory = [5.0_f32; 500];
     let arrays = [memory.as_mut_ptr(), memory.as_mut_ptr().wrapping_add(250)];
     for (change, code, name) in cases {
-        let (mut bad, mut learning) = (SETTINGS, blank::<bowden_learning_f32>());
+        let (mut bad, mut learning) = (SETTINGS, blank::<bowden_iterative_learning_f32>());
         change(&mut bad);
         for way in BEGIN {
             let tried = begin(way, &mut learning, &bad, arrays, 250);
             assert_eq!(tried, (code, name.to_owned()));
-            assert_eq!(learning.opaque, [0; BOWDEN_LEARNING_F32_WORDS]);
+            assert_eq!(learning.opaque, [0; BOWDEN_ITERATIVE_LEARNING_F32_WORDS]);
         }
     }
     assert_eq!(memory, [5.0; 500]);

@@ -67,22 +67,45 @@ fn a_null_pointer_is_told_at_every_place() {
             bowden_model_step_f64(null_mut(), null(), null_mut()),
             bowden_compensator_init_f64(null_mut(), null(), 1.0, null(), 0, null_mut()),
             bowden_compensator_step_f64(null_mut(), null(), null_mut()),
-            bowden_rates_init_f64(null_mut(), 0.01, 0.0, 0.0, null_mut()),
+            bowden_rates_init_f64(null_mut(), null(), null_mut()),
             bowden_rates_step_f64(null_mut(), 0.0, 0.001, null_mut()),
             bowden_observer_init_f64(null_mut(), null(), null_mut()),
             bowden_observer_step_f64(null_mut(), 0.001, 0.0, 0.0, null_mut()),
             bowden_observer_feed_forward_f64(null(), null(), null_mut()),
             bowden_observer_reset_f64(null_mut()),
-            bowden_learning_init_f64(null_mut(), null(), null_mut(), null_mut(), 9, null_mut()),
-            bowden_learning_resume_f64(null_mut(), null(), null_mut(), null_mut(), 9, null_mut()),
-            bowden_learning_step_f64(null_mut(), 0.0, 0.0, 0.0, 1, null_mut()),
+            bowden_iterative_learning_init_f64(
+                null_mut(),
+                null(),
+                null_mut(),
+                null_mut(),
+                9,
+                null_mut(),
+            ),
+            bowden_iterative_learning_resume_f64(
+                null_mut(),
+                null(),
+                null_mut(),
+                null_mut(),
+                9,
+                null_mut(),
+            ),
+            bowden_iterative_learning_step_f64(null_mut(), 0.0, 0.0, 0.0, 1, null_mut()),
+            bowden_low_pass_init_f64(null_mut(), 0.5, null_mut()),
+            bowden_low_pass_step_f64(null_mut(), 0.0, 0.001, null_mut()),
+            bowden_biquad_init_low_pass_f64(null_mut(), null(), null_mut()),
+            bowden_biquad_init_notch_f64(null_mut(), null(), null_mut()),
+            bowden_biquad_step_f64(null_mut(), 0.0, 0.001, null_mut()),
+            bowden_edge_velocity_init_f64(null_mut(), null(), null_mut()),
+            bowden_edge_velocity_step_f64(null_mut(), 0.0, 0.001, null_mut()),
+            bowden_plausible_init_f64(null_mut(), null(), null_mut()),
+            bowden_plausible_step_f64(null_mut(), 0.0, 0.001, 1, null_mut()),
             bowden_play_init_f64(null_mut(), 0.5, null_mut()),
             bowden_play_step_f64(null_mut(), 0.0, null_mut()),
             bowden_cable_init_f64(null_mut(), null(), null_mut()),
             bowden_cable_step_f64(null_mut(), 0.0, null_mut()),
             bowden_inverse_init_f64(null_mut(), null(), null_mut()),
             bowden_inverse_step_f64(null_mut(), 0.0, null_mut()),
-            bowden_hysteresis_init_f64(null_mut(), 1.0, 1.0, 2.0, 0.0, null_mut()),
+            bowden_hysteresis_init_f64(null_mut(), null(), null_mut()),
             bowden_hysteresis_step_f64(null_mut(), 0.0, null_mut()),
         ] {
             assert_eq!(result, bowden_result::ErrorNull);
@@ -237,16 +260,16 @@ fn a_long_condition_is_told_whole() {
         rho: 0.382,
         sigma: 2.97,
         n: 1.02,
-        eta: 0.0,
+        ..bowden_cable_settings_f64::defaults()
     };
     let (mut inverse, mut about) = (blank(), blank());
     let made = unsafe { bowden_inverse_init_f64(&mut inverse, &settings, &mut about) };
     assert_eq!(made, bowden_result::ErrorInadmissible);
-    let shape = core_bowden::hysteresis::Shape::try_new(0.382, 2.97, 1.02).unwrap();
+    let shape = core_bowden::hysteresis::BoucWen::try_new(0.382, 2.97, 1.02).unwrap();
     let cable = core_bowden::transmission::Transmission::torque(0.952, 2.29, 0.05, shape);
     let error = cable.unwrap().inverse().unwrap_err();
-    assert!(error.about().is_ascii());
-    assert_eq!(text(&about), error.about());
+    assert!(error.parameter().is_ascii());
+    assert_eq!(text(&about), error.parameter());
     settings.mode = 2;
     let made = unsafe { bowden_inverse_init_f64(&mut inverse, &settings, &mut about) };
     assert_eq!(
@@ -283,9 +306,10 @@ fn more_items_than_there_is_room_for_are_refused() {
         sample.channels = null();
         let result = bowden_model_step_f32(&mut model, &sample, &mut y);
         assert_eq!(result, bowden_result::ErrorNull);
-        let mut law = blank::<bowden_adaptive_settings_f32>();
+        let mut law = bowden_adaptive_settings_f32::defaults();
         let mut own = blank::<bowden_adaptive_f32>();
-        bowden_adaptive_settings_start_f32(&mut law, -1.0, 1.0, 0.005, 5, 0.0);
+        (law.limits.low, law.limits.high) = (0.0, 1.0);
+        (law.longest_dt, law.fallback.after) = (0.005, 5);
         law.regressors = 5;
         let result = bowden_adaptive_init_f32(&mut own, &law, null_mut());
         assert_eq!(result, bowden_result::ErrorCapacity);
@@ -338,12 +362,12 @@ fn every_code_has_a_text_of_ascii_and_no_other_has_one_of_theirs() {
             .unwrap()
             .to_owned()
     };
-    let texts: Vec<String> = (-9..=5).map(|code| of(bowden_result_text(code))).collect();
+    let texts: Vec<String> = (-10..=7).map(|code| of(bowden_result_text(code))).collect();
     for (index, text) in texts.iter().enumerate() {
         assert!(text.is_ascii() && !text.is_empty());
         assert_eq!(texts.iter().position(|other| other == text), Some(index));
     }
-    for code in [-10, 6, i32::MIN, i32::MAX] {
+    for code in [-11, 8, i32::MIN, i32::MAX] {
         assert_eq!(of(bowden_result_text(code)), "no result of this library");
         assert_eq!(
             of(bowden_fault_text(code.saturating_add(50))),

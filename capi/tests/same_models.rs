@@ -9,7 +9,7 @@ mod signal;
 use bowden::*;
 use core_bowden::control::{
     Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, BenchRange, Compensator,
-    CompensatorInput, CompensatorState, Estimator, Fallback, Form, Leakage, Limits, Missing,
+    CompensatorInput, CompensatorState, Estimator, Fallback, Form, Leakage, Limits, OnMissing,
     SmoothSign, Status,
 };
 use core_bowden::model::{Model, ModelState, Sample, Source};
@@ -41,7 +41,7 @@ const MODEL: &str = r#"
 
 macro_rules! adaptive {
     ($name:ident, $f:ident, $object:ident, $settings:ident, $sample:ident, $output:ident,
-     $estimates:ident, $init:ident, $start:ident, $step:ident, $get:ident, $acknowledge:ident) => {
+     $estimates:ident, $init:ident, $step:ident, $get:ident, $acknowledge:ident) => {
         mod $name {
             use super::*;
 
@@ -64,14 +64,17 @@ macro_rules! adaptive {
                         .adapting(2.5e-4, 0.01),
                     delta: Estimator::fixed(1.0).within(0.0, 3.0).adapting(6e-3, 0.01),
                     theta: [leaks, Estimator::fixed(0.5)],
-                    missing: [[Missing::Hold, Missing::Drop][missing], Missing::Hold],
+                    missing: [
+                        [OnMissing::Hold, OnMissing::DropRegressor][missing],
+                        OnMissing::Hold,
+                    ],
                     z_limit: 0.01,
                     ..AdaptiveSettings::new(
                         [
-                            Form::Literal {
+                            Form::AsPublished {
                                 time_constant: 0.005,
                             },
-                            Form::Lag { step, plant_gain },
+                            Form::FirstOrder { step, plant_gain },
                         ][form],
                         24.0,
                         8.0,
@@ -85,12 +88,13 @@ macro_rules! adaptive {
             }
 
             fn in_c(form: usize, sign: usize, missing: usize) -> $object {
-                let (mut settings, mut law) = (blank::<$settings>(), blank::<$object>());
+                let (mut settings, mut law) = ($settings::defaults(), blank::<$object>());
                 unsafe {
-                    let made = $start(&mut settings, -20.0, 60.0, 0.005, 5, 1.0);
-                    assert_eq!(made, bowden_result::Ok);
+                    (settings.limits.low, settings.limits.high) = (-20.0, 60.0);
+                    settings.longest_dt = 0.005;
+                    (settings.fallback.after, settings.fallback.command) = (5, 1.0);
                     settings.form = form as u32;
-                    settings.step = 0.001;
+                    (settings.step, settings.plant_gain) = (0.001, 1.0);
                     settings.epsilon = 0.1;
                     settings.smooth_sign = sign as u32;
                     for (own, low, high, gain) in [
@@ -202,7 +206,6 @@ adaptive!(
     bowden_output_f32,
     bowden_estimates_f32,
     bowden_adaptive_init_f32,
-    bowden_adaptive_settings_start_f32,
     bowden_adaptive_step_f32,
     bowden_adaptive_get_estimates_f32,
     bowden_adaptive_acknowledge_f32
@@ -216,7 +219,6 @@ adaptive!(
     bowden_output_f64,
     bowden_estimates_f64,
     bowden_adaptive_init_f64,
-    bowden_adaptive_settings_start_f64,
     bowden_adaptive_step_f64,
     bowden_adaptive_get_estimates_f64,
     bowden_adaptive_acknowledge_f64
@@ -440,7 +442,7 @@ fn bytes_that_are_damaged_or_of_the_other_precision_are_told() {
     assert_eq!(result, bowden_result::ErrorNull);
 }
 
-/// What the repository has of the lab: `bowden close --model-out demo.postcard`.
+/// What the repository has of the lab: `bowden identify --model-out demo.postcard`.
 #[test]
 fn the_bytes_that_the_lab_wrote_load() {
     let bytes = include_bytes!("../../examples/data/demo.postcard");

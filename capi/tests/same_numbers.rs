@@ -7,10 +7,10 @@ mod signal;
 
 use bowden::*;
 use core_bowden::control::{
-    AntiWindup, Damping, DisturbanceObserver, Fallback, Limits, NominalPlant, ObserverInput,
-    ObserverState, Pid, PidInput, PidSettings, PidState, Status,
+    AntiWindup, DerivativeSource, DisturbanceObserver, Fallback, Limits, NominalPlant,
+    ObserverInput, ObserverState, Pid, PidInput, PidSettings, PidState, Status,
 };
-use core_bowden::hysteresis::{BoucWen, Shape};
+use core_bowden::hysteresis::{BoucWen, BoucWenState};
 use core_bowden::signal::{Motion, Play, PlayState, Rates, RatesState};
 use core_bowden::transmission::Transmission;
 use objects::blank;
@@ -30,13 +30,23 @@ fn result_of(status: Status) -> bowden_result {
 macro_rules! pid {
     ($name:ident, $f:ident, $object:ident, $settings:ident, $sample:ident, $output:ident,
      $init:ident, $pi:ident, $step:ident, $acknowledge:ident, $latched:ident) => {
-        #[test]
-        fn $name() {
-            for (damping, anti_windup) in [(0, 0), (0, 3), (1, 2), (0, 1)] {
-                let own = Pid::<$f>::try_new(PidSettings {
+        mod $name {
+            use super::*;
+
+            fn own(damping: usize, anti_windup: usize, options: [$f; 3]) -> Pid<$f> {
+                let [integral_limit, deadband, period] = options;
+                let some = |value| (value != 0.0).then_some(value);
+                Pid::<$f>::try_new(PidSettings {
                     k_d: 0.2,
                     derivative_time: 0.01,
-                    damping: [Damping::on_error(), Damping::Velocity][damping],
+                    damping: [
+                        DerivativeSource::on_error(),
+                        DerivativeSource::Velocity,
+                        DerivativeSource::on_measurement(),
+                    ][damping],
+                    integral_limit: some(integral_limit),
+                    deadband,
+                    period: some(period),
                     anti_windup: [
                         AntiWindup::Conditional,
                         AntiWindup::None,
@@ -54,10 +64,11 @@ macro_rules! pid {
                         Fallback::try_new(5, 1.0).unwrap(),
                     )
                 })
-                .unwrap();
-                let mut state = PidState::new();
-                let mut settings = blank::<$settings>();
-                let mut pid = blank::<$object>();
+                .unwrap()
+            }
+
+            fn in_c(damping: usize, anti_windup: usize, options: [$f; 3]) -> $object {
+                let (mut settings, mut pid) = (blank::<$settings>(), blank());
                 unsafe {
                     assert_eq!(
                         $pi(&mut settings, 30.0, 18.0, -20.0, 60.0, 0.005, 5, 1.0),
@@ -65,45 +76,69 @@ macro_rules! pid {
                     );
                     settings.k_d = 0.2;
                     settings.derivative_time = 0.01;
-                    settings.damping = damping as u32;
+                    settings.damping = u32::from(damping == 1);
+                    // The default is the derivative on the measurement.
+                    assert_eq!(settings.derivative_weight, 0.0);
+                    if damping == 0 {
+                        settings.derivative_weight = 1.0;
+                    }
+                    [settings.integral_limit, settings.deadband, settings.period] = options;
                     settings.anti_windup = anti_windup as u32;
                     settings.tracking_time = 0.1;
                     settings.limits.slew = 2000.0;
                     assert_eq!($init(&mut pid, &settings, null_mut()), bowden_result::Ok);
                 }
-                let mut signal = Signal::new();
-                let (mut held, mut safe) = (0, 0);
-                for k in 0..4000 {
-                    let at = PidInput::<$f> {
-                        dt: signal.dt(k) as $f,
-                        reference: signal.next(3.0) as $f,
-                        measured: signal.measured(k) as $f,
-                        velocity: signal.next(1.0) as $f,
-                        feed_forward: signal.next(0.5) as $f,
-                    };
-                    let sample = $sample {
-                        dt: at.dt,
-                        reference: at.reference,
-                        measured: at.measured,
-                        velocity: at.velocity,
-                        feed_forward: at.feed_forward,
-                    };
-                    let mut out = blank::<$output>();
-                    let mut latched = 7;
-                    if k % 1000 == 999 {
-                        state.acknowledge();
-                        assert_eq!(unsafe { $acknowledge(&mut pid) }, bowden_result::Ok);
+                pid
+            }
+
+            #[test]
+            fn has_the_crates_numbers() {
+                for (damping, anti_windup, options) in [
+                    (0, 0, [0.0; 3]),
+                    (0, 3, [0.0; 3]),
+                    (1, 2, [0.0; 3]),
+                    (0, 1, [0.0; 3]),
+                    (2, 0, [0.5, 0.0, 0.0]),
+                    (2, 3, [0.0, 0.3, 0.0]),
+                    (2, 1, [4.0, 0.3, 6.0]),
+                ] {
+                    let own = own(damping, anti_windup, options);
+                    let mut pid = in_c(damping, anti_windup, options);
+                    let mut state = PidState::new();
+                    let mut signal = Signal::new();
+                    let (mut held, mut safe) = (0, 0);
+                    for k in 0..4000 {
+                        let at = PidInput::<$f> {
+                            dt: signal.dt(k) as $f,
+                            reference: signal.next(3.0) as $f,
+                            measured: signal.measured(k) as $f,
+                            velocity: signal.next(1.0) as $f,
+                            feed_forward: signal.next(0.5) as $f,
+                        };
+                        let sample = $sample {
+                            dt: at.dt,
+                            reference: at.reference,
+                            measured: at.measured,
+                            velocity: at.velocity,
+                            feed_forward: at.feed_forward,
+                        };
+                        let mut out = blank::<$output>();
+                        let mut latched = 7;
+                        if k % 1000 == 999 {
+                            state.acknowledge();
+                            assert_eq!(unsafe { $acknowledge(&mut pid) }, bowden_result::Ok);
+                        }
+                        let result = unsafe { $step(&mut pid, &sample, &mut out) };
+                        unsafe { $latched(&pid, &mut latched) };
+                        let expected = own.step(&mut state, &at);
+                        assert_eq!(out.command.to_bits(), expected.command.to_bits(), "{k}");
+                        assert_eq!((result, out.result), (result_of(expected.status), result));
+                        assert_eq!(latched, u32::from(state.is_latched()));
+                        held += u32::from(result == bowden_result::Held);
+                        safe += u32::from(result == bowden_result::Safe);
                     }
-                    let result = unsafe { $step(&mut pid, &sample, &mut out) };
-                    unsafe { $latched(&pid, &mut latched) };
-                    let expected = own.step(&mut state, &at);
-                    assert_eq!(out.command.to_bits(), expected.command.to_bits(), "{k}");
-                    assert_eq!((result, out.result), (result_of(expected.status), result));
-                    assert_eq!(latched, u32::from(state.is_latched()));
-                    held += u32::from(result == bowden_result::Held);
-                    safe += u32::from(result == bowden_result::Safe);
+                    assert!(held > 10 && safe > 100, "{held} {safe}");
                 }
-                assert!(held > 10 && safe > 100, "{held} {safe}");
             }
         }
     };
@@ -136,12 +171,12 @@ pid!(
 );
 
 macro_rules! cable {
-    ($name:ident, $f:ident, $cable:ident, $inverse:ident, $hysteresis:ident, $settings:ident,
+    ($name:ident, $f:ident, $cable:ident, $inverse:ident, $hysteresis:ident, $settings:ident, $alone:ident,
      $cable_init:ident, $cable_step:ident, $inverse_init:ident, $inverse_step:ident,
      $hysteresis_init:ident, $hysteresis_step:ident) => {
         #[test]
         fn $name() {
-            let shape = Shape::<$f>::try_new(0.09582, 0.6, 3.871).unwrap();
+            let shape = BoucWen::<$f>::try_new(0.09582, 0.6, 3.871).unwrap();
             for mode in [bowden_mode::Torque, bowden_mode::Displacement] {
                 let build = match mode {
                     bowden_mode::Torque => Transmission::torque,
@@ -149,7 +184,7 @@ macro_rules! cable {
                 };
                 let own = build(0.9978, 7.004, 0.05174, shape).unwrap();
                 let own_inverse = own.inverse().unwrap();
-                let mut states = [BoucWen::with_eta(0.25).unwrap(); 3];
+                let mut states = [BoucWenState::with_eta(0.25).unwrap(); 3];
                 let settings = $settings {
                     mode: mode as u32,
                     gain: 0.9978,
@@ -159,6 +194,14 @@ macro_rules! cable {
                     sigma: 0.6,
                     n: 3.871,
                     eta: 0.25,
+                    ..$settings::defaults()
+                };
+                let alone = $alone {
+                    rho: 0.09582,
+                    sigma: 0.6,
+                    n: 3.871,
+                    eta: 0.25,
+                    ..$alone::defaults()
                 };
                 let (mut cable, mut inverse) = (blank::<$cable>(), blank::<$inverse>());
                 let mut hysteresis = blank::<$hysteresis>();
@@ -172,8 +215,7 @@ macro_rules! cable {
                         $inverse_init(&mut inverse, &settings, nobody),
                         bowden_result::Ok
                     );
-                    let tried =
-                        $hysteresis_init(&mut hysteresis, 0.09582, 0.6, 3.871, 0.25, nobody);
+                    let tried = $hysteresis_init(&mut hysteresis, &alone, nobody);
                     assert_eq!(tried, bowden_result::Ok);
                 }
                 let mut signal = Signal::new();
@@ -206,6 +248,7 @@ cable!(
     bowden_inverse_f32,
     bowden_hysteresis_f32,
     bowden_cable_settings_f32,
+    bowden_hysteresis_settings_f32,
     bowden_cable_init_f32,
     bowden_cable_step_f32,
     bowden_inverse_init_f32,
@@ -220,6 +263,7 @@ cable!(
     bowden_inverse_f64,
     bowden_hysteresis_f64,
     bowden_cable_settings_f64,
+    bowden_hysteresis_settings_f64,
     bowden_cable_init_f64,
     bowden_cable_step_f64,
     bowden_inverse_init_f64,
@@ -229,7 +273,8 @@ cable!(
 );
 
 macro_rules! rates {
-    ($name:ident, $f:ident, $object:ident, $output:ident, $init:ident, $step:ident) => {
+    ($name:ident, $f:ident, $object:ident, $settings:ident, $output:ident,
+     $init:ident, $step:ident) => {
         #[test]
         fn $name() {
             for (period, gap) in [(0.0, 0.0), (6.0, 0.0), (0.0, 0.5), (6.0, 0.5)] {
@@ -242,7 +287,13 @@ macro_rules! rates {
                 }
                 let mut state = RatesState::new();
                 let mut rates = blank::<$object>();
-                let tried = unsafe { $init(&mut rates, 0.01, period, gap, null_mut()) };
+                let settings = $settings {
+                    time_constant: 0.01,
+                    period,
+                    longest_gap: gap,
+                    ..$settings::defaults()
+                };
+                let tried = unsafe { $init(&mut rates, &settings, null_mut()) };
                 assert_eq!(tried, bowden_result::Ok);
                 let mut signal = Signal::new();
                 for k in 0..4000 {
@@ -275,6 +326,7 @@ rates!(
     rates_in_f32,
     f32,
     bowden_rates_f32,
+    bowden_rates_settings_f32,
     bowden_rates_output_f32,
     bowden_rates_init_f32,
     bowden_rates_step_f32
@@ -283,6 +335,7 @@ rates!(
     rates_in_f64,
     f64,
     bowden_rates_f64,
+    bowden_rates_settings_f64,
     bowden_rates_output_f64,
     bowden_rates_init_f64,
     bowden_rates_step_f64
@@ -302,6 +355,7 @@ macro_rules! observer {
                     limit: 30.0,
                     longest_dt: 0.005,
                     latency,
+                    ..$settings::defaults()
                 };
                 let plant = NominalPlant::<$f>::try_new(0.6, 25.5, 0.265).unwrap();
                 let own = DisturbanceObserver::try_new(plant, 0.016, 30.0, 0.005)

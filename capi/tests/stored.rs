@@ -46,8 +46,8 @@ fn a_pid_starts_from_nothing_after_the_power_was_off() {
         step(&mut pid, &SAMPLE);
         own.step(&mut state, &input);
     }
-    unsafe { assert_eq!(bowden_pid_power_up_f32(&mut pid), bowden_result::Ok) };
-    state.power_up(&own);
+    unsafe { assert_eq!(bowden_pid_restore_f32(&mut pid), bowden_result::Ok) };
+    state.restore(&own);
     for _ in 0..100 {
         let expected = own.step(&mut state, &input).command;
         assert_eq!(step(&mut pid, &SAMPLE), (expected, bowden_result::Ok));
@@ -60,15 +60,12 @@ fn a_pid_starts_from_nothing_after_the_power_was_off() {
     for _ in 0..3 {
         step(&mut pid, &dead);
     }
-    unsafe { bowden_pid_power_up_f32(&mut pid) };
+    unsafe { bowden_pid_restore_f32(&mut pid) };
     assert_eq!(step(&mut pid, &SAMPLE), (0.0, bowden_result::Safe));
     unsafe {
+        assert_eq!(bowden_pid_restore_f32(null_mut()), bowden_result::ErrorNull);
         assert_eq!(
-            bowden_pid_power_up_f32(null_mut()),
-            bowden_result::ErrorNull
-        );
-        assert_eq!(
-            bowden_pid_power_up_f32(&mut blank()),
+            bowden_pid_restore_f32(&mut blank()),
             bowden_result::ErrorUninitialised
         );
     }
@@ -125,17 +122,18 @@ fn a_play_before_the_inverse_is_the_crates_and_nonsense_is_refused() {
 
 /// An adaptive law over one regressor in C.
 fn law(gain: f64) -> bowden_adaptive_settings_f64 {
-    let mut settings = blank::<bowden_adaptive_settings_f64>();
-    unsafe { bowden_adaptive_settings_start_f64(&mut settings, -60.0, 60.0, 0.005, 3, 0.0) };
+    let mut settings = bowden_adaptive_settings_f64::defaults();
+    (settings.limits.low, settings.limits.high) = (-60.0, 60.0);
+    (settings.longest_dt, settings.fallback.after) = (0.005, 3);
+    settings.form = bowden_form::AsPublished as u32;
     let adapts = |initial: f64, low: f64, high: f64, gain: f64| bowden_estimator_f64 {
         initial,
         low,
         high,
         gain,
-        prior: 0.0,
         leakage: bowden_leakage::Constant as u32,
         leakage_rate: 0.01,
-        leakage_bound: 0.0,
+        ..bowden_estimator_f64::defaults()
     };
     settings.gain = gain;
     settings.beta = adapts(1.0, 0.9, 1.1, 2.5e-4);
@@ -149,7 +147,7 @@ fn law(gain: f64) -> bowden_adaptive_settings_f64 {
 fn own_law(gain: f64) -> Adaptive<f64, 1> {
     let limits = Limits::try_new(-60.0, 60.0).unwrap();
     let fallback = Fallback::try_new(3, 0.0).unwrap();
-    let form = Form::Literal {
+    let form = Form::AsPublished {
         time_constant: 0.005,
     };
     Adaptive::try_new(AdaptiveSettings {
@@ -187,15 +185,15 @@ fn an_adaptive_law_keeps_its_estimates_through_a_power_cut_and_other_gains() {
         }
     };
     run(&mut object, &own, &mut state);
-    unsafe { assert_eq!(bowden_adaptive_power_up_f64(&mut object), bowden_result::Ok) };
-    state.power_up(&own);
+    unsafe { assert_eq!(bowden_adaptive_restore_f64(&mut object), bowden_result::Ok) };
+    state.restore(&own);
     run(&mut object, &own, &mut state);
     let before = state.beta_hat();
     let changed =
         unsafe { bowden_adaptive_change_f64(&mut object, &law(30.0), &sample, null_mut()) };
     assert_eq!(changed, bowden_result::Ok);
     own = own_law(30.0);
-    own.take_over(&mut state, &input);
+    own.bumpless_transfer(&mut state, &input);
     assert_eq!(state.beta_hat(), before);
     run(&mut object, &own, &mut state);
 

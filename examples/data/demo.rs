@@ -2,23 +2,23 @@
 //!
 //! Input [N·m], output [N·m], torque mode.
 //! Channels, in the order of `Sample::channels`: 0 phi_p [rad], 1 phi_d [rad].
-//! Fitted below 7.6 Hz to a record of 1000 samples a second.
+//! Fitted below 7.6 Hz to a record of 1000 samples per second.
 //!
-//! Error, of the output's standard deviation: fit 7.01 %, held out 10.83 %.
-//! Held out sample by sample, with the rates as below: 10.74 %.
+//! Error as a share of the output's standard deviation: fit 7.01 %, held out 10.83 %.
+//! Held-out error sample by sample, with the rates below: 10.74 %.
 //! Not identified: gain (held at 2·sigma·kappa_eta·rho by --invertible).
 //! Not identified: sigma (at its lower bound).
 //! Not identified: n (at its lower bound).
 //! Feed-forward: yes.
 //!
-//! The rates of each source, once a sample, with a `RatesState` of its own:
+//! The rates of each source, once per sample, each source with its own `RatesState`:
 //! `let motion = Rates::try_new(RATES_TIME_CONSTANT)?.step(&mut state, position, dt).motion;`
 //! Made for a feed-forward: `Compensator::try_new(&model()?)?.with_ranges(&ranges())?`.
 
 use bowden::control::BenchRange;
 use bowden::effect::Motion;
 use bowden::effect::Viscous;
-use bowden::hysteresis::Shape;
+use bowden::hysteresis::BoucWen;
 use bowden::model::{FixedModel, Model, Source, Term};
 use bowden::transmission::Transmission;
 
@@ -30,7 +30,7 @@ pub const RATES_TIME_CONSTANT: f32 = 0.008376576;
 #[allow(dead_code)]
 pub type Terms = (Term<f32, Viscous>,);
 
-/// The identified model as one that holds any effect: for a `Compensator`, or a file.
+/// The identified model as a type that can hold any effect: for a `Compensator` or a file.
 ///
 /// # Errors
 /// None with the numbers below.
@@ -39,14 +39,14 @@ pub fn model() -> Result<Model<f32, 1>, bowden::Error> {
     Ok(fixed_model()?.to_model())
 }
 
-/// The identified model; firmware that steps it links the effects that it names, no others.
+/// The identified model; firmware links only the effects that it names.
 ///
 /// # Errors
 /// None with the numbers below.
 #[allow(dead_code, clippy::approx_constant)]
 pub fn fixed_model() -> Result<FixedModel<f32, 1, Terms>, bowden::Error> {
     // rho [1/(N·m)], sigma [1], n [1]
-    let shape = Shape::try_new(0.5462775, 0.5010001, 1.001)?;
+    let shape = BoucWen::try_new(0.5462775, 0.5010001, 1.001)?;
     // B [1], kappa_eta [N·m], T0 [N·m]
     let transmission = Transmission::torque(0.9513806, 1.738092, -0.004557163, shape)?;
     let terms = (
@@ -64,7 +64,7 @@ pub fn fixed_model() -> Result<FixedModel<f32, 1, Terms>, bowden::Error> {
     FixedModel::try_new(Some(transmission), terms)
 }
 
-/// What the fit has seen of each source that the model reads, for `Compensator::with_ranges`.
+/// Range in the fitted record of each source that the model reads, for `Compensator::with_ranges`.
 #[allow(dead_code, clippy::approx_constant)]
 pub fn ranges() -> [BenchRange<f32>; 2] {
     [

@@ -11,7 +11,7 @@ mod torque_loop;
 use scenario::{Scenario, RATE};
 use torque_loop::StartError;
 
-/// What `bowden close --invertible --model-out model.postcard` has written.
+/// What `bowden identify --invertible --model-out model.postcard` has written.
 const MODEL: &[u8] = include_bytes!("../data/demo.postcard");
 
 fn main() -> Result<(), StartError> {

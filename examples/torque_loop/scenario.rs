@@ -6,7 +6,7 @@
 
 use super::torque_loop::{Action, Sensors, StartError, TorqueLoop, COUNTS};
 use bowden::control::Status;
-use bowden::hysteresis::{BoucWen, Shape};
+use bowden::hysteresis::{BoucWen, BoucWenState};
 use bowden::transmission::Transmission;
 use bowden::{Error, Real};
 use core::fmt::{Display, Formatter};
@@ -74,7 +74,7 @@ impl defmt::Format for Line {
 #[derive(Debug)]
 struct Joint {
     cable: Transmission<f32>,
-    eta: BoucWen<f32>,
+    eta: BoucWenState<f32>,
     drive: f32,
     torque: f32,
     noise: u32,
@@ -82,10 +82,10 @@ struct Joint {
 
 impl Joint {
     fn try_new() -> Result<Self, Error> {
-        let shape = Shape::try_new(0.5, 0.5, 1.3)?;
+        let shape = BoucWen::try_new(0.5, 0.5, 1.3)?;
         Ok(Self {
             cable: Transmission::torque(0.93, 1.9, 0.1, shape)?,
-            eta: BoucWen::new(),
+            eta: BoucWenState::new(),
             drive: 0.0,
             torque: 0.0,
             noise: 1,

@@ -9,6 +9,21 @@
 //! switched off and stays off until somebody has called [`TorqueLoop::acknowledge`]. The
 //! watchdog is fed by every tick whose time makes sense, in a fault too: it is there for
 //! a loop that no longer runs, and a chip that restarts would forget the fault.
+//!
+//! **What it needs** in `Cargo.toml` (a test builds this file in an empty crate with these lines):
+//!
+//! ```toml
+//! [dependencies]
+//! bowden = { path = "../bowden", features = ["serde"] }
+//! crc = "3"
+//! postcard = { version = "1", default-features = false, features = ["use-crc"] }
+//! defmt = { version = "1", optional = true }
+//!
+//! [features]
+//! defmt = ["dep:defmt", "bowden/defmt"]
+//! ```
+//!
+//! The feature `defmt` derives the log formats; without it, delete its lines there and in this file.
 
 use bowden::control::{
     AntiWindup, BenchRange, Compensator, CompensatorInput, CompensatorState, Fallback, Limits, Pid,
@@ -47,7 +62,7 @@ const PULLEY: BenchRange<f32> = BenchRange {
 /// rates and the friction of `model.rs`: 0.73 N·m·s/rad · COUNT / (2 · 8 ms) \[N·m\]. Without it the
 /// feed-forward takes each count for a reversal.
 const PLAY: f32 = 0.02;
-/// As `bowden close --model-out` writes it into the file.
+/// As `bowden identify --model-out` writes it into the file.
 const CHECKSUM: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
 
 /// Why the loop cannot start.
@@ -106,7 +121,7 @@ pub struct TorqueLoop {
 }
 
 impl TorqueLoop {
-    /// A loop at rest, with a model as `bowden close --model-out model.postcard` writes it.
+    /// A loop at rest, with a model as `bowden identify --model-out model.postcard` writes it.
     ///
     /// # Errors
     /// [`StartError`].

@@ -32,10 +32,24 @@ FALLBACK = b"\x03" + x(0)
 SAMPLES = [(k * 0.7, k * 0.5) for k in range(6)]
 
 
-def pid():
-    gains = b"\x02\x01" + numbers(30, 18, 2, 0.1, 1) + LIMITS + LONGEST + FALLBACK
+# Gains, an integral limit, a deadband and no period.
+GAINS = b"\x02\x01" + numbers(30, 18, 2, 0.1, 1) + b"\x01" + x(20) + b"\x01" + x(0.01) + b"\x00"
+GAINS += LIMITS + LONGEST + FALLBACK
+# An output that wraps after 6 units needs the weights 1 and 0.
+WRAPPED = b"\x02\x02" + numbers(30, 18, 2, 0.1, 1) + b"\x00\x00\x01" + x(6)
+WRAPPED += LIMITS + LONGEST + FALLBACK
+# At the upper limit, and off.
+APPLIED = (b"\x01", b"\x03" + x(0))
+
+
+def pid(gains=GAINS):
     steps = b"".join(b"\xff" + DT + numbers(r, y, 0, 0) for r, y in SAMPLES)
-    return gains + gains + steps + b"\xff" + DT + x(1) + NAN + numbers(0, 0)
+    told = b"".join(b"\x24" + own + steps for own in APPLIED)
+    return gains + gains + steps + told + b"\xff" + DT + x(1) + NAN + numbers(0, 0)
+
+
+def pid_wrapped():
+    return pid(WRAPPED)
 
 
 def adaptive():
@@ -43,11 +57,11 @@ def adaptive():
     law = b"\x01\x00" + DT + x(1) + b"\x01" + estimator * 4 + x(20) + b"\x00\x00\x01"
     law += LIMITS + LONGEST + FALLBACK + numbers(24, 8, 0.2)
     steps = b"".join(b"\xff" + DT + numbers(r, r, y, 0.1, 0.2, 0) for r, y in SAMPLES)
-    return law + steps
+    return law + steps + b"".join(b"\x38" + own + steps for own in APPLIED)
 
 
 def compensator():
-    sample = lambda r: ZERO_MOTION + DT + x(r) + ZERO_MOTION + x(0) + b"\x01"
+    sample = lambda r: b"\x00\x03" + x(r / 2) + ZERO_MOTION + DT + x(r) + ZERO_MOTION + x(0) + b"\x01"
     return b"\x00" + CABLE + b"\x00\x00" + b"".join(sample(r) for r, _ in SAMPLES)
 
 
@@ -71,35 +85,58 @@ def inverse():
 # States at rest are zeros in postcard, but for the count of the estimates theta.
 PID_STATE, BOUC_WEN, RATES_STATE, EFFECT_STATE = map(bytes, (23, 9, 23, 1))
 ADAPTIVE_STATE = bytes(37) + b"\x02" + bytes(26)
+FILTER_STATES = {"low_pass": bytes(5), "biquad": bytes(17), "edge_velocity": bytes(8)}
+RELAY_STATE = bytes(6) + b"\x00" + b"\xff\xff\xff\xff\x0f" + bytes(16)
+BLOCKS = {
+    "low_pass": x(0.01),
+    "biquad": b"\x01" + x(20) + numbers(5, 0.001),
+    "edge_velocity": numbers(0.5, 0.01, 0.02) + b"\x01" + x(6),
+    "relay": numbers(2, 10, 8, 0.5, 8) + b"\x02" + numbers(0.5, 20, 0.005) + b"\x00"
+    + numbers(-20, 30) + b"\x00" + FALLBACK,
+}
+POINTS = b"".join(x(r) + DT for r, _ in SAMPLES)
+# Above and below the reference for six samples each.
+CYCLES = [k % 12 // 6 * 4 for k in range(60)]
 
 
 def states():
     samples = b"".join(DT + numbers(r, y, 0, 0) for r, y in SAMPLES)
-    gains = b"\x02\x01" + numbers(30, 18, 2, 0.1, 1) + LIMITS + LONGEST + FALLBACK
     points = numbers(*(r for r, _ in SAMPLES))
+    cycles = b"".join(DT + x(y) for y in CYCLES)
     return {
-        "pid": b"\x00" + PID_STATE + gains + samples,
+        "pid": b"\x00" + PID_STATE + GAINS + samples,
         "adaptive": b"\x01" + ADAPTIVE_STATE + adaptive()[1:],
         "bouc_wen": b"\x02" + BOUC_WEN + SHAPE + points,
         "rates": b"\x03" + RATES_STATE + x(0.01) + b"".join(x(r) + DT for r, _ in SAMPLES),
         "effect": b"\x04" + EFFECT_STATE + b"\x02" + (DT + numbers(*range(10))) * 3,
+        "low_pass": b"\x05" + FILTER_STATES["low_pass"] + BLOCKS["low_pass"] + POINTS,
+        "biquad": b"\x06" + FILTER_STATES["biquad"] + BLOCKS["biquad"] + POINTS,
+        "edge_velocity": b"\x07" + FILTER_STATES["edge_velocity"] + BLOCKS["edge_velocity"] + POINTS,
+        "relay": b"\x08" + RELAY_STATE + BLOCKS["relay"] + cycles,
     }
 
 
 def constructors():
-    gains = b"\x01\x02\x01" + numbers(30, 18, 2, 0.1, 1) + LIMITS + LONGEST + FALLBACK
     points = [r for r, _ in SAMPLES]
     return {
         "limits": b"\x00" + numbers(-20, 30, 5, *points),
-        "pid": b"\x01" + gains + gains,
+        "pid": b"\x01\x01" + GAINS + b"\x01" + WRAPPED,
         "adaptive": b"\x01\x00" + adaptive()[1:],
-        "plausible": b"\x02" + numbers(-5, 5, 9) + b"\x03" + b"".join(x(r) + DT + b"\x01" for r in points),
+        "plausible": b"\x02" + numbers(-5, 5, 9) + b"\x03\x00\x00"
+        + b"".join(x(r) + DT + b"\x01" for r in points),
+        "plausible_slow": b"\x02" + numbers(-5, 5, 9) + b"\x03\x01" + x(0.2) + b"\x01" + LONGEST
+        + b"".join(x(r) + DT + b"\x01" for r in points),
         "ramp": b"\x03" + numbers(20, 0.01, 0) + b"".join(x(r) + DT for r in points),
         "rates": b"\x04" + numbers(0.01, 0.1, 6) + b"".join(x(r) + DT for r in points),
         "fallback": b"\x05\x14\x04" + x(0),
         # A lead of 2 cells and a half width of 1; a cycle and a half with two samples in a cell.
         "learning": b"\x07" + numbers(4, 30) + b"\x02\x01" + numbers(0.05, 1, 0) + b"\x01"
         + b"".join(b"\x10" + numbers(3, k % 32 / 10) + b"\x01" for k in range(96)),
+        "low_pass": b"\x08" + BLOCKS["low_pass"] + POINTS,
+        "biquad": b"\x09" + BLOCKS["biquad"] + POINTS,
+        "edge_velocity": b"\x0a" + BLOCKS["edge_velocity"] + x(1) + DT
+        + b"".join(b"\x00" + x(r) + DT + (b"\x01" + DT) * 30 for r in points),
+        "relay": b"\x0b" + BLOCKS["relay"] + b"".join(b"\xff" + DT + x(y) for y in CYCLES),
     }
 
 
@@ -190,6 +227,7 @@ cells = here / "../../lab/cli/tests/reading/files/cells_7_3.mat"
 (here / "record" / "mat_7_3_cells").write_bytes(b"\0" + cells.read_bytes())
 for make in (pid, adaptive, compensator, hysteresis, model, inverse):
     (here / make.__name__ / "start").write_bytes(make())
+(here / "pid" / "wrapped").write_bytes(pid_wrapped())
 (here / "model" / "play_in_series").write_bytes(play_in_series())
 for make in (states, constructors):
     (here / make.__name__).mkdir(exist_ok=True)

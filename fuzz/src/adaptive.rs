@@ -2,11 +2,12 @@
 
 use crate::numbers::Numbers;
 use crate::properties::control::{
-    adaptive_commands_within_its_limits, the_lag_does_not_pass_its_target,
+    adaptive_commands_within_its_limits, adaptive_commands_within_its_limits_from_any_state,
+    the_lag_does_not_pass_its_target,
 };
 use bowden::control::{
     Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Form, Leakage, Limits,
-    Missing, SmoothSign, Status,
+    OnMissing, SmoothSign, Status,
 };
 
 /// Whatever the gains, the samples and the order of hand-overs: a finite command within the
@@ -40,11 +41,11 @@ fn estimator(from: &mut Numbers) -> Option<Estimator<f32>> {
 /// Any settings, accepted or not.
 pub fn settings(from: &mut Numbers) -> Option<AdaptiveSettings<f32, 2>> {
     let form = if from.flag()? {
-        Form::Literal {
+        Form::AsPublished {
             time_constant: from.any()?,
         }
     } else {
-        Form::Lag {
+        Form::FirstOrder {
             step: from.dt()?,
             plant_gain: from.any()?,
         }
@@ -62,8 +63,8 @@ pub fn settings(from: &mut Numbers) -> Option<AdaptiveSettings<f32, 2>> {
         z_limit: from.any()?,
         frozen: from.flag()?,
         missing: [
-            [Missing::Hold, Missing::Drop][usize::from(from.byte()? % 2)],
-            [Missing::Hold, Missing::Drop][usize::from(from.byte()? % 2)],
+            [OnMissing::Hold, OnMissing::DropRegressor][usize::from(from.byte()? % 2)],
+            [OnMissing::Hold, OnMissing::DropRegressor][usize::from(from.byte()? % 2)],
         ],
         limits: from.limits()?,
         longest_dt: from.any()?,
@@ -96,7 +97,7 @@ fn run(from: &mut Numbers) -> Option<()> {
         Adaptive::paper()
     };
     let free = law.settings().limits == Limits::unlimited();
-    let lags = matches!(law.settings().form, Form::Lag { .. });
+    let lags = matches!(law.settings().form, Form::FirstOrder { .. });
     let mut state = AdaptiveState::new(&law);
     // Of a law without limits: its share of the command, where it is known.
     let mut lag = Some(0.0_f32);
@@ -107,7 +108,7 @@ fn run(from: &mut Numbers) -> Option<()> {
                 let out = state.command();
                 state.reset(&law);
                 assert!(state.command() == out, "a reset leaves what is out");
-                lag = (!acknowledged).then_some(0.0_f32);
+                lag = (!acknowledged).then_some(out);
             }
             16..=31 => {
                 state = AdaptiveState::resume_from(&law, from.any()?, &sample(from)?);
@@ -119,14 +120,24 @@ fn run(from: &mut Numbers) -> Option<()> {
                 }
                 state.acknowledge();
             }
+            56..=59 => {
+                state.applied(from.applied()?);
+                lag = None;
+            }
             32..=47 => {
-                law.take_over(&mut state, &sample(from)?);
+                law.bumpless_transfer(&mut state, &sample(from)?);
                 lag = None;
             }
             _ => {
                 let at = sample(from)?;
                 let mut again = state;
-                assert!(adaptive_commands_within_its_limits(&law, &mut state, &at));
+                // A drive may have exceeded the limits of the law.
+                let steps = if law.settings().limits.contains(state.command()) {
+                    adaptive_commands_within_its_limits
+                } else {
+                    adaptive_commands_within_its_limits_from_any_state
+                };
+                assert!(steps(&law, &mut state, &at));
                 let out = law.step_with_terms(&mut again, &at);
                 assert!(again == state, "the same sample gives the same state");
                 if let (Some(before), true, true) = (lag, free, lags) {
@@ -143,6 +154,7 @@ fn run(from: &mut Numbers) -> Option<()> {
                 }
             }
         }
-        assert!(law.is_valid(&state));
+        // A drive may exceed the limits of the law, until the next good sample.
+        assert!(law.is_valid(&state) || !law.settings().limits.contains(state.command()));
     }
 }

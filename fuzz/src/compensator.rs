@@ -40,6 +40,10 @@ fn run<T: Real>(from: &mut Numbers) -> Option<()> {
     }
     let mut state = CompensatorState::new();
     loop {
+        if from.byte()? < 16 {
+            compensator.applied(&mut state, from.applied()?);
+            assert!(state.eta().abs() <= T::one());
+        }
         let channel = [from.motion()?];
         let at = CompensatorInput {
             dt: from.dt()?,
@@ -57,7 +61,7 @@ fn run<T: Real>(from: &mut Numbers) -> Option<()> {
             assert!(state.consecutive_bad() == 0);
         } else {
             assert!(out.command == before.command() && out.eta == before.eta());
-            let good = CompensatorInput::new(T::of(0.001), T::one());
+            let good = CompensatorInput::new(T::from_f64(0.001), T::one());
             let (mut with, mut without) = (state, before);
             let given = compensator.step(&mut with, &good);
             assert!(given == compensator.step(&mut without, &good));

@@ -1,19 +1,20 @@
 //! Constructors: at run time, as a constant, and what they make.
 
 use crate::adaptive;
+use crate::blocks;
 use crate::numbers::Numbers;
 use crate::pid;
 use crate::properties::control::{estimates_keep_their_limit, learning_keeps_its_limit};
 use bowden::control::{Adaptive, Fallback, Limits, Pid};
 use bowden::control::{DisturbanceObserver, NominalPlant, ObserverInput, ObserverState};
-use bowden::control::{Learning, LearningInput};
+use bowden::control::{IterativeLearning, IterativeLearningInput};
 use bowden::signal::{Plausible, PlausibleState, Ramp, RampState, Rates, RatesState};
 
 /// Whatever the arguments: a constant is accepted where the run time accepts it, and refused
 /// in the same words; the blocks in front of a controller do what their docs say.
 pub fn check(data: &[u8]) {
     let mut from = Numbers::new(data);
-    let _ = match from.byte().map(|byte| byte % 8) {
+    let _ = match from.byte().map(|byte| byte % 12) {
         Some(0) => limits(&mut from),
         Some(1) => laws(&mut from),
         Some(2) => plausible(&mut from),
@@ -21,6 +22,10 @@ pub fn check(data: &[u8]) {
         Some(4) => rates(&mut from),
         Some(6) => observer(&mut from),
         Some(7) => learning(&mut from),
+        Some(8) => blocks::low_pass_runs(&mut from),
+        Some(9) => blocks::biquad_runs(&mut from),
+        Some(10) => blocks::edges_run(&mut from),
+        Some(11) => blocks::relay_runs(&mut from),
         _ => fallback(&mut from),
     };
 }
@@ -37,7 +42,7 @@ fn limits(from: &mut Numbers) -> Option<()> {
     let limits = slewed.unwrap_or(range);
     loop {
         let (last, wanted) = (from.any()?, from.any()?);
-        assert!(limits.contains(limits.confine(wanted)));
+        assert!(limits.contains(limits.clamp(wanted)));
         let out = limits.apply(last, wanted, 0.001);
         assert!(limits.contains(out) || wanted.is_nan() || last.is_nan());
     }
@@ -49,7 +54,7 @@ fn fallback(from: &mut Numbers) -> Option<()> {
     let safe = Fallback::<f32>::try_new(after, command);
     assert!(safe == Fallback::<f32>::const_new(after, command));
     assert!(safe.is_ok() == (after > 0 && command.is_finite()));
-    let safe = safe.unwrap_or(Fallback::hold_for_ever());
+    let safe = safe.unwrap_or(Fallback::hold_indefinitely());
     let weighed = safe.with_weight(weight);
     assert!(weighed.is_ok() == (weight > 0));
     if let Ok(weighed) = weighed {
@@ -78,13 +83,26 @@ fn plausible(from: &mut Numbers) -> Option<()> {
     let range = range.ok()?;
     let rated = range.with_rate(rate);
     assert!(rated == range.const_with_rate(rate));
-    let plausible = rated
+    let is_rated = rated.is_ok();
+    let rated = rated
         .unwrap_or(range)
         .with_stuck_after(u32::from(from.byte()? % 4));
-    let mut state = PlausibleState::new();
+    let (period, longest_dt): (Option<f32>, Option<f32>) =
+        (from.any_or_none()?, from.any_or_none()?);
+    let sampled = period.map_or(Ok(rated), |period| rated.with_sample_period(period));
+    let constant = period.map_or(Ok(rated), |period| rated.const_with_sample_period(period));
+    assert!(sampled == constant);
+    let period = period.filter(|_| is_rated && sampled.is_ok());
+    let sampled = sampled.unwrap_or(rated);
+    let longest = longest_dt.map_or(Ok(sampled), |longest| sampled.with_longest_dt(longest));
+    let constant = longest_dt.map_or(Ok(sampled), |it| sampled.const_with_longest_dt(it));
+    assert!(longest == constant);
+    let longest_dt = longest_dt.filter(|_| longest.is_ok()).unwrap_or(f32::MAX);
+    let plausible = longest.unwrap_or(sampled);
+    let (mut state, mut was_good) = (PlausibleState::new(), false);
     loop {
-        let (sample, last) = (from.any()?, state.last());
-        let out = plausible.step(&mut state, sample, from.dt()?, from.flag()?);
+        let (sample, last, dt) = (from.any()?, state.last(), from.dt()?);
+        let out = plausible.step(&mut state, sample, dt, from.flag()?);
         assert!(out.value.is_nan() == out.fault.is_some());
         if out.fault.is_none() {
             assert!(out.value == sample && low <= sample && sample <= high);
@@ -92,6 +110,15 @@ fn plausible(from: &mut Numbers) -> Option<()> {
         } else {
             assert!(state.last() == last);
         }
+        if let (Some(period), Some(last), true, None) = (period, last, was_good, out.fault) {
+            let usable = dt >= 0.0 && dt <= longest_dt;
+            let passed = f64::from(period) + f64::from(if usable { dt } else { longest_dt });
+            // A time, a product and a difference are rounded; near zero to an absolute bit.
+            let most = f64::from(rate) * passed * (1.0 + 4.0 * f64::from(f32::EPSILON));
+            let way = (f64::from(sample) - f64::from(last)).abs();
+            assert!(way <= most + f64::from(f32::MIN_POSITIVE));
+        }
+        was_good = out.fault.is_none();
     }
 }
 
@@ -153,8 +180,8 @@ fn learning(from: &mut Numbers) -> Option<()> {
     let (gain, limit) = (from.any()?, from.any()?);
     let (lead, half_width) = (from.byte()? % 16, from.byte()? % 16);
     let (lead, half_width) = (u16::from(lead), u16::from(half_width));
-    let learning = Learning::<f32>::try_new(gain, limit, lead, half_width);
-    assert!(learning == Learning::<f32>::const_new(gain, limit, lead, half_width));
+    let learning = IterativeLearning::<f32>::try_new(gain, limit, lead, half_width);
+    assert!(learning == IterativeLearning::<f32>::const_new(gain, limit, lead, half_width));
     let share: f32 = from.any()?;
     let learning = learning.ok()?;
     let forgetful = learning.with_forgetting(share);
@@ -172,7 +199,7 @@ fn learning(from: &mut Numbers) -> Option<()> {
     assert!(state.learned().iter().all(|x| x.abs() <= learning.limit()));
     let (mut along, mut before) = (0.0, [0.0; CELLS]);
     loop {
-        let at = LearningInput {
+        let at = IterativeLearningInput {
             phase: phase(from, &mut along)?,
             reference: from.any()?,
             measured: from.any()?,

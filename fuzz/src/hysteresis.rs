@@ -1,7 +1,7 @@
 //! The Bouc-Wen state.
 
 use crate::numbers::Numbers;
-use bowden::hysteresis::{Actuator, BoucWen, Sensitivity, Shape, Textbook};
+use bowden::hysteresis::{Actuator, BoucWen, BoucWenState, Sensitivity, Textbook};
 use bowden::Real;
 
 /// Whatever the shape and the input: eta stays within ±1, moves with the input, and a bad
@@ -14,7 +14,7 @@ pub fn check(data: &[u8]) {
     };
 }
 
-fn shape<T: Real>(from: &mut Numbers) -> Option<Shape<T>> {
+fn shape<T: Real>(from: &mut Numbers) -> Option<BoucWen<T>> {
     match from.byte()? % 4 {
         0 => {
             let textbook: Textbook<T> = Textbook {
@@ -26,7 +26,7 @@ fn shape<T: Real>(from: &mut Numbers) -> Option<Shape<T>> {
                 k: from.any()?,
                 d: from.any()?,
             };
-            let report = Shape::from_textbook(textbook).ok()?;
+            let report = BoucWen::from_textbook(textbook).ok()?;
             let found = report.normalised;
             assert!(found.kappa_x.is_finite() && found.kappa_eta.is_finite());
             Some(found.shape)
@@ -38,7 +38,7 @@ fn shape<T: Real>(from: &mut Numbers) -> Option<Shape<T>> {
                 post_yield_ratio: from.any()?,
                 knee: from.any()?,
             };
-            Some(Shape::from_actuator(actuator).ok()?.shape)
+            Some(BoucWen::from_actuator(actuator).ok()?.shape)
         }
         _ => from.shape(),
     }
@@ -59,7 +59,7 @@ fn follows<T: Real>(eta: T, change: T, next: T) -> bool {
 fn run<T: Real>(from: &mut Numbers) -> Option<()> {
     let shape = shape::<T>(from)?;
     let start = from.any()?;
-    let mut state = BoucWen::with_eta(start).unwrap_or_default();
+    let mut state = BoucWenState::with_eta(start).unwrap_or_default();
     let mut sensitivity = Sensitivity::start(state.eta());
     loop {
         let (input, before): (T, _) = (from.any()?, state);

@@ -1,7 +1,7 @@
 //! The transmission turned round.
 
 use crate::numbers::Numbers;
-use bowden::hysteresis::BoucWen;
+use bowden::hysteresis::BoucWenState;
 use bowden::Real;
 
 /// Whatever the transmission and the desired output: a finite input, eta within ±1, a bad
@@ -17,8 +17,8 @@ pub fn check(data: &[u8]) {
 fn run<T: Real>(from: &mut Numbers) -> Option<()> {
     let cable = from.transmission::<T>()?;
     let inverse = cable.inverse().ok()?;
-    let mut solver = BoucWen::new();
-    let mut plant = BoucWen::new();
+    let mut solver = BoucWenState::new();
+    let mut plant = BoucWenState::new();
     loop {
         let desired: T = from.any()?;
         let before = solver;
@@ -42,14 +42,15 @@ fn run<T: Real>(from: &mut Numbers) -> Option<()> {
 /// Asked where a path of one sample is short enough for the step's own accuracy.
 fn reaches<T: Real>(
     cable: &bowden::transmission::Transmission<T>,
-    before: BoucWen<T>,
+    before: BoucWenState<T>,
     input: T,
     desired: T,
     eta: T,
 ) -> bool {
     let shape = cable.shape();
     let last = before.input().unwrap_or(input);
-    let tame = |x: T, low: f64, high: f64| x.abs() >= T::of(low) && x.abs() <= T::of(high);
+    let tame =
+        |x: T, low: f64, high: f64| x.abs() >= T::from_f64(low) && x.abs() <= T::from_f64(high);
     let asked = tame(shape.rho(), 1e-3, 10.0)
         && tame(shape.sigma(), 0.5, 2.0)
         && tame(shape.n(), 1.0, 20.0)
@@ -58,13 +59,13 @@ fn reaches<T: Real>(
         && tame(cable.offset(), 0.0, 10.0)
         && tame(desired, 0.0, 40.0)
         && tame(last, 0.0, 400.0);
-    let steepest =
-        cable.gain().abs() + cable.kappa_eta().abs() * T::of(2.0) * shape.sigma() * shape.rho();
+    let steepest = cable.gain().abs()
+        + cable.kappa_eta().abs() * T::from_f64(2.0) * shape.sigma() * shape.rho();
     let size = desired.abs()
         + cable.offset().abs()
         + cable.kappa_eta().abs()
         + steepest * (input.abs() + last.abs());
     // Below the least normal number an input has no relative precision left.
-    let tolerance = T::of(16.0) * T::epsilon() * size + T::min_positive_value();
+    let tolerance = T::from_f64(16.0) * T::epsilon() * size + T::min_positive_value();
     !asked || (cable.output(input, eta) - desired).abs() <= tolerance
 }

@@ -7,6 +7,7 @@
 //! replays `seeds/` through every `check`, on any toolchain.
 
 pub mod adaptive;
+pub mod blocks;
 pub mod compensator;
 pub mod constructors;
 pub mod forms;

@@ -2,7 +2,7 @@
 
 use crate::numbers::Numbers;
 use crate::properties::effect::{a_late_output_is_finite, a_regressor_is_finite};
-use bowden::effect::{Effect, EffectState, Situation};
+use bowden::effect::{Effect, EffectState, Inputs};
 use bowden::model::{Model, ModelState, Sample, Term};
 use bowden::Real;
 
@@ -60,8 +60,8 @@ fn run<T: Real>(from: &mut Numbers) -> Option<()> {
 }
 
 /// Anything that an effect may read.
-pub fn situation(from: &mut Numbers) -> Option<Situation<f32>> {
-    Some(Situation {
+pub fn situation(from: &mut Numbers) -> Option<Inputs<f32>> {
+    Some(Inputs {
         dt: from.dt()?,
         time: from.any()?,
         motion: from.motion()?,

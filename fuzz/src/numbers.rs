@@ -3,9 +3,9 @@
 //! A byte says of what kind a number is, so that one mutated byte turns a sensor's value
 //! into NaN, into the largest float or back.
 
-use bowden::control::{Fallback, Limits};
+use bowden::control::{Applied, Fallback, Limits};
 use bowden::effect::{Effect, Motion, CATALOGUE};
-use bowden::hysteresis::Shape;
+use bowden::hysteresis::BoucWen;
 use bowden::model::{Source, Term};
 use bowden::transmission::Transmission;
 use bowden::Real;
@@ -59,7 +59,7 @@ impl<'a> Numbers<'a> {
             5e-324,
         ];
         let kind = self.byte()?;
-        Some(T::of(match kind {
+        Some(T::from_f64(match kind {
             0..=63 => EDGES[usize::from(kind % 16)],
             64..=95 => f64::from(f32::from_bits(u32::from_le_bytes(self.bytes()?))),
             96..=127 => f64::from_bits(u64::from_le_bytes(self.bytes()?)),
@@ -67,17 +67,25 @@ impl<'a> Numbers<'a> {
         }))
     }
 
+    /// Any bit pattern, or none.
+    pub fn any_or_none<T: Real>(&mut self) -> Option<Option<T>> {
+        match self.flag()? {
+            true => self.any().map(Some),
+            false => Some(None),
+        }
+    }
+
     /// Within ±32.768, in thousandths.
     pub fn ordinary<T: Real>(&mut self) -> Option<T> {
         let thousandths = i16::from_le_bytes(self.bytes()?);
-        Some(T::of(f64::from(thousandths) / 1000.0))
+        Some(T::from_f64(f64::from(thousandths) / 1000.0))
     }
 
     /// A step in time that a loop could have, or now and then anything.
     pub fn dt<T: Real>(&mut self) -> Option<T> {
         match self.byte()? {
-            0..=191 => Some(T::of(0.001)),
-            byte @ 192..=239 => Some(T::of(f64::from(byte - 191) * 5e-4)),
+            0..=191 => Some(T::from_f64(0.001)),
+            byte @ 192..=239 => Some(T::from_f64(f64::from(byte - 191) * 5e-4)),
             _ => self.any(),
         }
     }
@@ -107,12 +115,22 @@ impl<'a> Numbers<'a> {
     /// A fallback; to hold where its constructor refuses.
     pub fn fallback(&mut self) -> Option<Fallback<f32>> {
         let after = u32::from(self.byte()? % 4);
-        Some(Fallback::try_new(after, self.any()?).unwrap_or(Fallback::hold_for_ever()))
+        Some(Fallback::try_new(after, self.any()?).unwrap_or(Fallback::hold_indefinitely()))
+    }
+
+    /// What a drive did.
+    pub fn applied<T: Real>(&mut self) -> Option<Applied<T>> {
+        Some(match self.byte()? % 4 {
+            0 => Applied::AsCommanded,
+            1 => Applied::AtUpperLimit,
+            2 => Applied::AtLowerLimit,
+            _ => Applied::Command(self.any()?),
+        })
     }
 
     /// A shape that its constructor accepts.
-    pub fn shape<T: Real>(&mut self) -> Option<Shape<T>> {
-        Shape::try_new(self.any()?, self.any()?, self.any()?).ok()
+    pub fn shape<T: Real>(&mut self) -> Option<BoucWen<T>> {
+        BoucWen::try_new(self.any()?, self.any()?, self.any()?).ok()
     }
 
     /// A transmission that its constructor accepts, of either mode.

@@ -1,8 +1,10 @@
 //! PID, PI and PIV.
 
 use crate::numbers::Numbers;
-use crate::properties::control::{limits_are_kept, pid_commands_within_its_limits};
-use bowden::control::{AntiWindup, Damping, Pid, PidInput, PidSettings, PidState, Status};
+use crate::properties::control::{
+    limits_are_kept, pid_commands_within_its_limits, the_integral_makes_progress,
+};
+use bowden::control::{AntiWindup, DerivativeSource, Pid, PidInput, PidSettings, PidState, Status};
 
 /// Whatever the settings, the samples and the order of hand-overs: a finite command within
 /// the limits, and a bad sample leaves the state.
@@ -21,10 +23,10 @@ pub fn settings(from: &mut Numbers) -> Option<PidSettings<f32>> {
         },
     };
     let damping = match from.byte()? % 4 {
-        0 => Damping::Velocity,
-        1 => Damping::on_error(),
-        2 => Damping::on_measurement(),
-        _ => Damping::Rate {
+        0 => DerivativeSource::Velocity,
+        1 => DerivativeSource::on_error(),
+        2 => DerivativeSource::on_measurement(),
+        _ => DerivativeSource::Rate {
             weight: from.any()?,
         },
     };
@@ -36,6 +38,9 @@ pub fn settings(from: &mut Numbers) -> Option<PidSettings<f32>> {
         derivative_time: from.any()?,
         setpoint_weight: from.any()?,
         anti_windup,
+        integral_limit: from.any_or_none()?,
+        deadband: from.any_or_none()?.unwrap_or(0.0),
+        period: from.any_or_none()?,
         limits: from.limits()?,
         longest_dt: from.any()?,
         fallback: from.fallback()?,
@@ -62,15 +67,24 @@ fn run(from: &mut Numbers) -> Option<()> {
     let pids = [pid(from)?, pid(from)?];
     let mut active = 0;
     let mut state = PidState::new();
+    // Whether the last step closed the loop, and nothing was told since.
+    let mut undisturbed = true;
     loop {
         let pid = &pids[active];
         match from.byte()? {
             0..=15 => state.reset(),
             16..=31 => {
                 active = 1 - active;
-                pids[active].take_over(&mut state);
+                pids[active].bumpless_transfer(&mut state);
             }
-            32..=39 => state.acknowledge(),
+            32..=35 => {
+                undisturbed = false;
+                state.acknowledge();
+            }
+            36..=39 => {
+                undisturbed = false;
+                pid.applied(&mut state, from.applied()?);
+            }
             40..=63 => {
                 let output = from.any()?;
                 let before = state;
@@ -82,7 +96,9 @@ fn run(from: &mut Numbers) -> Option<()> {
             }
             _ => {
                 let (at, last) = (sample(from)?, state.command());
+                assert!(!undisturbed || the_integral_makes_progress(pid, &state, &at));
                 assert!(pid_commands_within_its_limits(pid, &mut state, &at));
+                undisturbed |= state.command() != last;
                 assert!(pid.terms(&state).unlimited.is_finite());
                 if at.dt > 0.0 && at.dt.is_finite() && at.measured.is_finite() {
                     let limits = &pid.settings().limits;

@@ -1,22 +1,23 @@
 //! States that were stored: what reading accepts, a step can use.
 
 use crate::adaptive;
+use crate::blocks;
 use crate::numbers::Numbers;
 use crate::pid;
 use crate::properties::control::{
     adaptive_commands_within_its_limits_from_any_state,
     pid_commands_within_its_limits_from_any_state,
 };
-use bowden::control::{AdaptiveState, PidState};
+use bowden::control::{AdaptiveState, PidState, RelayState};
 use bowden::effect::EffectState;
-use bowden::hysteresis::BoucWen;
-use bowden::signal::{Rates, RatesState};
+use bowden::hysteresis::BoucWenState;
+use bowden::signal::{BiquadState, EdgeVelocityState, LowPassState, Rates, RatesState};
 use serde::{de::DeserializeOwned, Serialize};
 use std::fmt::Debug;
 
 /// Whatever the bytes: a state that is read has finite numbers and reads back as it was
 /// written; from it, under any settings, the commands are finite and within the limits, eta
-/// is within ±1, and a rate is finite.
+/// is within ±1, a rate and a filter's output are finite.
 pub fn check(data: &[u8]) {
     let _ = run(data);
 }
@@ -34,7 +35,7 @@ fn read<S: DeserializeOwned + Serialize + PartialEq + Debug>(
 
 fn run(data: &[u8]) -> Option<()> {
     let (kind, data) = data.split_first()?;
-    match kind % 5 {
+    match kind % 9 {
         0 => {
             let (mut state, mut from) = read::<PidState<f32>>(data)?;
             assert!(state.integral().is_finite() && state.rate().is_finite());
@@ -62,7 +63,7 @@ fn run(data: &[u8]) -> Option<()> {
             }
         }
         2 => {
-            let (mut state, mut from) = read::<BoucWen<f32>>(data)?;
+            let (mut state, mut from) = read::<BoucWenState<f32>>(data)?;
             let shape = from.shape::<f32>()?;
             loop {
                 assert!(state.eta().abs() <= 1.0);
@@ -79,7 +80,7 @@ fn run(data: &[u8]) -> Option<()> {
                 assert!(motion.velocity.is_finite() && motion.acceleration.is_finite());
             }
         }
-        _ => {
+        4 => {
             let (mut state, mut from) = read::<EffectState<f32>>(data)?;
             let effect = from.effect::<f32>()?;
             loop {
@@ -89,6 +90,34 @@ fn run(data: &[u8]) -> Option<()> {
                     "{}",
                     effect.name()
                 );
+            }
+        }
+        5 => {
+            let (mut state, mut from) = read::<LowPassState<f32>>(data)?;
+            let filter = blocks::low_pass(&mut from)?;
+            loop {
+                blocks::low_pass_steps(&filter, &mut state, from.any()?, from.dt()?);
+            }
+        }
+        6 => {
+            let (mut state, mut from) = read::<BiquadState<f32>>(data)?;
+            let filter = blocks::biquad(&mut from)?;
+            loop {
+                blocks::biquad_steps(&filter, &mut state, from.any()?, from.dt()?);
+            }
+        }
+        7 => {
+            let (mut state, mut from) = read::<EdgeVelocityState<f32>>(data)?;
+            let (edges, _) = blocks::edges(&mut from)?;
+            loop {
+                blocks::edges_step(&edges, &mut state, from.any()?, from.dt()?);
+            }
+        }
+        _ => {
+            let (mut state, mut from) = read::<RelayState<f32>>(data)?;
+            let relay = blocks::relay(&mut from)?;
+            loop {
+                blocks::relay_steps(&relay, &mut state, &mut from)?;
             }
         }
     }

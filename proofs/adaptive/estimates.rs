@@ -32,7 +32,7 @@ fn estimate_in_its_box() {
 /// Whether `lost` is no number where the sum is none and, of numbers within ±1e6, within ±1e8:
 /// far from what it is, and enough.
 fn may_be_lost<T: Real>(a: T, b: T, sum: T, lost: T) -> bool {
-    let small = |x: T, most: f64| x.abs() <= T::of(most);
+    let small = |x: T, most: f64| x.abs() <= T::from_f64(most);
     let is_small = !(small(a, 1e6) && small(b, 1e6)) || small(lost, 1e8);
     (sum.is_finite() || !lost.is_finite()) && is_small
 }
@@ -52,7 +52,7 @@ fn a_sum_and_what_it_lost() {
 
 /// What `a_sum_and_what_it_lost` proves of a sum, and no more.
 pub(super) fn any_lost<T: Real>(a: T, b: T) -> (T, T) {
-    let (sum, lost) = (a + b, T::of(f64::from(kani::any::<f32>())));
+    let (sum, lost) = (a + b, T::from_f64(f64::from(kani::any::<f32>())));
     kani::assume(may_be_lost(a, b, sum, lost));
     (sum, lost)
 }
@@ -80,7 +80,7 @@ fn is_at_most(sum: &Compensated<f32>, other: &Compensated<f32>) -> bool {
 
 /// Any leakage rate up to 1e4/s, as `a_leakage_rate_is_at_most_its_rate` bounds it.
 fn any_rate_at<T: Real>(_: &Leakage<T>, _: T) -> T {
-    T::of(within(0.0, 1e4).into())
+    T::from_f64(within(0.0, 1e4).into())
 }
 
 /// K9. The rate of a leakage, constant or switching, lies between zero and its greatest; a
@@ -117,7 +117,7 @@ fn leak_moves_towards_the_prior() {
 
 /// An increment as `leak_moves_towards_the_prior` proves it, and no more.
 fn any_leak<T: Real>(_: &Estimator<T>, distance: T, _: T, _: T) -> T {
-    let by = T::of(f64::from(kani::any::<f32>()));
+    let by = T::from_f64(f64::from(kani::any::<f32>()));
     let zero = T::zero();
     kani::assume((-distance <= by && by <= zero) || (zero <= by && by <= -distance));
     by
@@ -125,7 +125,7 @@ fn any_leak<T: Real>(_: &Estimator<T>, distance: T, _: T, _: T) -> T {
 
 /// A sum, and what rounding lost of it: what Knuth's Theorem B leaves of it, and no more.
 fn any_two_sum<T: Real>(a: T, b: T) -> (T, T) {
-    let (sum, lost) = (a + b, T::of(f64::from(kani::any::<f32>())));
+    let (sum, lost) = (a + b, T::from_f64(f64::from(kani::any::<f32>())));
     kani::assume(if sum == a {
         lost == b
     } else {

@@ -15,7 +15,7 @@ fn any_z<T: Real, const N: usize>(
     _: &AdaptiveState<T, N>,
     _: &AdaptiveInput<T, N>,
 ) -> T {
-    T::of(kani::any())
+    T::from_f64(kani::any())
 }
 
 fn is_a_box(estimator: &Estimator<f32>) -> bool {
@@ -23,14 +23,14 @@ fn is_a_box(estimator: &Estimator<f32>) -> bool {
 }
 
 fn lag() -> Form<f32> {
-    Form::Lag {
+    Form::FirstOrder {
         step: kani::any(),
         plant_gain: kani::any(),
     }
 }
 
 fn literal() -> Form<f32> {
-    Form::Literal {
+    Form::AsPublished {
         time_constant: kani::any(),
     }
 }
@@ -46,7 +46,7 @@ fn checked_law(form: Form<f32>) -> Adaptive<f32, 2> {
     law
 }
 
-fn take_over(form: Form<f32>) {
+fn bumpless_transfer(form: Form<f32>) {
     let law = checked_law(form);
     let (mut state, input): (AdaptiveState<f32, 2>, _) = (finite_state(), input());
     let before = state;
@@ -65,7 +65,7 @@ fn take_over(form: Form<f32>) {
 #[kani::unwind(3)]
 #[kani::stub(Adaptive::z_that_gives, any_z)]
 fn hand_over() {
-    take_over(lag());
+    bumpless_transfer(lag());
 }
 
 /// K10. The same of the literal form, whose rate of the error starts again at zero.
@@ -75,7 +75,7 @@ fn hand_over() {
 #[kani::unwind(3)]
 #[kani::stub(Adaptive::z_that_gives, any_z)]
 fn hand_over_literal() {
-    take_over(literal());
+    bumpless_transfer(literal());
 }
 
 fn resume(form: Form<f32>) {

@@ -4,10 +4,11 @@
 //! here the update returns anything that this leaves, and s, the lag and the rate are anything at
 //! all. So the claims rest on the checks of the step, not on its arithmetic.
 
+use super::super::state::End;
 use super::super::step::{Estimates, Evaluated};
 use super::super::{Adaptive, AdaptiveInput, AdaptiveState, AdaptiveTerms};
 use super::super::{Estimator, Form, SmoothSign};
-use super::state::{any_state, input, law, state};
+use super::state::{any_state, drive, input, law, state};
 use crate::control::Limits;
 use crate::proofs::properties::control::{
     adaptive_commands_within_its_limits, adaptive_commands_within_its_limits_from_any_state,
@@ -20,8 +21,8 @@ use crate::Real;
 /// What `estimate_in_its_box` proves of an update, and no more.
 fn any_update<T: Real>(estimator: &Estimator<T>, _: Compensated<T>, _: T, _: T) -> Compensated<T> {
     let sum = Compensated {
-        value: T::of(kani::any()),
-        carry: T::of(kani::any()),
+        value: T::from_f64(kani::any()),
+        carry: T::from_f64(kani::any()),
     };
     kani::assume(estimator.holds(&sum) || !sum.carry.is_finite());
     sum
@@ -30,9 +31,9 @@ fn any_update<T: Real>(estimator: &Estimator<T>, _: Compensated<T>, _: T, _: T) 
 /// Any rate, NaN included, and any finite last sample, for the filter keeps no other; or the
 /// memory as it was.
 fn any_rate<T: Real>(_: &Derivative<T>, state: &mut DerivativeState<T>, _: T, _: T) -> T {
-    let last = T::of(kani::any());
+    let last = T::from_f64(kani::any());
     if last.is_finite() && kani::any() {
-        *state = DerivativeState::at(last, T::of(kani::any()));
+        *state = DerivativeState::at(last, T::from_f64(kani::any()));
     }
     state.rate()
 }
@@ -48,7 +49,7 @@ fn any_command_of_a_rate<T: Real, const N: usize>(
     terms: &AdaptiveTerms<T, N>,
     _: &AdaptiveInput<T, N>,
 ) -> T {
-    let command = T::of(kani::any());
+    let command = T::from_f64(kani::any());
     kani::assume(!command.is_finite() || terms.error_rate.is_finite());
     command
 }
@@ -70,7 +71,7 @@ fn any_law<T: Real, const N: usize>(
     );
     let terms = AdaptiveTerms {
         error: input.measured - input.reference,
-        s: T::of(kani::any()),
+        s: T::from_f64(kani::any()),
         law: lag.value,
         unlimited: lag.value + input.feed_forward,
         ..AdaptiveTerms::at_rest(state)
@@ -174,7 +175,7 @@ fn advance_any_sample(form: Form<f32>) {
     let lag = any_sum();
     let before = AdaptiveState { lag, ..state(&law) };
     let (mut after, input, frozen) = (before, input(), kani::any());
-    let command = law.advance(&mut after, &input, frozen);
+    let command = law.advance(&mut after, &input, frozen, drive());
     kani::cover!(command.is_some() && after.beta.value != before.beta.value);
     kani::cover!(command.is_none() && can_be_used(&law, &input));
     let kept = match command {
@@ -199,7 +200,7 @@ fn advance_any_sample(form: Form<f32>) {
 #[kani::stub(Limits::apply, limited::apply)]
 #[kani::stub(follows, limited::follows)]
 fn lag_advance() {
-    let form = Form::Lag {
+    let form = Form::FirstOrder {
         step: kani::any(),
         plant_gain: kani::any(),
     };
@@ -218,7 +219,7 @@ fn lag_advance() {
 #[kani::stub(follows, limited::follows)]
 fn literal_advance() {
     let time_constant = kani::any();
-    advance_any_sample(Form::Literal { time_constant });
+    advance_any_sample(Form::AsPublished { time_constant });
 }
 
 /// What `lag_advance` and `literal_advance` prove, and no more.
@@ -227,13 +228,14 @@ fn any_advance<T: Real, const N: usize>(
     state: &mut AdaptiveState<T, N>,
     input: &AdaptiveInput<T, N>,
     frozen: bool,
+    _: Option<End>,
 ) -> Option<T> {
     if !can_be_used(law, input) || kani::any() {
         return None;
     }
     let (limits, last) = (&law.settings.limits, state.held.command);
     let asked = kani::any();
-    let wanted = T::of(f64::from(kani::any::<f32>()));
+    let wanted = T::from_f64(f64::from(kani::any::<f32>()));
     let command = if asked {
         limits.apply(last, wanted, input.dt)
     } else {
@@ -245,7 +247,7 @@ fn any_advance<T: Real, const N: usize>(
     } else {
         (any_sum(), any_sum(), core::array::from_fn(|_| any_sum()))
     };
-    let rate = DerivativeState::at(T::of(kani::any()), T::of(kani::any()));
+    let rate = DerivativeState::at(T::from_f64(kani::any()), T::from_f64(kani::any()));
     let mut held = state.held;
     held.command = command;
     *state = AdaptiveState {
@@ -261,6 +263,7 @@ fn any_advance<T: Real, const N: usize>(
         theta,
         held,
         gap: T::ZERO,
+        drive: state.drive,
     };
     kani::assume(law.is_valid(state));
     Some(command)
@@ -272,7 +275,7 @@ fn any_start<T: Real, const N: usize>(
     state: &mut AdaptiveState<T, N>,
     _: &AdaptiveInput<T, N>,
 ) {
-    let z = T::of(kani::any());
+    let z = T::from_f64(kani::any());
     kani::assume(z.abs() <= law.settings.z_limit);
     state.z = Compensated::new(z);
     state.error_rate = DerivativeState::new();
@@ -302,7 +305,7 @@ fn any_sample<const N: usize>(form: Form<f32>) {
 #[kani::stub(Limits::apply, limited::apply)]
 #[kani::stub(follows, limited::follows)]
 fn lag_any_sample() {
-    let form = Form::Lag {
+    let form = Form::FirstOrder {
         step: kani::any(),
         plant_gain: kani::any(),
     };
@@ -315,7 +318,7 @@ fn lag_any_sample() {
 #[kani::unwind(5)]
 fn a_bad_rate_shows() {
     let time_constant = kani::any();
-    let law = law::<2>(Form::Literal { time_constant }, SmoothSign::Clamp);
+    let law = law::<2>(Form::AsPublished { time_constant }, SmoothSign::Clamp);
     let state = state(&law);
     let terms = AdaptiveTerms {
         error_rate: kani::any(),
@@ -341,7 +344,7 @@ fn a_bad_rate_shows() {
 #[kani::stub(Adaptive::virtual_command, any_command_of_a_rate)]
 fn a_command_has_a_rate() {
     let time_constant = kani::any();
-    let law = law::<2>(Form::Literal { time_constant }, SmoothSign::Tanh);
+    let law = law::<2>(Form::AsPublished { time_constant }, SmoothSign::Tanh);
     let (state, input) = (state(&law), input());
     kani::assume(law.settings.beta.low > 0.0);
     kani::assume((input.measured - input.reference).is_finite());
@@ -363,7 +366,7 @@ fn a_command_has_a_rate() {
 #[kani::stub(follows, limited::follows)]
 fn literal_any_sample() {
     let time_constant = kani::any();
-    any_sample::<2>(Form::Literal { time_constant });
+    any_sample::<2>(Form::AsPublished { time_constant });
 }
 
 /// Any z, NaN included, for what the search of a return finds.
@@ -373,7 +376,7 @@ fn any_z<T: Real, const N: usize>(
     _: &AdaptiveState<T, N>,
     _: &AdaptiveInput<T, N>,
 ) -> T {
-    T::of(kani::any())
+    T::from_f64(kani::any())
 }
 
 fn from_any_state(form: Form<f32>) {
@@ -398,7 +401,7 @@ fn from_any_state(form: Form<f32>) {
 #[kani::stub(Adaptive::adapted, any_sums)]
 #[kani::stub(Limits::apply, limited::apply)]
 fn lag_from_any_state() {
-    let form = Form::Lag {
+    let form = Form::FirstOrder {
         step: kani::any(),
         plant_gain: kani::any(),
     };
@@ -417,14 +420,14 @@ fn lag_from_any_state() {
 #[kani::stub(Limits::apply, limited::apply)]
 fn literal_from_any_state() {
     let time_constant = kani::any();
-    from_any_state(Form::Literal { time_constant });
+    from_any_state(Form::AsPublished { time_constant });
 }
 
 /// Any sum: more than an update can give.
 fn any_sum<T: Real>() -> Compensated<T> {
     Compensated {
-        value: T::of(kani::any()),
-        carry: T::of(kani::any()),
+        value: T::from_f64(kani::any()),
+        carry: T::from_f64(kani::any()),
     }
 }
 

@@ -1,7 +1,8 @@
 //! Arbitrary laws, states and samples.
 
+use super::super::state::End;
 use super::super::{Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState};
-use super::super::{Estimator, Form, Leakage, Missing, SmoothSign};
+use super::super::{Estimator, Form, Leakage, OnMissing, SmoothSign};
 use crate::control::status::Held;
 use crate::proofs::any::{fallback, finite, limits};
 use crate::proofs::pid::latch;
@@ -49,9 +50,9 @@ pub(super) fn law<const N: usize>(form: Form<f32>, smooth_sign: SmoothSign) -> A
         frozen: kani::any(),
         missing: core::array::from_fn(|_| {
             if kani::any() {
-                Missing::Hold
+                OnMissing::Hold
             } else {
-                Missing::Drop
+                OnMissing::DropRegressor
             }
         }),
         limits: limits(),
@@ -93,6 +94,7 @@ pub(super) fn any_state<const N: usize>() -> AdaptiveState<f32, N> {
             latch: latch(),
         },
         gap: kani::any(),
+        drive: drive(),
     }
 }
 
@@ -137,5 +139,15 @@ pub(super) fn finite_state<const N: usize>() -> AdaptiveState<f32, N> {
             latch: latch(),
         },
         gap: finite(),
+        drive: drive(),
+    }
+}
+
+/// Any limit of the drive, or none.
+pub(super) fn drive() -> Option<End> {
+    match kani::any::<u8>() {
+        0 => Some(End::Upper),
+        1 => Some(End::Lower),
+        _ => None,
     }
 }

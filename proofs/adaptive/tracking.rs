@@ -13,7 +13,7 @@ use crate::Real;
 
 /// Table 2 in lag form at 1 kHz on a plant of known gain, estimates at rest.
 fn paper() -> Adaptive<f32, 0> {
-    let lag = Form::Lag {
+    let lag = Form::FirstOrder {
         step: 0.001,
         plant_gain: 1.0,
     };

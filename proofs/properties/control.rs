@@ -1,10 +1,12 @@
 //! Controllers: the command, the state, the limits.
 
 use bowden::control::{Adaptive, AdaptiveInput, AdaptiveOutput, AdaptiveState, Limits};
+use bowden::control::{AntiWindup, DerivativeSource, Fallback, Fault, OnMissing, Status};
 use bowden::control::{Compensator, CompensatorInput, CompensatorState};
-use bowden::control::{Damping, Fallback, Fault, Missing, Pid, PidInput, PidState, Status};
 use bowden::control::{DisturbanceObserver, ObserverInput, ObserverState};
-use bowden::control::{Learning, LearningInput, LearningState};
+use bowden::control::{IterativeLearning, IterativeLearningInput, IterativeLearningState};
+use bowden::control::{Pid, PidInput, PidSettings, PidState};
+use bowden::control::{Relay, RelayFailure, RelayPhase, RelayState};
 use bowden::signal::clamp;
 
 /// The command nearest to what is wanted: within the range, and within the slew rate of
@@ -73,7 +75,7 @@ impl Answer<'_> {
                 }
                 Status::Held(fault) => {
                     told(fault)
-                        && after.command == self.limits.confine(before.command)
+                        && after.command == self.limits.clamp(before.command)
                         && counted
                         && !before.latched
                         && !after.latched
@@ -92,7 +94,7 @@ impl Answer<'_> {
 fn pid_out(command: f32, state: &PidState<f32>) -> Out {
     Out {
         command,
-        score: state.bad_score(),
+        score: state.fault_counter(),
         latched: state.is_latched(),
     }
 }
@@ -100,7 +102,7 @@ fn pid_out(command: f32, state: &PidState<f32>) -> Out {
 fn adaptive_out<const N: usize>(command: f32, state: &AdaptiveState<f32, N>) -> Out {
     Out {
         command,
-        score: state.bad_score(),
+        score: state.fault_counter(),
         latched: state.is_latched(),
     }
 }
@@ -115,7 +117,7 @@ pub fn pid_commands_within_its_limits(
     let (before, settings) = (*state, pid.settings());
     let out = pid.step(state, at);
     let untouched = state.integral() == before.integral() && state.rate() == before.rate();
-    let velocity = settings.damping != Damping::Velocity || at.velocity.is_finite();
+    let velocity = settings.damping != DerivativeSource::Velocity || at.velocity.is_finite();
     let numbers = at.reference.is_finite() && at.measured.is_finite();
     let usable = velocity && numbers && at.feed_forward.is_finite();
     let answer = Answer {
@@ -132,6 +134,41 @@ pub fn pid_commands_within_its_limits(
         && (out.status == Status::Good || untouched)
         && state.integral().is_finite()
         && state.rate().is_finite()
+}
+
+/// A good sample moves the integral by its whole change, or the command is at the limit on the side
+/// of that change and the integral between where it was and where it was sent.
+///
+/// The whole change is that of a twin which has no limits. Not for what the drive was told to have
+/// done, nor for a law that back-calculates or has a limit of its own for the integral.
+pub fn the_integral_makes_progress(
+    pid: &Pid<f32>,
+    state: &PidState<f32>,
+    at: &PidInput<f32>,
+) -> bool {
+    let settings = pid.settings();
+    let returns = matches!(settings.anti_windup, AntiWindup::BackCalculation { .. });
+    if returns || settings.limits.slew().is_some() || settings.integral_limit.is_some() {
+        return true;
+    }
+    let free = Pid::try_new(PidSettings {
+        anti_windup: AntiWindup::None,
+        limits: Limits::unlimited(),
+        fallback: Fallback::hold_indefinitely(),
+        ..*settings
+    });
+    let Ok(free) = free else {
+        return false;
+    };
+    let (before, mut own, mut whole) = (state.integral(), *state, *state);
+    let out = pid.step(&mut own, at);
+    if out.status != Status::Good || free.step(&mut whole, at).status != Status::Good {
+        return true;
+    }
+    let (own, whole, limits) = (own.integral(), whole.integral(), &settings.limits);
+    let up = whole > before && out.command == limits.high() && before <= own && own <= whole;
+    let down = whole < before && out.command == limits.low() && whole <= own && own <= before;
+    own == whole || up || down
 }
 
 /// From **any** state, one of another controller or of broken memory too, the command is
@@ -172,7 +209,8 @@ pub fn adaptive_commands_within_its_limits<const N: usize>(
         fallback: &settings.fallback,
         dt: [input.dt, law.longest_dt()],
         usable: numbers && input.regressors.iter().all(|x| x.is_finite()),
-        needed: numbers && regressors.all(|(x, to)| x.is_finite() || *to == Missing::Drop),
+        needed: numbers
+            && regressors.all(|(x, to)| x.is_finite() || *to == OnMissing::DropRegressor),
         status: out.status,
         before: adaptive_out(before.command(), &before),
         after: adaptive_out(out.command, state),
@@ -235,8 +273,8 @@ pub fn a_hand_over_keeps_the_command<const N: usize>(
     input: &AdaptiveInput<f32, N>,
 ) -> bool {
     let limits = &law.settings().limits;
-    let (before, latched) = (limits.confine(state.command()), state.is_latched());
-    law.take_over(state, input);
+    let (before, latched) = (limits.clamp(state.command()), state.is_latched());
+    law.bumpless_transfer(state, input);
     state.command() == before && state.is_latched() == latched && law.is_valid(state)
 }
 
@@ -251,7 +289,7 @@ pub fn a_start_keeps_the_command<const N: usize>(
     let state = AdaptiveState::resume_from(law, output, input);
     let start = if output.is_finite() { output } else { 0.0 };
     let command = clamp(start, limits.low(), limits.high());
-    state.command() == command && state.bad_score() == 0 && law.is_valid(&state)
+    state.command() == command && state.fault_counter() == 0 && law.is_valid(&state)
 }
 
 /// A PID that starts from an output has that as its command, as far as its range allows it, and
@@ -273,7 +311,7 @@ pub fn a_pid_start_keeps_the_command(
                 && state.command() == command
                 && integral.is_finite()
                 && state.rate() == 0.0
-                && state.bad_score() == before.bad_score()
+                && state.fault_counter() == before.fault_counter()
                 && !before.is_latched()
         }
         Status::Degraded(_) => false,
@@ -361,9 +399,9 @@ pub fn estimates_keep_their_limit(
 ///
 /// `before` is for a copy of what the cells had learned.
 pub fn learning_keeps_its_limit<M: AsRef<[f32]> + AsMut<[f32]>>(
-    learning: &Learning<f32>,
-    state: &mut LearningState<f32, M>,
-    at: &LearningInput<f32>,
+    learning: &IterativeLearning<f32>,
+    state: &mut IterativeLearningState<f32, M>,
+    at: &IterativeLearningInput<f32>,
     before: &mut [f32],
 ) -> bool {
     before.copy_from_slice(state.learned());
@@ -386,4 +424,44 @@ pub fn learning_keeps_its_limit<M: AsRef<[f32]> + AsMut<[f32]>>(
     };
     let learned = cells.all(|(now, was)| within(*now) || same((now, was)));
     within(out.feed_forward) && out.feed_forward == state.feed_forward() && told && learned
+}
+
+/// From **any** state, the command of a relay experiment is finite and within the limits: a level or
+/// the command that was held while it runs, the centre after a result, the safe command after a
+/// failure. What has ended stays so. While it runs, every sample, good or bad, takes from the time that
+/// remains, and a sample is told for what it is.
+pub fn a_relay_experiment_is_bounded_and_ends(
+    relay: &Relay<f32>,
+    state: &mut RelayState<f32>,
+    dt: f32,
+    measured: f32,
+) -> bool {
+    let (before, s) = (*state, relay.settings());
+    let out = relay.step(state, dt, measured);
+    let held = s.limits.clamp(before.command());
+    let levels = [s.centre + s.amplitude, s.centre - s.amplitude];
+    let good = dt > 0.0 && dt <= s.longest_dt && measured.is_finite();
+    let over = state.remaining() == 0;
+    let ran = before.phase().is_running() && !before.is_latched();
+    let right = match out.phase {
+        RelayPhase::Running => ran && good && levels.contains(&out.command),
+        RelayPhase::Held(_) => ran && !good && out.command == held,
+        RelayPhase::Done(it) => {
+            // A result that this sample has completed is one of finite numbers.
+            let finite = it.gain.is_finite() && it.period.is_finite();
+            out.command == s.centre && (!ran || (good && finite))
+        }
+        RelayPhase::Failed(reason) => {
+            let told = match reason {
+                RelayFailure::BadSamples(_) => !good,
+                RelayFailure::OutputOutOfRange => good,
+                _ => over,
+            };
+            s.fallback.command() == Some(out.command) && state.is_latched() && (!ran || told)
+        }
+    };
+    let ends = !ran || state.remaining() < before.remaining() || over;
+    let stays = ran || (!out.phase.is_running() && state.remaining() == before.remaining());
+    let goes_on = !out.phase.is_running() || !over;
+    right && ends && stays && goes_on && s.limits.contains(out.command)
 }

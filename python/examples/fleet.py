@@ -1,6 +1,6 @@
 """Closes many records, each by itself, on worker processes of Dask: one row a record.
 
-    python fleet.py 'runs/*.parquet' --out rows.parquet --workers 2 --declare bouc-wen
+    python fleet.py 'runs/*.parquet' --out rows.parquet --workers 2 --baseline bouc-wen
 
 Dask rather than Ray: it is plain Python, starts worker processes under a nanny that replaces
 one that dies, and the same client drives one machine or many (``--scheduler tcp://host:8786``
@@ -26,12 +26,12 @@ from pathlib import Path
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-NUMBERS = ("declared_held_out", "final_held_out", "floor")
+NUMBERS = ("baseline_held_out", "final_held_out", "floor")
 COUNTS = ("evaluations", "jacobians", "columns_filtered", "searches")
 SCHEMA = pa.schema(
     [("file", pa.string()), ("status", pa.string()), ("error", pa.string())]
     + [("line", pa.int64()), ("column", pa.string()), ("verdict", pa.string())]
-    + [(name, pa.list_(pa.string())) for name in ("names", "grades")]
+    + [(name, pa.list_(pa.string())) for name in ("mechanisms", "names", "confidences")]
     + [(name, pa.float64()) for name in NUMBERS]
     + [("parameters", pa.list_(pa.string())), ("values", pa.list_(pa.float64()))]
     + [("units", pa.list_(pa.string()))]
@@ -62,7 +62,7 @@ def closed(file, options):
     import bowden
 
     try:
-        report = bowden.close(file, figures=False, threads=1, **options)
+        report = bowden.identify(file, figures=False, threads=1, **options)
         report = json.loads(report.json)
     except (KeyboardInterrupt, SystemExit):
         raise
@@ -72,9 +72,10 @@ def closed(file, options):
     floor = floor.get("held_out") if isinstance(floor, dict) else floor
     row = dict.fromkeys(SCHEMA.names)
     row.update(file=file, status="ok", verdict=report["verdict"], floor=floor)
-    row["names"] = [found["effect"] for found in report["rounds"]]
-    row["grades"] = [found["grade"] for found in report["rounds"]]
-    row["declared_held_out"] = report["declared"]["rmse"]["held_out"]
+    row["mechanisms"] = [f"{lack['mechanism']}@{lack['channel']}" for lack in report["lacks"]]
+    row["names"] = [found["effect"] for found in report["terms"]]
+    row["confidences"] = [found["confidence"] for found in report["terms"]]
+    row["baseline_held_out"] = report["baseline"]["rmse"]["held_out"]
     row["final_held_out"] = report["final"]["rmse"]["held_out"]
     row["parameters"] = [parameter["name"] for parameter in parameters]
     row["values"] = [parameter["value"] for parameter in parameters]
@@ -229,25 +230,25 @@ def main():
     parser.add_argument("--out", required=True, metavar="ROWS.parquet")
     parser.add_argument("--workers", type=int, default=2, metavar="N")
     parser.add_argument("--scheduler", metavar="URL", help="of a cluster that runs already")
-    parser.add_argument("--declare", metavar="A,B", help="as in `bowden close`")
+    parser.add_argument("--baseline", metavar="A,B", help="as in `bowden identify`")
     parser.add_argument("--channel", action="append", default=[], metavar="NAME=COL")
-    parser.add_argument("--rounds", type=int, metavar="N")
+    parser.add_argument("--max-terms", type=int, metavar="N")
     asked = parser.parse_args()
     # Folders too: that one of that name is no record is said in its row.
     files = sorted(glob.glob(asked.pattern))
     if not files:
         refuse(f"{asked.pattern}: no file has such a name")
     if asked.workers < 1:
-        refuse(f"--workers {asked.workers}: at least 1 was expected")
+        refuse(f"--workers {asked.workers}: at least 1 is allowed")
     if not Path(asked.out).absolute().parent.is_dir() or Path(asked.out).is_dir():
-        refuse(f"--out {asked.out}: a file in a folder that exists was expected")
+        refuse(f"--out {asked.out}: a file in a folder that exists is allowed")
     channels = [pair.partition("=") for pair in asked.channel]
     if wrong := [pair for pair, parts in zip(asked.channel, channels) if not all(parts)]:
-        refuse(f"--channel {wrong[0]}: NAME=COL was expected")
+        refuse(f"--channel {wrong[0]}: NAME=COL is allowed")
     given = {
-        "declare": asked.declare.split(",") if asked.declare else None,
+        "baseline": asked.baseline.split(",") if asked.baseline else None,
         "channels": {name: column for name, _, column in channels} or None,
-        "rounds": asked.rounds,
+        "max_terms": asked.max_terms,
     }
     options = {name: value for name, value in given.items() if value is not None}
     start = time.monotonic()

@@ -1,26 +1,39 @@
-//! What goes beside a controller and is added to its command: a disturbance observer, and learning
-//! over a cycle.
+//! What is added to a controller's command: a disturbance observer, and learning over a cycle.
 
+use crate::code;
+use crate::code::Codes;
 use crate::failure;
+use crate::lanes::{read, written};
 use bowden::control::{
-    DisturbanceObserver, Learning, LearningInput, LearningState, LoopSample, NominalPlant,
-    ObserverInput, ObserverState, Status,
+    DisturbanceObserver, IterativeLearning, IterativeLearningInput, IterativeLearningState,
+    LoopSample, NominalPlant, ObserverInput, ObserverState,
 };
 use bowden::signal::Motion;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// Both, where they are wanted, with their states.
+#[derive(Clone)]
 pub struct Beside {
-    observer: Option<(DisturbanceObserver<f64>, ObserverState<f64>)>,
+    observer: Option<DisturbanceObserver<f64>>,
     learning: Option<Learns>,
+    memory: Memory,
 }
 
+#[derive(Clone)]
 struct Learns {
-    learning: Learning<f64>,
+    learning: IterativeLearning<f64>,
     /// What was known before the first sample.
     first: Vec<f64>,
-    state: LearningState<f64, Vec<f64>>,
+}
+
+/// What both remember.
+#[derive(Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Memory {
+    observer: Option<ObserverState<f64>>,
+    learning: Option<IterativeLearningState<f64, Vec<f64>>>,
 }
 
 /// Where in its cycle a sample is, and whether it is learned from.
@@ -31,78 +44,105 @@ pub struct Cycle {
 }
 
 impl Beside {
-    /// Of settings as TOML, and of what each cell has learned before.
+    /// Of settings as JSON, and of what each cell has learned before.
     pub fn new(observer: Option<&str>, learning: Option<&(String, Vec<f64>)>) -> PyResult<Self> {
         let observer = observer.map(read::<DisturbanceObserver<f64>>).transpose()?;
+        let learns = |(text, first): &(String, Vec<f64>)| -> PyResult<Learns> {
+            Ok(Learns {
+                learning: read(text)?,
+                first: first.clone(),
+            })
+        };
+        let learning = learning.map(learns).transpose()?;
+        let memory = Memory {
+            observer: observer.map(|_| ObserverState::new()),
+            learning: learning.as_ref().map(Learns::start).transpose()?,
+        };
         Ok(Self {
-            observer: observer.map(|observer| (observer, ObserverState::new())),
-            learning: learning
-                .map(|(text, first)| Learns::new(read(text)?, first.clone()))
-                .transpose()?,
+            observer,
+            learning,
+            memory,
         })
     }
 
-    /// What is to be added to the next command, and whether a sample could not be used; `sent` is
-    /// the command that is out.
-    pub fn step(&mut self, sent: f64, at: &LoopSample<'_, f64>, cycle: Cycle) -> (f64, bool) {
-        let observed = self.observer.as_mut().map(|(observer, state)| {
+    /// What is to be added to the next command, and the worst of both statuses; `sent` is the
+    /// command that is out.
+    pub fn step(&mut self, sent: f64, at: &LoopSample<'_, f64>, cycle: Cycle) -> (f64, Codes) {
+        let observed = self.observer.zip(self.memory.observer.as_mut());
+        let observed = observed.map(|(observer, state)| {
             let (dt, measured) = (at.dt, at.measured);
             let seen = observer.step(state, &ObserverInput { dt, sent, measured });
-            (seen.estimate, seen.status)
+            (seen.estimate, code::status(seen.status))
         });
-        let learned = self.learning.as_mut().map(|own| {
+        let learned = self.learning.as_ref().zip(self.memory.learning.as_mut());
+        let learned = learned.map(|(own, state)| {
             let Cycle { phase, learns } = cycle;
-            let at = LearningInput {
+            let at = IterativeLearningInput {
                 learns,
-                ..LearningInput::new(phase, at.reference, at.measured)
+                ..IterativeLearningInput::new(phase, at.reference, at.measured)
             };
-            let out = own.learning.step(&mut own.state, &at);
-            (out.feed_forward, out.status)
+            let out = own.learning.step(state, &at);
+            (out.feed_forward, code::status(out.status))
         });
         let both = [observed, learned];
         let added = both.iter().flatten().map(|(added, _)| added).sum();
-        let unused = both
-            .iter()
-            .flatten()
-            .any(|(_, status)| *status != Status::Good);
-        (added, unused)
+        let worst = both.iter().flatten().map(|(_, codes)| *codes).max();
+        (added, worst.unwrap_or_default())
+    }
+
+    /// What both have added last.
+    pub fn added(&self) -> f64 {
+        let observed = self.disturbance().unwrap_or_default();
+        let learned = self.memory.learning.as_ref();
+        observed + learned.map_or(0.0, IterativeLearningState::feed_forward)
     }
 
     /// Back to what was known before the first sample.
     pub fn restart(&mut self) -> PyResult<()> {
-        if let Some((_, state)) = &mut self.observer {
-            *state = ObserverState::new();
-        }
-        if let Some(own) = &mut self.learning {
-            *own = Learns::new(own.learning, own.first.clone())?;
-        }
+        let fresh = self.learning.as_ref().map(Learns::start).transpose()?;
+        self.memory = Memory {
+            observer: self.observer.map(|_| ObserverState::new()),
+            learning: fresh,
+        };
         Ok(())
     }
 
+    pub fn state(&self) -> PyResult<String> {
+        written(&self.memory)
+    }
+
+    pub fn restored(&self, state: &str) -> PyResult<Self> {
+        let memory: Memory = read(state)?;
+        let cells = |own: &Memory| own.learning.as_ref().map(|own| own.learned().len());
+        let same = memory.observer.is_some() == self.memory.observer.is_some()
+            && cells(&memory) == cells(&self.memory);
+        if !same {
+            return Err(failure::plain(
+                "the state is of another observer or another number of cells",
+            ));
+        }
+        Ok(Self {
+            memory,
+            ..self.clone()
+        })
+    }
+
     pub fn disturbance(&self) -> Option<f64> {
-        self.observer.as_ref().map(|(_, state)| state.estimate())
+        self.memory.observer.as_ref().map(ObserverState::estimate)
     }
 
     pub fn learned(&self) -> Option<Vec<f64>> {
-        let own = self.learning.as_ref()?;
-        Some(own.state.learned().to_vec())
+        let own = self.memory.learning.as_ref()?;
+        Some(own.learned().to_vec())
     }
 }
 
 impl Learns {
-    fn new(learning: Learning<f64>, first: Vec<f64>) -> PyResult<Self> {
-        let unfiltered = vec![0.0; first.len()];
-        let state = learning.resume(first.clone(), unfiltered);
-        Ok(Self {
-            state: state.map_err(|e| failure::plain(format!("learning: {e}")))?,
-            learning,
-            first,
-        })
+    fn start(&self) -> PyResult<IterativeLearningState<f64, Vec<f64>>> {
+        let unfiltered = vec![0.0; self.first.len()];
+        let state = self.learning.resume(self.first.clone(), unfiltered);
+        state.map_err(|e| failure::plain(format!("learning: {e}")))
     }
-}
-
-fn read<T: serde::de::DeserializeOwned>(text: &str) -> PyResult<T> {
-    toml::from_str(text).map_err(|e: toml::de::Error| failure::plain(e.message()))
 }
 
 /// Refuses settings that make no sense.
@@ -111,7 +151,7 @@ pub fn check_beside(observer: Option<&str>, learning: Option<(String, Vec<f64>)>
     Beside::new(observer, learning.as_ref()).map(|_| ())
 }
 
-/// The command by which a nominal plant (as TOML) follows an output with its first two derivatives.
+/// The command by which a nominal plant (as JSON) follows an output with its first two derivatives.
 #[pyfunction]
 pub fn nominal_feed_forward<'py>(
     py: Python<'py>,

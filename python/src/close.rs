@@ -18,9 +18,9 @@ use pyo3::types::PyBytes;
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct Wanted {
-    declare: Vec<String>,
-    rounds: Option<usize>,
-    budget: Option<f64>,
+    baseline: Vec<String>,
+    max_terms: Option<usize>,
+    time_limit: Option<f64>,
     cutoff: Option<f64>,
     own_gains: bool,
     invertible: bool,
@@ -31,7 +31,7 @@ pub struct Wanted {
 pub fn cutoff(given: Option<f64>) -> PyResult<Option<f64>> {
     match given {
         Some(hz) if !(hz.is_finite() && hz > 0.0) => Err(failure::plain(format!(
-            "cutoff={hz}: a positive frequency in Hz was expected"
+            "cutoff={hz}: a positive frequency in Hz is allowed"
         ))),
         given => Ok(given),
     }
@@ -39,26 +39,26 @@ pub fn cutoff(given: Option<f64>) -> PyResult<Option<f64>> {
 
 impl Wanted {
     fn question(self, records: usize) -> PyResult<Question> {
-        if let Some(rounds) = self.rounds.filter(|rounds| *rounds > MOST_NAMES) {
+        if let Some(rounds) = self.max_terms.filter(|rounds| *rounds > MOST_NAMES) {
             return Err(failure::plain(format!(
-                "rounds={rounds}: 0 to {MOST_NAMES} were expected"
+                "max_terms={rounds}: a whole number from 0 to {MOST_NAMES} is allowed"
             )));
         }
-        if let Some(budget) = self.budget.filter(|b| !(b.is_finite() && *b > 0.0)) {
+        if let Some(budget) = self.time_limit.filter(|b| !(b.is_finite() && *b > 0.0)) {
             return Err(failure::plain(format!(
-                "budget={budget}: a positive number of seconds was expected"
+                "time_limit={budget}: a positive number of seconds is allowed"
             )));
         }
         if self.own_gains && records < 2 {
-            let message = "per_file=\"gains\": more than one record was expected";
+            let message = "per_file=\"gains\": one record; two or more are allowed";
             return Err(failure::plain(message));
         }
         Ok(Question {
             asked: Asked {
                 cutoff: cutoff(self.cutoff)?,
-                declare: self.declare,
-                rounds: self.rounds,
-                budget: self.budget,
+                declare: self.baseline,
+                rounds: self.max_terms,
+                budget: self.time_limit,
                 ..Asked::default()
             },
             own_gains: self.own_gains,
@@ -82,7 +82,7 @@ pub struct Closed {
     sources: Vec<Source>,
 }
 
-/// Closes the loop between a declared model and records that agree with each other.
+/// Closes the loop between a baseline model and records that agree with each other.
 #[pyfunction]
 pub fn close(
     py: Python<'_>,
@@ -192,7 +192,7 @@ pub fn drawn(figures: &Figures, name: &str) -> PyResult<String> {
         "shares" => Figure::Shares,
         other => {
             return Err(failure::plain(format!(
-                "{other:?}: \"loop\", \"residual\", \"trace\" or \"shares\" was expected"
+                "{other:?}: \"loop\", \"residual\", \"trace\" or \"shares\" is allowed"
             )))
         }
     };

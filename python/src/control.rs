@@ -1,144 +1,121 @@
-//! Controllers, as many side by side as a caller has lanes; settings come as TOML, so that the
-//! core itself reads and checks them.
+//! Controllers, as many side by side as a caller has lanes.
 
 use crate::beside::{Beside, Cycle};
+use crate::code::Codes;
 use crate::failure;
-use bowden::control::{
-    Adaptive, AdaptiveState, Controller, LoopSample, Output, Pid, PidState, Status,
-};
+use crate::lanes::{read, Lane, Lanes};
+use crate::law::{law, AnyLaw};
+use bowden::control::{Applied, LoopSample};
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
-/// One controller with its state.
-pub trait Lane: Send + Sync {
-    fn step(&mut self, at: &LoopSample<'_, f64>) -> Output<f64>;
-    fn restart(&mut self);
-    fn acknowledge(&mut self);
-    fn command(&self) -> f64;
-    /// beta_hat, delta_hat and each theta_hat of an adaptive law; the integral of another.
-    fn estimates(&self) -> Vec<f64>;
-    fn regressors(&self) -> usize;
-}
-
-struct Running<C: Controller<f64>> {
-    law: C,
-    state: C::State,
-    look: fn(&C::State) -> Vec<f64>,
-    regressors: usize,
-}
-
-impl<C> Lane for Running<C>
-where
-    C: Controller<f64> + Send + Sync,
-    C::State: Send + Sync,
-{
-    fn step(&mut self, at: &LoopSample<'_, f64>) -> Output<f64> {
-        self.law.step(&mut self.state, at)
-    }
-
-    fn restart(&mut self) {
-        self.state = self.law.start();
-    }
-
-    fn acknowledge(&mut self) {
-        self.law.acknowledge(&mut self.state);
-    }
-
-    fn command(&self) -> f64 {
-        self.law.command(&self.state)
-    }
-
-    fn estimates(&self) -> Vec<f64> {
-        (self.look)(&self.state)
-    }
-
-    fn regressors(&self) -> usize {
-        self.regressors
-    }
-}
-
-fn estimates<const N: usize>(state: &AdaptiveState<f64, N>) -> Vec<f64> {
-    let ends = [state.beta_hat(), state.delta_hat()];
-    ends.into_iter().chain(state.theta_hat()).collect()
-}
-
-fn adaptive<const N: usize>(text: &str) -> Result<Box<dyn Lane>, toml::de::Error> {
-    let law: Adaptive<f64, N> = toml::from_str(text)?;
-    Ok(Box::new(Running {
-        state: law.start(),
-        law,
-        look: estimates::<N>,
-        regressors: N,
-    }))
-}
-
-/// A law of its settings; `None` for PI, PID and PIV, else the number of regressors.
-fn lane(text: &str, regressors: Option<usize>) -> PyResult<Box<dyn Lane>> {
-    let built = match regressors {
-        None => toml::from_str::<Pid<f64>>(text).map(|law| -> Box<dyn Lane> {
-            Box::new(Running {
-                state: law.start(),
-                law,
-                look: |state: &PidState<f64>| vec![state.integral()],
-                regressors: 0,
-            })
-        }),
-        Some(0) => adaptive::<0>(text),
-        Some(1) => adaptive::<1>(text),
-        Some(2) => adaptive::<2>(text),
-        Some(3) => adaptive::<3>(text),
-        Some(4) => adaptive::<4>(text),
-        Some(more) => {
-            return Err(failure::plain(format!(
-                "theta: {more} estimates; 0 to 4 were expected"
-            )))
-        }
-    };
-    built.map_err(|e| failure::plain(e.message()))
-}
-
-/// 0 good, 1 degraded, 2 held, 3 safe.
-fn code(status: Status) -> u8 {
-    match status {
-        Status::Good => 0,
-        Status::Degraded(_) => 1,
-        Status::Held(_) => 2,
-        Status::Safe(_) => 3,
-    }
-}
-
-/// A controller and what goes beside it.
+/// A controller and what is added to its command.
+#[derive(Clone)]
 pub struct Helped {
-    law: Box<dyn Lane>,
+    law: Box<dyn AnyLaw>,
     beside: Beside,
+    codes: Codes,
 }
+
+/// What a step gives: the command, and the codes of its status and fault.
+pub type Stepped = (f64, u8, u8);
 
 impl Helped {
-    /// The command and the code of its status: degraded where the law had a good sample, and what goes
-    /// beside it could not use it.
-    pub fn step(&mut self, at: &LoopSample<'_, f64>, cycle: Cycle) -> (f64, u8) {
+    /// Degraded where the law had a good sample that the observer or learning could not use.
+    pub fn step(&mut self, at: &LoopSample<'_, f64>, cycle: Cycle) -> Stepped {
         let (added, unused) = self.beside.step(self.law.command(), at, cycle);
-        let out = self.law.step(&LoopSample {
+        let command = self.law.step(&LoopSample {
             feed_forward: at.feed_forward + added,
             ..*at
         });
-        (out.command, code(out.status).max(u8::from(unused)))
+        self.codes = match (self.law.codes(), unused) {
+            ((0, _), (1.., fault)) => (1, fault),
+            (own, _) => own,
+        };
+        (command, self.codes.0, self.codes.1)
     }
 
     pub fn regressors(&self) -> usize {
         self.law.regressors()
     }
+
+    fn resume_from(&mut self, output: f64, at: &LoopSample<'_, f64>) -> Stepped {
+        let command = self.law.resume_from(
+            output,
+            &LoopSample {
+                feed_forward: at.feed_forward + self.beside.added(),
+                ..*at
+            },
+        );
+        self.codes = self.law.codes();
+        (command, self.codes.0, self.codes.1)
+    }
+}
+
+impl Lane for Helped {
+    fn settings(&self) -> PyResult<String> {
+        self.law.settings()
+    }
+
+    /// `{"law": …, "beside": …}`, of texts that are JSON themselves.
+    fn state(&self) -> PyResult<String> {
+        let (law, beside) = (self.law.state()?, self.beside.state()?);
+        Ok(format!(r#"{{"law":{law},"beside":{beside}}}"#))
+    }
+
+    fn restored(&self, state: &str) -> PyResult<Self> {
+        let parts: Parts = read(state)?;
+        let law = self.law.restored(&parts.law.to_string())?;
+        Ok(Self {
+            codes: law.codes(),
+            beside: self.beside.restored(&parts.beside.to_string())?,
+            law,
+        })
+    }
+
+    fn restart(&mut self) -> PyResult<()> {
+        self.law.restart();
+        self.codes = self.law.codes();
+        self.beside.restart()
+    }
+}
+
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Parts {
+    law: serde_json::Value,
+    beside: serde_json::Value,
 }
 
 /// Controllers side by side.
-#[pyclass(module = "bowden._bowden")]
+#[pyclass(frozen, module = "bowden._bowden")]
 pub struct Controllers {
-    pub lanes: Vec<Helped>,
+    pub lanes: Lanes<Helped>,
 }
 
 type Signal<'py> = PyReadonlyArray2<'py, f64>;
-type Answer<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<u8>>);
+type Codes2<'py> = Bound<'py, PyArray2<u8>>;
+type Answer<'py> = (Bound<'py, PyArray2<f64>>, Codes2<'py>, Codes2<'py>);
+
+/// Numbers of one sample in the order of Python's call: reference, next reference, measured,
+/// velocity, feed-forward, phase, and zero where the sample is not learned from.
+type Numbers = [f64; 7];
+
+fn sample<'a>(dt: f64, numbers: &Numbers, regressors: &'a [f64]) -> (LoopSample<'a, f64>, Cycle) {
+    let [reference, next_reference, measured, velocity, feed_forward, phase, learns] = *numbers;
+    let sample = LoopSample {
+        dt,
+        reference,
+        next_reference,
+        measured,
+        velocity,
+        feed_forward,
+        regressors,
+    };
+    let learns = learns != 0.0;
+    (sample, Cycle { phase, learns })
+}
 
 #[pymethods]
 impl Controllers {
@@ -151,119 +128,187 @@ impl Controllers {
         learning: Option<(String, Vec<f64>)>,
     ) -> PyResult<Self> {
         let lanes = settings.iter().map(|text| {
+            let law = law(text, regressors)?;
             Ok(Helped {
-                law: lane(text, regressors)?,
+                codes: law.codes(),
+                law,
                 beside: Beside::new(observer, learning.as_ref())?,
             })
         });
-        Ok(Self {
-            lanes: lanes.collect::<PyResult<_>>()?,
-        })
+        let lanes = Lanes::new(lanes.collect::<PyResult<_>>()?);
+        Ok(Self { lanes })
     }
 
     fn __len__(&self) -> usize {
-        self.lanes.len()
+        self.lanes.count()
     }
 
-    /// Samples by lanes: commands, and the status of each. `regressors` are one array each; `learns` is
-    /// zero where a sample is not learned from.
-    #[allow(clippy::too_many_arguments)]
+    fn settings(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        self.lanes.settings(py)
+    }
+
+    fn states(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        self.lanes.states(py)
+    }
+
+    fn load_state(&self, py: Python<'_>, states: Vec<String>) -> PyResult<()> {
+        self.lanes.load_state(py, &states)
+    }
+
+    fn copied(&self, py: Python<'_>) -> Self {
+        let lanes = self.lanes.copied(py);
+        Self { lanes }
+    }
+
+    fn restart(&self, py: Python<'_>) -> PyResult<()> {
+        self.lanes.restart(py)
+    }
+
+    /// One sample of one lane.
+    fn step(
+        &self,
+        py: Python<'_>,
+        dt: f64,
+        numbers: Numbers,
+        regressors: Vec<f64>,
+    ) -> Option<Stepped> {
+        let (at, cycle) = sample(dt, &numbers, &regressors);
+        let mut lanes = self.lanes.now(py);
+        lanes.first_mut().map(|lane| lane.step(&at, cycle))
+    }
+
+    /// Samples by lanes: commands, and status and fault of each. `signals` are those of
+    /// [`Numbers`], `regressors` one array each.
     fn run<'py>(
-        &mut self,
+        &self,
         py: Python<'py>,
         dt: PyReadonlyArray1<'py, f64>,
-        reference: Signal<'py>,
-        next_reference: Signal<'py>,
-        measured: Signal<'py>,
-        velocity: Signal<'py>,
-        feed_forward: Signal<'py>,
-        phase: Signal<'py>,
-        learns: Signal<'py>,
+        signals: [Signal<'py>; 7],
         regressors: Vec<Signal<'py>>,
     ) -> PyResult<Answer<'py>> {
-        let signals = [
-            &reference,
-            &next_reference,
-            &measured,
-            &velocity,
-            &feed_forward,
-            &phase,
-            &learns,
-        ];
-        let views = signals.map(PyReadonlyArray2::as_array);
+        let views = signals.each_ref().map(PyReadonlyArray2::as_array);
         let more: Vec<_> = regressors.iter().map(PyReadonlyArray2::as_array).collect();
         let dt = dt.as_array();
-        let shape = (dt.len(), self.lanes.len());
+        let shape = (dt.len(), self.lanes.count());
         if views.iter().chain(&more).any(|view| view.dim() != shape) {
             return Err(failure::plain(format!(
-                "arrays of shape {shape:?} were expected"
+                "arrays of shape {shape:?} are allowed"
             )));
         }
-        let lanes = &mut self.lanes;
-        let (commands, statuses) = py.detach(|| {
+        let (commands, statuses, faults) = py.detach(|| {
+            let mut lanes = self.lanes.detached();
             let mut commands = Array2::zeros(shape);
-            let mut statuses = Array2::zeros(shape);
+            let (mut statuses, mut faults) = (Array2::zeros(shape), Array2::zeros(shape));
             let mut read = Vec::with_capacity(more.len());
             for row in 0..shape.0 {
                 for (column, lane) in lanes.iter_mut().enumerate() {
                     let place = [row, column];
                     read.clear();
                     read.extend(more.iter().map(|own| own[place]));
-                    let sample = LoopSample {
-                        dt: dt[row],
-                        reference: views[0][place],
-                        next_reference: views[1][place],
-                        measured: views[2][place],
-                        velocity: views[3][place],
-                        feed_forward: views[4][place],
-                        regressors: &read,
-                    };
-                    let cycle = Cycle {
-                        phase: views[5][place],
-                        learns: views[6][place] != 0.0,
-                    };
-                    (commands[place], statuses[place]) = lane.step(&sample, cycle);
+                    let (at, cycle) = sample(dt[row], &views.map(|own| own[place]), &read);
+                    (commands[place], statuses[place], faults[place]) = lane.step(&at, cycle);
                 }
             }
-            (commands, statuses)
+            (commands, statuses, faults)
         });
-        Ok((commands.into_pyarray(py), statuses.into_pyarray(py)))
+        Ok((
+            commands.into_pyarray(py),
+            statuses.into_pyarray(py),
+            faults.into_pyarray(py),
+        ))
     }
 
-    fn restart(&mut self) -> PyResult<()> {
-        self.lanes.iter_mut().try_for_each(|lane| {
-            lane.law.restart();
-            lane.beside.restart()
+    /// Other settings for each lane, without a jump of the command.
+    fn bumpless_transfer(&self, py: Python<'_>, settings: Vec<String>) -> PyResult<()> {
+        self.lanes.replace(py, &settings, |lane, text| {
+            Ok(Helped {
+                law: lane.law.taken_over(text)?,
+                ..lane.clone()
+            })
         })
     }
 
-    fn acknowledge(&mut self) {
-        self.lanes
-            .iter_mut()
-            .for_each(|lane| lane.law.acknowledge());
+    /// Each lane from its own output and sample on.
+    fn resume_from(
+        &self,
+        py: Python<'_>,
+        outputs: Vec<f64>,
+        samples: Vec<Numbers>,
+        regressors: Vec<Vec<f64>>,
+    ) -> Vec<Stepped> {
+        let mut lanes = self.lanes.now(py);
+        let given = outputs.into_iter().zip(samples).zip(regressors);
+        let resumed = lanes.iter_mut().zip(given);
+        resumed
+            .map(|(lane, ((output, numbers), regressors))| {
+                // No time passes here: dt is not read.
+                let (at, _) = sample(f64::NAN, &numbers, &regressors);
+                lane.resume_from(output, &at)
+            })
+            .collect()
     }
 
-    fn commands(&self) -> Vec<f64> {
-        self.lanes.iter().map(|lane| lane.law.command()).collect()
+    /// What the drive of each lane did with the last command, as JSON.
+    fn applied(&self, py: Python<'_>, applied: Vec<String>) -> PyResult<()> {
+        let given: Vec<Applied<f64>> = applied
+            .iter()
+            .map(|own| read(own))
+            .collect::<PyResult<_>>()?;
+        let mut lanes = self.lanes.now(py);
+        let each = lanes.iter_mut().zip(given);
+        each.for_each(|(lane, own)| lane.law.applied(own));
+        Ok(())
     }
 
-    fn estimates(&self) -> Vec<Vec<f64>> {
-        self.lanes.iter().map(|lane| lane.law.estimates()).collect()
+    fn acknowledge(&self, py: Python<'_>) {
+        let mut lanes = self.lanes.now(py);
+        lanes.iter_mut().for_each(|lane| lane.law.acknowledge());
+    }
+
+    fn restore(&self, py: Python<'_>) {
+        let mut lanes = self.lanes.now(py);
+        lanes.iter_mut().for_each(|lane| lane.law.restore());
+    }
+
+    fn reset(&self, py: Python<'_>) {
+        let mut lanes = self.lanes.now(py);
+        lanes.iter_mut().for_each(|lane| lane.law.reset());
+    }
+
+    fn are_latched(&self, py: Python<'_>) -> Vec<bool> {
+        let lanes = self.lanes.now(py);
+        lanes.iter().map(|lane| lane.law.is_latched()).collect()
+    }
+
+    /// The command that is out, and status and fault of the last sample.
+    fn last(&self, py: Python<'_>) -> Vec<Stepped> {
+        let lanes = self.lanes.now(py);
+        let last = |lane: &Helped| (lane.law.command(), lane.codes.0, lane.codes.1);
+        lanes.iter().map(last).collect()
+    }
+
+    /// The terms of the last step, as JSON.
+    fn terms(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        let lanes = self.lanes.now(py);
+        lanes.iter().map(|lane| lane.law.terms()).collect()
+    }
+
+    fn estimates(&self, py: Python<'_>) -> Vec<Vec<f64>> {
+        let lanes = self.lanes.now(py);
+        lanes.iter().map(|lane| lane.law.estimates()).collect()
     }
 
     /// d_hat of each observer; `None` without one.
-    fn disturbances(&self) -> Option<Vec<f64>> {
-        self.lanes
-            .iter()
-            .map(|lane| lane.beside.disturbance())
-            .collect()
+    fn disturbances(&self, py: Python<'_>) -> Option<Vec<f64>> {
+        let lanes = self.lanes.now(py);
+        let all = lanes.iter().map(|lane| lane.beside.disturbance());
+        all.collect()
     }
 
     /// What each cell of each controller has learned; `None` without learning.
-    fn learned(&self) -> Option<Vec<Vec<f64>>> {
-        self.lanes
-            .iter()
-            .map(|lane| lane.beside.learned())
-            .collect()
+    fn learned(&self, py: Python<'_>) -> Option<Vec<Vec<f64>>> {
+        let lanes = self.lanes.now(py);
+        let all = lanes.iter().map(|lane| lane.beside.learned());
+        all.collect()
     }
 }

@@ -1,5 +1,5 @@
-//! The native half of the Python package `bowden`: what is written in Python stands in the
-//! folder `bowden` beside this one, and what a user sees is documented there.
+//! The native half of the Python package `bowden`. The other half, which documents what a user
+//! sees, is the folder `package/bowden`.
 //!
 //! Nothing is fitted or computed here: records go to [`bowden_lab::facts`], JSON comes from
 //! [`bowden_cli::view`] and pages from [`bowden_page`], so that Python and the program give the
@@ -8,12 +8,17 @@
 mod beside;
 mod check;
 mod close;
+mod code;
 mod control;
 mod failure;
+mod lanes;
+mod law;
 mod model;
 mod record;
+mod relay;
 mod rig;
 mod run;
+mod signal;
 
 use pyo3::prelude::*;
 
@@ -32,5 +37,9 @@ mod _bowden {
     #[pymodule_export]
     use super::record::{agree, record_of_columns, record_of_file, Record};
     #[pymodule_export]
+    use super::relay::pi_gains;
+    #[pymodule_export]
     use super::rig::{paper_reference, Rigs};
+    #[pymodule_export]
+    use super::signal::Blocks;
 }

@@ -88,7 +88,7 @@ impl Model {
         let even = sources.iter().all(|own| own.0.len() == dt.len());
         if !even || sources.len() != self.file.channels.len() + 1 {
             return Err(failure::plain(
-                "one input and each channel, of one length, were expected",
+                "one input and each channel, of one length, are allowed",
             ));
         }
         let load = self.file.channels.iter().position(|name| name == "load");
@@ -125,23 +125,23 @@ fn answers<T: Real + DeserializeOwned>(
     time_constant: f64,
 ) -> Result<Vec<f64>, String> {
     let model: Core<T, MOST_TERMS> = file.model_in()?;
-    let rates = Rates::try_new(T::of(time_constant)).map_err(|e| e.to_string())?;
+    let rates = Rates::try_new(T::from_f64(time_constant)).map_err(|e| e.to_string())?;
     let mut state = ModelState::new();
     let mut past = vec![RatesState::new(); sources.len()];
     let mut motions: Vec<Motion<T>> = Vec::with_capacity(sources.len());
     let mut out = Vec::with_capacity(dt.len());
     for (i, &dt) in dt.iter().enumerate() {
-        let dt = T::of(dt);
+        let dt = T::from_f64(dt);
         motions.clear();
         for (Source(all, given), past) in sources.iter().zip(&mut past) {
             let own = all[i];
             motions.push(match given {
                 true => Motion {
-                    position: T::of(own.position),
-                    velocity: T::of(own.velocity),
-                    acceleration: T::of(own.acceleration),
+                    position: T::from_f64(own.position),
+                    velocity: T::from_f64(own.velocity),
+                    acceleration: T::from_f64(own.acceleration),
                 },
-                false => rates.step(past, T::of(own.position), dt).motion,
+                false => rates.step(past, T::from_f64(own.position), dt).motion,
             });
         }
         let (input, channels) = (motions[0], &motions[1..]);

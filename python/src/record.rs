@@ -17,8 +17,8 @@ pub struct Columns {
     input: Option<String>,
     output: Option<String>,
     channels: Vec<(String, String)>,
-    skip: f64,
-    until: Option<f64>,
+    start: f64,
+    end: Option<f64>,
     rate: Option<f64>,
     header_line: Option<usize>,
     names: Vec<String>,
@@ -33,8 +33,8 @@ impl Columns {
             input: self.input,
             output: self.output,
             channels: self.channels,
-            skip: self.skip,
-            until: self.until,
+            skip: self.start,
+            until: self.end,
             rate: self.rate,
             header_line: self.header_line,
             names: self.names,
@@ -48,7 +48,7 @@ fn mode(name: &str) -> PyResult<Mode> {
         "torque" => Ok(Mode::Torque),
         "displacement" => Ok(Mode::Displacement),
         other => Err(failure::plain(format!(
-            "mode={other:?}: \"torque\" or \"displacement\" was expected"
+            "mode={other:?}: \"torque\" or \"displacement\" is allowed"
         ))),
     }
 }

@@ -3,6 +3,7 @@
 use crate::beside::Cycle;
 use crate::control::Controllers;
 use crate::failure;
+use crate::lanes::{read, written, Lane, Lanes};
 use bowden::control::LoopSample;
 use bowden::model::Model;
 use bowden_rig::{Reference, Rig, RigConfig, RigSample, RigState};
@@ -36,11 +37,39 @@ const READ: [(&str, Reading); 17] = [
     ("diverged", |s| f64::from(u8::from(s.diverged))),
 ];
 
-/// Rigs side by side, each with its seed.
-#[pyclass(module = "bowden._bowden")]
+/// One rig with its state and its seed.
+#[derive(Clone, Copy)]
+struct Own {
+    config: RigConfig<f64>,
+    rig: Rig<f64, MOST>,
+    state: RigState<f64, MOST>,
+    seed: u64,
+}
+
+impl Lane for Own {
+    fn settings(&self) -> PyResult<String> {
+        written(&self.config)
+    }
+
+    fn state(&self) -> PyResult<String> {
+        written(&self.state)
+    }
+
+    fn restored(&self, state: &str) -> PyResult<Self> {
+        let state = read(state)?;
+        Ok(Self { state, ..*self })
+    }
+
+    fn restart(&mut self) -> PyResult<()> {
+        self.state = self.rig.start(self.seed);
+        Ok(())
+    }
+}
+
+/// Rigs side by side.
+#[pyclass(frozen, module = "bowden._bowden")]
 pub struct Rigs {
-    all: Vec<(Rig<f64, MOST>, RigState<f64, MOST>)>,
-    seeds: Vec<u64>,
+    lanes: Lanes<Own>,
 }
 
 /// Signals of samples by lanes, filled row by row.
@@ -67,74 +96,98 @@ impl Taken {
 
 type Named<'py> = Vec<(String, Bound<'py, PyArray2<f64>>)>;
 
+type Codes2<'py> = Bound<'py, PyArray2<u8>>;
+
 type Tracked<'py> = (
     Named<'py>,
     Bound<'py, PyArray2<f64>>,
-    Bound<'py, PyArray2<u8>>,
+    Codes2<'py>,
+    Codes2<'py>,
 );
 
 #[pymethods]
 impl Rigs {
-    /// `undeclared` is the text of a model whose channels are the proximal and the distal
-    /// pulley: its terms are what the controller does not know of.
+    /// `undeclared` is a model whose channels are the proximal and the distal pulley: its terms
+    /// are what the controller does not know of.
     #[new]
     fn new(configs: Vec<String>, undeclared: Option<&str>, seeds: Vec<u64>) -> PyResult<Self> {
-        let told = |e: toml::de::Error| failure::plain(e.message());
-        let model: Option<Model<f64, MOST>> =
-            undeclared.map(toml::from_str).transpose().map_err(told)?;
+        let model: Option<Model<f64, MOST>> = undeclared.map(read).transpose()?;
         let terms = model.as_ref().map_or(&[][..], |model| model.terms());
-        let mut all = Vec::with_capacity(configs.len());
-        for (text, seed) in configs.iter().zip(&seeds) {
-            let config: RigConfig<f64> = toml::from_str(text).map_err(told)?;
+        let own = configs.iter().zip(&seeds).map(|(text, seed)| {
+            let config: RigConfig<f64> = read(text)?;
             let rig = Rig::try_new(config, terms).map_err(failure::plain)?;
-            let state = rig.start(*seed);
-            all.push((rig, state));
-        }
-        Ok(Self { all, seeds })
+            Ok(Own {
+                config,
+                state: rig.start(*seed),
+                rig,
+                seed: *seed,
+            })
+        });
+        let lanes = Lanes::new(own.collect::<PyResult<_>>()?);
+        Ok(Self { lanes })
     }
 
     fn __len__(&self) -> usize {
-        self.all.len()
+        self.lanes.count()
     }
 
-    fn restart(&mut self) {
-        for ((rig, state), seed) in self.all.iter_mut().zip(&self.seeds) {
-            *state = rig.start(*seed);
-        }
+    fn settings(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        self.lanes.settings(py)
+    }
+
+    fn states(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        self.lanes.states(py)
+    }
+
+    fn load_state(&self, py: Python<'_>, states: Vec<String>) -> PyResult<()> {
+        self.lanes.load_state(py, &states)
+    }
+
+    fn copied(&self, py: Python<'_>) -> Self {
+        let lanes = self.lanes.copied(py);
+        Self { lanes }
+    }
+
+    fn restart(&self, py: Python<'_>) -> PyResult<()> {
+        self.lanes.restart(py)
     }
 
     /// The last sample of each.
     fn sample<'py>(&self, py: Python<'py>) -> Named<'py> {
-        let mut taken = Taken::new((1, self.all.len()));
-        for (column, (_, state)) in self.all.iter().enumerate() {
-            taken.put([0, column], &state.sample());
+        let mut taken = Taken::new((1, self.lanes.count()));
+        for (column, own) in self.lanes.now(py).iter().enumerate() {
+            taken.put([0, column], &own.state.sample());
         }
+        // Not under the lock: a new array may start Python's own clean-up, which may call again.
         taken.named(py)
     }
 
     /// Commands and loads of samples by lanes; what is read off after each.
     fn run<'py>(
-        &mut self,
+        &self,
         py: Python<'py>,
         commands: PyReadonlyArray2<'py, f64>,
         loads: PyReadonlyArray2<'py, f64>,
-        dt: f64,
+        dt: PyReadonlyArray1<'py, f64>,
     ) -> PyResult<Named<'py>> {
-        let (commands, loads) = (commands.as_array(), loads.as_array());
-        let shape = (commands.nrows(), self.all.len());
+        let (commands, loads, dt) = (commands.as_array(), loads.as_array(), dt.as_array());
+        let shape = (dt.len(), self.lanes.count());
         if commands.dim() != shape || loads.dim() != shape {
             return Err(failure::plain(format!(
-                "arrays of shape {shape:?} were expected"
+                "arrays of shape {shape:?} are allowed"
             )));
         }
-        let all = &mut self.all;
         let taken = py.detach(|| {
             let mut taken = Taken::new(shape);
+            let mut lanes = self.lanes.detached();
             for row in 0..shape.0 {
-                for (column, (rig, state)) in all.iter_mut().enumerate() {
+                for (column, own) in lanes.iter_mut().enumerate() {
                     let place = [row, column];
-                    let own = rig.step_with_load(state, commands[place], loads[place], dt);
-                    taken.put(place, &own);
+                    let (command, load) = (commands[place], loads[place]);
+                    let now = own
+                        .rig
+                        .step_with_load(&mut own.state, command, load, dt[row]);
+                    taken.put(place, &now);
                 }
             }
             taken
@@ -143,33 +196,39 @@ impl Rigs {
     }
 
     /// The loop: each controller on its rig, all on one reference, feed-forward and phase. What is read
-    /// off before each command, the commands, and the status of each.
+    /// off before each command, the commands, and status and fault of each.
     fn track<'py>(
-        &mut self,
+        &self,
         py: Python<'py>,
-        mut controllers: PyRefMut<'py, Controllers>,
+        controllers: &Bound<'py, Controllers>,
         reference: PyReadonlyArray1<'py, f64>,
         feed_forward: PyReadonlyArray1<'py, f64>,
         phase: PyReadonlyArray1<'py, f64>,
-        dt: f64,
+        dt: PyReadonlyArray1<'py, f64>,
     ) -> PyResult<Tracked<'py>> {
-        if controllers.lanes.len() != self.all.len() {
-            return Err(failure::plain("as many controllers as rigs were expected"));
+        let controllers = &controllers.get().lanes;
+        if controllers.count() != self.lanes.count() {
+            return Err(failure::plain(format!(
+                "{} controllers on {} rigs; one controller for each rig is allowed",
+                controllers.count(),
+                self.lanes.count()
+            )));
         }
-        let [reference, feed_forward, phase] =
-            [&reference, &feed_forward, &phase].map(|own| own.as_array());
-        if [feed_forward.len(), phase.len()] != [reference.len(); 2] {
-            return Err(failure::plain("as many samples of each were expected"));
+        let [reference, feed_forward, phase, dt] =
+            [&reference, &feed_forward, &phase, &dt].map(|own| own.as_array());
+        if [feed_forward.len(), phase.len(), dt.len()] != [reference.len(); 3] {
+            return Err(failure::plain("signals of one length are allowed"));
         }
-        let shape = (reference.len(), self.all.len());
-        let (all, lanes) = (&mut self.all, &mut controllers.lanes);
-        let (taken, commands, statuses) = py.detach(|| {
-            let mut taken = Taken::new(shape);
-            let (mut commands, mut statuses) = (Array2::zeros(shape), Array2::zeros(shape));
+        let shape = (reference.len(), self.lanes.count());
+        let (taken, commands, statuses, faults) = py.detach(|| {
+            // Rigs before controllers, always: two loops cannot wait for each other.
+            let (mut rigs, mut lanes) = (self.lanes.detached(), controllers.detached());
+            let (mut taken, mut commands) = (Taken::new(shape), Array2::zeros(shape));
+            let (mut statuses, mut faults) = (Array2::zeros(shape), Array2::zeros(shape));
             for row in 0..shape.0 {
                 let next = reference.get(row + 1).copied().unwrap_or(reference[row]);
-                for (column, ((rig, state), lane)) in all.iter_mut().zip(&mut *lanes).enumerate() {
-                    let (place, now) = ([row, column], state.sample());
+                for (column, (own, lane)) in rigs.iter_mut().zip(lanes.iter_mut()).enumerate() {
+                    let (place, now) = ([row, column], own.state.sample());
                     let known = [now.proximal.velocity, now.proximal.acceleration];
                     let read = known.get(..lane.regressors()).unwrap_or(&known);
                     let sample = LoopSample {
@@ -177,23 +236,25 @@ impl Rigs {
                         velocity: now.distal.velocity,
                         feed_forward: feed_forward[row],
                         regressors: read,
-                        ..LoopSample::new(dt, reference[row], now.measured)
+                        ..LoopSample::new(dt[row], reference[row], now.measured)
                     };
                     let cycle = Cycle {
                         phase: phase[row],
                         learns: true,
                     };
-                    let (command, status) = lane.step(&sample, cycle);
                     taken.put(place, &now);
-                    commands[place] = command;
-                    statuses[place] = status;
-                    rig.step(state, command, dt);
+                    (commands[place], statuses[place], faults[place]) = lane.step(&sample, cycle);
+                    own.rig.step(&mut own.state, commands[place], dt[row]);
                 }
             }
-            (taken, commands, statuses)
+            (taken, commands, statuses, faults)
         });
-        let (commands, statuses) = (commands.into_pyarray(py), statuses.into_pyarray(py));
-        Ok((taken.named(py), commands, statuses))
+        Ok((
+            taken.named(py),
+            commands.into_pyarray(py),
+            statuses.into_pyarray(py),
+            faults.into_pyarray(py),
+        ))
     }
 }
 

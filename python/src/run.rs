@@ -59,7 +59,7 @@ pub fn run<T: Send + 'static>(
     work: impl FnOnce(&dyn Fn(&str)) -> T + Send + 'static,
 ) -> PyResult<T> {
     if threads == Some(0) {
-        return Err(failure::plain("threads=0: one or more were expected"));
+        return Err(failure::plain("threads=0: one or more are allowed"));
     }
     let pool = pool(threads)?;
     let stop = Arc::new(AtomicBool::new(false));

@@ -1,4 +1,4 @@
-"""The observer and learning, beside what their documentation says, written out here."""
+"""The observer and learning, compared with their formulas written out here."""
 
 from __future__ import annotations
 
@@ -47,12 +47,12 @@ def test_the_observer_is_its_formula() -> None:
     pi = bowden.PI(observer=observer(1e6))
     commands, seen = [], []
     for y in measured:
-        commands.append(pi.step(DT, 20.0, y))
+        commands.append(pi.step(DT, 20.0, y).command)
         seen.append(pi.disturbance)
     sent = np.concatenate([[0.0], commands[:-1]])
     np.testing.assert_allclose(seen, observed(sent, measured), rtol=1e-9, atol=1e-9)
     # What it sees is added, and nothing else has changed.
-    plain = bowden.PI().run(DT, 20.0, measured, feed_forward=np.array(seen))
+    plain = bowden.PI().run(DT, 20.0, measured, feed_forward=np.array(seen)).command
     np.testing.assert_array_equal(commands, plain)
     assert bowden.PI().disturbance is None
 
@@ -82,13 +82,13 @@ def test_learning_is_its_formula() -> None:
     cells, gain, lead, half, forgetting = 50, 4.0, 3, 2, 0.1
     t = np.arange(3 * 1000) * DT
     error = rng.normal(0.0, 1.0, len(t))
-    own = bowden.Learning(
+    own = bowden.IterativeLearning(
         gain, 1e6, cells=cells, lead=lead, half_width=half, forgetting=forgetting
     )
     # A law that does nothing: its command is the feed-forward.
     law = bowden.PI(1e-300, 0.0, learning=own)
     phase = (np.arange(len(t)) % 1000 + 0.5) / 1000
-    commands = law.run(DT, error, np.zeros(len(t)), phase=phase)
+    commands = law.run(DT, error, np.zeros(len(t)), phase=phase).command
     row = learned_by_hand(error, cells, gain, lead, half, 1.0 - forgetting)
     third = np.arange(2000, 3000)
     middles = np.arange(4 * cells) + 0.5
@@ -98,9 +98,9 @@ def test_learning_is_its_formula() -> None:
     known = law.learned
     assert known.shape == (cells,)
     again = bowden.PI(
-        1e-300, 0.0, learning=bowden.Learning(gain, 1e6, cells=cells, learned=known)
+        1e-300, 0.0, learning=bowden.IterativeLearning(gain, 1e6, cells=cells, learned=known)
     )
-    now = again.step(DT, 0.0, 0.0, phase=0.5 / cells, learns=False)
+    now = again.step(DT, 0.0, 0.0, phase=0.5 / cells, learns=False).command
     assert now == pytest.approx(known[0])
     again.restart()
     np.testing.assert_array_equal(again.learned, known)
@@ -135,7 +135,7 @@ def test_both_lower_the_error_of_a_task_that_repeats() -> None:
     rig.restart()
     seen = rig.track(bowden.PI(12.0, 60.0, observer=observer()), reference, feed_forward=feed)
     rig.restart()
-    law = bowden.PI(learning=bowden.Learning(4.0, 30.0, cells=250, lead=3, half_width=4))
+    law = bowden.PI(learning=bowden.IterativeLearning(4.0, 30.0, cells=250, lead=3, half_width=4))
     taught = rig.track(law, reference, feed_forward=feed, phase=phase)
     # Each beside the same gains without it. A third and a quarter is left.
     assert rms(seen["error"]) < 0.5 * rms(soft["error"])
@@ -148,7 +148,7 @@ def test_the_loop_is_the_same_step_by_step_and_lanes_learn_by_themselves() -> No
     reference, feed, phase = gait(3)
 
     def both(lanes: Any = None) -> bowden.PI:
-        own = bowden.Learning(4.0, 30.0, cells=250, lead=3, half_width=4)
+        own = bowden.IterativeLearning(4.0, 30.0, cells=250, lead=3, half_width=4)
         return bowden.PI(12.0, 60.0, observer=observer(), learning=own, lanes=lanes)
 
     rig, law = bowden.Rig(seed=7), both()
@@ -173,14 +173,15 @@ def test_the_loop_is_the_same_step_by_step_and_lanes_learn_by_themselves() -> No
 
 
 def test_a_bad_sample_of_either_is_seen() -> None:
-    law = bowden.PI(learning=bowden.Learning(4.0, 30.0, cells=50))
-    assert law.step(DT, 20.0, 19.0, phase=0.5) > 0.0 and law.status == "good"
-    law.step(DT, 20.0, 19.0, phase=np.nan)
-    assert law.status == "degraded"
-    law.step(DT, 20.0, np.nan, phase=0.5)
-    assert law.status == "held"
-    seen = bowden.PI(observer=observer())
-    assert seen.step(0.02, 20.0, 19.0) > 0.0 and seen.status == "degraded"
+    law = bowden.PI(learning=bowden.IterativeLearning(4.0, 30.0, cells=50))
+    good = law.step(DT, 20.0, 19.0, phase=0.5)
+    assert good.command > 0.0 and good[1:] == (bowden.Status.GOOD, bowden.Fault.NONE)
+    unused = law.step(DT, 20.0, 19.0, phase=np.nan)
+    assert unused[1:] == (bowden.Status.DEGRADED, bowden.Fault.PHASE)
+    held = law.step(DT, 20.0, np.nan, phase=0.5)
+    assert held == (unused.command, bowden.Status.HELD, bowden.Fault.MEASURED)
+    late = bowden.PI(observer=observer()).step(0.02, 20.0, 19.0)
+    assert late.command > 0.0 and late[1:] == (bowden.Status.DEGRADED, bowden.Fault.DT_TOO_LONG)
 
 
 @pytest.mark.parametrize(
@@ -190,17 +191,17 @@ def test_a_bad_sample_of_either_is_seen() -> None:
         (lambda: bowden.NominalPlant(0.6, -1.0, 0.2), "natural_frequency"),
         (lambda: bowden.NominalPlant.of_mechanics(0.6, 0.0, 1.0, 1.0), "inertia=0.0"),
         (lambda: observer(0.0), "limit"),
-        (lambda: bowden.DisturbanceObserver((0.6, 25.5, 0.265), 0.01, 1.0), "a NominalPlant was"),
-        (lambda: bowden.Learning(0.0, 30.0, cells=250), "gain"),
-        (lambda: bowden.Learning(4.0, 30.0, cells=12, lead=3, half_width=4), "cells"),
-        (lambda: bowden.Learning(4.0, 30.0, cells=250.5), "cells"),
-        (lambda: bowden.Learning(4.0, 30.0, cells=250, learned=np.zeros(249)), r"\(250,\) was"),
-        (lambda: bowden.PI(learning=observer()), "a Learning was expected"),
-        (lambda: bowden.PI(observer=3.0), "a DisturbanceObserver was expected"),
-        (lambda: bowden.PI().step(DT, 1.0, 1.0, phase=0.5), "beside learning, and only there"),
+        (lambda: bowden.DisturbanceObserver((0.6, 25.5, 0.265), 0.01, 1.0), "plant: tuple; a NominalPlant is allowed"),
+        (lambda: bowden.IterativeLearning(0.0, 30.0, cells=250), "gain"),
+        (lambda: bowden.IterativeLearning(4.0, 30.0, cells=12, lead=3, half_width=4), "cells"),
+        (lambda: bowden.IterativeLearning(4.0, 30.0, cells=250.5), "cells"),
+        (lambda: bowden.IterativeLearning(4.0, 30.0, cells=250, learned=np.zeros(249)), r"learned: shape \(249,\); \(250,\) is allowed"),
+        (lambda: bowden.PI(learning=observer()), "learning: DisturbanceObserver; a IterativeLearning is allowed"),
+        (lambda: bowden.PI(observer=3.0), "observer: float; a DisturbanceObserver is allowed"),
+        (lambda: bowden.PI().step(DT, 1.0, 1.0, phase=0.5), "phase: allowed and needed with learning=…, and only there"),
         (
-            lambda: bowden.PI(learning=bowden.Learning(4.0, 30.0, cells=50)).step(DT, 1.0, 1.0),
-            "beside learning, and only there",
+            lambda: bowden.PI(learning=bowden.IterativeLearning(4.0, 30.0, cells=50)).step(DT, 1.0, 1.0),
+            "phase: allowed and needed with learning=…, and only there",
         ),
         (lambda: bowden.Rig().track(bowden.PI(), np.ones(5), feed_forward=np.ones(4)), r"feed_forward: shape \(4,\)"),
     ],

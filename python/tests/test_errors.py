@@ -17,7 +17,7 @@ import records
 
 def refused(record: Any, **options: Any) -> bowden.Error:
     with pytest.raises(bowden.Error) as found:
-        bowden.close(record, **options)
+        bowden.identify(record, **options)
     assert isinstance(found.value, ValueError)
     return found.value
 
@@ -43,38 +43,38 @@ def test_of_a_row(plain: dict[str, Any], frame: Any) -> None:
     bad["tau_o"][40] = np.nan
     error = refused(frame(bad), label="bench")
     assert (error.file, error.line, error.column) == ("bench", 41, "tau_o")
-    assert "drop_bad=True leaves such rows out" in str(error)
-    report = bowden.close(frame(bad), drop_bad=True, rounds=0)
+    assert "drop_bad=True drops such rows" in str(error)
+    report = bowden.identify(frame(bad), drop_bad=True, max_terms=0)
     assert report.record.dropped == 1
 
 
 def test_of_arrays(plain: dict[str, Any]) -> None:
     t, tau_i, tau_o = (plain[name] for name in ("t", "tau_i", "tau_o"))
-    with pytest.raises(bowden.Error, match="column `tau_o`: has 9 values; 6000 were expected"):
-        bowden.close(t, tau_i, tau_o[:9])
-    with pytest.raises(bowden.Error, match=r"column `tau_i`: shape \(6000, 1\), one dimension"):
-        bowden.close(t, tau_i[:, None], tau_o)
-    with pytest.raises(bowden.Error, match="column `tau_i`: values of complex128, numbers"):
-        bowden.close(t, tau_i * 1j, tau_o)
+    with pytest.raises(bowden.Error, match="column `tau_o`: has 9 values; 6000 are needed"):
+        bowden.identify(t, tau_i, tau_o[:9])
+    with pytest.raises(bowden.Error, match=r"column `tau_i`: shape \(6000, 1\); one dimension"):
+        bowden.identify(t, tau_i[:, None], tau_o)
+    with pytest.raises(bowden.Error, match="column `tau_i`: values of complex128; numbers"):
+        bowden.identify(t, tau_i * 1j, tau_o)
     with pytest.raises(bowden.Error, match="column `tau_o`: no such column"):
-        bowden.close(t, tau_i)
-    with pytest.raises(bowden.Error, match="no record was given"):
-        bowden.close()
+        bowden.identify(t, tau_i)
+    with pytest.raises(bowden.Error, match="no record is given"):
+        bowden.identify()
     with pytest.raises(bowden.Error, match="int: a path, a frame"):
-        bowden.close(3)
+        bowden.identify(3)
 
 
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"cutoff": -1}, "cutoff=-1: a positive frequency in Hz was expected"),
-        ({"rounds": 9}, "rounds=9: 0 to 8 were expected"),
-        ({"budget": 0}, "budget=0: a positive number of seconds was expected"),
-        ({"per_file": "gains"}, 'per_file="gains": more than one record was expected'),
-        ({"per_file": "all"}, "per_file='all': \"gains\" was expected"),
-        ({"mode": "x"}, 'mode="x": "torque" or "displacement" was expected'),
-        ({"threads": 0}, "threads=0: one or more were expected"),
-        ({"skip": -1}, "(frame): skip=-1: seconds from 0 up were expected"),
+        ({"cutoff": -1}, "cutoff=-1: a positive frequency in Hz is allowed"),
+        ({"max_terms": 9}, "max_terms=9: a whole number from 0 to 8 is allowed"),
+        ({"time_limit": 0}, "time_limit=0: a positive number of seconds is allowed"),
+        ({"per_file": "gains"}, 'per_file="gains": one record; two or more are allowed'),
+        ({"per_file": "all"}, "per_file='all': \"gains\" is allowed"),
+        ({"mode": "x"}, 'mode="x": "torque" or "displacement" is allowed'),
+        ({"threads": 0}, "threads=0: one or more are allowed"),
+        ({"start": -1}, "(frame): start=-1 is out of range (0 s or more)"),
     ],
 )
 def test_of_options(plain: dict[str, Any], options: dict[str, Any], message: str) -> None:
@@ -86,12 +86,12 @@ def test_options_have_their_names_in_python(plain: dict[str, Any]) -> None:
     message = str(refused(unnamed, input="a", output="b"))
     assert message.endswith("; state mode=torque or mode=displacement"), message
     message = str(refused({"a": plain["tau_i"], "b": plain["tau_o"]}, mode="torque"))
-    assert "time= names another one, rate= takes time from the row number" in message
+    assert "time= names another one; rate= takes time from the row number" in message
     assert "--" not in message
 
 
 def test_of_an_effect_that_is_none(plain: dict[str, Any]) -> None:
-    error = refused(plain, declare=["bouc-wen", "viscus"], label="bench")
+    error = refused(plain, baseline=["bouc-wen", "viscus"], label="bench")
     assert str(error).startswith("bench: ") and "viscous" in str(error)
     assert error.file == "bench"
 
@@ -108,8 +108,8 @@ def test_of_a_model(tmp_path: Path) -> None:
 def test_points_in_time_count_from_the_first(plain: dict[str, Any]) -> None:
     start = np.datetime64("2026-03-01T12:00:00", "ns")
     stamps = start + (plain["t"] * 1e9).round().astype("timedelta64[ns]")
-    expected = bowden.close(plain, rounds=0).final.nrmse.held_out
+    expected = bowden.identify(plain, max_terms=0).final.nrmse.held_out
     for frame in (pandas.DataFrame, polars.DataFrame, dict):
-        report = bowden.close(frame({**plain, "t": stamps}), rounds=0)
+        report = bowden.identify(frame({**plain, "t": stamps}), max_terms=0)
         assert report.record.rate_hz == pytest.approx(records.RATE, rel=1e-9)
         assert report.final.nrmse.held_out == pytest.approx(expected, rel=1e-6)

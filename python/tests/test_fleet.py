@@ -118,12 +118,12 @@ def test_a_killed_worker_and_a_killed_run_lose_nothing(folder):
 
 POISON = """
 import os, signal, bowden
-close = bowden.close
+close = bowden.identify
 def poisoned(file, **options):
     if str(file).endswith("r07.parquet"):
         os.kill(os.getpid(), signal.SIGKILL)
     return close(file, **options)
-bowden.close = poisoned
+bowden.identify = poisoned
 """
 
 
@@ -152,7 +152,7 @@ def test_what_cannot_be_read_is_a_row_and_options_are_part_of_what_is_kept(folde
     assert found["r99"]["status"] == "error" and "r99" in found["r99"]["error"]
     assert found["r00"]["status"] == "ok" and found["r00"]["parameters"]
     parts = len(list(Path(f"{out}.part").glob("*.parquet")))
-    bare = rows("--rounds", "0", "--declare", "bouc-wen,viscous")
+    bare = rows("--max-terms", "0", "--baseline", "bouc-wen,viscous")
     assert "viscous" in bare["r00"]["parameters"] and "viscous" not in found["r00"]["parameters"]
     assert len(list(Path(f"{out}.part").glob("*.parquet"))) == 2 * parts
     assert rows() == found
@@ -163,9 +163,9 @@ def test_what_cannot_be_read_is_a_row_and_options_are_part_of_what_is_kept(folde
 
 def test_the_program_writes_the_same_rows(folder, program):
     out, rows = folder / "rows", folder / "rows.parquet"
-    assert start(folder, out, 2, "--declare", "bouc-wen").wait(120) == 0
+    assert start(folder, out, 2, "--baseline", "bouc-wen").wait(120) == 0
     pattern = folder / "r*.parquet"
-    program("close", "--glob", pattern, "--out", rows, "--declare", "bouc-wen")
+    program("identify", "--glob", pattern, "--out", rows, "--baseline", "bouc-wen")
     fleet, ours = pq.read_table(out), pq.read_table(rows)
     assert [(f.name, str(f.type)) for f in fleet.schema] == [
         (f.name, str(f.type)) for f in ours.schema
@@ -182,9 +182,9 @@ def test_the_program_writes_the_same_rows(folder, program):
     ("asked", "line"),
     [
         (["no-such-*.csv", "--out", "rows"], "no-such-*.csv: no file has such a name"),
-        (["*", "--out", "rows", "--workers", "0"], "--workers 0: at least 1 was expected"),
-        (["*", "--out", "no/rows"], "--out no/rows: a file in a folder that exists was expected"),
-        (["*", "--out", "rows", "--channel", "x"], "--channel x: NAME=COL was expected"),
+        (["*", "--out", "rows", "--workers", "0"], "--workers 0: at least 1 is allowed"),
+        (["*", "--out", "no/rows"], "--out no/rows: a file in a folder that exists is allowed"),
+        (["*", "--out", "rows", "--channel", "x"], "--channel x: NAME=COL is allowed"),
     ],
 )
 def test_bad_use_is_one_line_and_status_2(folder, asked, line):

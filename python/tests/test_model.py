@@ -21,7 +21,7 @@ def rows_of(vector: str) -> dict[str, np.ndarray]:
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_the_test_vector_comes_out_digit_by_digit(viscous: dict[str, Any], dtype: Any) -> None:
-    report = bowden.close(viscous)
+    report = bowden.identify(viscous)
     vector = rows_of(report.vectors[0])
 
     def motion(name: str) -> np.ndarray:
@@ -40,7 +40,7 @@ def test_the_test_vector_comes_out_digit_by_digit(viscous: dict[str, Any], dtype
 
 
 def test_predictions_are_as_good_as_the_model_says(viscous: dict[str, Any]) -> None:
-    report = bowden.close(viscous)
+    report = bowden.identify(viscous)
     answers = report.model.predict(
         viscous["t"], viscous["tau_i"], channels={"phi_p": viscous["phi_p"]}
     )
@@ -53,12 +53,12 @@ def test_predictions_are_as_good_as_the_model_says(viscous: dict[str, Any]) -> N
     assert share < 3.0 * causal.held_out + 0.006
     with pytest.raises(bowden.Error, match="channel `phi_p`: the model reads it"):
         report.model.predict(viscous["t"], viscous["tau_i"])
-    with pytest.raises(bowden.Error, match="one of t and dt"):
+    with pytest.raises(bowden.Error, match="t and dt: exactly one"):
         report.model.predict(input=viscous["tau_i"], channels={"phi_p": viscous["phi_p"]})
 
 
 def test_a_model_comes_back_as_it_was(tmp_path: Path, viscous: dict[str, Any]) -> None:
-    model = bowden.close(viscous).model
+    model = bowden.identify(viscous).model
     model.save(tmp_path / "model.toml")
     again = bowden.Model.load(tmp_path / "model.toml")
     assert again == model and again.terms[0].effect == "viscous"

@@ -29,23 +29,23 @@ def test_progress_tells_each_step(viscous: dict[str, Any]) -> None:
         assert threading.get_ident() == thread
         told.append((share, message))
 
-    report = bowden.close(viscous, progress=hear)
+    report = bowden.identify(viscous, progress=hear)
     assert report.names == ["viscous"]
     shares = [share for share, _ in told if share is not None]
     assert shares == sorted(shares) and shares[0] == 0.0 and 0.9 < shares[-1] <= 1.0
     messages = [message for _, message in told]
     assert messages[0] == "reading"
-    assert "fitting the declared model" in messages
-    assert any(m.startswith("looking for what is missing, turn 1") for m in messages)
+    assert "fitting the baseline model" in messages
+    assert any(m.startswith("searching for missing terms, round 1") for m in messages)
 
 
 def test_a_bar_of_tqdm_ends_full(viscous: dict[str, Any]) -> None:
     with open(os.devnull, "w") as nowhere, tqdm(total=100, file=nowhere) as bar:
-        bowden.close(viscous, progress=bar)
+        bowden.identify(viscous, progress=bar)
         assert bar.n == pytest.approx(100)
-    bowden.close(viscous, rounds=0, progress=True)
+    bowden.identify(viscous, max_terms=0, progress=True)
     with pytest.raises(TypeError, match="progress"):
-        bowden.close(viscous, progress=3)
+        bowden.identify(viscous, progress=3)
 
 
 def test_what_progress_raises_ends_the_call(viscous: dict[str, Any]) -> None:
@@ -54,8 +54,8 @@ def test_what_progress_raises_ends_the_call(viscous: dict[str, Any]) -> None:
             raise KeyError(message)
 
     with pytest.raises(KeyError, match="turn 1"):
-        bowden.close(viscous, progress=stop)
-    assert bowden.close(viscous).names == ["viscous"]
+        bowden.identify(viscous, progress=stop)
+    assert bowden.identify(viscous).names == ["viscous"]
 
 
 LONG = """
@@ -66,7 +66,7 @@ record = records.hard()
 channels = {{name: name for name in record if name.startswith("c")}}
 print("begun", flush=True)
 try:
-    bowden.close(record, channels=channels, threads=1)
+    bowden.identify(record, channels=channels, threads=1)
     print("done", flush=True)
 except KeyboardInterrupt:
     print("interrupted", flush=True)
@@ -100,7 +100,7 @@ def test_other_threads_run_meanwhile(viscous: dict[str, Any]) -> None:
     thread = threading.Thread(target=count)
     thread.start()
     before = counted
-    bowden.close(viscous)
+    bowden.identify(viscous)
     after = counted
     done.set()
     thread.join()
@@ -109,22 +109,22 @@ def test_other_threads_run_meanwhile(viscous: dict[str, Any]) -> None:
 
 
 def test_numbers_do_not_depend_on_threads(viscous: dict[str, Any]) -> None:
-    one, all = (bowden.close(viscous, threads=threads) for threads in (1, None))
-    assert one.final == all.final and one.rounds == all.rounds
+    one, all = (bowden.identify(viscous, threads=threads) for threads in (1, None))
+    assert one.final == all.final and one.terms == all.terms
 
 
 def test_calls_side_by_side_do_not_mix() -> None:
     all = [records.torque(seed=k, viscous=1.2) for k in range(1, 5)]
-    alone = [bowden.close(one) for one in all]
+    alone = [bowden.identify(one) for one in all]
     with ThreadPoolExecutor(4) as pool:
-        together = list(pool.map(bowden.close, all))
+        together = list(pool.map(bowden.identify, all))
     assert [r.final for r in together] == [r.final for r in alone]
-    assert [r.rounds for r in together] == [r.rounds for r in alone]
+    assert [r.terms for r in together] == [r.terms for r in alone]
     assert len({r.final.nrmse.held_out for r in alone}) == 4
 
 
 def names(seed: int) -> list[str]:
-    return bowden.close(records.torque(seed=seed, viscous=1.2), threads=None).names
+    return bowden.identify(records.torque(seed=seed, viscous=1.2), threads=None).names
 
 
 @pytest.mark.skipif(
@@ -132,31 +132,31 @@ def names(seed: int) -> list[str]:
 )
 @pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
 def test_a_forked_process_has_threads_of_its_own(viscous: dict[str, Any]) -> None:
-    bowden.close(viscous)
+    bowden.identify(viscous)
     with multiprocessing.get_context("fork").Pool(1) as pool:
         assert pool.apply_async(names, (1,)).get(timeout=60) == ["viscous"]
 
 
 def test_a_report_goes_to_another_process(viscous: dict[str, Any]) -> None:
-    report = bowden.close(viscous)
+    report = bowden.identify(viscous)
     again = pickle.loads(pickle.dumps(report))
     assert again.json == report.json and again.model == report.model
     assert again.final.nrmse.held_out == report.final.nrmse.held_out
-    assert report.sentence in again._repr_html_().replace("&#x27;", "'")
+    assert report.summary in again._repr_html_().replace("&#x27;", "'")
     with pytest.raises(bowden.Error, match="another process"):
         again.trace()
 
 
 def test_what_a_report_shows(viscous: dict[str, Any]) -> None:
-    report = bowden.close(viscous)
+    report = bowden.identify(viscous)
     shown = report._repr_html_()
     assert shown.count("<img ") == 2 and shown.count("<iframe ") == 1
-    assert repr(report) == f"<Report {report.verdict}: {report.sentence}>"
+    assert repr(report) == f"<Report {report.verdict}: {report.summary}>"
     pandas_trace, polars_trace = report.trace(), report.trace("polars")
     plain_trace = report.trace("dict")
     assert list(pandas_trace.columns) == polars_trace.columns == list(plain_trace)
     assert pandas_trace["residual"].equals(pandas_trace["measured"] - pandas_trace["final"])
-    light = bowden.close(viscous, figures=False)
+    light = bowden.identify(viscous, figures=False)
     with pytest.raises(bowden.Error, match="figures=False"):
         light.model
     assert "<img" not in light._repr_html_()

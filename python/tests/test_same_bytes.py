@@ -26,12 +26,12 @@ def without_seconds(text: str) -> str:
 
 def both(program: Run, tmp_path: Path, record: dict[str, Any], *options: str) -> tuple[str, Path]:
     path = records.write_csv(tmp_path / "record.csv", record)
-    return program("close", path, "--json", *options).rstrip("\n"), path
+    return program("identify", path, "--json", *options).rstrip("\n"), path
 
 
 def test_a_file(program: Run, tmp_path: Path, viscous: dict[str, Any]) -> None:
     expected, path = both(program, tmp_path, viscous)
-    report = bowden.close(path)
+    report = bowden.identify(path)
     assert without_seconds(report.json) == without_seconds(expected)
     assert report.to_dict() == json.loads(report.json)
     assert report.names == ["viscous"]
@@ -41,34 +41,34 @@ def test_a_file(program: Run, tmp_path: Path, viscous: dict[str, Any]) -> None:
 def test_arrays_and_frames(
     program: Run, tmp_path: Path, viscous: dict[str, Any], kind: str
 ) -> None:
-    expected, path = both(program, tmp_path, viscous, "--declare", "bouc-wen,viscous@phi_p")
-    options: dict[str, Any] = {"declare": ["bouc-wen", "viscous@phi_p"], "label": str(path)}
+    expected, path = both(program, tmp_path, viscous, "--baseline", "bouc-wen,viscous@phi_p")
+    options: dict[str, Any] = {"baseline": ["bouc-wen", "viscous@phi_p"], "label": str(path)}
     if kind == "arrays":
         ends = {name: viscous[name] for name in ("t", "tau_i", "tau_o")}
-        report = bowden.close(**ends, channels={"phi_p": viscous["phi_p"]}, **options)
+        report = bowden.identify(**ends, channels={"phi_p": viscous["phi_p"]}, **options)
     elif kind == "structured":
         rows = np.empty(len(viscous["t"]), dtype=[(name, "f8") for name in viscous])
         for name in viscous:
             rows[name] = viscous[name]
-        report = bowden.close(rows, **options)
+        report = bowden.identify(rows, **options)
     elif kind == "pyarrow":
         pyarrow = pytest.importorskip("pyarrow")
-        report = bowden.close(pyarrow.table(viscous), **options)
+        report = bowden.identify(pyarrow.table(viscous), **options)
     else:
         frame = {"pandas": pandas.DataFrame, "polars": polars.DataFrame, "mapping": dict}[kind]
-        report = bowden.close(frame(viscous), **options)
+        report = bowden.identify(frame(viscous), **options)
     assert without_seconds(report.json) == without_seconds(expected)
 
 
 @pytest.mark.parametrize(
     ("options", "given"),
     [
-        (["--rounds", "0"], {"rounds": 0}),
+        (["--max-terms", "0"], {"max_terms": 0}),
         (["--cutoff", "8"], {"cutoff": 8}),
-        (["--skip", "2.5", "--until", "24"], {"skip": 2.5, "until": 24}),
+        (["--start", "2.5", "--end", "24"], {"start": 2.5, "end": 24}),
         (["--rate", "250"], {"rate": 250}),
         (["--invertible"], {"invertible": True}),
-        (["--declare", "bouc-wen,coulomb"], {"declare": ["bouc-wen", "coulomb"]}),
+        (["--baseline", "bouc-wen,coulomb"], {"baseline": ["bouc-wen", "coulomb"]}),
         (["--channel", "other=tau_i-phi_p"], {"channels": {"other": "tau_i-phi_p"}}),
         (
             ["--mode", "displacement", "--input", "phi_p", "--output", "tau_o", "--time", "t"],
@@ -84,12 +84,12 @@ def test_options(
     given: dict[str, Any],
 ) -> None:
     expected, path = both(program, tmp_path, viscous, *options)
-    report = bowden.close(pandas.DataFrame(viscous), label=str(path), **given)
+    report = bowden.identify(pandas.DataFrame(viscous), label=str(path), **given)
     assert without_seconds(report.json) == without_seconds(expected)
 
 
 def test_what_is_drawn_does_not_change_the_answer(viscous: dict[str, Any]) -> None:
-    drawn, not_drawn = (bowden.close(viscous, figures=f).json for f in (True, False))
+    drawn, not_drawn = (bowden.identify(viscous, figures=f).json for f in (True, False))
     assert without_seconds(drawn) == without_seconds(not_drawn)
 
 
@@ -98,13 +98,13 @@ def test_any_float(viscous: dict[str, Any], program: Run, tmp_path: Path) -> Non
     # A time in single precision jitters: it stays double.
     single["t"] = viscous["t"]
     expected, path = both(program, tmp_path, single)
-    report = bowden.close(single, label=str(path))
+    report = bowden.identify(single, label=str(path))
     assert without_seconds(report.json) == without_seconds(expected)
     strided = np.stack([viscous["tau_i"], viscous["tau_o"]], axis=1)
     assert strided[:, 0].strides == (16,)
     arrays = {"t": viscous["t"], "tau_i": strided[:, 0], "tau_o": strided[:, 1]}
     expected, path = both(program, tmp_path, arrays)
-    report = bowden.close(**arrays, label=str(path))
+    report = bowden.identify(**arrays, label=str(path))
     assert without_seconds(report.json) == without_seconds(expected)
 
 
@@ -115,11 +115,11 @@ def test_several_files(program: Run, tmp_path: Path, own: bool) -> None:
     paths = [records.write_csv(tmp_path / f"{k}.csv", one) for k, one in enumerate(all)]
     option = ["--per-file", "gains"] if own else []
     model = tmp_path / "model.toml"
-    expected = program("close", *paths, "--json", "--model-out", model, *option).rstrip("\n")
-    report = bowden.close(list(map(str, paths)), per_file="gains" if own else None)
+    expected = program("identify", *paths, "--json", "--model-out", model, *option).rstrip("\n")
+    report = bowden.identify(list(map(str, paths)), per_file="gains" if own else None)
     assert without_seconds(report.json) == without_seconds(expected)
     frames = [bowden.read(one, label=str(path)) for one, path in zip(all, paths)]
-    again = bowden.close(frames, per_file="gains" if own else None)
+    again = bowden.identify(frames, per_file="gains" if own else None)
     assert without_seconds(again.json) == without_seconds(expected)
     written = [tmp_path / "model-1.toml", tmp_path / "model-2.toml"] if own else [model]
     assert [m.toml for m in report.models] == [p.read_bytes().decode() for p in written]
@@ -127,26 +127,26 @@ def test_several_files(program: Run, tmp_path: Path, own: bool) -> None:
 
 def test_models_trace_and_figure(program: Run, tmp_path: Path, viscous: dict[str, Any]) -> None:
     path = records.write_csv(tmp_path / "record.csv", viscous)
-    report = bowden.close(path)
+    report = bowden.identify(path)
     for ending in ("toml", "rs", "postcard"):
         theirs, ours = tmp_path / f"theirs.{ending}", tmp_path / f"ours.{ending}"
-        program("close", path, "--model-out", theirs)
+        program("identify", path, "--model-out", theirs)
         report.model.save(ours)
         assert ours.read_bytes() == theirs.read_bytes(), ending
     assert report.vectors == [(tmp_path / "theirs.vector.csv").read_text(encoding="utf-8")]
     trace = tmp_path / "trace.csv"
     for name in ("loop", "residual", "trace", "shares"):
         figure = tmp_path / "figure.svg"
-        program("close", path, "--trace", trace, "--plot", figure, "--figure", name)
+        program("identify", path, "--trace", trace, "--plot", figure, "--figure", name)
         assert report.figure(name) == figure.read_text(encoding="utf-8")
     assert report.trace_csv == trace.read_text(encoding="utf-8")
     page = tmp_path / "page.html"
-    program("close", path, "--report", page)
+    program("identify", path, "--report", page)
     # Pages differ in what was typed alone.
     typed = re.compile(r"<pre tabindex=\"0\"><code>.*?</code></pre>")
     ours, theirs = report.page(), page.read_text(encoding="utf-8")
     assert typed.sub("", ours) == typed.sub("", theirs)
-    assert f"bowden.close(&#39;{path}&#39;)" in ours or f"bowden.close('{path}')" in ours
+    assert f"bowden.identify(&#39;{path}&#39;)" in ours or f"bowden.identify('{path}')" in ours
 
 
 def test_check(
@@ -156,13 +156,13 @@ def test_check(
     second = records.write_csv(tmp_path / "second.csv", plain)
     third = records.write_csv(tmp_path / "third.csv", records.torque(seed=9, viscous=1.2))
     model = tmp_path / "model.toml"
-    bowden.close(first).model.save(model)
+    bowden.identify(first).model.save(model)
     for path, verdict in ((second, "does-not-hold"), (third, "holds")):
         trace = tmp_path / "trace.csv"
-        expected = program("check", model, path, "--json", "--trace", trace).rstrip("\n")
-        found = bowden.check(model, path)
+        expected = program("validate", model, path, "--json", "--trace", trace).rstrip("\n")
+        found = bowden.validate(model, path)
         assert found.json == expected
         assert found.verdict == verdict
         assert found.trace_csv == trace.read_text(encoding="utf-8")
     loaded = bowden.Model.load(model)
-    assert bowden.check(loaded, plain, label=str(second)).nrmse == bowden.check(model, second).nrmse
+    assert bowden.validate(loaded, plain, label=str(second)).nrmse == bowden.validate(model, second).nrmse

@@ -41,23 +41,23 @@ def told() -> dict[str, set[str]]:
 
 
 def test_the_fields_are_those_of_the_json(told: dict[str, set[str]]) -> None:
-    one = bowden.close(records.torque(seed=1, viscous=1.2))
+    one = bowden.identify(records.torque(seed=1, viscous=1.2))
     stuck = records.torque(seed=2)
     stuck["tau_o"][900:2400] = stuck["tau_o"][900]
-    two = bowden.close([records.torque(seed=k, viscous=1.2) for k in (3, 4)])
-    spoilt = bowden.close(stuck)
-    checked = bowden.check(one.model, records.torque(seed=5, viscous=1.2))
+    two = bowden.identify([records.torque(seed=k, viscous=1.2) for k in (3, 4)])
+    spoilt = bowden.identify(stuck)
+    checked = bowden.validate(one.model, records.torque(seed=5, viscous=1.2))
     assert told["Report"] == {*one.keys(), *two.keys()}
-    assert told["CheckReport"] == {k + "_" * (k == "from") for k in checked.keys()}
+    assert told["CheckReport"] == {*checked.keys()}
     assert told["RecordPart"] == {*one.record.keys(), *two.records[0].keys()}
     by_file = {"rmse_by_file", "nrmse_by_file"}
-    seldom = {"Round": {"models", "not_refitted_without"}}
+    seldom = {"Term": {"models", "not_refitted_without"}}
     found: dict[str, Any] = {
-        "Segments": one.deviation,
-        "Coefficient": one.rounds[0].coefficients[0],
-        "Round": one.rounds[0],
+        "Segments": one.output_std,
+        "Coefficient": one.terms[0].coefficients[0],
+        "Term": one.terms[0],
         "CheckedRecord": checked.record,
-        "ModelPart": one.declared,
+        "ModelPart": one.baseline,
         "FinalPart": one.final,
         "Rejected": one.rejected[0],
         "Defect": spoilt.defects[0],
@@ -73,10 +73,11 @@ def test_the_fields_are_those_of_the_json(told: dict[str, set[str]]) -> None:
 def test_what_the_readme_shows_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     readme = Path(__file__).resolve().parents[1] / "README.md"
     blocks = re.findall(r"```python\n(.*?)```", readme.read_text(encoding="utf-8"), re.DOTALL)
-    assert len(blocks) == 4
+    assert len(blocks) == 6
     monkeypatch.chdir(tmp_path)
     with contextlib.redirect_stdout(io.StringIO()) as said:
         exec(compile("\n".join(blocks), str(readme), "exec"), {})
-    assert "The declared model lacks viscous@phi_p" in said.getvalue()
+    assert "The baseline model lacks friction over the velocity of phi_p" in said.getvalue()
     assert "record.csv: no such file" in said.getvalue()
+    assert "\nheld measured\n" in said.getvalue() and "OUT_OF_RANGE" in said.getvalue()
     assert {p.name for p in tmp_path.iterdir()} == {"report.html", "model.toml"}

@@ -1,12 +1,14 @@
 //! The crate as a short book: from the idea to a motor.
 //!
-//! 1. [The idea](idea): a cable has a memory, and what that does to a controller.
-//! 2. [The equations](equations): the model, its conventions, and where the paper is corrected.
-//! 3. [Reading a verdict](verdict): what the bench says of a record, and what to do next.
-//! 4. [Choosing a controller](controller): which one, with which gains, at what price.
-//! 5. [From bench to motor](motor): the model in firmware, step by step, and what to test.
+//! 1. [The idea](idea): hysteresis in a cable, and its effect on a torque controller.
+//! 2. [The equations](equations): the model, its conventions, and corrections to the paper.
+//! 3. [Reading a verdict](verdict): the results of `bowden identify`, and the next step after
+//!    each.
+//! 4. [Choosing a controller](controller): controllers, gains, and cost in instructions.
+//! 5. [From bench to motor](motor): the model in firmware, step by step, and the tests on the
+//!    board.
 //!
-//! Every program on these pages is compiled and run with the tests.
+//! The tests compile and run every program on these pages.
 
 #[doc = include_str!("idea.md")]
 pub mod idea {}

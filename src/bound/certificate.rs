@@ -1,15 +1,15 @@
-//! A promise: its number, its unit, and what must be true for it.
+//! A certificate: a bound with its number, its unit, and its assumptions.
 
-/// Which theorem a certificate comes from.
+/// The theorem behind a certificate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Kind {
-    /// [`Theorem1`](super::Theorem1), as the paper has it.
+    /// [`Theorem1`](super::Theorem1), as in the paper.
     Theorem1,
-    /// [`Tightest`](super::Tightest): Theorem 1 with the best of its free constants.
+    /// [`Tightest`](super::Tightest): Theorem 1 with the best choice of its free constants.
     Tightest,
     /// [`Rms`](super::Rms).
     Rms,
@@ -25,7 +25,7 @@ pub enum Kind {
     PerStep,
 }
 
-/// A bound of the tracking error \[N·m\] with the assumptions it rests on.
+/// A bound of the tracking error \[N·m\] with its assumptions.
 ///
 /// ```
 /// use bowden::bound::{Plant, Theorem1};
@@ -43,14 +43,14 @@ pub enum Kind {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Certificate<T> {
-    /// Where it comes from.
+    /// The theorem behind the bound.
     pub kind: Kind,
     /// The bound \[N·m\].
     pub value: T,
 }
 
 impl<T> Certificate<T> {
-    /// What the value bounds: "limsup |e|", for instance.
+    /// The bounded quantity, for example "limsup |e|".
     #[must_use]
     pub fn bounds(&self) -> &'static str {
         match self.kind {
@@ -66,7 +66,7 @@ impl<T> Certificate<T> {
         "N·m"
     }
 
-    /// What the user must check; what the types could check is not repeated.
+    /// Assumptions that the user must check; assumptions that the types check are not repeated.
     #[must_use]
     pub fn assumptions(&self) -> &'static [&'static str] {
         match self.kind {

@@ -5,13 +5,13 @@ use core::cmp::Ordering;
 use core::fmt;
 use core::ops::{Add, Div, Mul, Sub};
 
-/// Bits that a mantissa keeps: a product of two fits into an `i128`.
+/// Bits of a mantissa: a product of two fits into an `i128`.
 const BITS: u32 = 62;
 
 /// Bits by which the greater of two summands is moved up before the lesser is cut.
 const HEADROOM: i32 = 60;
 
-/// Which way an operation rounds.
+/// Rounding direction of an operation.
 #[derive(Clone, Copy, PartialEq)]
 enum Towards {
     Below,
@@ -20,7 +20,7 @@ enum Towards {
 
 /// `mantissa·2^exponent`, with at most 62 bits of mantissa.
 ///
-/// A float is one exactly. Written as `13*2^-4`, which is exact too.
+/// Every finite float is exactly such a number. Written as `13*2^-4`, which is exact too.
 ///
 /// ```
 /// use bowden::bound::Dyadic;
@@ -46,7 +46,7 @@ impl Dyadic {
         exponent: 0,
     };
 
-    /// A finite float, exactly; zero for one that is not finite.
+    /// The exact value of a finite float; zero for a float that is not finite.
     #[must_use]
     pub fn of<T: Real>(x: T) -> Self {
         if !x.is_finite() {
@@ -64,7 +64,7 @@ impl Dyadic {
         }
     }
 
-    /// Without trailing zeros, so that equal numbers look alike.
+    /// Without trailing zeros, so equal numbers have equal representations.
     fn exactly(mantissa: i128, exponent: i32) -> Self {
         if mantissa == 0 {
             return Self::ZERO;
@@ -137,7 +137,7 @@ impl Dyadic {
         Self::cut(quotient, exponent, BITS, to)
     }
 
-    /// The nearest `f64`, or next to it.
+    /// The nearest `f64`, or a neighbour of it.
     #[must_use]
     #[allow(clippy::cast_precision_loss)] // 62 bits into 53: next to the nearest
     pub fn as_f64(self) -> f64 {
@@ -201,10 +201,10 @@ impl Ord for Dyadic {
     }
 }
 
-/// An interval that holds the result of every operation, whatever its operands round to.
+/// An interval that contains the result of every operation, for any rounding of the operands.
 ///
-/// A quotient by an interval that reaches zero is every number. Comparisons are of what is
-/// certain: [`is_at_most`](Self::is_at_most).
+/// A quotient by an interval that contains zero is the interval of all numbers. A comparison is
+/// true only if it is certain: [`is_at_most`](Self::is_at_most).
 ///
 /// ```
 /// use bowden::bound::Enclosure;
@@ -230,7 +230,7 @@ impl Enclosure {
         high: Dyadic::HUGE,
     };
 
-    /// A finite float, exactly.
+    /// The exact value of a finite float.
     #[must_use]
     pub fn of<T: Real>(x: T) -> Self {
         Self::exactly(Dyadic::of(x))
@@ -247,13 +247,13 @@ impl Enclosure {
         Self::exactly(Dyadic::power(exponent))
     }
 
-    /// Not above the number.
+    /// Lower end: not above the number.
     #[must_use]
     pub const fn low(&self) -> Dyadic {
         self.low
     }
 
-    /// Not below the number.
+    /// Upper end: not below the number.
     #[must_use]
     pub const fn high(&self) -> Dyadic {
         self.high

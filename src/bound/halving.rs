@@ -1,10 +1,10 @@
-//! A property of all that lies in a box, shown by halving it until each part shows it.
+//! A property of every point of a region, proved by bisection of the region.
 
-/// How much may be looked at, and how much was.
+/// The limit of the number of regions, and their count.
 pub(super) struct Halving {
     most_boxes: u32,
     most_halvings: u32,
-    /// Boxes that were looked at.
+    /// Number of examined regions.
     pub(super) boxes: u32,
 }
 
@@ -17,7 +17,7 @@ impl Halving {
         }
     }
 
-    /// Whether `shows` holds for each part of a box; `false` where that took too many.
+    /// Whether `shows` holds for each part of a region; `false` if the limit was reached.
     pub(super) fn all<B>(
         &mut self,
         of: &B,

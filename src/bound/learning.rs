@@ -1,4 +1,4 @@
-//! Whether what is learned from cycle to cycle converges, over a whole range of plants.
+//! Convergence of iterative learning from cycle to cycle, over a range of plants.
 
 use super::halving::Halving;
 use super::observer::proportional_and_integral;
@@ -6,7 +6,7 @@ use super::plant::ordered;
 use super::plants::PlantRange;
 use super::span::Span;
 use super::Interval;
-use crate::control::{Learning, Pid};
+use crate::control::{IterativeLearning, Pid};
 use crate::{Error, Real};
 use alone::Loop;
 use cycle::{Boxed, Cycle};
@@ -14,105 +14,120 @@ use cycle::{Boxed, Cycle};
 mod alone;
 mod cycle;
 
-/// Most boxes of a proof: a second or less on a computer.
+/// Most regions of a proof: a second or less on a computer.
 const MOST_BOXES: u32 = 500_000;
 
-/// Most halvings of a box.
+/// Most halvings of a region.
 const MOST_HALVINGS: u32 = 80;
 
-/// Learning beside a P or PI that converges on every plant of a range.
+/// Iterative learning in addition to a P or PI that converges on every plant of a range.
 ///
-/// With `C = k_p + k_i/s`, the plant P~ of a [`PlantRange`] and `G = P~/(1 + C·P~)` from feed-forward to
-/// measured output, what a cycle leaves of a tone of what is yet to be learned is
+/// Let `C = k_p + k_i/s`, let P~ be the plant of a [`PlantRange`], and let `G = P~/(1 + C·P~)`
+/// be the transfer function from feed-forward to measured output. The factor of a tone of the
+/// learning error over one cycle is
 ///
 /// ```text
 /// H = Q·(1 − forgetting − gain·e^(jw·lead·T)·Σ S(w·T/2 + pi·k)³·G(j(w + 2·pi·k/T)))
 /// ```
-/// T is the time of a cell, `S(x) = sin(x)/x` stands for the mean over a cell and twice for the straight
-/// lines between two, the sum over all whole numbers k for their images, and Q is that of
-/// [`Learning`]. Shown is, for every plant and every cycle time of the range,
-/// - that the loop without learning is stable, by zero exclusion as in
-///   [`ObserverStability`](super::ObserverStability);
-/// - that `|H| <= factor` at every frequency from the cycle's own to the cells' Nyquist, those between the
-///   harmonics included; beside a P, from zero on; and
-/// - beside a PI, that `|H| < 1` between zero and the cycle's own.
+/// T is the time of a cell. `S(x) = sin(x)/x` describes the mean over a cell and, squared, the
+/// linear interpolation between two cells. The sum over all whole numbers k contains their
+/// images, and Q is that of [`IterativeLearning`]. The certificate proves for every plant and
+/// every cycle time of the range:
+/// - The loop without learning is stable, by zero exclusion as in
+///   [`ObserverStability`](super::ObserverStability).
+/// - `|H| <= factor` at every frequency from the cycle's own frequency to the Nyquist frequency
+///   of the cells, including frequencies between the harmonics. With a P this holds from zero
+///   on.
+/// - With a PI, `|H| < 1` between zero and the cycle's own frequency.
 ///
-/// All by intervals that are rounded outwards and halved until they show it. In the images `|G|` is at
-/// most its bound above the cells' Nyquist frequency, and what stands before it at most `0.32·|sin(w·T/2)|³`
-/// in sum.
+/// The proof uses intervals that are rounded outwards and bisected until they show the inequality.
+/// In the images `|G|` is at most its bound above the cells' Nyquist frequency, and their total
+/// factor is at most `0.32·|sin(w·T/2)|³`.
 ///
-/// So the error goes to what stays of it, e*, from wherever it was. *Proof.* In the cells' own time the
-/// learned feed-forward is `z⁻ⁿ·H` of itself, n cells before, and what comes from outside. That is
-/// causal, as `lead + half_width + 1 < n`, stable as the loop is, and below 1 in magnitude on the unit circle;
-/// hence everywhere outside of it, so that `1 − z⁻ⁿ·H` has no zero there. Beside a PI without forgetting
-/// it is 1 at `z = 1`: the mean that was learned and the law's integral stand for each other, and the
-/// output shows neither. ∎ Of `e − e*` at a tone about |H| is left from cycle to cycle, exactly so where
-/// a cycle's change has settled before the next. At harmonics e* is nothing where forgetting is zero and
-/// Q is one; where Q is small it may be *more* than the error without learning.
+/// The error therefore converges to its limit e* from any start. *Proof.* In cell time the learned
+/// feed-forward is `z⁻ⁿ·H` times its value n cells before, plus external inputs. This operator is
+/// causal, as `lead + half_width + 1 < n`. It is as stable as the loop, and its magnitude is below
+/// 1 on the unit circle. The magnitude is therefore below 1 everywhere outside the circle, so `1 −
+/// z⁻ⁿ·H` has no zero there. With a PI without forgetting it is 1 at `z = 1`: the learned mean and
+/// the integral of the law are interchangeable. The output shows neither. ∎
 ///
-/// Assumed beside: one cycle time throughout, and a phase that is uniform in time; a plant of that form;
-/// many samples a cell; friction and load repeat, or are disturbances that stay bounded (what does not
-/// repeat cannot be learned, and some of it comes back a cycle later); no limit is met, neither of the
-/// command nor of what is learned, and no sample is bad. **The range of the slope f covers each slope of
-/// a hysteresis by itself**, which is no proof for one that changes along the path.
+/// A tone of `e − e*` falls by a factor of about |H| from cycle to cycle. The factor is exact
+/// if the change of a cycle has settled before the next one. At harmonics e* is zero if
+/// forgetting is zero and Q is one. If Q is small, e* may be *larger* than the error without
+/// learning.
 ///
-/// Where nothing could be shown, the number of boxes may have been too small rather than the range too
-/// wide.
+/// Further assumptions:
+/// - one constant cycle time, and a phase that is uniform in time;
+/// - a plant of this form;
+/// - many samples per cell;
+/// - friction and load repeat, or are bounded disturbances (learning cannot remove them, and a
+///   part of them returns one cycle later);
+/// - no limit is active, neither of the command nor of the learned values, and no sample is
+///   bad.
+///
+/// **The range of the slope f covers each slope of a hysteresis separately.** This does not cover a
+/// slope that changes along the path.
+///
+/// If no proof was found, the number of regions may have been too small rather than the range
+/// too wide.
 ///
 /// Source: D. Bristow, M. Tharayil, A. Alleyne, "A survey of iterative learning control", *IEEE
 /// Control Systems Magazine* 26(3), 2006, frequency-domain condition for monotonic convergence.
 ///
 /// ```
-/// use bowden::bound::{Interval, LearningConvergence, PlantRange};
-/// use bowden::control::{Learning, Pid, PidSettings};
+/// use bowden::bound::{Interval, IterativeLearningConvergence, PlantRange};
+/// use bowden::control::{IterativeLearning, Pid, PidSettings};
 /// // 250 cells of a gait of 1 s: 12 ms ahead, Q of 16 Hz.
-/// let learning = Learning::try_new(4.0_f32, 30.0, 3, 4)?;
+/// let learning = IterativeLearning::try_new(4.0_f32, 30.0, 3, 4)?;
 /// let pi = Pid::try_new(PidSettings::unlimited(30.0, 18.0))?;
 /// let within = |x: f64, share: f64| Interval { low: x * (1.0 - share), high: x * (1.0 + share) };
 /// let range = PlantRange {
 ///     gain: within(0.6, 0.05),
 ///     natural_frequency: within(25.5, 0.025),
 ///     damping_ratio: within(0.265, 0.05),
-///     joint: within(0.0033, 0.05), // 0.5 N·m·s/rad beside 150 N·m/rad
+///     joint: within(0.0033, 0.05), // 0.5 N·m·s/rad over 150 N·m/rad
 ///     slope: Interval { low: 0.33, high: 1.0 },
 ///     latency: within(0.003, 0.05),
 /// };
 /// let gait = within(1.0, 0.1); // \[s\]
-/// assert!(LearningConvergence::try_new(&learning, 250, &gait, &pi, &range, 0.92).is_ok());
+/// assert!(IterativeLearningConvergence::try_new(&learning, 250, &gait, &pi, &range, 0.92).is_ok());
 /// // Without a lead the tones near the loop's own resonance would grow.
-/// let late = Learning::try_new(4.0_f32, 30.0, 0, 4)?;
-/// assert!(LearningConvergence::try_new(&late, 250, &gait, &pi, &range, 1.0).is_err());
+/// let late = IterativeLearning::try_new(4.0_f32, 30.0, 0, 4)?;
+/// assert!(IterativeLearningConvergence::try_new(&late, 250, &gait, &pi, &range, 1.0).is_err());
 /// # Ok::<(), bowden::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct LearningConvergence {
-    /// The plants that it holds for.
+pub struct IterativeLearningConvergence {
+    /// The plants of the certificate.
     pub plants: PlantRange,
-    /// The times of a cycle that it holds for \[s\].
+    /// The cycle times of the certificate \[s\].
     pub cycle: Interval<f64>,
-    /// |H| at most, from the cycle's own frequency on, beside a P from zero on; below that it is less
-    /// than one.
+    /// Upper bound of |H| from the cycle's own frequency on, with a P from zero on; below that
+    /// frequency |H| is less than one.
     pub factor: f64,
-    /// How many boxes of plants, cycle times and frequencies it took.
+    /// Number of regions of plants, cycle times and frequencies in the proof.
     pub boxes: u32,
 }
 
-impl LearningConvergence {
-    /// Shows that it converges, with `|H| <= factor` from the cycle's own frequency on.
+impl IterativeLearningConvergence {
+    /// Proves convergence with `|H| <= factor` from the cycle's own frequency on.
     ///
-    /// `cells` is the length of the learning's buffers, `cycle` the range of what a cycle takes
+    /// `cells` is the length of the learning's buffers, `cycle` the range of the cycle time
     /// \[s\].
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with what is wrong with the range, the `"cycle"`
-    /// or the `"factor"`; [`Error::Inadmissible`] where the law is no P or PI, where there are too few
-    /// cells for lead and filter, or so few that the loop still answers above their Nyquist
-    /// frequency, where the loop without learning is not shown to be stable, or where nothing could be
-    /// shown: what is yet to be learned of a tone grows on some plant, or shrinks by less.
+    /// - [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the range, the
+    ///   `"cycle"` or the `"factor"`.
+    /// - [`Error::Inadmissible`] if the law is no P or PI, or if the loop without learning is
+    ///   not shown to be stable.
+    /// - [`Error::Inadmissible`] if there are too few cells for lead and filter, or so few that
+    ///   the loop responds above their Nyquist frequency.
+    /// - [`Error::Inadmissible`] if no proof was found: on some plant a tone of the learning
+    ///   error grows, or decays more slowly.
     pub fn try_new<T: Real>(
-        learning: &Learning<T>,
+        learning: &IterativeLearning<T>,
         cells: usize,
         cycle: &Interval<f64>,
         law: &Pid<T>,
@@ -149,7 +164,7 @@ impl LearningConvergence {
         let turn = Span::at(core::f64::consts::TAU);
         let own = |cycle: f64| turn * Span::at(cycle).recip();
         let phase = (Span::at(core::f64::consts::PI) * count.recip()).low;
-        // Without an integral the mean is learned as well, and shrinks like the rest.
+        // Without an integral the mean is learned as well, and decays like the rest.
         let (lowest, least) = match k_i == 0.0 {
             true => (0.0, 0.0),
             false => (own(cycle.high).low, phase),

@@ -1,36 +1,39 @@
-//! What can be promised of the adaptive law, of an observer and of learning, and under which assumptions.
+//! Error bounds and stability certificates for the controllers, with their assumptions.
 //!
-//! | certificate | of | what it bounds |
+//! | certificate | law and time | bounds |
 //! |---|---|---|
-//! | [`Theorem1`] | literal form, continuous time | limsup of \|e\|, as the paper has it |
-//! | [`Tightest`] | literal form, continuous time | the same with the best choice of its free constants |
-//! | [`Rms`] | literal form, continuous time | root mean square of e |
-//! | [`PeakContinuous`] | literal form, continuous time, boxes | limsup of \|e\| |
-//! | [`PeakSampled`] | lag form, sampled, boxes | \|e\| for all time: the box theorem |
-//! | [`PeakRounded`] | lag form, sampled, boxes, every rounding of the shipped step | \|e\| for all time |
-//! | [`RmsSampled`] | lag form, sampled, boxes | root mean square of e |
-//! | [`PerStep`] | lag form, sampled, boxes | V from step to step |
+//! | [`Theorem1`] | as published, continuous time | limsup of \|e\|, as in the paper |
+//! | [`Tightest`] | as published, continuous time | limsup of \|e\|, with the best choice of the free constants |
+//! | [`Rms`] | as published, continuous time | root mean square of e |
+//! | [`PeakContinuous`] | as published, continuous time, bounded estimates | limsup of \|e\| |
+//! | [`PeakSampled`] | first order, sampled, bounded estimates | \|e\| for all time (the box theorem) |
+//! | [`PeakRounded`] | first order, sampled, bounded estimates, every rounding of the shipped step | \|e\| for all time |
+//! | [`RmsSampled`] | first order, sampled, bounded estimates | root mean square of e |
+//! | [`PerStep`] | first order, sampled, bounded estimates | V from step to step |
 //!
-//! [`ObserverStability`] says something else, of a PI with a
-//! [`DisturbanceObserver`](crate::control::DisturbanceObserver): that it is stable with every plant
-//! of a range. [`LearningConvergence`] says of a PI with [`Learning`](crate::control::Learning) that
-//! it converges, with every plant of a range.
+//! Two further types certify a PI for every plant of a range:
+//! - [`ObserverStability`] certifies that a PI with a
+//!   [`DisturbanceObserver`](crate::control::DisturbanceObserver) is stable.
+//! - [`IterativeLearningConvergence`] certifies that a PI with
+//!   [`IterativeLearning`](crate::control::IterativeLearning) converges.
 //!
-//! Each of the table is made from an [`Adaptive`](crate::control::Adaptive) law and a [`Plant`]: what is
-//! known of it. What the two types can check is checked; what is left for the user to
-//! check is in [`Certificate::assumptions`], and in full in each type's documentation.
+//! Each certificate of the table is made from an [`Adaptive`](crate::control::Adaptive) law and
+//! a [`Plant`], the known ranges of the plant. The constructors check what these two types can
+//! check. [`Certificate::assumptions`] lists the assumptions that the user must check. The
+//! documentation of each type states them in full.
 //!
-//! **Theorem 1 is right and says nothing.** With Table 2, alpha = 0.5 and Delta = 7 N·m its
-//! bound is 1138 N·m, for a measured error of 0.3 N·m RMS. The others say something.
+//! **The bound of Theorem 1 is correct and vacuous.** With Table 2, alpha = 0.5 and Delta = 7
+//! N·m the bound is 1138 N·m. The measured error is 0.3 N·m RMS. The other certificates are
+//! useful.
 //!
-//! # Where the paper is corrected
-//! - (35)-(38) hold as limits superior, or for all time where V starts below
-//!   phi/theta; and `|e| <= sqrt(1 + lambda²)·delta` already, below `(1 + lambda)·delta`.
-//! - Delta = 7 N·m is kappa_eta, not the bound of `D_h = kappa_eta·eta + d + T0`: with
-//!   `|eta| <= 1` that is `kappa_eta + |T0| + |d|`, 7.056 N·m for the first set without d.
-//! - 0.2785 is W(1/e) = 0.27846, of `tanh`; the clamped sign has 1/4.
-//! - Remark 1 (less leakage, less error) is false for delta, which grows without bound as
-//!   the leakage goes to zero; it is true of the RMS certificate.
+//! # Corrections to the paper
+//! - (35)-(38) hold as limits superior, or for all time if V starts below phi/theta.
+//!   `|e| <= sqrt(1 + lambda²)·delta`, which is less than `(1 + lambda)·delta`.
+//! - Delta = 7 N·m is kappa_eta, not the bound of `D_h = kappa_eta·eta + d + T0`. With
+//!   `|eta| <= 1` the bound is `kappa_eta + |T0| + |d|`, 7.056 N·m for the first set without d.
+//! - The constant 0.2785 is W(1/e) = 0.27846, for `tanh`; the clamped sign has 1/4.
+//! - Remark 1 (less leakage, less error) is false for delta, which grows without bound as the
+//!   leakage goes to zero. The remark is true for the RMS certificate.
 //! - "control laws (26), (30)" are (19), (23).
 
 mod certificate;
@@ -54,7 +57,7 @@ mod zeros;
 
 pub use certificate::{Certificate, Kind};
 pub use dyadic::{Dyadic, Enclosure};
-pub use learning::LearningConvergence;
+pub use learning::IterativeLearningConvergence;
 pub use observer::ObserverStability;
 pub use peak::PeakContinuous;
 pub use per_step::PerStep;

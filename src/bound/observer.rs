@@ -1,41 +1,47 @@
-//! Robust stability of a PI with a disturbance observer, over a whole range of plants.
+//! Robust stability of a PI with a disturbance observer, over a range of plants.
 
 use super::plants::{PlantRange, Plants};
 use super::span::{Plane, Span};
 use super::zeros::{excluded, Closed};
-use crate::control::{Damping, DisturbanceObserver, Pid, PidSettings};
+use crate::control::{DerivativeSource, DisturbanceObserver, Pid, PidSettings};
 use crate::{Error, Real};
 
 /// A P or PI with a disturbance observer that is stable with every plant of a range.
 ///
-/// With `C = k_p + k_i/s`, `Q = 1/(tau·s + 1)²` and the observer's latency as `1/(L·s + 1)`, the
-/// loop is stable where no zero of
+/// With `C = k_p + k_i/s`, `Q = 1/(tau·s + 1)²` and the observer's latency as `1/(L·s + 1)`,
+/// the loop is stable if no zero of
 ///
 /// ```text
 /// F(s) = s·D~·((tau·s + 1)² − 1/(L·s + 1))
 ///        + f·alpha~·(1 + c/K·s)·e^(−theta·s)·((k_p·s + k_i)·(tau·s + 1)² + s·D/alpha)
 /// ```
-/// lies in the closed right half-plane (what was cancelled, `(L·s + 1)·(tau·s + 1)²`, has none there),
-/// `D = s²/wn² + 2·zeta·s/wn + 1` of the nominal plant and
-/// `D~ = f·s²/wn² + (f·2·zeta/wn + c/K)·s + 1` of the plant (both divided by s for a P).
+/// lies in the closed right half-plane. The cancelled factor `(L·s + 1)·(tau·s + 1)²` has no
+/// zero there. `D = s²/wn² + 2·zeta·s/wn + 1` belongs to the nominal plant, and
+/// `D~ = f·s²/wn² + (f·2·zeta/wn + c/K)·s + 1` to the plant (both divided by s for a P).
 ///
-/// *Proof.* For the nominal plant and `L = 0`, `F = (tau·s + 1)²·(s·D + alpha·(k_p·s + k_i))`, whose
-/// zeros are on the left by Routh. From there all numbers of the plant and L go along a straight
-/// line to a plant of the range and to the observer's latency, then the plant to any other of the
-/// range. For `|s| >= r` on the right the first term of F is the greater one, on all that way; so a
-/// zero could come over the imaginary axis alone, below r. There F is shown not to be zero, by
-/// intervals that are rounded outwards and halved until they show it (zero exclusion). ∎
+/// *Proof.* For the nominal plant and `L = 0`, `F = (tau·s + 1)²·(s·D + alpha·(k_p·s + k_i))`,
+/// whose zeros lie on the left by Routh. From there all numbers of the plant and L move along a
+/// straight line to a plant of the range and to the observer's latency. The plant then moves to any
+/// other plant of the range. In the right half-plane with `|s| >= r`, the first term of F is larger
+/// along this whole path. A zero could therefore cross only the imaginary axis, below r. There,
+/// intervals that are rounded outwards and bisected show that F is not zero (zero exclusion). ∎
 ///
-/// For single plants what is proved and what swings lie within a few per cent (test `bound`). Near the
-/// edge, and where the way leads through plants that swing, nothing is shown of a loop that is stable.
+/// For single plants the proved limit and the true stability limit agree within a few per cent
+/// (test `bound`). Near the limit the proof may fail for a stable loop. It may also fail if the
+/// path leads through unstable plants.
 ///
-/// Assumed beside: a plant of that form; continuous time, so samples much shorter than tau and 1/wn,
-/// and an observer's latency of at least one of them; lags of drive and sensor that act as a delay;
-/// neither a limit of the command nor that of the observer is met; friction and load are
-/// disturbances that stay bounded. The range of f covers each slope of a hysteresis by itself, which is
-/// no proof for one that changes along the path: a cable whose output falls while its input rises (f
-/// below zero) can be in no range, and with it the loop does swing. libm's sine and cosine err by
-/// less than 1e-12.
+/// Further assumptions:
+/// - a plant of this form;
+/// - continuous time: the sample time is much shorter than tau and 1/wn, and the observer's
+///   latency is at least one sample;
+/// - the lags of drive and sensor act as a delay;
+/// - neither the limit of the command nor the limit of the observer is active;
+/// - friction and load are bounded disturbances;
+/// - libm's sine and cosine have an error of less than 1e-12.
+///
+/// The range of f covers each slope of a hysteresis separately. This does not cover a slope that
+/// changes along the path. No range can contain a cable whose output falls while its input rises (f
+/// below zero). With such a cable the loop oscillates.
 ///
 /// Source: J. Ackermann, *Robust Control: Systems with Uncertain Physical Parameters*, 1993 (zero
 /// exclusion).
@@ -51,12 +57,12 @@ use crate::{Error, Real};
 ///     gain: within(0.6, 0.12),
 ///     natural_frequency: within(25.5, 0.06),
 ///     damping_ratio: within(0.265, 0.12),
-///     joint: within(0.0033, 0.12), // 0.5 N·m·s/rad beside 150 N·m/rad
+///     joint: within(0.0033, 0.12), // 0.5 N·m·s/rad over 150 N·m/rad
 ///     slope: Interval { low: 0.33, high: 1.0 },
 ///     latency: within(0.003, 0.12),
 /// };
 /// assert!(ObserverStability::try_new(&observer, &pi, &range).is_ok());
-/// // With 30 ms some of them would swing.
+/// // With 30 ms the loop would oscillate on some of them.
 /// let late = PlantRange { latency: Interval { low: 0.0026, high: 0.03 }, ..range };
 /// assert!(ObserverStability::try_new(&observer, &pi, &late).is_err());
 /// # Ok::<(), bowden::Error>(())
@@ -65,15 +71,15 @@ use crate::{Error, Real};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ObserverStability {
-    /// The plants that it holds for.
+    /// The plants of the certificate.
     pub plants: PlantRange,
-    /// Frequency r above which the first term is the greater one \[rad/s\].
+    /// Frequency r above which the first term is larger \[rad/s\].
     pub highest: f64,
-    /// How many boxes of plants and frequencies it took below.
+    /// Number of regions of plants and frequencies in the proof below r.
     pub boxes: u32,
 }
 
-/// What is the same for every plant.
+/// The common numbers of all plants.
 struct Loop {
     k_p: f64,
     k_i: f64,
@@ -86,13 +92,14 @@ struct Loop {
 }
 
 impl ObserverStability {
-    /// Shows that the loop is stable with every plant of the range.
+    /// Proves that the loop is stable with every plant of the range.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with what is wrong with the range;
-    /// [`Error::Inadmissible`] where the law is no P or PI, where the nominal loop without latency is
-    /// not stable, or where nothing could be shown: some plant is at the edge of stability, beyond it,
-    /// or nearly.
+    /// - [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the range.
+    /// - [`Error::Inadmissible`] if the law is no P or PI, or if the nominal loop without
+    ///   latency is not stable.
+    /// - [`Error::Inadmissible`] if no proof was found: some plant is unstable, or near the
+    ///   stability limit.
     pub fn try_new<T: Real>(
         observer: &DisturbanceObserver<T>,
         law: &Pid<T>,
@@ -143,16 +150,16 @@ impl ObserverStability {
 pub(super) fn proportional_and_integral<T: Real>(
     law: &PidSettings<T>,
 ) -> Result<(f64, f64), Error> {
-    if law.k_d != T::ZERO || matches!(law.damping, Damping::Velocity) {
+    if law.k_d != T::ZERO || matches!(law.damping, DerivativeSource::Velocity) {
         return Err(Error::Inadmissible("the law is a P or a PI"));
     }
     Ok((law.k_p.as_f64(), law.k_i.as_f64()))
 }
 
 impl Loop {
-    /// A frequency r so that for all `|s| >= r` on the right the first term of F is the
-    /// greater one, for all plants on the way from the first one. Both are divided by `|s|⁵`; then
-    /// the one falls and the other grows with `1/|s|`.
+    /// A frequency r so that for all `|s| >= r` on the right the first term of F is the greater
+    /// one, for all plants on the path from the first one. Both are divided by `|s|⁵`; then one
+    /// falls and the other grows with `1/|s|`.
     fn highest(&self, first: &Plants, all: &Plants) -> Option<f64> {
         let hull = first.hull(all);
         let (curvature, rate) = hull.denominator();
@@ -185,7 +192,7 @@ impl Closed for Loop {
         0.1 / self.filter
     }
 
-    /// A box around all values of F at these frequencies; of F/s for a P.
+    /// A region that contains all values of F at these frequencies; of F/s for a P.
     fn values(&self, w: Span, plants: &Plants) -> Plane {
         let (one, two) = (Span::at(1.0), Span::at(2.0));
         let square = w.square();

@@ -5,25 +5,35 @@ use super::{Certificate, Interval, Kind, Plant};
 use crate::control::Adaptive;
 use crate::{Error, Real};
 
-/// Peak of the error in continuous time, where the estimates have boxes.
+/// Peak of the error in continuous time, with bounds of the estimates.
 ///
-/// With `g = alpha·beta_hat` and `w = (g-1)·y_r + (g·theta_hat - theta)'x - D` the
-/// literal law is `s' = (lambda/g)·(w - g·delta_hat·T(s/eps)) - lambda·(k - 1 + 1/g)·s -
-/// (1 + lambda²·(1 - 1/g))·z`, `z' = s - lambda·z`. On the box `|s| <= S`,
-/// `|z| <= S/lambda` the worst corner is that where z pushes s out, so the box is invariant
-/// and attractive for `S = sup |w|/(g·kappa)`, where kappa is `k + 1/lambda²` if `g <=
-/// lambda²/(1 + lambda²)`, else `k - 1/lambda² + 2·(1/g - 1)`. Then `|e| <= |s| +
-/// lambda·|z| <= 2·S`.
+/// Let `g = alpha·beta_hat` and `w = (g-1)·y_r + (g·theta_hat - theta)'x - D`. The law as
+/// published is
 ///
-/// Assumed: the literal form in continuous time with e' known; the plant (11) with
-/// alpha, theta in the stated intervals, `|D| <= Delta`, `|y_r|` and `|x_i|` within what is
-/// stated; beta_hat's box above zero, delta_hat's not below; no limit met. The truth
-/// need not lie in the boxes; the estimates may do in them what they like.
+/// ```text
+/// s' = (lambda/g)·(w - g·delta_hat·T(s/eps)) - lambda·(k - 1 + 1/g)·s - (1 + lambda²·(1 - 1/g))·z
+/// z' = s - lambda·z
+/// ```
+///
+/// On the box `|s| <= S`, `|z| <= S/lambda` the worst corner is the one where z drives s
+/// outwards. The box is therefore invariant and attractive for `S = sup |w|/(g·kappa)`. Here
+/// kappa is `k + 1/lambda²` if `g <= lambda²/(1 + lambda²)`, otherwise
+/// `k - 1/lambda² + 2·(1/g - 1)`. Then `|e| <= |s| + lambda·|z| <= 2·S`.
+///
+/// Assumptions:
+/// - the law as published in continuous time with e' known;
+/// - the plant (11) with alpha and theta in the given intervals, and `|D| <= Delta`;
+/// - `|y_r|` and `|x_i|` within the given limits;
+/// - the bounds of beta_hat above zero, the bounds of delta_hat not below zero;
+/// - no active limit.
+///
+/// The true values need not lie within the bounds, and the estimates may move freely within
+/// them.
 ///
 /// ```
 /// use bowden::bound::{PeakContinuous, Plant};
 /// use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form};
-/// let literal = Form::Literal { time_constant: 0.005 };
+/// let literal = Form::AsPublished { time_constant: 0.005 };
 /// let law = Adaptive::try_new(AdaptiveSettings {
 ///     beta: Estimator::fixed(1.0), // alpha is known: g = 1
 ///     delta: Estimator::fixed(7.0).within(0.0, 8.0).adapting(0.00625, 0.01),
@@ -46,9 +56,9 @@ impl<T: Real> PeakContinuous<T> {
     /// The certificate of a law on a plant.
     ///
     /// # Errors
-    /// [`Error::NonFinite`], [`Error::OutOfRange`] with what is wrong with the plant;
-    /// [`Error::Inadmissible`] with the assumption that does not hold, or where the
-    /// boxes are too wide or k is too small for a bound.
+    /// [`Error::NonFinite`], [`Error::OutOfRange`] with the invalid part of the plant;
+    /// [`Error::Inadmissible`] with the violated assumption, or if the bounds of the estimates
+    /// are too wide or k is too small for a bound.
     pub fn try_new<const N: usize>(
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
@@ -75,7 +85,7 @@ impl<T: Real> PeakContinuous<T> {
         let s = bounded(push(law, plant, g, plant.reference) / stiffness)?;
         Ok(Self {
             s,
-            bound: bounded(T::of(2.0) * s)?,
+            bound: bounded(T::from_f64(2.0) * s)?,
         })
     }
 
@@ -95,7 +105,7 @@ fn g_kappa<T: Real>(gain: T, squared: T, g: T) -> T {
     if g * (T::one() + squared) <= squared {
         g * (gain + inverse)
     } else {
-        g * (gain - inverse) + T::of(2.0) * (T::one() - g)
+        g * (gain - inverse) + T::from_f64(2.0) * (T::one() - g)
     }
 }
 
@@ -106,8 +116,8 @@ pub(super) fn push<T: Real, const N: usize>(
     g: Interval<T>,
     reference: T,
 ) -> T {
-    let detuning = g.furthest_from(T::one());
-    // With no reference, an unbounded g does no harm: 0·inf would be NaN.
+    let detuning = g.max_distance_from(T::one());
+    // Without a reference, an unbounded g does no harm: 0·inf would be NaN.
     let reference = if reference == T::zero() {
         T::zero()
     } else {

@@ -5,28 +5,34 @@ use super::{Certificate, Interval, Kind, PeakSampled, Plant};
 use crate::control::{Adaptive, Form, Leakage};
 use crate::{Error, Real};
 
-/// `V⁺ <= (1 - h·rate)·V + h·input` for the lag form: Theorem 1 in sampled time.
+/// `V⁺ <= (1 - h·rate)·V + h·input` for the first-order form: Theorem 1 in sampled time.
 ///
-/// Here `V = s²/2 + z²/2 + sum c_p·(1 + h·sigma_p)·(p* - p_hat)²/(2·m_p)` over beta
-/// (c = alpha), delta and the thetas (c = 1). The factor (1 + h·sigma) is what the implicit
-/// leakage asks for: with it the cross terms cancel as in (28), exactly. Clamping
-/// into a box that holds the truth cannot raise V. What is left:
+/// Here `V = s²/2 + z²/2 + sum c_p·(1 + h·sigma_p)·(p* - p_hat)²/(2·m_p)` over beta (c =
+/// alpha), delta and the thetas (c = 1). The implicit leakage requires the factor (1 +
+/// h·sigma): with it the cross terms cancel as in (28), exactly. A clamp to bounds that contain
+/// the true value cannot raise V. The remaining terms are:
 ///
-/// - `rate = min(2·lambda, k·lambda, sigma_p/(1 + h·sigma_p))`: half of k·lambda·s² pays
-///   for xi;
+/// - `rate = min(2·lambda, k·lambda, sigma_p/(1 + h·sigma_p))`: half of k·lambda·s² compensates
+///   xi;
 /// - `input = sum c_p·sigma_p·(p* - p0)²/(2·m_p) + W_T·eps·lambda·target +
-///   lambda·S·(Delta - target) + Xi²/(2·k·lambda) + (h/2)·R`, where target is Delta or the
-///   end of delta_hat's box below it, and R bounds the second order in the box of
-///   [`PeakSampled`]: `((s⁺-s)/h)² + ((z⁺-z)/h)² + sum c_p·m_p·v_p²`.
+///   lambda·S·(Delta - target) + Xi²/(2·k·lambda) + (h/2)·R`,
+///   where target is Delta or the upper bound of delta_hat below Delta. R bounds the second
+///   order in the box of [`PeakSampled`]: `((s⁺-s)/h)² + ((z⁺-z)/h)² + sum c_p·m_p·v_p²`.
 ///
-/// Assumed beside what [`PeakSampled`] assumes: the errors are in its box; every sample takes
-/// the step h of the form; leakage is constant; the boxes hold the truth; and
-/// `h·rate <= 1`. As Theorem 1 it bounds everything and says little of the error.
+/// Further assumptions, in addition to those of [`PeakSampled`]:
+/// - the errors lie in its box;
+/// - every sample takes the step h of the form;
+/// - leakage is constant;
+/// - the bounds of the estimates contain the true values;
+/// - `h·rate <= 1`.
+///
+/// As with Theorem 1, the inequality bounds all errors, and the bound of the tracking error is
+/// loose.
 ///
 /// ```
 /// use bowden::bound::{PerStep, Plant};
 /// use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form};
-/// let lag = Form::Lag { step: 0.001, plant_gain: 1.0 };
+/// let lag = Form::FirstOrder { step: 0.001, plant_gain: 1.0 };
 /// let law = Adaptive::try_new(AdaptiveSettings {
 ///     beta: Estimator::fixed(1.0).within(0.95, 1.05).adapting(2.5e-4, 0.01),
 ///     delta: Estimator::fixed(7.0).within(0.0, 7.056).adapting(0.00625, 0.01),
@@ -39,15 +45,15 @@ use crate::{Error, Real};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PerStep<T> {
-    /// The box in which it holds.
+    /// The box of the errors in which it holds.
     pub within: PeakSampled<T>,
     /// h \[s\].
     pub step: T,
-    /// How fast V is lost \[1/s\].
+    /// Decay rate of V \[1/s\].
     pub rate: T,
-    /// How fast V is gained \[(N·m)²/s\].
+    /// Input rate of V \[(N·m)²/s\].
     pub input: T,
-    /// What delta_hat is measured against in V \[N·m\].
+    /// Reference value of delta_hat in V \[N·m\].
     pub target: T,
     lambda: T,
 }
@@ -56,18 +62,17 @@ impl<T: Real> PerStep<T> {
     /// The inequality of a law on a plant.
     ///
     /// # Errors
-    /// Those of [`PeakSampled::try_new`]; [`Error::Inadmissible`] with the assumption that
-    /// does not hold.
+    /// As [`PeakSampled::try_new`]; [`Error::Inadmissible`] with the violated assumption.
     pub fn try_new<const N: usize>(
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
     ) -> Result<Self, Error> {
         let within = PeakSampled::try_new(law, plant)?;
         let settings = law.settings();
-        let Form::Lag { step, .. } = settings.form else {
+        let Form::FirstOrder { step, .. } = settings.form else {
             return Err(Error::Inadmissible("the lag form"));
         };
-        let (gain, lambda, two) = (settings.gain, settings.lambda, T::of(2.0));
+        let (gain, lambda, two) = (settings.gain, settings.lambda, T::from_f64(2.0));
         let mut rate = if gain < two {
             gain * lambda
         } else {
@@ -90,7 +95,7 @@ impl<T: Real> PerStep<T> {
             return Err(Error::Inadmissible("leakage > 0 and h*rate <= 1"));
         }
         let deltas = range(&settings.delta, settings.frozen);
-        // What stays is measured against itself, also above Delta.
+        // A constant estimate is measured against itself, also above Delta.
         let target = if deltas.high < plant.delta || deltas.low == deltas.high {
             deltas.high
         } else {
@@ -121,13 +126,13 @@ impl<T: Real> PerStep<T> {
         })
     }
 
-    /// limsup `|e|` that follows: `(1 + lambda)·sqrt(2·input/rate)` \[N·m\].
+    /// The resulting bound of limsup `|e|`: `(1 + lambda)·sqrt(2·input/rate)` \[N·m\].
     #[must_use]
     pub fn certificate(&self) -> Certificate<T> {
         let v = self.input / self.rate;
         Certificate {
             kind: Kind::PerStep,
-            value: (T::one() + self.lambda) * (T::of(2.0) * v).sqrt(),
+            value: (T::one() + self.lambda) * (T::from_f64(2.0) * v).sqrt(),
         }
     }
 }
@@ -143,7 +148,7 @@ pub(super) fn second_order<T: Real, const N: usize>(
     let delta = range(&settings.delta, settings.frozen).high;
     let ds =
         lambda * g * (settings.gain * s + delta) + g * s / lambda + lambda * within.w + within.xi;
-    let dz = T::of(2.0) * s;
+    let dz = T::from_f64(2.0) * s;
     let mut rest = ds * ds + dz * dz;
     let mut virtual_command = settings.gain * s
         + s / (lambda * lambda)

@@ -1,9 +1,9 @@
-//! What is known of the plant `y = alpha·u - theta'x - D`, (11).
+//! Known ranges of the plant `y = alpha·u - theta'x - D`, (11).
 
 use crate::error::finite;
 use crate::{Error, Real};
 
-/// Where a constant of the plant is known to lie.
+/// Interval of a plant constant.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -16,7 +16,7 @@ pub struct Interval<T> {
 }
 
 impl<T: Real> Interval<T> {
-    /// A constant that is known.
+    /// A constant with a known value.
     #[must_use]
     pub fn exactly(value: T) -> Self {
         Self {
@@ -25,7 +25,7 @@ impl<T: Real> Interval<T> {
         }
     }
 
-    /// From one value to another, neither needs to be the lower.
+    /// The interval between two values, in any order.
     ///
     /// ```
     /// use bowden::bound::Interval;
@@ -43,12 +43,12 @@ impl<T: Real> Interval<T> {
     /// Greatest magnitude in the interval.
     #[must_use]
     pub fn magnitude(&self) -> T {
-        self.furthest_from(T::zero())
+        self.max_distance_from(T::zero())
     }
 
     /// Greatest distance from `point` in the interval.
     #[must_use]
-    pub fn furthest_from(&self, point: T) -> T {
+    pub fn max_distance_from(&self, point: T) -> T {
         let (low, high) = ((self.low - point).abs(), (self.high - point).abs());
         if low > high {
             low
@@ -58,13 +58,13 @@ impl<T: Real> Interval<T> {
     }
 }
 
-/// What is known of one regressor and its coefficient.
+/// Known ranges of one regressor and its coefficient.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Known<T> {
-    /// Where theta_i lies \[N·m/unit of the regressor\].
+    /// Interval of theta_i \[N·m/unit of the regressor\].
     pub theta: Interval<T>,
     /// Greatest `|x_i|` \[unit of the regressor\]; only peak certificates read it.
     pub magnitude: T,
@@ -72,7 +72,7 @@ pub struct Known<T> {
     pub rate: T,
 }
 
-/// What is known of the plant and its task: the input of every certificate.
+/// Known ranges of the plant and its task: the input of every certificate.
 ///
 /// ```
 /// use bowden::bound::{Interval, Plant};
@@ -94,10 +94,10 @@ pub struct Plant<T, const N: usize> {
     pub delta: T,
     /// Bound of the rate of D \[N·m/s\]; only sampled certificates read it.
     ///
-    /// Of the hysteresis: `kappa_eta·f/(B - kappa_eta·f)·|y'|` with f = rho·max(1,
-    /// 2·sigma), the steepest slope of eta in tau_i, since `tau_i' = y'/(B - kappa_eta·f)`
-    /// at worst. For the paper's first set with sigma = 1/2 and its reference, `|y_r'| <=
-    /// 22.24 N·m/s`, that is 45.7 N·m/s where y follows y_r.
+    /// For the hysteresis this rate is `kappa_eta·f/(B - kappa_eta·f)·|y'|` with f = rho·max(1,
+    /// 2·sigma). Here f is the steepest slope of eta in tau_i, since
+    /// `tau_i' = y'/(B - kappa_eta·f)` at worst. For the paper's first set with sigma = 1/2 and
+    /// its reference, `|y_r'| <= 22.24 N·m/s`, the rate is 45.7 N·m/s if y follows y_r.
     pub delta_rate: T,
     /// Coefficients and regressors.
     pub regressors: [Known<T>; N],
@@ -108,7 +108,8 @@ pub struct Plant<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> Plant<T, N> {
-    /// alpha \[N·m/command unit\] known, `|D| <= delta` \[N·m\]; all else is zero.
+    /// A plant with a known alpha \[N·m/command unit\] and `|D| <= delta` \[N·m\]; all else is
+    /// zero.
     #[must_use]
     pub fn new(alpha: T, delta: T) -> Self {
         Self {
@@ -121,7 +122,7 @@ impl<T: Real, const N: usize> Plant<T, N> {
         }
     }
 
-    /// Refuses what cannot be a plant.
+    /// Refuses numbers that cannot describe a plant.
     pub(super) fn check(&self) -> Result<(), Error> {
         ordered(&self.alpha, "alpha")?;
         if self.alpha.low <= T::zero() {

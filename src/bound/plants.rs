@@ -1,42 +1,43 @@
-//! A data sheet with its tolerances: plants between command and measured output.
+//! Nominal parameters with tolerances: plants between command and measured output.
 
 use super::plant::ordered;
 use super::span::Span;
 use super::Interval;
 use crate::Error;
 
-/// Where the plant between command and measured output lies: a data sheet with its tolerances.
+/// Range of the plant between command and measured output: nominal parameters with tolerances.
 ///
 /// ```text
 /// P~(s) = f·alpha·e^(−theta·s)/(1 + f·(s²/wn² + 2·zeta·s/wn)/(1 + c/K·s))
 /// ```
-/// With `f = 1` and `c/K = 0` it is the [`NominalPlant`](crate::control::NominalPlant) behind a delay. A
-/// damping c of the joint beside the stiffness K that it works against leads: 3 ms of it make up
-/// for 3 ms of latency, and a rig may be stable by that alone. Where the cable's output changes by f
-/// times as much as its input, as along the loop of its hysteresis, the motor works against a
-/// stiffness of K/f.
+/// With `f = 1` and `c/K = 0` the plant is the [`NominalPlant`](crate::control::NominalPlant)
+/// with a delay. A damping c of the joint, parallel to its stiffness K, gives phase lead: 3 ms
+/// of c/K compensate 3 ms of latency. A rig may be stable for this reason alone. Along the loop
+/// of a hysteresis the cable's output changes by f times its input. The motor then works
+/// against a stiffness of K/f.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PlantRange {
-    /// alpha \[output unit/command unit\], of the sign of the nominal one.
+    /// alpha \[output unit/command unit\], with the sign of the nominal alpha.
     pub gain: Interval<f64>,
     /// wn \[rad/s\], above zero.
     pub natural_frequency: Interval<f64>,
-    /// zeta, that of the drive alone; not below zero.
+    /// zeta of the drive alone; not below zero.
     pub damping_ratio: Interval<f64>,
     /// c/K of the joint \[s\], not below zero.
     pub joint: Interval<f64>,
-    /// f, above zero: 1 without a hysteresis; with one, in torque, with kappa_eta above zero and sigma
-    /// not below, from `1 − kappa_eta·rho·max(1, 2·sigma)/B` to 1.
+    /// f, above zero. Without a hysteresis f is 1. With a hysteresis in torque mode, with
+    /// kappa_eta and sigma above zero, the range is from `1 − kappa_eta·rho·max(1, 2·sigma)/B`
+    /// to 1.
     pub slope: Interval<f64>,
-    /// theta \[s\], not below zero: samples of delay, half a sample of hold, the lags of drive and
-    /// sensor.
+    /// theta \[s\], not below zero: samples of delay, half a sample of hold, the lags of drive
+    /// and sensor.
     pub latency: Interval<f64>,
 }
 
-/// Plants between bounds of every number, and the observer's latency beside them.
+/// Plants between bounds of every number, together with the observer's latency.
 #[derive(Clone, Copy)]
 pub(super) struct Plants {
     pub(super) gain: Span,
@@ -56,7 +57,7 @@ impl Plants {
         (self.slope * slow.square(), self.slope * rate + self.joint)
     }
 
-    /// Two halves, along the number that moves F most, and by how much that does.
+    /// Two halves, along the number that moves F most, and the size of this move.
     pub(super) fn halves(&self, frequency: f64) -> (f64, [Self; 2]) {
         let share = |span: Span| span.width() / span.middle().abs();
         let sizes = [
@@ -93,8 +94,8 @@ impl Plants {
         (most, [first, second])
     }
 
-    /// Routh's criterion of `s·D~ + alpha~·(k_p·s + k_i)`, or of `D~ + alpha~·k_p`: of plants without
-    /// latency, joint and hysteresis, beside a P or PI.
+    /// Routh's criterion for `s·D~ + alpha~·(k_p·s + k_i)`, or for `D~ + alpha~·k_p`: plants
+    /// without latency, joint and hysteresis, with a P or PI.
     pub(super) fn is_stable_with(&self, k_p: f64, k_i: f64) -> bool {
         let (curvature, rate) = self.denominator();
         let one = Span::at(1.0) + self.gain * Span::at(k_p);
@@ -104,7 +105,7 @@ impl Plants {
         holds && (k_i == 0.0 || (integral.low > 0.0 && margin.low > 0.0))
     }
 
-    /// One in their middle.
+    /// The plant in the middle.
     pub(super) fn middle(&self) -> Self {
         let middle = |span: Span| Span::at(span.middle());
         Self {
@@ -118,7 +119,7 @@ impl Plants {
         }
     }
 
-    /// These, others, and all between.
+    /// These plants, others, and all between.
     pub(super) fn hull(&self, other: &Self) -> Self {
         let hull = |a: Span, b: Span| Span {
             low: a.low.min(b.low),
@@ -135,7 +136,7 @@ impl Plants {
         }
     }
 
-    /// Between the one and the other, at a part of the way.
+    /// Between two plants, at a fraction of the path.
     pub(super) fn between(&self, other: &Self, part: Span) -> Self {
         let mix = |a: Span, b: Span| a + (b - a) * part;
         Self {
@@ -177,7 +178,7 @@ impl PlantRange {
         Ok(())
     }
 
-    /// All of it, beside an observer of this latency.
+    /// The whole range, with an observer of this latency.
     pub(super) fn all(&self, observed: f64) -> Plants {
         let span = |of: &Interval<f64>| Span {
             low: of.low,

@@ -1,4 +1,4 @@
-//! The RMS certificate: what Theorem 1's own algebra says of the mean square.
+//! The RMS certificate: a bound of the mean square from the algebra of Theorem 1.
 
 use super::truth::{adapting, bounded, literal, range, sum, Adapting};
 use super::{Certificate, Interval, Kind, Plant};
@@ -10,20 +10,24 @@ const NARROWINGS: u32 = 90;
 
 /// Root mean square of the error over a long time.
 ///
-/// Theorem 1 weighs every estimate; the mean of s² needs none. From (30), with
-/// `p_hat·p~ <= p*²/4` in place of (31)-(33), `V' <= -k·lambda·s² + phi_a`, where `phi_a
-/// = sum sigma_p·p*²/(4·m_p) + W·epsilon·lambda·Delta`; and rms(e) <= rms(s), since
-/// `s = e + lambda·z` gives ∫s² >= ∫e² where z starts at zero. So
+/// Theorem 1 weighs every estimate; the mean of s² needs no weights. From (30), with
+/// `p_hat·p~ <= p*²/4` instead of (31)-(33), `V' <= -k·lambda·s² + phi_a`, where
+/// `phi_a = sum sigma_p·p*²/(4·m_p) + W·epsilon·lambda·Delta`. Also rms(e) <= rms(s), since
+/// `s = e + lambda·z` gives ∫s² >= ∫e² if z starts at zero. So
 /// `rms(e) <= sqrt((phi_a + V(0)/T)/(k·lambda))`.
 ///
-/// delta_hat may be aimed at a target below Delta: then `c = Delta - target` is left,
-/// and `rms(s) <= (c + sqrt(c² + 4·k·(phi_a + V(0)/T)/lambda))/(2·k)`. Any target is a
-/// valid bound; the least is taken. Leakage to a prior p0 puts `p* - p0` in the
-/// place of p*; a switching leakage whose bound holds the truth adds nothing.
+/// delta_hat may have a target below Delta. The difference is `c = Delta - target`, and
+/// `rms(s) <= (c + sqrt(c² + 4·k·(phi_a + V(0)/T)/lambda))/(2·k)`. Any target gives a valid
+/// bound; the least bound is used. Leakage to a prior p0 replaces p* by `p* - p0`. A switching
+/// leakage whose bound contains the true value adds nothing.
 ///
-/// Assumed: the literal form in continuous time with e' known; the plant (11) with
-/// constant alpha, theta in the stated intervals and `|D| <= Delta` at every time;
-/// z(0) = 0; boxes, if any, that hold the truth; no limit met.
+/// Assumptions:
+/// - the law as published in continuous time with e' known;
+/// - the plant (11) with constant alpha, theta in the given intervals and `|D| <= Delta` at
+///   every time;
+/// - z(0) = 0;
+/// - bounds of the estimates, if any, that contain the true values;
+/// - no active limit.
 ///
 /// ```
 /// use bowden::bound::{Plant, Rms};
@@ -38,9 +42,10 @@ const NARROWINGS: u32 = 90;
 pub struct Rms<T> {
     /// The bound of rms(e) over a long time \[N·m\].
     pub bound: T,
-    /// The same with delta_hat aimed at Delta, or as near as its box allows \[N·m\].
+    /// The same bound with the target Delta, or the nearest value within the bounds of
+    /// delta_hat \[N·m\].
     pub at_full_target: T,
-    /// What delta_hat is best aimed at \[N·m\].
+    /// The best target of delta_hat \[N·m\].
     pub target: T,
     gain: T,
     lambda: T,
@@ -51,7 +56,7 @@ pub struct Rms<T> {
     /// W·epsilon.
     smoothing: T,
     delta: T,
-    /// Without its truth, which is the target. `None` where delta_hat stays.
+    /// Without its true value, which is the target. `None` if delta_hat is constant.
     adapting: Option<Adapting<T>>,
 }
 
@@ -59,8 +64,8 @@ impl<T: Real> Rms<T> {
     /// The certificate of a law on a plant.
     ///
     /// # Errors
-    /// [`Error::NonFinite`], [`Error::OutOfRange`] with what is wrong with the plant;
-    /// [`Error::Inadmissible`] with the assumption that does not hold.
+    /// [`Error::NonFinite`], [`Error::OutOfRange`] with the invalid part of the plant;
+    /// [`Error::Inadmissible`] with the violated assumption.
     pub fn try_new<const N: usize>(
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
@@ -82,7 +87,7 @@ impl<T: Real> Rms<T> {
         } else {
             plant.delta
         };
-        // An estimate that is always above Delta is aimed at its least value.
+        // An estimate that is always above Delta has its least value as target.
         let highest = if highest < lowest { lowest } else { highest };
         let adapting = adapting(&settings.delta, settings.frozen, Interval::exactly(highest))?;
         let mut certificate = Self {
@@ -105,12 +110,13 @@ impl<T: Real> Rms<T> {
         Ok(certificate)
     }
 
-    /// rms(e) over the first `duration` \[s\] \[N·m\], from an error of `start` \[N·m\].
+    /// Bound of rms(e) over the first `duration` \[s\] \[N·m\], from an initial error `start`
+    /// \[N·m\].
     ///
-    /// V(0) counts: with beta_hat starting at zero it dominates for minutes.
+    /// V(0) contributes: with beta_hat starting at zero it dominates for minutes.
     #[must_use]
     pub fn over(&self, duration: T, start: T) -> T {
-        let mut v = self.at_start + start * start * T::of(0.5);
+        let mut v = self.at_start + start * start * T::from_f64(0.5);
         if let Some(delta) = self.aim(self.target) {
             v += delta.at_start();
         }
@@ -131,24 +137,24 @@ impl<T: Real> Rms<T> {
         self.adapting.map(|delta| Adapting { truth, ..delta })
     }
 
-    /// The bound with delta_hat aimed at `target`, and `extra` beside phi_a.
+    /// The bound with the target `target` of delta_hat, and `extra` in addition to phi_a.
     fn aimed_at(&self, target: T, extra: T) -> T {
         let residue = self.aim(target).map_or(T::zero(), |delta| delta.residue());
         let smoothing = self.smoothing * self.lambda * target;
         let phi = self.phi + residue + smoothing + extra;
-        // More than Delta leaves nothing; less leaves the difference.
+        // A target above Delta has no difference; a lower target has one.
         let left = if target < self.delta {
             self.delta - target
         } else {
             T::zero()
         };
-        let root = (left * left + T::of(4.0) * self.gain * phi / self.lambda).sqrt();
-        (left + root) / (T::of(2.0) * self.gain)
+        let root = (left * left + T::from_f64(4.0) * self.gain * phi / self.lambda).sqrt();
+        (left + root) / (T::from_f64(2.0) * self.gain)
     }
 
-    /// Ternary search: where the bound is below a level is an interval of targets.
+    /// Ternary search: the targets with a bound below a level form an interval.
     fn best(&self, mut low: T, mut high: T) -> T {
-        let third = T::one() / T::of(3.0);
+        let third = T::one() / T::from_f64(3.0);
         for _ in 0..NARROWINGS {
             let (a, b) = (low + (high - low) * third, high - (high - low) * third);
             if self.aimed_at(a, T::zero()) < self.aimed_at(b, T::zero()) {

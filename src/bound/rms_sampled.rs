@@ -1,4 +1,4 @@
-//! The RMS certificate of the lag form in sampled time.
+//! The RMS certificate of the first-order form in sampled time.
 
 use super::per_step::second_order;
 use super::truth::{adapting, bounded, range, sum, Adapting};
@@ -6,26 +6,27 @@ use super::{Certificate, Interval, Kind, PeakSampled, Plant};
 use crate::control::{Adaptive, Form, Leakage};
 use crate::{Error, Real};
 
-/// Root mean square of the error of the lag form over a long time, in sampled time.
+/// Root mean square of the error of the first-order form over a long time, in sampled time.
 ///
-/// As [`Rms`](super::Rms), from the step of V that [`PerStep`](super::PerStep) bounds: with
-/// the leakage left out, `V⁺ <= V - h·k·lambda·s² + h·(lambda·c + Xi)·|s| + h·phi`, where
+/// The derivation is that of [`Rms`](super::Rms), from the step of V that
+/// [`PerStep`](super::PerStep) bounds. Without the leakage,
+/// `V⁺ <= V - h·k·lambda·s² + h·(lambda·c + Xi)·|s| + h·phi`, where
 ///
-/// - `phi = sum c_p·sigma_p·(p* - p0)²/(2·m_p) + W_T·eps·lambda·target + (h/2)·R`, R the
+/// - `phi = sum c_p·sigma_p·(p* - p0)²/(2·m_p) + W_T·eps·lambda·target + (h/2)·R`, with R the
 ///   second order in the box of [`PeakSampled`];
-/// - `c = Delta - target`; any target is valid, and the least bound is taken.
+/// - `c = Delta - target`; any target is valid, and the least bound is used.
 ///
-/// The mean of `|s|` is at most `rms(s)`, so that `k·lambda·rms(s)² <= (lambda·c +
-/// Xi)·rms(s) + phi + V(0)/T`: the best split of `k·lambda·s²` between what moves and what
-/// is left. From z = 0, `(1 - h·lambda)·sum(e²) <= sum(s²)` (`theorems/Decrease.v`), so
-/// `rms(e) <= rms(s)/sqrt(1 - h·lambda)`.
+/// The mean of `|s|` is at most `rms(s)`, so
+/// `k·lambda·rms(s)² <= (lambda·c + Xi)·rms(s) + phi + V(0)/T`: the best split of `k·lambda·s²`
+/// between the moving and the constant part. From z = 0, `(1 - h·lambda)·sum(e²) <= sum(s²)`
+/// (`theorems/Decrease.v`), so `rms(e) <= rms(s)/sqrt(1 - h·lambda)`.
 ///
-/// Assumed: what [`PerStep`](super::PerStep) assumes, and z(0) = 0.
+/// Assumptions: those of [`PerStep`](super::PerStep), and z(0) = 0.
 ///
 /// ```
 /// use bowden::bound::{Plant, RmsSampled};
 /// use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form};
-/// let lag = Form::Lag { step: 0.001, plant_gain: 1.0 };
+/// let lag = Form::FirstOrder { step: 0.001, plant_gain: 1.0 };
 /// let law = Adaptive::try_new(AdaptiveSettings {
 ///     beta: Estimator::fixed(1.0).within(0.95, 1.05).adapting(2.5e-4, 0.01),
 ///     delta: Estimator::fixed(7.0).within(0.0, 7.056).adapting(0.00625, 0.01),
@@ -40,9 +41,9 @@ use crate::{Error, Real};
 pub struct RmsSampled<T> {
     /// The bound of rms(e) over a long time \[N·m\].
     pub bound: T,
-    /// What delta_hat is best measured against \[N·m\].
+    /// The best reference value of delta_hat \[N·m\].
     pub target: T,
-    /// The box in which it holds.
+    /// The box of the errors in which it holds.
     pub within: PeakSampled<T>,
     /// phi without the part of delta_hat.
     phi: T,
@@ -53,7 +54,7 @@ pub struct RmsSampled<T> {
     gain: T,
     lambda: T,
     step: T,
-    /// Without its truth, which is the target. `None` where delta_hat stays.
+    /// Without its true value, which is the target. `None` if delta_hat is constant.
     adapting: Option<Adapting<T>>,
 }
 
@@ -64,15 +65,14 @@ impl<T: Real> RmsSampled<T> {
     /// The certificate of a law on a plant.
     ///
     /// # Errors
-    /// Those of [`PeakSampled::try_new`]; [`Error::Inadmissible`] with the assumption that
-    /// does not hold.
+    /// As [`PeakSampled::try_new`]; [`Error::Inadmissible`] with the violated assumption.
     pub fn try_new<const N: usize>(
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
     ) -> Result<Self, Error> {
         let within = PeakSampled::try_new(law, plant)?;
         let settings = law.settings();
-        let Form::Lag { step, .. } = settings.form else {
+        let Form::FirstOrder { step, .. } = settings.form else {
             return Err(Error::Inadmissible("the lag form"));
         };
         if step * settings.lambda >= T::one() {
@@ -84,7 +84,7 @@ impl<T: Real> RmsSampled<T> {
                 return Err(Error::Inadmissible("constant leakage of every estimate"));
             }
         }
-        let two = T::of(2.0);
+        let two = T::from_f64(2.0);
         let deltas = range(&settings.delta, settings.frozen);
         let stays = deltas.low == deltas.high;
         let highest = if deltas.high < plant.delta || stays {
@@ -124,15 +124,16 @@ impl<T: Real> RmsSampled<T> {
         Ok(found)
     }
 
-    /// rms(e) over the first `duration` \[s\] \[N·m\], from an error of `start` \[N·m\].
+    /// Bound of rms(e) over the first `duration` \[s\] \[N·m\], from an initial error `start`
+    /// \[N·m\].
     #[must_use]
     pub fn over(&self, duration: T, start: T) -> T {
-        let mut v = self.at_start + start * start * T::of(0.5);
+        let mut v = self.at_start + start * start * T::from_f64(0.5);
         if let Some(delta) = self.aim(self.target) {
             v += delta.at_start();
         }
         // V weighs each estimate by 1 + h·sigma, below two since h·rate <= 1.
-        self.aimed_at(self.target, T::of(2.0) * v / duration)
+        self.aimed_at(self.target, T::from_f64(2.0) * v / duration)
     }
 
     /// The bound over a long time as a certificate.
@@ -149,12 +150,12 @@ impl<T: Real> RmsSampled<T> {
         self.adapting.map(|delta| Adapting { truth, ..delta })
     }
 
-    /// The bound with delta_hat measured against `target`, and `extra` beside phi.
+    /// The bound with delta_hat measured against `target`, and `extra` in addition to phi.
     fn aimed_at(&self, target: T, extra: T) -> T {
-        let two = T::of(2.0);
+        let two = T::from_f64(2.0);
         let residue = self.aim(target).map_or(T::zero(), |d| two * d.residue());
         let phi = self.phi + residue + self.smoothing * target + extra;
-        // More than Delta leaves nothing; less leaves the difference.
+        // A target above Delta has no difference; a lower target has one.
         let left = if target < self.delta {
             self.lambda * (self.delta - target)
         } else {
@@ -162,14 +163,14 @@ impl<T: Real> RmsSampled<T> {
         };
         let linear = left + self.within.xi;
         let stiffness = self.gain * self.lambda;
-        let root = (linear * linear + T::of(4.0) * stiffness * phi).sqrt();
+        let root = (linear * linear + T::from_f64(4.0) * stiffness * phi).sqrt();
         let s = (linear + root) / (two * stiffness);
         s / (T::one() - self.step * self.lambda).sqrt()
     }
 
-    /// Ternary search: where the bound is below a level is an interval of targets.
+    /// Ternary search: the targets with a bound below a level form an interval.
     fn best(&self, mut low: T, mut high: T) -> T {
-        let third = T::one() / T::of(3.0);
+        let third = T::one() / T::from_f64(3.0);
         for _ in 0..NARROWINGS {
             let (a, b) = (low + (high - low) * third, high - (high - low) * third);
             if self.aimed_at(a, T::zero()) < self.aimed_at(b, T::zero()) {

@@ -1,4 +1,4 @@
-//! The box theorem: the peak certificate of the lag form in sampled time.
+//! The box theorem: the peak certificate of the first-order form in sampled time.
 
 use super::peak::push;
 use super::truth::{bounded, loop_gain};
@@ -6,34 +6,38 @@ use super::{Certificate, Interval, Kind, Plant};
 use crate::control::{Adaptive, Form};
 use crate::{Error, Real};
 
-/// The box theorem: peak of the error of the lag form in sampled time.
+/// The box theorem: peak of the error of the first-order form in sampled time.
 ///
-/// The closed loop is [`LagRecursion`](crate::control::LagRecursion), exactly. Let `W >=
-/// |w|`, `h·Xi >= |xi|` and `g⁻ <= g <= g⁺` hold for every sample, with estimates
-/// anywhere in their boxes. **If** `h·lambda <= 1`,
-/// `h·lambda·g⁺·(k + delta_max/eps) <= 1` and `k > 1/lambda²`, **then** the box
-/// `|s| <= S`, `|z| <= S/lambda` with `S = (W + Xi/lambda)/(g⁻·(k - 1/lambda²))` is
-/// invariant and attractive, and `|e| <= |s| + lambda·|z| <= 2·S`.
+/// The closed loop is exactly [`LagRecursion`](crate::control::LagRecursion). Let `W >= |w|`,
+/// `h·Xi >= |xi|` and `g⁻ <= g <= g⁺` hold for every sample, with estimates anywhere within
+/// their bounds. **If** `h·lambda <= 1`, `h·lambda·g⁺·(k + delta_max/eps) <= 1` and
+/// `k > 1/lambda²`, **then** the box `|s| <= S`, `|z| <= S/lambda` with
+/// `S = (W + Xi/lambda)/(g⁻·(k - 1/lambda²))` is invariant and attractive, and
+/// `|e| <= |s| + lambda·|z| <= 2·S`.
 ///
-/// *Proof.* `z⁺ = (1 - h·lambda)·z + h·s` stays by the first condition. By the second,
-/// `f(s) = s - h·lambda·g·(k·s + delta_hat·T(s/eps))` does not fall (the slope of T is
-/// at most one), and it is odd, so `|f(s)| <= f(S) <= S - h·lambda·g·k·S`. Then `|s⁺| <=
-/// S - h·lambda·g·k·S + h·g·S/lambda + h·lambda·W + h·Xi <= S`. Outside, at m·S with
-/// m > 1, the same line loses at least `h·lambda·g·(k - 1/lambda²)·(m - 1)·S`. ∎
+/// *Proof.* By the first condition `z⁺ = (1 - h·lambda)·z + h·s` stays in the box. By the second
+/// condition, `f(s) = s - h·lambda·g·(k·s + delta_hat·T(s/eps))` does not decrease (the slope of T
+/// is at most one). It is odd, so `|f(s)| <= f(S) <= S - h·lambda·g·k·S`. Then `|s⁺| <= S -
+/// h·lambda·g·k·S + h·g·S/lambda + h·lambda·W + h·Xi <= S`. Outside, at m·S with m > 1, the same
+/// line loses at least `h·lambda·g·(k - 1/lambda²)·(m - 1)·S`. ∎
 ///
-/// It needs s to be formed with z as the samples before left it; with z updated first
-/// the recursion is another. The worst corner is `s = S, z = -S/lambda`, and it is tight:
-/// an adversary reaches more than 0.99·S (test `bound`).
+/// The theorem requires that s uses z of the previous sample; if z is updated first, the recursion
+/// is different. The worst corner is `s = S, z = -S/lambda`, and the bound is tight: the worst
+/// disturbance reaches more than 0.99·S (test `bound`).
 ///
-/// Assumed beside: the plant (11) without dynamics, where y is of the u of the sample
-/// before; alpha and theta in the stated intervals and constant; D, y_r and x and their
-/// changes within what is stated; the next reference is the one that comes; no limit met.
-/// The truth need not lie in the boxes.
+/// Further assumptions:
+/// - the plant (11) has no dynamics, and y belongs to u of the previous sample;
+/// - alpha and theta are constant and lie in the given intervals;
+/// - D, y_r and x and their changes lie within the given limits;
+/// - the next reference is the true one;
+/// - no limit is active.
+///
+/// The true values need not lie within the bounds of the estimates.
 ///
 /// ```
 /// use bowden::bound::{Interval, PeakSampled, Plant};
 /// use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form};
-/// let lag = Form::Lag { step: 0.001, plant_gain: 1.0 };
+/// let lag = Form::FirstOrder { step: 0.001, plant_gain: 1.0 };
 /// let law = Adaptive::try_new(AdaptiveSettings {
 ///     beta: Estimator::fixed(1.0).within(0.95, 1.05).adapting(2.5e-4, 0.01),
 ///     delta: Estimator::fixed(7.0).within(0.0, 7.056).adapting(0.00625, 0.01),
@@ -61,7 +65,7 @@ pub struct PeakSampled<T> {
     pub s: T,
     /// 2·S \[N·m\]: `|e|` at every sample.
     pub bound: T,
-    /// Greatest `|u|` that the box needs \[command unit\]; the limits must allow it.
+    /// Greatest `|u|` in the box \[command unit\]; the limits must allow it.
     pub command: T,
 }
 
@@ -69,16 +73,16 @@ impl<T: Real> PeakSampled<T> {
     /// The certificate of a law on a plant.
     ///
     /// # Errors
-    /// [`Error::NonFinite`], [`Error::OutOfRange`] with what is wrong with the plant;
-    /// [`Error::Inadmissible`] with the assumption that does not hold, or where the
-    /// boxes are too wide for a bound.
+    /// [`Error::NonFinite`], [`Error::OutOfRange`] with the invalid part of the plant;
+    /// [`Error::Inadmissible`] with the violated assumption, or if the bounds of the estimates
+    /// are too wide for a bound.
     pub fn try_new<const N: usize>(
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
     ) -> Result<Self, Error> {
         plant.check()?;
         let settings = law.settings();
-        let Form::Lag { plant_gain, .. } = settings.form else {
+        let Form::FirstOrder { plant_gain, .. } = settings.form else {
             return Err(Error::Inadmissible("the lag form"));
         };
         if plant.alpha.high > plant_gain {
@@ -101,7 +105,7 @@ impl<T: Real> PeakSampled<T> {
         if settings.z_limit < s / lambda {
             return Err(Error::Inadmissible("z_limit >= S/lambda"));
         }
-        let two = T::of(2.0);
+        let two = T::from_f64(2.0);
         let torque = plant.reference + two * s + plant.delta + plant.weighted(|x| x.magnitude);
         Ok(Self {
             w,

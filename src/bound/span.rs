@@ -2,18 +2,18 @@
 
 use core::ops::{Add, Mul, Sub};
 
-/// The numbers from one to another.
+/// An interval of numbers.
 #[derive(Clone, Copy)]
 pub(super) struct Span {
     pub(super) low: f64,
     pub(super) high: f64,
 }
 
-/// More than an operation of two floats may err by, as a share of its result.
+/// Upper bound of the relative error of an operation of two floats.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 impl Span {
-    /// Every number: nothing is known.
+    /// The interval of all numbers: nothing is known.
     const ALL: Self = Self {
         low: f64::NEG_INFINITY,
         high: f64::INFINITY,
@@ -24,7 +24,7 @@ impl Span {
         Self { low: x, high: x }
     }
 
-    /// From one number to another, in either order, and what rounding may have taken of each.
+    /// From one number to another, in either order, widened by the rounding of each.
     pub(super) fn outward(a: f64, b: f64) -> Self {
         if a.is_nan() || b.is_nan() {
             return Self::ALL;
@@ -44,7 +44,7 @@ impl Span {
         self.high - self.low
     }
 
-    /// What is left of a quotient by zero: nothing that is known.
+    /// A quotient by zero: the interval of all numbers.
     pub(super) fn recip(self) -> Self {
         if self.low > 0.0 || self.high < 0.0 {
             return Self::outward(self.low.recip(), self.high.recip());
@@ -64,7 +64,7 @@ impl Span {
         Self { low, ..all }
     }
 
-    /// What it has in common with another.
+    /// The intersection with another interval.
     pub(super) fn meets(self, other: Self) -> Option<Self> {
         let (low, high) = (self.low.max(other.low), self.high.min(other.high));
         (low <= high).then_some(Self { low, high })
@@ -111,7 +111,7 @@ impl Mul for Span {
         ];
         let least = corners.iter().fold(f64::INFINITY, |m, x| m.min(*x));
         let most = corners.iter().fold(f64::NEG_INFINITY, |m, x| m.max(*x));
-        // `min` would pass over a NaN.
+        // `min` would ignore a NaN.
         match corners.iter().any(|x| x.is_nan()) {
             true => Self::ALL,
             false => Self::outward(least, most),
@@ -145,7 +145,7 @@ impl Plane {
 
     /// e^(−j·phase).
     ///
-    /// libm's sine and cosine are taken to err by less than 1e-12.
+    /// Assumption: libm's sine and cosine have an error of less than 1e-12.
     pub(super) fn late(phase: Span) -> Self {
         let (middle, reach) = (phase.middle(), 0.5 * phase.width() + 1e-12);
         let around = |x: f64| {
@@ -161,7 +161,8 @@ impl Plane {
         }
     }
 
-    /// Whether it lies on one side of a line through zero, that across its middle or an axis.
+    /// Whether it lies on one side of a line through zero: the line across its middle, or an
+    /// axis.
     pub(super) fn is_off_zero(self) -> bool {
         let towards = Self {
             re: Span::at(self.re.middle()),

@@ -1,4 +1,4 @@
-//! Theorem 1 of the paper, with its constants as the paper has them.
+//! Theorem 1 of the paper, with the paper's constants.
 
 use super::truth::{adapting, bounded, literal, stays, sum};
 use super::{Certificate, Interval, Kind, Plant};
@@ -7,16 +7,21 @@ use crate::{Error, Real};
 
 /// Theorem 1's phi, theta, delta and (1 + lambda)·delta, (34)-(38).
 ///
-/// With `V = s²/2 + z²/2 + alpha·beta~²/(2·gamma) + Delta~²/(2·mu) + sum
-/// theta~_i²/(2·mu_i)` (27), the law gives `V' <= -theta·V + phi` (34), so that
-/// limsup `|s|` and limsup `|z|` are at most `delta = sqrt(2·phi/theta)`, and limsup
-/// `|e| <= (1 + lambda)·delta`. A prior p0 puts `p* - p0` in the place of p* in phi.
+/// With `V = s²/2 + z²/2 + alpha·beta~²/(2·gamma) + Delta~²/(2·mu) + sum theta~_i²/(2·mu_i)`
+/// (27), the law gives `V' <= -theta·V + phi` (34). Therefore limsup `|s|` and limsup `|z|` are
+/// at most `delta = sqrt(2·phi/theta)`, and limsup `|e| <= (1 + lambda)·delta`. A prior p0
+/// replaces p* by `p* - p0` in phi.
 ///
-/// Assumed: the literal form in continuous time with e' known; the plant (11) with
-/// constant alpha, theta in the stated intervals and `|D| <= Delta` at every time; constant
-/// leakage above zero and a gain above zero in every estimate; boxes, if any, that hold
-/// the truth; no limit met. The algebra (27)-(34) is right. The number is of no use:
-/// leakage is the slowest rate by far, so theta is tiny and delta huge.
+/// Assumptions:
+/// - the law as published in continuous time with e' known;
+/// - the plant (11) with constant alpha, theta in the given intervals and `|D| <= Delta` at
+///   every time;
+/// - constant leakage above zero and a gain above zero in every estimate;
+/// - bounds of the estimates, if any, that contain the true values;
+/// - no active limit.
+///
+/// The algebra (27)-(34) is right. The bound is vacuous: leakage is by far the slowest rate, so
+/// theta is very small and delta very large.
 ///
 /// ```
 /// use bowden::bound::{Plant, Theorem1};
@@ -44,8 +49,8 @@ impl<T: Real> Theorem1<T> {
     /// The constants of a law on a plant.
     ///
     /// # Errors
-    /// [`Error::NonFinite`], [`Error::OutOfRange`] with what is wrong with the plant;
-    /// [`Error::Inadmissible`] with the assumption that does not hold.
+    /// [`Error::NonFinite`], [`Error::OutOfRange`] with the invalid part of the plant;
+    /// [`Error::Inadmissible`] with the violated assumption.
     pub fn try_new<const N: usize>(
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
@@ -53,7 +58,7 @@ impl<T: Real> Theorem1<T> {
         plant.check()?;
         literal(law)?;
         let settings = law.settings();
-        let two = T::of(2.0);
+        let two = T::from_f64(2.0);
         let lambda = settings.lambda;
         let mut theta = two * lambda;
         let mut slowest = |rate: T| {
@@ -64,7 +69,8 @@ impl<T: Real> Theorem1<T> {
         slowest(two * settings.gain * lambda);
         let leaking = [settings.beta, settings.delta];
         for estimator in leaking.iter().chain(&settings.theta) {
-            // One that stays at the truth is no part of V, and below it is refused elsewhere.
+            // An estimate at the true value is no part of V, and a lower one is refused
+            // elsewhere.
             if stays(estimator, settings.frozen) {
                 continue;
             }

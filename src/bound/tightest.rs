@@ -1,4 +1,4 @@
-//! Theorem 1 with the best choice of what its proof leaves free.
+//! Theorem 1 with the best choice of the constants that its proof leaves free.
 
 use super::truth::{adapting, bounded, literal, range, stays, sum, Adapting};
 use super::{Certificate, Interval, Kind, Plant};
@@ -7,10 +7,10 @@ use crate::{Error, Real};
 
 /// Theorem 1's bound of limsup `|e|` with the best choice of its free constants.
 ///
-/// The proof of [`Theorem1`](super::Theorem1) chooses more than it must. Let
-/// `V = s²/2 + c·z²/2 + ...` with any weight c, let delta_hat be measured against any target
-/// T up to Delta, and let theta be any rate below twice the slowest leakage. Then
-/// `V' <= -theta·V + phi` with
+/// The proof of [`Theorem1`](super::Theorem1) leaves some constants free. Let
+/// `V = s²/2 + c·z²/2 + ...` with any weight c. Measure delta_hat against any target T up to
+/// Delta. Let theta be any rate below twice the slowest leakage. Then `V' <= -theta·V + phi`
+/// with
 ///
 /// - `sum w_p·sigma_p²·(p* - p0)²/(4·m_p·(sigma_p - theta/2))` of the leakages, delta's with
 ///   T for p*;
@@ -18,18 +18,18 @@ use crate::{Error, Real};
 /// - `lambda²·(Delta - T)²/(4·a)` of the disturbance beyond the target, where
 ///   `a = k·lambda - theta/2 - (c - 1)²/(4·c·(lambda - theta/2))` is above zero;
 ///
-/// and `|e| <= sqrt((1 + lambda²/c)·2·phi/theta)`, since `e = s - lambda·z`. With c = 1,
-/// T = Delta and theta the slowest leakage that is (34)-(38), up to `(1 + lambda)`. For
-/// Table 2 the greatest term is the leakage of beta_hat, which no choice makes smaller.
+/// and `|e| <= sqrt((1 + lambda²/c)·2·phi/theta)`, since `e = s - lambda·z`. With c = 1, T =
+/// Delta and theta the slowest leakage this is (34)-(38), up to `(1 + lambda)`. For Table 2 the
+/// greatest term is the leakage of beta_hat, which no choice reduces.
 ///
-/// Assumed: what [`Theorem1`](super::Theorem1) assumes.
+/// Assumptions: those of [`Theorem1`](super::Theorem1).
 ///
 /// ```
 /// use bowden::bound::{Plant, Tightest};
 /// use bowden::control::Adaptive;
 /// let best = Tightest::try_new(&Adaptive::paper(), &Plant::new(0.5, 7.0_f64))?;
-/// assert!(best.bound < 100.0); // in place of 1138 N·m
-/// assert_eq!(best.to_blame().0, "leakage of beta_hat");
+/// assert!(best.bound < 100.0); // instead of 1138 N·m
+/// assert_eq!(best.dominant_term().0, "leakage of beta_hat");
 /// # Ok::<(), bowden::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,28 +41,28 @@ pub struct Tightest<T> {
     pub theta: T,
     /// c: weight of z² in V \[1/s²\].
     pub weight: T,
-    /// T \[N·m\]: what delta_hat is measured against.
+    /// T \[N·m\]: the reference value of delta_hat.
     pub target: T,
     /// The terms of phi \[(N·m)²/s\], in the order of [`NAMES`](Self::NAMES).
     pub terms: [T; 5],
 }
 
-/// What one choice is tried on.
+/// The data of one trial choice.
 struct Problem<'a, T, const N: usize> {
     law: &'a Adaptive<T, N>,
     plant: &'a Plant<T, N>,
-    /// Without its truth, which is the target.
+    /// Without its true value, which is the target.
     delta: Option<Adapting<T>>,
     targets: Interval<T>,
     /// Least leakage of an estimate in V \[1/s\].
     slowest: T,
 }
 
-/// Rounds of each search: the interval is cut to two thirds each time.
+/// Rounds of each search: each round reduces the interval to two thirds.
 const NARROWINGS: u32 = 36;
 
 impl<T: Real> Tightest<T> {
-    /// What each of the terms is.
+    /// Names of the terms.
     pub const NAMES: [&'static str; 5] = [
         "leakage of beta_hat",
         "leakage of delta_hat",
@@ -74,7 +74,7 @@ impl<T: Real> Tightest<T> {
     /// The best bound of a law on a plant.
     ///
     /// # Errors
-    /// Those of [`Theorem1::try_new`](super::Theorem1::try_new).
+    /// As [`Theorem1::try_new`](super::Theorem1::try_new).
     pub fn try_new<const N: usize>(
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
@@ -83,15 +83,15 @@ impl<T: Real> Tightest<T> {
         literal(law)?;
         let problem = Problem::try_new(law, plant)?;
         let zero = T::zero();
-        // theta as a share of the most that it may be, c by its logarithm.
-        let theta = |share: T| problem.slowest * T::of(2.0) * share;
+        // theta as a share of its maximum, c by its logarithm.
+        let theta = |share: T| problem.slowest * T::from_f64(2.0) * share;
         let best_weight = |theta: T| -> Result<Self, Error> {
-            let highest = T::of(16.0) * law.settings().gain * law.settings().lambda;
-            let top = (highest * law.settings().lambda + T::of(2.0)).ln();
+            let highest = T::from_f64(16.0) * law.settings().gain * law.settings().lambda;
+            let top = (highest * law.settings().lambda + T::from_f64(2.0)).ln();
             let at = |log: T| problem.at(theta, log.exp());
             at(narrowed(zero, top, |log| Ok(at(log)?.bound))?)
         };
-        let share = narrowed(T::of(1e-6), T::one() - T::of(1e-6), |share| {
+        let share = narrowed(T::from_f64(1e-6), T::one() - T::from_f64(1e-6), |share| {
             Ok(best_weight(theta(share))?.bound)
         })?;
         let best = best_weight(theta(share))?;
@@ -101,7 +101,7 @@ impl<T: Real> Tightest<T> {
 
     /// The greatest term of phi, and its share of phi.
     #[must_use]
-    pub fn to_blame(&self) -> (&'static str, T) {
+    pub fn dominant_term(&self) -> (&'static str, T) {
         let mut sum = T::zero();
         let mut greatest = (Self::NAMES[0], T::zero());
         for (name, term) in Self::NAMES.iter().zip(self.terms) {
@@ -164,7 +164,7 @@ impl<'a, T: Real, const N: usize> Problem<'a, T, N> {
     /// The bound at one theta and one c, with the best target.
     fn at(&self, theta: T, weight: T) -> Result<Tightest<T>, Error> {
         let settings = self.law.settings();
-        let (two, four, lambda) = (T::of(2.0), T::of(4.0), settings.lambda);
+        let (two, four, lambda) = (T::from_f64(2.0), T::from_f64(4.0), settings.lambda);
         let half = theta / two;
         let leaked = |estimate: &Adapting<T>| {
             let sigma = estimate.leakage.rate();
@@ -217,13 +217,13 @@ impl<'a, T: Real, const N: usize> Problem<'a, T, N> {
     }
 }
 
-/// Where a function that falls and then rises is least; any place is valid.
+/// The minimum of a function that falls and then rises; any place is valid.
 fn narrowed<T: Real>(
     mut low: T,
     mut high: T,
     of: impl Fn(T) -> Result<T, Error>,
 ) -> Result<T, Error> {
-    let third = T::one() / T::of(3.0);
+    let third = T::one() / T::from_f64(3.0);
     for _ in 0..NARROWINGS {
         let (a, b) = (low + (high - low) * third, high - (high - low) * third);
         // Infinite on both sides: the upper end is too far.
@@ -233,5 +233,5 @@ fn narrowed<T: Real>(
             high = b;
         }
     }
-    Ok(low + (high - low) * T::of(0.5))
+    Ok(low + (high - low) * T::from_f64(0.5))
 }

@@ -1,10 +1,10 @@
-//! Where the estimates are, and how far the truth is from their priors.
+//! Ranges of the estimates, and the distance of the true values from their priors.
 
 use super::{Interval, Plant};
 use crate::control::{Adaptive, Estimator, Leakage};
 use crate::{Error, Real};
 
-/// One estimate in the Lyapunov function: its gain, its leakage, the truth.
+/// One estimate in the Lyapunov function: its gain, its leakage, the true value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Adapting<T> {
@@ -18,35 +18,35 @@ pub(super) struct Adapting<T> {
 impl<T: Real> Adapting<T> {
     /// `(p* - prior)²` at worst.
     pub(super) fn distance_squared(&self) -> T {
-        let distance = self.truth.furthest_from(self.prior);
+        let distance = self.truth.max_distance_from(self.prior);
         distance * distance
     }
 
     /// Largest `(sigma/m)·(p_hat - prior)·(p* - p_hat)` over every p_hat.
     pub(super) fn residue(&self) -> T {
         if let Leakage::Switching { bound, .. } = self.leakage {
-            // It leaks only from beyond the truth, and that is towards the truth.
-            if self.truth.furthest_from(self.prior) <= bound {
+            // It leaks only from beyond the true value, and towards the true value.
+            if self.truth.max_distance_from(self.prior) <= bound {
                 return T::zero();
             }
         }
-        self.leakage.rate() * self.distance_squared() / (T::of(4.0) * self.gain)
+        self.leakage.rate() * self.distance_squared() / (T::from_f64(4.0) * self.gain)
     }
 
     /// `(p* - p_hat)²/(2·m)` at the start, at worst.
     pub(super) fn at_start(&self) -> T {
-        let distance = self.truth.furthest_from(self.initial);
-        distance * distance / (T::of(2.0) * self.gain)
+        let distance = self.truth.max_distance_from(self.initial);
+        distance * distance / (T::from_f64(2.0) * self.gain)
     }
 }
 
-/// Whether an estimate stays at its initial value.
+/// Whether an estimate is constant at its initial value.
 pub(super) fn stays<T: Real>(estimator: &Estimator<T>, frozen: bool) -> bool {
     let idle = estimator.gain == T::zero() && estimator.leakage.rate() == T::zero();
     frozen || idle
 }
 
-/// Where an estimate can be.
+/// Range of an estimate.
 pub(super) fn range<T: Real>(estimator: &Estimator<T>, frozen: bool) -> Interval<T> {
     if stays(estimator, frozen) {
         Interval::exactly(estimator.initial)
@@ -58,20 +58,20 @@ pub(super) fn range<T: Real>(estimator: &Estimator<T>, frozen: bool) -> Interval
     }
 }
 
-/// The estimate's part of the Lyapunov function; `None` where it stays at the truth.
+/// The estimate's part of the Lyapunov function; `None` if it is constant at the true value.
 ///
 /// # Errors
-/// [`Error::Inadmissible`] where it stays elsewhere, leaks without a gain, or its box does
-/// not hold the truth.
+/// [`Error::Inadmissible`] if it is constant at another value, leaks without a gain, or its
+/// bounds do not contain the true value.
 pub(super) fn adapting<T: Real>(
     estimator: &Estimator<T>,
     frozen: bool,
     truth: Interval<T>,
 ) -> Result<Option<Adapting<T>>, Error> {
     if stays(estimator, frozen) {
-        // What is off by rounding alone is at the truth.
-        let rounding = T::of(4.0) * T::epsilon() * truth.magnitude();
-        return if truth.furthest_from(estimator.initial) <= rounding {
+        // An error of rounding alone counts as the true value.
+        let rounding = T::from_f64(4.0) * T::epsilon() * truth.magnitude();
+        return if truth.max_distance_from(estimator.initial) <= rounding {
             Ok(None)
         } else {
             Err(Error::Inadmissible("an estimate adapts or is the truth"))
@@ -92,10 +92,10 @@ pub(super) fn adapting<T: Real>(
     }))
 }
 
-/// Sum over beta, weighted by alpha, and the thetas of what `of` takes from each.
+/// Sum of `of` over beta, weighted by alpha, and the thetas.
 ///
-/// Each is taken at worst over the plant's intervals. With beta* = 1/alpha what is taken of
-/// beta is `alpha·(1/alpha - p)²` up to a factor: convex in alpha, so worst at an end.
+/// Each is the worst case over the plant's intervals. With beta* = 1/alpha the value for beta
+/// is `alpha·(1/alpha - p)²` up to a factor: convex in alpha, so the worst case is at an end.
 pub(super) fn sum<T: Real, const N: usize>(
     law: &Adaptive<T, N>,
     plant: &Plant<T, N>,
@@ -156,7 +156,7 @@ pub(super) fn mismatch<T: Real, const N: usize>(
         let mut worst = T::zero();
         for g in [g.low, g.high] {
             for estimate in [estimate.low, estimate.high] {
-                let distance = known.theta.furthest_from(g * estimate);
+                let distance = known.theta.max_distance_from(g * estimate);
                 if distance > worst {
                     worst = distance;
                 }
@@ -171,7 +171,7 @@ pub(super) fn mismatch<T: Real, const N: usize>(
     })
 }
 
-/// The value, or an error where it is not finite.
+/// The value, or an error if it is not finite.
 pub(super) fn bounded<T: Real>(value: T) -> Result<T, Error> {
     if value.is_finite() {
         Ok(value)
@@ -182,7 +182,7 @@ pub(super) fn bounded<T: Real>(value: T) -> Result<T, Error> {
     }
 }
 
-/// The literal form, which the continuous certificates are of.
+/// The form as published, which the continuous certificates require.
 pub(super) fn literal<T: Real, const N: usize>(law: &Adaptive<T, N>) -> Result<(), Error> {
     if law.largest_step().is_some() {
         return Err(Error::Inadmissible("the literal form"));

@@ -4,24 +4,24 @@ use super::halving::Halving;
 use super::plants::Plants;
 use super::span::{Plane, Span};
 
-/// Most boxes of a proof: a tenth of a second or so on a computer.
+/// Most regions of a proof: about a tenth of a second on a computer.
 const MOST_BOXES: u32 = 400_000;
 
-/// Most halvings of a box.
+/// Most halvings of a region.
 const MOST_HALVINGS: u32 = 60;
 
 /// A closed loop, of which no zero may lie on the imaginary axis.
 pub(super) trait Closed {
-    /// A box around all values of its function at these frequencies.
+    /// A region that contains all values of its function at these frequencies.
     fn values(&self, frequency: Span, plants: &Plants) -> Plane;
 
     /// A frequency far below which the function hardly changes \[rad/s\].
     fn scale(&self) -> f64;
 }
 
-/// How many boxes it takes to show that no zero lies on the imaginary axis below a frequency
-/// \[rad/s\], neither on the straight way from a nominal plant to the middle of a range nor for any plant
-/// of the range; `None` where that could not be shown.
+/// Number of regions in the proof that no zero lies on the imaginary axis below a frequency
+/// \[rad/s\]. The proof covers the straight path from a nominal plant to the middle of a range,
+/// and every plant of the range. `None` if no proof was found.
 pub(super) fn excluded<C: Closed>(
     closed: &C,
     nominal: Plants,
@@ -50,12 +50,12 @@ pub(super) fn excluded<C: Closed>(
     (shown(way) && shown(Set::All(all))).then_some(halving.boxes)
 }
 
-/// Plants that are looked at together.
+/// Plants that are examined together.
 #[derive(Clone, Copy)]
 enum Set {
-    /// Those of a part of the way from the nominal plant, from 0 to 1.
+    /// The plants of a part of the path from the nominal plant, from 0 to 1.
     Way(Span),
-    /// All between bounds.
+    /// All plants between bounds.
     All(Plants),
 }
 

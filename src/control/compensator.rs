@@ -1,28 +1,28 @@
-//! The identified model turned round: which input gives the output that is wanted.
+//! Inverse of the identified model as a feed-forward.
 //!
 //! ```text
 //! tau_i = inverse transmission(desired − Σ gain·regressor, eta)
 //! ```
 //!
-//! What the bench has identified becomes a feed-forward: of a PI, or beside an adaptive
-//! law, so that "identified on the bench" can be compared with "adapted online". The
-//! inverse is exact along the path of the hysteresis, equations (5)-(7) turned round; the
-//! effects are evaluated at the motions that are given, and subtracted first.
+//! The feed-forward serves a PI or an adaptive law. It allows a comparison of identification on the
+//! bench with online adaptation. The inverse is exact along the path of the hysteresis, from
+//! equations (5)-(7). The effects are evaluated at the given motions and subtracted first.
 //!
-//! The model is the open loop's: it drifts from the plant where the plant is not the
-//! model. Feed it with the reference, not with the measured output: a noisy desired
-//! output destroys the hysteresis state ([`transmission`](crate::transmission)).
+//! The model runs in open loop: it drifts from the plant by the model error. Use the reference
+//! as its input, not the measured output: a noisy desired output destroys the hysteresis state
+//! ([`transmission`](crate::transmission)).
 
 use super::status::{fault_of_dt, unless_finite};
 use super::{Fault, Status};
-use crate::effect::{Effect, Motion, Situation};
+use crate::effect::{Effect, Inputs, Motion};
 use crate::error::finite;
-use crate::hysteresis::BoucWen;
+use crate::hysteresis::BoucWenState;
 use crate::model::{Model, ModelState, Sample, Source};
 use crate::signal::{clamp, Play, PlayState};
 use crate::transmission::{Inverse, Mode, Transmission};
 use crate::{Error, Real};
 
+mod applied;
 mod nearest;
 
 pub use nearest::{Changed, Lowered};
@@ -36,11 +36,11 @@ mod proofs;
 pub struct CompensatorInput<'a, T> {
     /// Since the previous sample \[s\]; above zero.
     pub dt: T,
-    /// The output that is wanted \[output unit\], such as tau_o \[N·m\].
+    /// Desired output \[output unit\], such as tau_o \[N·m\].
     pub desired: T,
-    /// The transmission's input with its rates, as it is now, for effects that read it.
+    /// The present input of the transmission with its rates, for effects that read it.
     pub input: Motion<T>,
-    /// The transmitted load: `tau_i` in torque mode, else a load channel.
+    /// The transmitted load: `tau_i` in torque mode, otherwise a load channel.
     pub load: T,
     /// All other channels, in the order that [`Source::Channel`] counts.
     pub channels: &'a [Motion<T>],
@@ -60,14 +60,14 @@ impl<T: Real> CompensatorInput<'_, T> {
     }
 }
 
-/// What a step of a [`Compensator`] gives.
+/// Output of a [`Compensator`]'s step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CompensatorOutput<T> {
     /// The transmission's input \[input unit\], such as tau_i \[N·m\]; finite.
     pub command: T,
-    /// A good sample, or what was wrong; the last good command is held then.
+    /// A good sample, or the fault; a fault holds the last good command.
     pub status: Status,
     /// Share of the effects in the output \[output unit\], zero on a bad sample.
     pub effects: T,
@@ -75,16 +75,16 @@ pub struct CompensatorOutput<T> {
     pub eta: T,
 }
 
-/// What the bench has seen of one source: the effects are not asked beyond it.
+/// Range of one source in the bench record: the effects do not extrapolate beyond it.
 ///
 /// ```
 /// use bowden::control::{BenchRange, Compensator};
 /// use bowden::effect::{Effect, Motion};
-/// use bowden::hysteresis::Shape;
+/// use bowden::hysteresis::BoucWen;
 /// use bowden::model::{Model, Source, Term};
 /// use bowden::transmission::Transmission;
 /// # fn main() -> Result<(), bowden::Error> {
-/// let cable = Transmission::torque(0.9978, 7.004, 0.05174, Shape::try_new(0.09582, 0.6, 3.871)?)?;
+/// let cable = Transmission::torque(0.9978, 7.004, 0.05174, BoucWen::try_new(0.09582, 0.6, 3.871)?)?;
 /// let (effect, source) = (Effect::DragCubic, Source::Channel(0));
 /// let model = Model::<f32, 1>::try_new(Some(cable), &[Term { effect, source, origin: 0.0, gain: -0.1 }])?;
 /// let high = Motion { position: 1.5, velocity: 3.0, acceleration: 20.0 };
@@ -99,7 +99,7 @@ pub struct CompensatorOutput<T> {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BenchRange<T> {
-    /// Which motion; of [`Source::Input`] the position is the load's range in torque mode.
+    /// The source; for [`Source::Input`] the position is the load's range in torque mode.
     pub source: Source,
     /// Least position, velocity and acceleration.
     pub low: Motion<T>,
@@ -122,7 +122,7 @@ impl<T: Real> BenchRange<T> {
         Ok(())
     }
 
-    fn confine(&self, motion: Motion<T>) -> Motion<T> {
+    fn clamp(&self, motion: Motion<T>) -> Motion<T> {
         let (low, high) = (self.low, self.high);
         Motion {
             position: clamp(motion.position, low.position, high.position),
@@ -132,22 +132,24 @@ impl<T: Real> BenchRange<T> {
     }
 }
 
-/// The model as a feed-forward: the input at which it gives the desired output.
+/// The model as a feed-forward: the input for which the model gives the desired output.
 ///
-/// Two choices are made for effects that depend on the answer itself: an effect that
-/// reads the transmission's input or the load sees the ones of the sample (the last
-/// command, say; that converges while the effect's slope in them is below the cable's
-/// gain), and an effect that reads eta sees that of the previous sample. Where no effect
-/// does so, the model's output after `command` is `desired`, to rounding.
+/// Two rules apply to effects that depend on the result:
+/// - An effect that reads the transmission's input or the load uses the values of the sample,
+///   for example the last command. This iteration converges if the effect's slope in these
+///   values is below the cable's gain.
+/// - An effect that reads eta uses eta of the previous sample.
+///
+/// Without such effects the model's output after `command` is `desired`, to rounding.
 ///
 /// ```
 /// use bowden::control::{Compensator, CompensatorInput, CompensatorState};
 /// use bowden::effect::{Effect, Motion};
-/// use bowden::hysteresis::Shape;
+/// use bowden::hysteresis::BoucWen;
 /// use bowden::model::{Model, Source, Term};
 /// use bowden::transmission::Transmission;
 ///
-/// let shape = Shape::try_new(0.09582, 0.6, 3.871)?;
+/// let shape = BoucWen::try_new(0.09582, 0.6, 3.871)?;
 /// let cable = Transmission::torque(0.9978, 7.004, 0.05174, shape)?; // [N·m]
 /// let (effect, source) = (Effect::Viscous, Source::Channel(0));
 /// let friction = Term { effect, source, origin: 0.0, gain: -0.5_f64 };
@@ -176,14 +178,17 @@ pub struct Compensator<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> Compensator<T, N> {
-    /// Turns a model round.
+    /// Inverts a model.
     ///
     /// # Errors
-    /// [`Error::Inadmissible`] where the model has no transmission, where that has no
-    /// inverse ([`Transmission::inverse`]), where a term is an output stage (delay,
-    /// lag): what reads the sum cannot be subtracted from it, or where one is an input
-    /// stage (a play in series): its inverse jumps. [`try_nearest`](Self::try_nearest)
-    /// takes such a model, and tells what it changed.
+    /// [`Error::Inadmissible`] in these cases:
+    /// - the model has no transmission;
+    /// - the transmission has no inverse ([`Transmission::inverse`]);
+    /// - a term is an output stage (delay, lag), which reads the sum and cannot be subtracted
+    ///   from it;
+    /// - a term is an input stage (a play in series), whose inverse jumps.
+    ///
+    /// [`try_nearest`](Self::try_nearest) accepts such a model and returns its changes.
     pub fn try_new(model: &Model<T, N>) -> Result<Self, Error> {
         let transmission = *model
             .transmission()
@@ -201,7 +206,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         Self::of(transmission, model.without_transmission())
     }
 
-    /// Of both parts, without ranges, longest `dt` and play.
+    /// A compensator of both parts, without ranges, longest `dt` and play.
     fn of(transmission: Transmission<T>, effects: Model<T, N>) -> Result<Self, Error> {
         Ok(Self {
             transmission,
@@ -214,10 +219,11 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         })
     }
 
-    /// The same, where a `dt` longer than this one is a bad sample \[s\]; any is good before.
+    /// The same compensator, for which a `dt` longer than this is a bad sample \[s\]; default:
+    /// no limit.
     ///
-    /// A counter that wrapped would age every memory of the model (creep, temperature) by
-    /// an hour.
+    /// Without a limit, a wrapped counter would advance every memory of the model (creep,
+    /// temperature) by an hour.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"longest_dt"`.
@@ -228,16 +234,18 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         Ok(Self { longest_dt, ..self })
     }
 
-    /// The same, where what the cable has to transmit passes through a [`Play`] of this half-width
-    /// \[output unit\], zero or more; zero is none.
+    /// The same compensator with a [`Play`] on the desired torque of the cable. The half-width
+    /// \[output unit\] is zero or more; zero means no play.
     ///
-    /// After each reversal the inverse is steep, the steeper the larger kappa_eta is within the bound
-    /// of [`Transmission::inverse`](crate::transmission::Transmission::inverse), and a model that was
-    /// fitted *at* that bound (`bowden close --invertible`) has no greatest steepness. A term that reads
-    /// a velocity from an encoder's counts reverses what is to be transmitted from sample to sample, and
-    /// the command chatters. A play of a little more than half of what one count makes of output takes
-    /// these reversals out, `|gain|·count/(2·time constant)` behind [`Rates`](crate::signal::Rates); the
-    /// model's output is then `desired` within the half-width.
+    /// After each reversal the inverse is steep. Its steepness grows with kappa_eta up to the bound
+    /// of [`Transmission::inverse`](crate::transmission::Transmission::inverse). For a model that
+    /// was fitted *at* this bound (`bowden identify --invertible`) the steepness has no limit.
+    ///
+    /// A term that reads a velocity from encoder counts reverses the desired torque from sample
+    /// to sample, and the command chatters. A play removes these reversals. Choose its
+    /// half-width a little above half of one count's effect on the output:
+    /// `|gain|·count/(2·time constant)` behind [`Rates`](crate::signal::Rates). The model's
+    /// output is then `desired` within the half-width.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"half_width"`.
@@ -246,14 +254,14 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         Ok(Self { play, ..self })
     }
 
-    /// The same, with motions clamped to what the bench has seen of each source.
+    /// The same compensator with motions clamped to the bench range of each source.
     ///
-    /// A curve that was fitted on the bench is then never extrapolated. Sources without
-    /// a range stay free; of two ranges of one source the later counts.
+    /// The clamp prevents extrapolation of a fitted curve. Sources without a range are not
+    /// clamped. Of two ranges for one source the later one applies.
     ///
     /// # Errors
-    /// [`Error::NonFinite`]; [`Error::Inadmissible`] where `low > high` or where no term
-    /// reads the channel.
+    /// [`Error::NonFinite`]; [`Error::Inadmissible`] if `low > high` or if no term reads the
+    /// channel.
     pub fn with_ranges(mut self, ranges: &[BenchRange<T>]) -> Result<Self, Error> {
         for range in ranges {
             range.check()?;
@@ -276,17 +284,19 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         Ok(self)
     }
 
-    /// The transmission that is inverted.
+    /// The inverted transmission.
     #[must_use]
     pub fn transmission(&self) -> &Transmission<T> {
         &self.transmission
     }
 
-    /// One sample: the input that makes the model's output `desired`.
+    /// One sample: the input for which the model's output is `desired`.
     ///
-    /// A bad sample (a `dt` that is not positive or too long, a desired output or a number that a
-    /// term reads that is not finite, a missing channel) leaves the state, but for the
-    /// count of bad ones, and holds the last good command, zero before the first one.
+    /// A bad sample holds the last good command, zero before the first one. It leaves the state
+    /// unchanged except for the count of bad samples. A sample is bad if
+    /// - `dt` is not positive or too long,
+    /// - the desired output or a number that a term reads is not finite, or
+    /// - a channel is missing.
     pub fn step(
         &self,
         state: &mut CompensatorState<T, N>,
@@ -296,6 +306,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
             Ok(effects) => (Status::Good, effects),
             Err(fault) => {
                 state.bad = state.bad.saturating_add(1);
+                state.before = state.hysteresis;
                 (Status::Held(fault), T::zero())
             }
         };
@@ -307,8 +318,8 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         }
     }
 
-    /// Moves the state by a good sample and returns the share of the effects; or what is wrong, and
-    /// nothing has moved.
+    /// Advances the state by a good sample and returns the share of the effects; otherwise
+    /// returns the fault and leaves the state unchanged.
     fn advance(
         &self,
         state: &mut CompensatorState<T, N>,
@@ -330,11 +341,11 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         if let Some(term) = self.effects.first_blind_term(&sample) {
             return Err(Fault::Regressor(u8::try_from(term).unwrap_or(u8::MAX)));
         }
-        let confine = |term, there: &mut Situation<T>| self.confine(term, there);
+        let clamp = |term, there: &mut Inputs<T>| self.clamp(term, there);
         let memories = &mut state.effects;
         let (before, clock) = (memories.memories(), memories.ticked(dt));
         let now = (clock.value, state.hysteresis.eta());
-        let effects = self.effects.effects(memories, &sample, now, confine);
+        let effects = self.effects.effects(memories, &sample, now, clamp);
         let wanted = desired - effects;
         let mut play = state.play;
         let target = if wanted.is_finite() {
@@ -342,27 +353,28 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         } else {
             wanted
         };
-        // The inverse holds what is out of the reach of floats; here that must be told.
+        // The inverse holds a value beyond the range of floats; this case is reported here.
         let cable = &self.transmission;
         let most = target.abs() + cable.offset().abs() + cable.kappa_eta().abs();
-        if !(T::of(2.0) * most / cable.gain()).is_finite() {
+        if !(T::from_f64(2.0) * most / cable.gain()).is_finite() {
             state.effects.restore(before);
             return Err(Fault::Overflow);
         }
         state.effects.set_clock(clock);
+        state.before = state.hysteresis;
         self.inverse.step(&mut state.hysteresis, target);
         state.play = play;
         state.bad = 0;
         Ok(effects)
     }
 
-    /// Takes what a term sees into the bench's ranges.
-    fn confine(&self, term: usize, there: &mut Situation<T>) {
+    /// Clamps the inputs of a term to the bench ranges.
+    fn clamp(&self, term: usize, there: &mut Inputs<T>) {
         if let Some(Some(range)) = self.term_ranges.get(term) {
-            there.motion = range.confine(there.motion);
+            there.motion = range.clamp(there.motion);
         }
         if let Some(range) = &self.input_range {
-            there.input = range.confine(there.input);
+            there.input = range.clamp(there.input);
             if self.transmission.mode() == Mode::Torque {
                 there.load = clamp(there.load, range.low.position, range.high.position);
             }
@@ -391,7 +403,9 @@ impl<T: Real, const N: usize> Compensator<T, N> {
 )]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CompensatorState<T, const N: usize> {
-    hysteresis: BoucWen<T>,
+    hysteresis: BoucWenState<T>,
+    /// The hysteresis before the last sample, from which the cable's input has moved.
+    before: BoucWenState<T>,
     effects: ModelState<T, N>,
     #[cfg_attr(feature = "serde", serde(default = "PlayState::new"))]
     play: PlayState<T>,
@@ -399,30 +413,32 @@ pub struct CompensatorState<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> CompensatorState<T, N> {
-    /// A state that has seen no sample, with the hysteresis at zero.
+    /// A new state, with the hysteresis at zero.
     #[must_use]
     pub fn new() -> Self {
-        Self::from_hysteresis(BoucWen::new())
+        Self::from_hysteresis(BoucWenState::new())
     }
 
-    /// The same, with the hysteresis state where the cable's is.
+    /// A new state with the hysteresis state of the cable.
     ///
     /// # Errors
-    /// As [`BoucWen::with_eta`], where `eta` is not finite or beyond ±1.
+    /// As [`BoucWenState::with_eta`], if `eta` is not finite or beyond ±1.
     pub fn with_eta(eta: T) -> Result<Self, Error> {
-        BoucWen::with_eta(eta).map(Self::from_hysteresis)
+        BoucWenState::with_eta(eta).map(Self::from_hysteresis)
     }
 
-    fn from_hysteresis(hysteresis: BoucWen<T>) -> Self {
+    fn from_hysteresis(hysteresis: BoucWenState<T>) -> Self {
         Self {
             hysteresis,
+            before: hysteresis,
             effects: ModelState::new(),
             play: PlayState::new(),
             bad: 0,
         }
     }
 
-    /// The last good command \[input unit\], zero before the first one.
+    /// The last good command \[input unit\], or the input that
+    /// [`applied`](Compensator::applied) has reported since; zero before the first one.
     #[must_use]
     pub fn command(&self) -> T {
         self.hysteresis.input().unwrap_or_else(T::zero)
@@ -434,7 +450,7 @@ impl<T: Real, const N: usize> CompensatorState<T, N> {
         self.hysteresis.eta()
     }
 
-    /// How many samples in a row were bad; stays at `u32::MAX`.
+    /// Number of bad samples in a row; saturates at `u32::MAX`.
     #[must_use]
     pub fn consecutive_bad(&self) -> u32 {
         self.bad

@@ -1,41 +1,45 @@
-//! What all controllers have in common, so that a loop can be written once.
+//! The common interface of the controllers, so one loop serves all of them.
 
-use super::{Adaptive, AdaptiveInput, AdaptiveState, Limits, Pid, PidInput, PidState, Status};
+use super::{
+    Adaptive, AdaptiveInput, AdaptiveState, Applied, Limits, Pid, PidInput, PidState, Status,
+};
 use crate::Real;
 
-/// What a step of any controller gives.
+/// Output of a controller's step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Output<T> {
-    /// What goes to the drive \[command unit\]: finite and within the limits.
+    /// Command for the drive \[command unit\]: finite and within the limits.
     pub command: T,
-    /// A good sample, or what was wrong and what is out instead.
+    /// Result of the sample: good, or the fault and the substitute command.
     pub status: Status,
 }
 
-/// One sample for any controller; each reads of it what it needs.
+/// One sample for any controller; each controller reads the fields that it needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoopSample<'a, T> {
-    /// Since the last call, also where that was a bad sample \[s\].
+    /// Time since the last call \[s\], after a bad sample too.
     pub dt: T,
     /// Reference y_r \[output unit\], such as \[N·m\].
     pub reference: T,
-    /// Reference at the next sample \[output unit\]; the lag form of the adaptive law reads it.
+    /// Reference at the next sample \[output unit\]; the first-order form of the adaptive law
+    /// reads it.
     pub next_reference: T,
     /// Measured output y \[output unit\].
     pub measured: T,
     /// Measured distal velocity \[rad/s\]; PIV reads it.
     pub velocity: T,
-    /// Regressors of an adaptive law; one that is not there is a bad sample.
+    /// Regressors of an adaptive law; a missing regressor makes the sample bad.
     pub regressors: &'a [T],
     /// Added to the command before the limits \[command unit\].
     pub feed_forward: T,
 }
 
 impl<T: Real> LoopSample<'_, T> {
-    /// A sample with a constant reference: `dt` \[s\], the torques \[N·m\], nothing else.
+    /// A sample with a constant reference: `dt` \[s\], the torques \[N·m\]; all other fields
+    /// are empty.
     #[must_use]
     pub const fn new(dt: T, reference: T, measured: T) -> Self {
         Self {
@@ -54,11 +58,11 @@ impl<T: Real> LoopSample<'_, T> {
 ///
 /// ```
 /// use bowden::control::{Controller, LoopSample, Pid, Status};
-/// /// One tick of a loop that does not care which law it runs.
+/// /// One tick of a loop that runs any law.
 /// fn tick<C: Controller<f32>>(law: &C, state: &mut C::State, at: &LoopSample<f32>) -> f32 {
 ///     let out = law.step(state, at);
 ///     if let Status::Safe(fault) = out.status {
-///         // tell the operator about `fault`; after `law.acknowledge(state)` the loop closes
+///         // report to the operator: `fault`; after `law.acknowledge(state)` the loop closes
 /// #       let _ = fault;
 ///     }
 ///     out.command
@@ -68,35 +72,39 @@ impl<T: Real> LoopSample<'_, T> {
 /// assert!(tick(&pi, &mut state, &LoopSample::new(0.001, 1.0, 0.5)) > 15.0);
 /// ```
 pub trait Controller<T: Real> {
-    /// What is remembered between samples; `Copy`, so that it can be saved. One that was read back
-    /// after the power was off goes through [`power_up`](Self::power_up) before its first step.
+    /// State between samples; `Copy`, so it can be saved. After a power-off, pass a stored
+    /// state through [`restore`](Self::restore) before its first step.
     type State: Copy;
 
-    /// A state that has seen no sample.
+    /// A new state, before the first sample.
     fn start(&self) -> Self::State;
 
-    /// One sample: the command \[command unit\], finite and within the limits from any state.
+    /// One sample: the command \[command unit\], finite and within the limits for any state.
     fn step(&self, state: &mut Self::State, at: &LoopSample<'_, T>) -> Output<T>;
 
-    /// Makes a state that was stored fit for a start: the power was off, and the command nearest to
-    /// zero is out. What an adaptive law has learned stays, and so does a fault that nobody has seen.
-    fn power_up(&self, state: &mut Self::State);
+    /// Prepares a stored state for a start after a power-off: the command becomes the one
+    /// nearest to zero. The estimates of an adaptive law stay, and so does a fault that is not
+    /// acknowledged.
+    fn restore(&self, state: &mut Self::State);
 
-    /// Starts so that the command goes on from `output` \[command unit\] without a jump.
+    /// Starts so that the command continues from `output` \[command unit\] without a jump.
     ///
-    /// Does nothing where the safe command is latched. A state of [`start`](Self::start) knows of no
-    /// fault: where one law follows another, ask [`is_latched`](Self::is_latched) of the one that ran,
-    /// and change over when it is not.
+    /// If the safe command is latched, this call does nothing. A state of
+    /// [`start`](Self::start) has no fault. To switch from one law to another, check
+    /// [`is_latched`](Self::is_latched) of the old law, and switch only if it is not latched.
     fn resume_from(&self, state: &mut Self::State, output: T, at: &LoopSample<'_, T>) -> Status;
 
-    /// Takes note that somebody has seen the fault: the next good sample closes the loop
-    /// again, from the safe command on.
+    /// Reports the drive's response to the last command, if the drive did not apply it.
+    fn applied(&self, state: &mut Self::State, applied: Applied<T>);
+
+    /// Acknowledges the fault: the next good sample closes the loop again, starting from the
+    /// safe command.
     fn acknowledge(&self, state: &mut Self::State);
 
-    /// Whether the safe command is out until somebody has seen the fault.
+    /// Whether the safe command is applied until the fault is acknowledged.
     fn is_latched(&self, state: &Self::State) -> bool;
 
-    /// The command that is out \[command unit\].
+    /// The applied command \[command unit\].
     fn command(&self, state: &Self::State) -> T;
 
     /// Range and slew rate of the command.
@@ -151,12 +159,16 @@ impl<T: Real> Controller<T> for Pid<T> {
         state.resume_from(self, output, &at.into())
     }
 
+    fn applied(&self, state: &mut PidState<T>, applied: Applied<T>) {
+        Self::applied(self, state, applied);
+    }
+
     fn acknowledge(&self, state: &mut PidState<T>) {
         state.acknowledge();
     }
 
-    fn power_up(&self, state: &mut PidState<T>) {
-        state.power_up(self);
+    fn restore(&self, state: &mut PidState<T>) {
+        state.restore(self);
     }
 
     fn is_latched(&self, state: &PidState<T>) -> bool {
@@ -164,7 +176,7 @@ impl<T: Real> Controller<T> for Pid<T> {
     }
 
     fn command(&self, state: &PidState<T>) -> T {
-        self.settings().limits.confine(state.command())
+        self.settings().limits.clamp(state.command())
     }
 
     fn limits(&self) -> &Limits<T> {
@@ -193,12 +205,16 @@ impl<T: Real, const N: usize> Controller<T> for Adaptive<T, N> {
         Self::resume(self, state, output, &at.into())
     }
 
+    fn applied(&self, state: &mut AdaptiveState<T, N>, applied: Applied<T>) {
+        state.applied(applied);
+    }
+
     fn acknowledge(&self, state: &mut AdaptiveState<T, N>) {
         state.acknowledge();
     }
 
-    fn power_up(&self, state: &mut AdaptiveState<T, N>) {
-        state.power_up(self);
+    fn restore(&self, state: &mut AdaptiveState<T, N>) {
+        state.restore(self);
     }
 
     fn is_latched(&self, state: &AdaptiveState<T, N>) -> bool {
@@ -206,7 +222,7 @@ impl<T: Real, const N: usize> Controller<T> for Adaptive<T, N> {
     }
 
     fn command(&self, state: &AdaptiveState<T, N>) -> T {
-        self.settings().limits.confine(state.command())
+        self.settings().limits.clamp(state.command())
     }
 
     fn limits(&self) -> &Limits<T> {

@@ -1,31 +1,32 @@
-//! Iterative learning: what a task that repeats has lacked so far, fed forward.
+//! Iterative learning: a feed-forward from the error of earlier cycles of a repeating task.
 //!
 //! ```text
 //! v(c) = (1 − forgetting)·learned(c) + gain·e(c + lead)     as soon as cell c + lead is left
 //! learned(c) = Σ w(k)·v(c + k), k from −half_width to half_width
 //! ```
-//! A cycle is divided into cells of equal phase, and e is the mean of `reference − measured` over a
-//! cell. The feed-forward is what the cells around the phase have learned, by straight lines
-//! between their middles. A cell learns `lead + half_width` cells after it was left, when all that
-//! it needs is known; so there is no end of a cycle with more to do than the rest, and steps, gait
-//! and wheels may go on without a pause.
+//! A cycle is divided into cells of equal phase, and e is the mean of `reference − measured`
+//! over a cell. The feed-forward interpolates linearly between the learned values at the
+//! middles of the cells. A cell learns `lead + half_width` cells after its end, when all
+//! required errors are known. The cost is therefore spread over the cycle, and a gait or a
+//! wheel needs no pause between cycles.
 //!
-//! The weights are a triangle, `w(k) = (M − |k|)/M²` with `M = half_width + 1`. The filter has no
-//! phase, and it passes from 0 to 1 of every tone (Fejér's kernel):
+//! The weights are a triangle, `w(k) = (M − |k|)/M²` with `M = half_width + 1`. The filter has
+//! zero phase, and its gain lies between 0 and 1 for every tone (Fejér's kernel):
 //!
 //! ```text
-//! Q(f) = (sin(M·x)/(M·sin(x)))², x = pi·f/(cells a second)
+//! Q(f) = (sin(M·x)/(M·sin(x)))², x = pi·f/(cells per second)
 //! ```
-//! It passes 0.71 of a tone at 0.32·(cells a second)/M.
+//! Its gain is 0.71 for a tone at 0.32·(cells per second)/M.
 //!
-//! What one cell can learn is limited, and so is the mean over cells that are. Hence the feed-forward
-//! is within ±limit whatever comes in; whether it *converges* depends on gain, lead, Q and the loop
-//! that it is added to ([`bound::LearningConvergence`](crate::bound::LearningConvergence)).
+//! The learned value of a cell is limited, and so is the mean over cells. Hence the
+//! feed-forward lies within ±limit for any input. *Convergence* depends on gain, lead, Q and
+//! the loop
+//! ([`bound::IterativeLearningConvergence`](crate::bound::IterativeLearningConvergence)).
 //!
 //! Sources: D. Bristow, M. Tharayil, A. Alleyne, "A survey of iterative learning control", *IEEE
 //! Control Systems Magazine* 26(3), 2006; J. Zhang, C. Cheah, S. Collins, "Experimental comparison
-//! of torque control methods on an ankle exoskeleton during human walking", *ICRA* 2015, where a
-//! proportional law with such a feed-forward did best of nine.
+//! of torque control methods on an ankle exoskeleton during human walking", *ICRA* 2015. There,
+//! a proportional law with such a feed-forward had the smallest error of nine methods.
 
 use super::status::unless_finite;
 use super::{Fault, Status};
@@ -37,40 +38,40 @@ mod ring;
 mod state;
 
 use ring::{back, between, next, triangle};
-pub use state::LearningState;
+pub use state::IterativeLearningState;
 
 #[cfg(kani)]
 #[path = "../../proofs/learning.rs"]
 mod proofs;
 
-/// Most cells that one sample may pass over.
+/// Most cells that one sample may skip.
 const MOST_PASSED: usize = 4;
 
-/// Samples of a cell after which its mean is taken to be known: a sum of many more would be wrong in
-/// `f32`, where somebody stands still for hours.
+/// Samples of a cell after which its mean counts as known. In `f32` a sum of many more would be
+/// wrong, for example after hours without motion.
 const MOST_SAMPLES: f64 = 65_536.0;
 
-/// Learning over a cycle that repeats: gain, lead, filter, limit, forgetting.
+/// Iterative learning over a repeating cycle: gain, lead, filter, limit, forgetting.
 ///
-/// What is learned stands in two buffers of the same length, a number a cell each: arrays, or slices
-/// that somebody else owns. A gait of 200 cells in `f32` takes 1600 bytes. Choose as many cells as the
-/// filter needs, some ten times its corner a second, and fewer than there are samples in the shortest
-/// cycle.
+/// The learned values are stored in two buffers of the same length, one number per cell: arrays,
+/// or borrowed slices. A gait of 200 cells in `f32` takes 1600 bytes. Choose about ten times
+/// the filter's corner frequency as the number of cells per second, and fewer cells than samples
+/// in the shortest cycle.
 ///
 /// ```
-/// use bowden::control::{Learning, LearningInput, Status};
-/// // 4 units a N·m, at most 30 units, two cells ahead, Q over five cells.
-/// let learning = Learning::try_new(4.0_f32, 30.0, 2, 2)?;
+/// use bowden::control::{IterativeLearning, IterativeLearningInput, Status};
+/// // 4 units per N·m, at most 30 units, two cells ahead, Q over five cells.
+/// let learning = IterativeLearning::try_new(4.0_f32, 30.0, 2, 2)?;
 /// let mut state = learning.start([0.0; 250], [0.0; 250])?;
 /// // A cycle of 1000 samples; 0.5 N·m are missing everywhere.
 /// for k in 0..2000 {
 ///     let phase = (k % 1000) as f32 / 1000.0;
-///     let at = LearningInput::new(phase, 20.0, 19.5); // [N·m], [N·m]
+///     let at = IterativeLearningInput::new(phase, 20.0, 19.5); // [N·m], [N·m]
 ///     let out = learning.step(&mut state, &at); // out.feed_forward into LoopSample
-///     // Held where there is no phase: after a few, a push-off should not be held on.
+///     // Held means no phase: after a few such samples, omit the feed-forward.
 ///     assert!(!matches!(out.status, Status::Held(_)));
 /// }
-/// // The cell has been taught twice: 4 units a N·m, each time.
+/// // The cell has learned twice: 4 units per N·m each time.
 /// assert!((state.learned()[100] - 4.0).abs() < 1e-5);
 /// # Ok::<(), bowden::Error>(())
 /// ```
@@ -87,7 +88,7 @@ const MOST_SAMPLES: f64 = 65_536.0;
         )
     )
 )]
-pub struct Learning<T> {
+pub struct IterativeLearning<T> {
     gain: T,
     limit: T,
     lead: u16,
@@ -95,7 +96,7 @@ pub struct Learning<T> {
     forgetting: T,
 }
 
-/// Its numbers after their checks, for any float and for constants.
+/// The checked numbers, for any float and for constants.
 macro_rules! learning {
     ($gain:ident, $limit:ident, $lead:ident, $half_width:ident, $zero:expr) => {{
         must_be_finite!($gain, "gain");
@@ -113,7 +114,7 @@ macro_rules! learning {
     }};
 }
 
-/// A share that is forgotten, likewise.
+/// The checked share of forgetting, likewise.
 macro_rules! forgetting {
     ($learning:ident, $share:ident, $zero:expr, $one:expr) => {{
         not_below_zero!($share, $zero, "forgetting");
@@ -129,7 +130,7 @@ macro_rules! forgetting {
 
 macro_rules! constant {
     ($float:ty) => {
-        impl Learning<$float> {
+        impl IterativeLearning<$float> {
             /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
             ///
             /// # Errors
@@ -156,25 +157,25 @@ macro_rules! constant {
 constant!(f32);
 constant!(f64);
 
-/// One sample for [`Learning`].
+/// One sample for [`IterativeLearning`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct LearningInput<T> {
-    /// Where in the cycle, from 0 to 1; 1 is 0 of the next one.
+pub struct IterativeLearningInput<T> {
+    /// Phase of the cycle, from 0 to 1; 1 equals 0 of the next cycle.
     pub phase: T,
     /// Reference y_r \[output unit\], such as \[N·m\].
     pub reference: T,
     /// Measured output y \[output unit\].
     pub measured: T,
-    /// Whether this sample is learned from. Not where a limit cut the command or the safe one is out,
-    /// and not where the task is another one: while somebody stands still, or holds the joint. Where
-    /// that is so of more than half of a cell's samples, the errors of the next `lead` cells, in which
-    /// its commands show, teach nothing either.
+    /// Whether the law learns from this sample. Set `false` if a limit cut the command, the
+    /// safe command is applied, or the task differs (standing, a held joint). If this holds for
+    /// more than half of a cell's samples, the law also ignores the errors of the next `lead`
+    /// cells.
     pub learns: bool,
 }
 
-impl<T: Real> LearningInput<T> {
-    /// A sample that is learned from.
+impl<T: Real> IterativeLearningInput<T> {
+    /// A sample from which the law learns.
     #[must_use]
     pub const fn new(phase: T, reference: T, measured: T) -> Self {
         Self {
@@ -186,26 +187,27 @@ impl<T: Real> LearningInput<T> {
     }
 }
 
-/// What a step of [`Learning`] gives.
+/// Output of an [`IterativeLearning`]'s step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct LearningOutput<T> {
-    /// To be added to the command \[command unit\]: finite and within ±limit in any case.
+pub struct IterativeLearningOutput<T> {
+    /// Value to be added to the command \[command unit\]: always finite and within ±limit.
     pub feed_forward: T,
-    /// A good sample; [`Status::Degraded`] where the feed-forward is of this phase but the error could
-    /// not be used or the phase has jumped; [`Status::Held`] where there is no phase, and the last
-    /// feed-forward stays.
+    /// Good: a good sample. [`Status::Degraded`]: the feed-forward belongs to this phase, but
+    /// the error was unusable or the phase has jumped. [`Status::Held`]: the phase is invalid,
+    /// and the last feed-forward stays.
     pub status: Status,
 }
 
-impl<T: Real> Learning<T> {
+impl<T: Real> IterativeLearning<T> {
     /// Most cells of a cycle.
     pub const MOST_CELLS: usize = u16::MAX as usize;
 
-    /// Learning without forgetting: `gain` of the error \[command unit/output unit\], not zero and
-    /// of the sign of the plant's; `limit > 0` of what is learned \[command unit\]; `lead` \[cells\],
-    /// by which a command comes before its effect; `half_width` of the triangle \[cells\].
+    /// Learning without forgetting: `gain` of the error \[command unit/output unit\], not zero
+    /// and with the sign of the plant's gain; `limit > 0` of the learned values \[command
+    /// unit\]; `lead` \[cells\] from a command to its effect; `half_width` of the triangle
+    /// \[cells\].
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"gain"` or `"limit"`.
@@ -213,9 +215,10 @@ impl<T: Real> Learning<T> {
         learning!(gain, limit, lead, half_width, T::ZERO)
     }
 
-    /// The same where a share from 0 to 1 of what a cell has learned is forgotten each time.
+    /// The same learning with a share from 0 to 1 of each learned value that is forgotten per
+    /// cycle.
     ///
-    /// An error then remains, and what never comes again fades.
+    /// An error then remains, and values that do not recur decay.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"forgetting"`.
@@ -230,41 +233,41 @@ impl<T: Real> Learning<T> {
         self.gain
     }
 
-    /// Greatest magnitude of what is learned \[command unit\].
+    /// Greatest magnitude of the learned values \[command unit\].
     #[inline]
     #[must_use]
     pub const fn limit(&self) -> T {
         self.limit
     }
 
-    /// How many cells a command comes before its effect.
+    /// Number of cells from a command to its effect.
     #[inline]
     #[must_use]
     pub const fn lead(&self) -> u16 {
         self.lead
     }
 
-    /// Half width of the triangle \[cells\]; 0 filters nothing.
+    /// Half width of the triangle \[cells\]; 0 means no filter.
     #[inline]
     #[must_use]
     pub const fn half_width(&self) -> u16 {
         self.half_width
     }
 
-    /// Share of what a cell has learned that is forgotten each time.
+    /// Share of a learned value that is forgotten per cycle.
     #[inline]
     #[must_use]
     pub const fn forgetting(&self) -> T {
         self.forgetting
     }
 
-    /// Fewest cells that a cycle has: `lead + 2·half_width + 9`.
+    /// Fewest cells of a cycle: `lead + 2·half_width + 9`.
     #[must_use]
     pub const fn fewest_cells(&self) -> usize {
         self.lead as usize + 2 * self.half_width as usize + 2 * MOST_PASSED + 1
     }
 
-    /// Refuses a number of cells that a cycle cannot have.
+    /// Checks a number of cells.
     ///
     /// # Errors
     /// [`Error::Inadmissible`] with fewer than [`fewest_cells`](Self::fewest_cells);
@@ -279,24 +282,24 @@ impl<T: Real> Learning<T> {
         Ok(())
     }
 
-    /// A state that has learned nothing, over two buffers with a number a cell, which are set to
-    /// zero.
+    /// A new state over two buffers with one number per cell; both are set to zero.
     ///
     /// # Errors
-    /// [`Error::Inadmissible`] where the buffers differ in length, or as
-    /// [`check_cells`](Self::check_cells) of it.
+    /// [`Error::Inadmissible`] if the buffers differ in length; otherwise as
+    /// [`check_cells`](Self::check_cells).
     pub fn start<M: AsRef<[T]> + AsMut<[T]>>(
         &self,
         mut learned: M,
         unfiltered: M,
-    ) -> Result<LearningState<T, M>, Error> {
+    ) -> Result<IterativeLearningState<T, M>, Error> {
         self.check(learned.as_ref(), unfiltered.as_ref())?;
         learned.as_mut().fill(T::ZERO);
         self.resume(learned, unfiltered)
     }
 
-    /// A state that has learned what the first buffer holds, such as a copy of
-    /// [`LearningState::learned`] from before a reset; confined to the limit, and zero for NaN.
+    /// A state with the learned values of the first buffer, such as a copy of
+    /// [`IterativeLearningState::learned`] from before a reset. Values are clamped to the
+    /// limit, and NaN becomes zero.
     ///
     /// # Errors
     /// As [`start`](Self::start).
@@ -304,14 +307,14 @@ impl<T: Real> Learning<T> {
         &self,
         mut learned: M,
         mut unfiltered: M,
-    ) -> Result<LearningState<T, M>, Error> {
+    ) -> Result<IterativeLearningState<T, M>, Error> {
         self.check(learned.as_ref(), unfiltered.as_ref())?;
         let both = learned.as_mut().iter_mut().zip(unfiltered.as_mut());
         for (cell, before) in both {
             *cell = self.confined(*cell);
             *before = *cell;
         }
-        Ok(LearningState::over(learned, unfiltered))
+        Ok(IterativeLearningState::over(learned, unfiltered))
     }
 
     fn check(&self, learned: &[T], unfiltered: &[T]) -> Result<(), Error> {
@@ -321,33 +324,33 @@ impl<T: Real> Learning<T> {
         self.check_cells(learned.len())
     }
 
-    /// One sample: what is to be added to the command at this phase.
+    /// One sample: returns the value to be added to the command at this phase.
     ///
-    /// Call it at every sample, before the controller, with the state of this learning. Whatever
-    /// state and buffers hold, the feed-forward is finite and within ±limit. It moves as fast as what
-    /// was learned does from one phase to the next, and where the phase jumps it jumps too: a slew rate
-    /// of the controller's [`Limits`](crate::control::Limits) holds for the sum.
+    /// Call this method at every sample, before the controller, with the state of this learning.
+    /// For any state and buffers the feed-forward is finite and within ±limit. A jump of the phase
+    /// causes a jump of the feed-forward. A slew rate in the controller's
+    /// [`Limits`](crate::control::Limits) limits the sum.
     ///
-    /// - A phase that is not from 0 to 1 moves nothing and holds the feed-forward, for as long as there
-    ///   is none: the controller sees good samples, so its safe command does not come. Where a phase
-    ///   may stay away, add nothing after a few such samples.
-    /// - Where reference or measured output are not finite, the feed-forward goes on from the phase, and
-    ///   the sample teaches nothing.
-    /// - Where the phase has jumped, by more than four cells in a sample or more than four back, the cell
-    ///   that was left does not learn. Nor do the `lead` cells before the one that it came to: they were
-    ///   not passed, and the errors are not theirs. (A step that ends early at the heel's contact is
-    ///   such a jump; the last `lead + half_width` cells before it do not learn then.)
-    /// - While it is up to four cells behind, as one that trembles is, nothing is learned. One that
-    ///   trembles by more goes through cells several times, and teaches them each time: filter it, or
-    ///   let `learns` be false.
-    /// - The longest step is one in which four cells are passed; a cell that is left takes a sum over
+    /// - A phase outside 0 to 1 changes nothing and holds the feed-forward. For the controller such
+    ///   samples are good, so the fallback does not act. If the phase signal can fail, omit the
+    ///   feed-forward after a few such samples.
+    /// - If the reference or the measured output is not finite, the feed-forward follows the
+    ///   phase, and the law does not learn from the sample.
+    /// - A jump is more than four cells forward or back in one sample. After a jump the cell before
+    ///   it does not learn. The `lead` cells before the new cell do not learn either: they were
+    ///   skipped, so the errors do not belong to them. A step that ends early at heel contact is
+    ///   such a jump; the last `lead + half_width` cells before it do not learn.
+    /// - While the phase is up to four cells behind (jitter), the law does not learn. With larger
+    ///   jitter the phase passes cells several times, and the law learns each time: filter the
+    ///   phase, or set `learns` to `false`.
+    /// - The longest step passes four cells; each cell at its end takes a sum over
     ///   `2·half_width + 1` cells.
     #[inline]
     pub fn step<M: AsRef<[T]> + AsMut<[T]>>(
         &self,
-        state: &mut LearningState<T, M>,
-        at: &LearningInput<T>,
-    ) -> LearningOutput<T> {
+        state: &mut IterativeLearningState<T, M>,
+        at: &IterativeLearningInput<T>,
+    ) -> IterativeLearningOutput<T> {
         let status = match state.place(at.phase) {
             Some((cell, part)) => {
                 let fault = self.gather(state, cell, at);
@@ -363,20 +366,20 @@ impl<T: Real> Learning<T> {
             state.missed = state.missed.saturating_add(1);
         }
         state.output = self.confined(state.output);
-        LearningOutput {
+        IterativeLearningOutput {
             feed_forward: state.output,
             status,
         }
     }
 
-    /// Takes a sample into the mean of its cell, after the cells before have learned; what was wrong
-    /// with it.
+    /// Adds a sample to the mean of its cell after earlier cells have learned; returns the
+    /// fault, if there is one.
     #[inline]
     fn gather<M: AsRef<[T]> + AsMut<[T]>>(
         &self,
-        state: &mut LearningState<T, M>,
+        state: &mut IterativeLearningState<T, M>,
         cell: usize,
-        at: &LearningInput<T>,
+        at: &IterativeLearningInput<T>,
     ) -> Option<Fault> {
         let moved = match state.cell == cell {
             true => Moved::On,
@@ -390,19 +393,19 @@ impl<T: Real> Learning<T> {
             return of_reference.or(of_measured).or(Some(Fault::Overflow));
         }
         let gathers = at.learns && !matches!(moved, Moved::Back);
-        if gathers && state.count < T::of(MOST_SAMPLES) {
+        if gathers && state.count < T::from_f64(MOST_SAMPLES) {
             state.sum += error;
             state.count += T::ONE;
         }
         matches!(moved, Moved::Jumped).then_some(Fault::Phase)
     }
 
-    /// Goes on to another cell. The cells that were passed over learn what the last one has, where
-    /// that was learned from at all.
+    /// Moves to another cell. Skipped cells learn the error of the last cell, if the law
+    /// learned from that cell.
     #[inline(never)]
     fn moved<M: AsRef<[T]> + AsMut<[T]>>(
         &self,
-        state: &mut LearningState<T, M>,
+        state: &mut IterativeLearningState<T, M>,
         cell: usize,
     ) -> Moved {
         let cells = state.learned().len();
@@ -437,11 +440,11 @@ impl<T: Real> Learning<T> {
         }
     }
 
-    /// The error of a cell that was left reaches the one that comes `lead` before it, and the one
-    /// for which it was the last that was missing.
+    /// Adds the error of a finished cell to the cell that lies `lead` before it, and to the
+    /// cell that lacked only this error.
     fn learn<M: AsRef<[T]> + AsMut<[T]>>(
         &self,
-        state: &mut LearningState<T, M>,
+        state: &mut IterativeLearningState<T, M>,
         left: usize,
         error: T,
     ) {
@@ -466,14 +469,14 @@ impl<T: Real> Learning<T> {
     }
 }
 
-/// How the phase went on.
+/// How the phase has advanced.
 enum Moved {
     On,
     Back,
     Jumped,
 }
 
-/// What is read before it is checked.
+/// The stored form, before its checks.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -488,7 +491,7 @@ struct Unchecked<T> {
 }
 
 #[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Unchecked<T>> for Learning<T> {
+impl<T: Real> TryFrom<Unchecked<T>> for IterativeLearning<T> {
     type Error = Error;
     fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
         Self::try_new(raw.gain, raw.limit, raw.lead, raw.half_width)?

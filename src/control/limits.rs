@@ -1,4 +1,4 @@
-//! What a command may be: a range and, if wanted, a slew rate.
+//! Limits of a command: a range and an optional slew rate.
 
 use crate::error::{above_zero, ordered};
 use crate::signal::{clamp, confined};
@@ -6,8 +6,9 @@ use crate::{Error, Real};
 
 /// Range \[command unit\] and slew rate \[command unit/s\] of a command.
 ///
-/// In a stored form a missing `slew` is none. The range may be asymmetric. [`Limits::unlimited`] is the range of the float itself, so
-/// that a command is finite in any case.
+/// In a stored form a missing `slew` means no slew rate. The range may be asymmetric.
+/// [`Limits::unlimited`] is the range of the float itself, so a command is finite in any
+/// case.
 ///
 /// ```
 /// use bowden::control::Limits;
@@ -104,12 +105,13 @@ impl<T: Real> Limits<T> {
 
     /// The same range with a slew rate above zero \[command unit/s\].
     ///
-    /// A slew rate below `2·k_p·noise·rate` (noise: the largest change of the measured output
-    /// between samples, rate: samples per second) cuts off what the noise asks for, and the
-    /// loop may oscillate: choose a greater one, or a smaller gain.
+    /// A slew rate below `2·k_p·noise·rate` limits the response to noise, and the loop may
+    /// oscillate. Here noise is the largest change of the measured output between samples, and
+    /// rate is the number of samples per second. Choose a greater slew rate or a smaller gain.
     ///
-    /// The command moves in floats: where `slew·dt` is below the distance of two of them, about
-    /// 1.2e-7 of the command in `f32`, it moves by one of these steps in a sample or by none.
+    /// The command is a float. The distance of two floats is about 1.2e-7 of the command in
+    /// `f32`. If `slew·dt` is below it, a sample moves the command by one distance or not at
+    /// all.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"slew"`.
@@ -129,7 +131,7 @@ impl<T: Real> Limits<T> {
         self.high
     }
 
-    /// Slew rate \[command unit/s\], where there is one.
+    /// Slew rate \[command unit/s\], if there is one.
     #[must_use]
     pub const fn slew(&self) -> Option<T> {
         self.slew
@@ -141,11 +143,11 @@ impl<T: Real> Limits<T> {
         self.low <= command && command <= self.high
     }
 
-    /// The command nearest to `wanted` that can follow `last` after `dt` \[s\].
+    /// The command nearest to `wanted` that is reachable from `last` within `dt` \[s\].
     ///
-    /// Always within the range, also where `last` is not, and within `slew·dt` of
-    /// `last` where that can be had. NaN in `wanted` or in a `last` that is needed
-    /// stays NaN; controllers refuse it before.
+    /// The result always lies within the range, even if `last` does not. It lies within
+    /// `slew·dt` of `last` if the range permits. NaN in `wanted` or in a required `last` stays
+    /// NaN; controllers reject such a number earlier.
     #[inline]
     #[must_use]
     pub fn apply(&self, last: T, wanted: T, dt: T) -> T {
@@ -161,21 +163,22 @@ impl<T: Real> Limits<T> {
 }
 
 impl<T: Real> Limits<T> {
-    /// The command within the range that is nearest to `command`; zero's nearest for NaN.
+    /// The command within the range that is nearest to `command`. For NaN it is the one nearest
+    /// to zero.
     #[inline]
     #[must_use]
-    pub fn confine(&self, command: T) -> T {
+    pub fn clamp(&self, command: T) -> T {
         confined(command, self.low, self.high)
     }
 }
 
-/// From where to where one gets from `last` within `reach`.
+/// The interval that is reachable from `last` within `reach`.
 #[inline]
 pub(crate) fn around<T: Real>(last: T, reach: T) -> (T, T) {
     (last - reach, last + reach)
 }
 
-/// What is read before it is checked.
+/// The stored form, before its checks.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]

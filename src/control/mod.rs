@@ -1,29 +1,40 @@
-//! Torque controllers that a bad sample cannot poison.
+//! Torque controllers that reject bad samples.
 //!
-//! Configuration and state are apart: a controller is checked once, in `try_new`, may
-//! live in flash and never changes; its state is `Copy` and can be saved and restored.
-//! One call a sample, with the time since the last one, which may vary.
+//! Configuration and state are separate types. `try_new` checks a configuration once; it never
+//! changes afterwards and can be stored in flash. A state is `Copy` and can be saved and
+//! restored. Call `step` once a sample with the time since the last call; this time may vary.
 //!
-//! **Bad samples.** A NaN or an infinity in a measurement, in the reference or in `dt`, or
-//! a `dt` that is not positive or longer than the longest that was stated, leaves the state
-//! as it was and holds the last good command; the [`Status`] says which input it was. After
-//! too many the [`Fallback`]'s safe command goes out **and stays out** until
-//! [`acknowledge`](Controller::acknowledge). The command is finite and within the
-//! [`Limits`] in every case, whatever the state is. Finite numbers that cannot be true are
-//! for [`signal::Plausible`](crate::signal::Plausible), in front of a controller.
+//! **Bad samples.** A sample is bad if
+//! - a measurement, the reference or `dt` is NaN or infinite, or
+//! - `dt` is not positive or exceeds the longest `dt` of the configuration.
 //!
-//! **In flash.** Every configuration has a `const` constructor for `f32` and `f64`, which
-//! the compiler checks: see [`constant!`](crate::constant).
+//! A bad sample leaves the state unchanged and holds the last good command; the [`Status`]
+//! names the bad input. After too many bad samples the [`Fallback`] applies its safe command
+//! and latches it until [`acknowledge`](Controller::acknowledge). The command is finite and
+//! within the [`Limits`] for any state. Use [`signal::Plausible`](crate::signal::Plausible) in
+//! front of a controller to reject finite but implausible numbers.
 //!
-//! | controller | what it is | equations |
+//! **In flash.** These configurations have a `const` constructor for `f32` and `f64`, which the
+//! compiler checks (see [`constant!`](crate::constant)):
+//! - every configuration of the table except the [`Compensator`],
+//! - [`Limits`], [`Fallback`], [`NominalPlant`],
+//! - every configuration of [`signal`](crate::signal),
+//! - [`BoucWen`](crate::hysteresis::BoucWen) and
+//!   [`Transmission`](crate::transmission::Transmission).
+//!
+//! A `Compensator` is built at run time because it holds a [`Model`](crate::model::Model). The
+//! effects of a model have generic constructors, which cannot be `const`.
+//!
+//! | controller | description | equations |
 //! |---|---|---|
 //! | [`Pid`] | PI, PID, PIV | (14)-(16) |
-//! | [`Adaptive`] | the robust adaptive law over any number of regressors | (17)-(26) |
-//! | [`Compensator`] | the identified model turned round, as a feed-forward | (5)-(7) |
-//! | [`DisturbanceObserver`] | what friction and load take, given back through a feed-forward | |
-//! | [`Learning`] | what a task that repeats has lacked so far, through a feed-forward | |
+//! | [`Adaptive`] | robust adaptive law with any number of regressors | (17)-(26) |
+//! | [`Compensator`] | inverse of the identified model as a feed-forward | (5)-(7) |
+//! | [`DisturbanceObserver`] | estimate of friction and load, added through a feed-forward | |
+//! | [`IterativeLearning`] | feed-forward learned from the error of earlier cycles | |
+//! | [`Relay`] | relay experiment that measures ultimate gain and period, for PI gains | |
 //!
-//! [`Controller`] is what the first two have in common: a loop can be written once.
+//! [`Controller`] is the common interface of the first two.
 
 mod adaptive;
 mod compensator;
@@ -32,21 +43,30 @@ mod learning;
 pub(crate) mod limits;
 mod observer;
 pub(crate) mod pid;
+mod relay;
 pub(crate) mod status;
 
 pub use adaptive::{
     Adaptive, AdaptiveInput, AdaptiveOutput, AdaptiveSettings, AdaptiveState, AdaptiveTerms,
-    Disturbance, ErrorState, Estimator, Form, LagRecursion, Leakage, Missing, SmoothSign,
+    Disturbance, ErrorState, Estimator, Form, LagRecursion, Leakage, OnMissing, SmoothSign,
 };
 pub use compensator::{
     BenchRange, Changed, Compensator, CompensatorInput, CompensatorOutput, CompensatorState,
     Lowered,
 };
 pub use controller::{Controller, LoopSample, Output};
-pub use learning::{Learning, LearningInput, LearningOutput, LearningState};
+pub use learning::{
+    IterativeLearning, IterativeLearningInput, IterativeLearningOutput, IterativeLearningState,
+};
 pub use limits::Limits;
 pub use observer::{
     DisturbanceObserver, NominalPlant, ObserverInput, ObserverOutput, ObserverState,
 };
-pub use pid::{AntiWindup, Damping, Pid, PidInput, PidOutput, PidSettings, PidState, PidTerms};
-pub use status::{Fallback, Fault, Status};
+pub use pid::{
+    AntiWindup, DerivativeSource, Pid, PidInput, PidOutput, PidSettings, PidState, PidTerms,
+};
+pub use relay::{
+    PiGains, PiRule, Relay, RelayFailure, RelayOutput, RelayPhase, RelaySettings, RelayState,
+    Ultimate,
+};
+pub use status::{Applied, Fallback, Fault, Status};

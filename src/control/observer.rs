@@ -1,4 +1,4 @@
-//! A disturbance observer: what friction, load and a wrong gain take from the command.
+//! Disturbance observer: estimates and compensates friction, load and a gain error.
 //!
 //! ```text
 //! P(s)  = alpha/(s²/wn² + 2·zeta·s/wn + 1)      the nominal plant, without friction
@@ -6,16 +6,17 @@
 //! d_hat = Q·u_sent − Q·P⁻¹·y                    added to the next command
 //! ```
 //!
-//! What the nominal plant would have needed for the measured output is compared with the
-//! command that went out; the difference, through Q, is what something else took, and is
-//! added to the next command. Below `1/tau` the loop around it then meets the nominal plant in
-//! place of the one with friction, as long as no limit is met. It needs no model of the friction; it
-//! does need alpha, wn and zeta, from a data sheet or a bench record. The adaptive law needs none of
-//! these.
+//! The observer compares the command that the nominal plant needs for the measured output with
+//! the applied command. It filters the difference through Q and adds it to the next command.
+//! Below `1/tau` the loop then sees the nominal plant instead of the plant with friction, as
+//! long as no limit acts.
 //!
-//! It is a block in front of a controller's `feed_forward`, and bounded by its own limit
-//! whatever comes in. Beside it belongs the nominal plant's own inverse along the
-//! reference ([`NominalPlant::feed_forward`]), not an identified model's
+//! The observer needs no friction model. It needs alpha, wn and zeta, from the drive's
+//! specification or from a bench record. The adaptive law needs none of these three.
+//!
+//! Connect the observer to a controller's `feed_forward`; its own limit bounds it for any
+//! input. Combine it with the nominal plant's own inverse along the reference
+//! ([`NominalPlant::feed_forward`]). Do not combine it with an identified model
 //! ([`Compensator`](super::Compensator)): both would compensate the friction.
 //!
 //! Source: T. Umeno, Y. Hori, "Robust speed control of DC servomotors using modern two
@@ -38,7 +39,7 @@ use state::{lag, Lags};
 #[path = "../../proofs/observer.rs"]
 mod proofs;
 
-/// The observer: nominal plant, filter, latency, and the limit of what it may add.
+/// The observer: nominal plant, filter, latency, and the limit of its estimate.
 ///
 /// With `s = dt/(tau + dt)` for both lags of Q, in the implicit form of
 /// [`Derivative`](crate::signal::Derivative), and `h/L` for the latency L:
@@ -48,9 +49,9 @@ mod proofs;
 ///                                         z1⁺ = z1 + s·(y − z1)      z2⁺ = z2 + s·(z1⁺ − z2)
 /// d_hat = w2⁺ − (z2⁺ + 2·zeta/(wn·tau)·(z1⁺ − z2⁺) + (y − 2·z1⁺ + z2⁺)/(wn·tau)²)/alpha
 /// ```
-/// The lags are stable at any `dt`, which may vary; the loop around them needs one well below tau.
-/// Without a latency the command still shows a sample later. White noise of y reaches the command
-/// as about `1/(alpha·(wn·tau)²)` of itself, above `1/tau`.
+/// The lags are stable at any `dt`, which may vary. The loop around them requires a `dt` well
+/// below tau. Without a latency the command still affects the output one sample later. White
+/// noise of y reaches the command with a factor of about `1/(alpha·(wn·tau)²)`, above `1/tau`.
 ///
 /// ```
 /// use bowden::control::{
@@ -59,14 +60,14 @@ mod proofs;
 /// };
 /// # fn main() -> Result<(), bowden::Error> {
 /// let plant = NominalPlant::try_new(0.6_f32, 25.5, 0.265)?;
-/// // Q of 10 Hz; at most 30 units; a sample within 5 ms; a command shows 3 ms later.
+/// // Q of 10 Hz; at most 30 units; a sample within 5 ms; a latency of 3 ms.
 /// let observer = DisturbanceObserver::try_new(plant, 0.0159, 30.0, 0.005)?.with_latency(0.003)?;
 /// let (limits, fallback) = (Limits::try_new(-20.0, 90.0)?, Fallback::try_new(20, 0.0)?);
 /// let pi = Pid::try_new(PidSettings::new(12.0, 60.0, limits, 0.005, fallback))?;
 ///
 /// let (mut observed, mut state) = (ObserverState::new(), pi.start());
 /// let (dt, measured) = (0.001, 3.0); // [s], [N·m]: each tick, from the clock and the sensor
-/// let sent = Controller::command(&pi, &state); // what went out at the last tick
+/// let sent = Controller::command(&pi, &state); // the applied command of the last tick
 /// let seen = observer.step(&mut observed, &ObserverInput { dt, sent, measured });
 /// let sample = LoopSample { feed_forward: seen.estimate, ..LoopSample::new(dt, 5.0, measured) };
 /// let out = Controller::step(&pi, &mut state, &sample);
@@ -98,7 +99,7 @@ pub struct DisturbanceObserver<T> {
     inverse: [T; 3],
 }
 
-/// The observer's numbers after their checks, for any float and for constants.
+/// The checked numbers of the observer, for any float and for constants.
 macro_rules! observer {
     ($plant:ident, $tau:ident, $limit:ident, $longest:ident, $zero:expr, $one:expr) => {{
         above_zero!($tau, $zero, "time_constant");
@@ -166,33 +167,34 @@ constant!(f64);
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ObserverInput<T> {
-    /// Since the last call, also where that was a bad sample \[s\].
+    /// Time since the last call \[s\], after a bad sample too.
     pub dt: T,
-    /// The command that went out at the last call \[command unit\]: behind all limits, also
-    /// where it was a held or a safe one.
+    /// The applied command of the last call \[command unit\]: after all limits, including a
+    /// held or a safe command.
     pub sent: T,
     /// Measured output y \[output unit\], such as \[N·m\].
     pub measured: T,
 }
 
-/// What a step of a [`DisturbanceObserver`] gives.
+/// Output of a [`DisturbanceObserver`]'s step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ObserverOutput<T> {
-    /// d_hat \[command unit\], to be added to the command: finite and within ±limit in any case.
+    /// d_hat \[command unit\], to be added to the command: always finite and within ±limit.
     pub estimate: T,
-    /// A good sample, or what was wrong; the estimate is held then.
+    /// A good sample, or the fault; a fault holds the estimate.
     pub status: Status,
 }
 
 impl<T: Real> DisturbanceObserver<T> {
     /// An observer without latency: `time_constant > 0`, tau of Q \[s\]; `limit > 0` of the
-    /// estimate \[command unit\]; `longest_dt > 0` \[s\], beyond which a sample is bad.
+    /// estimate \[command unit\]; `longest_dt > 0` \[s\], above which a sample is bad.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"time_constant"`, also where
-    /// `1/(alpha·(wn·tau)²)` or `2·zeta/(alpha·wn·tau)` is not finite, `"limit"` or `"longest_dt"`.
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"time_constant"`, also if
+    /// `1/(alpha·(wn·tau)²)` or `2·zeta/(alpha·wn·tau)` is not finite, `"limit"` or
+    /// `"longest_dt"`.
     pub fn try_new(
         plant: NominalPlant<T>,
         time_constant: T,
@@ -202,11 +204,11 @@ impl<T: Real> DisturbanceObserver<T> {
         observer!(plant, time_constant, limit, longest_dt, T::ZERO, T::ONE)
     }
 
-    /// The same where a command shows in the measured output `latency ≥ 0` \[s\] after it was
-    /// given, beside what the nominal plant takes: whole samples of delay, half a sample of hold,
-    /// the lags of drive and sensor.
+    /// The same observer for a command that affects the measured output after `latency ≥ 0`
+    /// \[s\]. The latency covers whole samples of delay, half a sample of hold, and the lags of
+    /// drive and sensor. It excludes the response of the nominal plant.
     ///
-    /// The command is compared that much later, through a lag of this time.
+    /// The observer delays the command by a lag of this time before the comparison.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"latency"`.
@@ -235,27 +237,27 @@ impl<T: Real> DisturbanceObserver<T> {
         self.limit
     }
 
-    /// Longest `dt` that is a sample \[s\].
+    /// Longest `dt` of a good sample \[s\].
     #[inline]
     #[must_use]
     pub const fn longest_dt(&self) -> T {
         self.longest_dt
     }
 
-    /// How long a command takes to show in the measured output \[s\].
+    /// Time from a command to its effect in the measured output \[s\].
     #[inline]
     #[must_use]
     pub const fn latency(&self) -> T {
         self.latency
     }
 
-    /// One sample: what is to be added to the next command.
+    /// One sample: returns the estimate to be added to the next command.
     ///
-    /// Call it at every sample, before the controller. A bad sample (a `dt` that is not positive
-    /// or too long, a command or an output that is not finite) moves nothing; the estimate is
-    /// held, and the next good sample makes up for the time. Where nobody knows that time, because a
-    /// `dt` was bad, it counts as one more of the next `dt`. Whatever the state is, the estimate is
-    /// finite and within ±limit.
+    /// Call this method at every sample, before the controller. A bad sample holds the
+    /// estimate, and the next good sample includes its time. A sample is bad if `dt` is not
+    /// positive or too long, or if the command or the output is not finite. If the time is
+    /// unknown because `dt` was bad, it counts as one more of the next `dt`. For any state the
+    /// estimate is finite and within ±limit.
     #[inline]
     pub fn step(&self, state: &mut ObserverState<T>, at: &ObserverInput<T>) -> ObserverOutput<T> {
         let status = if self.advance(state, at) {
@@ -271,12 +273,12 @@ impl<T: Real> DisturbanceObserver<T> {
         }
     }
 
-    /// Moves the state by a good sample; `false`, and nothing has moved, where a number cannot be
-    /// used or the estimate overflows.
+    /// Advances the state by a good sample. `false` leaves the state unchanged: a number cannot
+    /// be used, or the estimate overflows.
     #[inline]
     #[allow(clippy::eq_op)]
     fn advance(&self, state: &mut ObserverState<T>, at: &ObserverInput<T>) -> bool {
-        // A number less itself is zero, or NaN where it is not finite.
+        // A number minus itself is zero, or NaN if it is not finite.
         let zero = (at.sent - at.sent) + (at.measured - at.measured);
         if !(at.dt.positive_up_to(self.longest_dt) && zero == T::ZERO) {
             return false;
@@ -298,8 +300,8 @@ impl<T: Real> DisturbanceObserver<T> {
         true
     }
 
-    /// What was wrong with a sample. Where nothing was, the lags overflow, or did before: they begin
-    /// anew with the next one.
+    /// The fault of a sample. Without one, the lags overflow now or did before: they restart at
+    /// the next sample.
     fn refused(&self, state: &mut ObserverState<T>, at: &ObserverInput<T>) -> Fault {
         let fault = fault_of_dt(at.dt, self.longest_dt)
             .or_else(|| unless_finite(at.sent, Fault::Command))
@@ -347,7 +349,7 @@ impl<T: Real> DisturbanceObserver<T> {
     }
 }
 
-/// What is read before it is checked.
+/// The stored form, before its checks.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -1,4 +1,4 @@
-//! PI, PID and PIV: equations (14)-(16), with what a real actuator needs beside them.
+//! PI, PID and PIV controllers, equations (14)-(16), with anti-windup and fault handling.
 //!
 //! ```text
 //! e = y − y_r
@@ -7,14 +7,15 @@
 //! command = u within the range and the slew rate
 //! ```
 //!
-//! - `dt` may vary from call to call, up to a longest one. The derivative goes through the
-//!   implicit first-order lag, stable for any `dt`: see [`Derivative`].
-//! - The integral is kept as a command, so that another `k_i` moves nothing, and as a
-//!   compensated sum: in `f32` a plain one stops once its steps are below half an ulp.
-//! - The anti-windup knows the slew rate from the range, see [`AntiWindup`].
-//! - A bad sample leaves the memory as it was and holds the command, see [`Status`]. The
-//!   derivative bridges the gap that it leaves; the integral does not count it. After too
-//!   many the safe command is out until [`PidState::acknowledge`].
+//! - `dt` may vary from call to call, up to the longest `dt`. The derivative uses the implicit
+//!   first-order lag, which is stable for any `dt`: see [`Derivative`].
+//! - The integral is stored as a command, so a change of `k_i` does not move the command.
+//!   It is a compensated sum: in `f32` a plain sum stops once its increments are below half an
+//!   ulp.
+//! - The anti-windup distinguishes the slew rate from the range, see [`AntiWindup`].
+//! - A bad sample leaves the state unchanged and holds the command, see [`Status`]. The
+//!   derivative bridges the gap, and the integral does not count the time of the gap. After too
+//!   many bad samples the safe command is applied until [`PidState::acknowledge`].
 //!
 //! Source: the paper's section 3.1; Åström & Hägglund, *Advanced PID Control*, 2006.
 
@@ -23,16 +24,17 @@ mod signals;
 pub(crate) mod state;
 mod step;
 
-pub use settings::{AntiWindup, Damping, PidSettings};
+pub use settings::{AntiWindup, DerivativeSource, PidSettings};
 pub use signals::{PidInput, PidOutput, PidTerms};
 pub use state::PidState;
 
 use super::status::{fault_of_dt, unless_finite};
-use super::{Fault, Output, Status};
+use super::{Applied, Fault, Output, Status};
 use crate::error::is_usable;
-use crate::signal::{clamp, Compensated, Derivative};
+use crate::signal::{clamp, wrapped, Compensated, Derivative};
 use crate::{Error, Real};
 use state::Last;
+use step::stopped;
 
 /// A PI, PID or PIV controller, equations (14)-(16); checked, immutable.
 ///
@@ -73,6 +75,8 @@ use state::Last;
 )]
 pub struct Pid<T> {
     settings: PidSettings<T>,
+    /// [`PidSettings::is_plain`], cached so that a step tests it once.
+    plain: bool,
 }
 
 impl<T: Real> Pid<T> {
@@ -80,71 +84,74 @@ impl<T: Real> Pid<T> {
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the setting's name, or
-    /// [`Error::Inadmissible`] with the condition that two of them break together; the
-    /// fields of [`PidSettings`] state both.
+    /// [`Error::Inadmissible`] with the condition that two settings violate; the fields of
+    /// [`PidSettings`] state both.
     pub fn try_new(settings: PidSettings<T>) -> Result<Self, Error> {
         settings.check()?;
-        Ok(Self { settings })
+        Ok(Self::checked(settings))
+    }
+
+    fn checked(settings: PidSettings<T>) -> Self {
+        Self {
+            plain: settings.is_plain(),
+            settings,
+        }
     }
 
     /// The paper's PI (15), Table 1: `k_p` = 30, `k_i` = 18. No limits.
     #[must_use]
     pub fn paper_pi() -> Self {
-        Self {
-            settings: PidSettings::unlimited(T::of(30.0), T::of(18.0)),
-        }
+        Self::checked(PidSettings::unlimited(T::from_f64(30.0), T::from_f64(18.0)))
     }
 
     /// The paper's PID (14), Table 1: `k_d` = 2; filtered over 0.1 s. No limits.
     ///
-    /// The paper does not say how it takes the derivative. On the reference rig a filter
-    /// below 20 ms makes the loop diverge.
+    /// The paper does not specify the derivative filter. On the reference rig the loop diverges
+    /// with a filter time constant below 20 ms.
     #[must_use]
     pub fn paper_pid() -> Self {
-        Self {
-            settings: PidSettings {
-                k_d: T::of(2.0),
-                derivative_time: T::of(0.1),
-                ..Self::paper_pi().settings
-            },
-        }
+        Self::checked(PidSettings {
+            k_d: T::from_f64(2.0),
+            damping: DerivativeSource::on_error(),
+            derivative_time: T::from_f64(0.1),
+            ..Self::paper_pi().settings
+        })
     }
 
     /// The paper's PIV (16), Table 1: `k_d` = 10 on the distal velocity. No limits.
     #[must_use]
     pub fn paper_piv() -> Self {
-        Self {
-            settings: PidSettings {
-                k_d: T::of(10.0),
-                damping: Damping::Velocity,
-                ..Self::paper_pi().settings
-            },
-        }
+        Self::checked(PidSettings {
+            k_d: T::from_f64(10.0),
+            damping: DerivativeSource::Velocity,
+            ..Self::paper_pi().settings
+        })
     }
 
-    /// The PI that an adaptive law must beat: `k_p` = 30, `k_i` = 320. No limits.
+    /// A PI as the reference for an adaptive law: `k_p` = 30, `k_i` = 320. No limits.
     ///
-    /// 320 is the effective integral gain of the paper's adaptive law. A comparison
-    /// without this one credits adaptation with what is gain.
+    /// 320 is the effective integral gain of the paper's adaptive law. A comparison without this PI
+    /// attributes the effect of a higher gain to adaptation.
     #[must_use]
     pub fn matched_pi() -> Self {
-        Self {
-            settings: PidSettings::unlimited(T::of(30.0), T::of(320.0)),
-        }
+        Self::checked(PidSettings::unlimited(
+            T::from_f64(30.0),
+            T::from_f64(320.0),
+        ))
     }
 
-    /// The settings as they were given.
+    /// The settings of this controller.
     #[inline]
     #[must_use]
     pub fn settings(&self) -> &PidSettings<T> {
         &self.settings
     }
 
-    /// One sample: the command \[command unit\], and what happened.
+    /// One sample: returns the command \[command unit\] and the status.
     ///
-    /// The command is finite and within the limits for any input **and any state**, one
-    /// that was stored or that belongs to another controller included. A bad sample leaves
-    /// the state as it was, but for the score of bad ones and their time.
+    /// The command is finite and within the limits for any input **and any state**, including a
+    /// stored state and a state of another controller. A bad sample leaves the state unchanged,
+    /// except for the score of bad samples and their time.
     #[inline]
     pub fn step(&self, state: &mut PidState<T>, at: &PidInput<T>) -> Output<T> {
         let mut velocity = at.velocity;
@@ -154,7 +161,7 @@ impl<T: Real> Pid<T> {
                 return Output { command, status };
             }
         }
-        // Number by number, so that the sample of a good step stays in registers.
+        // Passed field by field, so that the sample of a good step stays in registers.
         let sample = PidInput {
             dt: at.dt,
             reference: at.reference,
@@ -165,7 +172,7 @@ impl<T: Real> Pid<T> {
         self.exception(state, &sample)
     }
 
-    /// The same, and every term for telemetry: [`terms`](Self::terms) after the step.
+    /// The same step with every term for telemetry: [`terms`](Self::terms) after the step.
     pub fn step_with_terms(&self, state: &mut PidState<T>, at: &PidInput<T>) -> PidOutput<T> {
         let Output { command, status } = self.step(state, at);
         PidOutput {
@@ -190,19 +197,81 @@ impl<T: Real> Pid<T> {
             velocity,
             feed_forward: last.feed_forward,
             unlimited: last.unlimited,
-            saturated: last.unlimited != last.command,
+            saturated: last.unlimited != state.command(),
         }
     }
 
-    /// Takes a running state over from other settings, without a jump of the command.
+    /// The limit of the command, range or slew rate: for an outer loop.
     ///
-    /// Every setting may differ. The integral moves, and only as far as it must: at the
-    /// last good sample the new terms add up to the command that went out or, where a
-    /// limit cut the old sum off and a limit still does, to something beyond it. What
-    /// remains is one step of the integral with the next sample; limits that exclude the
-    /// command and [`AntiWindup::Clamp`] come first. A PIV that takes over needs samples
-    /// that had the velocity. Without a good sample nothing changes; where the sum
-    /// overflows, the integral stays.
+    /// If the gains of this law are positive, a command at its upper limit means that the outer
+    /// loop cannot get more. Pass this result to the [`applied`](Self::applied) of the outer
+    /// loop. The result is the same if the range cuts the command off and if the integral just
+    /// fills the range.
+    #[must_use]
+    pub fn saturation(&self, state: &PidState<T>) -> Applied<T> {
+        let (command, limits) = (state.command(), &self.settings.limits);
+        match &state.last {
+            Some(last) if last.unlimited > command || command >= limits.high() => {
+                Applied::AtUpperLimit
+            }
+            Some(last) if last.unlimited < command || command <= limits.low() => {
+                Applied::AtLowerLimit
+            }
+            _ => Applied::AsCommanded,
+        }
+    }
+
+    /// Reports the drive's response to the last command, if the drive did not apply it.
+    ///
+    /// Call this method between two steps. Slew rate, back-calculation and a bumpless start
+    /// then continue from the applied command. The integral reverses the part of its last
+    /// change that exceeds the drive's limit; [`AntiWindup::None`] keeps this part. With
+    /// back-calculation, the part that the drive cut off returns to the integral. The next
+    /// command still contains the full demand, so a recovered drive is used at once. See
+    /// [`Applied`].
+    pub fn applied(&self, state: &mut PidState<T>, applied: Applied<T>) {
+        let out = state.command();
+        let (less, sent) = match applied {
+            Applied::AtUpperLimit => (true, None),
+            Applied::AtLowerLimit => (false, None),
+            Applied::Command(sent) if sent.is_finite() && sent != out => (sent < out, Some(sent)),
+            Applied::AsCommanded | Applied::Command(_) => return,
+        };
+        state.held.command = sent.unwrap_or(out);
+        let Some(last) = &mut state.last else {
+            return;
+        };
+        let flows_back = match self.settings.anti_windup {
+            AntiWindup::None => true,
+            AntiWindup::BackCalculation { .. } => sent.is_some(),
+            AntiWindup::Conditional => sent.is_some() && self.settings.limits.slew().is_some(),
+            AntiWindup::Clamp => false,
+        };
+        let asked = (last.change > T::ZERO) == less && last.change != T::ZERO;
+        if asked && !flows_back {
+            let before = state.integral.value - last.change;
+            let rest = last.unlimited - state.integral.value;
+            // The whole change, if the applied command is unknown.
+            let full = sent.map_or(before, |sent| sent - rest);
+            state.integral = stopped(state.integral, before, full, less);
+            last.change = T::ZERO;
+            if sent.is_some() {
+                last.unlimited = rest + state.integral.value;
+            }
+        }
+    }
+
+    /// Continues a running state with other settings, without a jump of the command.
+    ///
+    /// Every setting may differ. The integral moves as little as possible. At the last good
+    /// sample the new terms then add up to the applied command. If a limit cut the old sum off
+    /// and a limit still does, they add up to a value beyond that limit. The remaining change
+    /// is one step of the integral at the next sample. Limits that exclude the command take
+    /// priority.
+    ///
+    /// A law without `k_i` returns the integral to zero: see [`PidSettings::k_i`]. A change to
+    /// PIV requires earlier samples with a velocity. Without a good sample nothing changes. If
+    /// the sum overflows, the integral stays.
     ///
     /// ```
     /// use bowden::control::{Pid, PidInput, PidSettings, PidState};
@@ -212,23 +281,23 @@ impl<T: Real> Pid<T> {
     /// let before = quiet.step(&mut state, &sample).command;
     ///
     /// let firm = Pid::try_new(PidSettings::unlimited(30.0, 1.0))?;
-    /// firm.take_over(&mut state);
+    /// firm.bumpless_transfer(&mut state);
     /// let after = firm.step(&mut state, &sample).command;
     /// assert!((after - before - 0.0005).abs() < 1e-12); // k_i·0.5·dt, not 13.5
     /// # Ok::<(), bowden::Error>(())
     /// ```
-    pub fn take_over(&self, state: &mut PidState<T>) {
+    pub fn bumpless_transfer(&self, state: &mut PidState<T>) {
         let Some(last) = state.last else {
             return;
         };
         let rest = self.rest(&last, state.rate);
-        let (even, limits) = (last.command - rest, &self.settings.limits);
-        let ramps = limits.slew().is_some();
-        let above = last.unlimited > last.command && (ramps || last.command >= limits.high());
-        let below = last.unlimited < last.command && (ramps || last.command <= limits.low());
+        let (command, limits) = (state.command(), &self.settings.limits);
+        let (even, ramps) = (command - rest, limits.slew().is_some());
+        let above = last.unlimited > command && (ramps || command >= limits.high());
+        let below = last.unlimited < command && (ramps || command <= limits.low());
         let low = if below { T::neg_infinity() } else { even };
         let high = if above { T::infinity() } else { even };
-        let integral = self.confine(clamp(state.integral.value, low, high));
+        let integral = clamp(state.integral.value, low, high);
         let unlimited = rest + integral;
         if integral.is_finite() && unlimited.is_finite() {
             state.last = Some(Last { unlimited, ..last });
@@ -236,18 +305,16 @@ impl<T: Real> Pid<T> {
         }
     }
 
-    /// The sample and the integral with which the terms give `output` there, from rest.
+    /// The sample and the integral for which the terms give `output` at rest.
     fn started_at(&self, output: T, at: &PidInput<T>) -> Result<(Last<T>, T), Fault> {
-        // No time passes here: whatever `at.dt` is, as after an hour with the drive off.
+        // No time passes here: `at.dt` is ignored, as after an hour with the drive off.
         let fault = unless_finite(output, Fault::Command).or_else(|| self.fault_of_numbers(at));
         if let Some(fault) = fault {
             return Err(fault);
         }
-        let mut last = Last::at(at).with_known_velocity();
+        let mut last = self.sample(at).with_known_velocity();
         let rest = self.rest(&last, T::ZERO);
-        let command = self.settings.limits.confine(output);
-        let integral = self.confine(command - rest);
-        last.command = command;
+        let integral = self.settings.limits.clamp(output) - rest;
         last.unlimited = rest + integral;
         if is_usable(integral) && is_usable(last.unlimited) {
             Ok((last, integral))
@@ -256,35 +323,20 @@ impl<T: Real> Pid<T> {
         }
     }
 
-    /// A good sample with rate and integral as they are.
-    fn without_integrating(&self, state: &PidState<T>, at: &PidInput<T>) -> Result<Last<T>, Fault> {
-        let mut last = Last::at(at).with_known_velocity();
-        last.unlimited = self.rest(&last, state.rate) + state.integral.value;
-        last.command = self
-            .settings
-            .limits
-            .apply(state.command(), last.unlimited, at.dt);
-        if is_usable(last.unlimited) {
-            Ok(last)
-        } else {
-            Err(Fault::Overflow)
-        }
-    }
-
-    /// The velocity that the law reads; zero where it reads none, and it may be no number.
+    /// The velocity that the law reads; zero if the law reads none. It may be NaN.
     fn velocity(&self, at: &PidInput<T>) -> T {
         match self.settings.damping {
-            Damping::Velocity => at.velocity,
-            Damping::Rate { .. } => T::ZERO,
+            DerivativeSource::Velocity => at.velocity,
+            DerivativeSource::Rate { .. } => T::ZERO,
         }
     }
 
-    /// What is wrong with a sample, where something is; not whether the law overflows on it.
+    /// The fault of a sample, if there is one; an overflow of the law is not included.
     fn fault(&self, at: &PidInput<T>) -> Option<Fault> {
         fault_of_dt(at.dt, self.settings.longest_dt).or_else(|| self.fault_of_numbers(at))
     }
 
-    /// The same of its numbers, whatever its `dt`.
+    /// The fault of the numbers of a sample, without a test of `dt`.
     fn fault_of_numbers(&self, at: &PidInput<T>) -> Option<Fault> {
         unless_finite(at.reference, Fault::Reference)
             .or_else(|| unless_finite(at.measured, Fault::Measured))
@@ -293,10 +345,10 @@ impl<T: Real> Pid<T> {
             .or_else(|| unless_finite(at.measured - at.reference, Fault::Overflow))
     }
 
-    /// Filtered rate of `y - c·y_r`, zero where it is not used.
+    /// Filtered rate of `y - c·y_r`, zero if it is not used.
     #[inline]
-    fn rate(&self, state: &PidState<T>, now: &Last<T>, dt: T) -> T {
-        let Damping::Rate { weight } = self.settings.damping else {
+    fn rate<const PLAIN: bool>(&self, state: &PidState<T>, now: &Last<T>, dt: T) -> T {
+        let DerivativeSource::Rate { weight } = self.settings.damping else {
             return T::ZERO;
         };
         if self.settings.k_d == T::ZERO {
@@ -305,10 +357,24 @@ impl<T: Real> Pid<T> {
         let Some(before) = &state.last else {
             return T::ZERO;
         };
-        // From the samples themselves: right also where the weight has changed.
+        // Computed from the samples themselves: correct after a change of the weight, too.
         let sample = |at: &Last<T>| at.measured - weight * at.reference;
+        let mut change = sample(now) - sample(before);
+        if let (false, Some(period)) = (PLAIN, self.settings.period) {
+            change = wrapped(change, period);
+        }
         let filter = Derivative::assumed(self.settings.derivative_time);
-        filter.after(state.rate, sample(now) - sample(before), dt + state.gap)
+        filter.after(state.rate, change, dt + state.gap)
+    }
+
+    /// A sample before the law has processed it. With a period, the reference is the turn that
+    /// is nearest to the measurement.
+    fn sample(&self, at: &PidInput<T>) -> Last<T> {
+        let mut last = Last::at(at);
+        if let Some(period) = self.settings.period {
+            last.reference = at.measured - wrapped(at.measured - at.reference, period);
+        }
+        last
     }
 
     #[inline]
@@ -320,8 +386,8 @@ impl<T: Real> Pid<T> {
     #[inline]
     fn damping(&self, at: &Last<T>, rate: T) -> (T, T) {
         match self.settings.damping {
-            Damping::Rate { .. } => (-self.settings.k_d * rate, T::zero()),
-            Damping::Velocity => (T::zero(), -self.settings.k_d * at.velocity),
+            DerivativeSource::Rate { .. } => (-self.settings.k_d * rate, T::zero()),
+            DerivativeSource::Velocity => (T::zero(), -self.settings.k_d * at.velocity),
         }
     }
 
@@ -329,37 +395,9 @@ impl<T: Real> Pid<T> {
     #[inline]
     fn rest(&self, at: &Last<T>, rate: T) -> T {
         let damped = match self.settings.damping {
-            Damping::Rate { .. } => rate,
-            Damping::Velocity => at.velocity,
+            DerivativeSource::Rate { .. } => rate,
+            DerivativeSource::Velocity => at.velocity,
         };
         self.proportional(at) - self.settings.k_d * damped + at.feed_forward
-    }
-
-    /// The integral within the range of [`AntiWindup::Clamp`], where that was chosen.
-    #[inline]
-    fn confine(&self, integral: T) -> T {
-        let (zero, limits) = (T::ZERO, &self.settings.limits);
-        match self.settings.anti_windup {
-            AntiWindup::Clamp => clamp(
-                integral,
-                clamp(limits.low(), T::LOWEST, zero),
-                clamp(limits.high(), zero, T::HIGHEST),
-            ),
-            _ => integral,
-        }
-    }
-
-    /// The same of the sum: at an edge of the range it owes nothing.
-    #[inline]
-    fn confined(&self, integral: Compensated<T>) -> Compensated<T> {
-        if !matches!(self.settings.anti_windup, AntiWindup::Clamp) {
-            return integral;
-        }
-        let value = self.confine(integral.value);
-        if value == integral.value {
-            integral
-        } else {
-            Compensated::new(value)
-        }
     }
 }

@@ -1,9 +1,9 @@
-//! What a step did: a good one, or a bad sample and what was commanded instead.
+//! Result of a step: a good sample, or a bad sample and the substitute command.
 
 use crate::error::{must_be_finite, rarely};
 use crate::{Error, Real};
 
-/// Which input of a step could not be used.
+/// The bad input of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
@@ -12,9 +12,9 @@ use crate::{Error, Real};
 pub enum Fault {
     /// `dt` is not finite.
     Dt,
-    /// `dt` is zero or negative: time has not moved on.
+    /// `dt` is zero or negative: time has not advanced.
     DtNotPositive,
-    /// `dt` is longer than the longest that was stated, or than the law is stable for.
+    /// `dt` exceeds the longest `dt` of the configuration, or the stability limit of the law.
     DtTooLong,
     /// The reference, or its next value.
     Reference,
@@ -30,11 +30,11 @@ pub enum Fault {
     Regressor(u8),
     /// Every input is finite, but the command could not be computed: an overflow.
     Overflow,
-    /// The phase of a cycle is not from 0 to 1, or has jumped.
+    /// The phase of a cycle lies outside 0 to 1, or has jumped.
     Phase,
 }
 
-/// What a step did.
+/// Result of a step.
 ///
 /// ```text
 ///           bad                  score reaches after·weight
@@ -48,22 +48,23 @@ pub enum Fault {
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Status {
-    /// All samples were good; the state has moved on.
+    /// All inputs were good; the state has advanced.
     Good,
-    /// A regressor was bad and its term was dropped; the loop is closed, the estimates wait. Of
-    /// [`Learning`](crate::control::Learning): an error could not be learned from, or the phase has jumped.
+    /// A regressor was bad and its term was dropped; the loop is closed, the estimates do not
+    /// change. For [`IterativeLearning`](crate::control::IterativeLearning): the error was
+    /// unusable, or the phase has jumped.
     Degraded(Fault),
-    /// A bad sample: the state is as it was, the last good command is held.
+    /// A bad sample: the state is unchanged, the last good command is held.
     Held(Fault),
-    /// Too many bad samples: the safe command is out until
-    /// [`acknowledge`](crate::control::Controller::acknowledge), good samples or not.
+    /// Too many bad samples: the safe command is applied until
+    /// [`acknowledge`](crate::control::Controller::acknowledge), even if samples are good.
     ///
-    /// The fault is the one that was too many.
+    /// The fault is the fault of the sample that exceeded the limit.
     Safe(Fault),
 }
 
 impl Status {
-    /// What was wrong, where something was.
+    /// The fault, if there is one.
     #[must_use]
     pub const fn fault(self) -> Option<Fault> {
         match self {
@@ -72,21 +73,23 @@ impl Status {
         }
     }
 
-    /// Whether the command comes from this sample: good, or good but for a dropped term.
+    /// Whether the command comes from this sample: a good sample, or a good sample with a
+    /// dropped term.
     #[must_use]
     pub const fn is_live(self) -> bool {
         matches!(self, Self::Good | Self::Degraded(_))
     }
 }
 
-/// What to command when samples stay bad.
+/// The safe command after repeated bad samples.
 ///
-/// A score counts: a bad sample adds the weight, a good one takes 1 away. At `after·weight`
-/// the safe command goes out and is latched. So the safe command is out
+/// A score counts: a bad sample adds the weight, a good sample subtracts 1. At `after·weight`
+/// the safe command is applied and latched. The safe command is therefore applied
 /// - at the `after`-th bad sample in a row, and
-/// - at the latest when any stretch of n samples has held B bad ones with
-///   `(weight + 1)·B − n ≥ after·weight`: with weight 4, wherever more than one sample in five
-///   is bad for long enough. A single good sample does not clear the count.
+/// - at the latest after any n samples with B bad ones if `(weight + 1)·B − n ≥ after·weight`.
+///
+/// With weight 4 the second condition is met if more than one sample in five is bad for long
+/// enough. A single good sample does not reset the score.
 ///
 /// ```
 /// use bowden::control::Fallback;
@@ -111,14 +114,14 @@ impl Status {
 pub struct Fallback<T> {
     after: u32,
     weight: u32,
-    /// `after·weight`: a bad sample is no time to multiply.
+    /// `after·weight`, stored to avoid a multiplication at a bad sample.
     #[cfg_attr(feature = "serde", serde(skip))]
     most: u32,
     command: Option<T>,
 }
 
-/// How many good samples make up for a bad one, by default: more than one bad sample in five
-/// is then too many for ever.
+/// Default number of good samples that cancel a bad one: the safe command is then applied if
+/// more than one sample in five stays bad.
 const WEIGHT: u32 = 4;
 
 /// A fallback after its checks, for any float and for constants.
@@ -154,21 +157,21 @@ constant!(f32);
 constant!(f64);
 
 impl<T: Real> Fallback<T> {
-    /// The safe command \[command unit\] from the `after`-th bad sample in a row on.
+    /// Applies the safe command \[command unit\] from the `after`-th bad sample in a row on.
     ///
-    /// It goes out at once, whatever the slew rate: it is what the machine needs then. It
-    /// stays out until it is acknowledged; the first good sample after that starts from it.
+    /// The safe command ignores the slew rate, because the machine needs it at once. It is
+    /// applied until it is acknowledged; the first good sample after that starts from it.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] with `"safe command"`, [`Error::OutOfRange`] with `"after"`
-    /// where that is zero.
+    /// [`Error::NonFinite`] with `"safe command"`, [`Error::OutOfRange`] with `"after"` if that
+    /// is zero.
     pub fn try_new(after: u32, command: T) -> Result<Self, Error> {
         fallback!(after, command)
     }
 
-    /// The same where `weight` good samples make up for a bad one; 4 by default.
+    /// The same fallback with `weight` good samples to cancel a bad one; default: 4.
     ///
-    /// At 0, which is refused, nothing would ever count; at 1 every second sample may be bad.
+    /// With 1, every second sample may be bad. 0 is refused: the score would never rise.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] with `"weight"`.
@@ -184,9 +187,9 @@ impl<T: Real> Fallback<T> {
         })
     }
 
-    /// Holds the last good command for ever: for a simulation, not for a machine.
+    /// Holds the last good command indefinitely: for a simulation, not for a machine.
     #[must_use]
-    pub const fn hold_for_ever() -> Self {
+    pub const fn hold_indefinitely() -> Self {
         Self {
             after: u32::MAX,
             weight: WEIGHT,
@@ -195,56 +198,106 @@ impl<T: Real> Fallback<T> {
         }
     }
 
-    /// From which bad sample in a row on the safe command is out.
+    /// Number of bad samples in a row after which the safe command is applied.
     #[must_use]
     pub const fn after(&self) -> u32 {
         self.after
     }
 
-    /// How many good samples make up for a bad one.
+    /// Number of good samples that cancel a bad one.
     #[must_use]
     pub const fn weight(&self) -> u32 {
         self.weight
     }
 
-    /// The score at which the safe command goes out: `after·weight`.
+    /// The score at which the safe command is applied: `after·weight`.
     #[must_use]
     pub const fn most(&self) -> u32 {
         self.most
     }
 
-    /// The safe command \[command unit\], where there is one.
+    /// The safe command \[command unit\], if there is one.
     #[must_use]
     pub const fn command(&self) -> Option<T> {
         self.command
     }
 }
 
-/// What is wrong with a safe command that is not within the limits.
+/// The error of a safe command outside the limits.
 pub(crate) const OUTSIDE: &str = "the safe command lies within the limits";
 
 /// Whether the loop is closed.
 ///
-/// `repr(u8)`: the tag has a byte of its own, and the usual step compares it with zero. Folded
-/// into the bytes of the fault it would have to be worked out first.
+/// `repr(u8)`: the tag has a byte of its own, and the usual step compares it with zero. Merged
+/// with the bytes of the fault, the tag would need decoding first.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(u8)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) enum Latch {
-    /// It is, and no bad sample is remembered.
+    /// The loop is closed, and the score is zero.
     #[default]
     Closed,
-    /// The safe command is out, for this fault, until it is acknowledged.
+    /// The safe command is applied, for this fault, until it is acknowledged.
     Safe(Fault),
-    /// It was acknowledged: the next good sample starts from the command that is out.
+    /// The fault is acknowledged: the next good sample starts from the applied command.
     Returning,
-    /// It is closed, and a good sample makes up for a bad one: [`Held::may_step`].
+    /// The loop is closed, and a good sample reduces the score: [`Held::may_step`].
     Counting,
+    /// The loop is closed, and the next good sample of an adaptive law needs the drive's
+    /// response: [`Held::tell`].
+    Told,
 }
 
-/// The command that is out, the score of the bad samples, and whether the loop is closed.
+/// The drive's response to the last command.
+///
+/// A controller assumes that the drive applies its command. Report any other response between
+/// two steps. Examples are a safety relay that is open, a current limit of the drive, and an
+/// inner loop at its limit. Slew rate, anti-windup and a bumpless start then continue from the
+/// applied command.
+///
+/// ```
+/// use bowden::control::{Applied, Fallback, Limits, Pid, PidInput, PidSettings, PidState};
+/// let limits = Limits::try_new(-20.0, 60.0)?.with_slew(100.0)?; // [N·m], [N·m/s]
+/// let pi = Pid::try_new(PidSettings::new(1.0, 10.0, limits, 0.005, Fallback::try_new(20, 0.0)?))?;
+/// let mut state = PidState::new();
+/// let at = PidInput::new(0.001, 20.0, 0.0);
+/// for _ in 0..2000 {
+///     pi.step(&mut state, &at);
+///     pi.applied(&mut state, Applied::Command(0.0)); // the drive is off
+/// }
+/// assert_eq!(pi.step(&mut state, &at).command, 0.1); // 100/s for 1 ms, from zero
+/// # Ok::<(), bowden::Error>(())
+/// ```
+///
+/// These methods take the response: [`Pid::applied`](super::Pid::applied),
+/// [`AdaptiveState::applied`](super::AdaptiveState::applied),
+/// [`Controller::applied`](super::Controller::applied) and
+/// [`Compensator::applied`](super::Compensator::applied), which moves the hysteresis. A
+/// [`DisturbanceObserver`](super::DisturbanceObserver) reads the command from `sent`.
+/// [`IterativeLearning`](super::IterativeLearning) reads `learns`.
+///
+/// Use `AsCommanded` if the drive differs a little from the command without a limit (an offset, a
+/// measured current). Otherwise the integral would stop until the difference is zero.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Applied<T> {
+    /// The drive applied the command.
+    AsCommanded,
+    /// The drive applied this command \[command unit\]; a number that is not finite is ignored.
+    Command(T),
+    /// The drive applied less than the command, by an unknown amount. The integral does not
+    /// rise.
+    AtUpperLimit,
+    /// The drive applied more than the command, by an unknown amount. The integral does not
+    /// fall.
+    AtLowerLimit,
+}
+
+/// The applied command, the score of the bad samples, and whether the loop is closed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -264,11 +317,10 @@ impl<T: Real> Held<T> {
         }
     }
 
-    /// Whether nothing stands between a good sample and the command; where bad samples are
-    /// remembered, this one is taken for good, until
-    /// [`bad_after_step`](Self::bad_after_step) says otherwise.
+    /// Whether a good sample may set the command. If bad samples are remembered, this sample
+    /// counts as good until [`bad_after_step`](Self::bad_after_step) reports otherwise.
     ///
-    /// So the usual step looks at the latch alone, and not at the score.
+    /// The usual step therefore checks the latch alone, and not the score.
     #[inline]
     pub(crate) fn may_step(&mut self) -> bool {
         if self.latch == Latch::Closed {
@@ -286,20 +338,26 @@ impl<T: Real> Held<T> {
         true
     }
 
-    /// The same with another command that the loop goes on from: bad samples stay remembered.
+    /// Records that the next good sample needs the drive's response.
+    pub(crate) fn tell(&mut self) {
+        if matches!(self.latch, Latch::Closed | Latch::Counting) {
+            self.latch = Latch::Told;
+        }
+    }
+
+    /// The same with another command to continue from: the score is kept.
     #[must_use]
     pub(crate) fn going_on_from(self, command: T) -> Self {
-        let latch = Latch::Closed;
         Self {
             command,
-            latch,
+            latch: Latch::Closed,
             ..self
         }
         .remembering()
     }
 
-    /// The same after the power was off, with this command out: what is latched stays so; else the
-    /// next good sample starts from there.
+    /// The same after a power-off, with this command applied. A latched safe command stays
+    /// latched; otherwise the next good sample starts from this command.
     #[must_use]
     pub(crate) fn after_power_off(self, command: T) -> Self {
         let latch = match self.latch {
@@ -318,30 +376,32 @@ impl<T: Real> Held<T> {
         self.latch == Latch::Returning
     }
 
-    /// Closes the loop with a good sample, after a safe command.
-    pub(crate) fn close(&mut self) {
+    /// Records a good sample without a call of [`may_step`](Self::may_step): the loop is
+    /// closed, and the score falls by one.
+    pub(crate) fn good(&mut self) {
         self.score = self.score.saturating_sub(1);
         self.latch = Latch::Closed;
         *self = self.remembering();
     }
 
-    /// The same where the latch says whether bad samples are remembered, as it may not in a
-    /// state that was stored.
+    /// The same if the latch states whether bad samples are remembered. In a stored state the
+    /// latch may not.
     #[must_use]
     pub(crate) fn remembering(self) -> Self {
         let latch = match self.latch {
-            Latch::Closed if self.score > 0 => Latch::Counting,
+            Latch::Closed | Latch::Told if self.score > 0 => Latch::Counting,
+            Latch::Told => Latch::Closed,
             latch => latch,
         };
         Self { latch, ..self }
     }
 
-    /// Whether the safe command is out until it is acknowledged.
+    /// Whether the safe command is applied until it is acknowledged.
     pub(crate) fn is_latched(&self) -> bool {
         matches!(self.latch, Latch::Safe(_))
     }
 
-    /// Where the safe command is latched: puts it out, and says why.
+    /// If the safe command is latched: applies it and returns the fault.
     pub(crate) fn latched(&mut self, fallback: &Fallback<T>) -> Option<Status> {
         let Latch::Safe(fault) = self.latch else {
             return None;
@@ -350,8 +410,8 @@ impl<T: Real> Held<T> {
         Some(Status::Safe(fault))
     }
 
-    /// [`bad`](Self::bad) of a sample for which [`may_step`](Self::may_step) was asked: what it
-    /// has counted there is taken back.
+    /// [`bad`](Self::bad) for a sample that called [`may_step`](Self::may_step): the count of
+    /// that call is reversed.
     pub(crate) fn bad_after_step(&mut self, fault: Fault, fallback: &Fallback<T>) -> Status {
         self.score = self
             .score
@@ -359,8 +419,8 @@ impl<T: Real> Held<T> {
         self.bad(fault, fallback)
     }
 
-    /// Counts a bad sample, and lets the safe command out when there were enough; not where it
-    /// is latched already.
+    /// Counts a bad sample and applies the safe command at the limit of the score, unless it is
+    /// latched already.
     pub(crate) fn bad(&mut self, fault: Fault, fallback: &Fallback<T>) -> Status {
         let most = fallback.most();
         self.score = self.score.saturating_add(fallback.weight).min(most);
@@ -379,7 +439,7 @@ impl<T: Real> Held<T> {
         }
     }
 
-    /// Lets the loop be closed again by the next good sample; nothing where it is closed.
+    /// Allows the next good sample to close the loop again; has no effect on a closed loop.
     pub(crate) fn acknowledge(&mut self) {
         if let Latch::Safe(_) = self.latch {
             self.latch = Latch::Returning;
@@ -388,7 +448,7 @@ impl<T: Real> Held<T> {
     }
 }
 
-/// What is wrong with the sample time, where something is.
+/// The fault of the sample time, if there is one.
 pub(crate) fn fault_of_dt<T: Real>(dt: T, longest: T) -> Option<Fault> {
     if !dt.is_finite() {
         Some(Fault::Dt)
@@ -401,12 +461,12 @@ pub(crate) fn fault_of_dt<T: Real>(dt: T, longest: T) -> Option<Fault> {
     }
 }
 
-/// What is wrong with a number that is not finite.
+/// The fault of a number that is not finite.
 pub(crate) fn unless_finite<T: Real>(number: T, fault: Fault) -> Option<Fault> {
     (!number.is_finite()).then_some(fault)
 }
 
-/// What is read before it is checked.
+/// The stored form, before its checks.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -426,7 +486,7 @@ const fn usual() -> u32 {
 impl<T: Real> TryFrom<Unchecked<T>> for Fallback<T> {
     type Error = Error;
     fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
-        let hold = Self::hold_for_ever();
+        let hold = Self::hold_indefinitely();
         match raw.command {
             Some(command) => Self::try_new(raw.after, command)?.with_weight(raw.weight),
             None if (raw.after, raw.weight) == (hold.after, hold.weight) => Ok(hold),

@@ -1,8 +1,8 @@
-//! Asymmetry: what differs between the two directions.
+//! Asymmetry: the difference between the two directions.
 //!
-//! Formulas: `|v|` and `v²` (beside `viscous` and `drag`: a coefficient for each
-//! sign of v), `|eta|` and `eta²` (a loop that is higher on one side). All are even
-//! where friction is odd.
+//! Formulas: `|v|` and `v²`, `|eta|` and `eta²`. All are even, while friction is odd. Together
+//! with `viscous` and `drag` the first two give one coefficient for each sign of v. The last
+//! two give a loop that is higher on one side.
 //!
 //! Source: A. Janot, M. Gautier, M. Brunot, "Data set and reference models of
 //! EMPS", *Workshop on Nonlinear System Identification Benchmarks*, 2019; for the
@@ -10,10 +10,10 @@
 //! asymmetric hysteresis", *Journal of Engineering Mechanics* 132(6), 2006.
 
 use super::info::{Info, Regressor};
-use super::Symmetry::Even;
+use super::Parity::Even;
 use super::{
     AsymmetryDrag, AsymmetryEta, AsymmetryEtaSquared, AsymmetryViscous, Dimension, EffectState,
-    Family, Parity, Quantity, Situation,
+    Family, Inputs, Quantity, Symmetry,
 };
 use crate::Real;
 
@@ -23,13 +23,13 @@ impl<T: Real> Regressor<T> for AsymmetryViscous {
         family: Family::Asymmetry,
         formula: "|v|",
         dimension: Dimension::VELOCITY,
-        parity: Parity::new(Even, Even),
+        parity: Symmetry::new(Even, Even),
         reads: &[Quantity::Velocity],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.motion.velocity.abs()
     }
 }
@@ -44,13 +44,13 @@ impl<T: Real> Regressor<T> for AsymmetryDrag {
             time: -2,
             ..Dimension::ONE
         },
-        parity: Parity::new(Even, Even),
+        parity: Symmetry::new(Even, Even),
         reads: &[Quantity::Velocity],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.motion.velocity * at.motion.velocity
     }
 }
@@ -61,13 +61,13 @@ impl<T: Real> Regressor<T> for AsymmetryEta {
         family: Family::Asymmetry,
         formula: "|eta|",
         dimension: Dimension::ONE,
-        parity: Parity::new(Even, Even),
+        parity: Symmetry::new(Even, Even),
         reads: &[Quantity::Eta],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.eta.abs()
     }
 }
@@ -78,13 +78,13 @@ impl<T: Real> Regressor<T> for AsymmetryEtaSquared {
         family: Family::Asymmetry,
         formula: "eta²",
         dimension: Dimension::ONE,
-        parity: Parity::new(Even, Even),
+        parity: Symmetry::new(Even, Even),
         reads: &[Quantity::Eta],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.eta * at.eta
     }
 }

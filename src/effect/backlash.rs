@@ -1,12 +1,12 @@
-//! Backlash and dead zone: nothing is transmitted over a distance.
+//! Backlash and dead zone: a gap without transmission.
 //!
-//! Formulas: `play(x; r) − x`, the difference that a gap of half-width r makes (the
-//! play is flat over the distance 2·r after each reversal), and
-//! `x − clamp(x, −r, r)`, a spring with a gap around zero. In series the same play acts
-//! on the transmission's input: hysteresis and gain then see `play(x; r)` instead of x.
+//! Formulas: `play(x; r) − x`, the effect of a gap of half-width r, and `x − clamp(x, −r, r)`,
+//! a spring with a gap around zero. The play is flat over the distance 2·r after each reversal.
+//! In series the same play acts on the transmission's input: hysteresis and gain then see
+//! `play(x; r)` instead of x.
 //!
-//! `play(x; r) − x` is `−stop(x; r)`: with the opposite sign, and r times as large, it is
-//! [`presliding`](super::presliding), and no record tells one from the other.
+//! `play(x; r) − x` is `−stop(x; r)`. With the opposite sign, and r times as large, it is
+//! [`presliding`](super::presliding). No record can distinguish the two.
 //!
 //! Source: M. Nordin, P.-O. Gutman, "Controlling mechanical systems with backlash
 //! — a survey", *Automatica* 38(10), 2002; for the play, M. A. Krasnosel'skii,
@@ -14,13 +14,13 @@
 
 use super::info::{Info, Regressor, Stage};
 use super::shaped::shaped;
-use super::Symmetry::{Even, Neither, Odd};
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::Parity::{Even, Neither, Odd};
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::signal::clamp;
 use crate::Real;
 
 shaped! {
-    /// The play of half-width `r`, less its input; it starts in mid-gap.
+    /// The play of half-width `r` minus its input; it starts in mid-gap.
     ///
     /// ```
     /// use bowden::{effect::backlash::Backlash, Error};
@@ -40,13 +40,13 @@ impl<T: Real> Regressor<T> for Backlash<T> {
         family: Family::Backlash,
         formula: "play(x; r) − x",
         dimension: Dimension::POSITION,
-        parity: Parity::new(Odd, Neither),
+        parity: Symmetry::new(Odd, Neither),
         reads: &[Quantity::Position],
         memory: true,
     };
 
     #[inline]
-    fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, state: &mut EffectState<T>, at: &Inputs<T>) -> T {
         let x = at.motion.position;
         let before = state.memory.map_or(x, |[play, ..]| play);
         let play = clamp(before, x - self.r, x + self.r);
@@ -56,10 +56,10 @@ impl<T: Real> Regressor<T> for Backlash<T> {
 }
 
 shaped! {
-    /// A play in series: slack between what is measured and what moves the transmission.
+    /// A play in series: slack between the measured input and the transmission.
     ///
-    /// An input stage (see [`Effect::is_input_stage`](super::Effect::is_input_stage)): with
-    /// a gain of one the transmission sees `play(x; r)`; with less, a part of the gap is
+    /// An input stage (see [`Effect::is_input_stage`](super::Effect::is_input_stage)). With a
+    /// gain of one the transmission sees `play(x; r)`; with a lower gain a part of the gap is
     /// bridged. It starts in mid-gap.
     ///
     /// ```
@@ -83,7 +83,7 @@ impl<T: Real> Regressor<T> for PlayInSeries<T> {
     const STAGE: Stage = Stage::Input;
 
     #[inline]
-    fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, state: &mut EffectState<T>, at: &Inputs<T>) -> T {
         Backlash { r: self.r }.value(state, at)
     }
 }
@@ -109,13 +109,13 @@ impl<T: Real> Regressor<T> for DeadZone<T> {
         family: Family::Backlash,
         formula: "x − clamp(x, −r, r)",
         dimension: Dimension::POSITION,
-        parity: Parity::new(Odd, Even),
+        parity: Symmetry::new(Odd, Even),
         reads: &[Quantity::Position],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.motion.position - clamp(at.motion.position, -self.r, self.r)
     }
 }

@@ -1,4 +1,4 @@
-//! Finite, whatever the input: regressors saturate where arithmetic overflows.
+//! Finite for any input: regressors saturate if the arithmetic overflows.
 
 use crate::Real;
 

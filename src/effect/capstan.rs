@@ -1,10 +1,10 @@
-//! The capstan: friction grows with the tension and with the wrap.
+//! Capstan friction: friction grows with the tension and with the wrap angle.
 //!
-//! Formula: `load·(exp(mu·x) − 1)/mu·tanh(v/v_e)`, x the wrap angle from its origin.
-//! With a gain of mu it is Euler-Eytelwein's `load·(exp(mu·x) − 1)`, what friction adds
-//! to the tension along the wrap; as mu goes to zero it is `load·x·tanh(v/v_e)`.
-//! A wrap x_0 at the origin adds load friction, `load·(exp(mu·x_0) − 1)·tanh(v/v_e)`,
-//! and makes the gain `mu·exp(mu·x_0)`. The wrap grows with x, so that mu is positive.
+//! Formula: `load·(exp(mu·x) − 1)/mu·tanh(v/v_e)`, where x is the wrap angle from its origin.
+//! With a gain of mu this is Euler-Eytelwein's `load·(exp(mu·x) − 1)`, the tension that
+//! friction adds along the wrap. As mu goes to zero it becomes `load·x·tanh(v/v_e)`. A wrap x_0
+//! at the origin adds load friction, `load·(exp(mu·x_0) − 1)·tanh(v/v_e)`, and makes the gain
+//! `mu·exp(mu·x_0)`. The wrap grows with x, so mu is positive.
 //!
 //! Source: L. Euler, 1762; J. A. Eytelwein, 1808; for tendons, M. Kaneko,
 //! T. Yamashita, K. Tanie, "Basic considerations on transmission characteristics
@@ -14,12 +14,12 @@ use super::bounds::saturate;
 use super::coulomb::sign;
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
-use super::Symmetry::{Neither, Odd};
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::Parity::{Neither, Odd};
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 shaped! {
-    /// Friction in proportion to the tension, exponential in the wrap.
+    /// Friction proportional to the tension, exponential in the wrap angle.
     ///
     /// ```
     /// use bowden::{effect::capstan::Capstan, Error};
@@ -46,19 +46,19 @@ impl<T: Real> Regressor<T> for Capstan<T> {
             load: 1,
             ..Dimension::ONE
         },
-        parity: Parity::new(Neither, Odd),
+        parity: Symmetry::new(Neither, Odd),
         reads: &[Quantity::Load, Quantity::Position, Quantity::Velocity],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.load * sign(at.motion.velocity, self.v_e) * growth(at.motion.position, self.mu)
     }
 }
 
-/// `(exp(mu·x) − 1)/mu`, and x itself where they differ by less than rounding: there
-/// the product may be subnormal or 0 and the quotient anything.
+/// `(exp(mu·x) − 1)/mu`, or x itself if both differ by less than rounding: there the product
+/// may be subnormal or 0 and the quotient arbitrary.
 #[inline]
 fn growth<T: Real>(x: T, mu: T) -> T {
     let exponent = mu * x;

@@ -1,7 +1,7 @@
-//! Coulomb friction: odd in the velocity, and flat.
+//! Coulomb friction: odd in the velocity, and constant in magnitude.
 //!
-//! Formula: `tanh(v/v_e)`. The width v_e is a shape and not a constant: a step
-//! sharper than the friction's own would be mended by a false Stribeck effect.
+//! Formula: `tanh(v/v_e)`. The width v_e is a shape parameter. With a constant width that is
+//! too sharp, a false Stribeck effect would compensate the error.
 //!
 //! Source: S. Andersson, A. Söderberg, S. Björklund, "Friction models for sliding
 //! dry, boundary and mixed lubricated contacts", *Tribology International* 40(4),
@@ -9,8 +9,8 @@
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
-use super::Symmetry::Odd;
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::Parity::Odd;
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 shaped! {
@@ -34,18 +34,18 @@ impl<T: Real> Regressor<T> for Coulomb<T> {
         family: Family::Coulomb,
         formula: "tanh(v/v_e)",
         dimension: Dimension::ONE,
-        parity: Parity::new(Odd, Odd),
+        parity: Symmetry::new(Odd, Odd),
         reads: &[Quantity::Velocity],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         sign(at.motion.velocity, self.v_e)
     }
 }
 
-/// sgn(v), smoothed: `tanh(v/v_e)`. All dry friction of the catalogue goes through it.
+/// sgn(v), smoothed: `tanh(v/v_e)`. All dry friction of the catalogue uses this function.
 #[inline]
 pub(super) fn sign<T: Real>(v: T, v_e: T) -> T {
     (v / v_e).short_tanh()

@@ -1,7 +1,7 @@
-//! Creep: a response that goes on during holds.
+//! Creep: a response that continues at constant input.
 //!
-//! Formula: `lowpass(x; tau)`, a Kelvin-Voigt element; several with tau a decade apart
-//! make the logarithmic creep of polymers and piezo stacks. It starts at the first x.
+//! Formula: `lowpass(x; tau)`, a Kelvin-Voigt element. Several elements with tau a decade apart
+//! give the logarithmic creep of polymers and piezo stacks. The state starts at the first x.
 //!
 //! Source: P. Krejčí, K. Kuhnen, "Inverse control of systems with hysteresis and
 //! creep", *IEE Proceedings — Control Theory and Applications* 148(3), 2001.
@@ -9,12 +9,12 @@
 use super::info::{Info, Regressor};
 use super::lag::{held_share, low_pass};
 use super::shaped::shaped;
-use super::Symmetry::{Neither, Odd};
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::Parity::{Neither, Odd};
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 shaped! {
-    /// A slow follower of x.
+    /// A first-order low-pass of x.
     ///
     /// ```
     /// use bowden::{effect::creep::Creep, Error};
@@ -34,13 +34,13 @@ impl<T: Real> Regressor<T> for Creep<T> {
         family: Family::Creep,
         formula: "lowpass(x; tau)",
         dimension: Dimension::POSITION,
-        parity: Parity::new(Odd, Neither),
+        parity: Symmetry::new(Odd, Neither),
         reads: &[Quantity::Position, Quantity::Dt],
         memory: true,
     };
 
     #[inline]
-    fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, state: &mut EffectState<T>, at: &Inputs<T>) -> T {
         low_pass(state, at.motion.position, || self.share(at.dt))
     }
 
@@ -50,7 +50,7 @@ impl<T: Real> Regressor<T> for Creep<T> {
     }
 
     #[inline]
-    fn value_knowing(&self, state: &mut EffectState<T>, at: &Situation<T>, share: T) -> T {
+    fn value_knowing(&self, state: &mut EffectState<T>, at: &Inputs<T>, share: T) -> T {
         low_pass(state, at.motion.position, || share)
     }
 }

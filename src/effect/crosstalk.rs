@@ -1,12 +1,12 @@
-//! Crosstalk: what follows another channel alone.
+//! Crosstalk: proportional to another channel.
 //!
 //! Formula: `x` of that channel.
 //!
 //! Source: L. Ljung, *System Identification*, 1999 (several inputs).
 
 use super::info::{Info, Regressor};
-use super::Symmetry::{Even, Odd};
-use super::{Crosstalk, Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::Parity::{Even, Odd};
+use super::{Crosstalk, Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 impl<T: Real> Regressor<T> for Crosstalk {
@@ -15,13 +15,13 @@ impl<T: Real> Regressor<T> for Crosstalk {
         family: Family::Crosstalk,
         formula: "x of another channel",
         dimension: Dimension::POSITION,
-        parity: Parity::new(Odd, Even),
+        parity: Symmetry::new(Odd, Even),
         reads: &[Quantity::Position],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.motion.position
     }
 }

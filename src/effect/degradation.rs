@@ -1,9 +1,9 @@
 //! Degradation: the loop shrinks, or grows, with the work done.
 //!
-//! Formula: `eta·(1 − exp(−W/w_c))`, `W = ∫|eta|·|dx|` along the transmission's input
-//! (trapezoids, from the first sample on), whatever the channel. For W ≪ w_c it is the
-//! linear `eta·W/w_c`; it ends at `eta`, so that the loop has run in and stays bounded.
-//! The sum is compensated, so that small steps count in `f32` too.
+//! Formula: `eta·(1 − exp(−W/w_c))`, `W = ∫|eta|·|dx|` along the transmission's input (trapezoids,
+//! from the first sample on), for any channel. For W ≪ w_c it is the linear `eta·W/w_c`. The limit
+//! is `eta`: after running-in the loop stays bounded. The sum is compensated, so small steps
+//! count in `f32` too.
 //!
 //! Source: T. T. Baber, Y.-K. Wen, "Random vibration of hysteretic, degrading
 //! systems", *Journal of the Engineering Mechanics Division* 107(6), 1981, linear in the
@@ -13,8 +13,8 @@ use super::bounds::saturate;
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
 use super::sum::add;
-use super::Symmetry::{Neither, Odd};
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::Parity::{Neither, Odd};
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 shaped! {
@@ -38,18 +38,18 @@ impl<T: Real> Regressor<T> for Degradation<T> {
         family: Family::Degradation,
         formula: "eta·(1−exp(−∫|eta|·|dx|/w_c))",
         dimension: Dimension::ONE,
-        parity: Parity::new(Odd, Neither),
+        parity: Symmetry::new(Odd, Neither),
         reads: &[Quantity::Eta, Quantity::Input],
         memory: true,
     };
 
     #[inline]
-    fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, state: &mut EffectState<T>, at: &Inputs<T>) -> T {
         let (x, eta) = (at.input.position, at.eta);
         let fresh = [x, eta, T::zero(), T::zero()];
         let [x_before, eta_before, work, carry] = state.memory.unwrap_or(fresh);
         let path = (x - x_before).abs();
-        let mean = eta.abs() * T::of(0.5) + eta_before.abs() * T::of(0.5);
+        let mean = eta.abs() * T::from_f64(0.5) + eta_before.abs() * T::from_f64(0.5);
         let [work, carry] = add([work, carry], saturate(mean * path));
         state.memory = Some([x, eta, work, carry]);
         -eta * (-work / self.w_c).exp_m1()

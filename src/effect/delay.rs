@@ -1,10 +1,10 @@
 //! A pure delay: the loop opens with frequency.
 //!
-//! The gain is the delay T \[s\]. The output comes late through a first-order all-pass,
-//! `z_k = y_{k−1} + c·(y_k − z_{k−1})` with `c = (dt − T)/(dt + T)`: its magnitude is 1 at every
-//! frequency, it is exact for `T = dt`, and its delay is T up to a share of `(w·T)²/12` or, for
-//! a T below dt, `(w·dt)²/12`. At the first sample nothing is late.
-//! A negative T advances the output by the first-order term of its Taylor series.
+//! The gain is the delay T \[s\]. The output passes a first-order all-pass,
+//! `z_k = y_{k−1} + c·(y_k − z_{k−1})` with `c = (dt − T)/(dt + T)`. Its magnitude is 1 at
+//! every frequency, and it is exact for `T = dt`. Its delay is T up to a share of `(w·T)²/12`
+//! or, for a T below dt, `(w·dt)²/12`. The first sample is not delayed. A negative T advances
+//! the output by the first-order term of its Taylor series.
 //!
 //! Formula of the regressor, the slope at T = 0: `−d(output)/dt`, the backward difference. An
 //! output stage: it reads the sum of everything before it.
@@ -16,8 +16,8 @@
 
 use super::bounds::saturate;
 use super::info::{Info, Regressor};
-use super::Symmetry::{Neither, Odd};
-use super::{Delay, Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::Parity::{Neither, Odd};
+use super::{Delay, Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 impl<T: Real> Regressor<T> for Delay {
@@ -30,13 +30,13 @@ impl<T: Real> Regressor<T> for Delay {
             time: -1,
             ..Dimension::ONE
         },
-        parity: Parity::new(Odd, Neither),
+        parity: Symmetry::new(Odd, Neither),
         reads: &[Quantity::Output, Quantity::Dt],
         memory: true,
     };
 
     #[inline]
-    fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, state: &mut EffectState<T>, at: &Inputs<T>) -> T {
         let Some([before, ..]) = state.memory else {
             state.memory = Some([at.output, at.output, T::zero(), T::zero()]);
             return T::zero();
@@ -48,9 +48,9 @@ impl<T: Real> Regressor<T> for Delay {
         (before - at.output) / at.dt
     }
 
-    /// The late output, less the output.
+    /// The delayed output minus the output.
     #[inline]
-    fn contribution(&self, gain: T, state: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn contribution(&self, gain: T, state: &mut EffectState<T>, at: &Inputs<T>) -> T {
         let late = match state.memory {
             Some([before, late, ..]) if gain > T::zero() => {
                 if at.dt == T::zero() {

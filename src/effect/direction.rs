@@ -1,7 +1,7 @@
-//! Load friction that differs between driving and being driven.
+//! Load friction that differs between driving and back-driving.
 //!
-//! Formula: `|load|·tanh(v/v_e)` where `load·v > 0` (drive), or where `load·v < 0`
-//! (back-drive), else 0. The two add up to `load-friction`.
+//! Formula: `|load|·tanh(v/v_e)` if `load·v > 0` (drive), or if `load·v < 0` (back-drive),
+//! otherwise 0. The two add up to `load-friction`.
 //!
 //! Source: A. Wang, S. Kim, "Directional efficiency in geared transmissions:
 //! characterization of backdrivability towards improved proprioceptive control",
@@ -10,12 +10,12 @@
 use super::coulomb::sign;
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
-use super::Symmetry::{Neither, Odd};
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::Parity::{Neither, Odd};
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 shaped! {
-    /// Load friction while the load moves its own way.
+    /// Load friction while the load drives the motion.
     ///
     /// ```
     /// use bowden::{effect::direction::DriveFriction, Error};
@@ -35,13 +35,13 @@ impl<T: Real> Regressor<T> for DriveFriction<T> {
         family: Family::Direction,
         formula: "|load|·tanh(v/v_e) where load·v > 0",
         dimension: Dimension::LOAD,
-        parity: Parity::new(Odd, Neither),
+        parity: Symmetry::new(Odd, Neither),
         reads: &[Quantity::Load, Quantity::Velocity],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         if sense(at) > 0 {
             at.load.abs() * sign(at.motion.velocity, self.v_e)
         } else {
@@ -51,7 +51,7 @@ impl<T: Real> Regressor<T> for DriveFriction<T> {
 }
 
 shaped! {
-    /// Load friction while the load is moved against itself.
+    /// Load friction while the motion opposes the load.
     ///
     /// ```
     /// use bowden::{effect::direction::BackDriveFriction, Error};
@@ -71,13 +71,13 @@ impl<T: Real> Regressor<T> for BackDriveFriction<T> {
         family: Family::Direction,
         formula: "|load|·tanh(v/v_e) where load·v < 0",
         dimension: Dimension::LOAD,
-        parity: Parity::new(Odd, Neither),
+        parity: Symmetry::new(Odd, Neither),
         reads: &[Quantity::Load, Quantity::Velocity],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         if sense(at) < 0 {
             at.load.abs() * sign(at.motion.velocity, self.v_e)
         } else {
@@ -87,7 +87,7 @@ impl<T: Real> Regressor<T> for BackDriveFriction<T> {
 }
 
 /// The sign of load·v, without the product, which could underflow.
-fn sense<T: Real>(at: &Situation<T>) -> i8 {
+fn sense<T: Real>(at: &Inputs<T>) -> i8 {
     let (load, v) = (at.load, at.motion.velocity);
     if load == T::zero() || v == T::zero() {
         0

@@ -1,4 +1,4 @@
-//! Drag: odd in the velocity, and growing faster than it.
+//! Drag: odd in the velocity, with more than linear growth.
 //!
 //! Formulas: `v·|v|` (turbulent flow), `v³` (the next odd power).
 //!
@@ -6,10 +6,8 @@
 //! 2001, chapter 2.
 
 use super::info::{Info, Regressor};
-use super::Symmetry::Odd;
-use super::{
-    Dimension, DragCubic, DragQuadratic, EffectState, Family, Parity, Quantity, Situation,
-};
+use super::Parity::Odd;
+use super::{Dimension, DragCubic, DragQuadratic, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 impl<T: Real> Regressor<T> for DragQuadratic {
@@ -22,13 +20,13 @@ impl<T: Real> Regressor<T> for DragQuadratic {
             time: -2,
             ..Dimension::ONE
         },
-        parity: Parity::new(Odd, Odd),
+        parity: Symmetry::new(Odd, Odd),
         reads: &[Quantity::Velocity],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.motion.velocity * at.motion.velocity.abs()
     }
 }
@@ -43,13 +41,13 @@ impl<T: Real> Regressor<T> for DragCubic {
             time: -3,
             ..Dimension::ONE
         },
-        parity: Parity::new(Odd, Odd),
+        parity: Symmetry::new(Odd, Odd),
         reads: &[Quantity::Velocity],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.motion.velocity * at.motion.velocity * at.motion.velocity
     }
 }

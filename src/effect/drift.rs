@@ -6,8 +6,8 @@
 //! removal).
 
 use super::info::{Info, Regressor};
-use super::Symmetry::Even;
-use super::{Dimension, Drift, EffectState, Family, Parity, Quantity, Situation};
+use super::Parity::Even;
+use super::{Dimension, Drift, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 impl<T: Real> Regressor<T> for Drift {
@@ -16,13 +16,13 @@ impl<T: Real> Regressor<T> for Drift {
         family: Family::Drift,
         formula: "t",
         dimension: Dimension::TIME,
-        parity: Parity::new(Even, Even),
+        parity: Symmetry::new(Even, Even),
         reads: &[Quantity::Time],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.time
     }
 }

@@ -75,7 +75,7 @@ impl Family {
     /// The family of that name.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] where the catalogue has no such family.
+    /// [`Error::OutOfRange`] if the catalogue has no such family.
     pub fn from_name(name: &str) -> Result<Self, Error> {
         let found = Self::ALL.iter().find(|family| family.name() == name);
         found.copied().ok_or(Error::OutOfRange("family name"))

@@ -1,12 +1,12 @@
-//! A gain error: what is missing is proportional to the load.
+//! A gain error: proportional to the load.
 //!
 //! Formula: `load`.
 //!
 //! Source: the gain B of the transmission, L. Ljung, *System Identification*, 1999.
 
 use super::info::{Info, Regressor};
-use super::Symmetry::{Even, Odd};
-use super::{Dimension, EffectState, Family, Gain, Parity, Quantity, Situation};
+use super::Parity::{Even, Odd};
+use super::{Dimension, EffectState, Family, Gain, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 impl<T: Real> Regressor<T> for Gain {
@@ -15,13 +15,13 @@ impl<T: Real> Regressor<T> for Gain {
         family: Family::Gain,
         formula: "load",
         dimension: Dimension::LOAD,
-        parity: Parity::new(Odd, Even),
+        parity: Symmetry::new(Odd, Even),
         reads: &[Quantity::Load],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.load
     }
 }

@@ -7,8 +7,8 @@
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
-use super::Symmetry::{Even, Neither};
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::Parity::{Even, Neither};
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 shaped! {
@@ -32,13 +32,13 @@ impl<T: Real> Regressor<T> for Gravity<T> {
         family: Family::Gravity,
         formula: "sin(x + psi)",
         dimension: Dimension::ONE,
-        parity: Parity::new(Neither, Even),
+        parity: Symmetry::new(Neither, Even),
         reads: &[Quantity::Position],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         (at.motion.position + self.psi).sin()
     }
 }

@@ -1,26 +1,27 @@
-//! Hardening: a Bouc-Wen state that grows steeper along its stroke instead of saturating.
+//! Hardening: a Bouc-Wen state whose slope grows along the stroke instead of saturating.
 //!
 //! Formula: `w(x)`, the state of `dw/dx = 1 + g·|w|` while it moves away from zero and
-//! `dw/dx = 1 + (g + 2·beta)·|w|` on the way back, with w = 0 at the first sample. It has the
+//! `dw/dx = 1 + (g + 2·beta)·|w|` on the return, with w = 0 at the first sample. It has the
 //! unit of x; the gain is the initial stiffness.
 //!
 //! In the form `z' = A·x' − b·|x'|·|z|^(n−1)·z − c·x'·|z|^n` with n = 1 it is `z = A·w`,
-//! `beta = b` and `g = −(b + c)`: the branch beyond sigma in \[−1, 1\] of
-//! [`Shape`](crate::hysteresis::Shape), which starts where b + c passes zero.
+//! `beta = b` and `g = −(b + c)`. This is the branch beyond sigma in \[−1, 1\] of
+//! [`BoucWen`](crate::hysteresis::BoucWen), which starts where b + c passes zero.
 //!
-//! # What holds
-//! - For b + c > 0, `|z| ≤ (A/(b + c))^(1/n)` whatever the motion: that is a `Shape`, and no
-//!   effect of this kind.
-//! - For b + c ≤ 0 no such bound exists: a longer stroke reaches a larger w. With `beta > 0`,
-//!   which the constructor asks for, w is bounded by the stroke: over a motion that stays within
-//!   a range of length R, `|w| ≤ (exp(g·R) − 1)/g`, however far it travels there. Proof: the
-//!   curve `U(x) = (exp(g·(x − x_min)) − 1)/g` has `U' = 1 + g·U`. Where w = U, it rises with
-//!   the same slope, and falls with `1 + (g + 2·beta)·w`, which is steeper; so it never passes U.
-//!   Likewise below. With `beta < 0` small reversals would pump it up without end.
-//! - Cycles take energy out: the area of a loop is never negative, as the way back lies below.
+//! # Bounds
+//! - For b + c > 0, `|z| ≤ (A/(b + c))^(1/n)` for any motion. This case is a `BoucWen`, and not
+//!   an effect of this kind.
+//! - For b + c ≤ 0 no such bound exists: a longer stroke reaches a larger w. With `beta > 0`, which
+//!   the constructor requires, the stroke bounds w. Over a motion within a range of length R, `|w|
+//!   ≤ (exp(g·R) − 1)/g`, for any distance travelled. Proof: the curve `U(x) = (exp(g·(x − x_min))
+//!   − 1)/g` has `U' = 1 + g·U`. At w = U, the state rises with the same slope, and falls with `1 +
+//!   (g + 2·beta)·w`, which is steeper; so it never exceeds U. The same holds for negative w. With
+//!   `beta < 0` small reversals would increase w without limit.
+//! - Cycles dissipate energy: the area of a loop is never negative, as the return branch lies
+//!   below.
 //!
-//! Between two samples x runs one way, and the step is the exact solution for any dx. Where
-//! the exponential overflows it saturates at the largest float.
+//! Between two samples x is monotone, and the step is the exact solution for any dx. If the
+//! exponential overflows, the step saturates at the largest float.
 //!
 //! Source: Y. K. Wen, "Method for random vibration of hysteretic systems", *Journal of the
 //! Engineering Mechanics Division* 102(2), 1976; F. Ikhouane, J. Rodellar, *Systems with
@@ -31,8 +32,8 @@
 use super::bounds::saturate;
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
-use super::Symmetry::{Neither, Odd};
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::Parity::{Neither, Odd};
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 /// 1 over the channel's unit.
@@ -51,15 +52,15 @@ shaped! {
     /// # Ok::<(), Error>(())
     /// ```
     Hardening {
-        /// How fast the slope grows with the state \[1/channel unit\].
+        /// Growth of the slope with the state \[1/channel unit\].
         g: Positive, PER_POSITION;
-        /// Half of what it grows faster on the way back \[1/channel unit\].
+        /// Half of the additional growth on the return \[1/channel unit\].
         beta: Positive, PER_POSITION;
     }
 }
 
 impl<T: Real> Hardening<T> {
-    /// The largest state over a motion that stays within a range of that length.
+    /// The largest state over a motion within a range of that length.
     #[must_use]
     pub fn bound(&self, range: T) -> T {
         saturate(grown(T::zero(), self.g, range.abs()))
@@ -79,17 +80,17 @@ impl<T: Real> Regressor<T> for Hardening<T> {
         family: Family::Hardening,
         formula: "w(x; g, beta)",
         dimension: Dimension::POSITION,
-        parity: Parity::new(Odd, Neither),
+        parity: Symmetry::new(Odd, Neither),
         reads: &[Quantity::Position],
         memory: true,
     };
 
     #[inline]
-    fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, state: &mut EffectState<T>, at: &Inputs<T>) -> T {
         let (zero, x) = (T::zero(), at.motion.position);
         let [before, w, ..] = state.memory.unwrap_or([x, zero, zero, zero]);
         let change = saturate(x - before);
-        // Along the motion: below zero on the way back, above it away from zero.
+        // Along the motion: below zero on the return, above it away from zero.
         let sense = if change < zero { -T::one() } else { T::one() };
         let (along, path) = (sense * w, change.abs());
         let next = if along < zero {

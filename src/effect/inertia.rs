@@ -6,8 +6,8 @@
 //! W. Khalil, E. Dombre, *Modeling, Identification and Control of Robots*, 2002.
 
 use super::info::{Info, Regressor};
-use super::Symmetry::{Even, Odd};
-use super::{Dimension, EffectState, Family, Inertia, Parity, Quantity, Situation};
+use super::Parity::{Even, Odd};
+use super::{Dimension, EffectState, Family, Inertia, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 impl<T: Real> Regressor<T> for Inertia {
@@ -20,13 +20,13 @@ impl<T: Real> Regressor<T> for Inertia {
             time: -2,
             ..Dimension::ONE
         },
-        parity: Parity::new(Odd, Even),
+        parity: Symmetry::new(Odd, Even),
         reads: &[Quantity::Acceleration],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.motion.acceleration
     }
 }

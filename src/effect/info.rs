@@ -1,13 +1,13 @@
-//! What an effect says of itself: name, unit, parity, what it reads.
+//! Properties of an effect: name, unit, symmetries, inputs.
 
 use super::bounds::saturate;
-use super::{EffectState, Family, Situation};
+use super::{EffectState, Family, Inputs};
 use crate::error::finite;
 use crate::{Error, Real};
 
-/// A unit, as exponents of the units that the record declares.
+/// A unit, as exponents of the units of the record.
 ///
-/// The coefficient of an effect has the unit of the output divided by this.
+/// The coefficient of an effect has the unit of the output divided by this unit.
 ///
 /// ```
 /// use bowden::effect::{Dimension, Effect};
@@ -26,8 +26,8 @@ pub struct Dimension {
     pub time: i8,
     /// Exponent of the unit of the output.
     pub output: i8,
-    /// Exponent of the unit of the transmission's input, where that is read
-    /// whatever the channel (the shape of `degradation` only).
+    /// Exponent of the unit of the transmission's input, if the effect reads that input for any
+    /// channel (the shape parameter of `degradation` only).
     pub input: i8,
 }
 
@@ -68,45 +68,45 @@ impl Dimension {
     };
 }
 
-/// How a regressor answers to a change of sign.
+/// Response of a regressor to a change of sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Symmetry {
-    /// It stays.
+pub enum Parity {
+    /// The regressor keeps its sign.
     Even,
-    /// It changes sign too.
+    /// The regressor changes its sign.
     Odd,
     /// Neither.
     Neither,
 }
 
-/// The symmetries that tell effects apart.
+/// The symmetries that distinguish effects.
 ///
 /// ```
-/// use bowden::effect::{Effect, Symmetry};
+/// use bowden::effect::{Effect, Parity};
 /// let parity = Effect::<f64>::AsymmetryViscous.parity();
-/// assert_eq!(parity.mirror, Symmetry::Even); // |v|: breaks the mirror symmetry of friction
+/// assert_eq!(parity.mirror, Parity::Even); // |v|: breaks the mirror symmetry of friction
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Parity {
-    /// Under (x, v) → (−x, −v): all signed signals change sign, that is motion,
-    /// input, load, eta and output, along the whole path. Clocks do not.
-    pub mirror: Symmetry,
-    /// Under v → −v alone, at one instant: x, a, load and eta stay. An effect
-    /// with memory answers [`Symmetry::Neither`]: its path has no such mirror.
-    pub reversal: Symmetry,
+pub struct Symmetry {
+    /// Under (x, v) → (−x, −v): all signed signals change sign along the whole path, that is
+    /// motion, input, load, eta and output. Times do not.
+    pub mirror: Parity,
+    /// Under v → −v alone, at one instant: x, a, load and eta stay. An effect with memory
+    /// returns [`Parity::Neither`]: its path has no such mirror image.
+    pub reversal: Parity,
 }
 
-impl Parity {
-    pub(super) const fn new(mirror: Symmetry, reversal: Symmetry) -> Self {
+impl Symmetry {
+    pub(super) const fn new(mirror: Parity, reversal: Parity) -> Self {
         Self { mirror, reversal }
     }
 }
 
-/// One number of a [`Situation`].
+/// One quantity of [`Inputs`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -128,7 +128,7 @@ pub enum Quantity {
     Load,
     /// The hysteresis state.
     Eta,
-    /// The output so far.
+    /// The output before this effect.
     Output,
 }
 
@@ -139,7 +139,7 @@ pub enum Quantity {
 pub enum Range {
     /// Any finite number.
     Finite,
-    /// Finite and above zero: a fit does well to move its logarithm.
+    /// Finite and above zero: a fit should vary its logarithm.
     Positive,
 }
 
@@ -153,19 +153,19 @@ impl Range {
     }
 }
 
-/// What there is to know of one shape parameter.
+/// Properties of one shape parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ShapeInfo {
     /// Its name in the formula.
     pub name: &'static str,
-    /// The values that it may take.
+    /// Its range.
     pub range: Range,
     /// Its unit.
     pub dimension: Dimension,
 }
 
-/// What there is to know of one effect, whatever its shapes.
+/// Properties of one effect, for any shape parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Info {
@@ -178,26 +178,26 @@ pub struct Info {
     /// The regressor's unit.
     pub dimension: Dimension,
     /// The regressor's symmetries.
-    pub parity: Parity,
-    /// All that it reads; where one of these is not finite it returns 0.
+    pub parity: Symmetry,
+    /// The quantities that it reads; if one of them is not finite it returns 0.
     pub reads: &'static [Quantity],
-    /// Whether it remembers earlier samples.
+    /// Whether it has a memory of earlier samples.
     pub memory: bool,
 }
 
-/// Where in a model an effect acts; no part of the interface.
+/// Position of an effect in a model; not part of the interface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
     /// Adds to the transmission's input.
     Input,
     /// Adds to the output.
     Sum,
-    /// Reads the output of all before it, and adds to it.
+    /// Reads the output of all terms before it, and adds to this output.
     Output,
 }
 
 impl Info {
-    /// Where an effect that reads this acts, input stages apart.
+    /// The position of an effect with these inputs, input stages excluded.
     pub(super) const fn stage(&self) -> Stage {
         let mut rest = self.reads;
         while let [first, others @ ..] = rest {
@@ -210,23 +210,24 @@ impl Info {
     }
 }
 
-/// One effect as a type of its own: what it says of itself, and its regressor.
+/// One effect as a separate type: its properties and its regressor.
 ///
-/// For a [`FixedModel`](crate::model::FixedModel); [`Effect`](super::Effect) holds any of
-/// them. Only the effects of this crate are.
+/// For a [`FixedModel`](crate::model::FixedModel); [`Effect`](super::Effect) holds any effect.
+/// Only the effects of this crate implement the trait.
 pub trait Regressor<T>: sealed::Sealed {
-    /// All that there is to know of the effect, shapes apart.
+    /// Properties of the effect, shape parameters excluded.
     const INFO: &'static Info;
 
     #[doc(hidden)]
     const STAGE: Stage = Self::INFO.stage();
 
-    /// The regressor, where all that it reads is finite. It may overflow to an
-    /// infinity, and be NaN where that means zero; memory must stay finite.
+    /// The regressor, if all its inputs are finite. It may overflow to an infinity, and be NaN
+    /// if this means zero; the memory must stay finite.
     #[doc(hidden)]
-    fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T;
+    fn value(&self, state: &mut EffectState<T>, at: &Inputs<T>) -> T;
 
-    /// What of [`value`](Self::value) depends on `dt` alone: of a record it is computed once.
+    /// The part of [`value`](Self::value) that depends on `dt` alone: computed once for a
+    /// record.
     #[doc(hidden)]
     #[inline]
     fn share(&self, _dt: T) -> T
@@ -236,18 +237,19 @@ pub trait Regressor<T>: sealed::Sealed {
         T::zero()
     }
 
-    /// [`value`](Self::value), where [`share`](Self::share) of the sample's `dt` is known.
+    /// [`value`](Self::value), if [`share`](Self::share) of the sample's `dt` is known.
     #[doc(hidden)]
     #[inline]
-    fn value_knowing(&self, state: &mut EffectState<T>, at: &Situation<T>, _share: T) -> T {
+    fn value_knowing(&self, state: &mut EffectState<T>, at: &Inputs<T>, _share: T) -> T {
         self.value(state, at)
     }
 
-    /// What a term of that gain adds, where all that it reads is finite: gain times
-    /// regressor, but for an output stage that is not linear in its gain. It may overflow.
+    /// The contribution of a term with this gain, if all its inputs are finite: gain times
+    /// regressor. An output stage that is not linear in its gain is an exception. It may
+    /// overflow.
     #[doc(hidden)]
     #[inline]
-    fn contribution(&self, gain: T, state: &mut EffectState<T>, at: &Situation<T>) -> T
+    fn contribution(&self, gain: T, state: &mut EffectState<T>, at: &Inputs<T>) -> T
     where
         T: Real,
     {
@@ -256,6 +258,6 @@ pub trait Regressor<T>: sealed::Sealed {
 }
 
 pub(super) mod sealed {
-    /// Of the effects of this crate.
+    /// Restricts the trait to the effects of this crate.
     pub trait Sealed {}
 }

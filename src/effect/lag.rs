@@ -1,22 +1,22 @@
-//! A first-order lag: the output follows late and rounded.
+//! A first-order lag of the output.
 //!
-//! Formula: `lowpass(output; tau) − output`; the gain is 1 where the lag is whole.
-//! The low-pass takes each sample as held over its dt: exact for steps, at any dt. The float rounds
-//! what a step adds: the memory stops short of its end by up to tau/dt times half an epsilon of it,
-//! in `f32` 0.06 % at tau/dt of 10^4 and 6 % at 10^6.
-//! An output stage: it reads the sum of everything before it.
+//! Formula: `lowpass(output; tau) − output`; a gain of 1 is the full lag. The low-pass holds
+//! each sample over its dt: exact for steps, at any dt. Rounding limits the increment of a
+//! step: the memory stops short of its target by up to tau/dt times half an epsilon. In `f32`
+//! this is 0.06 % at tau/dt of 10^4 and 6 % at 10^6. An output stage: it reads the sum of all
+//! terms before it.
 //!
 //! Source: K. J. Åström, R. M. Murray, *Feedback Systems*, 2008, chapter 8.
 
 use super::bounds::saturate;
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
-use super::Symmetry::{Neither, Odd};
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::Parity::{Neither, Odd};
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 shaped! {
-    /// The low-pass of the output, less the output; starts at the first one.
+    /// The low-pass of the output minus the output; starts at the first output.
     ///
     /// ```
     /// use bowden::{effect::lag::Lag, Error};
@@ -36,13 +36,13 @@ impl<T: Real> Regressor<T> for Lag<T> {
         family: Family::Lag,
         formula: "lowpass(output; tau) − output",
         dimension: Dimension::OUTPUT,
-        parity: Parity::new(Odd, Neither),
+        parity: Symmetry::new(Odd, Neither),
         reads: &[Quantity::Output, Quantity::Dt],
         memory: true,
     };
 
     #[inline]
-    fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, state: &mut EffectState<T>, at: &Inputs<T>) -> T {
         low_pass(state, at.output, || self.share(at.dt)) - at.output
     }
 
@@ -52,12 +52,13 @@ impl<T: Real> Regressor<T> for Lag<T> {
     }
 
     #[inline]
-    fn value_knowing(&self, state: &mut EffectState<T>, at: &Situation<T>, share: T) -> T {
+    fn value_knowing(&self, state: &mut EffectState<T>, at: &Inputs<T>, share: T) -> T {
         low_pass(state, at.output, || share) - at.output
     }
 }
 
-/// Share of the way to a held input that a first-order low-pass goes: `1 − exp(−dt/tau)`.
+/// Share of the distance to a held input that a first-order low-pass covers:
+/// `1 − exp(−dt/tau)`.
 #[inline]
 pub(super) fn held_share<T: Real>(tau: T, dt: T) -> T {
     -(-dt / tau).exp_m1()

@@ -8,12 +8,12 @@
 use super::coulomb::sign;
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
-use super::Symmetry::Odd;
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::Parity::Odd;
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 shaped! {
-    /// Dry friction in proportion to the load.
+    /// Dry friction proportional to the load.
     ///
     /// ```
     /// use bowden::{effect::load_friction::LoadFriction, Error};
@@ -33,13 +33,13 @@ impl<T: Real> Regressor<T> for LoadFriction<T> {
         family: Family::LoadFriction,
         formula: "|load|·tanh(v/v_e)",
         dimension: Dimension::LOAD,
-        parity: Parity::new(Odd, Odd),
+        parity: Symmetry::new(Odd, Odd),
         reads: &[Quantity::Load, Quantity::Velocity],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.load.abs() * sign(at.motion.velocity, self.v_e)
     }
 }

@@ -1,14 +1,14 @@
-//! Effects: what a cable transmission does beside its hysteresis.
+//! Effects of a cable transmission other than its hysteresis.
 //!
-//! Each effect is one *regressor*, a function of the motion, the load and the
-//! hysteresis state, times a gain that the fit finds. Its unit, its symmetries and
-//! its shape parameters are stated with it: they say which effect a residual can
-//! be, and which experiment would separate two. One module a family; each states
-//! formula and source.
+//! Each effect is one *regressor* times a gain that the fit identifies. A regressor is a
+//! function of the motion, the load and the hysteresis state. Each effect states its formula,
+//! unit, symmetries, shape parameters and source. The symmetries show which effects can explain
+//! a residual, and which experiment separates two effects. Each family of effects has its own
+//! module.
 //!
-//! A regressor is finite for finite input: where arithmetic overflows it saturates.
-//! Where a number that it reads is not finite (or a `dt` is negative) it returns 0,
-//! and its memory stays as it was.
+//! A regressor is finite for finite input: it saturates if the arithmetic overflows. If an
+//! input is not finite or `dt` is negative, the regressor returns 0 and leaves its memory
+//! unchanged.
 
 mod bounds;
 mod family;
@@ -56,7 +56,7 @@ pub mod viscous;
 pub use crate::signal::Motion;
 pub use family::Family;
 pub use info::{Dimension, Info, Parity, Quantity, Range, Regressor, ShapeInfo, Symmetry};
-pub use situation::{EffectState, Situation};
+pub use situation::{EffectState, Inputs};
 
 use crate::{Error, Real};
 pub(crate) use bounds::saturate;
@@ -85,7 +85,7 @@ macro_rules! plain_types {
     };
 }
 
-/// What the types of effects with shapes have in common; each stands in its own file.
+/// Common part of the types of effects with shape parameters; each type has its own file.
 macro_rules! shaped_types {
     ($($module:ident: $($shaped:ident)+;)*) => {
         $($(
@@ -104,7 +104,7 @@ macro_rules! shaped_types {
 
 /// The enum of all effects and the dispatch to each one's own file.
 ///
-/// Compact forms store the place of an effect in the enum: what is added stands under `later`.
+/// Compact forms store the index of an effect in the enum: add new effects under `later`.
 macro_rules! effects {
     (
         plain { $($module:ident: $($plain:ident)+;)* }
@@ -116,7 +116,7 @@ macro_rules! effects {
 
         shaped_types! { $($shaped_module: $($shaped)+;)* $($late_module: $($late)+;)* }
 
-        /// One effect, with its shapes.
+        /// One effect, with its shape parameters.
         ///
         /// ```
         /// use bowden::effect::{Coulomb, Effect};
@@ -155,7 +155,7 @@ macro_rules! effects {
         ];
 
         impl<T: Real> Effect<T> {
-            /// All that there is to know of the effect, shapes apart.
+            /// Properties of the effect, shape parameters excluded.
             #[must_use]
             pub fn info(&self) -> &'static Info {
                 match self {
@@ -166,7 +166,7 @@ macro_rules! effects {
                 }
             }
 
-            /// Where in a model it acts.
+            /// Position of the effect in a model.
             pub(crate) fn stage(&self) -> Stage {
                 match self {
                     $($(Self::$plain => <$plain as Regressor<T>>::STAGE,)+)*
@@ -176,7 +176,7 @@ macro_rules! effects {
                 }
             }
 
-            /// The names of its shapes; empty where it has none.
+            /// The names of its shape parameters; empty if it has none.
             #[must_use]
             pub fn shape_names(&self) -> &'static [&'static str] {
                 match self {
@@ -187,7 +187,7 @@ macro_rules! effects {
                 }
             }
 
-            /// Name, range and unit of its shapes; empty where it has none.
+            /// Name, range and unit of its shape parameters; empty if it has none.
             #[must_use]
             pub fn shape_info(&self) -> &'static [ShapeInfo] {
                 match self {
@@ -198,7 +198,7 @@ macro_rules! effects {
                 }
             }
 
-            /// The value of one shape.
+            /// The value of one shape parameter.
             #[must_use]
             pub fn shape(&self, index: usize) -> Option<T> {
                 match self {
@@ -209,11 +209,11 @@ macro_rules! effects {
                 }
             }
 
-            /// The same effect with one shape changed.
+            /// The same effect with one shape parameter changed.
             ///
             /// # Errors
-            /// [`Error::OutOfRange`] where there is no such shape or where the value
-            /// lies outside its range, [`Error::NonFinite`] where it is not finite.
+            /// [`Error::OutOfRange`] if there is no such shape parameter or if the value lies
+            /// outside its range, [`Error::NonFinite`] if the value is not finite.
             pub fn with_shape(&self, index: usize, value: T) -> Result<Self, Error> {
                 match self {
                     $($(Self::$plain)|+ => Err(Error::OutOfRange("shape index")),)*
@@ -223,12 +223,13 @@ macro_rules! effects {
                 }
             }
 
-            /// An effect from its own name and its shapes in order.
+            /// An effect from its own name and its shape parameters in order.
             ///
             /// # Errors
-            /// [`Error::OutOfRange`] where the catalogue has no such effect or where a
-            /// shape lies outside its range, [`Error::Inadmissible`] where the number
-            /// of shapes is wrong, [`Error::NonFinite`] where one is not finite.
+            /// - [`Error::OutOfRange`] if the catalogue has no such effect, or if a shape
+            ///   parameter lies outside its range.
+            /// - [`Error::Inadmissible`] if the number of shape parameters is wrong.
+            /// - [`Error::NonFinite`] if a shape parameter is not finite.
             pub fn try_from_name(name: &str, shapes: &[T]) -> Result<Self, Error> {
                 let plain = |effect| if shapes.is_empty() { Ok(effect) } else { Err(COUNT) };
                 match name {
@@ -244,15 +245,15 @@ macro_rules! effects {
                 }
             }
 
-            /// The regressors of a record, one a sample: each as by
-            /// [`regressor`](Self::regressor), bit for bit, for less on many samples.
+            /// The regressors of a record, one per sample. Each equals
+            /// [`regressor`](Self::regressor) bit for bit, at lower cost for many samples.
             pub fn regressors(
                 &self,
                 state: &mut EffectState<T>,
-                record: impl Iterator<Item = Situation<T>>,
+                record: impl Iterator<Item = Inputs<T>>,
                 take: impl FnMut(T),
             ) {
-                // Which effect it is, is asked once, not once a sample.
+                // The effect is matched once, not once a sample.
                 match self {
                     $($(Self::$plain => along(&$plain, state, record, take),)+)*
                     $($(Self::$shaped(config) => along(config, state, record, take),)+)*
@@ -263,10 +264,10 @@ macro_rules! effects {
 
             /// The regressor at one sample; the caller multiplies by the gain.
             ///
-            /// Finite for finite input. Where a number that the effect reads is not
-            /// finite, or a `dt` that it reads is negative: 0, and `state` stays.
+            /// Finite for finite input. If a number that the effect reads is not finite, or a
+            /// `dt` that it reads is negative: 0, and `state` is unchanged.
             #[inline]
-            pub fn regressor(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
+            pub fn regressor(&self, state: &mut EffectState<T>, at: &Inputs<T>) -> T {
                 match self {
                     $($(Self::$plain => evaluate(&$plain, state, at),)+)*
                     $($(Self::$shaped(config) => evaluate(config, state, at),)+)*
@@ -324,11 +325,7 @@ effects! {
 }
 
 #[inline]
-fn evaluate<T: Real, R: Regressor<T>>(
-    effect: &R,
-    state: &mut EffectState<T>,
-    at: &Situation<T>,
-) -> T {
+fn evaluate<T: Real, R: Regressor<T>>(effect: &R, state: &mut EffectState<T>, at: &Inputs<T>) -> T {
     if at.is_usable(R::INFO.reads) {
         saturate(effect.value(state, at))
     } else {
@@ -341,13 +338,13 @@ fn evaluate<T: Real, R: Regressor<T>>(
 fn along<T: Real, R: Regressor<T>>(
     effect: &R,
     state: &mut EffectState<T>,
-    record: impl Iterator<Item = Situation<T>>,
+    record: impl Iterator<Item = Inputs<T>>,
     mut take: impl FnMut(T),
 ) {
     let mut known: Option<(T, T)> = None;
     record.for_each(|at| {
         let share = match known {
-            // Zero equals its negative, whose share has the other sign.
+            // Zero equals its negative, whose contribution has the opposite sign.
             Some((dt, share)) if dt == at.dt && dt != T::zero() => share,
             _ => effect.share(at.dt),
         };
@@ -387,25 +384,27 @@ impl<T: Real> Effect<T> {
 
     /// The symmetries of the regressor.
     #[must_use]
-    pub fn parity(&self) -> Parity {
+    pub fn parity(&self) -> Symmetry {
         self.info().parity
     }
 
-    /// What a term of that gain adds to the output: gain times regressor, but for a delay.
+    /// The contribution of a term with this gain to the output: gain times regressor, except for a
+    /// delay.
     ///
-    /// The gain of a [`delay`] is a time, in which its output is not linear; the regressor is
-    /// the slope at no delay. Finite for finite input; where a number that the effect reads is
-    /// not finite, or a `dt` that it reads is negative: 0, and `state` stays.
+    /// The gain of a [`delay`] is a time, and its output is not linear in this time; the
+    /// regressor is the slope at zero delay. Finite for finite input. If a number that the
+    /// effect reads is not finite, or a `dt` that it reads is negative: 0, and `state` is
+    /// unchanged.
     ///
     /// ```
-    /// use bowden::effect::{Effect, EffectState, Situation};
+    /// use bowden::effect::{Effect, EffectState, Inputs};
     /// let (late, mut state) = (Effect::Delay, EffectState::default());
-    /// let at = |output| Situation { dt: 0.001, output, ..Situation::default() };
+    /// let at = |output| Inputs { dt: 0.001, output, ..Inputs::default() };
     /// let y: [f64; 3] = [5.0, 2.0, 7.0].map(|y| y + late.contribution(0.001, &mut state, &at(y)));
     /// assert_eq!(y, [5.0, 5.0, 2.0]); // one sample late
     /// ```
     #[inline]
-    pub fn contribution(&self, gain: T, state: &mut EffectState<T>, at: &Situation<T>) -> T {
+    pub fn contribution(&self, gain: T, state: &mut EffectState<T>, at: &Inputs<T>) -> T {
         let part = match self {
             Self::Delay if at.is_usable(<Delay as Regressor<T>>::INFO.reads) => {
                 Delay.contribution(gain, state, at)
@@ -415,13 +414,13 @@ impl<T: Real> Effect<T> {
         saturate(part)
     }
 
-    /// What a term of that gain adds along a record, one number a sample: each as by
-    /// [`contribution`](Self::contribution), bit for bit, for less on many samples.
+    /// The contributions of a term with this gain along a record, one per sample. Each equals
+    /// [`contribution`](Self::contribution) bit for bit, at lower cost for many samples.
     pub fn contributions(
         &self,
         gain: T,
         state: &mut EffectState<T>,
-        record: impl Iterator<Item = Situation<T>>,
+        record: impl Iterator<Item = Inputs<T>>,
         mut take: impl FnMut(T),
     ) {
         match self {
@@ -436,7 +435,7 @@ impl<T: Real> Effect<T> {
         self.info().reads.contains(&Quantity::Eta)
     }
 
-    /// Whether it reads the sum of everything before it.
+    /// Whether it reads the sum of all terms before it.
     #[must_use]
     pub fn is_output_stage(&self) -> bool {
         self.stage() == Stage::Output
@@ -444,14 +443,14 @@ impl<T: Real> Effect<T> {
 
     /// Whether it acts on the transmission's input instead of adding to the output.
     ///
-    /// Its dimension is then the input's, and its gain a number. Where there is no
-    /// transmission it does nothing.
+    /// The regressor then has the unit of the input, and its gain is a number. Without a
+    /// transmission it has no effect.
     #[must_use]
     pub fn is_input_stage(&self) -> bool {
         self.stage() == Stage::Input
     }
 
-    /// Whether it remembers earlier samples.
+    /// Whether it has a memory of earlier samples.
     #[must_use]
     pub fn has_memory(&self) -> bool {
         self.info().memory

@@ -1,12 +1,12 @@
-//! A constant: what the sensor or the zero of the load adds.
+//! A constant: the offset of the sensor or of the load.
 //!
 //! Formula: `1`.
 //!
-//! Source: every linear regression; L. Ljung, *System Identification*, 1999.
+//! Source: part of every linear regression; L. Ljung, *System Identification*, 1999.
 
 use super::info::{Info, Regressor};
-use super::Symmetry::Even;
-use super::{Dimension, EffectState, Family, Offset, Parity, Situation};
+use super::Parity::Even;
+use super::{Dimension, EffectState, Family, Inputs, Offset, Symmetry};
 use crate::Real;
 
 impl<T: Real> Regressor<T> for Offset {
@@ -15,13 +15,13 @@ impl<T: Real> Regressor<T> for Offset {
         family: Family::Offset,
         formula: "1",
         dimension: Dimension::ONE,
-        parity: Parity::new(Even, Even),
+        parity: Symmetry::new(Even, Even),
         reads: &[],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, _: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, _: &Inputs<T>) -> T {
         T::one()
     }
 }

@@ -7,8 +7,8 @@
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
-use super::Symmetry::{Even, Odd};
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::Parity::{Even, Odd};
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 shaped! {
@@ -32,13 +32,13 @@ impl<T: Real> Regressor<T> for Pinching<T> {
         family: Family::Pinching,
         formula: "eta·exp(−(eta/w)²)",
         dimension: Dimension::ONE,
-        parity: Parity::new(Odd, Even),
+        parity: Symmetry::new(Odd, Even),
         reads: &[Quantity::Eta],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         let ratio = at.eta / self.w;
         at.eta * (-(ratio * ratio)).short_exp()
     }

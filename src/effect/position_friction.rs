@@ -1,4 +1,4 @@
-//! Friction that varies along the stroke: the loop's width follows x.
+//! Friction that varies along the stroke: the width of the loop depends on x.
 //!
 //! Formulas: `x·tanh(v/v_e)` for dry friction, `eta·x` for hysteresis.
 //!
@@ -8,12 +8,12 @@
 use super::coulomb::sign;
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
-use super::Symmetry::{Even, Odd};
-use super::{Dimension, EffectState, Family, Parity, PositionHysteresis, Quantity, Situation};
+use super::Parity::{Even, Odd};
+use super::{Dimension, EffectState, Family, Inputs, PositionHysteresis, Quantity, Symmetry};
 use crate::Real;
 
 shaped! {
-    /// Dry friction in proportion to the position.
+    /// Dry friction proportional to the position.
     ///
     /// ```
     /// use bowden::{effect::position_friction::PositionFriction, Error};
@@ -33,13 +33,13 @@ impl<T: Real> Regressor<T> for PositionFriction<T> {
         family: Family::PositionFriction,
         formula: "x·tanh(v/v_e)",
         dimension: Dimension::POSITION,
-        parity: Parity::new(Even, Odd),
+        parity: Symmetry::new(Even, Odd),
         reads: &[Quantity::Position, Quantity::Velocity],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.motion.position * sign(at.motion.velocity, self.v_e)
     }
 }
@@ -50,13 +50,13 @@ impl<T: Real> Regressor<T> for PositionHysteresis {
         family: Family::PositionFriction,
         formula: "eta·x",
         dimension: Dimension::POSITION,
-        parity: Parity::new(Even, Even),
+        parity: Symmetry::new(Even, Even),
         reads: &[Quantity::Eta, Quantity::Position],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.eta * at.motion.position
     }
 }

@@ -1,14 +1,15 @@
-//! Power-law drag: odd in the velocity, and growing slower than it (shear thinning).
+//! Power-law drag: odd in the velocity, with less than linear growth (shear thinning).
 //!
-//! Formula: `sgn(v)·|v/v_1|^a` with `v_1` = 1 channel unit/s. The regressor is a number, and the
-//! gain is the force at 1 channel unit/s, in the output's unit: a record in mm has another gain
-//! than the same record in m, and the same exponent. For `0 < a < 1` the force rises steeply from
-//! standstill and flattens, between [`Viscous`](super::Viscous) (a = 1) and Coulomb friction
-//! (a towards 0). It is continuous at v = 0, where its slope is infinite.
+//! Formula: `sgn(v)·|v/v_1|^a` with `v_1` = 1 channel unit/s. The regressor is a number, and
+//! the gain is the force at 1 channel unit/s, in the output's unit. A record in mm has another
+//! gain than the same record in m, and the same exponent. For `0 < a < 1` the force rises
+//! steeply from standstill and flattens. This range lies between [`Viscous`](super::Viscous) (a
+//! = 1) and Coulomb friction (a towards 0). The function is continuous at v = 0, where its
+//! slope is infinite.
 //!
-//! Oils with additives, greases, and the fluids of magnetorheological dampers past yield thin with
-//! the shear rate. The constructor takes any a > 0; above 1 the fluid thickens, and the formulas of
-//! [`drag`](super::drag) are a = 2 and a = 3.
+//! Oils with additives, greases, and the fluids of magnetorheological dampers past yield thin
+//! with the shear rate. The constructor accepts any a > 0; above 1 the fluid thickens, and the
+//! formulas of [`drag`](super::drag) are a = 2 and a = 3.
 //!
 //! Source: W. Ostwald, "Über die Geschwindigkeitsfunktion der Viskosität disperser Systeme. I",
 //! *Kolloid-Zeitschrift* 36, 1925, pp. 99–117; for dampers, `F = C·|v|^a·sgn(v)`: N. Makris,
@@ -18,8 +19,8 @@
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
-use super::Symmetry::Odd;
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::Parity::Odd;
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 shaped! {
@@ -43,13 +44,13 @@ impl<T: Real> Regressor<T> for PowerLaw<T> {
         family: Family::PowerLaw,
         formula: "sgn(v)·|v|^a",
         dimension: Dimension::ONE,
-        parity: Parity::new(Odd, Odd),
+        parity: Symmetry::new(Odd, Odd),
         reads: &[Quantity::Velocity],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         let v = at.motion.velocity;
         let size = v.abs().short_pow(self.a);
         if v < T::zero() {

@@ -1,14 +1,14 @@
-//! Presliding: a spring that slips, a memory beyond the one of eta.
+//! Presliding: a spring that slips, with a memory in addition to eta.
 //!
-//! Formula: `s/r` with `s ← clamp(s + dx, −r, r)`, Prandtl's stop (elastic, perfectly
-//! plastic). Each cycle wider than 2·r dissipates; the loop's area is
-//! `4·(X − r)` for a cycle of amplitude X > r, and 0 below. It starts at s = 0. With the
-//! opposite sign it is the [`backlash`](super::backlash) of the same r.
+//! Formula: `s/r` with `s ← clamp(s + dx, −r, r)`, Prandtl's stop (elastic, perfectly plastic).
+//! Each cycle wider than 2·r dissipates. The loop's area is `4·(X − r)` for a cycle of
+//! amplitude X > r, and 0 below. It starts at s = 0. With the opposite sign it is the
+//! [`backlash`](super::backlash) of the same r.
 //!
-//! The second, `dahl(x; r)`, bends instead of slipping: `dz/dx = (1 − z·sgn dx)/r`,
-//! Dahl's equation with exponent 1. Between two samples x runs one way, and the step
-//! `z ← sgn dx + (z − sgn dx)·exp(−|dx|/r)` is exact for any dx. Every cycle dissipates:
-//! the loop's area is `4·(X − r·tanh(X/r))`, its height ±tanh(X/r). It starts at z = 0.
+//! The second, `dahl(x; r)`, bends instead of slipping: `dz/dx = (1 − z·sgn dx)/r`, Dahl's
+//! equation with exponent 1. Between two samples x is monotone, and the step
+//! `z ← sgn dx + (z − sgn dx)·exp(−|dx|/r)` is exact for any dx. Every cycle dissipates: the
+//! loop's area is `4·(X − r·tanh(X/r))`, its height ±tanh(X/r). It starts at z = 0.
 //!
 //! Source: L. Prandtl, 1928; P. R. Dahl, *A Solid Friction Model*, 1968; stops in
 //! parallel, F. Al-Bender, V. Lampaert, J. Swevers, "The generalized Maxwell-slip
@@ -17,8 +17,8 @@
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
 use super::sum::add;
-use super::Symmetry::{Neither, Odd};
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::Parity::{Neither, Odd};
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::signal::clamp;
 use crate::Real;
 
@@ -43,13 +43,13 @@ impl<T: Real> Regressor<T> for Presliding<T> {
         family: Family::Presliding,
         formula: "stop(x; r)/r",
         dimension: Dimension::ONE,
-        parity: Parity::new(Odd, Neither),
+        parity: Symmetry::new(Odd, Neither),
         reads: &[Quantity::Position],
         memory: true,
     };
 
     #[inline]
-    fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, state: &mut EffectState<T>, at: &Inputs<T>) -> T {
         let x = at.motion.position;
         let [before, stretch, ..] = state.memory.unwrap_or(fresh(x));
         let stretch = clamp(stretch + (x - before), -self.r, self.r);
@@ -79,13 +79,13 @@ impl<T: Real> Regressor<T> for PreslidingDahl<T> {
         family: Family::Presliding,
         formula: "dahl(x; r)",
         dimension: Dimension::ONE,
-        parity: Parity::new(Odd, Neither),
+        parity: Symmetry::new(Odd, Neither),
         reads: &[Quantity::Position],
         memory: true,
     };
 
     #[inline]
-    fn value(&self, state: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, state: &mut EffectState<T>, at: &Inputs<T>) -> T {
         let x = at.motion.position;
         let [before, z, carry, _] = state.memory.unwrap_or(fresh(x));
         let change = x - before;
@@ -96,7 +96,7 @@ impl<T: Real> Regressor<T> for PreslidingDahl<T> {
             T::one()
         };
         let [z, carry] = add([z, carry], (end - z) * share);
-        // Rounding keeps within ±1 by itself; a state that was read may not be.
+        // Rounding alone stays within ±1; a stored state may not.
         let z = clamp(z, -T::one(), T::one());
         state.memory = Some([x, z, carry, T::zero()]);
         z

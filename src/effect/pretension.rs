@@ -1,15 +1,15 @@
-//! A jump of the pretension: a slipped clamp, a re-tensioned cable.
+//! A preload step, for example from a slipped clamp or a re-tensioned cable.
 //!
-//! Formula: `1` where `t ≥ t_s`, else 0.
+//! Formula: `1` if `t ≥ t_s`, otherwise 0.
 //!
-//! Source: for what pretension changes, V. Agrawal, W. J. Peine, B. Yao, "Modeling
+//! Source: for the effect of the preload, V. Agrawal, W. J. Peine, B. Yao, "Modeling
 //! of transmission characteristics across a cable-conduit system", *IEEE
 //! Transactions on Robotics* 26(5), 2010.
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
-use super::Symmetry::Even;
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::Parity::Even;
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 shaped! {
@@ -33,13 +33,13 @@ impl<T: Real> Regressor<T> for Pretension<T> {
         family: Family::Pretension,
         formula: "1 where t ≥ t_s",
         dimension: Dimension::ONE,
-        parity: Parity::new(Even, Even),
+        parity: Symmetry::new(Even, Even),
         reads: &[Quantity::Time],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         if at.time >= self.t_s {
             T::one()
         } else {

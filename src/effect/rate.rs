@@ -7,8 +7,8 @@
 //! actuator", *IEEE/ASME Transactions on Mechatronics* 18(5), 2013.
 
 use super::info::{Info, Regressor};
-use super::Symmetry::{Even, Odd};
-use super::{Dimension, EffectState, Family, Parity, Quantity, Rate, RateSymmetric, Situation};
+use super::Parity::{Even, Odd};
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Rate, RateSymmetric, Symmetry};
 use crate::Real;
 
 impl<T: Real> Regressor<T> for Rate {
@@ -17,13 +17,13 @@ impl<T: Real> Regressor<T> for Rate {
         family: Family::Rate,
         formula: "eta·v",
         dimension: Dimension::VELOCITY,
-        parity: Parity::new(Even, Odd),
+        parity: Symmetry::new(Even, Odd),
         reads: &[Quantity::Eta, Quantity::Velocity],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.eta * at.motion.velocity
     }
 }
@@ -34,13 +34,13 @@ impl<T: Real> Regressor<T> for RateSymmetric {
         family: Family::Rate,
         formula: "eta·|v|",
         dimension: Dimension::VELOCITY,
-        parity: Parity::new(Odd, Even),
+        parity: Symmetry::new(Odd, Even),
         reads: &[Quantity::Eta, Quantity::Velocity],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.eta * at.motion.velocity.abs()
     }
 }

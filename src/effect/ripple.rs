@@ -1,14 +1,14 @@
 //! Ripple: periodic in the angle, k times a turn.
 //!
-//! Formula: `sin(k·x + psi)`, with k from the teeth, the lobes or a gear's ratio.
+//! Formula: `sin(k·x + psi)`, with k from the teeth, the lobes or a gear ratio.
 //!
 //! Source: T. D. Tuttle, W. P. Seering, "A nonlinear model of a harmonic drive
 //! gear transmission", *IEEE Transactions on Robotics and Automation* 12(3), 1996.
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
-use super::Symmetry::{Even, Neither};
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::Parity::{Even, Neither};
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 shaped! {
@@ -34,13 +34,13 @@ impl<T: Real> Regressor<T> for Ripple<T> {
         family: Family::Ripple,
         formula: "sin(k·x + psi)",
         dimension: Dimension::ONE,
-        parity: Parity::new(Neither, Even),
+        parity: Symmetry::new(Neither, Even),
         reads: &[Quantity::Position],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         (self.k * at.motion.position + self.psi).sin()
     }
 }

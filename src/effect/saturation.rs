@@ -8,12 +8,12 @@
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
 use super::stiffness::above;
-use super::Symmetry::{Even, Neither};
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::Parity::{Even, Neither};
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 shaped! {
-    /// What x has above `x_s`.
+    /// The excess of x above `x_s`.
     ///
     /// ```
     /// use bowden::{effect::saturation::SaturationUpper, Error};
@@ -22,7 +22,7 @@ shaped! {
     /// # Ok::<(), Error>(())
     /// ```
     SaturationUpper {
-        /// Where saturation begins \[channel unit\].
+        /// Start of the saturation \[channel unit\].
         x_s: Finite, Dimension::POSITION;
     }
 }
@@ -33,19 +33,19 @@ impl<T: Real> Regressor<T> for SaturationUpper<T> {
         family: Family::Saturation,
         formula: "max(0, x − x_s)",
         dimension: Dimension::POSITION,
-        parity: Parity::new(Neither, Even),
+        parity: Symmetry::new(Neither, Even),
         reads: &[Quantity::Position],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         above(at.motion.position, self.x_s)
     }
 }
 
 shaped! {
-    /// What x has below `x_s`.
+    /// The excess of x below `x_s`.
     ///
     /// ```
     /// use bowden::{effect::saturation::SaturationLower, Error};
@@ -54,7 +54,7 @@ shaped! {
     /// # Ok::<(), Error>(())
     /// ```
     SaturationLower {
-        /// Where saturation begins \[channel unit\].
+        /// Start of the saturation \[channel unit\].
         x_s: Finite, Dimension::POSITION;
     }
 }
@@ -65,13 +65,13 @@ impl<T: Real> Regressor<T> for SaturationLower<T> {
         family: Family::Saturation,
         formula: "min(0, x − x_s)",
         dimension: Dimension::POSITION,
-        parity: Parity::new(Neither, Even),
+        parity: Symmetry::new(Neither, Even),
         reads: &[Quantity::Position],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         -above(-at.motion.position, -self.x_s)
     }
 }

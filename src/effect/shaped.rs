@@ -3,7 +3,7 @@
 use super::info::ShapeInfo;
 use crate::Error;
 
-/// The shapes of an effect that has some.
+/// The shape parameters of an effect.
 pub(super) trait Shaped<T>: Sized {
     const NAMES: &'static [&'static str];
     const SHAPES: &'static [ShapeInfo];
@@ -16,11 +16,11 @@ pub(super) trait Shaped<T>: Sized {
 /// Values and shapes do not match in number.
 pub(super) const COUNT: Error = Error::Inadmissible("one value for each shape of the effect");
 
-/// Declares the config of an effect with shapes:
+/// Defines the configuration of an effect with shape parameters:
 /// `Name { field: Range, Dimension::UNIT; … }`, each field with its doc line.
 ///
-/// Makes the struct, `try_new`, a getter a field, [`Shaped`], and a `Deserialize`
-/// that goes through `try_new`.
+/// Generates the struct, `try_new`, a getter for each field, [`Shaped`], and a `Deserialize`
+/// through `try_new`.
 macro_rules! shaped {
     ($(#[$doc:meta])* $config:ident {
         $($(#[$field_doc:meta])* $field:ident: $range:ident, $dimension:expr;)+
@@ -34,11 +34,11 @@ macro_rules! shaped {
         }
 
         impl<T: $crate::Real> $config<T> {
-            /// Checks each shape once.
+            /// Checks each shape parameter once.
             ///
             /// # Errors
             /// [`NonFinite`](crate::Error::NonFinite) or
-            /// [`OutOfRange`](crate::Error::OutOfRange) with the shape's name.
+            /// [`OutOfRange`](crate::Error::OutOfRange) with the name of the shape parameter.
             pub fn try_new($($field: T),+) -> Result<Self, $crate::Error> {
                 Ok(Self {
                     $($field: $crate::effect::Range::$range.check($field, stringify!($field))?),+

@@ -1,15 +1,15 @@
-//! What an effect may read at one sample, and what it remembers.
+//! Inputs of an effect at one sample, and its memory.
 
 use super::{Motion, Quantity};
 use crate::Real;
 
-/// What an effect may read at one sample.
+/// Inputs of an effect at one sample.
 ///
 /// ```
-/// use bowden::effect::{Effect, EffectState, Motion, Situation};
-/// let at = Situation {
+/// use bowden::effect::{Effect, EffectState, Motion, Inputs};
+/// let at = Inputs {
 ///     motion: Motion { velocity: 2.0, ..Motion::default() },
-///     ..Situation::default()
+///     ..Inputs::default()
 /// };
 /// let mut state = EffectState::default();
 /// assert_eq!(Effect::Viscous.regressor(&mut state, &at), 2.0);
@@ -17,25 +17,25 @@ use crate::Real;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Situation<T> {
-    /// Since the previous sample \[s\].
+pub struct Inputs<T> {
+    /// Time since the previous sample \[s\].
     pub dt: T,
-    /// Since the start of the record \[s\].
+    /// Time since the start of the record \[s\].
     pub time: T,
     /// The channel that the effect reads.
     pub motion: Motion<T>,
     /// The transmission's input, x or `tau_i`, with its rates.
     pub input: Motion<T>,
-    /// The transmitted load: `tau_i` in torque mode, else a load channel.
+    /// The transmitted load: `tau_i` in torque mode, otherwise a load channel.
     pub load: T,
     /// The hysteresis state, 0 without hysteresis.
     pub eta: T,
-    /// The sum of everything before this effect; only output stages read it.
+    /// The sum of all terms before this effect; only output stages read it.
     pub output: T,
 }
 
-impl<T: Real> Situation<T> {
-    /// One number by its name.
+impl<T: Real> Inputs<T> {
+    /// One quantity by its name.
     #[inline]
     #[must_use]
     pub fn get(&self, quantity: Quantity) -> T {
@@ -63,10 +63,10 @@ impl<T: Real> Situation<T> {
     }
 }
 
-/// The memory of one effect: a few numbers, or nothing before the first sample.
+/// The memory of one effect: a few numbers, or none before the first sample.
 ///
-/// What the numbers mean is the effect's own business; a state belongs to one
-/// effect. `EffectState::default()` has seen no sample.
+/// The numbers are specific to the effect; a state belongs to one effect.
+/// `EffectState::default()` is a new state.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -75,7 +75,7 @@ pub struct EffectState<T> {
 }
 
 impl<T> EffectState<T> {
-    /// A state that has seen no sample.
+    /// A new state, before the first sample.
     #[must_use]
     pub const fn new() -> Self {
         Self { memory: None }

@@ -9,10 +9,10 @@
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
-use super::Symmetry::{Even, Neither, Odd};
+use super::Parity::{Even, Neither, Odd};
 use super::{
-    Dimension, EffectState, Family, Parity, Quantity, Situation, StiffnessCubic, StiffnessLinear,
-    StiffnessProgressive, StiffnessQuadratic,
+    Dimension, EffectState, Family, Inputs, Quantity, StiffnessCubic, StiffnessLinear,
+    StiffnessProgressive, StiffnessQuadratic, Symmetry,
 };
 use crate::Real;
 
@@ -22,13 +22,13 @@ impl<T: Real> Regressor<T> for StiffnessLinear {
         family: Family::Stiffness,
         formula: "x",
         dimension: Dimension::POSITION,
-        parity: Parity::new(Odd, Even),
+        parity: Symmetry::new(Odd, Even),
         reads: &[Quantity::Position],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.motion.position
     }
 }
@@ -42,13 +42,13 @@ impl<T: Real> Regressor<T> for StiffnessQuadratic {
             channel: 2,
             ..Dimension::ONE
         },
-        parity: Parity::new(Even, Even),
+        parity: Symmetry::new(Even, Even),
         reads: &[Quantity::Position],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.motion.position * at.motion.position
     }
 }
@@ -62,13 +62,13 @@ impl<T: Real> Regressor<T> for StiffnessCubic {
             channel: 3,
             ..Dimension::ONE
         },
-        parity: Parity::new(Odd, Even),
+        parity: Symmetry::new(Odd, Even),
         reads: &[Quantity::Position],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.motion.position * at.motion.position * at.motion.position
     }
 }
@@ -82,13 +82,13 @@ impl<T: Real> Regressor<T> for StiffnessProgressive {
             channel: 2,
             ..Dimension::ONE
         },
-        parity: Parity::new(Odd, Even),
+        parity: Symmetry::new(Odd, Even),
         reads: &[Quantity::Position],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.motion.position * at.motion.position.abs()
     }
 }
@@ -103,7 +103,7 @@ shaped! {
     /// # Ok::<(), Error>(())
     /// ```
     Hinge {
-        /// Where the spring engages \[channel unit\].
+        /// Position at which the spring engages \[channel unit\].
         x_h: Finite, Dimension::POSITION;
     }
 }
@@ -114,18 +114,18 @@ impl<T: Real> Regressor<T> for Hinge<T> {
         family: Family::Stiffness,
         formula: "max(0, x − x_h)",
         dimension: Dimension::POSITION,
-        parity: Parity::new(Neither, Even),
+        parity: Symmetry::new(Neither, Even),
         reads: &[Quantity::Position],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         above(at.motion.position, self.x_h)
     }
 }
 
-/// How far `x` lies above `limit`: `max(0, x − limit)`.
+/// The excess of `x` above `limit`: `max(0, x − limit)`.
 #[inline]
 pub(super) fn above<T: Real>(x: T, limit: T) -> T {
     if x > limit {

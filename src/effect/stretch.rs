@@ -1,8 +1,8 @@
 //! Stretch: the elasticity of a cable between its two ends.
 //!
 //! Formulas: `s` and `s³` (hardening) of a channel `s` that is the stretch, the difference of
-//! the angles at both ends, `phi_p − phi_d`. The channel is computed by the caller, with the
-//! signs and the gear ratio of the rig: where the ends turn against each other the stretch is
+//! the angles at both ends, `phi_p − phi_d`. The caller computes the channel, with the signs
+//! and the gear ratio of the rig. If the ends rotate in opposite directions, the stretch is
 //! their sum.
 //!
 //! Source: M. W. Spong, "Modeling and Control of Elastic Joint Robots", *Journal of Dynamic
@@ -11,9 +11,9 @@
 //! Transmission", *IEEE Transactions on Robotics and Automation* 12(3), 1996.
 
 use super::info::{Info, Regressor};
-use super::Symmetry::{Even, Odd};
+use super::Parity::{Even, Odd};
 use super::{
-    Dimension, EffectState, Family, Parity, Quantity, Situation, StretchCubic, StretchLinear,
+    Dimension, EffectState, Family, Inputs, Quantity, StretchCubic, StretchLinear, Symmetry,
 };
 use crate::Real;
 
@@ -23,13 +23,13 @@ impl<T: Real> Regressor<T> for StretchLinear {
         family: Family::Stretch,
         formula: "s",
         dimension: Dimension::POSITION,
-        parity: Parity::new(Odd, Even),
+        parity: Symmetry::new(Odd, Even),
         reads: &[Quantity::Position],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.motion.position
     }
 }
@@ -43,13 +43,13 @@ impl<T: Real> Regressor<T> for StretchCubic {
             channel: 3,
             ..Dimension::ONE
         },
-        parity: Parity::new(Odd, Even),
+        parity: Symmetry::new(Odd, Even),
         reads: &[Quantity::Position],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.motion.position * at.motion.position * at.motion.position
     }
 }

@@ -1,7 +1,7 @@
-//! Stribeck friction: odd in the velocity, and falling from rest on.
+//! Stribeck friction: odd in the velocity, with a decrease from standstill.
 //!
-//! Formula: `tanh(v/(0.1·v_s))·exp(−|v/v_s|^a)`, a = 2 for the usual bell and 1
-//! for the exponential. What remains at high speed is Coulomb friction's.
+//! Formula: `tanh(v/(0.1·v_s))·exp(−|v/v_s|^a)`, with a = 2 for the usual bell curve and a = 1
+//! for the exponential. The friction at high speed is Coulomb friction.
 //!
 //! Source: R. Stribeck, *Zeitschrift des VDI* 46, 1902; the exponential form is
 //! L. C. Bo, D. Pavelescu, "The friction-speed relation and its influence on the
@@ -9,8 +9,8 @@
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
-use super::Symmetry::Odd;
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::Parity::Odd;
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 shaped! {
@@ -36,14 +36,14 @@ impl<T: Real> Regressor<T> for Stribeck<T> {
         family: Family::Stribeck,
         formula: "tanh(v/(0.1·v_s))·exp(−|v/v_s|^a)",
         dimension: Dimension::ONE,
-        parity: Parity::new(Odd, Odd),
+        parity: Symmetry::new(Odd, Odd),
         reads: &[Quantity::Velocity],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         let ratio = at.motion.velocity / self.v_s;
-        (T::of(10.0) * ratio).short_tanh() * (-ratio.abs().short_pow(self.a)).short_exp()
+        (T::from_f64(10.0) * ratio).short_tanh() * (-ratio.abs().short_pow(self.a)).short_exp()
     }
 }

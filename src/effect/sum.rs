@@ -1,16 +1,16 @@
-//! Sums over many samples. A plain one in `f32` stops growing once its steps fall below
-//! half an ulp: after a few hours of work, or on a slow approach to a limit.
+//! Sums over many samples. A plain sum in `f32` stops growing once its steps fall below half an
+//! ulp: after a few hours of work, or on a slow approach to a limit.
 
 use super::bounds::saturate;
 use crate::signal::two_sum;
 use crate::Real;
 
-/// `[sum, carry]` after one more step; the carry is what the sum owes
+/// `[sum, carry]` after one more step; the carry is the rounding error of the sum
 /// ([`Compensated`](crate::signal::Compensated)). Finite for finite numbers.
 #[inline]
 pub(super) fn add<T: Real>([sum, carry]: [T; 2], step: T) -> [T; 2] {
     let (total, owed) = two_sum(sum, saturate(step + carry));
-    // At the end of the floats the way to what is owed may overflow, and the total too.
+    // Near the largest float the distance may overflow, and the total too.
     if owed.is_finite() {
         [total, owed]
     } else {

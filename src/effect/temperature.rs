@@ -1,4 +1,4 @@
-//! Temperature: what follows T. The channel read is the temperature.
+//! Temperature: proportional to T. The channel is the temperature.
 //!
 //! Formula: `x − t_ref`.
 //!
@@ -7,12 +7,12 @@
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
-use super::Symmetry::{Even, Neither};
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::Parity::{Even, Neither};
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 shaped! {
-    /// The temperature above `t_ref`.
+    /// The temperature difference to `t_ref`.
     ///
     /// ```
     /// use bowden::{effect::temperature::Temperature, Error};
@@ -32,13 +32,13 @@ impl<T: Real> Regressor<T> for Temperature<T> {
         family: Family::Temperature,
         formula: "x − t_ref",
         dimension: Dimension::POSITION,
-        parity: Parity::new(Neither, Even),
+        parity: Symmetry::new(Neither, Even),
         reads: &[Quantity::Position],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.motion.position - self.t_ref
     }
 }

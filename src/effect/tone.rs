@@ -1,4 +1,4 @@
-//! A tone: a line in the time spectrum, a function of nothing measured.
+//! A tone: a sine in time, independent of all measured signals.
 //!
 //! Formula: `sin(2·pi·f·t + psi)`.
 //!
@@ -6,8 +6,8 @@
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
-use super::Symmetry::Even;
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation};
+use super::Parity::Even;
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 use core::f64::consts::TAU;
 
@@ -34,14 +34,14 @@ impl<T: Real> Regressor<T> for Tone<T> {
         family: Family::Tone,
         formula: "sin(2·pi·f·t + psi)",
         dimension: Dimension::ONE,
-        parity: Parity::new(Even, Even),
+        parity: Symmetry::new(Even, Even),
         reads: &[Quantity::Time],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         let turns = self.f * at.time;
-        (T::of(TAU) * turns + self.psi).sin()
+        (T::from_f64(TAU) * turns + self.psi).sin()
     }
 }

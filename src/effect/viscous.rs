@@ -7,8 +7,8 @@
 //! with friction", *Automatica* 30(7), 1994.
 
 use super::info::{Info, Regressor};
-use super::Symmetry::Odd;
-use super::{Dimension, EffectState, Family, Parity, Quantity, Situation, Viscous};
+use super::Parity::Odd;
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry, Viscous};
 use crate::Real;
 
 impl<T: Real> Regressor<T> for Viscous {
@@ -17,13 +17,13 @@ impl<T: Real> Regressor<T> for Viscous {
         family: Family::Viscous,
         formula: "v",
         dimension: Dimension::VELOCITY,
-        parity: Parity::new(Odd, Odd),
+        parity: Symmetry::new(Odd, Odd),
         reads: &[Quantity::Velocity],
         memory: false,
     };
 
     #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Situation<T>) -> T {
+    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.motion.velocity
     }
 }

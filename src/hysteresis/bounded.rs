@@ -1,4 +1,4 @@
-//! The unconditional step in bounded time (derived in the module above).
+//! The bounded-time step (derived in the module above).
 
 use super::number::Number;
 use crate::Real;
@@ -13,7 +13,7 @@ const STEEP: f64 = 3.0;
 /// Beyond this `1/(1 + most)` is zero to rounding.
 const SATURATED: f64 = 1e30;
 
-/// What the step needs of a shape: it is computed once, not with every sample.
+/// Constants of a shape for the step, computed once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Constants<N> {
     /// How much faster unloading starts than loading, less one: `2·sigma - 1`.
@@ -38,7 +38,7 @@ struct Series<N> {
 
 impl<N: Number> Constants<N> {
     pub(super) fn of(c: N, n: N) -> Self {
-        let (of, one) = (N::Float::of, N::constant(N::Float::one()));
+        let (of, one) = (N::Float::from_f64, N::constant(N::Float::one()));
         let n1 = n + one;
         let first = one / n1;
         let second = (n1 - n * n) / n.scale(of(2.0)).shift(of(1.0)) * first * first;
@@ -53,6 +53,35 @@ impl<N: Number> Constants<N> {
         }
     }
 }
+
+macro_rules! constant {
+    ($float:ty) => {
+        impl Constants<$float> {
+            /// [`of`](Self::of) at compile time, with the same roundings.
+            #[allow(clippy::cast_possible_truncation)]
+            pub(super) const fn const_of(c: $float, n: $float) -> Self {
+                let n1 = n + 1.0;
+                let first = 1.0 / n1;
+                let second = (n1 - n * n) / (n * 2.0 + 1.0) * first * first;
+                let below = first + second;
+                Self {
+                    c,
+                    n,
+                    root: -1.0 / n,
+                    size: n * n1 * (0.6_f64 as $float),
+                    series: Series { first, second },
+                    after_1: if below > 0.0 {
+                        1.0 / (below + 1.0)
+                    } else {
+                        1.0
+                    },
+                }
+            }
+        }
+    };
+}
+constant!(f32);
+constant!(f64);
 
 impl<N: Number> Series<N> {
     /// `zeta` after the path p from zero, `p <= 1`: that of
@@ -76,7 +105,7 @@ pub(super) fn follow<N: Number>(zeta: N, p: N, shape: &Constants<N>) -> N {
     follow_powered(zeta, p, powered(zeta, shape.n), shape)
 }
 
-/// `|zeta|^(n-1)`; of zero it is some number, and not used.
+/// `|zeta|^(n-1)`; at zero it is an arbitrary number that is not used.
 #[inline]
 pub(super) fn powered<N: Number>(zeta: N, n: N) -> N {
     (n.shift(-N::Float::one()) * zeta.abs().log2()).exp2()
@@ -126,11 +155,11 @@ pub(super) fn leave_zero<N: Number>(p: N, shape: &Constants<N>) -> N {
     )
 }
 
-/// `zeta + w·(1 - 1/(1 + m)²)`, `w = 1 - zeta`, with the `m` that agrees with the equation
-/// to third order in `r = p·f/w` but for `f''`; `turn` is `w·|f'|/f`.
+/// `zeta + w·(1 - 1/(1 + m)²)`, `w = 1 - zeta`, where `m` agrees with the equation to third
+/// order in `r = p·f/w` except for `f''`; `turn` is `w·|f'|/f`.
 #[inline]
 fn approach<N: Number>(zeta: N, w: N, r: N, turn: N) -> N {
-    let (of, one) = (N::Float::of, N::Float::one());
+    let (of, one) = (N::Float::from_f64, N::Float::one());
     // f is concave, so that only rounding exceeds 1; the coefficients stay above zero.
     let turn = if turn.value() < one {
         turn
@@ -148,10 +177,10 @@ fn approach<N: Number>(zeta: N, w: N, r: N, turn: N) -> N {
     }
 }
 
-/// How far the path leads from `a` below zero towards it, or the path that is left at zero.
+/// The distance of the path from `a` below zero towards zero, or the remaining path at zero.
 #[inline]
 pub(super) fn unload<N: Number>(a: N, p: N, powered: N, shape: &Constants<N>) -> Result<N, N> {
-    let (of, one) = (N::Float::of, N::Float::one());
+    let (of, one) = (N::Float::from_f64, N::Float::one());
     let n = shape.n;
     let x = shape.c * (a * powered);
     let (f, nx) = (x.shift(one), n * x);
@@ -189,7 +218,7 @@ pub(super) fn unload<N: Number>(a: N, p: N, powered: N, shape: &Constants<N>) ->
 /// `(1 + (n - 1)·s)^(-1/(n - 1))` to second order in `s`, within 0.1 for any.
 #[inline]
 fn inverse_power<N: Number>(s: N, n: N) -> N {
-    let (of, one) = (N::Float::of, N::Float::one());
+    let (of, one) = (N::Float::from_f64, N::Float::one());
     let half = n.scale(of(0.5));
     let above = half.shift(of(-0.9)).abs();
     let first = above.shift(one);
@@ -210,7 +239,7 @@ fn flat_share<N: Number>(x: N, n: N) -> (N, N) {
     (above / below, below / above)
 }
 
-/// The same to 7 % where x is large: `f^(-1/n)` for `f = 1 + x`, times what it lacks.
+/// The same to 7 % for a large x: `f^(-1/n)` for `f = 1 + x`, times a correction.
 #[inline]
 fn steep_share<N: Number>(f: N, shape: &Constants<N>) -> N {
     let log = f.coarse_log2();

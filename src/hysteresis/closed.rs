@@ -1,7 +1,7 @@
 //! Closed forms of the path for `n = 1`, `n = 2`, and of unloading for `sigma = 1/2`.
 //!
-//! A segment is split at `zeta = 0`: the unloading part ends there after a path
-//! that is known, the rest is loading from zero.
+//! A segment is split at `zeta = 0`: the unloading part ends there after a known path, and the rest
+//! is loading from zero.
 
 use crate::Real;
 

@@ -1,6 +1,6 @@
-//! The step with a power function that lies, and with one that is counted.
+//! Tests of the step: with a wrong power function, and with a count of its calls.
 //!
-//! The bounds must not rest on the power function, and its count is the cost.
+//! The bounds must not depend on the power function; the count is the cost.
 
 use super::bounded::Constants;
 use super::number::Number;

@@ -1,7 +1,7 @@
-//! What the step computes with: a float, or a float with its four derivatives.
+//! Number type of the step: a float, or a float with its four derivatives.
 //!
-//! The step is written once. Run on plain floats it is the step; run on [`Dual`]
-//! it is the exact derivative of that very step, branch for branch.
+//! The step is written once. On plain floats it is the step; on [`Dual`] it is the exact
+//! derivative of the same step, branch for branch.
 
 use crate::real::sealed::Sealed;
 use crate::Real;
@@ -19,7 +19,7 @@ pub(super) trait Number:
     type Float: Real;
     /// A number without derivatives.
     fn constant(value: Self::Float) -> Self;
-    /// The number less its derivatives.
+    /// The number without its derivatives.
     fn value(self) -> Self::Float;
     fn scale(self, by: Self::Float) -> Self;
     fn shift(self, by: Self::Float) -> Self;
@@ -202,17 +202,17 @@ impl<T: Real> Number for Dual<T> {
     #[inline]
     fn sqrt(self) -> Self {
         let value = Real::sqrt(self.value);
-        self.chain(value, T::of(0.5) / value)
+        self.chain(value, T::from_f64(0.5) / value)
     }
     #[inline]
     fn log2(self) -> Self {
-        let slope = T::of(core::f64::consts::LOG2_E) / self.value;
+        let slope = T::from_f64(core::f64::consts::LOG2_E) / self.value;
         self.chain(Sealed::log2(self.value), slope)
     }
     #[inline]
     fn exp2(self) -> Self {
         let value = Sealed::exp2(self.value);
-        self.chain(value, value * T::of(core::f64::consts::LN_2))
+        self.chain(value, value * T::from_f64(core::f64::consts::LN_2))
     }
     #[inline]
     fn coarse_log2(self) -> Self {

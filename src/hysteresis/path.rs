@@ -1,19 +1,19 @@
-//! The unconditional step, for any path length (derived in the module above).
+//! The splitting step, for any path length (derived in the module above).
 
 use super::number::Number;
 use crate::Real;
 use num_traits::{One, Zero};
 
-/// A path after which the state is saturated whatever it was before: unloading
-/// ends within 1, and `1 - e^(-39)` rounds to 1 in `f64`.
+/// A path after which the state is saturated for any start: unloading ends within 1, and
+/// `1 - e^(-39)` rounds to 1 in `f64`.
 pub(super) const SATURATING: f64 = 40.0;
-/// A state nearer to zero than this is taken to be at zero: there `f = 1` to rounding.
+/// A state nearer to zero than this counts as zero: there `f = 1` to rounding.
 pub(super) const NEAR_ZERO: f64 = 1e-9;
 /// Where `n·(1 - zeta)` is below this, the rest of the path has a closed form.
 const NEAR_SATURATION: f64 = 0.03;
 /// Local accuracy of a part of a long path; the error grows with its fourth power.
 const TOLERANCE: f64 = 0.25;
-/// More parts than any path takes for `sigma` up to 1e30; the last takes what is left.
+/// More parts than any path takes for `sigma` up to 1e30; the last part takes the rest.
 pub(super) const MOST_PARTS: u32 = 512;
 
 /// `zeta` after the path `p >= 0`, for `zeta` in `[-1, 1]`.
@@ -21,25 +21,25 @@ pub(super) const MOST_PARTS: u32 = 512;
 /// `c = 2·sigma - 1`. Any `p`, infinite included, ends in `[zeta, 1]`.
 #[inline]
 pub(super) fn follow<N: Number>(zeta: N, p: N, c: N, n: N) -> N {
-    if p.value() > N::Float::of(SATURATING) {
+    if p.value() > N::Float::from_f64(SATURATING) {
         return N::constant(N::Float::one());
     }
     let (zeta, p) = unload(zeta, p, c, n);
     load(zeta, p, n)
 }
 
-/// Follows the path up to `zeta = 0`; returns the state and the path that is left.
+/// Follows the path up to `zeta = 0`; returns the state and the remaining path.
 #[inline]
 pub(super) fn unload<N: Number>(zeta: N, path: N, c: N, n: N) -> (N, N) {
     let zero = N::Float::zero();
     let (mut zeta, mut p) = (zeta, path);
     let mut part = 0;
-    while zeta.value() < -N::Float::of(NEAR_ZERO) && p.value() > zero {
+    while zeta.value() < -N::Float::from_f64(NEAR_ZERO) && p.value() > zero {
         part += 1;
         (zeta, p) = unload_part(zeta, p, part == MOST_PARTS, c, n);
     }
     if zeta.value() < zero && p.value() > zero {
-        // f = 1 here, so that the rest of the way down is as long as it is deep.
+        // f = 1 here, so that the remaining path to zero has the length of its depth.
         let used = -zeta;
         return if p.value() > used.value() {
             (N::constant(zero), p - used)
@@ -50,7 +50,7 @@ pub(super) fn unload<N: Number>(zeta: N, path: N, c: N, n: N) -> (N, N) {
     (zeta, p)
 }
 
-/// One part of the path below zero; the last one takes all that is left.
+/// One part of the path below zero; the last part takes the rest.
 #[inline]
 pub(super) fn unload_part<N: Number>(zeta: N, p: N, last: bool, c: N, n: N) -> (N, N) {
     let a = -zeta;
@@ -58,7 +58,7 @@ pub(super) fn unload_part<N: Number>(zeta: N, p: N, last: bool, c: N, n: N) -> (
     let powered = c * ((n.shift(-N::Float::one())) * a.ln()).exp();
     let x = powered * a;
     let f = x.shift(N::Float::one());
-    let half_slope = (n * powered).scale(N::Float::of(0.5));
+    let half_slope = (n * powered).scale(N::Float::from_f64(0.5));
     // The relative change of a over the path, times n: x changes by its exponential.
     let bend = n * f * inverse;
     let h = if last {
@@ -66,10 +66,10 @@ pub(super) fn unload_part<N: Number>(zeta: N, p: N, last: bool, c: N, n: N) -> (
     } else {
         shorter(p, bend, x.value() / f.value(), || x / f)
     };
-    let turn = n * x - (n.shift(-N::Float::one()) * f).scale(N::Float::of(2.0));
-    let curve = half_slope * turn * inverse.scale(N::Float::of(1.0 / 6.0));
+    let turn = n * x - (n.shift(-N::Float::one()) * f).scale(N::Float::from_f64(2.0));
+    let curve = half_slope * turn * inverse.scale(N::Float::from_f64(1.0 / 6.0));
     let denominator = (h * (half_slope + h * curve)).shift(N::Float::one());
-    let forward = if denominator.value() > N::Float::of(0.5) {
+    let forward = if denominator.value() > N::Float::from_f64(0.5) {
         h * f / denominator
     } else {
         h * f / (h * half_slope).shift(N::Float::one())
@@ -85,9 +85,9 @@ pub(super) fn unload_part<N: Number>(zeta: N, p: N, last: bool, c: N, n: N) -> (
 #[inline]
 fn crossing<N: Number>(a: N, f: N, half_slope: N, curve: N, longest: N) -> N {
     let line = f - half_slope * a;
-    let root = line * line - (curve * a * a).scale(N::Float::of(4.0));
+    let root = line * line - (curve * a * a).scale(N::Float::from_f64(4.0));
     if root.value() > N::Float::zero() {
-        let used = a.scale(N::Float::of(2.0)) / (line + root.sqrt());
+        let used = a.scale(N::Float::from_f64(2.0)) / (line + root.sqrt());
         if used.value() > N::Float::zero() && used.value() < longest.value() {
             return used;
         }
@@ -100,7 +100,7 @@ fn crossing<N: Number>(a: N, f: N, half_slope: N, curve: N, longest: N) -> N {
 pub(super) fn load<N: Number>(zeta: N, path: N, n: N) -> N {
     let zero = N::Float::zero();
     let (mut zeta, mut p) = (zeta, path);
-    if p.value() > zero && zeta.value() >= zero && zeta.value() < N::Float::of(NEAR_ZERO) {
+    if p.value() > zero && zeta.value() >= zero && zeta.value() < N::Float::from_f64(NEAR_ZERO) {
         (zeta, p) = leave_zero(p, n);
     }
     let mut part = 0;
@@ -111,7 +111,7 @@ pub(super) fn load<N: Number>(zeta: N, path: N, n: N) -> N {
     zeta
 }
 
-/// One part of the path above zero; the last one takes all that is left.
+/// One part of the path above zero; the last part takes the rest.
 #[inline]
 pub(super) fn load_part<N: Number>(zeta: N, p: N, last: bool, n: N) -> (N, N) {
     let (one, end) = (N::Float::one(), N::constant(N::Float::zero()));
@@ -119,15 +119,15 @@ pub(super) fn load_part<N: Number>(zeta: N, p: N, last: bool, n: N) -> (N, N) {
     if room.value() <= N::Float::zero() {
         return (zeta, end);
     }
-    if n.value() * room.value() <= N::Float::of(NEAR_SATURATION) {
+    if n.value() * room.value() <= N::Float::from_f64(NEAR_SATURATION) {
         return (saturate(zeta, room, p, n), end);
     }
     let powered = (n.shift(-one) * zeta.ln()).exp();
     let f = (-(zeta * powered)).shift(one);
-    let half_slope = (n * powered).scale(N::Float::of(0.5));
+    let half_slope = (n * powered).scale(N::Float::from_f64(0.5));
     let concave = n.shift(-one) * f / zeta;
     let rate = f / room;
-    let curve = (half_slope * (half_slope + concave)).scale(N::Float::of(1.0 / 3.0));
+    let curve = (half_slope * (half_slope + concave)).scale(N::Float::from_f64(1.0 / 3.0));
     let h = if last {
         p
     } else {
@@ -138,8 +138,8 @@ pub(super) fn load_part<N: Number>(zeta: N, p: N, last: bool, n: N) -> (N, N) {
         } else {
             h
         };
-        let bend = (half_slope * concave).scale(N::Float::of(2.0));
-        let limit = N::Float::of(TOLERANCE);
+        let bend = (half_slope * concave).scale(N::Float::from_f64(2.0));
+        let limit = N::Float::from_f64(TOLERANCE);
         if h.value() * h.value() * bend.value() > limit * limit {
             N::constant(limit) / bend.sqrt()
         } else {
@@ -149,7 +149,7 @@ pub(super) fn load_part<N: Number>(zeta: N, p: N, last: bool, n: N) -> (N, N) {
     let r = h * rate;
     let r2 = r * r;
     let series = (h * (half_slope + h * curve)).shift(one);
-    let denominator = series + (r2 * r2).scale(N::Float::of(27.0 / 256.0));
+    let denominator = series + (r2 * r2).scale(N::Float::from_f64(27.0 / 256.0));
     let forward = positive(h * f / denominator);
     if forward.value() >= room.value() {
         return (N::constant(one), end);
@@ -163,13 +163,13 @@ pub(super) fn load_part<N: Number>(zeta: N, p: N, last: bool, n: N) -> (N, N) {
 pub(super) fn leave_zero<N: Number>(p: N, n: N) -> (N, N) {
     let one = N::Float::one();
     // 0.09 for n = 1, 0.28 for n = 3.9: the omitted term stays below 1e-4.
-    let reach = n / n.shift(N::Float::of(10.0));
+    let reach = n / n.shift(N::Float::from_f64(10.0));
     let (h, left) = if p.value() > reach.value() {
         (reach, p - reach)
     } else {
         (p, N::constant(N::Float::zero()))
     };
-    if h.value() < N::Float::of(NEAR_ZERO) {
+    if h.value() < N::Float::from_f64(NEAR_ZERO) {
         return (h, left);
     }
     let power = (n * h.ln()).exp();
@@ -188,7 +188,7 @@ pub(super) fn leave_zero<N: Number>(p: N, n: N) -> (N, N) {
 #[inline]
 fn saturate<N: Number>(zeta: N, w: N, p: N, n: N) -> N {
     let one = N::Float::one();
-    let bend = n.shift(-one).scale(N::Float::of(0.5)) * w;
+    let bend = n.shift(-one).scale(N::Float::from_f64(0.5)) * w;
     let gone = (-((-(n * p)).exp())).shift(one);
     let forward = positive(w * gone * (-bend).shift(one) / (-(bend * gone)).shift(one));
     if forward.value() >= w.value() {
@@ -200,7 +200,7 @@ fn saturate<N: Number>(zeta: N, w: N, p: N, n: N) -> N {
 /// The longest part of `p` with `(part·rate)⁴·weight <= TOLERANCE⁴`.
 #[inline]
 pub(super) fn shorter<N: Number>(p: N, rate: N, weight: N::Float, dual: impl Fn() -> N) -> N {
-    let limit = N::Float::of(TOLERANCE);
+    let limit = N::Float::from_f64(TOLERANCE);
     let stretch = p.value() * rate.value();
     let square = stretch * stretch;
     if square * square * weight <= limit * limit * limit * limit {
@@ -214,7 +214,7 @@ pub(super) fn shorter<N: Number>(p: N, rate: N, weight: N::Float, dual: impl Fn(
     }
 }
 
-/// The number where it is positive, else zero (NaN included).
+/// The number if it is positive, otherwise zero (also for NaN).
 #[inline]
 pub(super) fn positive<N: Number>(x: N) -> N {
     if x.value() > N::Float::zero() {

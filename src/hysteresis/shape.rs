@@ -1,25 +1,27 @@
-//! The shape of the loop, and the step that follows it.
+//! The shape parameters of the loop, and the step along the path.
 
 use super::bounded::{self, Constants};
 use super::number::Dual;
-use super::state::{BoucWen, Sensitivity};
+use super::state::{BoucWenState, Sensitivity};
 use super::{closed, path, stages};
-use crate::error::finite;
+use crate::error::{above_zero, must_be_finite};
 use crate::{Error, Real};
 use core::fmt;
 
-/// Shape of a Bouc-Wen loop: rho [1/input unit], sigma, n. Equations (2), (7).
+/// Parameters of a Bouc-Wen loop, equations (2), (7).
 ///
-/// `rho` sets how much input a full loop needs, `sigma` how steep unloading is
-/// (`2·sigma` times the slope at zero), `n` how sharp the knee is. `sigma >= 1/2`
-/// makes the model dissipative and, with `n >= 1`, keeps `|eta| <= 1`.
+/// - rho: initial slope of eta [1/input unit].
+/// - sigma ≥ 1/2: the slope after a reversal is 2·sigma·rho.
+/// - n ≥ 1: sharpness of the knee, larger is sharper.
+///
+/// `sigma >= 1/2` makes the model dissipative and, with `n >= 1`, keeps `|eta| <= 1`.
 ///
 /// ```
-/// use bowden::hysteresis::{BoucWen, Shape};
+/// use bowden::hysteresis::{BoucWenState, BoucWen};
 /// # fn main() -> Result<(), bowden::Error> {
-/// let shape = Shape::try_new(0.09582, 98.36, 3.871)?; // first set of the paper
-/// let mut state = BoucWen::new();
-/// shape.step(&mut state, 0.0); // the first sample only says where the input is
+/// let shape = BoucWen::try_new(0.09582, 98.36, 3.871)?; // first set of the paper
+/// let mut state = BoucWenState::new();
+/// shape.step(&mut state, 0.0); // the first sample only sets the input
 /// assert!(shape.step(&mut state, 16.0) > 0.9);
 /// assert!(shape.step(&mut state, -1e30) >= -1.0);
 /// # Ok(())
@@ -38,16 +40,16 @@ use core::fmt;
         )
     )
 )]
-pub struct Shape<T> {
+pub struct BoucWen<T> {
     rho: T,
     sigma: T,
     /// n among them.
     constants: Constants<T>,
 }
 
-impl<T: fmt::Debug> fmt::Debug for Shape<T> {
+impl<T: fmt::Debug> fmt::Debug for BoucWen<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut parameters = f.debug_struct("Shape");
+        let mut parameters = f.debug_struct("BoucWen");
         parameters.field("rho", &self.rho);
         parameters.field("sigma", &self.sigma);
         parameters.field("n", &self.constants.n);
@@ -56,53 +58,93 @@ impl<T: fmt::Debug> fmt::Debug for Shape<T> {
 }
 
 #[cfg(feature = "defmt")]
-impl<T: defmt::Format> defmt::Format for Shape<T> {
+impl<T: defmt::Format> defmt::Format for BoucWen<T> {
     fn format(&self, f: defmt::Formatter<'_>) {
         let (rho, sigma, n) = (&self.rho, &self.sigma, &self.constants.n);
-        defmt::write!(f, "Shape {{ rho: {}, sigma: {}, n: {} }}", rho, sigma, n);
+        defmt::write!(f, "BoucWen {{ rho: {}, sigma: {}, n: {} }}", rho, sigma, n);
     }
 }
 
-impl<T: Real> Shape<T> {
-    /// A shape with `rho > 0` [1/input unit], `sigma >= 1/2` and `n >= 1`.
-    ///
-    /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the parameter's name;
-    /// `sigma` and `n` above 1e9 count as out of range, as no loop can show them.
-    pub fn try_new(rho: T, sigma: T, n: T) -> Result<Self, Error> {
-        let most = T::of(1e9);
-        if finite(rho, "rho")? <= T::zero() {
-            return Err(Error::OutOfRange("rho"));
-        }
-        if finite(sigma, "sigma")? < T::of(0.5) || sigma > most {
+/// The checked parameters, for any float and for constants.
+macro_rules! shape {
+    ($rho:ident, $sigma:ident, $n:ident, [$zero:expr, $half:expr, $one:expr, $two:expr, $most:expr],
+     $constants:path) => {{
+        above_zero!($rho, $zero, "rho");
+        must_be_finite!($sigma, "sigma");
+        if $sigma < $half || $sigma > $most {
             return Err(Error::OutOfRange("sigma"));
         }
-        if finite(n, "n")? < T::one() || n > most {
+        must_be_finite!($n, "n");
+        if $n < $one || $n > $most {
             return Err(Error::OutOfRange("n"));
         }
-        let constants = Constants::of(T::of(2.0) * sigma - T::one(), n);
         Ok(Self {
+            rho: $rho,
+            sigma: $sigma,
+            constants: $constants($two * $sigma - $one, $n),
+        })
+    }};
+}
+
+macro_rules! constant {
+    ($float:ty) => {
+        impl BoucWen<$float> {
+            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
+            ///
+            /// # Errors
+            /// As [`try_new`](Self::try_new).
+            pub const fn const_new(rho: $float, sigma: $float, n: $float) -> Result<Self, Error> {
+                shape!(
+                    rho,
+                    sigma,
+                    n,
+                    [0.0, 0.5, 1.0, 2.0, 1e9],
+                    Constants::<$float>::const_of
+                )
+            }
+        }
+    };
+}
+constant!(f32);
+constant!(f64);
+
+impl<T: Real> BoucWen<T> {
+    /// Parameters with `rho > 0` [1/input unit], `sigma >= 1/2` and `n >= 1`.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the parameter's name. `sigma` and `n`
+    /// above 1e9 are out of range, because no loop can show them.
+    pub fn try_new(rho: T, sigma: T, n: T) -> Result<Self, Error> {
+        shape!(
             rho,
             sigma,
-            constants,
-        })
+            n,
+            [
+                T::ZERO,
+                T::from_f64(0.5),
+                T::ONE,
+                T::from_f64(2.0),
+                T::from_f64(1e9)
+            ],
+            Constants::of
+        )
     }
 
-    /// Slope of eta at eta = 0 [1/input unit].
+    /// Initial slope of eta [1/input unit].
     #[inline]
     #[must_use]
     pub fn rho(&self) -> T {
         self.rho
     }
 
-    /// Half the ratio of the unloading slope at saturation to the slope at zero.
+    /// The slope after a reversal is 2·sigma·rho.
     #[inline]
     #[must_use]
     pub fn sigma(&self) -> T {
         self.sigma
     }
 
-    /// Sharpness of the knee.
+    /// Sharpness of the knee, larger is sharper.
     #[inline]
     #[must_use]
     pub fn n(&self) -> T {
@@ -111,9 +153,9 @@ impl<T: Real> Shape<T> {
 
     /// The state after one increment of the input, of any size.
     ///
-    /// `|eta| <= 1` holds afterwards whatever the increment. An `eta` outside
-    /// [-1, 1] is clamped first; an increment that is not finite changes nothing.
-    /// In `f32` it is [`advance_bounded`](Self::advance_bounded), in `f64`
+    /// Afterwards `|eta| <= 1` holds for any increment. An `eta` outside [-1, 1] is clamped
+    /// first; an increment that is not finite changes nothing. `f32` uses
+    /// [`advance_bounded`](Self::advance_bounded), `f64` uses
     /// [`advance_split`](Self::advance_split).
     #[inline]
     #[must_use]
@@ -125,7 +167,7 @@ impl<T: Real> Shape<T> {
         }
     }
 
-    /// The same increment in bounded time: at most two short powers, without libm.
+    /// The state after one increment, in bounded time: at most two short powers, without libm.
     #[inline]
     #[must_use]
     pub fn advance_bounded(&self, eta: T, input_change: T) -> T {
@@ -144,7 +186,7 @@ impl<T: Real> Shape<T> {
         direction * bounded::follow(direction * eta, path, &self.constants)
     }
 
-    /// The same increment, split where it is long, so that any jump is accurate.
+    /// The state after one increment; a long increment is split, so any jump is accurate.
     ///
     /// Exact for `n = 1` and `n = 2`, otherwise of third order.
     #[inline]
@@ -153,7 +195,7 @@ impl<T: Real> Shape<T> {
         self.along(eta, input_change, |zeta, p, c| {
             if self.constants.n == T::one() {
                 closed::linear(zeta, p, c)
-            } else if self.constants.n == T::of(2.0) {
+            } else if self.constants.n == T::from_f64(2.0) {
                 closed::quadratic(zeta, p, c)
             } else {
                 path::follow(zeta, p, c, self.constants.n)
@@ -161,9 +203,9 @@ impl<T: Real> Shape<T> {
         })
     }
 
-    /// The same increment by four stages: fourth order, four powers.
+    /// The state after one increment, in four stages: fourth order, four powers.
     ///
-    /// For reference runs; [`advance`](Self::advance) is what firmware wants.
+    /// For reference runs; firmware uses [`advance`](Self::advance).
     #[inline]
     #[must_use]
     pub fn advance_four_stage(&self, eta: T, input_change: T) -> T {
@@ -185,11 +227,11 @@ impl<T: Real> Shape<T> {
         direction * crate::signal::clamp(next, zeta, one)
     }
 
-    /// The increment and the exact derivative of the discrete step taken.
+    /// The increment and the exact derivative of this discrete step.
     ///
-    /// The state is the one of the general step for every `n`; it differs from the
-    /// closed forms of [`advance`](Self::advance) at `n = 1` and `n = 2` by the error
-    /// of the general step. A saturated state no longer depends on anything.
+    /// The state is the state of the general step for every `n`. It differs from the closed
+    /// forms of [`advance`](Self::advance) at `n = 1` and `n = 2` by the error of the general
+    /// step. All derivatives of a saturated state are zero.
     #[inline]
     #[must_use]
     pub fn advance_with_sensitivity(
@@ -218,7 +260,7 @@ impl<T: Real> Shape<T> {
         };
         let c = Dual {
             value: self.c(),
-            by: [zero, T::of(2.0), zero, zero],
+            by: [zero, T::from_f64(2.0), zero, zero],
         };
         let n = Dual {
             value: self.constants.n,
@@ -241,7 +283,7 @@ impl<T: Real> Shape<T> {
 
     /// Slope of eta in the input [1/input unit], for the sign of `direction`.
     ///
-    /// In `[0, rho·max(1, 2·sigma)]`. The right side of (2) and (7) over `x'`.
+    /// In `[0, rho·max(1, 2·sigma)]`. The right side of (2) and (7) divided by `x'`.
     #[inline]
     #[must_use]
     pub fn slope(&self, eta: T, direction: T) -> T {
@@ -260,12 +302,12 @@ impl<T: Real> Shape<T> {
         self.rho * f
     }
 
-    /// Takes the input of one sample [input unit], returns eta in [-1, 1].
+    /// Advances by the input of one sample [input unit] and returns eta in [-1, 1].
     ///
-    /// The first sample only says where the input is. A sample that is not finite
-    /// leaves the state untouched and returns the eta that was.
+    /// The first sample only sets the input. A sample that is not finite leaves the state
+    /// unchanged and returns the present eta.
     #[inline]
-    pub fn step(&self, state: &mut BoucWen<T>, input: T) -> T {
+    pub fn step(&self, state: &mut BoucWenState<T>, input: T) -> T {
         let mut change = input - state.input;
         if !change.is_finite() {
             match unusual(state, input) {
@@ -307,10 +349,10 @@ impl<T: Real> Shape<T> {
     }
 }
 
-/// The change that stands for one that is no finite number; none for a bad sample, nor for the
-/// first one, which only says where the input is.
+/// The change that replaces an infinite one; none for a bad sample, and none for the first
+/// sample, which only sets the input.
 #[cold]
-fn unusual<T: Real>(state: &mut BoucWen<T>, input: T) -> Option<T> {
+fn unusual<T: Real>(state: &mut BoucWenState<T>, input: T) -> Option<T> {
     if !input.is_finite() {
         return None;
     }
@@ -322,11 +364,11 @@ fn unusual<T: Real>(state: &mut BoucWen<T>, input: T) -> Option<T> {
     Some(if input < T::ZERO { -most } else { most })
 }
 
-/// The paths from one state in one direction, for a search that tries many lengths: what they
-/// have in common is computed once.
+/// The paths from one state in one direction, for a search over many lengths: the common part
+/// is computed once.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Way<'a, T> {
-    shape: &'a Shape<T>,
+    shape: &'a BoucWen<T>,
     direction: T,
     eta: T,
     zeta: T,
@@ -334,8 +376,8 @@ pub(crate) struct Way<'a, T> {
 }
 
 impl<T: Real> Way<'_, T> {
-    /// The eta to which [`Shape::step`] leads after this change of the input, in the direction
-    /// of the way.
+    /// The eta after [`BoucWen::step`] with this change of the input, in the direction of the
+    /// path.
     #[inline]
     pub(crate) fn after(&self, input_change: T) -> T {
         let shape = self.shape;
@@ -346,7 +388,7 @@ impl<T: Real> Way<'_, T> {
         self.direction * bounded::follow_powered(self.zeta, path, self.powered, &shape.constants)
     }
 
-    /// [`Shape::slope`] where the way begins.
+    /// [`BoucWen::slope`] at the start of the path.
     #[inline]
     pub(crate) fn slope(&self) -> T {
         let shape = self.shape;
@@ -362,7 +404,7 @@ impl<T: Real> Way<'_, T> {
     }
 }
 
-/// The shape as it is stored.
+/// The stored form of the parameters.
 #[cfg(feature = "serde")]
 #[derive(serde::Serialize, serde::Deserialize)]
 struct Parameters<T> {
@@ -372,8 +414,8 @@ struct Parameters<T> {
 }
 
 #[cfg(feature = "serde")]
-impl<T: Real> From<Shape<T>> for Parameters<T> {
-    fn from(shape: Shape<T>) -> Self {
+impl<T: Real> From<BoucWen<T>> for Parameters<T> {
+    fn from(shape: BoucWen<T>) -> Self {
         Self {
             rho: shape.rho,
             sigma: shape.sigma,
@@ -383,7 +425,7 @@ impl<T: Real> From<Shape<T>> for Parameters<T> {
 }
 
 #[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Parameters<T>> for Shape<T> {
+impl<T: Real> TryFrom<Parameters<T>> for BoucWen<T> {
     type Error = Error;
     fn try_from(stored: Parameters<T>) -> Result<Self, Error> {
         Self::try_new(stored.rho, stored.sigma, stored.n)

@@ -11,12 +11,12 @@ use crate::Real;
 #[inline]
 pub(super) fn follow<T: Real>(zeta: T, path: T, c: T, n: T) -> T {
     let one = T::one();
-    if path > T::of(SATURATING) {
+    if path > T::from_f64(SATURATING) {
         return one;
     }
     let (mut zeta, mut p) = (zeta, path);
     for part in 1..=MOST_PARTS {
-        if zeta < T::zero() && -zeta < T::of(NEAR_ZERO) {
+        if zeta < T::zero() && -zeta < T::from_f64(NEAR_ZERO) {
             let used = least(p, -zeta);
             zeta = if used < p { T::zero() } else { zeta + used };
             p -= used;
@@ -36,11 +36,11 @@ pub(super) fn follow<T: Real>(zeta: T, path: T, c: T, n: T) -> T {
             let w = w / (one + m);
             positive(right_side(one - w, c, n).0 / w) * (one + m)
         };
-        let half = T::of(0.5) * h;
+        let half = T::from_f64(0.5) * h;
         let second = at(half * first);
         let third = at(half * second);
         let fourth = at(h * third);
-        let m = h * (first + T::of(2.0) * (second + third) + fourth) / T::of(6.0);
+        let m = h * (first + T::from_f64(2.0) * (second + third) + fourth) / T::from_f64(6.0);
         let forward = w * (m / (one + m));
         if !m.is_finite() || forward >= w {
             return one;
@@ -70,11 +70,11 @@ fn right_side<T: Real>(zeta: T, c: T, n: T) -> (T, T) {
 /// The part of the path that one step of four stages covers accurately.
 #[inline]
 fn part_of<T: Real>(p: T, zeta: T, f: T, x: T, n: T) -> T {
-    let (a, near) = (zeta.abs(), T::of(0.1));
+    let (a, near) = (zeta.abs(), T::from_f64(0.1));
     let w = T::one() - zeta;
     let h = shorter(p, f / w, w, || w);
     let h = if zeta < T::zero() {
-        // Not beyond zero, where the right side has a corner; f >= 1 falls on the way.
+        // Not beyond zero, where the right side has a corner; f >= 1 decreases along the path.
         least(shorter(h, n * f / a, x / f, || x / f), a / f)
     } else {
         shorter(h, n * f / (a + near), x, || x)
@@ -97,7 +97,7 @@ fn least<T: Real>(a: T, b: T) -> T {
     }
 }
 
-/// The number where it is positive, else zero (NaN included).
+/// The number if it is positive, otherwise zero (also for NaN).
 #[inline]
 fn positive<T: Real>(x: T) -> T {
     if x > T::zero() {

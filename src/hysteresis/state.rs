@@ -3,16 +3,16 @@
 use crate::error::finite;
 use crate::{Error, Real};
 
-/// State of the hysteresis: eta in [-1, 1], and the input it was reached at.
+/// State of the hysteresis: eta in [-1, 1], and the corresponding input.
 ///
-/// The configuration is [`Shape`](super::Shape); [`Shape::step`](super::Shape::step)
+/// The configuration is [`BoucWen`](super::BoucWen); [`BoucWen::step`](super::BoucWen::step)
 /// advances the state. `Copy`, so it can be saved, compared and restored.
 ///
 /// ```
-/// use bowden::hysteresis::BoucWen;
-/// assert_eq!(BoucWen::<f32>::new().eta(), 0.0);
-/// assert_eq!(BoucWen::with_eta(-0.5).map(|s| s.eta()), Ok(-0.5));
-/// assert!(BoucWen::with_eta(1.5).is_err());
+/// use bowden::hysteresis::BoucWenState;
+/// assert_eq!(BoucWenState::<f32>::new().eta(), 0.0);
+/// assert_eq!(BoucWenState::with_eta(-0.5).map(|s| s.eta()), Ok(-0.5));
+/// assert!(BoucWenState::with_eta(1.5).is_err());
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -28,14 +28,14 @@ use crate::{Error, Real};
         )
     )
 )]
-pub struct BoucWen<T> {
+pub struct BoucWenState<T> {
     pub(super) eta: T,
-    /// Infinite before the first sample: the change to that is no number, and a step need not
-    /// look for a sign that it is the first.
+    /// Infinite before the first sample: the change to an infinity is NaN, and a step needs no
+    /// test for the first sample.
     pub(super) input: T,
 }
 
-impl<T: Real> BoucWen<T> {
+impl<T: Real> BoucWenState<T> {
     /// The virgin state: eta is zero, the first sample only sets the input.
     #[inline]
     #[must_use]
@@ -64,8 +64,8 @@ impl<T: Real> BoucWen<T> {
         self.eta
     }
 
-    /// Goes to an input and eta of the model's, from one that it has seen, unless the way overflows,
-    /// which the model takes for the longest one; the input that is known then.
+    /// Moves to an input and eta of the model, unless the path overflows; the model takes such
+    /// a path for the longest one. Returns the known input.
     #[inline]
     pub(crate) fn arrive(&mut self, input: T, eta: T) -> T {
         if (input - self.input).is_finite() {
@@ -83,13 +83,13 @@ impl<T: Real> BoucWen<T> {
     }
 }
 
-impl<T: Real> Default for BoucWen<T> {
+impl<T: Real> Default for BoucWenState<T> {
     fn default() -> Self {
         Self::new()
     }
 }
 
-/// The state as it is stored.
+/// The stored form of the state.
 #[cfg(feature = "serde")]
 #[derive(serde::Serialize, serde::Deserialize)]
 struct Stored<T> {
@@ -99,8 +99,8 @@ struct Stored<T> {
 }
 
 #[cfg(feature = "serde")]
-impl<T: Real> From<BoucWen<T>> for Stored<T> {
-    fn from(state: BoucWen<T>) -> Self {
+impl<T: Real> From<BoucWenState<T>> for Stored<T> {
+    fn from(state: BoucWenState<T>) -> Self {
         Self {
             eta: state.eta,
             input: state.input().unwrap_or_else(T::zero),
@@ -110,7 +110,7 @@ impl<T: Real> From<BoucWen<T>> for Stored<T> {
 }
 
 #[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Stored<T>> for BoucWen<T> {
+impl<T: Real> TryFrom<Stored<T>> for BoucWenState<T> {
     type Error = Error;
     fn try_from(stored: Stored<T>) -> Result<Self, Error> {
         let input = finite(stored.input, "input")?;
@@ -122,9 +122,9 @@ impl<T: Real> TryFrom<Stored<T>> for BoucWen<T> {
     }
 }
 
-/// The state eta with its derivatives by the parameters and the start.
+/// The state eta with its derivatives by the parameters and the initial state.
 ///
-/// Advanced by [`Shape::advance_with_sensitivity`](super::Shape::advance_with_sensitivity).
+/// Advanced by [`BoucWen::advance_with_sensitivity`](super::BoucWen::advance_with_sensitivity).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -137,12 +137,12 @@ pub struct Sensitivity<T> {
     pub d_sigma: T,
     /// Derivative by n.
     pub d_n: T,
-    /// Derivative by the state at the start.
+    /// Derivative by the initial state.
     pub d_eta0: T,
 }
 
 impl<T: Real> Sensitivity<T> {
-    /// The start of a record at `eta0`: nothing depends on the parameters yet.
+    /// The start of a record at `eta0`: all derivatives by the parameters are zero.
     #[inline]
     #[must_use]
     pub fn start(eta0: T) -> Self {

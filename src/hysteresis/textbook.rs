@@ -1,14 +1,14 @@
-//! Other people's parameters: the seven of the textbook, the four of an actuator.
+//! Parameters in other conventions: the textbook's seven, and the four of an actuator.
 //!
 //! The textbook writes `F = alpha·k·x + (1 - alpha)·D·k·z` with
 //! `z' = (A·x' - beta·|x'|·|z|^(n-1)·z - gamma·x'·|z|^n)/D`. With the saturation
 //! `z0 = (A/(beta + gamma))^(1/n)` and `z = z0·eta` it is the normalised form with
 //! `rho = A/(D·z0)`, `sigma = beta/(beta + gamma)`, `kappa_x = alpha·k`,
-//! `kappa_eta = (1 - alpha)·D·k·z0`. Seven numbers make five: two are redundant, and no
-//! experiment can tell them. Source: Ikhouane & Rodellar, *Systems with Hysteresis*,
+//! `kappa_eta = (1 - alpha)·D·k·z0`. The seven numbers determine five: two are redundant, and
+//! no experiment can identify them. Source: Ikhouane & Rodellar, *Systems with Hysteresis*,
 //! Wiley 2007, chapter 2 (model, classes, normalised form).
 
-use super::Shape;
+use super::BoucWen;
 use crate::error::finite;
 use crate::{Error, Real};
 
@@ -27,7 +27,7 @@ pub struct Textbook<T> {
     pub gamma: T,
     /// n, the sharpness of the knee.
     pub n: T,
-    /// alpha, stiffness after yield over stiffness before, in (0, 1).
+    /// alpha, the ratio of the stiffness after yield to that before yield, in (0, 1).
     pub alpha: T,
     /// k, the stiffness before yield [output unit/input unit].
     pub k: T,
@@ -37,13 +37,13 @@ pub struct Textbook<T> {
 
 /// Class of a Bouc-Wen model by the signs of A, beta + gamma and beta - gamma.
 ///
-/// The five classes whose output is bounded for a bounded input. Only class I
-/// is dissipative with a hysteretic part that saturates, so only it is a [`Shape`].
+/// The five classes with a bounded output for a bounded input. Only class I is dissipative with
+/// a hysteretic part that saturates, so only class I is a [`BoucWen`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Class {
-    /// A > 0, beta + gamma > 0, beta >= gamma: bounded from every start.
+    /// A > 0, beta + gamma > 0, beta >= gamma: bounded for every start.
     I,
     /// A > 0, 0 <= beta < gamma: bounded, but not dissipative.
     II,
@@ -57,42 +57,42 @@ pub enum Class {
     Unbounded,
 }
 
-/// A shape with the gains that belong to it.
+/// Shape parameters with their gains.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Loop<T> {
-    /// The shape.
-    pub shape: Shape<T>,
+    /// The shape parameters.
+    pub shape: BoucWen<T>,
     /// Linear gain [output unit/input unit].
     pub kappa_x: T,
     /// Hysteretic part at saturation [output unit].
     pub kappa_eta: T,
 }
 
-/// What seven textbook parameters mean.
+/// Conversion of the seven textbook parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TextbookReport<T> {
-    /// The five numbers that an experiment can tell.
+    /// The five numbers that an experiment can identify.
     pub normalised: Loop<T>,
     /// The class, always [`Class::I`] here.
     pub class: Class,
-    /// The two that may be fixed at will, as the other five make up for them.
+    /// The two redundant parameters, which may have any fixed value.
     pub redundant: [&'static str; 2],
     /// The same input-output map with both redundant parameters set to 1.
     pub equivalent: Textbook<T>,
 }
 
-/// What is known of an actuator or joint from its data sheet.
+/// Parameters of an actuator or joint from its specification.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Actuator<T> {
-    /// Torque at which it yields or slips [N·m], positive.
+    /// Torque at yield or slip [N·m], positive.
     pub yield_torque: T,
-    /// Stiffness before [N·m/rad], positive.
+    /// Stiffness before yield [N·m/rad], positive.
     pub stiffness: T,
-    /// Stiffness after over stiffness before, in [0, 1).
+    /// Ratio of the stiffness after yield to that before yield, in [0, 1).
     pub post_yield_ratio: T,
     /// Sharpness n of the knee, at least 1; above 20 nearly bilinear.
     pub knee: T,
@@ -120,13 +120,13 @@ impl<T: Real> Textbook<T> {
     }
 }
 
-impl<T: Real> Shape<T> {
-    /// The shape and gains that seven textbook parameters mean, with a report.
+impl<T: Real> BoucWen<T> {
+    /// Converts the seven textbook parameters to shape parameters and gains, with a report.
     ///
     /// ```
-    /// use bowden::hysteresis::{Shape, Textbook};
+    /// use bowden::hysteresis::{BoucWen, Textbook};
     /// # fn main() -> Result<(), bowden::Error> {
-    /// let report = Shape::from_textbook(Textbook {
+    /// let report = BoucWen::from_textbook(Textbook {
     ///     a: 2.0, beta: 1.5, gamma: 0.5, n: 1.0, alpha: 0.25, k: 8.0, d: 0.5_f64,
     /// })?;
     /// let normalised = report.normalised;
@@ -198,15 +198,15 @@ impl<T: Real> Shape<T> {
         })
     }
 
-    /// The shape and gains of an actuator that yields and unloads elastically.
+    /// Shape parameters and gains of an actuator that yields and unloads elastically.
     ///
     /// `rho = stiffness/yield_torque` [1/rad], `sigma = 1/2` (unloading with the
     /// initial stiffness), `kappa_x = ratio·stiffness`, `kappa_eta = (1 - ratio)·yield_torque`.
     ///
     /// ```
-    /// use bowden::hysteresis::{Actuator, Shape};
+    /// use bowden::hysteresis::{Actuator, BoucWen};
     /// # fn main() -> Result<(), bowden::Error> {
-    /// let joint = Shape::from_actuator(Actuator {
+    /// let joint = BoucWen::from_actuator(Actuator {
     ///     yield_torque: 2.0, stiffness: 100.0, post_yield_ratio: 0.25, knee: 4.0_f64,
     /// })?;
     /// assert_eq!((joint.shape.rho(), joint.kappa_x, joint.kappa_eta), (50.0, 25.0, 1.5));
@@ -237,7 +237,7 @@ impl<T: Real> Shape<T> {
             return Err(Error::OutOfRange("knee"));
         }
         Ok(Loop {
-            shape: Self::try_new(stiffness / yield_torque, T::of(0.5), knee)?,
+            shape: Self::try_new(stiffness / yield_torque, T::from_f64(0.5), knee)?,
             kappa_x: post_yield_ratio * stiffness,
             kappa_eta: (one - post_yield_ratio) * yield_torque,
         })

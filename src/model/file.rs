@@ -1,11 +1,11 @@
 //! The model as a file, schema `bowden.model/1`: read and written without a heap.
 //!
-//! What every human-readable format holds; the compact form is in `serial.rs`.
+//! The content of every human-readable format; the compact form is in `serial.rs`.
 
 use super::serial::{Fill, List};
 use super::{padding, Model, Source, Term};
 use crate::effect::{Effect, CATALOGUE};
-use crate::hysteresis::Shape;
+use crate::hysteresis::BoucWen;
 use crate::transmission::{Mode, Transmission};
 use crate::{Error, Real};
 use core::fmt;
@@ -18,10 +18,10 @@ const SCHEMA: &str = "bowden.model/1";
 /// More shapes than any effect has.
 const MOST_SHAPES: usize = 4;
 
-/// As many channels as a [`Source::Channel`] can count.
+/// As many channels as a [`Source::Channel`] can number.
 const MOST_CHANNELS: usize = 256;
 
-/// Reads a text by a function of it.
+/// Reads a text and converts it by a function.
 struct Text<F>(&'static str, F);
 
 impl<X, F: FnOnce(&str) -> Option<X>> Visitor<'_> for Text<F> {
@@ -38,7 +38,7 @@ impl<X, F: FnOnce(&str) -> Option<X>> Visitor<'_> for Text<F> {
     }
 }
 
-/// The schema, which must be the one that is known.
+/// The schema, which must be the known one.
 struct Schema;
 
 impl<'de> Deserialize<'de> for Schema {
@@ -48,7 +48,7 @@ impl<'de> Deserialize<'de> for Schema {
     }
 }
 
-/// An effect's name, out of the catalogue.
+/// An effect's name, from the catalogue.
 struct EffectName(&'static str);
 
 impl<'de> Deserialize<'de> for EffectName {
@@ -61,8 +61,8 @@ impl<'de> Deserialize<'de> for EffectName {
     }
 }
 
-/// A name of any length, by 64 bits of it (FNV-1a): there is no room for the names of all
-/// channels. Two channels of one hash are refused, so that none is taken for another.
+/// A name of any length, stored as 64 bits (FNV-1a): there is no room for the names of all
+/// channels. Two channels with the same hash are refused, so they cannot be confused.
 #[derive(Clone, Copy, PartialEq)]
 struct Name(u64);
 
@@ -155,7 +155,7 @@ impl<T: Real> Figures<T> {
     }
 
     fn transmission(&self, mode: Mode) -> Result<Transmission<T>, Error> {
-        let shape = Shape::try_new(self.rho, self.sigma, self.n)?;
+        let shape = BoucWen::try_new(self.rho, self.sigma, self.n)?;
         let build = match mode {
             Mode::Torque => Transmission::torque,
             Mode::Displacement => Transmission::displacement,
@@ -164,7 +164,7 @@ impl<T: Real> Figures<T> {
     }
 }
 
-/// A shape's name, as long as any shape's name is; a longer one is none of them.
+/// A shape parameter's name, up to the length of the longest; a longer name matches none.
 struct ShapeName {
     bytes: [u8; 16],
     len: usize,
@@ -194,9 +194,9 @@ impl<'de> Deserialize<'de> for ShapeName {
     }
 }
 
-/// One shape of a term.
+/// One shape parameter of a term.
 #[derive(Deserialize)]
-#[serde(rename = "Shape", deny_unknown_fields)]
+#[serde(rename = "BoucWen", deny_unknown_fields)]
 struct NamedValue<T> {
     name: ShapeName,
     value: T,
@@ -252,7 +252,7 @@ impl<T: Real> Line<T> {
         }
     }
 
-    /// The term, or what is wrong with it.
+    /// The term, or its error.
     fn term<E: serde::de::Error>(&self, channels: &Channels) -> Result<Term<T>, E> {
         let EffectName(name) = self.effect;
         let mut values = [T::zero(); MOST_SHAPES];
@@ -333,7 +333,7 @@ where
     Model::try_new(transmission, terms).map_err(D::Error::custom)
 }
 
-/// The file as it is written: channels are named by their numbers.
+/// The file for output: channels are named by their numbers.
 #[derive(Serialize)]
 #[serde(rename = "Model", bound = "T: Real + Serialize")]
 struct FileView<'a, T> {
@@ -345,7 +345,7 @@ struct FileView<'a, T> {
     terms: Terms<'a, T>,
 }
 
-/// The names of so many channels.
+/// The names of this number of channels.
 struct Numbered(usize);
 
 impl Serialize for Numbered {
@@ -400,7 +400,7 @@ impl Serialize for SourceView {
 struct ShapesView<'a, T>(&'a Effect<T>);
 
 #[derive(Serialize)]
-#[serde(rename = "Shape")]
+#[serde(rename = "BoucWen")]
 struct ShapeView<T> {
     name: &'static str,
     value: T,
@@ -429,7 +429,7 @@ where
     let transmission = model.transmission();
     FileView {
         schema: SCHEMA,
-        // Without a transmission there is nothing that a mode would tell apart.
+        // Without a transmission a mode has no meaning.
         mode: transmission.map_or(Mode::Displacement, Transmission::mode),
         channels: Numbered(model.terms().iter().map(counted).max().unwrap_or(0)),
         transmission: transmission.map(Figures::of),

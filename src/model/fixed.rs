@@ -1,19 +1,19 @@
-//! A model whose effects are known when the firmware is compiled.
+//! A model whose effects are fixed at compile time.
 //!
-//! A [`Model`] holds any effect, so that the code of all of them is in the image. Here the
-//! effects are types: the image holds those that are named, each knows its place in the sum,
-//! and a sample costs what the effects cost. Both give the same numbers, to the bit.
+//! A [`Model`] holds any effect, so the image contains the code of all effects. Here the
+//! effects are types: the image contains only the named effects, and a sample costs only their
+//! time. Both give the same numbers, to the bit.
 
 use super::{motion, Model, ModelState, Sample, Term};
-use crate::effect::{saturate, Effect, EffectState, Motion, Quantity, Regressor, Situation, Stage};
+use crate::effect::{saturate, Effect, EffectState, Inputs, Motion, Quantity, Regressor, Stage};
 use crate::error::{finite, rarely};
 use crate::transmission::Transmission;
 use crate::{Error, Real};
 
-/// A transmission plus the effects of a tuple of terms, each with a type of its own.
+/// A transmission plus the effects of a tuple of terms, each with its own type.
 ///
-/// `N` is the number of terms, 1 to 16. It is stepped with the
-/// [`ModelState`] of a [`Model`] over as many terms, and treats samples as it does.
+/// `N` is the number of terms, 1 to 16. Its state is the [`ModelState`] of a [`Model`] with the
+/// same number of terms. It treats bad samples as a `Model` does.
 ///
 /// ```
 /// use bowden::effect::{Coulomb, Motion, Viscous};
@@ -31,7 +31,7 @@ use crate::{Error, Real};
 /// let input = Motion { position: 0.0, velocity: 2.0, acceleration: 0.0 };
 /// let sample = Sample { dt: 0.001, input, load: 0.0, channels: &[] };
 /// assert_eq!(model.step(&mut state, &sample), 6.5);
-/// // The same numbers as of the model that holds any effect.
+/// // The same numbers as from a model that holds any effect.
 /// assert_eq!(model.to_model().step(&mut ModelState::new(), &sample), 6.5);
 /// # Ok::<(), bowden::Error>(())
 /// ```
@@ -43,10 +43,10 @@ pub struct FixedModel<T, const N: usize, L> {
 }
 
 impl<T: Real, const N: usize, L: Terms<T, N>> FixedModel<T, N, L> {
-    /// Checks the terms' origins and gains; all else was checked before.
+    /// Checks the terms' origins and gains; other constructors have checked the rest.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] where an origin or a gain is not finite.
+    /// [`Error::NonFinite`] if an origin or a gain is not finite.
     pub fn try_new(transmission: Option<Transmission<T>>, terms: L) -> Result<Self, Error> {
         terms.check()?;
         Ok(Self {
@@ -55,7 +55,7 @@ impl<T: Real, const N: usize, L: Terms<T, N>> FixedModel<T, N, L> {
         })
     }
 
-    /// The transmission, where there is one.
+    /// The transmission, if there is one.
     #[must_use]
     pub fn transmission(&self) -> Option<&Transmission<T>> {
         self.transmission.as_ref()
@@ -67,14 +67,14 @@ impl<T: Real, const N: usize, L: Terms<T, N>> FixedModel<T, N, L> {
         &self.terms
     }
 
-    /// The same as a model that holds any effect, for a
+    /// The same model with effects of any kind, for a
     /// [`Compensator`](crate::control::Compensator) or a file.
     #[must_use]
     pub fn to_model(&self) -> Model<T, N> {
         Model::full(self.transmission, self.terms.any())
     }
 
-    /// Whether the model can use this sample; if not, a step holds everything.
+    /// Whether the model can use this sample; otherwise a step holds its output and state.
     #[inline]
     #[must_use]
     pub fn accepts(&self, at: &Sample<T>) -> bool {
@@ -84,7 +84,7 @@ impl<T: Real, const N: usize, L: Terms<T, N>> FixedModel<T, N, L> {
 
     #[inline]
     fn is_usable(&self, at: &Sample<T>, motions: &[&Motion<T>; N]) -> bool {
-        // Zero times what is read: NaN where one number is not finite.
+        // Zero times the data: NaN if one number is not finite.
         let mut nothing = at.dt * T::ZERO + self.terms.nothing(at, motions);
         if self.transmission.is_some() {
             nothing += at.input.position * T::ZERO;
@@ -94,14 +94,14 @@ impl<T: Real, const N: usize, L: Terms<T, N>> FixedModel<T, N, L> {
 
     /// Advances by one sample and returns the predicted output.
     ///
-    /// A bad sample leaves the state and returns the last good output, 0 before
-    /// the first one.
+    /// A bad sample leaves the state unchanged and returns the last good output, 0 before the
+    /// first one.
     #[inline]
     pub fn step(&self, state: &mut ModelState<T, N>, at: &Sample<T>) -> T {
         self.step_with(state, at, |_, _| {})
     }
 
-    /// The same step, which also tells each term's share of the output, as
+    /// The same step, which also reports each term's share of the output, as
     /// [`Model::step_with`] does.
     #[inline]
     pub fn step_with(
@@ -136,12 +136,12 @@ impl<T: Real, const N: usize, L: Terms<T, N>> FixedModel<T, N, L> {
     }
 }
 
-/// What the terms of one sample add to.
+/// The sum to which the terms of one sample add.
 #[derive(Debug)]
 #[doc(hidden)]
 pub struct Sum<'a, 's, T, const N: usize> {
     at: &'a Sample<'s, T>,
-    /// What each term reads, by its source.
+    /// The data of each term, by its source.
     motions: [&'a Motion<T>; N],
     time: T,
     eta: T,
@@ -156,12 +156,12 @@ pub trait Terms<T, const N: usize>: sealed::Sealed {
     fn check(&self) -> Result<(), Error>;
     #[doc(hidden)]
     fn any(&self) -> [Term<T>; N];
-    /// What each term reads; nothing where a channel is missing.
+    /// The data of each term; `None` if a channel is missing.
     #[doc(hidden)]
     fn motions<'a>(&self, at: &'a Sample<T>) -> Option<[&'a Motion<T>; N]>;
     #[doc(hidden)]
     fn nothing(&self, at: &Sample<T>, motions: &[&Motion<T>; N]) -> T;
-    /// What the input stages make of the input.
+    /// The input after the input stages.
     #[doc(hidden)]
     fn moved(&self, memories: &mut [EffectState<T>; N], sum: &Sum<T, N>) -> T;
     /// Adds the terms of the sum, in their order; the output is finite after it.
@@ -172,7 +172,7 @@ pub trait Terms<T, const N: usize>: sealed::Sealed {
         sum: &mut Sum<T, N>,
         share: &mut impl FnMut(usize, T),
     );
-    /// Adds the output stages, in their order: each reads what those before it made.
+    /// Adds the output stages, in their order: each reads the output of the stages before it.
     #[doc(hidden)]
     fn correct(
         &self,
@@ -201,7 +201,7 @@ impl<T: Real, E: Regressor<T> + Copy + Into<Effect<T>>> Term<T, E> {
         }
     }
 
-    /// Zero times all that the term reads of the sample.
+    /// Zero times all data that the term reads of the sample.
     #[inline]
     fn nothing(&self, at: &Sample<T>, motion: &Motion<T>) -> T {
         let read = |sum: T, quantity: &Quantity| {
@@ -219,14 +219,14 @@ impl<T: Real, E: Regressor<T> + Copy + Into<Effect<T>>> Term<T, E> {
         E::INFO.reads.iter().fold(T::ZERO, read)
     }
 
-    /// What the effect sees of a sample that was accepted.
+    /// The data of an accepted sample for the effect.
     #[inline]
-    fn there<const N: usize>(&self, motion: &Motion<T>, sum: &Sum<T, N>) -> Situation<T> {
-        Situation {
+    fn there<const N: usize>(&self, motion: &Motion<T>, sum: &Sum<T, N>) -> Inputs<T> {
+        Inputs {
             dt: sum.at.dt,
             time: sum.time,
             motion: Motion {
-                // A difference that overflows is a far place.
+                // A difference that overflows is a distant position.
                 position: saturate(motion.position - self.origin),
                 ..*motion
             },
@@ -248,7 +248,7 @@ impl<T: Real, E: Regressor<T> + Copy + Into<Effect<T>>> Term<T, E> {
         self.effect.value(memory, &self.there(motion, sum))
     }
 
-    /// What the term adds, saturated.
+    /// The share of the term, saturated.
     #[inline]
     fn part<const N: usize>(
         &self,

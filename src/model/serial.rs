@@ -1,15 +1,14 @@
-//! Models and their states as serde sees them: the terms as one list.
+//! Models and their states in serde: the terms as one list.
 //!
-//! A model in a human-readable format is a file of its own, `file.rs`; in every other one it
-//! is the derived form of its parts, without names. serde knows no arrays of any length `N`;
-//! here they are lists of at most `N`.
-//! Reading goes through the constructors: what they refuse is refused. The memories
-//! that a shorter list of a state leaves out are fresh.
+//! A model in a human-readable format is a file, `file.rs`. In every other format it is the derived
+//! form of its parts, without names. serde has no arrays of arbitrary length `N`; here they are
+//! lists of at most `N`. Reading uses the constructors and their checks. If the list of a state is
+//! shorter, the omitted memories start as new.
 
 use super::{file, padding, Model, ModelState, Term};
 use crate::effect::EffectState;
 use crate::error::finite;
-use crate::hysteresis::BoucWen;
+use crate::hysteresis::BoucWenState;
 use crate::signal::Compensated;
 use crate::transmission::Transmission;
 use crate::{Error, Real};
@@ -25,7 +24,7 @@ pub(super) struct List<X, const N: usize> {
 }
 
 impl<X, const N: usize> List<X, N> {
-    /// An empty list; what `free` gives stands in its places.
+    /// An empty list; `free` gives the filler of its slots.
     pub(super) fn of(mut free: impl FnMut() -> X) -> Self {
         Self {
             items: core::array::from_fn(|_| free()),
@@ -39,7 +38,7 @@ impl<X, const N: usize> List<X, N> {
     }
 }
 
-/// Reads a list into places that hold something already.
+/// Reads a list into existing slots.
 pub(super) struct Fill<X, F, const N: usize>(pub(super) F, pub(super) PhantomData<[X; N]>);
 
 impl<'de, X, F, const N: usize> Visitor<'de> for Fill<X, F, N>
@@ -123,7 +122,7 @@ impl<'de, T: Real + Deserialize<'de>, const N: usize> Deserialize<'de> for Model
 #[derive(Serialize)]
 #[serde(rename = "ModelState", bound = "T: Real + Serialize")]
 struct StateView<'a, T> {
-    hysteresis: &'a BoucWen<T>,
+    hysteresis: &'a BoucWenState<T>,
     effects: &'a [EffectState<T>],
     started: bool,
     time: T,
@@ -134,7 +133,7 @@ struct StateView<'a, T> {
 #[derive(Deserialize)]
 #[serde(rename = "ModelState", bound = "T: Real + Deserialize<'de>")]
 struct StateFields<T, const N: usize> {
-    hysteresis: BoucWen<T>,
+    hysteresis: BoucWenState<T>,
     effects: List<EffectState<T>, N>,
     started: bool,
     time: T,

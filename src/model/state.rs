@@ -1,11 +1,11 @@
-//! What a model remembers between samples.
+//! State of a model between samples.
 
 use crate::effect::EffectState;
-use crate::hysteresis::BoucWen;
+use crate::hysteresis::BoucWenState;
 use crate::signal::Compensated;
 use crate::{Error, Real};
 
-/// What a [`Model`](super::Model) remembers between samples.
+/// State of a [`Model`](super::Model) between samples.
 ///
 /// ```
 /// use bowden::model::ModelState;
@@ -16,7 +16,7 @@ use crate::{Error, Real};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ModelState<T, const N: usize> {
-    pub(super) hysteresis: BoucWen<T>,
+    pub(super) hysteresis: BoucWenState<T>,
     pub(super) effects: [EffectState<T>; N],
     pub(super) started: bool,
     /// Compensated: dt is far below it.
@@ -25,21 +25,21 @@ pub struct ModelState<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> ModelState<T, N> {
-    /// A state that has seen no sample.
+    /// A new state, before the first sample.
     #[must_use]
     pub fn new() -> Self {
-        Self::from_hysteresis(BoucWen::new())
+        Self::from_hysteresis(BoucWenState::new())
     }
 
-    /// The same, with the hysteresis state as it was found at the start.
+    /// A new state with an identified initial hysteresis state.
     ///
     /// # Errors
-    /// As [`BoucWen::with_eta`], where `eta` is not finite or beyond ±1.
+    /// As [`BoucWenState::with_eta`], if `eta` is not finite or beyond ±1.
     pub fn with_eta(eta: T) -> Result<Self, Error> {
-        BoucWen::with_eta(eta).map(Self::from_hysteresis)
+        BoucWenState::with_eta(eta).map(Self::from_hysteresis)
     }
 
-    fn from_hysteresis(hysteresis: BoucWen<T>) -> Self {
+    fn from_hysteresis(hysteresis: BoucWenState<T>) -> Self {
         Self {
             hysteresis,
             effects: [EffectState::new(); N],
@@ -74,13 +74,13 @@ impl<T: Real, const N: usize> ModelState<T, N> {
             return;
         }
         let time = self.time.plus(dt);
-        // Where the sum overflows, what it lost is no number.
+        // If the sum overflows, its rounding error is NaN.
         if time.carry.is_finite() {
             self.time = time;
         }
     }
 
-    /// The clock as [`tick`](Self::tick) would leave it.
+    /// The clock after a [`tick`](Self::tick).
     #[inline]
     pub(crate) fn ticked(&self, dt: T) -> Compensated<T> {
         let mut clock = *self;
@@ -88,20 +88,20 @@ impl<T: Real, const N: usize> ModelState<T, N> {
         clock.time
     }
 
-    /// Sets the clock to what [`ticked`](Self::ticked) said.
+    /// Sets the clock to the result of [`ticked`](Self::ticked).
     #[inline]
     pub(crate) fn set_clock(&mut self, time: Compensated<T>) {
         self.time = time;
         self.started = true;
     }
 
-    /// What the effects remember, apart from the clock.
+    /// The memories of the effects, without the clock.
     #[inline]
     pub(crate) fn memories(&self) -> [EffectState<T>; N] {
         self.effects
     }
 
-    /// Takes the memories back to what they were.
+    /// Restores earlier memories.
     #[inline]
     pub(crate) fn restore(&mut self, memories: [EffectState<T>; N]) {
         self.effects = memories;

@@ -1,10 +1,10 @@
-//! Sine and cosine for `f32` without a double: a chip whose floating-point unit has single
-//! precision computes a double in software.
+//! Sine and cosine for `f32` without a double: a microcontroller with a single-precision
+//! floating-point unit computes a double in software.
 //!
-//! The angle is reduced in integers, exactly, by the bits of 2/pi that its exponent asks for;
-//! so the greatest error, 1.6 units in the last place, holds at every finite argument.
-//! `cargo test --test exhaustive -- --ignored` checks it at all of them up to 1e4, and at one in
-//! sixteen beyond.
+//! The angle is reduced exactly, in integers, by the bits of 2/pi that its exponent selects.
+//! The greatest error, 1.6 units in the last place, therefore holds at every finite argument.
+//! `cargo test --test exhaustive -- --ignored` checks it at all arguments up to 1e4, and at one
+//! in sixteen beyond.
 //!
 //! Source: M. H. Payne, R. N. Hanek, "Radian reduction for trigonometric functions",
 //! *SIGNUM Newsletter* 18(1), 1983.
@@ -61,7 +61,7 @@ fn at_quadrant(quadrant: u32, rest: f32) -> f32 {
     }
 }
 
-/// The nearest multiple of pi/2, modulo 4, and what is left of the angle.
+/// The nearest multiple of pi/2, modulo 4, and the residual angle.
 fn reduce(x: f32) -> (u32, f32) {
     let size = f32::from_bits(x.to_bits() & 0x7fff_ffff);
     if size <= FRAC_PI_4 {

@@ -1,8 +1,8 @@
 //! Base-2 logarithm and exponential for `f32`, short enough for a control loop.
 //!
-//! About 20 instructions each on a Cortex-M4F, a division among them, and no table. The
-//! hysteresis takes its powers by them: its bound |eta| <= 1 holds for any power function,
-//! and their error is that of a few roundings.
+//! Each takes about 20 instructions on a Cortex-M4F, with one division and no table. The hysteresis
+//! uses them for its powers: its bound |eta| <= 1 holds for any power function, and their error is
+//! a few roundings.
 //!
 //! | function | arguments | greatest error |
 //! |---|---|---|
@@ -14,8 +14,7 @@
 //! | [`tanh`] | all | 4e-7 of the result |
 //!
 //! `cargo test --test exhaustive -- --ignored` checks the table at all arguments, the power at
-//! every eighth. Each
-//! function returns some float for any other argument.
+//! every eighth. For any other argument each function returns some float.
 
 use core::f32::consts::{LN_2, LOG2_E};
 
@@ -31,7 +30,7 @@ const ROUND: f32 = 12_582_912.0;
 /// Base-2 logarithm of a normal number above zero.
 ///
 /// `x = 2^k·m`, `m` in `[sqrt(1/2), sqrt(2))`; `log2(m)` is the odd series of
-/// `(m - 1)/(m + 1)`, so that it is exact to rounding next to 1, too.
+/// `(m - 1)/(m + 1)`, so it is exact to rounding next to 1, too.
 #[inline]
 pub(super) fn log2(x: f32) -> f32 {
     let bits = x.to_bits() as i32;
@@ -45,7 +44,7 @@ pub(super) fn log2(x: f32) -> f32 {
 
 /// 2 to the power of `y`; below -126 as at -126.
 ///
-/// The nearest integer goes into the exponent, the rest into a polynomial that is 1 at zero.
+/// The nearest integer goes into the exponent; a polynomial that is 1 at zero takes the rest.
 #[inline]
 pub(super) fn exp2(y: f32) -> f32 {
     let y = if y > -126.0 { y } else { -126.0 };
@@ -99,8 +98,8 @@ pub(super) fn coarse_log2(x: f32) -> f32 {
     (x.to_bits() as i32).wrapping_sub(ONE) as f32 * (1.0 / 8_388_608.0)
 }
 
-/// `x` to the power of `exponent` by straight lines between the powers of 2; 1 where the
-/// exponent is 0, `x` to rounding where it is 1, and not above zero where it would be below
+/// `x` to the power of `exponent` by straight lines between the powers of 2. The result is 1 if
+/// the exponent is 0, and `x` to rounding if it is 1. It is not above zero if it would be below
 /// 2^-127.
 #[inline]
 pub(super) fn coarse_power(x: f32, exponent: f32) -> f32 {

@@ -1,11 +1,11 @@
-//! Saturation that keeps NaN visible.
+//! Saturation that preserves NaN.
 
 use crate::Real;
 
 /// `x` within `[low, high]`; NaN stays NaN.
 ///
-/// `x.max(low).min(high)` turns NaN into a limit, a command that looks valid.
-/// Where `low > high`, `x` below `low` gives `low`, else `x` above `high` gives `high`.
+/// `x.max(low).min(high)` turns NaN into a limit, a command that looks valid. If `low > high`,
+/// `x` below `low` gives `low`; otherwise `x` above `high` gives `high`.
 ///
 /// ```
 /// use bowden::signal::clamp;
@@ -25,9 +25,37 @@ pub fn clamp<T: Real>(x: T, low: T, high: T) -> T {
     }
 }
 
-/// `x` within `[low, high]`, and what is nearest to zero there for NaN.
+/// `x` clamped to `[low, high]`; for NaN the value there nearest to zero.
 #[inline]
 pub(crate) fn confined<T: Real>(x: T, low: T, high: T) -> T {
     let known = if x.is_nan() { T::ZERO } else { x };
     clamp(known, low, high)
+}
+
+/// The lesser of two numbers.
+#[inline]
+pub(crate) fn least<T: Real>(a: T, b: T) -> T {
+    if b < a {
+        b
+    } else {
+        a
+    }
+}
+
+/// The greater of two numbers.
+#[inline]
+pub(crate) fn greatest<T: Real>(a: T, b: T) -> T {
+    if b > a {
+        b
+    } else {
+        a
+    }
+}
+
+/// A difference on a circle of this period, along the shorter direction: within half a period.
+#[inline]
+pub(crate) fn wrapped<T: Real>(difference: T, period: T) -> T {
+    // A float of 1.5/epsilon has no room for a fraction: the sum rounds to whole turns.
+    let whole = T::from_f64(1.5) / T::epsilon();
+    difference - period * ((difference / period + whole) - whole)
 }

@@ -1,14 +1,14 @@
-//! A sum that keeps what rounding would drop.
+//! A sum with compensation of rounding errors.
 
 use super::clamp;
 use crate::error::rarely;
 use crate::Real;
 
-/// A running sum with the part that the last addition lost to rounding.
+/// A running sum with the rounding error of its last addition.
 ///
-/// Integrals and estimates move by `h` times something small each sample. In `f32` an
-/// increment below half an ulp of the sum would vanish, for ever: a leakage of 0.001/s at
-/// 20 kHz moves an estimate by 5e-8 of itself, and `f32` has 6e-8.
+/// Integrals and estimates move by a small increment each sample. In `f32` an increment below
+/// half an ulp of the sum would have no effect. Example: a leakage of 0.001/s at 20 kHz moves
+/// an estimate by 5e-8 of itself, and the resolution of `f32` is 6e-8.
 ///
 /// ```
 /// use bowden::signal::Compensated;
@@ -28,12 +28,12 @@ use crate::Real;
 pub struct Compensated<T> {
     /// The sum.
     pub value: T,
-    /// What it owes: the next increment is added together with it.
+    /// The carry (rounding error): it is added together with the next increment.
     pub carry: T,
 }
 
 impl<T: Real> Compensated<T> {
-    /// A sum that owes nothing.
+    /// A sum with a carry of zero.
     #[must_use]
     pub const fn new(value: T) -> Self {
         Self {
@@ -42,7 +42,7 @@ impl<T: Real> Compensated<T> {
         }
     }
 
-    /// The sum after `increment`; where it is finite, so may be the carry or not.
+    /// The sum after `increment`. If the sum is finite, the carry may still be NaN.
     #[inline]
     #[must_use]
     pub fn plus(self, increment: T) -> Self {
@@ -50,9 +50,9 @@ impl<T: Real> Compensated<T> {
         Self { value, carry }
     }
 
-    /// The sum confined to `[low, high]`; at an edge nothing is owed.
+    /// The sum clamped to `[low, high]`; at a limit the carry is zero.
     ///
-    /// The carry of a sum that overflowed is no number, and stays none.
+    /// The carry of a sum that overflowed is NaN, and stays NaN.
     #[inline]
     pub(crate) fn within(self, low: T, high: T) -> Self {
         if low <= self.value && self.value <= high {
@@ -73,8 +73,8 @@ impl<T: Real> Compensated<T> {
     }
 }
 
-/// A sum and what rounding lost of it: exactly that, also where the second number is the
-/// larger one (D. Knuth, *The Art of Computer Programming*, vol. 2, 4.2.2, Theorem B).
+/// A sum and its rounding error, exact for any order of magnitudes (D. Knuth, *The Art of
+/// Computer Programming*, vol. 2, 4.2.2, Theorem B).
 #[inline]
 pub(crate) fn two_sum<T: Real>(a: T, b: T) -> (T, T) {
     let sum = a + b;
@@ -88,7 +88,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// What `two_sum` says was lost, f64 finds too: between these exponents it holds the
+        /// f64 gives the same rounding error as `two_sum`: between these exponents it holds the
         /// sum of two f32 without rounding.
         #[test]
         fn what_a_sum_loses_is_exact(

@@ -1,13 +1,13 @@
-//! A derivative that survives noise, jitter and bad samples.
+//! A derivative that tolerates noise, jitter and bad samples.
 
-use crate::error::{finite, rarely};
+use crate::error::{not_below_zero, rarely};
 use crate::{Error, Real};
 
 /// First-order filtered derivative with a time constant \[s\].
 ///
-/// `v⁺ = (tau·v + x - x_last)/(tau + dt)`: the difference quotient through the first-order
-/// lag in its implicit (backward Euler) form, which is stable for any `dt` and needs no
-/// exponential. `dt` may vary. It starts at rate zero with the first sample: no kick.
+/// `v⁺ = (tau·v + x - x_last)/(tau + dt)` is the difference quotient through the first-order
+/// lag in its implicit (backward Euler) form. This form is stable for any `dt` and needs no
+/// exponential. `dt` may vary. The rate starts at zero with the first sample, without a kick.
 ///
 /// ```
 /// use bowden::signal::{Derivative, DerivativeState};
@@ -56,19 +56,42 @@ pub struct DerivativeState<T> {
     rate: T,
 }
 
+/// The checked configuration, for any float and for constants.
+macro_rules! derivative {
+    ($time_constant:ident, $zero:expr) => {{
+        not_below_zero!($time_constant, $zero, "time_constant");
+        Ok(Self {
+            time_constant: $time_constant,
+        })
+    }};
+}
+
+macro_rules! constant {
+    ($float:ty) => {
+        impl Derivative<$float> {
+            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
+            ///
+            /// # Errors
+            /// As [`try_new`](Self::try_new).
+            pub const fn const_new(time_constant: $float) -> Result<Self, Error> {
+                derivative!(time_constant, 0.0)
+            }
+        }
+    };
+}
+constant!(f32);
+constant!(f64);
+
 impl<T: Real> Derivative<T> {
-    /// A derivative with `time_constant >= 0` \[s\]; at zero it is not filtered.
+    /// A derivative with `time_constant >= 0` \[s\]; zero means no filter.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"time_constant"`.
     pub fn try_new(time_constant: T) -> Result<Self, Error> {
-        if finite(time_constant, "time_constant")? < T::zero() {
-            return Err(Error::OutOfRange("time_constant"));
-        }
-        Ok(Self { time_constant })
+        derivative!(time_constant, T::ZERO)
     }
 
-    /// The same where the time constant was checked before.
+    /// The same for a time constant that is already checked.
     #[inline]
     pub(crate) const fn assumed(time_constant: T) -> Self {
         Self { time_constant }
@@ -81,12 +104,12 @@ impl<T: Real> Derivative<T> {
         self.time_constant
     }
 
-    /// The filtered rate [signal unit/s] after a sample that came `dt` \[s\] later.
+    /// The filtered rate [signal unit/s] after a sample, `dt` \[s\] after the last one.
     ///
-    /// A sample that is not finite, a `dt` that is not positive and finite, or a
-    /// rate that overflows leaves the state and returns the rate that was. The time of a bad
-    /// sample is not remembered: add it to the `dt` of the next good one, or the rate of a signal
-    /// that has moved meanwhile is too high. [`Rates`](crate::signal::Rates) does that.
+    /// A bad sample leaves the state unchanged and returns the last rate: a sample that is not
+    /// finite, a `dt` that is not positive and finite, or an overflow. The state does not store the
+    /// time of a bad sample: add this time to the `dt` of the next good one. Otherwise the computed
+    /// rate of a moving signal is too high. [`Rates`](crate::signal::Rates) does this.
     #[inline]
     pub fn step(&self, state: &mut DerivativeState<T>, sample: T, dt: T) -> T {
         if sample.is_finite() {
@@ -95,7 +118,7 @@ impl<T: Real> Derivative<T> {
         state.rate
     }
 
-    /// The same of a sample that is finite.
+    /// The same for a finite sample.
     #[inline]
     pub(crate) fn follow(&self, state: &mut DerivativeState<T>, sample: T, dt: T) {
         let Some(last) = state.last else {
@@ -114,8 +137,8 @@ impl<T: Real> Derivative<T> {
         }
     }
 
-    /// The filtered rate after the signal has moved by `change` in `dt > 0`; the rate as it
-    /// was where `dt` is the highest float, which stands for a time that nobody knows.
+    /// The filtered rate after the signal has moved by `change` in `dt > 0`. The rate stays
+    /// unchanged if `dt` is the highest float, which means an unknown time.
     #[inline]
     pub(crate) fn after(&self, rate: T, change: T, dt: T) -> T {
         if dt < T::HIGHEST {
@@ -142,7 +165,7 @@ impl<T: Real> DerivativeState<T> {
         }
     }
 
-    /// A state that has seen `last` and stands at `rate`.
+    /// A state with the last sample `last` and the rate `rate`.
     #[cfg(kani)]
     #[inline]
     pub(crate) fn at(last: T, rate: T) -> Self {
@@ -153,7 +176,7 @@ impl<T: Real> DerivativeState<T> {
     }
 
     /// Whether steps can lead to this state: a last sample that is not finite would hold the
-    /// rate for ever.
+    /// rate indefinitely.
     pub(crate) fn is_finite(&self) -> bool {
         self.rate.is_finite() && self.last.is_none_or(T::is_finite)
     }

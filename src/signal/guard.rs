@@ -1,13 +1,12 @@
-//! Holds the last good sample through bad ones.
+//! Holds the last good sample during bad ones.
 
-use crate::error::finite;
+use crate::error::above_zero;
 use crate::{Error, Real};
 
-/// Bad-sample guard: the last good sample stands in for a bad one.
+/// Bad-sample guard: the last good sample replaces a bad one.
 ///
-/// A sample is bad if it is not finite or its magnitude exceeds the limit
-/// [signal unit]. The state counts consecutive bad samples, so that a controller can
-/// stop after too many.
+/// A sample is bad if it is not finite or its magnitude exceeds the limit [signal unit]. The
+/// state counts consecutive bad samples, so a controller can stop after too many.
 ///
 /// ```
 /// use bowden::signal::{Guard, GuardState};
@@ -52,26 +51,47 @@ pub struct GuardState<T> {
     bad: u32,
 }
 
+/// The checked configuration, for any float and for constants.
+macro_rules! guard {
+    ($limit:ident, $zero:expr) => {{
+        above_zero!($limit, $zero, "limit");
+        Ok(Self { limit: $limit })
+    }};
+}
+
+macro_rules! constant {
+    ($float:ty) => {
+        impl Guard<$float> {
+            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
+            ///
+            /// # Errors
+            /// As [`try_new`](Self::try_new).
+            pub const fn const_new(limit: $float) -> Result<Self, Error> {
+                guard!(limit, 0.0)
+            }
+        }
+    };
+}
+constant!(f32);
+constant!(f64);
+
 impl<T: Real> Guard<T> {
-    /// A guard that admits finite samples with magnitude up to `limit` [signal unit].
+    /// A guard that accepts finite samples with a magnitude up to `limit` [signal unit].
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or, at `limit <= 0`, [`Error::OutOfRange`] with `"limit"`.
+    /// [`Error::NonFinite`] or, for `limit <= 0`, [`Error::OutOfRange`] with `"limit"`.
     pub fn try_new(limit: T) -> Result<Self, Error> {
-        if finite(limit, "limit")? <= T::zero() {
-            return Err(Error::OutOfRange("limit"));
-        }
-        Ok(Self { limit })
+        guard!(limit, T::ZERO)
     }
 
-    /// Largest magnitude that is admitted [signal unit].
+    /// Largest accepted magnitude [signal unit].
     #[inline]
     #[must_use]
     pub fn limit(&self) -> T {
         self.limit
     }
 
-    /// The sample if it is good, else the last good one.
+    /// The sample if it is good, otherwise the last good one.
     #[inline]
     pub fn step(&self, state: &mut GuardState<T>, sample: T) -> T {
         // Written so that NaN fails the comparison.
@@ -95,7 +115,7 @@ impl<T: Real> GuardState<T> {
         }
     }
 
-    /// How many samples in a row were bad; stays at `u32::MAX`.
+    /// Number of bad samples in a row; saturates at `u32::MAX`.
     #[inline]
     #[must_use]
     pub fn consecutive_bad(&self) -> u32 {

@@ -1,16 +1,29 @@
-//! Signal conditioning that a bad sample cannot poison.
+//! Signal conditioning that rejects bad samples.
 //!
-//! One concept a file: [`clamp`], the [`Compensated`] sum, the bad-sample [`Guard`],
-//! [`Plausible`] for numbers that are finite and wrong, the play operator [`Play`], the
-//! filtered [`Derivative`], the reference [`Ramp`] and [`Rates`], which turns the positions
-//! of a sensor into the [`Motion`] that effects read. Configuration and state are apart; after
-//! construction nothing returns an error and nothing panics.
+//! | item | purpose |
+//! |---|---|
+//! | [`clamp`] | clamp to a range |
+//! | [`Compensated`] | compensated sum |
+//! | [`Guard`] | hold the last good sample |
+//! | [`Plausible`] | reject finite but implausible numbers |
+//! | [`Play`] | play operator |
+//! | [`LowPass`], [`Biquad`] | first-order and second-order filters, notch |
+//! | [`Derivative`] | filtered derivative |
+//! | [`Ramp`] | reference with limited rate |
+//! | [`Rates`] | [`Motion`] (position, velocity, acceleration) from the positions of a sensor |
+//! | [`EdgeVelocity`] | velocity from an encoder with few counts per sample |
+//!
+//! Configuration and state are separate types. After construction nothing returns an error and
+//! nothing panics. Every configuration has `const` constructors for `f32` and `f64`.
 
+mod biquad;
 mod clamp;
 mod compensated;
 mod derivative;
+mod edges;
 mod gap;
 mod guard;
+mod low_pass;
 mod motion;
 mod plausible;
 mod play;
@@ -19,13 +32,16 @@ mod rates;
 #[cfg(feature = "serde")]
 mod stored;
 
+pub use biquad::{Biquad, BiquadState};
 pub use clamp::clamp;
-pub(crate) use clamp::confined;
+pub(crate) use clamp::{confined, greatest, least, wrapped};
 pub(crate) use compensated::two_sum;
 pub use compensated::Compensated;
 pub use derivative::{Derivative, DerivativeState};
+pub use edges::{EdgeStatus, EdgeVelocity, EdgeVelocityOutput, EdgeVelocityState};
 pub(crate) use gap::gap_after;
 pub use guard::{Guard, GuardState};
+pub use low_pass::{LowPass, LowPassState};
 pub use motion::Motion;
 pub use plausible::{Implausible, Plausible, PlausibleOutput, PlausibleState};
 pub use play::{Play, PlayState};

@@ -1,4 +1,4 @@
-//! What is known of one channel at one instant.
+//! The motion of one channel at one instant.
 
 /// Position, velocity and acceleration of one channel.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -1,15 +1,15 @@
-//! Whether a finite number can be true: its range, its rate, and whether it is stuck.
+//! Plausibility of a finite number: its range, its rate, and whether it is stuck.
 
 use super::gap::gap_after;
 use crate::error::{above_zero, ordered};
 use crate::{Error, Real};
 
-/// What a sensor's sample can be: within a range, not faster than a rate, not frozen.
+/// Plausibility check of a sensor: range, rate limit and stuck value.
 ///
-/// A controller refuses NaN by itself; a number that is finite and wrong (an encoder that
-/// was reset, a shorted bridge, a bus that repeats its last frame) looks good to it. Put a
-/// `Plausible` before each input: a sample that cannot be true becomes NaN, which the
-/// controller holds its command on, and counts.
+/// A controller rejects NaN by itself. It cannot detect a finite but wrong number: an encoder
+/// that was reset, a shorted bridge, a bus that repeats its last frame. Use a `Plausible`
+/// before each input. It turns an implausible sample into NaN; the controller then holds its
+/// command and counts the sample.
 ///
 /// ```
 /// use bowden::signal::{Implausible, Plausible, PlausibleState};
@@ -40,11 +40,12 @@ pub struct Plausible<T> {
     low: T,
     high: T,
     rate: Option<T>,
+    sample_period: Option<T>,
     stuck_after: u32,
     longest_dt: T,
 }
 
-/// Why a sample cannot be true.
+/// Why a sample is implausible.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
@@ -53,11 +54,11 @@ pub struct Plausible<T> {
 pub enum Implausible {
     /// It is NaN or infinite.
     NotFinite,
-    /// It lies outside of the range.
+    /// It lies outside the range.
     OutOfRange,
     /// It is further from the last plausible sample than the rate allows.
     TooFast,
-    /// It has been the same number for too long, while the machine moved.
+    /// It has kept the same value for too long while the machine moved.
     Stuck,
 }
 
@@ -65,13 +66,13 @@ pub enum Implausible {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PlausibleOutput<T> {
-    /// The sample where it is plausible, else NaN.
+    /// The sample if it is plausible, otherwise NaN.
     pub value: T,
-    /// What is wrong with it, where something is.
+    /// Why the sample is implausible, if it is.
     pub fault: Option<Implausible>,
 }
 
-/// State of a [`Plausible`]: the last plausible sample, and for how long it is past.
+/// State of a [`Plausible`]: the last plausible sample, and its age.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -85,13 +86,14 @@ pub struct PlausibleState<T> {
         serde(default, deserialize_with = "super::stored::optional")
     )]
     last: Option<T>,
-    /// Time since `last`, without the present sample's own \[s\].
+    /// Time in which the signal may have moved since the measurement of `last`, up to the last
+    /// checked sample \[s\].
     #[cfg_attr(feature = "serde", serde(deserialize_with = "super::stored::number"))]
     gap: T,
     same: u32,
 }
 
-/// The range after its checks, for any float and for constants.
+/// The checked range, for any float and for constants.
 macro_rules! range {
     ($low:ident, $high:ident, $highest:expr) => {{
         ordered!($low, $high);
@@ -99,18 +101,41 @@ macro_rules! range {
             low: $low,
             high: $high,
             rate: None,
+            sample_period: None,
             stuck_after: 0,
             longest_dt: $highest,
         })
     }};
 }
 
-/// A range with its rate after the checks, likewise.
+/// A checked range with its rate, likewise.
 macro_rules! rated {
     ($range:ident, $rate:ident, $zero:expr) => {{
         above_zero!($rate, $zero, "rate");
         Ok(Self {
             rate: Some($rate),
+            ..$range
+        })
+    }};
+}
+
+/// The same for the sensor's sample period.
+macro_rules! sampled {
+    ($range:ident, $period:ident, $zero:expr) => {{
+        above_zero!($period, $zero, "sample_period");
+        Ok(Self {
+            sample_period: Some($period),
+            ..$range
+        })
+    }};
+}
+
+/// The same for the longest dt.
+macro_rules! longest {
+    ($range:ident, $longest_dt:ident, $zero:expr) => {{
+        above_zero!($longest_dt, $zero, "longest_dt");
+        Ok(Self {
+            longest_dt: $longest_dt,
             ..$range
         })
     }};
@@ -134,6 +159,25 @@ macro_rules! constant {
             pub const fn const_with_rate(self, rate: $float) -> Result<Self, Error> {
                 rated!(self, rate, 0.0)
             }
+
+            /// [`with_sample_period`](Self::with_sample_period) at compile time.
+            ///
+            /// # Errors
+            /// As [`with_sample_period`](Self::with_sample_period).
+            pub const fn const_with_sample_period(
+                self,
+                sample_period: $float,
+            ) -> Result<Self, Error> {
+                sampled!(self, sample_period, 0.0)
+            }
+
+            /// [`with_longest_dt`](Self::with_longest_dt) at compile time.
+            ///
+            /// # Errors
+            /// As [`with_longest_dt`](Self::with_longest_dt).
+            pub const fn const_with_longest_dt(self, longest_dt: $float) -> Result<Self, Error> {
+                longest!(self, longest_dt, 0.0)
+            }
         }
     };
 }
@@ -150,16 +194,27 @@ impl<T: Real> Plausible<T> {
         range!(low, high, T::HIGHEST)
     }
 
-    /// The same where the signal moves by at most `rate` \[signal unit/s\], above zero.
+    /// The same check with a rate limit: the signal moves by at most `rate` \[signal unit/s\],
+    /// above zero.
     ///
-    /// Not for an angle that wraps: each wrap is too fast. Check the velocity behind
-    /// [`Rates`](crate::signal::Rates), which knows the period, within a range instead.
+    /// Do not use a rate limit for an angle that wraps: each wrap is too fast. Instead, check
+    /// the range of the velocity behind [`Rates`](crate::signal::Rates), which knows the
+    /// period.
     ///
-    /// Through a gap the reach grows with its time, so that a signal that has really moved
-    /// is taken up again. So is an encoder that was reset, and [`Rates`](crate::signal::Rates) behind
-    /// it then shows a velocity of up to `rate`:
-    /// [`Compensator::with_ranges`](crate::control::Compensator::with_ranges) keeps that from a
-    /// feed-forward.
+    /// A sensor may be slower than the loop. A repeated number counts as the same measurement,
+    /// whose age grows. The next number may lie `rate` times the time since the last *change* away.
+    /// A correct sensor never exceeds the rate, even if it repeats each number several times. After
+    /// `t` seconds of one number, the check accepts a spike of up to `rate·(t + dt)`. It then
+    /// rejects the true number for `distance/rate`, as after any gap.
+    /// [`with_sample_period`](Self::with_sample_period) bounds both. Set it for a sensor whose
+    /// numbers repeat while the signal rests (an encoder), and for a sensor that is not synchronous
+    /// with the loop.
+    ///
+    /// During a gap the permitted distance grows with time. The check accepts a signal that has
+    /// really moved after `distance/rate`, rounded up to the next sample. The same is true of an
+    /// encoder that was reset: [`Rates`](crate::signal::Rates) behind it then shows a velocity of
+    /// up to `rate`. [`Compensator::with_ranges`](crate::control::Compensator::with_ranges) keeps
+    /// this velocity from a feed-forward.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"rate"`.
@@ -167,13 +222,41 @@ impl<T: Real> Plausible<T> {
         rated!(self, rate, T::ZERO)
     }
 
-    /// The same where `samples` equal numbers in succession are a stuck sensor; 0: never.
+    /// The same check for a sensor that takes at most `sample_period` \[s\] from one number to
+    /// the next.
     ///
-    /// A sensor that was found stuck stays so until its number changes, at rest too. Where the
-    /// machine cannot move because of that, a new [`PlausibleState`] takes it for sound again.
+    /// Include the jitter of the sensor and of its bus. Every number is then at most this old
+    /// when it is read, and the next number may lie `rate·(sample_period + dt)` away. This
+    /// distance does not depend on the number of repetitions or on the phase between sensor and
+    /// loop. It is also the largest accepted spike. Without a rate this setting has no effect.
     ///
-    /// They are counted while the machine moves only. A coarse encoder repeats itself at low
-    /// speed: choose more samples than one of its counts takes then.
+    /// ```
+    /// use bowden::signal::{Implausible, Plausible, PlausibleState};
+    /// // 50 N·m/s, read at 1 kHz from a sensor of 100 Hz.
+    /// let plausible = Plausible::try_new(-100.0, 100.0)?.with_rate(50.0)?.with_sample_period(0.01)?;
+    /// let mut state = PlausibleState::new();
+    /// for _ in 0..1000 {
+    ///     plausible.step(&mut state, 3.0_f64, 0.001, false); // at rest for a second
+    /// }
+    /// let spike = plausible.step(&mut state, 4.0, 0.001, false);
+    /// assert_eq!(spike.fault, Some(Implausible::TooFast)); // more than 50·0.011
+    /// # Ok::<(), bowden::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"sample_period"`.
+    pub fn with_sample_period(self, sample_period: T) -> Result<Self, Error> {
+        sampled!(self, sample_period, T::ZERO)
+    }
+
+    /// The same check with a stuck limit: `samples` equal numbers in succession are a stuck
+    /// sensor; 0: never.
+    ///
+    /// A stuck sensor stays stuck until its number changes, at rest too. If the machine cannot
+    /// move for this reason, use a new [`PlausibleState`], which treats the sensor as sound.
+    ///
+    /// Numbers count only while the machine moves. A coarse encoder repeats its number at low
+    /// speed: choose more samples than one of its counts takes at that speed.
     #[must_use]
     pub const fn with_stuck_after(self, samples: u32) -> Self {
         Self {
@@ -182,29 +265,28 @@ impl<T: Real> Plausible<T> {
         }
     }
 
-    /// The same where a `dt` longer than this one \[s\], or one that cannot be used, counts as
-    /// this one.
+    /// The same check with a longest `dt` \[s\]: a longer or unusable `dt` counts as this one.
     ///
-    /// A counter that wrapped says that an hour has passed, or that time ran back; any signal may
-    /// have moved anywhere meanwhile: one spike is believed then, and every true sample after it
-    /// is too fast.
+    /// A wrapped counter reports a `dt` of an hour, or a negative `dt`. Any signal may have moved
+    /// anywhere in that time: the check would accept one spike and reject every true sample after
+    /// it.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"longest_dt"`.
     pub fn with_longest_dt(self, longest_dt: T) -> Result<Self, Error> {
-        above_zero!(longest_dt, T::ZERO, "longest_dt");
-        Ok(Self { longest_dt, ..self })
+        longest!(self, longest_dt, T::ZERO)
     }
 
-    /// Checks a sample that came `dt` \[s\] after the one before.
+    /// Checks a sample, `dt` \[s\] after the one before.
     ///
-    /// `moves`: whether the machine moves, so that the signal has to: the command changes, or
-    /// another sensor does.
+    /// `moves`: whether the machine moves, so the signal must change. Examples are a
+    /// command or another sensor that changes.
     ///
-    /// A `dt` of zero is no time: at a rate, the last plausible number alone is plausible. One that
-    /// is negative, NaN or infinite counts as [`with_longest_dt`](Self::with_longest_dt) says;
-    /// without that the time is unknown, and any sample in the range is plausible until one was
-    /// taken. A sample that is not finite never is, whatever `dt`.
+    /// A `dt` of zero adds no time: with a rate limit, the sample right after a change must be
+    /// the same number. A `dt` that is negative, NaN or infinite counts as
+    /// [`with_longest_dt`](Self::with_longest_dt) states. Without that setting the time is
+    /// unknown, and any sample in the range is plausible until the number has changed. A sample
+    /// that is not finite is never plausible.
     #[inline]
     pub fn step(
         &self,
@@ -213,7 +295,7 @@ impl<T: Real> Plausible<T> {
         dt: T,
         moves: bool,
     ) -> PlausibleOutput<T> {
-        // Written so that NaN is not within.
+        // Written so that NaN is not within the range.
         let dt = if dt >= T::ZERO && dt <= self.longest_dt {
             dt
         } else {
@@ -223,8 +305,13 @@ impl<T: Real> Plausible<T> {
         let fault = self.fault(state, sample, elapsed, moves);
         match fault {
             None => {
+                let repeats = state.last == Some(sample);
+                state.gap = match self.sample_period {
+                    Some(longest) => longest,
+                    None if repeats => elapsed,
+                    None => T::ZERO,
+                };
                 state.last = Some(sample);
-                state.gap = T::ZERO;
                 let value = sample;
                 PlausibleOutput { value, fault }
             }
@@ -252,7 +339,7 @@ impl<T: Real> Plausible<T> {
         }
         let last = state.last?;
         if let Some(rate) = self.rate {
-            // Written so that an overflow of the way is too fast.
+            // Written so that an overflow of the distance is too fast.
             if (sample - last).abs() > rate * elapsed {
                 return Some(Implausible::TooFast);
             }
@@ -268,7 +355,7 @@ impl<T: Real> Plausible<T> {
 }
 
 impl<T: Real> PlausibleState<T> {
-    /// A state that has seen no sample: the first one may be anywhere in the range.
+    /// A new state: the first sample may lie anywhere in the range.
     #[must_use]
     pub const fn new() -> Self {
         Self {
@@ -278,14 +365,20 @@ impl<T: Real> PlausibleState<T> {
         }
     }
 
-    /// The last plausible sample \[signal unit\], where there was one.
+    /// A state with any numbers.
+    #[cfg(kani)]
+    pub(crate) const fn of(last: Option<T>, gap: T, same: u32) -> Self {
+        Self { last, gap, same }
+    }
+
+    /// The last plausible sample \[signal unit\], if there was one.
     #[must_use]
     pub const fn last(&self) -> Option<T> {
         self.last
     }
 }
 
-/// What is read before it is checked.
+/// The stored form, before its checks.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
 #[serde(
@@ -296,6 +389,7 @@ struct Unchecked<T> {
     low: T,
     high: T,
     rate: Option<T>,
+    sample_period: Option<T>,
     #[serde(default)]
     stuck_after: u32,
     #[serde(default = "super::stored::any_dt")]
@@ -309,6 +403,8 @@ impl<T: Real> TryFrom<Unchecked<T>> for Plausible<T> {
         let range = Self::try_new(raw.low, raw.high)?
             .with_stuck_after(raw.stuck_after)
             .with_longest_dt(raw.longest_dt)?;
-        raw.rate.map_or(Ok(range), |rate| range.with_rate(rate))
+        let rated = raw.rate.map_or(Ok(range), |rate| range.with_rate(rate))?;
+        let period = raw.sample_period;
+        period.map_or(Ok(rated), |period| rated.with_sample_period(period))
     }
 }

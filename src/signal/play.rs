@@ -1,23 +1,23 @@
-//! The play operator: backlash, and a guard against noise.
+//! The play operator: backlash, and noise rejection in front of a hysteresis.
 
 use super::clamp;
-use crate::error::finite;
+use crate::error::not_below_zero;
 use crate::{Error, Real};
 
-/// Play of half-width r [input unit]: follows the input once r is used up.
+/// Play of half-width r [input unit]: follows the input at a distance of at most r.
 ///
-/// `y⁺ = clamp(y, x - r, x + r)`, so that `|y - x| <= r` and a wobble of the input
-/// within 2r moves nothing. In front of a hysteresis it keeps sensor noise from
-/// being taken for reversals: a half-width of four times the noise's standard
-/// deviation is enough (see [`Transmission`](crate::transmission::Transmission)).
-/// Source: Krasnosel'skii & Pokrovskii, *Systems with Hysteresis*, 1989.
+/// `y⁺ = clamp(y, x - r, x + r)`, so `|y - x| <= r`. An oscillation of the input within 2r
+/// moves nothing. In front of a hysteresis a play prevents reversals from sensor noise. A
+/// half-width of four times the noise's standard deviation is sufficient (see
+/// [`Transmission`](crate::transmission::Transmission)). Source: Krasnosel'skii & Pokrovskii,
+/// *Systems with Hysteresis*, 1989.
 ///
 /// ```
 /// use bowden::signal::{Play, PlayState};
 /// # fn main() -> Result<(), bowden::Error> {
 /// let play = Play::try_new(0.5)?;
 /// let mut state = PlayState::new();
-/// assert_eq!(play.step(&mut state, 2.0), 2.0); // the first sample is taken over
+/// assert_eq!(play.step(&mut state, 2.0), 2.0); // the output starts at the first sample
 /// assert_eq!(play.step(&mut state, 3.0), 2.5);
 /// assert_eq!(play.step(&mut state, 2.1), 2.5);
 /// # Ok(())
@@ -56,21 +56,44 @@ pub struct PlayState<T> {
     output: Option<T>,
 }
 
+/// The checked configuration, for any float and for constants.
+macro_rules! play {
+    ($half_width:ident, $zero:expr) => {{
+        not_below_zero!($half_width, $zero, "half_width");
+        Ok(Self {
+            half_width: $half_width,
+        })
+    }};
+}
+
+macro_rules! constant {
+    ($float:ty) => {
+        impl Play<$float> {
+            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
+            ///
+            /// # Errors
+            /// As [`try_new`](Self::try_new).
+            pub const fn const_new(half_width: $float) -> Result<Self, Error> {
+                play!(half_width, 0.0)
+            }
+        }
+    };
+}
+constant!(f32);
+constant!(f64);
+
 impl<T: Real> Play<T> {
-    /// None: the output is the input.
+    /// No play: the output is the input.
     pub(crate) const NONE: Self = Self {
         half_width: T::ZERO,
     };
 
-    /// A play of `half_width >= 0` [input unit]; at zero the output is the input.
+    /// A play of `half_width >= 0` [input unit]; with zero the output is the input.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"half_width"`.
     pub fn try_new(half_width: T) -> Result<Self, Error> {
-        if finite(half_width, "half_width")? < T::zero() {
-            return Err(Error::OutOfRange("half_width"));
-        }
-        Ok(Self { half_width })
+        play!(half_width, T::ZERO)
     }
 
     /// The half-width [input unit].
@@ -80,9 +103,9 @@ impl<T: Real> Play<T> {
         self.half_width
     }
 
-    /// The output after one input [input unit]; a bad sample leaves it as it was.
+    /// The output after one input [input unit]; a bad sample leaves the output unchanged.
     ///
-    /// Zero is returned while no good sample has been seen.
+    /// Returns zero before the first good sample.
     #[inline]
     pub fn step(&self, state: &mut PlayState<T>, input: T) -> T {
         let output = state
@@ -98,7 +121,7 @@ impl<T: Real> Play<T> {
 }
 
 impl<T: Real> PlayState<T> {
-    /// A state that takes the first good sample over as it is.
+    /// A state whose output starts at the first good sample.
     #[inline]
     #[must_use]
     pub fn new() -> Self {

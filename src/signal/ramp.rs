@@ -1,14 +1,14 @@
 //! A reference that a loop can follow.
 
-use crate::error::finite;
+use crate::error::{above_zero, not_below_zero};
 use crate::signal::Compensated;
 use crate::{Error, Real};
 
-/// A reference ramp: at most a rate, then a lag that rounds its corners.
+/// A reference ramp: a rate limit, then a first-order lag.
 ///
 /// `r⁺ = r + clamp(wanted − r, ±rate·dt)`, `y⁺ = y + dt/(tau + dt)·(r⁺ − y)`. A step of the
-/// reference asks a drive for what it cannot give: the anti-windup then shapes the answer
-/// instead of the gains.
+/// reference exceeds the drive's capability. The anti-windup then determines the response, not the
+/// gains.
 ///
 /// ```
 /// use bowden::signal::{Ramp, RampState};
@@ -17,7 +17,7 @@ use crate::{Error, Real};
 /// for _ in 0..1000 {
 ///     ramp.step(&mut state, 25.0, 0.001);
 /// }
-/// assert!((state.value() - 25.0).abs() < 1e-4); // there after half a second
+/// assert!((state.value() - 25.0).abs() < 1e-4); // at the target after half a second
 /// # Ok::<(), bowden::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,7 +39,7 @@ pub struct Ramp<T> {
     longest_dt: T,
 }
 
-/// State of a [`Ramp`]: where the ramp is, and the rounded value.
+/// State of a [`Ramp`]: the ramp and the filtered value.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -52,8 +52,7 @@ pub struct RampState<T> {
     ramp: T,
     #[cfg_attr(feature = "serde", serde(deserialize_with = "super::stored::number"))]
     value: T,
-    /// What rounding has kept back of each: at 10 kHz a plain `f32` ramp of 0.005/s would never
-    /// leave 25.
+    /// Rounding error of each: at 10 kHz a plain `f32` ramp of 0.005/s would never leave 25.
     #[cfg_attr(
         feature = "serde",
         serde(default = "T::zero", deserialize_with = "super::stored::number")
@@ -66,46 +65,81 @@ pub struct RampState<T> {
     value_carry: T,
 }
 
+/// The checked ramp, for any float and for constants.
+macro_rules! ramp {
+    ($rate:ident, $time_constant:ident, $zero:expr, $highest:expr) => {{
+        above_zero!($rate, $zero, "rate");
+        not_below_zero!($time_constant, $zero, "time_constant");
+        Ok(Self {
+            rate: $rate,
+            time_constant: $time_constant,
+            longest_dt: $highest,
+        })
+    }};
+}
+
+/// The same with a longest dt, likewise.
+macro_rules! longest {
+    ($ramp:ident, $longest_dt:ident, $zero:expr) => {{
+        above_zero!($longest_dt, $zero, "longest_dt");
+        Ok(Self {
+            longest_dt: $longest_dt,
+            ..$ramp
+        })
+    }};
+}
+
+macro_rules! constant {
+    ($float:ty) => {
+        impl Ramp<$float> {
+            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
+            ///
+            /// # Errors
+            /// As [`try_new`](Self::try_new).
+            pub const fn const_new(rate: $float, time_constant: $float) -> Result<Self, Error> {
+                ramp!(rate, time_constant, 0.0, <$float>::MAX)
+            }
+
+            /// [`with_longest_dt`](Self::with_longest_dt) at compile time.
+            ///
+            /// # Errors
+            /// As [`with_longest_dt`](Self::with_longest_dt).
+            pub const fn const_with_longest_dt(self, longest_dt: $float) -> Result<Self, Error> {
+                longest!(self, longest_dt, 0.0)
+            }
+        }
+    };
+}
+constant!(f32);
+constant!(f64);
+
 impl<T: Real> Ramp<T> {
     /// A ramp of `rate > 0` \[signal unit/s\] with a lag of `time_constant >= 0` \[s\].
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"rate"` or `"time_constant"`.
     pub fn try_new(rate: T, time_constant: T) -> Result<Self, Error> {
-        if finite(rate, "rate")? <= T::ZERO {
-            return Err(Error::OutOfRange("rate"));
-        }
-        if finite(time_constant, "time_constant")? < T::ZERO {
-            return Err(Error::OutOfRange("time_constant"));
-        }
-        Ok(Self {
-            rate,
-            time_constant,
-            longest_dt: T::HIGHEST,
-        })
+        ramp!(rate, time_constant, T::ZERO, T::HIGHEST)
     }
 
-    /// The same, where a `dt` longer than this one \[s\] leaves the reference where it is; any
-    /// finite one moves it before.
+    /// The same ramp with a longest `dt` \[s\]: a longer `dt` leaves the reference unchanged;
+    /// default: any finite `dt` moves it.
     ///
-    /// A counter that wrapped would take the reference all the way in one sample, which the
-    /// controller behind it refuses, and the next sample would be a step. Take the controller's own
-    /// longest dt.
+    /// Without this limit a wrapped counter would move the reference to its target in one
+    /// sample. The controller rejects that sample, and the next sample would be a step. Use the
+    /// controller's own longest dt.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"longest_dt"`.
     pub fn with_longest_dt(self, longest_dt: T) -> Result<Self, Error> {
-        if finite(longest_dt, "longest_dt")? <= T::ZERO {
-            return Err(Error::OutOfRange("longest_dt"));
-        }
-        Ok(Self { longest_dt, ..self })
+        longest!(self, longest_dt, T::ZERO)
     }
 
-    /// The reference `dt` \[s\] later, on its way to `wanted` \[signal unit\].
+    /// The reference `dt` \[s\] later, on its path to `wanted` \[signal unit\].
     ///
-    /// A `wanted` that is not finite, or a `dt` that is not positive or too long, leaves it where it
-    /// is. It never passes a `wanted` that stays; one that comes back while the reference is on its
-    /// way may be passed by `rate·time_constant`, which the corner takes.
+    /// A `wanted` that is not finite, or a `dt` that is not positive or too long, leaves the
+    /// reference unchanged. The reference never passes a constant `wanted`. If `wanted`
+    /// reverses during the ramp, the lag may overshoot it by `rate·time_constant`.
     #[inline]
     pub fn step(&self, state: &mut RampState<T>, wanted: T, dt: T) -> T {
         if wanted.is_finite() && dt > T::ZERO && dt <= self.longest_dt {
@@ -116,17 +150,16 @@ impl<T: Real> Ramp<T> {
             };
             let ramp = if (wanted - ramp.value).abs() <= reach {
                 Compensated::new(wanted)
-            } else if wanted > ramp.value {
-                ramp.plus(reach)
             } else {
-                ramp.plus(-reach)
+                let reach = if wanted > ramp.value { reach } else { -reach };
+                towards(ramp, reach, wanted)
             };
             let value = Compensated {
                 value: state.value,
                 carry: state.value_carry,
             };
             let way = dt * (ramp.value - value.value) / (self.time_constant + dt);
-            let value = value.plus(way);
+            let value = towards(value, way, ramp.value);
             if (ramp.carry + value.carry).is_finite() {
                 *state = RampState {
                     ramp: ramp.value,
@@ -137,6 +170,17 @@ impl<T: Real> Ramp<T> {
             }
         }
         state.value
+    }
+}
+
+/// A sum that moves by `way` and not past its target, which rounding might do.
+#[inline]
+fn towards<T: Real>(from: Compensated<T>, way: T, target: T) -> Compensated<T> {
+    let moved = from.plus(way);
+    if from.value < target {
+        moved.within(from.value, target)
+    } else {
+        moved.within(target, from.value)
     }
 }
 
@@ -159,7 +203,7 @@ impl<T: Real> RampState<T> {
     }
 }
 
-/// What is read before it is checked.
+/// The stored form, before its checks.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -1,56 +1,59 @@
-//! Velocity and acceleration from position samples, causally.
+//! Causal velocity and acceleration from position samples.
 
 use super::Motion;
-use crate::error::finite;
+use crate::error::{above_zero, must_be_finite};
 use crate::{Error, Real};
 
-/// A gap of more than this many time constants starts again, by default.
+#[cfg(feature = "serde")]
+mod stored;
+
+/// Default: a gap of more than this many time constants restarts the rates.
 const LONGEST_GAP: f64 = 10.0;
 
 /// Time constants after which rates that started at zero count as settled.
 const SETTLING: f64 = 5.0;
 
-/// Where the lag of [`Rates::for_cutoff`] stands above the cut-off of the fit.
-const ABOVE_CUTOFF: f64 = 2.5;
+/// Corner of [`Rates::for_cutoff`] \[rad/s\] over the cut-off of the fit \[Hz\]: 2.5 times as high.
+const CORNER: f64 = 2.0 * core::f64::consts::PI * 2.5;
 
-/// Position samples in, [`Motion`] out: velocity, acceleration, gaps, wrap-around.
+/// [`Motion`] (velocity and acceleration) from position samples, with gaps and wrap-around.
 ///
 /// ```text
 /// s  = 1 − e^(−h/tau),  h = time since the last good sample
 /// v⁺ = v + s·((x − x_last)/h − v)
 /// a⁺ = a + s·((v⁺ − v)/h − a)
 /// ```
-/// Two [`Derivative`](super::Derivative)s in cascade with one time constant tau. Well
-/// below the sample rate `V/X = s/(tau·s + 1)` and `A/X = s²/(tau·s + 1)²`: the position is
-/// not delayed, the velocity by tau, the acceleration by 2·tau. At `f` \[Hz\] with
-/// `w = 2π·f·tau` the velocity has the gain `1/√(1 + w²)` and the phase lag `atan(w)`, the
-/// acceleration the square of the one and twice the other. At any rate, with
-/// `q = e^(−h/tau)`, `V/X = (1 − q)/(1 − q·z⁻¹)·(1 − z⁻¹)/h`: a ramp gives its exact slope,
-/// and the delay at low frequencies is `h·(1/2 + q/(1 − q))`, tau to `h²/(12·tau)`.
+/// Two [`Derivative`](super::Derivative)s in cascade with one time constant tau. Well below the
+/// sample rate `V/X = s/(tau·s + 1)` and `A/X = s²/(tau·s + 1)²`. The position is not delayed,
+/// the velocity has a delay of tau, and the acceleration a delay of 2·tau. At `f` \[Hz\] with
+/// `w = 2π·f·tau` the velocity has the gain `1/√(1 + w²)` and the phase lag `atan(w)`. The
+/// acceleration has the square of this gain and twice this lag. At any rate, with
+/// `q = e^(−h/tau)`, `V/X = (1 − q)/(1 − q·z⁻¹)·(1 − z⁻¹)/h`: a ramp gives its exact slope. The
+/// delay at low frequencies is `h·(1/2 + q/(1 − q))`, which is tau to `h²/(12·tau)`.
 ///
-/// White noise of standard deviation `s_x` on the position gives about `s_x/tau` on the velocity
-/// and `s_x/tau²` on the acceleration, both less where tau is not far above h.
+/// White noise of standard deviation `s_x` on the position gives about `s_x/tau` on the
+/// velocity and `s_x/tau²` on the acceleration. Both are smaller if tau is not far above h.
 ///
-/// * **First sample**: the rates start at zero, no kick. An axis that moves already
-///   reaches its velocity V as `V·(1 − e^(−t/tau))`, with an acceleration pulse of
-///   `V/(e·tau)` on the way; the status is [`RatesStatus::Settling`] for five time
-///   constants.
-/// * **Bad samples** (a position that is not finite, a `dt` that is not positive and
-///   finite): the last good motion is held, the status says why.
+/// * **First sample**: the rates start at zero, without a kick. On a moving axis the velocity
+///   approaches the true velocity V as `V·(1 − e^(−t/tau))`. The acceleration has a pulse of
+///   `V/(e·tau)`. The status is [`RatesStatus::Settling`] for five time constants.
+/// * **Bad samples** (a position that is not finite, a `dt` that is not positive and finite):
+///   the last good motion is held. The status states the fault.
 /// * **Gaps**: the difference spans the time since the last good sample, missing and bad
-///   samples included. After more than [`longest_gap`](Self::longest_gap) the rates start
-///   again at zero. Where the time is unknown, because a `dt` was negative or not finite,
-///   the next good sample only says where the axis is, and the rates are held.
+///   samples included. After more than [`longest_gap`](Self::longest_gap) the rates restart at
+///   zero. After a `dt` that was negative or not finite the time is unknown. The next good
+///   sample then only sets the position, and the rates are held.
 /// * **Wrap-around** of a counter: [`with_period`](Self::with_period).
-/// * **Long runs**: a position in `f32` has a spacing of up to `2⁻²³·|x|`, which rates see as
-///   noise: at 1000 rad 6e-5 rad, so with tau = 10 ms up to 0.006 rad/s and 0.6 rad/s². Give
-///   an axis that turns on and on modulo its period: then the differences are those of
-///   small numbers, an integer counts the turns, and only the returned position is rounded.
+/// * **Long runs**: a position in `f32` has a spacing of up to `2⁻²³·|x|`, which appears as
+///   noise in the rates. At 1000 rad the spacing is 6e-5 rad, so with tau = 10 ms the noise is
+///   up to 0.006 rad/s and 0.6 rad/s². For an axis that turns continuously, use the position
+///   modulo its period. The differences are then those of small numbers, an integer counts the
+///   turns, and only the returned position is rounded.
 ///
 /// ```
 /// use bowden::signal::{Rates, RatesState, RatesStatus};
 /// # fn main() -> Result<(), bowden::Error> {
-/// // An encoder of 4096 counts a turn on a 12-bit counter; the fit's cut-off was 5 Hz.
+/// // An encoder of 4096 counts per turn on a 12-bit counter; the fit's cut-off was 5 Hz.
 /// let rates = Rates::for_cutoff(5.0_f32)?.with_period(4096.0)?;
 /// let mut state = RatesState::new();
 /// for k in 0..2000_u32 {
@@ -69,7 +72,7 @@ const ABOVE_CUTOFF: f64 = 2.5;
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(
-        try_from = "Unchecked<T>",
+        try_from = "stored::Unchecked<T>",
         bound(
             serialize = "T: Real + serde::Serialize",
             deserialize = "T: Real + serde::Deserialize<'de>"
@@ -93,13 +96,13 @@ pub enum RatesFault {
     Position,
     /// `dt` is not finite.
     Dt,
-    /// `dt` is zero or negative: time has not moved on.
+    /// `dt` is zero or negative: time has not advanced.
     DtNotPositive,
-    /// All is finite, but a rate or the unwrapped position would not be.
+    /// All inputs are finite, but a rate or the unwrapped position overflows.
     Overflow,
 }
 
-/// How far the motion of a [`RatesOutput`] can be trusted.
+/// Validity of the motion of a [`RatesOutput`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
@@ -107,134 +110,210 @@ pub enum RatesFault {
 pub enum RatesStatus {
     /// A good sample, and the rates have settled.
     Good,
-    /// A good sample, but the rates have started from zero less than five time constants
-    /// ago.
+    /// A good sample, but the rates started from zero less than five time constants ago.
     Settling,
-    /// A good position after a time that is unknown: the rates are held.
+    /// A good position after an unknown time: the rates are held.
     Resumed,
     /// A bad sample: the last good motion is held.
     Held(RatesFault),
 }
 
-/// What a step of [`Rates`] gives.
+/// Output of a [`Rates`]' step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RatesOutput<T> {
-    /// Position (unwrapped), velocity and acceleration; finite. Zero before the first
-    /// good sample.
+    /// Position (unwrapped), velocity and acceleration; finite, zero before the first good
+    /// sample.
     pub motion: Motion<T>,
     /// Whether the motion is new, and its rates have settled.
     pub status: RatesStatus,
 }
 
-/// State of [`Rates`]: the last good sample, the rates, and the time since.
+/// State of [`Rates`]: the last good sample, the rates, and the elapsed time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RatesState<T> {
-    /// The last good position as it came, not unwrapped.
+    /// The last good position as received, not unwrapped.
     last: Option<T>,
-    /// Periods between that and the position of `motion`.
+    /// Number of periods between this position and the position of `motion`.
     turns: i32,
     motion: Motion<T>,
     /// Time of the bad samples since the last good one.
     gap: T,
     /// Whether an unknown time has passed since the last good sample.
     time_unknown: bool,
-    /// Time since the rates started at zero; stands still once they have settled.
+    /// Time since the rates started at zero; constant once they have settled.
     age: T,
 }
+
+/// The checked rates, for any float and for constants.
+macro_rules! rates {
+    ($time_constant:ident, $zero:expr, $longest_gap:expr) => {{
+        above_zero!($time_constant, $zero, "time_constant");
+        let longest_gap = $longest_gap * $time_constant;
+        must_be_finite!(longest_gap, "time_constant");
+        Ok(Self {
+            time_constant: $time_constant,
+            longest_gap,
+            period: None,
+        })
+    }};
+}
+
+/// The rates for a cut-off, likewise.
+macro_rules! cutoff {
+    ($cutoff:ident, $zero:expr, $one:expr, $corner:expr, $new:path) => {{
+        above_zero!($cutoff, $zero, "cutoff");
+        match $new($one / ($corner * $cutoff)) {
+            Ok(rates) => Ok(rates),
+            Err(_) => Err(Error::OutOfRange("cutoff")),
+        }
+    }};
+}
+
+/// The same with a period, likewise.
+macro_rules! wrapping {
+    ($rates:ident, $period:ident, $zero:expr) => {{
+        above_zero!($period, $zero, "period");
+        Ok(Self {
+            period: Some($period),
+            ..$rates
+        })
+    }};
+}
+
+/// The same with a longest gap, likewise.
+macro_rules! bridging {
+    ($rates:ident, $longest_gap:ident, $zero:expr) => {{
+        above_zero!($longest_gap, $zero, "longest_gap");
+        Ok(Self {
+            longest_gap: $longest_gap,
+            ..$rates
+        })
+    }};
+}
+
+macro_rules! constant {
+    ($float:ty) => {
+        #[allow(clippy::cast_possible_truncation)]
+        impl Rates<$float> {
+            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
+            ///
+            /// # Errors
+            /// As [`try_new`](Self::try_new).
+            pub const fn const_new(time_constant: $float) -> Result<Self, Error> {
+                rates!(time_constant, 0.0, LONGEST_GAP as $float)
+            }
+
+            /// [`for_cutoff`](Self::for_cutoff) at compile time.
+            ///
+            /// # Errors
+            /// As [`for_cutoff`](Self::for_cutoff).
+            pub const fn const_for_cutoff(cutoff: $float) -> Result<Self, Error> {
+                cutoff!(cutoff, 0.0, 1.0, CORNER as $float, Self::const_new)
+            }
+
+            /// [`with_period`](Self::with_period) at compile time.
+            ///
+            /// # Errors
+            /// As [`with_period`](Self::with_period).
+            pub const fn const_with_period(self, period: $float) -> Result<Self, Error> {
+                wrapping!(self, period, 0.0)
+            }
+
+            /// [`with_longest_gap`](Self::with_longest_gap) at compile time.
+            ///
+            /// # Errors
+            /// As [`with_longest_gap`](Self::with_longest_gap).
+            pub const fn const_with_longest_gap(self, longest_gap: $float) -> Result<Self, Error> {
+                bridging!(self, longest_gap, 0.0)
+            }
+        }
+    };
+}
+constant!(f32);
+constant!(f64);
 
 impl<T: Real> Rates<T> {
     /// Rates with `time_constant > 0` \[s\].
     ///
-    /// The longest gap is ten time constants. A loop whose sample time is longer than that
-    /// needs [`with_longest_gap`](Self::with_longest_gap): each of its samples would start
-    /// again.
+    /// The longest gap is ten time constants. A loop with a longer sample time needs
+    /// [`with_longest_gap`](Self::with_longest_gap); otherwise each of its samples restarts the
+    /// rates.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"time_constant"`.
     pub fn try_new(time_constant: T) -> Result<Self, Error> {
-        let longest_gap = T::of(LONGEST_GAP) * positive(time_constant, "time_constant")?;
-        Ok(Self {
-            time_constant,
-            longest_gap: finite(longest_gap, "time_constant")?,
-            period: None,
-        })
+        rates!(time_constant, T::ZERO, T::from_f64(LONGEST_GAP))
     }
 
     /// Rates for a model that was fitted with the cut-off `cutoff` \[Hz\].
     ///
-    /// The fit smooths what it derives with a corner at 2.5 times its cut-off f_c, and so
-    /// does this: `tau = 1/(2π·2.5·f_c)`. At f_c the velocity then has 93 % of its
-    /// amplitude and lags by 22°, the acceleration 86 % and 44°; the delays are
-    /// `0.064/f_c` and `0.127/f_c`. The fit's own smoother has no phase, as it looks ahead:
-    /// with causal rates the model's error is larger, and a shorter tau trades delay for
+    /// The fit smooths its derivatives with a corner at 2.5 times its cut-off f_c. These rates
+    /// have the same corner: `tau = 1/(2π·2.5·f_c)`. At f_c the velocity has 93 % of its
+    /// amplitude and lags by 22°, the acceleration 86 % and 44°. The delays are `0.064/f_c` and
+    /// `0.127/f_c`. The smoother of the fit reads future samples and has zero phase. With
+    /// causal rates the model's error is therefore larger, and a shorter tau trades delay for
     /// noise.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"cutoff"`, also where the time
-    /// constant would not be a float.
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"cutoff"`, also if the time constant
+    /// is not a finite float.
     pub fn for_cutoff(cutoff: T) -> Result<Self, Error> {
-        let corner =
-            T::of(2.0 * core::f64::consts::PI * ABOVE_CUTOFF) * positive(cutoff, "cutoff")?;
-        Self::try_new(corner.recip()).map_err(|_| Error::OutOfRange("cutoff"))
+        cutoff!(cutoff, T::ZERO, T::ONE, T::from_f64(CORNER), Self::try_new)
     }
 
-    /// The same for positions modulo `period > 0` \[channel unit\], as from a counter.
+    /// The same rates for positions modulo `period > 0` \[channel unit\], as from a counter.
     ///
-    /// The motion's position is unwrapped: it goes on where the counter starts again.
-    /// Between two good samples the axis must move by less than half a period, so
-    /// `period > 2·|v|·longest_gap` makes every gap safe. Turns are counted up to 2³¹;
-    /// beyond that the position stands by whole periods, the rates stay right.
+    /// The position of the motion is unwrapped: it continues when the counter wraps. Between two
+    /// good samples the axis must move by less than half a period. `period > 2·|v|·longest_gap`
+    /// therefore makes every gap safe. Turns are counted up to 2³¹. Beyond that number the position
+    /// has an error of whole periods, but the rates are still correct.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"period"`.
     pub fn with_period(self, period: T) -> Result<Self, Error> {
-        let period = Some(positive(period, "period")?);
-        Ok(Self { period, ..self })
+        wrapping!(self, period, T::ZERO)
     }
 
-    /// The same with another longest gap \[s\], above zero.
+    /// The same rates with another longest gap \[s\], above zero.
     ///
     /// It must be longer than the longest `dt` of a good loop.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"longest_gap"`.
     pub fn with_longest_gap(self, longest_gap: T) -> Result<Self, Error> {
-        let longest_gap = positive(longest_gap, "longest_gap")?;
-        Ok(Self {
-            longest_gap,
-            ..self
-        })
+        bridging!(self, longest_gap, T::ZERO)
     }
 
-    /// The time constant \[s\]: delay of the velocity, half of that of the acceleration.
+    /// The time constant \[s\]: the delay of the velocity, and half the delay of the
+    /// acceleration.
     #[inline]
     #[must_use]
     pub fn time_constant(&self) -> T {
         self.time_constant
     }
 
-    /// The longest time between two good samples that is bridged \[s\].
+    /// The longest time between two good samples that the rates bridge \[s\].
     #[inline]
     #[must_use]
     pub fn longest_gap(&self) -> T {
         self.longest_gap
     }
 
-    /// The period of the positions \[channel unit\], where they wrap around.
+    /// The period of the positions \[channel unit\], if they wrap.
     #[inline]
     #[must_use]
     pub fn period(&self) -> Option<T> {
         self.period
     }
 
-    /// The motion after a `position` \[channel unit\] that came `dt` \[s\] later.
+    /// The motion after a `position` \[channel unit\], `dt` \[s\] after the last call.
     ///
     /// `dt` is the time since the last call, good or bad, and above zero also at the first
-    /// one. A bad sample leaves the state, but for the time that has passed.
+    /// call. A bad sample leaves the state unchanged except for the elapsed time.
     #[inline]
     pub fn step(&self, state: &mut RatesState<T>, position: T, dt: T) -> RatesOutput<T> {
         let status = match self.advance(state, position, dt) {
@@ -253,7 +332,7 @@ impl<T: Real> Rates<T> {
         }
     }
 
-    /// The state after a good sample, or what is wrong with the sample.
+    /// The state after a good sample, or the fault of the sample.
     #[inline]
     fn advance(
         &self,
@@ -279,7 +358,7 @@ impl<T: Real> Rates<T> {
         let bridged = elapsed <= self.longest_gap;
         let (moved, turns) = match self.moved(last, position, state.turns) {
             Some(moved) => moved,
-            // Out of the reach of floats from the last position, but good by itself.
+            // The distance to the last position overflows, but the position itself is good.
             None if !bridged => (T::zero(), 0),
             None => return Err(RatesFault::Overflow),
         };
@@ -311,14 +390,14 @@ impl<T: Real> Rates<T> {
         next.motion.velocity = lag(before.velocity, moved)?;
         next.motion.acceleration =
             lag(before.acceleration, next.motion.velocity - before.velocity)?;
-        if state.age > T::of(SETTLING) * self.time_constant {
+        if state.age > T::from_f64(SETTLING) * self.time_constant {
             return Ok((next, RatesStatus::Good));
         }
         next.age = state.age + elapsed;
         Ok((next, RatesStatus::Settling))
     }
 
-    /// The way from the last position to this one, and the turns at this one.
+    /// The distance from the last position to this one, and the turns at this one.
     #[inline]
     fn moved(&self, last: T, position: T, turns: i32) -> Option<(T, i32)> {
         let difference = position - last;
@@ -328,11 +407,11 @@ impl<T: Real> Rates<T> {
         let Some(period) = self.period else {
             return Some((difference, turns));
         };
-        let half = period * T::of(0.5);
+        let half = period * T::from_f64(0.5);
         if difference.abs() <= half {
             return Some((difference, turns));
         }
-        // The counter has gone back where the axis has gone on.
+        // The counter has wrapped back while the axis continued.
         let periods = (difference / period).round();
         let moved = difference - periods * period;
         let turns = turns.saturating_sub(periods.to_i32()?);
@@ -341,7 +420,7 @@ impl<T: Real> Rates<T> {
 }
 
 impl<T: Real> RatesState<T> {
-    /// A state that has seen no sample.
+    /// A new state, before the first sample.
     #[inline]
     #[must_use]
     pub fn new() -> Self {
@@ -355,9 +434,9 @@ impl<T: Real> RatesState<T> {
         self.motion
     }
 
-    /// The time that bad samples have taken since the last good one \[s\].
+    /// The time of the bad samples since the last good one \[s\].
     ///
-    /// Without the `dt` that could not be used.
+    /// It does not include a `dt` that was unusable.
     #[inline]
     #[must_use]
     pub fn gap(&self) -> T {
@@ -375,7 +454,7 @@ impl<T: Real> RatesState<T> {
         start
     }
 
-    /// Takes note of the time of a bad sample.
+    /// Records the time of a bad sample.
     #[inline]
     fn wait(&mut self, dt: T) {
         if dt > T::zero() && dt.is_finite() {
@@ -401,74 +480,4 @@ fn reach<T: Real>(value: T) -> Result<T, RatesFault> {
 #[inline]
 fn count<T: Real>(turns: i32) -> T {
     <T as num_traits::NumCast>::from(turns).unwrap_or_else(T::zero)
-}
-
-/// Passes a finite value above zero on.
-fn positive<T: Real>(value: T, name: &'static str) -> Result<T, Error> {
-    if finite(value, name)? <= T::zero() {
-        return Err(Error::OutOfRange(name));
-    }
-    Ok(value)
-}
-
-#[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-// Without its period a shaft that turns round would leap: a misspelt one is refused.
-#[serde(deny_unknown_fields)]
-struct Unchecked<T> {
-    time_constant: T,
-    longest_gap: T,
-    period: Option<T>,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Unchecked<T>> for Rates<T> {
-    type Error = Error;
-    fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
-        let rates = Self::try_new(raw.time_constant)?.with_longest_gap(raw.longest_gap)?;
-        match raw.period {
-            Some(period) => rates.with_period(period),
-            None => Ok(rates),
-        }
-    }
-}
-
-#[cfg(feature = "serde")]
-impl<'de, T> serde::Deserialize<'de> for RatesState<T>
-where
-    T: Real + serde::Deserialize<'de>,
-{
-    /// Refuses numbers that are not finite and times that are negative.
-    fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        #[derive(serde::Deserialize)]
-        #[serde(bound = "T: Real + serde::Deserialize<'de>")]
-        struct Fields<T> {
-            last: Option<T>,
-            turns: i32,
-            motion: Motion<T>,
-            gap: T,
-            time_unknown: bool,
-            age: T,
-        }
-        let refused = <D::Error as serde::de::Error>::custom;
-        let read = Fields::<T>::deserialize(from)?;
-        let motion = read.motion;
-        let numbers = [motion.position, motion.velocity, motion.acceleration];
-        for number in numbers.into_iter().chain(read.last) {
-            finite(number, "motion").map_err(refused)?;
-        }
-        for time in [read.gap, read.age] {
-            if finite(time, "time").map_err(refused)? < T::zero() {
-                return Err(refused(Error::OutOfRange("time")));
-            }
-        }
-        Ok(Self {
-            last: read.last,
-            turns: read.turns,
-            motion,
-            gap: read.gap,
-            time_unknown: read.time_unknown,
-            age: read.age,
-        })
-    }
 }

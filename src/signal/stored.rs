@@ -1,4 +1,4 @@
-//! The numbers of a state that was stored: one that is not finite might stay for ever.
+//! The numbers of a stored state: a number that is not finite could persist indefinitely.
 
 use crate::{Error, Real};
 use serde::de::{Deserialize, Deserializer, Error as _};
@@ -17,7 +17,7 @@ where
     }
 }
 
-/// The same of a number that there may be none of.
+/// The same for an optional number.
 pub(super) fn optional<'de, T, D>(from: D) -> Result<Option<T>, D::Error>
 where
     T: Real + Deserialize<'de>,
@@ -31,7 +31,7 @@ where
     }
 }
 
-/// The longest dt of what was stored without one: any.
+/// Default longest dt of a stored form: any.
 pub(super) fn any_dt<T: Real>() -> T {
     T::HIGHEST
 }

@@ -103,8 +103,8 @@ fn attack_in<T: Real, const N: usize>(
     let law = Adaptive::try_new(settings).unwrap();
     let [low, high] = corners(settings).map(|corner| Adaptive::try_new(corner).unwrap());
     let h = law.settings().longest_dt.min(match settings.form {
-        bowden::control::Form::Lag { step, .. } => step,
-        bowden::control::Form::Literal { .. } => T::HIGHEST,
+        bowden::control::Form::FirstOrder { step, .. } => step,
+        bowden::control::Form::AsPublished { .. } => T::HIGHEST,
     });
     let (dt, lambda) = (h.as_f64(), settings.lambda.as_f64());
     let swing = |most, rate| Swing { most, rate };
@@ -117,7 +117,7 @@ fn attack_in<T: Real, const N: usize>(
         let side = if half % 2.0 == 0.0 { 1.0 } else { -1.0 };
         (side, play.half * (half + 1.0) - time)
     };
-    let float = |x: f64| T::of(x).as_f64();
+    let float = |x: f64| T::from_f64(x).as_f64();
     let mut state = AdaptiveState::new(&law);
     let mut last_load: Option<f64> = None;
     let (mut reached, mut limited, mut cuts) = (0.0_f64, 0.0_f64, 0);
@@ -133,11 +133,11 @@ fn attack_in<T: Real, const N: usize>(
         let wanted = disturbance.at(side, left);
         if !started {
             let at = (r + known + wanted) / play.alpha;
-            let zero = AdaptiveInput::new(h, T::of(r), T::of(r), x.map(T::of));
-            state = AdaptiveState::resume_from(&law, T::of(at), &zero);
+            let zero = AdaptiveInput::new(h, T::from_f64(r), T::from_f64(r), x.map(T::from_f64));
+            state = AdaptiveState::resume_from(&law, T::from_f64(at), &zero);
             started = true;
         }
-        let y = T::of(play.alpha * state.command().as_f64() - known - wanted);
+        let y = T::from_f64(play.alpha * state.command().as_f64() - known - wanted);
         // The disturbance that this y is of, with what y was rounded by.
         let d = play.alpha * state.command().as_f64() - known - y.as_f64();
         assert!(d.abs() <= plant.delta, "{d}");
@@ -154,10 +154,10 @@ fn attack_in<T: Real, const N: usize>(
         assert!(z.abs() <= z_most, "step {n}: z = {z}, Z = {z_most}");
         assert!(error.abs() <= proof.bound(), "step {n}: e = {error}");
         reached = reached.max(s.abs() / s_most);
-        let next = T::of(float(reference.at(next_side, next_left)));
+        let next = T::from_f64(float(reference.at(next_side, next_left)));
         let input = AdaptiveInput {
             next_reference: next,
-            ..AdaptiveInput::new(h, T::of(r), y, x.map(T::of))
+            ..AdaptiveInput::new(h, T::from_f64(r), y, x.map(T::from_f64))
         };
         let jumped = (f64::from(n) * dt).fract() >= 0.8;
         let law = play.estimates.choose(&law, [&low, &high], jumped);
@@ -193,7 +193,7 @@ fn corners<T: Real, const N: usize>(
         high,
         ..own
     };
-    let near = |own: Estimator<T>| (own.high - own.low) * T::of(1e-3);
+    let near = |own: Estimator<T>| (own.high - own.low) * T::from_f64(1e-3);
     let low = |own: Estimator<T>| held(own, own.low, own.low + near(own));
     let high = |own: Estimator<T>| held(own, own.high - near(own), own.high);
     let with = |beta, delta, theta| AdaptiveSettings {
@@ -256,7 +256,7 @@ fn limited<T: Real, const N: usize>(
     settings: AdaptiveSettings<T, N>,
     command: f64,
 ) -> AdaptiveSettings<T, N> {
-    let command = T::of(command);
+    let command = T::from_f64(command);
     AdaptiveSettings {
         limits: Limits::try_new(-command, command).unwrap(),
         ..settings
@@ -301,12 +301,12 @@ fn slewed<T: Real, const N: usize>(
     plant: &Plant<f64, N>,
 ) -> (AdaptiveSettings<T, N>, f64) {
     let with = |slew: f64| AdaptiveSettings {
-        limits: settings.limits.with_slew(T::of(slew)).unwrap(),
+        limits: settings.limits.with_slew(T::from_f64(slew)).unwrap(),
         ..settings
     };
     let examined = PeakRounded::examine(&with(1e6), plant).unwrap();
     let moved = examined.slew.unwrap().left.as_f64();
-    let Form::Lag { step, .. } = settings.form else {
+    let Form::FirstOrder { step, .. } = settings.form else {
         unreachable!("the lag form")
     };
     // The rounding of slew·dt and of its sum with the command is a millionth of the command in f32.

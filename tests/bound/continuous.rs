@@ -30,7 +30,7 @@ impl Loop {
         let alpha = random.within(0.4, 2.0);
         let theta = random.within(-2.0, 2.0);
         let delta = random.within(0.1, 8.0);
-        let form = Form::Literal {
+        let form = Form::AsPublished {
             time_constant: 0.005,
         };
         let (gain, lambda) = (random.within(2.0, 30.0), random.within(1.0, 10.0));
@@ -250,7 +250,7 @@ fn v_falls_at_every_state_as_the_tightest_form_of_theorem_1_says() {
 #[test]
 fn the_best_of_theorem_1_for_table_2_is_96_n_m_and_beta_is_to_blame() {
     let best = Tightest::try_new(&Adaptive::paper(), &Plant::new(0.5, 7.0_f64)).unwrap();
-    let (blamed, share) = best.to_blame();
+    let (blamed, share) = best.dominant_term();
     println!("{} N·m, {share} of it {blamed}, {best:?}", best.bound);
     assert!((best.bound - 96.0).abs() < 2.0, "{best:?}");
     assert!(blamed == "leakage of beta_hat" && share > 0.8, "{share}");

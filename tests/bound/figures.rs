@@ -146,7 +146,7 @@ fn a_prior_at_the_truth_leaves_the_smoothing_alone() {
 
 #[test]
 fn the_continuous_peak_is_588_mn_m_where_beta_is_known() {
-    let literal = Form::Literal {
+    let literal = Form::AsPublished {
         time_constant: 0.005,
     };
     let law = Adaptive::try_new(AdaptiveSettings {
@@ -168,7 +168,7 @@ fn the_sampled_peak_against_what_is_known_of_beta() {
     let delta_rate = steepest / (0.9978 - steepest) * reference_rate;
     assert!((delta_rate - 45.7).abs() < 0.05);
     for (share, figure) in [(0.05, 1.30), (0.1, 1.56), (0.2, 2.18), (0.3, 2.98)] {
-        let lag = Form::Lag {
+        let lag = Form::FirstOrder {
             step: 0.001,
             plant_gain: 1.0,
         };
@@ -226,7 +226,7 @@ fn every_certificate_names_its_unit_and_assumptions() {
 #[test]
 fn each_term_of_the_per_step_inequality_is_as_documented() {
     // h, k, lambda, eps; alpha, g, Delta, delta.high; all chosen round.
-    let lag = Form::Lag {
+    let lag = Form::FirstOrder {
         step: 0.001,
         plant_gain: 2.0,
     };

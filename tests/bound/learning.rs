@@ -3,8 +3,10 @@
 
 use super::simulated::{at, One, Simulated, DT};
 use super::Random;
-use bowden::bound::{Interval, LearningConvergence, PlantRange};
-use bowden::control::{Learning, LearningInput, Pid, PidInput, PidSettings, PidState};
+use bowden::bound::{Interval, IterativeLearningConvergence, PlantRange};
+use bowden::control::{
+    IterativeLearning, IterativeLearningInput, Pid, PidInput, PidSettings, PidState,
+};
 use bowden::Error;
 use core::f64::consts::{PI, TAU};
 
@@ -23,8 +25,8 @@ fn pi(k_p: f64, k_i: f64) -> Pid<f64> {
     Pid::try_new(PidSettings::unlimited(k_p, k_i)).unwrap()
 }
 
-fn learning(gain: f64, lead: u16, half_width: u16) -> Learning<f64> {
-    Learning::try_new(gain, 1e100, lead, half_width).unwrap()
+fn learning(gain: f64, lead: u16, half_width: u16) -> IterativeLearning<f64> {
+    IterativeLearning::try_new(gain, 1e100, lead, half_width).unwrap()
 }
 
 fn around(x: f64, share: f64) -> Interval<f64> {
@@ -35,13 +37,13 @@ fn around(x: f64, share: f64) -> Interval<f64> {
 }
 
 fn proved(
-    learning: &Learning<f64>,
+    learning: &IterativeLearning<f64>,
     cycle: &Interval<f64>,
     law: &Pid<f64>,
     plants: &PlantRange,
     factor: f64,
 ) -> bool {
-    LearningConvergence::try_new(learning, CELLS, cycle, law, plants, factor).is_ok()
+    IterativeLearningConvergence::try_new(learning, CELLS, cycle, law, plants, factor).is_ok()
 }
 
 /// A complex number.
@@ -91,12 +93,12 @@ impl Numbers {
     }
 
     /// The greatest |H| of a fine grid of frequencies, with 40 images.
-    fn most(&self, learning: &Learning<f64>, cycle: f64) -> f64 {
+    fn most(&self, learning: &IterativeLearning<f64>, cycle: f64) -> f64 {
         self.most_at(learning, cycle).0
     }
 
     /// The same, and the frequency \[rad/s\] at which it is.
-    fn most_at(&self, learning: &Learning<f64>, cycle: f64) -> (f64, f64) {
+    fn most_at(&self, learning: &IterativeLearning<f64>, cycle: f64) -> (f64, f64) {
         let cell = cycle / CELLS as f64;
         let (first, last) = (TAU / cycle, PI / cell);
         let width = f64::from(learning.half_width()) + 1.0;
@@ -274,7 +276,7 @@ fn no_plant_of_a_range_is_worse_than_what_is_proved() {
 
 /// Rms of the measured output over each cycle of one second, from a first feed-forward.
 fn cycles(
-    learning: &Learning<f64>,
+    learning: &IterativeLearning<f64>,
     law: &Pid<f64>,
     plant: One,
     (cells, count): (usize, usize),
@@ -291,7 +293,7 @@ fn cycles(
             let measured = simulated.measured();
             squares += measured * measured;
             let phase = k as f64 / per_cycle as f64;
-            let at = LearningInput::new(phase, 0.0, measured);
+            let at = IterativeLearningInput::new(phase, 0.0, measured);
             let at = PidInput {
                 feed_forward: learning.step(&mut known, &at).feed_forward,
                 ..PidInput::new(DT, 0.0, measured)
@@ -362,10 +364,10 @@ fn the_edge_of_the_proof_is_the_edge_of_what_grows() {
 #[test]
 fn learning_that_grows_below_the_cycles_frequency_is_not_shown() {
     let one = Interval::exactly(1.0);
-    let shown = |own: &Learning<f64>, law: &Pid<f64>, factor: f64| {
-        LearningConvergence::try_new(own, 400, &one, law, &at(BASE), factor).is_ok()
+    let shown = |own: &IterativeLearning<f64>, law: &Pid<f64>, factor: f64| {
+        IterativeLearningConvergence::try_new(own, 400, &one, law, &at(BASE), factor).is_ok()
     };
-    let grows = |own: &Learning<f64>, law: &Pid<f64>| {
+    let grows = |own: &IterativeLearning<f64>, law: &Pid<f64>| {
         let mut random = Random(3);
         let all = cycles(own, law, BASE, (400, 30), |_| random.within(-1.0, 1.0));
         all[29] > 3.0 * all[9]
@@ -385,7 +387,7 @@ fn what_cannot_be_shown_is_refused_by_name() {
     let (good, law, plants) = (learning(4.0, 3, 4), pi(30.0, 18.0), at(BASE));
     let one = Interval::exactly(1.0);
     let refused = |cells: usize, cycle: Interval<f64>, factor: f64| {
-        LearningConvergence::try_new(&good, cells, &cycle, &law, &plants, factor).err()
+        IterativeLearningConvergence::try_new(&good, cells, &cycle, &law, &plants, factor).err()
     };
     assert_eq!(refused(CELLS, one, 1.0), None);
     assert_eq!(refused(CELLS, one, 0.0), Some(Error::OutOfRange("factor")));
@@ -397,7 +399,7 @@ fn what_cannot_be_shown_is_refused_by_name() {
     let slow = Error::Inadmissible("the loop hardly answers above the cells' Nyquist frequency");
     assert_eq!(refused(21, one, 1.0), Some(slow));
     let of = |law: &Pid<f64>, plants: &PlantRange| {
-        LearningConvergence::try_new(&good, CELLS, &one, law, plants, 1.0).err()
+        IterativeLearningConvergence::try_new(&good, CELLS, &one, law, plants, 1.0).err()
     };
     let damped = Pid::<f64>::paper_pid();
     let not_pi = Error::Inadmissible("the law is a P or a PI");

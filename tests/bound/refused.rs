@@ -5,7 +5,7 @@ use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form};
 use bowden::Error;
 
 fn lag() -> AdaptiveSettings<f64, 1> {
-    let form = Form::Lag {
+    let form = Form::FirstOrder {
         step: 0.001,
         plant_gain: 1.0,
     };
@@ -22,7 +22,7 @@ fn lag() -> AdaptiveSettings<f64, 1> {
 }
 
 fn literal() -> AdaptiveSettings<f64, 1> {
-    let form = Form::Literal {
+    let form = Form::AsPublished {
         time_constant: 0.005,
     };
     AdaptiveSettings { form, ..lag() }

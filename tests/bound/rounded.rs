@@ -9,23 +9,23 @@ use bowden::{Error, Real};
 
 /// Table 2 at 1 kHz, as the proofs have it, over regressors that stay in `theta`.
 pub(super) fn table_2<T: Real, const N: usize>(theta: T) -> AdaptiveSettings<T, N> {
-    let lag = Form::Lag {
-        step: T::of(0.001),
+    let lag = Form::FirstOrder {
+        step: T::from_f64(0.001),
         plant_gain: T::ONE,
     };
-    let slow = T::of(1e-30);
+    let slow = T::from_f64(1e-30);
     let moving = |start: f64, low: T, high: T| {
-        Estimator::free(T::of(start))
+        Estimator::free(T::from_f64(start))
             .within(low, high)
             .adapting(slow, T::ZERO)
     };
     AdaptiveSettings {
-        beta: moving(1.0, T::of(0.8), T::of(1.2)),
-        delta: moving(0.0, T::ZERO, T::of(4.0)),
+        beta: moving(1.0, T::from_f64(0.8), T::from_f64(1.2)),
+        delta: moving(0.0, T::ZERO, T::from_f64(4.0)),
         theta: [moving(0.0, -theta, theta); N],
         z_limit: T::ONE,
-        limits: Limits::try_new(T::of(-60.0), T::of(60.0)).unwrap(),
-        ..AdaptiveSettings::unlimited(lag, T::of(24.0), T::of(8.0), T::of(0.05))
+        limits: Limits::try_new(T::from_f64(-60.0), T::from_f64(60.0)).unwrap(),
+        ..AdaptiveSettings::unlimited(lag, T::from_f64(24.0), T::from_f64(8.0), T::from_f64(0.05))
     }
 }
 
@@ -38,22 +38,22 @@ pub(super) fn table_2_plant() -> Plant<f64, 0> {
 
 /// k 17.3, lambda 6.1, 2 kHz, alpha within 6 %, two regressors, 20 N·m/s.
 pub(super) fn own<T: Real>() -> AdaptiveSettings<T, 2> {
-    let lag = Form::Lag {
-        step: T::of(0.0005),
-        plant_gain: T::of(1.05),
+    let lag = Form::FirstOrder {
+        step: T::from_f64(0.0005),
+        plant_gain: T::from_f64(1.05),
     };
     let moving = |low: f64, high: f64| {
-        Estimator::free(T::of(low))
-            .within(T::of(low), T::of(high))
-            .adapting(T::of(1e-30), T::ZERO)
+        Estimator::free(T::from_f64(low))
+            .within(T::from_f64(low), T::from_f64(high))
+            .adapting(T::from_f64(1e-30), T::ZERO)
     };
     AdaptiveSettings {
         beta: moving(0.9, 1.1),
         delta: moving(0.0, 5.0),
         theta: [moving(0.0, 4.0), moving(0.0, 0.5)],
-        z_limit: T::of(0.5),
-        limits: Limits::try_new(T::of(-60.0), T::of(60.0)).unwrap(),
-        ..AdaptiveSettings::unlimited(lag, T::of(17.3), T::of(6.1), T::of(0.08))
+        z_limit: T::from_f64(0.5),
+        limits: Limits::try_new(T::from_f64(-60.0), T::from_f64(60.0)).unwrap(),
+        ..AdaptiveSettings::unlimited(lag, T::from_f64(17.3), T::from_f64(6.1), T::from_f64(0.08))
     }
 }
 
@@ -151,7 +151,7 @@ fn each_inequality_refuses_what_it_should() {
     let (good, plant) = (own::<f32>(), own_plant());
     assert_eq!(refused(&good, &plant), None);
     let at = |step: f32| AdaptiveSettings {
-        form: Form::Lag {
+        form: Form::FirstOrder {
             step,
             plant_gain: 1.05,
         },
@@ -217,7 +217,7 @@ fn a_limit_may_be_met_where_it_holds_the_reference_against_the_load() {
 fn sharp<T: Real>(settings: AdaptiveSettings<T, 2>) -> AdaptiveSettings<T, 2> {
     AdaptiveSettings {
         delta: Estimator::fixed(T::ZERO),
-        epsilon: T::of(2e-39),
+        epsilon: T::from_f64(2e-39),
         ..settings
     }
 }
@@ -231,7 +231,7 @@ fn what_overflows_is_refused() {
 
 /// A law whose gains are `gain`, and which leaks at `leakage` \[1/s\].
 fn eager<T: Real>(gain: f64, leakage: f64) -> AdaptiveSettings<T, 2> {
-    let with = |own: Estimator<T>| own.adapting(T::of(gain), T::of(leakage));
+    let with = |own: Estimator<T>| own.adapting(T::from_f64(gain), T::from_f64(leakage));
     let own = own::<T>();
     AdaptiveSettings {
         beta: with(own.beta),
@@ -272,7 +272,7 @@ fn a_certificate_that_cannot_be_stated_names_the_reason() {
     let plant = own_plant();
     let examined = |settings: AdaptiveSettings<f32, 2>| PeakRounded::examine(&settings, &plant);
     let good = own::<f32>();
-    let literal = Form::Literal { time_constant: 0.0 };
+    let literal = Form::AsPublished { time_constant: 0.0 };
     let cases = [
         (
             AdaptiveSettings {

@@ -16,7 +16,7 @@ fn law(gain: f64, lambda: f64, share: f64, smooth_sign: SmoothSign) -> Adaptive<
         delta: Estimator::fixed(1.0).within(0.0, 7.056).adapting(0.5, 0.01),
         theta: [Estimator::fixed(0.0).within(-1.0, 1.0).adapting(0.1, 0.01)],
         ..AdaptiveSettings::unlimited(
-            Form::Lag {
+            Form::FirstOrder {
                 step: 1e-9,
                 plant_gain: 1.0,
             },
@@ -27,7 +27,7 @@ fn law(gain: f64, lambda: f64, share: f64, smooth_sign: SmoothSign) -> Adaptive<
     };
     // The longest step that is admissible: the condition is met with equality.
     let step = settings.largest_step().unwrap();
-    let form = Form::Lag {
+    let form = Form::FirstOrder {
         step,
         plant_gain: 1.0,
     };

@@ -38,7 +38,7 @@ impl System {
                 .within(low, high)
                 .adapting(random.within(0.1, 1.0) * gain, random.within(0.001, 2.0))
         };
-        let form = |step| Form::Lag {
+        let form = |step| Form::FirstOrder {
             step,
             plant_gain: alpha,
         };

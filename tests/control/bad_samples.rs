@@ -1,7 +1,8 @@
 //! What a bad sample does: nothing, and it is told.
 
 use bowden::control::{
-    AntiWindup, Damping, Fallback, Fault, Limits, Pid, PidInput, PidSettings, PidState, Status,
+    AntiWindup, DerivativeSource, Fallback, Fault, Limits, Pid, PidInput, PidSettings, PidState,
+    Status,
 };
 
 fn good() -> PidInput<f64> {
@@ -86,7 +87,7 @@ fn every_bad_input_is_told_by_name_and_holds_the_command_and_the_memory() {
         let out = pid.step_with_terms(&mut state, &at);
         assert_eq!(out.status, Status::Held(fault), "{at:?}");
         assert_eq!((out.command, out.terms), (before.command, before.terms));
-        assert_eq!(state.bad_score(), 4 * count);
+        assert_eq!(state.fault_counter(), 4 * count);
         assert_eq!(
             (state.integral(), state.rate()),
             (memory.integral(), memory.rate())
@@ -97,7 +98,7 @@ fn every_bad_input_is_told_by_name_and_holds_the_command_and_the_memory() {
         Status::Good
     );
     assert_eq!(
-        state.bad_score(),
+        state.fault_counter(),
         4 * u32::try_from(bad().len()).unwrap() - 1
     );
 }
@@ -198,7 +199,7 @@ fn the_derivative_bridges_the_gap_that_bad_samples_leave() {
     // A ramp of 3/s, unfiltered: the rate after ten lost samples is still 3.
     let pid = Pid::try_new(PidSettings {
         k_d: 1.0,
-        damping: Damping::on_error(),
+        damping: DerivativeSource::on_error(),
         ..PidSettings::unlimited(0.0, 0.0)
     })
     .unwrap();

@@ -2,13 +2,13 @@
 
 use bowden::control::{BenchRange, Compensator, CompensatorInput, CompensatorState, Fault, Status};
 use bowden::effect::{Effect, Motion};
-use bowden::hysteresis::Shape;
+use bowden::hysteresis::BoucWen;
 use bowden::model::{Model, ModelState, Sample, Source, Term};
 use bowden::transmission::Transmission;
 use bowden::Error;
 
 fn cable(sigma: f64) -> Transmission<f64> {
-    let shape = Shape::try_new(0.095_82, sigma, 3.871).unwrap();
+    let shape = BoucWen::try_new(0.095_82, sigma, 3.871).unwrap();
     Transmission::torque(0.9978, 7.004, 0.051_74, shape).unwrap()
 }
 
@@ -148,7 +148,7 @@ fn the_nearest_model_tells_what_it_lowered_and_what_it_left_out() {
 
 #[test]
 fn a_knee_that_no_sigma_mends_is_made_rounder() {
-    let shape = Shape::try_new(2.0_f32, 3.0, 1.5).unwrap();
+    let shape = BoucWen::try_new(2.0_f32, 3.0, 1.5).unwrap();
     let cable = Transmission::displacement(-1.0, 4.0, 0.0, shape).unwrap();
     let model = Model::<f32, 0>::try_new(Some(cable), &[]).unwrap();
     let (compensator, changed) = Compensator::try_nearest(&model).unwrap();

@@ -1,19 +1,19 @@
-//! Learning: an unrolled oracle, closed forms, a static plant, bad samples, jumps.
+//! Iterative learning: an unrolled oracle, closed forms, a static plant, bad samples, jumps.
 
 use bowden::constant;
-use bowden::control::{Fault, Learning, LearningInput, LearningState, Status};
-use bowden::Error;
+use bowden::control::{Fault, IterativeLearning, IterativeLearningInput};
+use bowden::{control::IterativeLearningState, control::Status, Error};
 use proptest::prelude::*;
 
-fn learning(gain: f64, lead: u16, half_width: u16) -> Learning<f64> {
-    Learning::try_new(gain, 1e6, lead, half_width).unwrap()
+fn learning(gain: f64, lead: u16, half_width: u16) -> IterativeLearning<f64> {
+    IterativeLearning::try_new(gain, 1e6, lead, half_width).unwrap()
 }
 
 /// Goes through cells `from..to`, counted on over the cycles, a few samples in each; the error of a
 /// cell and its feed-forward are told by the cell's number.
 fn pass(
-    learning: &Learning<f64>,
-    state: &mut LearningState<f64, Vec<f64>>,
+    learning: &IterativeLearning<f64>,
+    state: &mut IterativeLearningState<f64, Vec<f64>>,
     (from, to): (usize, usize),
     mut error: impl FnMut(usize, f64) -> f64,
 ) {
@@ -23,7 +23,7 @@ fn pass(
             let phase = ((cell % cells) as f64 + part) / cells as f64;
             // The feed-forward in the middle of a cell is what the cell has learned.
             let own = state.learned()[cell % cells];
-            let at = LearningInput::new(phase, error(cell, own), 0.0);
+            let at = IterativeLearningInput::new(phase, error(cell, own), 0.0);
             let out = learning.step(state, &at);
             assert_eq!(out.status, Status::Good);
             if part == 0.5 {
@@ -194,7 +194,7 @@ fn what_is_forgotten_leaves_an_error() {
 
 #[test]
 fn what_is_learned_stops_at_the_limit_and_comes_back_at_once() {
-    let learning = Learning::try_new(1.0, 2.5, 0, 1).unwrap();
+    let learning = IterativeLearning::try_new(1.0, 2.5, 0, 1).unwrap();
     let (own, unfiltered) = (vec![0.0; 20], vec![0.0; 20]);
     let mut state = learning.start(own, unfiltered).unwrap();
     pass(&learning, &mut state, (0, 20 * 9), |_, _| 1.0);
@@ -213,9 +213,9 @@ fn a_sample_that_is_not_to_be_learned_from_changes_nothing() {
     let (own, unfiltered) = (start.clone(), vec![9.0; 30]);
     let mut state = learning.resume(own, unfiltered).unwrap();
     for k in 0..3000 {
-        let at = LearningInput {
+        let at = IterativeLearningInput {
             learns: false,
-            ..LearningInput::new(f64::from(k % 300) / 300.0, 5.0, 0.0)
+            ..IterativeLearningInput::new(f64::from(k % 300) / 300.0, 5.0, 0.0)
         };
         assert_eq!(learning.step(&mut state, &at).status, Status::Good);
     }
@@ -230,7 +230,7 @@ fn bad_samples_teach_nothing_and_the_phase_goes_on() {
         let mut state = learning.start(own, unfiltered).unwrap();
         for k in 0..900_u32 {
             let phase = f64::from(k % 300) / 300.0;
-            let good = LearningInput::new(phase, 1.0, 0.5);
+            let good = IterativeLearningInput::new(phase, 1.0, 0.5);
             if spoil && k % 7 == 3 {
                 let (held, before) = (state.feed_forward(), state.learned().to_vec());
                 for (bad, expected) in [
@@ -239,17 +239,18 @@ fn bad_samples_teach_nothing_and_the_phase_goes_on() {
                     (-0.0001, Status::Held(Fault::Phase)),
                     (f64::INFINITY, Status::Held(Fault::Phase)),
                 ] {
-                    let out = learning.step(&mut state, &LearningInput { phase: bad, ..good });
+                    let out =
+                        learning.step(&mut state, &IterativeLearningInput { phase: bad, ..good });
                     assert_eq!((out.status, out.feed_forward), (expected, held));
                 }
                 assert_eq!(state.learned(), before);
                 let measured = f64::NAN;
-                let out = learning.step(&mut state, &LearningInput { measured, ..good });
+                let out = learning.step(&mut state, &IterativeLearningInput { measured, ..good });
                 assert_eq!(out.status, Status::Degraded(Fault::Measured));
                 let reference = f64::INFINITY;
-                let out = learning.step(&mut state, &LearningInput { reference, ..good });
+                let out = learning.step(&mut state, &IterativeLearningInput { reference, ..good });
                 assert_eq!(out.status, Status::Degraded(Fault::Reference));
-                let huge = LearningInput::new(phase, f64::MAX, -f64::MAX);
+                let huge = IterativeLearningInput::new(phase, f64::MAX, -f64::MAX);
                 let out = learning.step(&mut state, &huge);
                 assert_eq!(out.status, Status::Degraded(Fault::Overflow));
             }
@@ -268,7 +269,7 @@ fn the_end_of_a_cycle_is_the_start_of_the_next() {
     let (own, unfiltered) = (start, vec![0.0; 20]);
     let mut state = learning.resume(own, unfiltered).unwrap();
     let mut at = |phase: f64| {
-        let input = LearningInput::new(phase, 0.0, 0.0);
+        let input = IterativeLearningInput::new(phase, 0.0, 0.0);
         learning.step(&mut state, &input).feed_forward
     };
     // Halfway between the middles of the last cell and the first.
@@ -282,7 +283,7 @@ fn a_phase_that_trembles_or_jumps_teaches_no_wrong_cell() {
     let (own, unfiltered) = (vec![0.0; 100], vec![0.0; 100]);
     let mut state = learning.start(own, unfiltered).unwrap();
     let mut step = |cell: usize, error: f64| {
-        let at = LearningInput::new((cell as f64 + 0.5) / 100.0, error, 0.0);
+        let at = IterativeLearningInput::new((cell as f64 + 0.5) / 100.0, error, 0.0);
         let status = learning.step(&mut state, &at).status;
         (status, state.learned().to_vec())
     };
@@ -331,11 +332,12 @@ fn after_a_step_that_ended_early_no_cell_learns_that_was_not_passed() {
         let (own, unfiltered) = (vec![0.0; cells], vec![0.0; cells]);
         let mut state = learning.start(own, unfiltered).unwrap();
         let mut late = std::collections::VecDeque::from(vec![0.0; lead]);
-        let mut step = |state: &mut LearningState<f64, Vec<f64>>, end: usize| {
+        let mut step = |state: &mut IterativeLearningState<f64, Vec<f64>>, end: usize| {
             let mut worst = 0.0_f64;
             for cell in 0..end {
                 let output = late.pop_front().unwrap();
-                let at = LearningInput::new((cell as f64 + 0.5) / cells as f64, 1.0, output);
+                let at =
+                    IterativeLearningInput::new((cell as f64 + 0.5) / cells as f64, 1.0, output);
                 late.push_back(learning.step(state, &at).feed_forward);
                 worst = worst.max((output - 1.0).abs());
             }
@@ -370,10 +372,10 @@ fn what_was_out_while_nothing_was_to_be_learned_teaches_nothing_later_either() {
         let (cell, part) = (k / 4, k % 4);
         let phase = (f64::from(k % (4 * cells)) + 0.5) / f64::from(4 * cells);
         let lost = cell == 32 && part == 3;
-        let at = LearningInput {
+        let at = IterativeLearningInput {
             learns: !(k == 81 || (30..33).contains(&cell)),
             phase: if lost { f64::NAN } else { phase },
-            ..LearningInput::new(phase, 1.0, 0.0)
+            ..IterativeLearningInput::new(phase, 1.0, 0.0)
         };
         learning.step(&mut state, &at);
     }
@@ -387,12 +389,12 @@ fn what_was_out_while_nothing_was_to_be_learned_teaches_nothing_later_either() {
 
 #[test]
 fn a_cell_that_somebody_stands_in_for_hours_learns_the_mean_of_its_first_samples() {
-    let learning = Learning::try_new(1.0_f32, 30.0, 0, 0).unwrap();
+    let learning = IterativeLearning::try_new(1.0_f32, 30.0, 0, 0).unwrap();
     let mut state = learning.start([0.0; 9], [0.0; 9]).unwrap();
     for _ in 0..36_000_000 {
-        learning.step(&mut state, &LearningInput::new(0.5, 0.01, 0.0));
+        learning.step(&mut state, &IterativeLearningInput::new(0.5, 0.01, 0.0));
     }
-    learning.step(&mut state, &LearningInput::new(0.6, 0.0, 0.0));
+    learning.step(&mut state, &IterativeLearningInput::new(0.6, 0.0, 0.0));
     // 65 536 additions of a float of 24 digits: a few thousandths in the worst case.
     assert!(
         (state.learned()[4] / 0.01 - 1.0).abs() < 4e-3,
@@ -417,7 +419,7 @@ fn more_cells_than_samples_can_follow_are_told_at_once() {
     let mut state = learning.start(own, unfiltered).unwrap();
     // A hundred samples a cycle pass over ten cells each.
     for k in 0..100 {
-        let at = LearningInput::new(f64::from(k) / 100.0, 1.0, 0.0);
+        let at = IterativeLearningInput::new(f64::from(k) / 100.0, 1.0, 0.0);
         let status = learning.step(&mut state, &at).status;
         let told = status == Status::Degraded(Fault::Phase);
         assert_eq!(told, k > 0);
@@ -427,7 +429,7 @@ fn more_cells_than_samples_can_follow_are_told_at_once() {
 
 #[test]
 fn what_cannot_be_is_refused_by_name() {
-    let refused = |gain: f64, limit: f64| Learning::try_new(gain, limit, 1, 1).err();
+    let refused = |gain: f64, limit: f64| IterativeLearning::try_new(gain, limit, 1, 1).err();
     assert_eq!(refused(0.0, 1.0), Some(Error::OutOfRange("gain")));
     assert_eq!(refused(f64::NAN, 1.0), Some(Error::NonFinite("gain")));
     assert_eq!(refused(1.0, 0.0), Some(Error::OutOfRange("limit")));
@@ -457,24 +459,28 @@ fn what_cannot_be_is_refused_by_name() {
 
 #[test]
 fn what_was_stored_is_confined_and_goes_on() {
-    let learning = Learning::try_new(1.0_f32, 3.0, 1, 1).unwrap();
+    let learning = IterativeLearning::try_new(1.0_f32, 3.0, 1, 1).unwrap();
     let mut own = [0.0; 12];
     own[..5].copy_from_slice(&[1.0, -7.0, f32::NAN, f32::INFINITY, 2.0]);
     let mut unfiltered = [f32::NAN; 12];
     let state = learning.resume(&mut own, &mut unfiltered).unwrap();
     assert_eq!(state.learned()[..5], [1.0, -3.0, 0.0, 3.0, 2.0]);
     let mut state = state;
-    let out = learning.step(&mut state, &LearningInput::new(0.5 / 12.0, 0.0, 0.0));
+    let out = learning.step(
+        &mut state,
+        &IterativeLearningInput::new(0.5 / 12.0, 0.0, 0.0),
+    );
     assert_eq!(out.feed_forward, 1.0);
 }
 
 #[test]
 fn it_can_live_in_flash() {
-    static LEARNING: Learning<f32> = constant!(constant!(Learning::<f32>::const_new(
-        4.0, 30.0, 2, 2
-    ))
+    static LEARNING: IterativeLearning<f32> = constant!(constant!(
+        IterativeLearning::<f32>::const_new(4.0, 30.0, 2, 2)
+    )
     .const_with_forgetting(0.01));
-    let same = Learning::try_new(4.0_f32, 30.0, 2, 2).and_then(|l| l.with_forgetting(0.01));
+    let same =
+        IterativeLearning::try_new(4.0_f32, 30.0, 2, 2).and_then(|l| l.with_forgetting(0.01));
     assert_eq!(Ok(LEARNING), same);
 }
 
@@ -483,9 +489,12 @@ fn it_can_live_in_flash() {
 fn what_is_stored_is_checked_when_it_is_read() {
     let own = learning(4.0, 2, 2).with_forgetting(0.25).unwrap();
     let text = serde_json::to_string(&own).unwrap();
-    assert_eq!(serde_json::from_str::<Learning<f64>>(&text).unwrap(), own);
+    assert_eq!(
+        serde_json::from_str::<IterativeLearning<f64>>(&text).unwrap(),
+        own
+    );
     for (from, to) in [("4.0", "0.0"), ("0.25", "1.25"), ("lead", "leads")] {
         let bad = text.replace(from, to);
-        assert!(bad != text && serde_json::from_str::<Learning<f64>>(&bad).is_err());
+        assert!(bad != text && serde_json::from_str::<IterativeLearning<f64>>(&bad).is_err());
     }
 }

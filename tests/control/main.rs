@@ -5,10 +5,17 @@
 
 mod bad_samples;
 mod bumpless;
+mod cascade;
 mod compensator;
+mod drive;
 mod learning;
+mod liveness;
 mod observer;
+mod options;
 mod peers;
 mod pid;
 mod properties;
+mod relay;
+mod returns;
+mod told;
 mod windup;

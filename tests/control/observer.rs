@@ -339,7 +339,7 @@ fn it_can_live_in_flash() {
         0.005,
     );
     assert_eq!(Ok(OBSERVER), same.and_then(|o| o.with_latency(0.003)));
-    assert_eq!(OBSERVER.plant().gain(), f32::of(0.6));
+    assert_eq!(OBSERVER.plant().gain(), f32::from_f64(0.6));
 }
 
 #[cfg(feature = "serde")]

@@ -5,7 +5,7 @@
 //! --nocapture` prints the table. (idsp is missing: it wants a newer Rust than this crate
 //! promises.)
 
-use bowden::control::{Damping, Limits, Pid, PidInput, PidSettings, PidState, Status};
+use bowden::control::{DerivativeSource, Limits, Pid, PidInput, PidSettings, PidState, Status};
 
 const DT: f64 = 1e-3;
 const K_P: f64 = 30.0;
@@ -26,7 +26,7 @@ fn ours(tau: f64) -> Step {
     let pid = Pid::try_new(PidSettings {
         k_d: K_D,
         derivative_time: tau,
-        damping: Damping::on_measurement(),
+        damping: DerivativeSource::on_measurement(),
         limits: Limits::try_new(-LIMIT, LIMIT).unwrap(),
         ..PidSettings::unlimited(K_P, K_I)
     })

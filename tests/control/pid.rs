@@ -1,7 +1,7 @@
 //! PI, PID and PIV against closed forms.
 
 use bowden::control::{
-    AntiWindup, Damping, Fallback, Limits, Pid, PidInput, PidSettings, PidState, Status,
+    AntiWindup, DerivativeSource, Fallback, Limits, Pid, PidInput, PidSettings, PidState, Status,
 };
 use bowden::{Error, Real};
 
@@ -57,7 +57,7 @@ fn an_f32_integral_does_not_stall_on_steps_below_half_an_ulp() {
     assert!((state.integral() - 1001.0).abs() < 1e-3);
 }
 
-fn filtered(time: f64, damping: Damping<f64>) -> Pid<f64> {
+fn filtered(time: f64, damping: DerivativeSource<f64>) -> Pid<f64> {
     Pid::try_new(PidSettings {
         k_d: 2.0,
         derivative_time: time,
@@ -73,7 +73,7 @@ fn the_filtered_derivative_of_a_ramp_is_the_implicit_lag_at_any_rate() {
     let (tau, slope, end) = (0.02, 3.0, 0.05_f64);
     let exact = -2.0 * slope * (1.0 - (-end / tau).exp());
     for samples in [10, 50, 500] {
-        let (pid, mut state) = (filtered(tau, Damping::on_error()), PidState::new());
+        let (pid, mut state) = (filtered(tau, DerivativeSource::on_error()), PidState::new());
         let dt = end / f64::from(samples);
         let mut term = 0.0;
         for k in 0..=samples {
@@ -92,7 +92,7 @@ fn the_filtered_derivative_of_a_ramp_is_the_implicit_lag_at_any_rate() {
 #[test]
 fn the_derivative_of_a_ramp_is_the_implicit_lag_also_with_jitter() {
     let (tau, slope) = (0.02, 3.0);
-    let (pid, mut state) = (filtered(tau, Damping::on_error()), PidState::new());
+    let (pid, mut state) = (filtered(tau, DerivativeSource::on_error()), PidState::new());
     pid.step_with_terms(&mut state, &PidInput::new(1e-3, 0.0, 0.0));
     let (mut t, mut left) = (0.0, 1.0);
     for k in 0..200_u32 {
@@ -110,7 +110,7 @@ fn the_derivative_of_a_ramp_is_the_implicit_lag_also_with_jitter() {
 fn a_step_decays_by_the_same_factor_each_sample() {
     // The lag's own impulse response: k_d·(step/dt)·(1-a)·a^k, a = tau/(tau + dt).
     let (dt, tau) = (1e-3, 5e-3);
-    let (pid, mut state) = (filtered(tau, Damping::on_error()), PidState::new());
+    let (pid, mut state) = (filtered(tau, DerivativeSource::on_error()), PidState::new());
     pid.step_with_terms(&mut state, &PidInput::new(dt, 0.0, 0.0));
     let a: f64 = tau / (tau + dt);
     for k in 0..20 {
@@ -122,12 +122,18 @@ fn a_step_decays_by_the_same_factor_each_sample() {
 #[test]
 fn a_step_of_the_reference_kicks_by_the_set_point_weight() {
     for (weight, kick) in [(1.0, 2000.0), (0.25, 500.0), (0.0, 0.0)] {
-        let (pid, mut state) = (filtered(0.0, Damping::Rate { weight }), PidState::new());
+        let (pid, mut state) = (
+            filtered(0.0, DerivativeSource::Rate { weight }),
+            PidState::new(),
+        );
         pid.step_with_terms(&mut state, &PidInput::new(1e-3, 0.0, 0.5));
         let out = pid.step_with_terms(&mut state, &PidInput::new(1e-3, 1.0, 0.5));
         close(out.terms.derivative, kick);
     }
-    assert_eq!(Damping::on_measurement(), Damping::Rate { weight: 0.0 });
+    assert_eq!(
+        DerivativeSource::on_measurement(),
+        DerivativeSource::Rate { weight: 0.0 }
+    );
 }
 
 #[test]
@@ -195,7 +201,7 @@ fn the_papers_gains_are_those_of_its_table_1() {
 }
 
 fn refused<T: Real>(change: impl Fn(&mut PidSettings<T>)) -> Error {
-    let mut settings = PidSettings::unlimited(T::of(30.0), T::of(18.0));
+    let mut settings = PidSettings::unlimited(T::from_f64(30.0), T::from_f64(18.0));
     change(&mut settings);
     Pid::try_new(settings).unwrap_err()
 }
@@ -212,7 +218,7 @@ fn settings_are_refused_by_name() {
         out("derivative_time")
     );
     assert_eq!(refused(|s| s.setpoint_weight = 1.5), out("setpoint_weight"));
-    let weight = Damping::Rate { weight: -0.1 };
+    let weight = DerivativeSource::Rate { weight: -0.1 };
     assert_eq!(refused(|s| s.damping = weight), out("derivative weight"));
     let tracking_time = 0.0;
     let tracking = AntiWindup::BackCalculation { tracking_time };
@@ -227,7 +233,7 @@ fn gains_of_opposite_signs_and_a_safe_command_outside_the_limits_are_refused() {
     // A velocity sensor may well count the other way.
     let settings = PidSettings {
         k_d: -2.0,
-        damping: Damping::Velocity,
+        damping: DerivativeSource::Velocity,
         ..PidSettings::unlimited(30.0, 18.0)
     };
     assert!(Pid::try_new(settings).is_ok());
@@ -270,7 +276,7 @@ fn settings_and_states_are_read_through_their_checks() {
     ] {
         assert!(fallback(lost).is_err(), "{lost}");
     }
-    let hold = Fallback::<f64>::hold_for_ever();
+    let hold = Fallback::<f64>::hold_indefinitely();
     assert_eq!(
         fallback(&serde_json::to_string(&hold).unwrap()).unwrap(),
         hold

@@ -1,7 +1,7 @@
 //! For any numbers: finite commands within their limits, a state that nothing poisons.
 
 use bowden::control::{
-    AntiWindup, Damping, Fallback, Limits, Pid, PidInput, PidSettings, PidState, Status,
+    AntiWindup, DerivativeSource, Fallback, Limits, Pid, PidInput, PidSettings, PidState, Status,
 };
 use bowden::Real;
 use proptest::prelude::*;
@@ -29,27 +29,49 @@ fn pid<T: Real>() -> impl Strategy<Value = Pid<T>> {
         0.0..=1.0_f64,
         0.0..2e3_f64,
     );
-    (gains, shapes, range).prop_map(
-        |((p, i, d, reverse), (kind, b, c, windup, tau), (low, width, safe, slew))| {
+    let rarer = (
+        prop::option::of(1e-3..100.0_f64),
+        prop_oneof![Just(0.0), 0.0..10.0_f64],
+        prop::option::of(1e-3..400.0_f64),
+    );
+    (gains, shapes, range, rarer).prop_map(
+        |(
+            (p, i, d, reverse),
+            (kind, b, c, windup, tau),
+            (low, width, safe, slew),
+            (most, deadband, period),
+        )| {
             let sign = if reverse { -1.0 } else { 1.0 };
-            let limits = Limits::try_new(T::of(low), T::of(low + width)).unwrap();
-            let safe = limits.low() + T::of(safe) * (limits.high() - limits.low());
+            let limits = Limits::try_new(T::from_f64(low), T::from_f64(low + width)).unwrap();
+            let safe = limits.low() + T::from_f64(safe) * (limits.high() - limits.low());
             let safe = if limits.contains(safe) {
                 safe
             } else {
                 limits.low()
             };
-            let tracking_time = T::of(tau + 1e-3);
+            let tracking_time = T::from_f64(tau + 1e-3);
             Pid::try_new(PidSettings {
-                k_p: T::of(sign * p),
-                k_i: T::of(sign * i),
-                k_d: T::of(if kind == 0 { 0.0 } else { sign * d }),
+                k_p: T::from_f64(sign * p),
+                k_i: T::from_f64(sign * i),
+                k_d: T::from_f64(if kind == 0 { 0.0 } else { sign * d }),
                 damping: match kind {
-                    2 => Damping::Velocity,
-                    _ => Damping::Rate { weight: T::of(c) },
+                    2 => DerivativeSource::Velocity,
+                    _ if period.is_some() => DerivativeSource::Rate {
+                        weight: T::from_f64(c.round()),
+                    },
+                    _ => DerivativeSource::Rate {
+                        weight: T::from_f64(c),
+                    },
                 },
-                derivative_time: T::of(tau),
-                setpoint_weight: T::of(b),
+                derivative_time: T::from_f64(tau),
+                setpoint_weight: if period.is_some() {
+                    T::ONE
+                } else {
+                    T::from_f64(b)
+                },
+                integral_limit: most.map(T::from_f64),
+                deadband: T::from_f64(deadband),
+                period: period.map(T::from_f64),
                 anti_windup: match windup {
                     0 => AntiWindup::None,
                     1 => AntiWindup::Clamp,
@@ -59,9 +81,9 @@ fn pid<T: Real>() -> impl Strategy<Value = Pid<T>> {
                 limits: if slew > 1e3 {
                     limits
                 } else {
-                    limits.with_slew(T::of(slew + 0.1)).unwrap()
+                    limits.with_slew(T::from_f64(slew + 0.1)).unwrap()
                 },
-                longest_dt: T::of(0.5),
+                longest_dt: T::from_f64(0.5),
                 fallback: Fallback::try_new(5, safe).unwrap(),
             })
             .unwrap()
@@ -86,10 +108,21 @@ fn holds<T: Real>(
     prop_assert!(out.terms.unlimited.is_finite() && out.terms.error.is_finite());
     match out.status {
         Status::Good => {
-            prop_assert!(!state.is_latched() && state.bad_score() <= before.bad_score());
-            prop_assert_eq!(out.terms.error, at.measured - at.reference);
+            prop_assert!(!state.is_latched() && state.fault_counter() <= before.fault_counter());
+            let difference = at.measured - at.reference;
+            match pid.settings().period {
+                None => prop_assert_eq!(out.terms.error, difference),
+                // Half a period, and the rounding of the measurement and of its turn.
+                Some(period) => prop_assert!(
+                    out.terms.error.abs()
+                        <= T::from_f64(0.5) * period
+                            + T::from_f64(4.0)
+                                * T::epsilon()
+                                * (at.measured.abs() + at.reference.abs())
+                ),
+            }
             if let (Some(slew), true) = (limits.slew(), limits.contains(before.command())) {
-                let reach = slew * at.dt + T::of(4.0) * T::epsilon() * T::of(300.0);
+                let reach = slew * at.dt + T::from_f64(4.0) * T::epsilon() * T::from_f64(300.0);
                 prop_assert!((out.command - before.command()).abs() <= reach);
             }
         }
@@ -127,7 +160,7 @@ proptest! {
     ) {
         let mut state = PidState::new();
         for (dt, reference, measured, velocity, feed_forward) in samples {
-            let at = PidInput { dt: f32::of(dt), reference, measured, velocity, feed_forward };
+            let at = PidInput { dt: f32::from_f64(dt), reference, measured, velocity, feed_forward };
             holds(&pid, &mut state, &at)?;
         }
     }
@@ -154,13 +187,13 @@ proptest! {
         let mut state = PidState::new();
         let half = samples.len() / 2;
         for (k, (dt, reference, measured, velocity, feed_forward)) in samples.into_iter().enumerate() {
-            let at = PidInput { dt: f32::of(dt), reference, measured, velocity, feed_forward };
+            let at = PidInput { dt: f32::from_f64(dt), reference, measured, velocity, feed_forward };
             if k == 0 {
                 state.resume_from(&from, output, &at);
             }
             if k == half {
                 let before = state.command();
-                to.take_over(&mut state);
+                to.bumpless_transfer(&mut state);
                 prop_assert_eq!(state.command(), before);
             }
             holds(if k < half { &from } else { &to }, &mut state, &at)?;

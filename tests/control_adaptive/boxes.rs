@@ -49,8 +49,8 @@ fn estimator(low: f64, high: f64) -> impl Strategy<Value = Estimator<f64>> {
 
 fn settings() -> impl Strategy<Value = AdaptiveSettings<f64, 2>> {
     let forms = prop_oneof![
-        (0.0..0.02_f64).prop_map(|time_constant| Form::Literal { time_constant }),
-        Just(Form::Lag {
+        (0.0..0.02_f64).prop_map(|time_constant| Form::AsPublished { time_constant }),
+        Just(Form::FirstOrder {
             step: 1e-4,
             plant_gain: 1.0
         }),
@@ -87,42 +87,48 @@ fn settings() -> impl Strategy<Value = AdaptiveSettings<f64, 2>> {
 /// The same settings in another precision.
 fn cast<T: Real>(from: &AdaptiveSettings<f64, 2>) -> AdaptiveSettings<T, 2> {
     let estimator = |from: &Estimator<f64>| Estimator {
-        initial: T::of(from.initial),
-        low: T::of(from.low),
-        high: T::of(from.high),
-        gain: T::of(from.gain),
-        prior: T::of(from.prior),
+        initial: T::from_f64(from.initial),
+        low: T::from_f64(from.low),
+        high: T::from_f64(from.high),
+        gain: T::from_f64(from.gain),
+        prior: T::from_f64(from.prior),
         leakage: match from.leakage {
             Leakage::None => Leakage::None,
-            Leakage::Constant { rate } => Leakage::Constant { rate: T::of(rate) },
+            Leakage::Constant { rate } => Leakage::Constant {
+                rate: T::from_f64(rate),
+            },
             Leakage::Switching { rate, bound } => Leakage::Switching {
-                rate: T::of(rate),
-                bound: T::of(bound),
+                rate: T::from_f64(rate),
+                bound: T::from_f64(bound),
             },
         },
     };
     let form = match from.form {
-        Form::Literal { time_constant } => Form::Literal {
-            time_constant: T::of(time_constant),
+        Form::AsPublished { time_constant } => Form::AsPublished {
+            time_constant: T::from_f64(time_constant),
         },
-        Form::Lag { step, plant_gain } => Form::Lag {
-            step: T::of(step),
-            plant_gain: T::of(plant_gain),
+        Form::FirstOrder { step, plant_gain } => Form::FirstOrder {
+            step: T::from_f64(step),
+            plant_gain: T::from_f64(plant_gain),
         },
     };
-    let gains = [from.gain, from.lambda, from.epsilon].map(T::of);
+    let gains = [from.gain, from.lambda, from.epsilon].map(T::from_f64);
     let mut to = AdaptiveSettings {
         smooth_sign: from.smooth_sign,
         beta: estimator(&from.beta),
         delta: estimator(&from.delta),
         theta: [estimator(&from.theta[0]), estimator(&from.theta[1])],
-        z_limit: T::of(from.z_limit),
+        z_limit: T::from_f64(from.z_limit),
         ..AdaptiveSettings::unlimited(form, gains[0], gains[1], gains[2])
     };
     if let Some(safe) = from.fallback.command() {
-        let limits = Limits::try_new(T::of(from.limits.low()), T::of(from.limits.high())).unwrap();
-        to.limits = limits.with_slew(T::of(500.0)).unwrap();
-        to.fallback = Fallback::try_new(from.fallback.after(), T::of(safe)).unwrap();
+        let limits = Limits::try_new(
+            T::from_f64(from.limits.low()),
+            T::from_f64(from.limits.high()),
+        )
+        .unwrap();
+        to.limits = limits.with_slew(T::from_f64(500.0)).unwrap();
+        to.fallback = Fallback::try_new(from.fallback.after(), T::from_f64(safe)).unwrap();
     }
     to
 }
@@ -146,7 +152,8 @@ fn stays_in_its_boxes<T: Real>(
     let law = Adaptive::try_new(cast::<T>(settings)).unwrap();
     let mut state = AdaptiveState::new(&law);
     for sample in samples {
-        let [dt, reference, next_reference, measured, x1, x2, feed_forward] = sample.map(T::of);
+        let [dt, reference, next_reference, measured, x1, x2, feed_forward] =
+            sample.map(T::from_f64);
         let input = AdaptiveInput {
             dt,
             reference,
@@ -212,7 +219,7 @@ proptest! {
             let mut state = AdaptiveState::resume_from(&law, output, &input);
             prop_assert!(law.is_valid(&state), "{state:?}");
             law.step_with_terms(&mut state, &input);
-            other.take_over(&mut state, &input);
+            other.bumpless_transfer(&mut state, &input);
             prop_assert!(other.is_valid(&state), "{state:?}");
         }
     }

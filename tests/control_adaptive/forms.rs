@@ -193,7 +193,7 @@ fn the_literal_law_is_stable_on_a_static_plant_below_the_stated_gain_only() {
     let limit = 1.0 / 274.0;
     let at = |g: f64| {
         let settings = AdaptiveSettings {
-            form: Form::Literal { time_constant: 0.0 },
+            form: Form::AsPublished { time_constant: 0.0 },
             beta: Estimator::fixed(g),
             delta: Estimator::fixed(0.0),
             ..known(literal())

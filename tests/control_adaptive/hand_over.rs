@@ -55,7 +55,7 @@ fn other_gains_take_over_without_a_jump_and_keep_the_estimates() {
     .unwrap();
     let before = state;
     let input = AdaptiveInput::new(0.001, 3.0, -3.0, [0.1]);
-    to.take_over(&mut state, &input);
+    to.bumpless_transfer(&mut state, &input);
     assert_eq!(state.beta_hat(), before.beta_hat());
     assert_eq!(state.delta_hat(), before.delta_hat());
     assert!(to.is_valid(&state), "theta_hat is in its new box");

@@ -106,7 +106,7 @@ fn a_refusal_says_which_setting_or_condition() {
     let delta = Estimator::fixed(1.0).within(-1.0, 7.0);
     let condition = "lag form: delta.low >= 0";
     assert_eq!(refused(AdaptiveSettings { delta, ..lag }), unmet(condition));
-    let form = Form::Lag {
+    let form = Form::FirstOrder {
         step: 0.5,
         plant_gain: 1e-3,
     };
@@ -141,7 +141,7 @@ fn the_step_that_is_offered_is_admissible_and_a_longer_one_is_not() {
     // h·lambda·g⁺·(k + Dmax/eps) = 1 with 8·1.1·(24 + 140).
     assert!((largest - 1.0 / 1443.2).abs() < 1e-12);
     let at = |step| {
-        let form = Form::Lag {
+        let form = Form::FirstOrder {
             step,
             plant_gain: 1.0,
         };

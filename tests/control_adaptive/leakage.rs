@@ -85,7 +85,7 @@ fn in_f32_a_leakage_below_the_rounding_still_acts() {
     let (h, sigma) = (5e-5_f32, 0.001_f32); // 20 kHz
     let mut plain = 7.0_f32;
     let delta = Estimator::free(7.0_f32).adapting(1.0, sigma);
-    let form = Form::Literal {
+    let form = Form::AsPublished {
         time_constant: 0.005,
     };
     let settings = AdaptiveSettings {

@@ -134,7 +134,7 @@ fn a_literal_law_that_takes_over_does_not_take_the_old_rate_of_the_error() {
     };
     let to = Adaptive::try_new(to).unwrap();
     let input = AdaptiveInput::new(0.001, 3.0, 4.0, [0.1]);
-    to.take_over(&mut state, &input);
+    to.bumpless_transfer(&mut state, &input);
     let out = to.step_with_terms(&mut state, &input);
     assert_eq!(out.terms.error_rate, 0.0);
     // z is found to its last bit, times k·lambda + 1/lambda = 75.

@@ -88,8 +88,8 @@ macro_rules! line {
                     let s = e + lambda * self.z.0;
                     let t = law.smooth_sign.of(s / law.epsilon);
                     let rate = match law.form {
-                        Form::Lag { .. } => (at.next_reference - at.reference) / dt,
-                        Form::Literal { time_constant } => {
+                        Form::FirstOrder { .. } => (at.next_reference - at.reference) / dt,
+                        Form::AsPublished { time_constant } => {
                             if let Some(last) = self.filter.0 {
                                 let change = time_constant * self.filter.1 + (e - last);
                                 self.filter.1 = change / (time_constant + dt);
@@ -104,8 +104,10 @@ macro_rules! line {
                         - self.delta.0 * t;
                     let wanted = self.beta.0 * ubar;
                     let lag = match law.form {
-                        Form::Literal { .. } => Sum(wanted, 0.0),
-                        Form::Lag { .. } => self.lag.plus(dt * lambda * (wanted - self.lag.0)),
+                        Form::AsPublished { .. } => Sum(wanted, 0.0),
+                        Form::FirstOrder { .. } => {
+                            self.lag.plus(dt * lambda * (wanted - self.lag.0))
+                        }
                     };
                     let unlimited = lag.0 + at.feed_forward;
                     let command = self.limited(law, unlimited, dt);
@@ -153,12 +155,12 @@ macro_rules! line {
             fn settings(random: &mut Random, number: u32) -> AdaptiveSettings<$float, 2> {
                 let mut within = |low: f64, high: f64| random.within(low, high) as $float;
                 let form = if number % 2 == 0 {
-                    Form::Lag {
+                    Form::FirstOrder {
                         step: 1e-4,
                         plant_gain: 1.0,
                     }
                 } else {
-                    Form::Literal {
+                    Form::AsPublished {
                         time_constant: within(0.0, 0.02),
                     }
                 };
@@ -191,7 +193,7 @@ macro_rules! line {
                         within(0.2, 1.0),
                         limits,
                         1.0,
-                        Fallback::hold_for_ever(),
+                        Fallback::hold_indefinitely(),
                     )
                 }
             }

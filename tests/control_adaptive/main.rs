@@ -10,12 +10,14 @@ mod law;
 mod leakage;
 mod limited;
 mod line;
+mod liveness;
+mod told;
 
 use bowden::control::{AdaptiveSettings, Estimator, Form};
 
 /// A lag form at 1 kHz that the box theorem covers: g within 0.9 to 1.1.
 fn lag() -> AdaptiveSettings<f64, 1> {
-    let form = Form::Lag {
+    let form = Form::FirstOrder {
         step: 0.001,
         plant_gain: 1.0,
     };
@@ -34,7 +36,7 @@ fn lag() -> AdaptiveSettings<f64, 1> {
 /// The same gains in the literal form.
 fn literal() -> AdaptiveSettings<f64, 1> {
     AdaptiveSettings {
-        form: Form::Literal {
+        form: Form::AsPublished {
             time_constant: 0.002,
         },
         ..lag()

@@ -2,11 +2,11 @@
 
 use crate::{along, make, names, plausible};
 use approx::assert_relative_eq;
-use bowden::effect::{Dimension, Effect, Motion, Situation, Symmetry, CATALOGUE};
+use bowden::effect::{Dimension, Effect, Inputs, Motion, Parity, CATALOGUE};
 use proptest::prelude::*;
 
 /// The catalogue's formulas written out once more, for every effect without memory.
-fn closed_form(name: &str, at: &Situation<f64>) -> f64 {
+fn closed_form(name: &str, at: &Inputs<f64>) -> f64 {
     let Motion {
         position: x,
         velocity: v,
@@ -85,7 +85,7 @@ proptest! {
             let effect = make(info.name);
             let reversal = effect.parity().reversal;
             if info.memory {
-                prop_assert_eq!(reversal, Symmetry::Neither);
+                prop_assert_eq!(reversal, Parity::Neither);
             } else {
                 check(info.name, reversal, &along(&effect, &path), &along(&effect, &reversed));
             }
@@ -119,13 +119,13 @@ proptest! {
 fn wrapped<T: bowden::Real>(mu: T, position: T) -> T {
     let motion = Motion {
         position,
-        velocity: T::of(1e3),
+        velocity: T::from_f64(1e3),
         acceleration: T::zero(),
     };
-    let at = Situation {
+    let at = Inputs {
         motion,
-        load: T::of(2.0),
-        ..Situation::default()
+        load: T::from_f64(2.0),
+        ..Inputs::default()
     };
     let effect = Effect::try_from_name("capstan", &[T::one(), mu]).unwrap();
     along(&effect, &[at])[0]
@@ -164,14 +164,14 @@ fn the_capstan_is_linear_in_the_wrap_as_mu_goes_to_zero() {
     }
 }
 
-fn mirror(at: &Situation<f64>) -> Situation<f64> {
+fn mirror(at: &Inputs<f64>) -> Inputs<f64> {
     let flip = |motion: Motion<f64>| Motion {
         position: -motion.position,
         velocity: -motion.velocity,
         acceleration: -motion.acceleration,
     };
     let (load, eta, output) = (-at.load, -at.eta, -at.output);
-    Situation {
+    Inputs {
         motion: flip(at.motion),
         input: flip(at.input),
         load,
@@ -181,7 +181,7 @@ fn mirror(at: &Situation<f64>) -> Situation<f64> {
     }
 }
 
-fn check(name: &str, symmetry: Symmetry, before: &[f64], after: &[f64]) {
+fn check(name: &str, symmetry: Parity, before: &[f64], after: &[f64]) {
     let close = |sign: f64| {
         before
             .iter()
@@ -190,9 +190,9 @@ fn check(name: &str, symmetry: Symmetry, before: &[f64], after: &[f64]) {
     };
     let (even, odd) = (close(1.0), close(-1.0));
     let found = match symmetry {
-        Symmetry::Even => even,
-        Symmetry::Odd => odd,
-        Symmetry::Neither => !even && !odd,
+        Parity::Even => even,
+        Parity::Odd => odd,
+        Parity::Neither => !even && !odd,
     };
     assert!(
         found,
@@ -217,14 +217,14 @@ fn factor(dimension: Dimension, units: [f64; 5]) -> f64 {
         .product()
 }
 
-fn rescale(at: &Situation<f64>, units: [f64; 5]) -> Situation<f64> {
+fn rescale(at: &Inputs<f64>, units: [f64; 5]) -> Inputs<f64> {
     let [channel, load, time, output, input] = units;
     let motion = |motion: Motion<f64>, unit: f64| Motion {
         position: motion.position * unit,
         velocity: motion.velocity * unit / time,
         acceleration: motion.acceleration * unit / time / time,
     };
-    Situation {
+    Inputs {
         dt: at.dt * time,
         time: at.time * time,
         motion: motion(at.motion, channel),

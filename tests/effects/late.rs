@@ -2,7 +2,7 @@
 
 use crate::make;
 use crate::memory::stroke;
-use bowden::effect::{EffectState, Situation};
+use bowden::effect::{EffectState, Inputs};
 
 /// A tone behind the delay, once its start is forgotten: the largest difference to the tone
 /// that is late by that time.
@@ -13,10 +13,10 @@ fn lateness(late: f64, dt: f64, w: f64) -> f64 {
     for k in 0..4000 {
         let t = dt * f64::from(k);
         let y = (w * t).sin();
-        let at = Situation {
+        let at = Inputs {
             dt,
             output: y,
-            ..Situation::default()
+            ..Inputs::default()
         };
         let z = y + delay.contribution(late, &mut state, &at);
         if k > 2000 {
@@ -60,7 +60,7 @@ fn a_contribution_is_gain_times_regressor_but_for_a_late_output() {
         for gain in [-0.3, 0.0, 0.7] {
             let (mut a, mut b) = (EffectState::default(), EffectState::default());
             for (at, output) in path.iter().zip([1.0, -2.0, 0.5, 3.0, 2.0]) {
-                let at = Situation { output, ..*at };
+                let at = Inputs { output, ..*at };
                 let linear = gain * effect.regressor(&mut a, &at);
                 let own = effect.contribution(gain, &mut b, &at);
                 assert!(own == linear || (name == "delay" && gain > 0.0), "{name}");
@@ -73,10 +73,10 @@ fn a_contribution_is_gain_times_regressor_but_for_a_late_output() {
 fn a_late_output_is_finite_and_a_bad_sample_moves_nothing() {
     let delay = make::<f64>("delay");
     let mut state = EffectState::default();
-    let at = |dt, output| Situation {
+    let at = |dt, output| Inputs {
         dt,
         output,
-        ..Situation::default()
+        ..Inputs::default()
     };
     for (dt, output, gain) in [
         (0.01, f64::MAX, 1.0),

@@ -9,7 +9,7 @@ mod memory;
 mod names;
 mod robust;
 
-use bowden::effect::{Effect, EffectState, Motion, Situation, CATALOGUE};
+use bowden::effect::{Effect, EffectState, Inputs, Motion, CATALOGUE};
 use bowden::Real;
 use proptest::prelude::*;
 
@@ -23,7 +23,7 @@ fn make<T: Real>(name: &str) -> Effect<T> {
         "hardening" => &[0.7, 0.4],
         _ => &[0.7],
     };
-    let shapes: Vec<T> = shapes.iter().map(|&shape| T::of(shape)).collect();
+    let shapes: Vec<T> = shapes.iter().map(|&shape| T::from_f64(shape)).collect();
     Effect::try_from_name(name, &shapes)
         .or_else(|_| Effect::try_from_name(name, &[]))
         .unwrap()
@@ -34,9 +34,9 @@ fn names() -> impl Iterator<Item = &'static str> {
 }
 
 /// The numbers of a situation in one order, for the strategies.
-fn situation<T: Real>(numbers: [T; 11]) -> Situation<T> {
+fn situation<T: Real>(numbers: [T; 11]) -> Inputs<T> {
     let [dt, time, x, v, a, input, input_v, input_a, load, eta, output] = numbers;
-    Situation {
+    Inputs {
         dt,
         time,
         motion: Motion {
@@ -61,14 +61,14 @@ prop_compose! {
         signals in [-3.0..3.0_f64, -3.0..3.0, -3.0..3.0, -3.0..3.0, -3.0..3.0, -3.0..3.0, -3.0..3.0],
         eta in -1.0..1.0_f64,
         output in -3.0..3.0_f64,
-    ) -> Situation<f64> {
+    ) -> Inputs<f64> {
         let ([dt, time], [x, v, a, input, input_v, input_a, load]) = (clocks, signals);
         situation([dt, time, x, v, a, input, input_v, input_a, load, eta, output])
     }
 }
 
 /// The regressor along a path, from a fresh state.
-fn along<T: Real>(effect: &Effect<T>, path: &[Situation<T>]) -> Vec<T> {
+fn along<T: Real>(effect: &Effect<T>, path: &[Inputs<T>]) -> Vec<T> {
     let mut state = EffectState::default();
     path.iter()
         .map(|at| effect.regressor(&mut state, at))

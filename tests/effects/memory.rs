@@ -2,20 +2,20 @@
 
 use crate::{along, make};
 use approx::assert_relative_eq;
-use bowden::effect::{Backlash, Effect, EffectState, Motion, Presliding, Situation};
+use bowden::effect::{Backlash, Effect, EffectState, Inputs, Motion, Presliding};
 use bowden::Real;
 use proptest::prelude::*;
 
 /// Samples of one channel, all other numbers quiet.
-pub(crate) fn stroke(positions: impl IntoIterator<Item = f64>, dt: f64) -> Vec<Situation<f64>> {
+pub(crate) fn stroke(positions: impl IntoIterator<Item = f64>, dt: f64) -> Vec<Inputs<f64>> {
     let motion = |position| Motion {
         position,
         ..Motion::default()
     };
-    let at = |position| Situation {
+    let at = |position| Inputs {
         dt,
         motion: motion(position),
-        ..Situation::default()
+        ..Inputs::default()
     };
     positions.into_iter().map(at).collect()
 }
@@ -93,10 +93,10 @@ fn creep_follows_a_step_as_the_exponential_at_any_dt() {
 
 #[test]
 fn lag_lacks_the_exponential_after_a_step() {
-    let at = |output| Situation {
+    let at = |output| Inputs {
         dt: 0.02,
         output,
-        ..Situation::default()
+        ..Inputs::default()
     };
     let path: Vec<_> = [1.0].into_iter().chain([4.0; 100]).map(at).collect();
     for (k, lack) in along(&make("lag"), &path).into_iter().enumerate() {
@@ -115,10 +115,10 @@ fn delay_shifts_a_ramp_exactly() {
     let ramp = |t: f64| 2.0 - 1.5 * t;
     let (dt, late) = (0.01, 0.25);
     let path: Vec<_> = (0..50)
-        .map(|k| Situation {
+        .map(|k| Inputs {
             dt,
             output: ramp(dt * f64::from(k)),
-            ..Situation::default()
+            ..Inputs::default()
         })
         .collect();
     let regressors = along(&make("delay"), &path);
@@ -139,7 +139,7 @@ fn a_dt_of_zero_moves_no_memory_and_a_negative_one_is_bad() {
     for name in ["delay", "lag", "creep"] {
         let effect = make::<f64>(name);
         let mut state = EffectState::default();
-        let at = |dt, x: f64| Situation {
+        let at = |dt, x: f64| Inputs {
             dt,
             output: x,
             ..stroke([x], dt)[0]
@@ -282,9 +282,9 @@ fn dahls_curve_in_single_precision_does_not_stall_on_small_steps() {
                 position: f32::from(k) / 1024.0 + f32::from(fine) / 1_048_576.0,
                 ..Motion::default()
             };
-            let at = Situation {
+            let at = Inputs {
                 motion,
-                ..Situation::default()
+                ..Inputs::default()
             };
             z = effect.regressor(&mut state, &at);
         }
@@ -303,7 +303,7 @@ proptest! {
         let mut state = EffectState::default();
         for position in path {
             let motion = Motion { position, ..Motion::default() };
-            let z = effect.regressor(&mut state, &Situation { motion, ..Situation::default() });
+            let z = effect.regressor(&mut state, &Inputs { motion, ..Inputs::default() });
             prop_assert!(z.abs() <= 1.0, "{z}");
         }
     }
@@ -322,15 +322,15 @@ proptest! {
 }
 
 /// The transmission at an input and a hysteresis state.
-fn worked<T: Real>(position: T, eta: T) -> Situation<T> {
+fn worked<T: Real>(position: T, eta: T) -> Inputs<T> {
     let input = Motion {
         position,
         ..Motion::default()
     };
-    Situation {
+    Inputs {
         eta,
         input,
-        ..Situation::default()
+        ..Inputs::default()
     }
 }
 
@@ -414,10 +414,10 @@ fn a_low_pass_stays_between_its_inputs_where_their_difference_overflows() {
             position,
             ..Motion::default()
         };
-        let at = Situation {
+        let at = Inputs {
             dt,
             motion,
-            ..Situation::default()
+            ..Inputs::default()
         };
         effect.regressor(&mut state, &at)
     };

@@ -2,7 +2,7 @@
 
 use crate::{along, make, names, plausible, situation};
 use approx::assert_relative_eq;
-use bowden::effect::{EffectState, Motion, Quantity, Situation};
+use bowden::effect::{EffectState, Inputs, Motion, Quantity};
 use bowden::Real;
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -32,7 +32,7 @@ proptest! {
     ) {
         // Two samples of each dt: what depends on dt alone is computed anew where it changes.
         let path = path.into_iter().map(situation);
-        let path: Vec<Situation<f32>> = path.flat_map(|at| [at, at]).collect();
+        let path: Vec<Inputs<f32>> = path.flat_map(|at| [at, at]).collect();
         for name in names() {
             let (effect, mut state) = (make::<f32>(name), EffectState::default());
             let mut whole = Vec::new();
@@ -47,7 +47,7 @@ proptest! {
         path in prop::collection::vec(prop::array::uniform11(extreme()), 1..8),
         gain in extreme(),
     ) {
-        let path: Vec<Situation<f32>> = path.into_iter().map(situation).collect();
+        let path: Vec<Inputs<f32>> = path.into_iter().map(situation).collect();
         for name in names() {
             let effect = make::<f32>(name);
             let (mut state, mut whole) = (EffectState::default(), Vec::new());
@@ -63,13 +63,13 @@ proptest! {
     /// The share of a low-pass is zero for both, of either sign.
     #[test]
     fn no_time_forwards_is_not_no_time_backwards(position in select(vec![0.0, -0.0, 1.0])) {
-        let at = |dt| Situation {
+        let at = |dt| Inputs {
             dt,
             motion: Motion { position, ..Motion::default() },
             output: position,
-            ..Situation::default()
+            ..Inputs::default()
         };
-        let path: [Situation<f32>; 4] = [at(-0.0), at(-0.0), at(0.0), at(0.0)];
+        let path: [Inputs<f32>; 4] = [at(-0.0), at(-0.0), at(0.0), at(0.0)];
         for name in ["creep", "lag"] {
             let effect = make::<f32>(name);
             let mut whole = Vec::new();
@@ -146,14 +146,14 @@ fn extreme() -> impl Strategy<Value = f32> {
     ]
 }
 
-fn convert<A: Real, B: Real>(at: &Situation<A>) -> Situation<B> {
-    let to = |value: A| B::of(value.as_f64());
+fn convert<A: Real, B: Real>(at: &Inputs<A>) -> Inputs<B> {
+    let to = |value: A| B::from_f64(value.as_f64());
     let motion = |motion: Motion<A>| Motion {
         position: to(motion.position),
         velocity: to(motion.velocity),
         acceleration: to(motion.acceleration),
     };
-    Situation {
+    Inputs {
         dt: to(at.dt),
         time: to(at.time),
         motion: motion(at.motion),
@@ -164,7 +164,7 @@ fn convert<A: Real, B: Real>(at: &Situation<A>) -> Situation<B> {
     }
 }
 
-fn with(at: &Situation<f64>, quantity: Quantity, value: f64) -> Situation<f64> {
+fn with(at: &Inputs<f64>, quantity: Quantity, value: f64) -> Inputs<f64> {
     let mut at = *at;
     *match quantity {
         Quantity::Dt => &mut at.dt,

@@ -2,7 +2,7 @@
 
 use super::{law, limits, DT, LONGEST};
 use bowden::control::{
-    Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Fault, Form, Missing,
+    Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Fault, Form, OnMissing,
     Status,
 };
 
@@ -34,7 +34,7 @@ fn a_state_of_a_wider_law_commands_no_more_than_the_limits_of_the_law_that_steps
 fn the_rate_of_the_error_bridges_bad_samples() {
     // An error that rises by 2 N·m/s, with 15 samples lost: the rate after them is still 2.
     let settings = AdaptiveSettings {
-        form: Form::Literal { time_constant: 0.0 },
+        form: Form::AsPublished { time_constant: 0.0 },
         ..law(false, 100.0)
     };
     let law = Adaptive::try_new(settings).unwrap();
@@ -88,7 +88,7 @@ fn the_lag_form_accepts_no_longer_step_than_it_admits_and_than_was_stated() {
 fn a_nan_encoder_that_may_be_dropped_leaves_the_torque_loop_closed() {
     for lag in [false, true] {
         let law = Adaptive::try_new(AdaptiveSettings {
-            missing: [Missing::Drop],
+            missing: [OnMissing::DropRegressor],
             ..law(lag, 100.0)
         })
         .unwrap();
@@ -140,7 +140,7 @@ fn a_nan_encoder_holds_everything_where_nothing_else_was_said() {
 
 #[test]
 fn fixed_estimates_have_a_box_of_one_point_and_the_lag_form_takes_them() {
-    let form = Form::Lag {
+    let form = Form::FirstOrder {
         step: DT,
         plant_gain: 1.0,
     };
@@ -168,7 +168,7 @@ fn the_lag_reaches_its_target_in_f32_at_any_rate() {
     // beta_hat = 1, delta_hat = 0, e = z = 0: the virtual command is the reference, 50.
     for rate in [1e3_f32, 1e4, 5e4] {
         let lambda = 1.0;
-        let form = Form::Lag {
+        let form = Form::FirstOrder {
             step: 1.0 / rate,
             plant_gain: 1.0,
         };

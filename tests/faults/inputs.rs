@@ -155,7 +155,7 @@ static PI_64: Pid<f64> = constant!(Pid::<f64>::const_new(PidSettings::new(
     0.005,
     constant!(Fallback::<f64>::const_new(20, 0.0)),
 )));
-const LAG: Form<f32> = Form::Lag {
+const LAG: Form<f32> = Form::FirstOrder {
     step: 0.001,
     plant_gain: 1.0,
 };
@@ -169,7 +169,7 @@ static LAW: Adaptive<f32, 2> = constant!(Adaptive::<f32, 2>::const_new(AdaptiveS
 }));
 static LAW_64: Adaptive<f64, 0> =
     constant!(Adaptive::<f64, 0>::const_new(AdaptiveSettings::unlimited(
-        Form::Literal {
+        Form::AsPublished {
             time_constant: 0.005
         },
         24.0,

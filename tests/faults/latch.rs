@@ -2,8 +2,8 @@
 
 use super::{bad, fallback, good, law, limits, pi, DT, LONGEST};
 use bowden::control::{
-    Adaptive, AdaptiveSettings, Controller, Damping, Fallback, Fault, LoopSample, Pid, PidInput,
-    PidSettings, PidState, Status,
+    Adaptive, AdaptiveSettings, Applied, Controller, DerivativeSource, Fallback, Fault, LoopSample,
+    Pid, PidInput, PidSettings, PidState, Status,
 };
 use proptest::prelude::*;
 
@@ -36,7 +36,7 @@ fn every_law(check: impl Fn(&dyn Fn(u8) -> Box<dyn Runs>)) {
         2 => Box::new(Running::new(
             Pid::try_new(PidSettings {
                 k_d: 1.0,
-                damping: Damping::Velocity,
+                damping: DerivativeSource::Velocity,
                 ..pi()
             })
             .unwrap(),
@@ -110,6 +110,75 @@ fn the_safe_command_stays_until_it_is_acknowledged() {
     });
 }
 
+/// What somebody may do to a state between two samples.
+type Call<'a, S> = &'a dyn Fn(&mut S);
+
+/// From any state that is latched, one acknowledgement and one good sample close the loop, whatever
+/// else was called in between.
+fn one_good_sample_closes<C: Controller<f64>>(law: &C, reset: impl Fn(&C, &mut C::State)) {
+    let restore = |state: &mut C::State| law.restore(state);
+    let told = |state: &mut C::State| law.applied(state, Applied::Command(-3.0));
+    let unknown = |state: &mut C::State| law.applied(state, Applied::AtUpperLimit);
+    let bad = |state: &mut C::State| {
+        for _ in 0..19 {
+            law.step(state, &bad());
+        }
+    };
+    let reset = |state: &mut C::State| reset(law, state);
+    let nothing = |_: &mut C::State| {};
+    let calls: [Call<C::State>; 6] = [&nothing, &restore, &told, &unknown, &bad, &reset];
+    for before in calls {
+        for after in calls {
+            let mut state = law.start();
+            steps(law, &mut state, &good(), 500);
+            steps(law, &mut state, &super::bad(), 20);
+            assert!(law.is_latched(&state));
+            before(&mut state);
+            assert!(matches!(
+                law.step(&mut state, &good()).status,
+                Status::Safe(_)
+            ));
+            law.acknowledge(&mut state);
+            after(&mut state);
+            assert_eq!(law.step(&mut state, &good()).status, Status::Good);
+            // It stays closed, and works.
+            let (command, status) = steps(law, &mut state, &good(), 2000);
+            assert!(command.abs() > 1.0 && status == Status::Good, "{command}");
+        }
+    }
+    // The same where nothing was latched.
+    for call in calls {
+        let mut state = law.start();
+        steps(law, &mut state, &good(), 500);
+        call(&mut state);
+        assert_eq!(law.step(&mut state, &good()).status, Status::Good);
+    }
+}
+
+#[test]
+fn after_an_acknowledgement_the_first_good_sample_closes_the_loop() {
+    for pid in [
+        pi(),
+        PidSettings {
+            k_d: 0.5,
+            damping: DerivativeSource::on_measurement(),
+            derivative_time: 0.01,
+            ..pi()
+        },
+        PidSettings {
+            k_d: 1.0,
+            damping: DerivativeSource::Velocity,
+            ..pi()
+        },
+    ] {
+        one_good_sample_closes(&Pid::try_new(pid).unwrap(), |_, state| state.reset());
+    }
+    for lag in [false, true] {
+        let own = Adaptive::try_new(law(lag, 60.0)).unwrap();
+        one_good_sample_closes(&own, |law, state| state.reset(law));
+    }
+}
+
 #[test]
 fn nine_bad_samples_of_ten_are_too_many() {
     every_law(|make| {
@@ -154,13 +223,17 @@ fn without_an_integral_gain_no_old_command_stays_in_the_sum() {
     let (before, _) = law.run(&good(), 10);
     law.run(&bad(), 20);
     law.acknowledge();
-    assert_eq!(law.run(&good(), 10), (before, Status::Good));
+    // From the safe command on; what it differs by is gone to the last bit after 40 time constants
+    // of 1 s: e^-40 is below half an ulp of 1.
+    assert_eq!(law.run(&good(), 1), (0.0, Status::Good));
+    let samples = (40.0 / DT) as u32;
+    assert_eq!(law.run(&good(), samples), (before, Status::Good));
 }
 
 #[test]
 fn a_loop_without_a_safe_command_holds_for_ever_and_says_so_by_its_name() {
     let held = PidSettings {
-        fallback: Fallback::hold_for_ever(),
+        fallback: Fallback::hold_indefinitely(),
         ..pi()
     };
     let mut law = Running::new(Pid::try_new(held).unwrap());
@@ -238,7 +311,7 @@ fn after_a_fault_a_pd_starts_without_the_rate_from_before_it() {
         k_p: 1.0,
         k_i: 0.0,
         k_d: 0.1,
-        damping: Damping::on_measurement(),
+        damping: DerivativeSource::on_measurement(),
         derivative_time: 0.02,
         ..pi()
     })

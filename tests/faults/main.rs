@@ -50,12 +50,12 @@ fn pi() -> PidSettings<f64> {
 /// A law over one regressor within `most`, in the literal or in the lag form.
 fn law(lag: bool, most: f64) -> AdaptiveSettings<f64, 1> {
     let form = if lag {
-        Form::Lag {
+        Form::FirstOrder {
             step: DT,
             plant_gain: 1.0,
         }
     } else {
-        Form::Literal {
+        Form::AsPublished {
             time_constant: 0.005,
         }
     };

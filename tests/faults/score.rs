@@ -89,7 +89,7 @@ fn a_reset_at_every_bad_sample_does_not_keep_the_safe_command_back() {
             "{k}"
         );
         state.reset();
-        assert_eq!(state.bad_score(), 4 * k);
+        assert_eq!(state.fault_counter(), 4 * k);
     }
     assert!(state.is_latched());
     assert_eq!(Some(state.command()), pid.settings().fallback.command());
@@ -114,7 +114,7 @@ proptest! {
                 prop_assert_eq!(out.status == Status::Good, event == Event::Good && !open.latched);
             }
             open.take(event);
-            prop_assert_eq!((state.bad_score(), state.is_latched()), (open.score, open.latched));
+            prop_assert_eq!((state.fault_counter(), state.is_latched()), (open.score, open.latched));
         }
     }
 
@@ -136,7 +136,7 @@ proptest! {
                 prop_assert_eq!(out.status == Status::Good, event == Event::Good && !open.latched);
             }
             open.take(event);
-            prop_assert_eq!((state.bad_score(), state.is_latched()), (open.score, open.latched));
+            prop_assert_eq!((state.fault_counter(), state.is_latched()), (open.score, open.latched));
         }
     }
 }

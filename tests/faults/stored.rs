@@ -22,7 +22,7 @@ where
     assert_eq!(first.command, before);
 
     let mut powered = state;
-    law.power_up(&mut powered);
+    law.restore(&mut powered);
     assert_eq!(law.command(&powered), start);
     let mut dead = powered;
     let held = law.step(&mut dead, &bad());
@@ -35,9 +35,9 @@ where
     assert!((live.command - start).abs() <= way, "{}", live.command);
     // Twice is once.
     let (mut once, mut twice) = (state, state);
-    law.power_up(&mut once);
-    law.power_up(&mut twice);
-    law.power_up(&mut twice);
+    law.restore(&mut once);
+    law.restore(&mut twice);
+    law.restore(&mut twice);
     assert_eq!(once, twice);
 
     // A fault that nobody has seen outlives the power cut.
@@ -45,7 +45,7 @@ where
         law.step(&mut state, &bad());
     }
     assert!(law.is_latched(&state));
-    law.power_up(&mut state);
+    law.restore(&mut state);
     assert!(law.is_latched(&state));
     let safe = law.step(&mut state, &good());
     assert_eq!(
@@ -73,7 +73,7 @@ fn after_the_power_was_off_a_law_starts_from_nothing_with_what_it_has_learned() 
     for _ in 0..500 {
         Controller::step(&pid, &mut state, &good());
     }
-    state.power_up(&pid);
+    state.restore(&pid);
     assert_eq!(state.command(), 2.0);
 
     for lag in [false, true] {

@@ -1,7 +1,7 @@
 //! The step in bounded time, which `f32` takes: how far it is off, where and by how much.
 
 use super::{record_error, shape, sine, single, walk, Uniform, SETS};
-use bowden::hysteresis::{BoucWen, Sensitivity, Shape};
+use bowden::hysteresis::{BoucWen, BoucWenState, Sensitivity};
 use bowden::Real;
 use proptest::prelude::*;
 
@@ -70,7 +70,7 @@ fn single_precision_steps_differ_from_double_ones_by_a_few_roundings() {
         for sigma in SIGMAS {
             let (double, single) = (shape(0.1, sigma, n), single(0.1, sigma, n));
             // The parameters as single precision has them.
-            let double = Shape::try_new(
+            let double = BoucWen::try_new(
                 f64::from(single.rho()),
                 f64::from(single.sigma()),
                 f64::from(single.n()),
@@ -167,7 +167,7 @@ fn its_sensitivities_are_the_derivatives_of_the_step_taken() {
 #[test]
 fn a_swing_across_all_floats_saturates_and_a_first_sample_does_not() {
     let shape = single(0.1, 0.6, 2.0);
-    let mut state = BoucWen::new();
+    let mut state = BoucWenState::new();
     assert_eq!(shape.step(&mut state, f32::MAX), 0.0);
     assert_eq!(shape.step(&mut state, -f32::MAX), -1.0);
     assert_eq!(shape.step(&mut state, f32::MAX), 1.0);
@@ -204,7 +204,7 @@ proptest! {
         change in prop::num::f32::ANY,
     ) {
         let (sigma, n) = (0.5 * 10_f32.powf(sigma), 10_f32.powf(n));
-        if let Ok(shape) = Shape::try_new(rho, sigma, n) {
+        if let Ok(shape) = BoucWen::try_new(rho, sigma, n) {
             let next = shape.advance(eta, change);
             prop_assert!(next.abs() <= 1.0);
             let is_behind = (change > 0.0 && next < eta) || (change < 0.0 && next > eta);
@@ -216,13 +216,13 @@ proptest! {
 /// Least and greatest slope of the step along its path over `2·sigma`, between states a `part`
 /// of the path apart, from states of either sign.
 fn slopes<T: Real>(n: f64, sigma: f64, part: f64) -> [f64; 2] {
-    let shape = Shape::try_new(T::ONE, T::of(sigma), T::of(n)).unwrap();
+    let shape = BoucWen::try_new(T::ONE, T::from_f64(sigma), T::from_f64(n)).unwrap();
     let [mut least, mut greatest] = [f64::INFINITY, f64::NEG_INFINITY];
     for start in -40..=40 {
-        let eta = T::of(f64::from(start) / 40.0);
+        let eta = T::from_f64(f64::from(start) / 40.0);
         let mut last = [0.0, eta.as_f64()];
         for i in 1..=150 {
-            let path = T::of(f64::from(i) * part);
+            let path = T::from_f64(f64::from(i) * part);
             let now = [path.as_f64(), shape.advance_bounded(eta, path).as_f64()];
             let slope = (now[1] - last[1]) / (now[0] - last[0]) / (2.0 * sigma);
             (least, greatest) = (least.min(slope), greatest.max(slope));

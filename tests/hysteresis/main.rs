@@ -8,7 +8,7 @@ mod sampled;
 mod textbook;
 
 use approx::assert_abs_diff_eq;
-use bowden::hysteresis::{Actuator, BoucWen, Class, Sensitivity, Shape, Textbook};
+use bowden::hysteresis::{Actuator, BoucWen, BoucWenState, Class, Sensitivity, Textbook};
 use bowden::Error;
 use proptest::prelude::*;
 use std::f64::consts::PI;
@@ -19,12 +19,12 @@ const SETS: [(f64, f64, f64, f64); 2] = [
     (0.093_53, 62.49, 3.255, 7.231),
 ];
 
-fn shape(rho: f64, sigma: f64, n: f64) -> Shape<f64> {
-    Shape::try_new(rho, sigma, n).unwrap()
+fn shape(rho: f64, sigma: f64, n: f64) -> BoucWen<f64> {
+    BoucWen::try_new(rho, sigma, n).unwrap()
 }
 
-fn single(rho: f64, sigma: f64, n: f64) -> Shape<f32> {
-    Shape::try_new(rho as f32, sigma as f32, n as f32).unwrap()
+fn single(rho: f64, sigma: f64, n: f64) -> BoucWen<f32> {
+    BoucWen::try_new(rho as f32, sigma as f32, n as f32).unwrap()
 }
 
 /// The two inputs of the paper [N·m] at a time [s].
@@ -37,14 +37,14 @@ fn walk(t: f64) -> f64 {
 }
 
 /// The right side of (7) over tau', written as the paper writes it.
-fn right_side(shape: &Shape<f64>, eta: f64, direction: f64) -> f64 {
+fn right_side(shape: &BoucWen<f64>, eta: f64, direction: f64) -> f64 {
     let (rho, sigma, n) = (shape.rho(), shape.sigma(), shape.n());
     let size = eta.abs();
     rho * (direction - sigma * size.powf(n - 1.0) * eta + (sigma - 1.0) * direction * size.powf(n))
 }
 
 /// One increment by `parts` classical Runge-Kutta steps of (7).
-fn runge_kutta(shape: &Shape<f64>, mut eta: f64, change: f64, parts: usize) -> f64 {
+fn runge_kutta(shape: &BoucWen<f64>, mut eta: f64, change: f64, parts: usize) -> f64 {
     let direction = change.signum();
     let h = change.abs() / parts as f64;
     for _ in 0..parts {
@@ -74,7 +74,7 @@ impl Uniform {
 fn record_error(
     set: (f64, f64, f64, f64),
     input: fn(f64) -> f64,
-    step: impl Fn(&Shape<f64>, f64, f64) -> f64,
+    step: impl Fn(&BoucWen<f64>, f64, f64) -> f64,
 ) -> f64 {
     let shape = shape(set.0, set.1, set.2);
     let (mut eta, mut reference, mut last, mut most) = (0.0, 0.0, input(0.0), 0.0_f64);
@@ -119,7 +119,7 @@ fn single_precision_stays_within_a_thousandth_of_a_newton_metre() {
     for set in SETS {
         for input in [sine as fn(f64) -> f64, walk] {
             let (exact, single) = (shape(set.0, set.1, set.2), single(set.0, set.1, set.2));
-            let mut state = BoucWen::new();
+            let mut state = BoucWenState::new();
             let (mut reference, mut last) = (0.0, input(0.0));
             single.step(&mut state, last as f32);
             for k in 1..8000 {
@@ -325,7 +325,7 @@ fn a_saturating_jump_forgets_where_it_started() {
 #[test]
 fn a_bad_sample_leaves_the_state_untouched() {
     let shape = single(0.1, 98.0, 3.9);
-    let mut state = BoucWen::new();
+    let mut state = BoucWenState::new();
     shape.step(&mut state, 1.0);
     shape.step(&mut state, 4.0);
     let before = state;
@@ -340,14 +340,14 @@ fn a_bad_sample_leaves_the_state_untouched() {
 
 #[test]
 fn the_first_sample_only_says_where_the_input_is() {
-    let mut state = BoucWen::with_eta(0.4).unwrap();
+    let mut state = BoucWenState::with_eta(0.4).unwrap();
     assert_eq!(shape(0.1, 1.0, 2.0).step(&mut state, 1e6), 0.4);
     assert_eq!(state.input(), Some(1e6));
 }
 
 #[test]
 fn a_swing_across_the_whole_range_of_floats_saturates() {
-    let mut state = BoucWen::new();
+    let mut state = BoucWenState::new();
     let shape = single(0.1, 98.0, 3.9);
     shape.step(&mut state, f32::MAX);
     assert_eq!(shape.step(&mut state, -f32::MAX), -1.0);
@@ -356,27 +356,36 @@ fn a_swing_across_the_whole_range_of_floats_saturates() {
 
 #[test]
 fn refusals_carry_the_parameters_name() {
-    assert_eq!(Shape::try_new(0.0, 1.0, 2.0), Err(Error::OutOfRange("rho")));
     assert_eq!(
-        Shape::try_new(0.1, 0.49, 2.0),
+        BoucWen::try_new(0.0, 1.0, 2.0),
+        Err(Error::OutOfRange("rho"))
+    );
+    assert_eq!(
+        BoucWen::try_new(0.1, 0.49, 2.0),
         Err(Error::OutOfRange("sigma"))
     );
-    assert_eq!(Shape::try_new(0.1, 1.0, 0.99), Err(Error::OutOfRange("n")));
     assert_eq!(
-        Shape::try_new(f32::NAN, 1.0, 2.0),
+        BoucWen::try_new(0.1, 1.0, 0.99),
+        Err(Error::OutOfRange("n"))
+    );
+    assert_eq!(
+        BoucWen::try_new(f32::NAN, 1.0, 2.0),
         Err(Error::NonFinite("rho"))
     );
     assert_eq!(
-        Shape::try_new(0.1, f32::INFINITY, 2.0),
+        BoucWen::try_new(0.1, f32::INFINITY, 2.0),
         Err(Error::NonFinite("sigma"))
     );
     assert_eq!(
-        Shape::try_new(0.1, 1.0, f32::NAN),
+        BoucWen::try_new(0.1, 1.0, f32::NAN),
         Err(Error::NonFinite("n"))
     );
-    assert!(Shape::try_new(0.1, 0.5, 1.0).is_ok());
-    assert_eq!(BoucWen::with_eta(-1.1), Err(Error::OutOfRange("eta")));
-    assert_eq!(BoucWen::with_eta(f64::NAN), Err(Error::NonFinite("eta")));
+    assert!(BoucWen::try_new(0.1, 0.5, 1.0).is_ok());
+    assert_eq!(BoucWenState::with_eta(-1.1), Err(Error::OutOfRange("eta")));
+    assert_eq!(
+        BoucWenState::with_eta(f64::NAN),
+        Err(Error::NonFinite("eta"))
+    );
 }
 
 fn any_shape() -> impl Strategy<Value = (f64, f64, f64)> {
@@ -413,7 +422,7 @@ proptest! {
     ) {
         for (rho, sigma, n, _) in SETS {
             let shape = single(rho, sigma, n);
-            let mut state = BoucWen::new();
+            let mut state = BoucWenState::new();
             for &x in &inputs {
                 prop_assert!(shape.step(&mut state, x).abs() <= 1.0);
             }
@@ -427,7 +436,7 @@ proptest! {
         parts in 2..12_usize,
     ) {
         let shape = shape(rho, sigma, n);
-        let (mut fast, mut slow) = (BoucWen::new(), BoucWen::new());
+        let (mut fast, mut slow) = (BoucWenState::new(), BoucWenState::new());
         let mut last = inputs[0];
         for &x in &inputs {
             shape.step(&mut fast, x);

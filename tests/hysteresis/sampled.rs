@@ -2,7 +2,7 @@
 //! the README says, and grows with the square of the input's change between two samples.
 
 use super::{single, Uniform};
-use bowden::hysteresis::Shape;
+use bowden::hysteresis::BoucWen;
 use std::f64::consts::TAU;
 use std::{fs, path::Path};
 
@@ -51,7 +51,7 @@ fn difference(n: f64, sigma: f64, path: f64) -> Vec<[f64; 2]> {
     let short = single(1.0, sigma, n);
     // The parameters as single precision has them.
     let [rho, sigma, n] = [short.rho(), short.sigma(), short.n()].map(f64::from);
-    let long = Shape::try_new(rho, sigma, n).unwrap();
+    let long = BoucWen::try_new(rho, sigma, n).unwrap();
     let mut all = Vec::new();
     for kind in 0..4 {
         for amplitude in [0.3, 1.0, 4.0] {
@@ -69,7 +69,7 @@ fn difference(n: f64, sigma: f64, path: f64) -> Vec<[f64; 2]> {
     all
 }
 
-/// What the README, docs/firmware.md and capi/README.md say, for a sigma up to 12.
+/// What the README, docs/reference/model-files.md and capi/README.md say, for a sigma up to 12.
 fn stated(sigma: f64, path: f64) -> f64 {
     (0.5 + 0.2 * sigma) * path * path + 6e-5
 }
@@ -100,8 +100,12 @@ fn single_precision_differs_by_no_more_than_the_docs_say() {
     assert!((2.0..=4.0).contains(&share), "{share}");
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     // What is packaged has the README alone.
-    let packaged = !root.join("docs").exists();
-    let files = ["README.md", "docs/firmware.md", "capi/README.md"];
+    let packaged = !root.join("capi").exists();
+    let files = [
+        "README.md",
+        "docs/reference/model-files.md",
+        "capi/README.md",
+    ];
     for file in &files[..if packaged { 1 } else { 3 }] {
         let text = fs::read_to_string(root.join(file)).unwrap_or_default();
         let states = text.contains("(0.5 + 0.2·sigma)·(rho·|du|)² + 6e-5");

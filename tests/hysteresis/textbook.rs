@@ -31,7 +31,7 @@ fn textbook_output(model: &Textbook<f64>, inputs: &[f64]) -> f64 {
 #[test]
 fn the_textbooks_seven_parameters_are_five_and_two_that_do_not_matter() {
     let inputs = [0.4, -0.3, 0.1, 0.9, 0.2];
-    let report = Shape::from_textbook(TEXTBOOK).unwrap();
+    let report = BoucWen::from_textbook(TEXTBOOK).unwrap();
     assert_eq!((report.class, report.redundant), (Class::I, ["A", "D"]));
     let normalised = report.normalised;
     let (mut eta, mut x) = (0.0, 0.0);
@@ -48,7 +48,9 @@ fn the_textbooks_seven_parameters_are_five_and_two_that_do_not_matter() {
         theirs,
         epsilon = 4e-3
     );
-    let again = Shape::from_textbook(report.equivalent).unwrap().normalised;
+    let again = BoucWen::from_textbook(report.equivalent)
+        .unwrap()
+        .normalised;
     assert_abs_diff_eq!(again.shape.rho(), normalised.shape.rho(), epsilon = 1e-13);
     assert_abs_diff_eq!(again.kappa_eta, normalised.kappa_eta, epsilon = 1e-12);
 }
@@ -70,13 +72,13 @@ fn only_the_first_class_of_the_textbook_is_admitted() {
     ] {
         assert_eq!(model.class(), class);
         assert!(matches!(
-            Shape::from_textbook(model),
+            BoucWen::from_textbook(model),
             Err(Error::Inadmissible(_))
         ));
     }
     let wrong = Textbook { d: 0.0, ..TEXTBOOK };
     assert_eq!(
-        Shape::from_textbook(wrong).unwrap_err(),
+        BoucWen::from_textbook(wrong).unwrap_err(),
         Error::OutOfRange("D")
     );
 }
@@ -89,7 +91,7 @@ fn an_actuator_yields_at_its_yield_torque_and_starts_with_its_stiffness() {
         post_yield_ratio: 0.1,
         knee: 3.0,
     };
-    let joint = Shape::from_actuator(actuator).unwrap();
+    let joint = BoucWen::from_actuator(actuator).unwrap();
     let output = |x: f64| joint.kappa_x * x + joint.kappa_eta * joint.shape.advance(0.0, x);
     // Stiffness before yield, then the line from the yield point with a tenth of it.
     assert_abs_diff_eq!(output(1e-4), 1e-2, epsilon = 1e-9);
@@ -99,7 +101,7 @@ fn an_actuator_yields_at_its_yield_torque_and_starts_with_its_stiffness() {
         ..actuator
     };
     assert_eq!(
-        Shape::from_actuator(soft).unwrap_err(),
+        BoucWen::from_actuator(soft).unwrap_err(),
         Error::OutOfRange("knee")
     );
 }

@@ -38,14 +38,14 @@ proptest! {
     ) {
         let (lead, half_width, limit, gain, forgetting) = shape;
         prop_assume!(gain != 0.0);
-        let learning = Learning::try_new(gain, limit, lead, half_width).unwrap();
+        let learning = IterativeLearning::try_new(gain, limit, lead, half_width).unwrap();
         let learning = learning.with_forgetting(forgetting).unwrap();
         let mut before = [0.0; 30];
         let mut state = learning.resume(stored, vec![0.0; 30]).unwrap();
         let mut phase = 0.0;
         for (any_phase, reference, measured, usual, on) in samples {
             phase = (phase + on) % 1.0;
-            let at = LearningInput {
+            let at = IterativeLearningInput {
                 phase: if usual { phase } else { any_phase },
                 reference,
                 measured,

@@ -6,11 +6,12 @@
 mod feed_forwards;
 #[path = "../../proofs/properties/mod.rs"]
 mod properties;
+mod relay;
 
 use bowden::bound::{Plant, Theorem1};
 use bowden::control::*;
-use bowden::effect::{Effect, EffectState, Motion, Situation, CATALOGUE};
-use bowden::hysteresis::Shape;
+use bowden::effect::{Effect, EffectState, Inputs, Motion, CATALOGUE};
+use bowden::hysteresis::BoucWen;
 use bowden::model::{Model, Source, Term};
 use bowden::signal::{Derivative, DerivativeState, Play, PlayState};
 use bowden::transmission::Transmission;
@@ -82,7 +83,7 @@ proptest! {
             beta: Estimator::fixed(g).within(0.8, 1.2),
             delta: Estimator::fixed(1.0).within(0.0, 4.0).adapting(6e-3, 0.01),
             smooth_sign: sign,
-            ..AdaptiveSettings::unlimited(Form::Lag { step: 0.001, plant_gain: 1.0 }, 24.0, 8.0, 0.05)
+            ..AdaptiveSettings::unlimited(Form::FirstOrder { step: 0.001, plant_gain: 1.0 }, 24.0, 8.0, 0.05)
         }).unwrap();
         let plant = tracking::StaticPlant { gain: 1.0, disturbance };
         // z = 0, and the command that gives this error.
@@ -162,6 +163,33 @@ proptest! {
     }
 
     #[test]
+    fn the_integral_always_makes_progress(
+        gains in (0.0_f32..50.0, 0.0_f32..500.0, 0.0_f32..=1.0, -1.0_f32..20.0),
+        clamp in any::<bool>(),
+        (low, width) in (-100.0_f32..50.0, 1e-2_f32..100.0),
+        samples in prop::collection::vec((1e-4_f32..0.05, finite(), finite(), finite()), 1..50),
+        start in finite(),
+    ) {
+        let (k_p, k_i, setpoint_weight, deadband) = gains;
+        let pid = Pid::try_new(PidSettings {
+            setpoint_weight,
+            deadband: deadband.max(0.0),
+            anti_windup: if clamp { AntiWindup::Clamp } else { AntiWindup::Conditional },
+            limits: Limits::try_new(low, low + width).unwrap(),
+            ..PidSettings::unlimited(k_p, k_i)
+        }).unwrap();
+        let mut state = PidState::new();
+        for (k, (dt, reference, measured, feed_forward)) in samples.into_iter().enumerate() {
+            let at = PidInput { feed_forward, ..PidInput::new(dt, reference, measured) };
+            if k == 0 {
+                state.resume_from(&pid, start, &at);
+            }
+            prop_assert!(control::the_integral_makes_progress(&pid, &state, &at));
+            pid.step(&mut state, &at);
+        }
+    }
+
+    #[test]
     fn controllers_command_within_their_limits(
         samples in prop::collection::vec(prop::array::uniform5(any_float()), 1..50),
         literal in any::<bool>(),
@@ -172,9 +200,9 @@ proptest! {
             k_d: 2.0, derivative_time: 0.1, limits, fallback, ..PidSettings::unlimited(30.0, 18.0)
         }).unwrap();
         let form = if literal {
-            Form::Literal { time_constant: 0.005 }
+            Form::AsPublished { time_constant: 0.005 }
         } else {
-            Form::Lag { step: 0.001, plant_gain: 1.0 }
+            Form::FirstOrder { step: 0.001, plant_gain: 1.0 }
         };
         let law = Adaptive::<f32, 1>::try_new(AdaptiveSettings {
             beta: Estimator::fixed(1.0).within(0.8, 1.2).adapting(2.5e-4, 0.01),
@@ -201,7 +229,7 @@ proptest! {
     fn the_lag_does_not_pass_its_target(
         samples in prop::collection::vec((1e-5..=1e-3_f32, -50.0..50.0_f32, -50.0..50.0_f32), 1..100),
     ) {
-        let form = Form::Lag { step: 0.001, plant_gain: 1.0 };
+        let form = Form::FirstOrder { step: 0.001, plant_gain: 1.0 };
         let law = Adaptive::<f32, 0>::try_new(AdaptiveSettings {
             beta: Estimator::fixed(1.0).within(1.0, 1.0),
             delta: Estimator::fixed(1.0).within(0.0, 1.0),
@@ -228,14 +256,14 @@ proptest! {
         samples in prop::collection::vec(prop::array::uniform4(any_float()), 1..40),
     ) {
         let form = if lag {
-            Form::Lag { step: 0.001, plant_gain: 1.0 }
+            Form::FirstOrder { step: 0.001, plant_gain: 1.0 }
         } else {
-            Form::Literal { time_constant: 0.005 }
+            Form::AsPublished { time_constant: 0.005 }
         };
         let limits = |most: f32| Limits::try_new(-most, most).unwrap();
         let fallback = |most: f32| match safe {
             true => Fallback::try_new(3, most).unwrap(),
-            false => Fallback::hold_for_ever(),
+            false => Fallback::hold_indefinitely(),
         };
         let law = |most: f32| Adaptive::<f32, 1>::try_new(AdaptiveSettings {
             beta: Estimator::fixed(1.0).within(0.8, 1.2).adapting(2.5e-4, 0.01),
@@ -269,10 +297,10 @@ proptest! {
         let pid = Pid::try_new(PidSettings::new(3.0, 30.0, limits, 0.005, fallback)).unwrap();
         let (mut state, mut margin) = (PidState::new(), 0);
         for is_bad in samples {
-            let before = state.bad_score();
+            let before = state.fault_counter();
             let measured = if is_bad { f32::NAN } else { 0.1 };
             pid.step(&mut state, &PidInput::new(0.001, 0.2, measured));
-            let scores = (before, state.bad_score());
+            let scores = (before, state.fault_counter());
             prop_assert!(control::the_score_keeps_up(&fallback, scores, margin, is_bad));
             margin = control::next_margin(&fallback, margin, is_bad);
         }
@@ -289,9 +317,9 @@ proptest! {
             quiet.step_with_terms(&mut state, &AdaptiveInput::new(0.001, 25.0, 20.0, [0.1, 0.0]));
         }
         let form = if literal {
-            Form::Literal { time_constant: 0.005 }
+            Form::AsPublished { time_constant: 0.005 }
         } else {
-            Form::Lag { step: 0.001, plant_gain: 1.0 }
+            Form::FirstOrder { step: 0.001, plant_gain: 1.0 }
         };
         let eager = Adaptive::<f32, 2>::try_new(AdaptiveSettings {
             beta: Estimator::fixed(1.0).within(0.8, 1.2),
@@ -312,9 +340,9 @@ proptest! {
         at in prop::array::uniform6(any_float()), high in 5.0..60.0_f32, literal in any::<bool>(),
     ) {
         let form = if literal {
-            Form::Literal { time_constant: 0.005 }
+            Form::AsPublished { time_constant: 0.005 }
         } else {
-            Form::Lag { step: 0.001, plant_gain: 1.0 }
+            Form::FirstOrder { step: 0.001, plant_gain: 1.0 }
         };
         let limits = Limits::try_new(-5.0, high).unwrap();
         let law = Adaptive::<f32, 1>::try_new(AdaptiveSettings {
@@ -341,7 +369,7 @@ proptest! {
         samples in prop::collection::vec(prop::array::uniform4(any_float()), 1..50),
         sigma in 0.5..2.0_f32,
     ) {
-        let shape = Shape::try_new(0.095_82, sigma, 3.871).unwrap();
+        let shape = BoucWen::try_new(0.095_82, sigma, 3.871).unwrap();
         let cable = Transmission::torque(0.997_8, 2.0, 0.051_74, shape).unwrap();
         let (effect, source) = (Effect::DragCubic, Source::Channel(0));
         let friction = Term { effect, source, origin: 0.0, gain: -0.5 };
@@ -368,7 +396,7 @@ proptest! {
                 let mut state = EffectState::new();
                 for at in numbers.chunks_exact(10).take(steps) {
                     let motion = Motion { position: at[0], velocity: at[1], acceleration: at[2] };
-                    let at = Situation {
+                    let at = Inputs {
                         motion, input: motion, dt: at[3], time: at[4], load: at[5], eta: at[6], output: at[7],
                     };
                     prop_assert!(effect::a_regressor_is_finite(&effect, &mut state, &at));
@@ -392,7 +420,7 @@ fn a_disturbance_in_its_bound_leaves_the_box_where_w_with_the_reference_is_beyon
         frozen: true,
         smooth_sign: SmoothSign::Clamp,
         ..AdaptiveSettings::unlimited(
-            Form::Lag {
+            Form::FirstOrder {
                 step: 0.001,
                 plant_gain: 1.0,
             },

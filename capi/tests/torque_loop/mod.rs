@@ -2,8 +2,8 @@
 
 use core_bowden::control::{
     Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, AntiWindup, BenchRange, Compensator,
-    CompensatorInput, CompensatorState, Estimator, Fallback, Fault, Form, Limits, Missing, Output,
-    Pid, PidInput, PidSettings, PidState, SmoothSign, Status,
+    CompensatorInput, CompensatorState, Estimator, Fallback, Fault, Form, Limits, OnMissing,
+    Output, Pid, PidInput, PidSettings, PidState, SmoothSign, Status,
 };
 use core_bowden::model::{Model, ModelState, Sample, Source};
 use core_bowden::signal::{Motion, Rates, RatesState};
@@ -51,7 +51,7 @@ impl Loop {
             ..PidSettings::new(0.5, 25.0, limits, LONGEST_DT, fallback)
         })
         .unwrap();
-        let lag = Form::Lag {
+        let lag = Form::FirstOrder {
             step: DT,
             plant_gain: 1.0,
         };
@@ -62,7 +62,7 @@ impl Loop {
                 gain: 0.02,
                 ..Estimator::fixed(0.0).within(-3.0, 3.0)
             }],
-            missing: [Missing::Drop],
+            missing: [OnMissing::DropRegressor],
             ..AdaptiveSettings::new(lag, 24.0, 8.0, 0.1, limits, LONGEST_DT, fallback)
         })
         .unwrap();
@@ -151,7 +151,7 @@ fn words(status: Status) -> &'static str {
             "a bad sample: the last good command or value is held: dt is too long"
         }
         Status::Safe(Fault::Measured) => {
-            "too many bad samples: the safe command is out until it is acknowledged: the measured output is NaN or infinite"
+            "too many bad samples: the safe command is applied until it is acknowledged: the measured output is NaN or infinite"
         }
         other => unreachable!("{other:?}"),
     }

@@ -1,24 +1,35 @@
-//! `cargo xtask header`: writes `include/bowden.h` from the sources; with `--check` it only says
-//! whether the file is what the sources give, with exit status 1 where it is not.
+//! The tasks of the C interface.
+//!
+//! - `cargo xtask header` writes `include/bowden.h` from the sources; with `--check` it compares the
+//!   file with the sources, and its exit status is 1 if they differ.
+//! - `cargo xtask install --prefix DIR` builds the library and installs it for CMake and pkg-config.
+
+mod initialisers;
+mod install;
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-const USAGE: &str = "cargo xtask header [--check]";
+const USAGE: &str =
+    "cargo xtask header [--check]\n       cargo xtask install --prefix DIR [--target TRIPLE]";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let is_check = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        ["header"] => false,
-        ["header", "--check"] => true,
+    let done = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        ["header"] => write_header(),
+        ["header", "--check"] => check_header(),
+        ["install", "--prefix", prefix] => install::install(&root(), Path::new(prefix), None),
+        ["install", "--prefix", prefix, "--target", target] => {
+            install::install(&root(), Path::new(prefix), Some(target))
+        }
         _ => {
             eprintln!("usage: {USAGE}");
             return ExitCode::from(2);
         }
     };
-    match header(is_check) {
-        Ok(status) => status,
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("FAILED: {error}");
             ExitCode::FAILURE
@@ -26,25 +37,26 @@ fn main() -> ExitCode {
     }
 }
 
-fn header(is_check: bool) -> Result<ExitCode, Box<dyn Error>> {
-    let capi = root();
-    let path = capi.join("include/bowden.h");
-    let made = text(&capi)?;
-    if !is_check {
-        std::fs::write(&path, made)?;
-        return Ok(ExitCode::SUCCESS);
-    }
-    let there = std::fs::read_to_string(&path).unwrap_or_default();
+fn write_header() -> Result<(), Box<dyn Error>> {
+    Ok(std::fs::write(
+        root().join("include/bowden.h"),
+        text(&root())?,
+    )?)
+}
+
+fn check_header() -> Result<(), Box<dyn Error>> {
+    let made = text(&root())?;
+    let there = std::fs::read_to_string(root().join("include/bowden.h")).unwrap_or_default();
     if there == made {
-        return Ok(ExitCode::SUCCESS);
+        return Ok(());
     }
     let lines = there.lines().zip(made.lines());
     let same = lines.take_while(|(there, made)| there == made).count();
-    eprintln!(
-        "FAILED: include/bowden.h differs from the sources in line {} (cd capi && cargo xtask header)",
+    Err(format!(
+        "include/bowden.h differs from the sources in line {} (cd capi && cargo xtask header)",
         same + 1
-    );
-    Ok(ExitCode::FAILURE)
+    )
+    .into())
 }
 
 /// The folder `capi/`.
@@ -53,8 +65,8 @@ fn root() -> PathBuf {
     here.parent().unwrap_or(here).to_path_buf()
 }
 
-/// The header as cbindgen makes it. It reads the sources as the compiler has expanded them, which
-/// a stable compiler does for whoever says that it may.
+/// The header as cbindgen makes it, with the macros of the settings. cbindgen reads the sources as
+/// the compiler has expanded them, which a stable compiler does with `RUSTC_BOOTSTRAP`.
 fn text(capi: &Path) -> Result<String, Box<dyn Error>> {
     std::env::set_var("RUSTC_BOOTSTRAP", "1");
     let config = cbindgen::Config::from_file(capi.join("cbindgen.toml"))?;
@@ -64,5 +76,5 @@ fn text(capi: &Path) -> Result<String, Box<dyn Error>> {
         .generate()?;
     let mut bytes = Vec::new();
     made.write(&mut bytes);
-    Ok(String::from_utf8(bytes)?)
+    initialisers::added_to(&String::from_utf8(bytes)?)
 }

@@ -10,13 +10,13 @@ use bowden::Error;
 use core::hint::black_box;
 
 /// The form for plants that answer within a sample, at 1 kHz.
-const LAG: Form<f32> = Form::Lag {
+const LAG: Form<f32> = Form::FirstOrder {
     step: 0.001,
     plant_gain: 1.0,
 };
 
 /// The form for plants with inertia; the error's rate is filtered over 5 ms.
-const LITERAL: Form<f32> = Form::Literal {
+const LITERAL: Form<f32> = Form::AsPublished {
     time_constant: 0.005,
 };
 

@@ -1,7 +1,7 @@
 //! The hysteresis step, the transmission over it, and its inverse.
 
 use crate::{Case, Output, Sample};
-use bowden::hysteresis::{BoucWen, Shape};
+use bowden::hysteresis::{BoucWen, BoucWenState};
 use bowden::transmission::{Inverse as Inverted, Transmission};
 use bowden::Error;
 use core::hint::black_box;
@@ -15,14 +15,14 @@ const GAINS: (f32, f32, f32) = (0.9978, 7.004, 0.05174);
 pub(crate) fn transmission(sigma: f32) -> Result<Transmission<f32>, Error> {
     let (rho, sigma, n) = black_box((SHAPE.0, sigma, SHAPE.1));
     let (b, kappa_eta, t0) = black_box(GAINS);
-    Transmission::torque(b, kappa_eta, t0, Shape::try_new(rho, sigma, n)?)
+    Transmission::torque(b, kappa_eta, t0, BoucWen::try_new(rho, sigma, n)?)
 }
 
 /// The same with numbers that the compiler knows.
 #[inline]
 pub(crate) fn fixed(sigma: f32) -> Result<Transmission<f32>, Error> {
     let ((rho, n), (b, kappa_eta, t0)) = (SHAPE, GAINS);
-    Transmission::torque(b, kappa_eta, t0, Shape::try_new(rho, sigma, n)?)
+    Transmission::torque(b, kappa_eta, t0, BoucWen::try_new(rho, sigma, n)?)
 }
 
 /// sigma as it was identified.
@@ -33,15 +33,15 @@ pub(crate) const INVERTIBLE: f32 = 0.6;
 /// The Bouc-Wen step of the paper's first set; the value is eta.
 #[derive(Debug)]
 pub struct Hysteresis {
-    shape: Shape<f32>,
-    state: BoucWen<f32>,
+    shape: BoucWen<f32>,
+    state: BoucWenState<f32>,
 }
 
 impl Case for Hysteresis {
     fn try_new() -> Result<Self, Error> {
         Ok(Self {
             shape: *transmission(IDENTIFIED)?.shape(),
-            state: BoucWen::new(),
+            state: BoucWenState::new(),
         })
     }
 
@@ -55,14 +55,14 @@ impl Case for Hysteresis {
 #[derive(Debug)]
 pub struct Forward {
     transmission: Transmission<f32>,
-    state: BoucWen<f32>,
+    state: BoucWenState<f32>,
 }
 
 impl Case for Forward {
     fn try_new() -> Result<Self, Error> {
         Ok(Self {
             transmission: transmission(IDENTIFIED)?,
-            state: BoucWen::new(),
+            state: BoucWenState::new(),
         })
     }
 
@@ -76,14 +76,14 @@ impl Case for Forward {
 #[derive(Debug)]
 pub struct Inverse {
     inverse: Inverted<f32>,
-    state: BoucWen<f32>,
+    state: BoucWenState<f32>,
 }
 
 impl Case for Inverse {
     fn try_new() -> Result<Self, Error> {
         Ok(Self {
             inverse: transmission(INVERTIBLE)?.inverse()?,
-            state: BoucWen::new(),
+            state: BoucWenState::new(),
         })
     }
 

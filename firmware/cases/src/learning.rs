@@ -2,7 +2,7 @@
 
 use crate::{Case, Output, Sample};
 use bowden::constant;
-use bowden::control::{Learning, LearningInput, LearningState};
+use bowden::control::{IterativeLearning, IterativeLearningInput, IterativeLearningState};
 use bowden::Error;
 use core::hint::black_box;
 
@@ -10,17 +10,18 @@ use core::hint::black_box;
 const CELLS: usize = 250;
 
 /// Two cells ahead, a filter over five.
-const LEARNING: Learning<f32> = constant!(Learning::<f32>::const_new(4.0, 30.0, 2, 2));
+const LEARNING: IterativeLearning<f32> =
+    constant!(IterativeLearning::<f32>::const_new(4.0, 30.0, 2, 2));
 
 /// What was learned, and where in the cycle the last sample was.
 #[derive(Debug)]
 struct Cycle {
-    state: LearningState<f32, [f32; CELLS]>,
+    state: IterativeLearningState<f32, [f32; CELLS]>,
     phase: f32,
 }
 
 impl Cycle {
-    fn try_new(learning: &Learning<f32>) -> Result<Self, Error> {
+    fn try_new(learning: &IterativeLearning<f32>) -> Result<Self, Error> {
         Ok(Self {
             state: learning.start([0.0; CELLS], [0.0; CELLS])?,
             phase: 0.0,
@@ -28,7 +29,7 @@ impl Cycle {
     }
 
     /// A time that is none gives a phase that is none, for one sample.
-    fn step(&mut self, learning: &Learning<f32>, at: &Sample) -> Output {
+    fn step(&mut self, learning: &IterativeLearning<f32>, at: &Sample) -> Output {
         let mut phase = self.phase + at.dt;
         if phase >= 1.0 {
             phase -= 1.0;
@@ -36,7 +37,7 @@ impl Cycle {
         if phase < 1.0 {
             self.phase = phase;
         }
-        let sample = LearningInput::new(phase, at.reference, at.measured);
+        let sample = IterativeLearningInput::new(phase, at.reference, at.measured);
         let out = learning.step(&mut self.state, &sample);
         Output::commanded(out.feed_forward, out.status)
     }
@@ -45,7 +46,7 @@ impl Cycle {
 /// The compiler knows none of its numbers.
 #[derive(Debug)]
 pub struct Loaded {
-    learning: Learning<f32>,
+    learning: IterativeLearning<f32>,
     cycle: Cycle,
 }
 

@@ -15,10 +15,12 @@
 pub mod adaptive;
 pub mod cable;
 pub mod closed_loop;
+pub mod conditioning;
 pub mod learning;
 pub mod model;
 pub mod observer;
 pub mod pid;
+pub mod relay;
 mod signal;
 
 pub use signal::{Sample, Signal, LENGTH, SIGNALS};
@@ -46,9 +48,10 @@ pub trait Case: Sized {
 /// What is compared between chip and host.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Output {
-    /// Command, torque or hysteresis state.
+    /// Command, torque, hysteresis state or a result.
     pub value: f32,
-    /// 0 for a good sample, 1 for a held and 2 for a safe command, 3 for a dropped term.
+    /// 0 for a good sample, 1 for a held command, 2 for a safe command, 3 for a dropped
+    /// term, 4 for the result of an experiment.
     pub status: u32,
 }
 
@@ -145,6 +148,10 @@ cases! {
     "observer-constant": observer::Constant;
     "learning": learning::Loaded;
     "learning-constant": learning::Constant;
+    "relay": relay::Relay;
+    "low-pass": conditioning::Smooth;
+    "notch": conditioning::Notch;
+    "edge-velocity": conditioning::Slow;
     "model-2": model::TwoEffects;
     "model-8": model::EightEffects;
     "model-2-constant": model::TwoConstant;

@@ -3,7 +3,8 @@
 use crate::{Case, Output, Sample};
 use bowden::constant;
 use bowden::control::{
-    AntiWindup, Damping, Fallback, Limits, Pid as Controller, PidInput, PidSettings, PidState,
+    AntiWindup, DerivativeSource, Fallback, Limits, Pid as Controller, PidInput, PidSettings,
+    PidState,
 };
 use bowden::Error;
 use core::hint::black_box;
@@ -24,14 +25,14 @@ const PI: PidSettings<f32> = PidSettings {
 const PID: PidSettings<f32> = PidSettings {
     k_d: 0.02,
     derivative_time: 0.01,
-    damping: Damping::on_measurement(),
+    damping: DerivativeSource::on_measurement(),
     ..PI
 };
 
 /// The PI with damping by the measured velocity.
 const PIV: PidSettings<f32> = PidSettings {
     k_d: 1.0,
-    damping: Damping::Velocity,
+    damping: DerivativeSource::Velocity,
     ..PI
 };
 

@@ -7,5 +7,5 @@ pub mod scenario;
 #[path = "../../../examples/torque_loop/torque_loop.rs"]
 pub mod torque_loop;
 
-/// What `bowden close --invertible --model-out model.postcard` has written.
+/// What `bowden identify --invertible --model-out model.postcard` has written.
 pub const MODEL: &[u8] = include_bytes!("../../../examples/data/demo.postcard");

@@ -1,7 +1,7 @@
 //! `bowden certify`: gains in, certificates out.
 
 use super::{outputs, Failure};
-use crate::view::{certificates, proof};
+use crate::view::{certificates, proof, Width};
 use bowden_trials::facts::{certify, coq, gappa, prove, Proof};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -9,18 +9,21 @@ use std::process::ExitCode;
 
 #[derive(Args)]
 pub struct Certify {
-    /// Your gains of the lag form and what is known of the plant: is the box of the error
-    /// proved for the controller as it computes, every rounding included? Exit status 1
-    /// where it is not.
+    /// Your gains of the first-order form and the known ranges of the plant: proves a bound of the
+    /// error for the controller in its floats, including every rounding. Exit status 1 if the proof
+    /// fails.
     #[arg(value_name = "GAINS.toml", conflicts_with = "gains")]
     own: Option<PathBuf>,
-    /// Gains and rig; the paper's and the reference rig's where not given.
+    /// Gains and rig [default: the paper's gains and the reference rig].
     #[arg(long, alias = "model", value_name = "FILE.toml")]
     gains: Option<PathBuf>,
-    /// Print one JSON object on stdout instead of a table.
+    /// Also print the assumptions, what has no bound and why, and each inequality of a proof.
+    #[arg(long, short)]
+    verbose: bool,
+    /// Print one JSON object on stdout instead of text.
     #[arg(long)]
     json: bool,
-    /// Write what is proved of your gains as a theorem, which `coqc` checks independently.
+    /// Write the proof for your gains as a theorem, which `coqc` checks independently.
     #[arg(long, value_name = "FILE.v", requires = "own")]
     coq: Option<PathBuf>,
     /// Write the roundings of one step as a script, which `gappa` checks independently.
@@ -33,11 +36,13 @@ const NOT_PROVED: u8 = 1;
 
 impl Certify {
     pub fn run(self) -> Result<ExitCode, Failure> {
+        let width = Width::of_stdout();
         let Some(path) = &self.own else {
             let all = certify(self.gains.as_deref())?;
+            let label = self.gains.as_ref().map(|path| path.display().to_string());
             let report = match self.json {
                 true => certificates::json(&all),
-                false => certificates::text(&all),
+                false => certificates::text(&all, label.as_deref(), width, self.verbose),
             };
             super::say(report.trim_end())?;
             return Ok(ExitCode::SUCCESS);
@@ -52,7 +57,7 @@ impl Certify {
         }
         let report = match self.json {
             true => proof::json(&proof).map_err(|e| e.to_string())?,
-            false => proof::text(&proof, &path.display().to_string()),
+            false => proof::text(&proof, &path.display().to_string(), width, self.verbose),
         };
         super::say(report.trim_end())?;
         Ok(match proof.proved {

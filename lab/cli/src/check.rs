@@ -1,9 +1,9 @@
-//! `bowden check`: does a model still hold on the next record?
+//! `bowden validate`: does a model still hold on the next record?
 
 use super::drawing::{provenance, Drawing};
 use super::reading::{file, Columns, ModeName};
 use super::{outputs, Failure};
-use crate::view::{check_json, check_text};
+use crate::view::{check_json, check_text, Width};
 use bowden_lab::facts::{check, CheckQuestion, ModelOfFile, Source};
 use bowden_page::Check as Page;
 use clap::Args;
@@ -14,10 +14,10 @@ const LARGEST: u64 = 1 << 20;
 
 #[derive(Args)]
 pub struct Check {
-    /// The model, a file of `close --model-out`.
+    /// The model, a file of `identify --model-out`.
     #[arg(value_name = "MODEL.toml")]
     model: PathBuf,
-    /// A record of the same rig that the model has not seen: CSV, .mat (v5, v7.3) or Parquet.
+    /// Another record of the same rig: CSV, .mat (v5, v7.3) or Parquet.
     #[arg(value_name = "RECORD")]
     record: PathBuf,
     #[command(flatten)]
@@ -25,8 +25,8 @@ pub struct Check {
     /// Print one JSON object on stdout instead of text.
     #[arg(long)]
     json: bool,
-    /// Write the signals over time as CSV: measured, the model as it is and with gain and
-    /// offset, what each leaves, and what each part of the model adds.
+    /// Write the signals over time as CSV: measured, the model as it is and with fitted gain and
+    /// offset, both residuals, and each part of the model.
     #[arg(long, value_name = "FILE.csv")]
     trace: Option<PathBuf>,
     #[command(flatten)]
@@ -47,7 +47,7 @@ impl Check {
         let mode = self.columns.mode.map(ModeName::mode);
         if mode.is_some_and(|mode| mode != given.mode()) {
             return Err(of_model(format!(
-                "--mode: the model is of {} mode",
+                "--mode: the model is in {} mode",
                 given.mode().name()
             )));
         }
@@ -83,7 +83,7 @@ impl Check {
         outputs::write_together(&files)?;
         let report = match self.json {
             true => check_json(&model, label, facts).map_err(|e| e.to_string())?,
-            false => check_text(&model, label, facts),
+            false => check_text(&model, label, facts, Width::of_stdout()),
         };
         super::say(report.trim_end())
     }
@@ -94,10 +94,10 @@ pub fn load(path: &Path) -> Result<String, Failure> {
     let size = std::fs::metadata(path).map_err(|e| failed(&e))?.len();
     if size > LARGEST {
         return Err(failed(
-            &"is larger than any model; a file of `close --model-out` was expected",
+            &"is larger than any model; a file of `identify --model-out` is needed",
         ));
     }
     let bytes = std::fs::read(path).map_err(|e| failed(&e))?;
     String::from_utf8(bytes)
-        .map_err(|_| failed(&"is no text; a TOML file of `close --model-out` was expected"))
+        .map_err(|_| failed(&"is not text; a TOML file of `identify --model-out` is needed"))
 }

@@ -1,11 +1,11 @@
-//! `bowden close`: the main job.
+//! `bowden identify`: the main job.
 
 use super::drawing::{provenance, Drawing};
 use super::progress::{progress, telling};
 use super::reading::{files, Reading};
 use super::rows::Rows;
 use super::{outputs, Failure};
-use crate::view::{cost_line, json, loop_text, terminal_width, text};
+use crate::view::{cost_line, json, loop_text, terminal_width, text, Report, Width};
 use bowden_lab::facts::{
     close, Asked, Close as Question, Closed, Detail, Form, Handed, Meter, Record, Source,
 };
@@ -15,8 +15,9 @@ use clap::{Args, ValueEnum};
 use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 
-/// Name of the embedded record: the command that writes the same one to a file.
-const EMBEDDED: &str = "(embedded: bowden generate --mode torque --effect viscous --seed 7)";
+/// Name of the built-in record: the command that writes the same one to a file.
+const EMBEDDED: &str =
+    "built-in synthetic record (bowden generate --mode torque --effect viscous --seed 7)";
 
 /// Least width of a terminal in which the loop is drawn.
 const WIDE: u16 = 80;
@@ -30,33 +31,36 @@ enum PerFile {
 #[derive(Args, Default)]
 pub struct Close {
     /// Records: CSV, .mat (v5, v7.3), Parquet, each also in gzip; several of one rig for one joint
-    /// model, or a pattern such as 'runs/*.csv'; the embedded record where none is given. Of
-    /// three or more the last is held out as a whole.
+    /// model, or a pattern such as 'runs/*.csv' [default: the built-in record]. Of three or more
+    /// records the last is held out as a whole.
     #[arg(value_name = "RECORD")]
     records: Vec<PathBuf>,
     #[command(flatten)]
     reading: Reading,
-    /// What may differ from file to file, as after a change of the rig's configuration.
-    /// Then the end of each file is held out.
+    /// Parameters that may differ between files, for example after the conduit was bent. The end of
+    /// each file is then held out.
     #[arg(long, value_enum, value_name = "WHAT")]
     per_file: Option<PerFile>,
-    /// Print one JSON object on stdout instead of tables.
+    /// Print one JSON object on stdout instead of text.
     #[arg(long)]
     json: bool,
-    /// Write the model: .toml for tools, .rs or .postcard for firmware; beside it, as
-    /// NAME.vector.csv, samples and what the model must answer. With --per-file gains one
-    /// for each file: NAME-1.toml, NAME-2.toml, …
+    /// Also print the tests of each term, the rejected terms and the planned experiments.
+    #[arg(long, short)]
+    verbose: bool,
+    /// Write the model: .toml for tools, .rs or .postcard for firmware. NAME.vector.csv has samples
+    /// and the outputs that the model must reproduce. With --per-file gains there is one model for
+    /// each file: NAME-1.toml, NAME-2.toml, …
     #[arg(long, value_name = "FILE.toml")]
     model_out: Option<PathBuf>,
-    /// Write the signals over time as CSV, as the fit sees them: measured, declared, final,
-    /// residual, and what each part of the final model adds.
+    /// Write the filtered signals over time as CSV: measured, baseline, final, residual, and each
+    /// part of the final model.
     #[arg(long, value_name = "FILE.csv")]
     trace: Option<PathBuf>,
     #[command(flatten)]
     drawing: Drawing,
-    /// Fit the model that is written within what a feed-forward can invert: sigma up to
-    /// B/(2·kappa_eta·rho), no delay, no lag, no play in series. What was found and the
-    /// verdict stay as they are.
+    /// Fit the exported model so that a feed-forward can invert it: sigma up to
+    /// B/(2·kappa_eta·rho), no delay, no lag, no play in series. The report describes this
+    /// model. The terms and the verdict do not change.
     #[arg(long)]
     invertible: bool,
     #[command(flatten)]
@@ -74,7 +78,7 @@ impl Close {
         self.records = found.paths;
         let asked = self.reading.asked()?;
         if self.per_file.is_some() && self.records.len() < 2 {
-            return Err("--per-file gains: more than one file was expected".to_owned());
+            return Err("--per-file gains: more than one file is needed".to_owned());
         }
         self.check_files()?;
         let meter = Meter::start();
@@ -102,7 +106,14 @@ impl Close {
         outputs::write_together(&self.files(&closed, sources)?)?;
         let report = match self.json {
             true => json(&closed.facts, Some(&closed.cost)).map_err(|e| e.to_string())?,
-            false => text(&closed.facts, chosen_cutoff),
+            false => text(
+                &closed.facts,
+                Report {
+                    width: Width::of_stdout(),
+                    verbose: self.verbose,
+                    chosen_cutoff,
+                },
+            ),
         };
         bar.finish_and_clear();
         let drawn = closed.figures.as_ref().filter(|_| draws_loop);
@@ -222,7 +233,7 @@ fn model_form(path: &Path) -> Result<Form, Failure> {
         Some("rs") => Ok(Form::Rust),
         Some("postcard") => Ok(Form::Postcard),
         _ => Err(format!(
-            "--model-out {}: a name that ends in .toml, .rs or .postcard was expected",
+            "--model-out {}: a name that ends in .toml, .rs or .postcard is needed",
             path.display()
         )),
     }

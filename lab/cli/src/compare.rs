@@ -3,6 +3,7 @@
 use super::drawing::provenance;
 use super::{outputs, Failure};
 use crate::view::compare::{json, text, trace};
+use crate::view::Width;
 use bowden_lab::facts::Source;
 use bowden_page::Compare as Page;
 use bowden_trials::facts::{compare, Question, RigChanges};
@@ -11,16 +12,16 @@ use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub struct Compare {
-    /// White noise of the torque sensors [N·m rms]; where not given, what the --gains of
-    /// `bowden design` were designed for, or the experiment's 0.28, and 0.02 with --effect:
-    /// through the paper's gains 0.28 hides what is gained.
+    /// White noise of the torque sensors [N·m rms] [default: the noise that --gains were designed
+    /// for, or the experiment's 0.28, or 0.02 with --effect]. At 0.28 the noise through the paper's
+    /// gains hides the improvement by a found effect.
     #[arg(long, value_name = "N·m")]
     noise: Option<f64>,
-    /// The conduit is moved during the trials: B, kappa_eta and T0 wander.
+    /// The conduit is moved during the trials: B, kappa_eta and T0 drift.
     #[arg(long)]
     varying: bool,
-    /// Follow a gait, an ankle's push-off once a second, in place of the paper's reference; a
-    /// controller that learns from step to step runs beside the others.
+    /// Follow a gait, an ankle's push-off once a second, instead of the paper's reference. A
+    /// controller that learns from step to step runs next to the others.
     #[arg(long, conflicts_with = "effect")]
     gait: bool,
     /// Length of a trial [s].
@@ -29,13 +30,13 @@ pub struct Compare {
     /// Number of trials, each with its own seed.
     #[arg(long, default_value_t = 6, value_name = "K")]
     seeds: u64,
-    /// Switch an effect on that nobody declared, find it on the bench, use it.
+    /// Add an effect that the baseline model lacks, identify it on the bench, and feed it forward.
     /// NAME, NAME:STRENGTH or NAME@CHANNEL:STRENGTH, strength in N·m rms.
     #[arg(long, value_name = "NAME[@CHANNEL][:STRENGTH]")]
     effect: Option<String>,
-    /// A file of `close --model-out`, which is fed forward. With --gains or a number of the rig
-    /// the rig has its transmission and effects, and the reference stays within what its
-    /// record has covered. Or gains, rig and model in one file.
+    /// A file of `identify --model-out`, which is fed forward. With --gains or an option of the
+    /// rig, the rig has this model's transmission and effects, and the reference stays within the
+    /// range of its record. Or gains, rig and model in one file.
     #[arg(long, value_name = "MODEL.toml")]
     model: Option<PathBuf>,
     /// Gains of `bowden design`, with the model that they were designed for in --model; or
@@ -47,11 +48,14 @@ pub struct Compare {
     /// Reference, torques, command and estimates over time of the first trial, as CSV.
     #[arg(long, value_name = "FILE.csv")]
     trace: Option<PathBuf>,
-    /// Write the comparison as one HTML page that loads nothing: tables, and reference, torques,
-    /// errors and estimates over time, with the conduit at rest and moved.
+    /// Write the comparison as one self-contained HTML page: tables, and reference, torques, errors
+    /// and estimates over time, with the conduit at rest and moved.
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
-    /// Print one JSON object on stdout instead of tables.
+    /// Also print deviations over trials, the transient, and what each controller is.
+    #[arg(long, short)]
+    verbose: bool,
+    /// Print one JSON object on stdout instead of text.
     #[arg(long)]
     json: bool,
 }
@@ -59,32 +63,32 @@ pub struct Compare {
 /// Numbers of the rig.
 #[derive(Args)]
 struct RigOptions {
-    /// Torque at the proximal pulley per command unit [N·m]; where not given, that of the
-    /// --gains of `bowden design`, or 0.6.
+    /// Torque at the proximal pulley per command unit [N·m] [default: the value in the --gains of
+    /// `bowden design`, or 0.6].
     #[arg(long, value_name = "N·m")]
     drive_gain: Option<f64>,
-    /// Inertia of motor and proximal pulley [kg·m²]; 0.2 where not given.
+    /// Inertia of motor and proximal pulley [kg·m²] [default: 0.2].
     #[arg(long, value_name = "KG·M²")]
     inertia: Option<f64>,
-    /// Viscous friction of motor and proximal pulley [N·m·s/rad]; 2.7 where not given.
+    /// Viscous friction of motor and proximal pulley [N·m·s/rad] [default: 2.7].
     #[arg(long, value_name = "N·m·s")]
     damping: Option<f64>,
-    /// Inertia of the joint [kg·m²]; 0.004 where not given.
+    /// Inertia of the joint [kg·m²] [default: 0.004].
     #[arg(long, value_name = "KG·M²")]
     joint_inertia: Option<f64>,
-    /// Damping of the joint [N·m·s/rad]; 0.5 where not given.
+    /// Damping of the joint [N·m·s/rad] [default: 0.5].
     #[arg(long, value_name = "N·m·s")]
     joint_damping: Option<f64>,
-    /// Spring that the joint works against [N·m/rad]; 150 where not given.
+    /// Spring that the joint works against [N·m/rad] [default: 150].
     #[arg(long, value_name = "N·m")]
     spring: Option<f64>,
-    /// Samples between a command and the drive, 0 to 8; 1 where not given.
+    /// Samples between a command and the drive, 0 to 8 [default: 1].
     #[arg(long, value_name = "SAMPLES", value_parser = clap::value_parser!(u8).range(0..=8))]
     delay: Option<u8>,
-    /// Time constant of the drive [s]; 0.0005 where not given.
+    /// Time constant of the drive [s] [default: 0.0005].
     #[arg(long, value_name = "S")]
     drive_lag: Option<f64>,
-    /// Time constant of the torque sensors [s]; 0.001 where not given.
+    /// Time constant of the torque sensors [s] [default: 0.001].
     #[arg(long, value_name = "S")]
     sensor_lag: Option<f64>,
 }
@@ -106,14 +110,12 @@ impl RigOptions {
         ];
         for (option, value) in positive {
             if let Some(value) = value.filter(|v| !(v.is_finite() && *v > 0.0)) {
-                return Err(format!(
-                    "{option} {value}: a number above zero was expected"
-                ));
+                return Err(format!("{option} {value} is out of range (above 0)"));
             }
         }
         for (option, value) in not_negative {
             if let Some(value) = value.filter(|v| !(v.is_finite() && *v >= 0.0)) {
-                return Err(format!("{option} {value}: zero or more was expected"));
+                return Err(format!("{option} {value} is out of range (0 or more)"));
             }
         }
         Ok(())
@@ -185,7 +187,7 @@ impl Compare {
         outputs::write_together(&files)?;
         let out = match self.json {
             true => json(&compared),
-            false => text(&compared),
+            false => text(&compared, Width::of_stdout(), self.verbose),
         };
         super::say(out.trim_end())
     }
@@ -193,13 +195,13 @@ impl Compare {
     fn check(&self) -> Result<(), Failure> {
         if !(self.seconds.is_finite() && (8.0..=3600.0).contains(&self.seconds)) {
             return Err(format!(
-                "--seconds {}: between 8 and 3600 was expected",
+                "--seconds {} is out of range (8 to 3600)",
                 self.seconds
             ));
         }
         if !(1..=1000).contains(&self.seeds) {
             return Err(format!(
-                "--seeds {}: between 1 and 1000 was expected",
+                "--seeds {} is out of range (1 to 1000)",
                 self.seeds
             ));
         }

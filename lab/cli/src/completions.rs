@@ -6,7 +6,7 @@ use clap_complete::Shell;
 
 #[derive(Args)]
 pub struct Completions {
-    /// The shell that reads it.
+    /// The shell.
     shell: Shell,
 }
 

@@ -2,23 +2,24 @@
 
 use super::{outputs, Failure};
 use crate::view::design::{json, text};
+use crate::view::Width;
 use bowden_trials::facts::{design, design_rust, DesignQuestion};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub struct Design {
-    /// The model, a file of `close --model-out` in torque mode.
+    /// The model, a file of `identify --model-out` in torque mode.
     #[arg(value_name = "MODEL.toml")]
     model: PathBuf,
-    /// Samples of the controller a second [Hz].
+    /// Sampling rate of the controller [Hz].
     #[arg(long, value_name = "HZ")]
     rate: f64,
-    /// From the command to its measured torque [s]: transport, computation, and the time
+    /// Delay from the command to its measured torque [s]: transport, computation, and the time
     /// constants of drive, sensor and joint; half a sample of hold is added.
     #[arg(long, value_name = "SECONDS")]
     delay: f64,
-    /// Noise of the measured torque [N·m rms]: how fast a command must be allowed to move.
+    /// Noise of the measured torque [N·m rms], from which the least slew rate follows.
     #[arg(
         long,
         value_name = "N·m",
@@ -26,8 +27,8 @@ pub struct Design {
         allow_negative_numbers = true
     )]
     noise: f64,
-    /// Torque at the proximal pulley per command unit [N·m], which `compare --gains` then
-    /// gives its rig.
+    /// Torque at the proximal pulley per command unit [N·m], also used by the rig of `compare
+    /// --gains`.
     #[arg(
         long,
         value_name = "N·m",
@@ -39,6 +40,9 @@ pub struct Design {
     /// firmware.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    /// Also print the required margins, admissible gains, and how limits and bounds follow.
+    #[arg(long, short)]
+    verbose: bool,
     /// Print one JSON object on stdout instead of text.
     #[arg(long)]
     json: bool,
@@ -68,7 +72,7 @@ impl Design {
         }
         let report = match self.json {
             true => json(&designed).map_err(|e| e.to_string())?,
-            false => text(&designed),
+            false => text(&designed, Width::of_stdout(), self.verbose),
         };
         super::say(report.trim_end())
     }
@@ -80,7 +84,7 @@ fn is_rust(path: &Path) -> Result<bool, Failure> {
         Some("rs") => Ok(true),
         Some("toml") => Ok(false),
         _ => Err(format!(
-            "--out {}: a name that ends in .toml or .rs was expected",
+            "--out {}: a name that ends in .toml or .rs is needed",
             path.display()
         )),
     }

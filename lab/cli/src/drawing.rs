@@ -1,4 +1,4 @@
-//! What `close` and `check` draw: a page, or one figure.
+//! What `identify` and `validate` draw: a page, or one figure.
 
 use bowden_lab::facts::{Figures, Source};
 use bowden_page::{figure, Figure, Provenance};
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 pub enum FigureName {
     /// The output over the input: measured and both models.
     Loop,
-    /// What both models leave of the output, over time.
+    /// The residuals of both models over time.
     Residual,
     /// The output over time: measured and both models.
     Trace,
@@ -19,14 +19,14 @@ pub enum FigureName {
 
 #[derive(Args, Default)]
 pub struct Drawing {
-    /// Write what was found as one HTML page that loads nothing: the sentence, signals, loop,
-    /// residuals with intervals, tables, parameters, and how it was obtained.
+    /// Write the results as one self-contained HTML page: summary, signals, loop, residuals with
+    /// intervals, tables, parameters and method.
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
-    /// Write one figure as SVG; which one says --figure.
+    /// Write one figure as SVG, chosen by --figure.
     #[arg(long, value_name = "FILE.svg")]
     plot: Option<PathBuf>,
-    /// The figure of --plot; the loop where it is not given.
+    /// The figure of --plot [default: the loop].
     #[arg(long, value_enum, requires = "plot", value_name = "FIGURE")]
     figure: Option<FigureName>,
 }

@@ -7,13 +7,13 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub struct Export {
-    /// The model, a file of `close --model-out`.
+    /// The model, a file of `identify --model-out`.
     #[arg(value_name = "MODEL.toml")]
     model: PathBuf,
-    /// As a C header that needs the library of capi/ alone.
+    /// Write a C header that needs only the library of capi/.
     #[arg(long, required = true)]
     c: bool,
-    /// Write a file instead of stdout; its name, with a letter from a to z or a Greek one, is
+    /// Write a file instead of stdout; its name, with a letter from a to z or a Greek letter, is
     /// the prefix of all names in it.
     #[arg(long, value_name = "FILE.h")]
     out: Option<PathBuf>,
@@ -24,7 +24,7 @@ impl Export {
         if let Some(path) = &self.out {
             if path.extension().is_none_or(|e| e != "h") {
                 return Err(format!(
-                    "--out {}: a name that ends in .h was expected",
+                    "--out {}: a name that ends in .h is needed",
                     path.display()
                 ));
             }

@@ -16,17 +16,17 @@ pub struct Generate {
     /// What drives the transmission.
     #[arg(long, value_enum, default_value = "torque")]
     mode: ModeName,
-    /// An effect that the declared model will lack; may be given several times.
+    /// An effect that the baseline model will lack; may be given several times.
     /// NAME, NAME:STRENGTH or NAME@CHANNEL:STRENGTH, strength in multiples of the noise.
     #[arg(long, value_name = "NAME[@CHANNEL][:STRENGTH]")]
     effect: Vec<String>,
-    /// Every random choice follows from it.
+    /// Seed of all random choices.
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Length [s].
     #[arg(long, default_value_t = 20.0)]
     seconds: f64,
-    /// Samples a second [Hz].
+    /// Sampling rate [Hz].
     #[arg(long, default_value_t = 1000.0)]
     rate: f64,
     /// Noise of the output, rms, in its unit.
@@ -39,7 +39,7 @@ pub struct Generate {
     /// [N·m or mm].
     #[arg(long, default_value_t = 0.0)]
     play: f64,
-    /// Where to write; stdout where it is not given.
+    /// Output file [default: stdout].
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
 }
@@ -50,7 +50,7 @@ fn planted(text: &str) -> Result<Planted, Failure> {
         None => (text, 3.0),
         Some((what, strength)) => {
             let value: f64 = strength.parse().map_err(|_| {
-                format!("--effect {text}: {strength:?} is no number; NAME:STRENGTH was expected")
+                format!("--effect {text}: {strength:?} is not a number; NAME:STRENGTH is needed")
             })?;
             (what, value)
         }

@@ -36,9 +36,9 @@ pub type Failure = String;
 #[command(
     name = "bowden",
     version,
-    about = "Hysteretic cable transmissions: closes the loop between a model and measured data",
+    about = "Identification and control of hysteretic cable transmissions (Bowden cables)",
     disable_help_subcommand = true,
-    after_help = "Without a subcommand: `bowden close` on the embedded record.\nThe words of its ledger: `bowden help terms`.\nExit status: 0 with any verdict, 1 where certify does not prove your gains or plan has nothing to write to --out, 2 for bad use or a bad record."
+    after_help = "Without a subcommand: `bowden identify` on the built-in record.\nIts terms: `bowden help terms`.\nExit status: 0 with any verdict, 1 if certify does not prove your gains or plan has no motion to write to --out, 2 for bad use or a bad record."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -47,23 +47,27 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Fit the declared model, find the effect that it lacks, add it, compare.
-    Close(close::Close),
-    /// Try a model on the next record of the same rig: does it still hold?
-    Check(check::Check),
+    /// Fit the baseline model, find the terms that it lacks, add them, compare.
+    // `identify` and `validate` were the names up to 0.1 and remain for scripts; the help does not show
+    // them.
+    #[command(alias = "close")]
+    Identify(close::Close),
+    /// Test a model on another record of the same rig.
+    #[command(alias = "check")]
+    Validate(check::Check),
     /// Derive gains, limits and slew rate from an identified model.
     Design(design::Design),
-    /// Try controllers on the simulated rig: errors, effort, and what can be promised.
+    /// Compare controllers on the simulated rig: errors, effort, and error bounds.
     Compare(compare::Compare),
-    /// Print what can be promised of the tracking error, and what that rests on.
+    /// Print the proved bounds of the tracking error and their assumptions.
     Certify(certify::Certify),
-    /// Say how small an effect would have been found on a record.
+    /// Print how small an effect the search would have found on a record.
     Power(power::Power),
-    /// Plan the experiment that tells what a record cannot: its motion, as CSV.
+    /// Plan the experiment that separates ambiguous terms: its motion, as CSV.
     Plan(plan::Plan),
-    /// Write a model as source for firmware in C.
+    /// Export a model as C source for firmware.
     Export(export::Export),
-    /// Generate a record with effects that the declared model lacks, as CSV.
+    /// Generate a synthetic record with effects that the baseline model lacks, as CSV.
     // `record` was the name up to 0.1 and stays for scripts; the help does not show it.
     #[command(alias = "record")]
     Generate(generate::Generate),
@@ -71,7 +75,7 @@ enum Command {
     Completions(completions::Completions),
     /// Print the manual, or a subcommand's page.
     Man(man::Man),
-    /// Explain a subcommand, or the words of the ledger: `bowden help terms`.
+    /// Explain a subcommand, or the terms of the output: `bowden help terms`.
     Help(help::Help),
 }
 
@@ -84,8 +88,8 @@ pub fn run() -> Result<ExitCode, Failure> {
         Some(Command::Certify(certify)) => return certify.run(),
         Some(Command::Plan(plan)) => return plan.run(),
         None => close::Close::default().run(),
-        Some(Command::Close(close)) => close.run(),
-        Some(Command::Check(check)) => check.run(),
+        Some(Command::Identify(identify)) => identify.run(),
+        Some(Command::Validate(validate)) => validate.run(),
         Some(Command::Design(design)) => design.run(),
         Some(Command::Compare(compare)) => compare.run(),
         Some(Command::Power(power)) => power.run(),

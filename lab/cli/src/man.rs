@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 pub struct Man {
     /// A subcommand; without it, the page of the program.
     topic: Option<String>,
-    /// Write all pages into a folder that exists, instead of one on stdout.
+    /// Write all pages into an existing folder instead of one page to stdout.
     #[arg(long, value_name = "FOLDER", conflicts_with = "topic")]
     out: Option<PathBuf>,
 }
@@ -23,7 +23,7 @@ impl Man {
         let Some(topic) = self.topic else {
             return super::pour(&page(all)?);
         };
-        // The page is called `bowden-close`, as the files of `--out` are.
+        // The page is called `bowden-identify`, as the files of `--out` are.
         let one = pages(all)
             .into_iter()
             .find(|one| one.get_name().strip_prefix("bowden-") == Some(&topic))

@@ -23,7 +23,7 @@ pub fn check(read: &[&Path], outputs: &[(&str, &Path)]) -> Result<(), Failure> {
         let before = outputs.iter().take(index);
         if !is_stream(path) && before.into_iter().any(|(_, other)| same(other, path)) {
             return Err(format!(
-                "{option} {}: another option writes this file, too",
+                "{option} {}: another option also writes this file",
                 path.display()
             ));
         }
@@ -43,7 +43,7 @@ fn named(option: &str, path: &Path) -> Result<(), Failure> {
         return Ok(());
     }
     Err(format!(
-        "{option} {}: a name that ends in .{} was expected",
+        "{option} {}: a name that ends in .{} is needed",
         path.display(),
         endings.join(" or .")
     ))
@@ -52,11 +52,11 @@ fn named(option: &str, path: &Path) -> Result<(), Failure> {
 fn writable(option: &str, path: &Path, read: &[&Path]) -> Result<(), Failure> {
     let refuse = |message: String| Err(format!("{option} {}: {message}", path.display()));
     if path.is_dir() {
-        return refuse("is a folder; the name of a file was expected".to_owned());
+        return refuse("is a folder; the name of a file is needed".to_owned());
     }
     if let Some(other) = read.iter().find(|other| same(path, other)) {
         return refuse(format!(
-            "would overwrite {}, which is read",
+            "would overwrite {}, which is an input",
             other.display()
         ));
     }

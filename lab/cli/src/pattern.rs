@@ -30,7 +30,7 @@ enum Part {
 /// The files whose names the pattern matches, by name; none where there are none.
 pub fn files(pattern: &Path) -> Result<Vec<PathBuf>, Failure> {
     let text = pattern.to_string_lossy();
-    let refused = |e: glob::PatternError| format!("{text}: is no pattern: {}", e.msg);
+    let refused = |e: glob::PatternError| format!("{text}: is not a pattern: {}", e.msg);
     Pattern::new(&text).map_err(refused)?;
     let (mut root, mut parts) = (PathBuf::new(), Vec::new());
     for component in pattern.components() {
@@ -60,7 +60,7 @@ pub fn files(pattern: &Path) -> Result<Vec<PathBuf>, Failure> {
 /// Bytes of a header that are looked at: more than any model's channels need.
 const HEADER: u64 = 1 << 16;
 
-/// Whether this is a test vector that `close --model-out` has written: by its name and its first
+/// Whether this is a test vector that `identify --model-out` has written: by its name and its first
 /// line.
 pub fn is_vector(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();

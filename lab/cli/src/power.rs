@@ -3,7 +3,7 @@
 use super::progress::{progress, telling};
 use super::reading::{file, Reading};
 use super::Failure;
-use crate::view::{power_json, power_text};
+use crate::view::{power_json, power_text, Width};
 use bowden_lab::facts::{power, PowerQuestion, TRIALS, TRIALS_RANGE};
 use clap::Args;
 use std::path::PathBuf;
@@ -20,7 +20,10 @@ pub struct Power {
     /// Trials of each amplitude, 5 to 200.
     #[arg(long, value_name = "K", default_value_t = TRIALS)]
     trials: usize,
-    /// Print one JSON object on stdout instead of a table.
+    /// Also print every effect, and how the trials are made.
+    #[arg(long, short)]
+    verbose: bool,
+    /// Print one JSON object on stdout instead of text.
     #[arg(long)]
     json: bool,
 }
@@ -29,7 +32,7 @@ impl Power {
     pub fn run(self) -> Result<(), Failure> {
         if !TRIALS_RANGE.contains(&self.trials) {
             return Err(format!(
-                "--trials {}: {} to {} were expected",
+                "--trials {} is out of range ({} to {})",
                 self.trials,
                 TRIALS_RANGE.start(),
                 TRIALS_RANGE.end()
@@ -48,7 +51,7 @@ impl Power {
         if self.json {
             super::say(&power_json(&table).map_err(|e| e.to_string())?)
         } else {
-            super::say(power_text(&table).trim_end())
+            super::say(power_text(&table, Width::of_stdout(), self.verbose).trim_end())
         }
     }
 }

@@ -18,7 +18,7 @@ const SEARCH: [f64; 2] = [0.08, 0.80];
 /// step.
 #[must_use]
 pub fn share(step: &str) -> Option<f64> {
-    if let Some(rest) = step.strip_prefix("looking for what is missing, turn ") {
+    if let Some(rest) = step.strip_prefix("searching for missing terms, round ") {
         let turn: i32 = rest.split(',').next()?.parse().ok()?;
         let [from, to] = SEARCH;
         return Some(from + (to - from) * (1.0 - (2.0_f64 / 3.0).powi(turn - 1)));
@@ -29,13 +29,13 @@ pub fn share(step: &str) -> Option<f64> {
     }
     Some(match step {
         "reading" => 0.0,
-        "fitting the declared model" => 0.03,
-        "looking for what would do as well" => SEARCH[1],
-        "trying each file with gains of its own" => 0.86,
+        "fitting the baseline model" => 0.03,
+        "searching for alternatives" => SEARCH[1],
+        "fitting each file with its own gains" => 0.86,
         "fitting the final model" => 0.88,
-        "looking for effects that can be inverted" => 0.90,
-        "fitting what is handed over" => 0.93,
-        "looking for declared parts that are not needed" => 0.96,
+        "searching for invertible effects" => 0.90,
+        "fitting the exported model" => 0.93,
+        "searching for redundant baseline parts" => 0.96,
         _ => return None,
     })
 }
@@ -73,20 +73,20 @@ mod tests {
 
     #[test]
     fn each_step_is_further_than_the_one_before_and_none_is_at_the_end() {
-        let turn = |k| format!("looking for what is missing, turn {k}, found so far: 2");
+        let turn = |k| format!("searching for missing terms, round {k}, found so far: 2");
         let mut steps = vec![
             "reading".to_owned(),
-            "fitting the declared model".to_owned(),
+            "fitting the baseline model".to_owned(),
         ];
         steps.extend((1..30).map(turn));
         steps.extend(
             [
-                "looking for what would do as well",
-                "trying each file with gains of its own",
+                "searching for alternatives",
+                "fitting each file with its own gains",
                 "fitting the final model",
-                "looking for effects that can be inverted",
-                "fitting what is handed over",
-                "looking for declared parts that are not needed",
+                "searching for invertible effects",
+                "fitting the exported model",
+                "searching for redundant baseline parts",
             ]
             .map(str::to_owned),
         );

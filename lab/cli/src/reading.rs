@@ -14,43 +14,44 @@ pub enum ModeName {
 /// How the columns of a record are read and filtered.
 #[derive(Args, Default)]
 pub struct Columns {
-    /// Torque (tau_i to tau_o) or displacement (x to f); from the columns where silent.
+    /// Torque (tau_i to tau_o) or displacement (x to f) [default: what the column names say].
     #[arg(long, value_enum)]
     pub mode: Option<ModeName>,
-    /// Column of the time [s]; `t`, `time` or `timestamp` where it is not given.
+    /// Column of the time [s] [default: `t`, `time` or `timestamp`].
     #[arg(long, value_name = "COL")]
     pub time: Option<String>,
-    /// Column of the input; `tau_i` or `x` where it is not given.
+    /// Column of the input [default: `tau_i` or `x`].
     #[arg(long, value_name = "COL")]
     pub input: Option<String>,
-    /// Column of the output; `tau_o` or `f` where it is not given.
+    /// Column of the output [default: `tau_o` or `f`].
     #[arg(long, value_name = "COL")]
     pub output: Option<String>,
     /// A further channel: phi_p, phi_d (angles), temperature, load, or any other name; COL may
     /// be A-B or A+B of two columns.
     #[arg(long, value_name = "NAME=COL")]
     pub channel: Vec<String>,
-    /// Leave out the first seconds.
-    #[arg(long, value_name = "SECONDS")]
-    pub skip: Option<f64>,
-    /// Leave out what comes after this time.
-    #[arg(long, value_name = "SECONDS")]
-    pub until: Option<f64>,
-    /// Cut-off of the one filter [Hz]; from the input's spectrum where it is not given.
+    /// Seconds after the first time stamp at which the record is cut on the left [default: 0].
+    #[arg(long, alias = "skip", value_name = "SECONDS")]
+    pub start: Option<f64>,
+    /// Seconds after the first time stamp at which the record is cut on the right [default: its
+    /// last sample].
+    #[arg(long, alias = "until", value_name = "SECONDS")]
+    pub end: Option<f64>,
+    /// Cut-off frequency of the zero-phase low-pass [Hz] [default: from the input's spectrum].
     #[arg(long, value_name = "HZ")]
     pub cutoff: Option<f64>,
-    /// Take time from the row number, at this rate.
+    /// Compute the time from the row number at this sample rate.
     #[arg(long, value_name = "HZ")]
     pub rate: Option<f64>,
-    /// Line of the column names, from 1; found by itself where it is not given.
+    /// Line of the column names, counted from 1 [default: detected].
     #[arg(long, value_name = "N")]
     pub header_line: Option<usize>,
-    /// Names of the columns of a text that has none: t,x,f or 't [ms],,x [mm],f [N]'; an empty
-    /// name is that of a column which is not read.
+    /// Column names of a text file without a header: t,x,f or 't [ms],,x [mm],f [N]'. An empty
+    /// name excludes its column.
     #[arg(long, value_delimiter = ',', value_name = "A,B,…")]
     pub names: Vec<String>,
-    /// Leave out rows with an empty cell, a NaN or a time stamp that repeats: each becomes a
-    /// gap. Without it such a record is refused.
+    /// Drop rows with an empty cell, a NaN or a repeated time stamp: each becomes a gap
+    /// [default: such a record is refused].
     #[arg(long)]
     pub drop_bad: bool,
 }
@@ -59,16 +60,17 @@ pub struct Columns {
 pub struct Reading {
     #[command(flatten)]
     pub columns: Columns,
-    /// The model that is declared: bouc-wen and any effects; NAME@CHANNEL reads a channel.
-    #[arg(long, value_delimiter = ',', value_name = "A,B,…")]
-    pub declare: Vec<String>,
-    /// Add at most N effects, 0 to 8; 0 only fits what is declared and looks for nothing.
-    #[arg(long, value_name = "N")]
-    pub rounds: Option<usize>,
-    /// Stop looking after so many seconds and give the best so far; what is found then depends
-    /// on the machine.
-    #[arg(long, value_name = "SECONDS")]
-    pub budget: Option<f64>,
+    /// Baseline model: bouc-wen and any effects; NAME@CHANNEL reads a channel
+    /// [default: bouc-wen].
+    #[arg(long, alias = "declare", value_delimiter = ',', value_name = "A,B,…")]
+    pub baseline: Vec<String>,
+    /// Add at most N terms, 0 to 8; 0 fits only the baseline model.
+    #[arg(long, alias = "rounds", value_name = "N")]
+    pub max_terms: Option<usize>,
+    /// Stop the search after this time and print the best model so far. The result then depends on
+    /// the speed of the machine.
+    #[arg(long, alias = "budget", value_name = "SECONDS")]
+    pub time_limit: Option<f64>,
 }
 
 impl ModeName {
@@ -86,14 +88,14 @@ impl Columns {
         if let Some(cutoff) = self.cutoff {
             if !(cutoff.is_finite() && cutoff > 0.0) {
                 return Err(format!(
-                    "--cutoff {cutoff}: a positive frequency in Hz was expected"
+                    "`--cutoff {cutoff}` is out of range (a frequency above 0 Hz)"
                 ));
             }
         }
         let pair = |text: &String| {
             text.split_once('=')
                 .map(|(name, column)| (name.to_owned(), column.to_owned()))
-                .ok_or_else(|| format!("--channel {text}: NAME=COL was expected"))
+                .ok_or_else(|| format!("`--channel {text}` is not of the form NAME=COL"))
         };
         let options = Options {
             mode: self.mode.map(ModeName::mode),
@@ -101,8 +103,8 @@ impl Columns {
             input: self.input.clone(),
             output: self.output.clone(),
             channels: self.channel.iter().map(pair).collect::<Result<_, _>>()?,
-            skip: self.skip.unwrap_or(0.0),
-            until: self.until,
+            skip: self.start.unwrap_or(0.0),
+            until: self.end,
             rate: self.rate,
             header_line: self.header_line,
             names: self.names.clone(),
@@ -117,22 +119,22 @@ impl Columns {
 }
 
 impl Reading {
-    /// The columns, the filter, the declared model and the length of the search.
+    /// The columns, the filter, the baseline model and the limits of the search.
     pub fn asked(&self) -> Result<Asked, Failure> {
-        if let Some(rounds) = self.rounds.filter(|rounds| *rounds > MOST_NAMES) {
+        if let Some(terms) = self.max_terms.filter(|terms| *terms > MOST_NAMES) {
             return Err(format!(
-                "--rounds {rounds}: 0 to {MOST_NAMES} were expected"
+                "`--max-terms {terms}` is out of range (0 to {MOST_NAMES})"
             ));
         }
-        if let Some(budget) = self.budget.filter(|b| !(b.is_finite() && *b > 0.0)) {
+        if let Some(limit) = self.time_limit.filter(|s| !(s.is_finite() && *s > 0.0)) {
             return Err(format!(
-                "--budget {budget}: a positive number of seconds was expected"
+                "`--time-limit {limit}` is out of range (above 0 s)"
             ));
         }
         Ok(Asked {
-            declare: self.declare.clone(),
-            rounds: self.rounds,
-            budget: self.budget,
+            declare: self.baseline.clone(),
+            rounds: self.max_terms,
+            budget: self.time_limit,
             ..self.columns.asked()?
         })
     }
@@ -149,7 +151,7 @@ pub struct Files {
 impl Files {
     /// What a pattern has left out.
     pub fn note(&self) -> Option<String> {
-        (self.vectors > 0).then(|| format!("{} left out of the pattern", vectors(self.vectors)))
+        (self.vectors > 0).then(|| format!("{} excluded from the pattern", vectors(self.vectors)))
     }
 }
 
@@ -193,7 +195,7 @@ pub fn file(argument: &Path) -> Result<PathBuf, Failure> {
     match <[PathBuf; 1]>::try_from(files) {
         Ok([one]) => Ok(one),
         Err(several) => Err(format!(
-            "{}: {} files have such a name, one was expected",
+            "{}: {} files have such a name; one is needed",
             argument.display(),
             several.len()
         )),

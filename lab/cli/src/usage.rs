@@ -25,7 +25,7 @@ fn printed(error: &clap::Error) -> Failure {
 }
 
 /// The program's command. The number behind an option may be negative: it is then refused as a
-/// number, with what was expected in its place, and not as an option that does not exist.
+/// number, with what is needed in its place, and not as an option that does not exist.
 fn command() -> Command {
     let may_be_negative = |one: Command| {
         one.mut_args(|argument| match argument.get_action().takes_values() {
@@ -71,11 +71,11 @@ mod tests {
     fn what_is_wrong_and_what_was_expected_stand_in_one_line() {
         for (arguments, line) in [
             (
-                &["close", "--modle", "torque"][..],
+                &["identify", "--modle", "torque"][..],
                 "unexpected argument '--modle' found; a similar argument exists: '--mode'",
             ),
             (
-                &["close", "--mode", "zzz"],
+                &["identify", "--mode", "zzz"],
                 "invalid value 'zzz' for '--mode <MODE>'; [possible values: torque, displacement]",
             ),
             (
@@ -83,7 +83,7 @@ mod tests {
                 "invalid value '-1' for '--seeds <K>': invalid digit found in string",
             ),
             (
-                &["check"],
+                &["validate"],
                 "the following required arguments were not provided: <MODEL.toml>; <RECORD>",
             ),
             (

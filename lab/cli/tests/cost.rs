@@ -1,4 +1,4 @@
-//! What `bowden close --json` says of its own cost.
+//! What `bowden identify --json` says of its own cost.
 #![allow(clippy::unwrap_used)]
 
 #[allow(dead_code)]
@@ -28,7 +28,7 @@ fn seconds(cost: &Value, stage: &str) -> f64 {
 
 #[test]
 fn the_stages_are_within_the_run_and_none_is_forgotten() {
-    let (cost, whole) = cost(&["close"]);
+    let (cost, whole) = cost(&["identify"]);
     let stages = cost["seconds"].as_object().unwrap();
     let sum: f64 = stages.values().map(|s| s.as_f64().unwrap()).sum();
     assert!(stages.values().all(|s| s.as_f64().unwrap() > 0.0), "{cost}");
@@ -38,9 +38,9 @@ fn the_stages_are_within_the_run_and_none_is_forgotten() {
 
 #[test]
 fn a_run_that_looks_for_nothing_spends_nothing_on_the_search() {
-    let ((none, _), (all, _)) = (cost(&["close", "--rounds", "0"]), cost(&["close"]));
+    let ((none, _), (all, _)) = (cost(&["identify", "--max-terms", "0"]), cost(&["identify"]));
     assert!(seconds(&none, "searching") == 0.0, "{none}");
-    assert!(seconds(&none, "fitting_declared") > 0.0, "{none}");
+    assert!(seconds(&none, "fitting_baseline") > 0.0, "{none}");
     for name in ["evaluations", "jacobians", "columns_filtered", "searches"] {
         assert!(0 < count(&none, name), "{name}: {none}");
         assert!(
@@ -52,7 +52,7 @@ fn a_run_that_looks_for_nothing_spends_nothing_on_the_search() {
 
 #[test]
 fn the_counts_are_of_what_they_say() {
-    let (cost, _) = cost(&["close", "--rounds", "0"]);
+    let (cost, _) = cost(&["identify", "--max-terms", "0"]);
     let of = |name: &str| count(&cost, name);
     // Nine starts at least (eight, and those that are searched on), each evaluated once or
     // more; before each Jacobian comes an evaluation; an evaluation filters the hysteresis
@@ -69,7 +69,7 @@ fn the_counts_are_those_of_the_answer_whatever_is_drawn_of_it() {
     let folder = tempfile::tempdir().unwrap();
     let name = |file: &str| folder.path().join(file).to_str().unwrap().to_owned();
     let (trace, page) = (name("trace.csv"), name("page.html"));
-    let quick = ["close", "--rounds", "0"];
+    let quick = ["identify", "--max-terms", "0"];
     let drawn = [&quick[..], &["--trace", &trace, "--report", &page]].concat();
     let ((alone, _), (drawn, _)) = (cost(&quick), cost(&drawn));
     for name in ["evaluations", "jacobians", "columns_filtered", "searches"] {

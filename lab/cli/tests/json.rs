@@ -1,4 +1,4 @@
-//! `docs/json.md` lists the fields that the program prints: each name, each type, none more.
+//! `docs/reference/json.md` lists the fields that the program prints: each name, each type, none more.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 #[allow(dead_code)]
@@ -8,8 +8,9 @@ use serde_json::Value;
 use shell::{bowden, said, text};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use std::sync::OnceLock;
 
-const PAGE: &str = include_str!("../../../docs/json.md");
+const PAGE: &str = include_str!("../../../docs/reference/json.md");
 
 /// Tables whose fields no record below needs to have: what the search finds of rivals, curves and
 /// motions may change with it. Where they do occur they are compared like all others.
@@ -18,16 +19,16 @@ const SELDOM: [&str; 10] = [
     "aim",
     "unknown",
     "knot",
-    "channel apart",
-    "file apart",
+    "inconsistent channel",
+    "inconsistent file",
     "worse file",
-    "left out",
-    "rival",
-    "unneeded",
+    "excluded term",
+    "alternative",
+    "redundant",
 ];
 
 /// Optional fields that no record below needs to have: a fit that fails only without an effect.
-const SELDOM_FIELDS: [&str; 2] = ["feed-forward.caution", "round.not_refitted_without"];
+const SELDOM_FIELDS: [&str; 2] = ["feed-forward.caution", "found term.not_refitted_without"];
 
 struct Field {
     name: String,
@@ -164,7 +165,7 @@ fn changed(path: &Path, change: impl Fn(usize, f64, f64) -> f64) {
     std::fs::write(path, out).unwrap();
 }
 
-/// Adds noise to the input, so that it turns the hysteresis sample by sample.
+/// Adds noise to the input, so that it drives the hysteresis sample by sample.
 fn shake(path: &Path) {
     let text = std::fs::read_to_string(path).unwrap();
     let line = |(row, line): (usize, &str)| {
@@ -204,8 +205,13 @@ fn logged_otherwise(folder: &Path) -> [String; 3] {
     })
 }
 
-/// Records of every kind that the schemas tell apart, and what the program says of them.
-fn all(folder: &Path) -> Vec<(&'static str, Value)> {
+/// Records of every kind that the schemas tell apart, and what the program says of them, printed once.
+fn all() -> &'static [(&'static str, Value)] {
+    static ALL: OnceLock<Vec<(&str, Value)>> = OnceLock::new();
+    ALL.get_or_init(|| all_in(tempfile::tempdir().unwrap().path()))
+}
+
+fn all_in(folder: &Path) -> Vec<(&'static str, Value)> {
     let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
     let [straight, later, bent] = ["straight.csv", "straight_later.csv", "bent.csv"].map(example);
     let [stuck, bump, hidden, model] = ["stuck.csv", "bump.csv", "hidden.csv", "m.toml"].map(path);
@@ -229,14 +235,14 @@ fn all(folder: &Path) -> Vec<(&'static str, Value)> {
         &hidden,
     ];
     said(&plant);
-    said(&["close", &straight, "--model-out", &model]);
+    said(&["identify", &straight, "--model-out", &model]);
     let shaky = path("shaky.csv");
     said(&["generate", "--mode", "torque", "--out", &shaky]);
     shake(Path::new(&shaky));
     let close = |more: &[&str]| {
         (
-            "bowden.close/2",
-            printed(&[&["close", "--json"], more].concat()),
+            "bowden.identify/1",
+            printed(&[&["identify", "--json"], more].concat()),
         )
     };
     let gains = |name: &str| {
@@ -244,8 +250,8 @@ fn all(folder: &Path) -> Vec<(&'static str, Value)> {
         ("bowden.certificate/1", certified)
     };
     let checked = |record: &str| {
-        let check = printed(&["check", &model, record, "--json"]);
-        ("bowden.check/1", check)
+        let check = printed(&["validate", &model, record, "--json"]);
+        ("bowden.validate/1", check)
     };
     let otherwise = logged_otherwise(folder);
     let otherwise = otherwise.iter().map(|record| checked(record));
@@ -256,10 +262,11 @@ fn all(folder: &Path) -> Vec<(&'static str, Value)> {
         close(&[&bent, &straight, &later]),
         close(&[
             &straight,
-            "--declare",
+            "--baseline",
             "bouc-wen,viscous@phi_p,coulomb@phi_p",
-            "--rounds",
+            "--max-terms",
             "0",
+            "--invertible",
         ]),
         close(&[&stuck]),
         close(&[&bump]),
@@ -277,16 +284,15 @@ fn all(folder: &Path) -> Vec<(&'static str, Value)> {
 
 #[test]
 fn the_page_lists_every_field_that_is_printed_and_its_type() {
-    let folder = tempfile::tempdir().unwrap();
     let (seen, wrong) = (BTreeSet::new(), Vec::new());
     let mut comparison = Comparison {
         tables: tables(),
         seen,
         wrong,
     };
-    for (schema, value) in all(folder.path()) {
-        assert_eq!(value["schema"], schema);
-        comparison.object(&value, schema);
+    for (schema, value) in all() {
+        assert_eq!(value["schema"], *schema);
+        comparison.object(value, schema);
     }
     assert!(comparison.wrong.is_empty(), "{:#?}", comparison.wrong);
     let mut unseen = Vec::new();
@@ -301,4 +307,96 @@ fn the_page_lists_every_field_that_is_printed_and_its_type() {
         !SELDOM.contains(&heading) && !SELDOM_FIELDS.contains(&place.as_str())
     });
     assert!(unseen.is_empty(), "listed, and never printed: {unseen:?}");
+}
+
+const CHANGES: &str = include_str!("../../../CHANGELOG.md");
+
+/// Where a key of `bowden close --json` and `bowden check --json` was, and where it is now.
+const RENAMED: &[(&str, &str)] = &[
+    ("declared", "baseline"),
+    ("rounds", "terms"),
+    ("beyond", "undelivered"),
+    ("unneeded", "redundant"),
+    ("unneeded[].left_out", "redundant[].removed"),
+    ("deviation", "output_std"),
+    ("sentence", "summary"),
+    ("files_apart", "inconsistent_files"),
+    ("channel_apart", "inconsistent_channel"),
+    ("stopped_by_request", "stopped_by_max_terms"),
+    ("stopped_by_budget", "stopped_by_time_limit"),
+    ("declared.rmse.stop", "baseline.rmse.selection"),
+    (
+        "declared.parameters[].refused",
+        "baseline.parameters[].not_identified",
+    ),
+    (
+        "declared.parameters[].refused.because",
+        "baseline.parameters[].not_identified.reason",
+    ),
+    ("rounds[].grade", "terms[].confidence"),
+    ("rounds[].confounded_with", "terms[].alternatives"),
+    ("final.feed_forward.because", "final.feed_forward.reason"),
+    ("final.handed_over", "final.exported_model"),
+    (
+        "final.handed_over.left_out",
+        "final.exported_model.excluded_terms",
+    ),
+    (
+        "final.handed_over.calmed",
+        "final.exported_model.with_deadband",
+    ),
+    (
+        "cost.seconds.fitting_declared",
+        "cost.seconds.fitting_baseline",
+    ),
+    ("from", "trained_on"),
+    ("from.nrmse.stop", "trained_on.nrmse.selection"),
+    ("allowed", "threshold_nrmse"),
+    ("otherwise", "suspected_logging_error"),
+    ("record.left_out_s", "record.excluded_s"),
+    ("record.deviation", "record.output_std"),
+];
+
+/// The last key of a place.
+fn key(place: &str) -> &str {
+    let name = place.rsplit('.').next().unwrap_or(place);
+    name.trim_end_matches("[]")
+}
+
+/// The place of every key below a value: `terms[].confidence`.
+fn places(value: &Value, at: &str, found: &mut BTreeSet<String>) {
+    match value {
+        Value::Array(all) => all
+            .iter()
+            .for_each(|one| places(one, &format!("{at}[]"), found)),
+        Value::Object(object) => {
+            for (name, inner) in object {
+                let place = match at {
+                    "" => name.clone(),
+                    _ => format!("{at}.{name}"),
+                };
+                places(inner, &place, found);
+                found.insert(place);
+            }
+        }
+        _ => {}
+    }
+}
+
+#[test]
+fn each_old_key_has_a_new_one_that_is_printed_and_no_old_key_is() {
+    let mut printed = BTreeSet::new();
+    for (schema, value) in all() {
+        if ["bowden.identify/1", "bowden.validate/1"].contains(schema) {
+            places(value, "", &mut printed);
+        }
+    }
+    let changes = CHANGES.lines().find(|line| line.starts_with("- JSON: "));
+    for (old, new) in RENAMED {
+        assert!(printed.contains(*new), "{old} is now {new}: not printed");
+        let stale = printed.iter().find(|place| key(place) == key(old));
+        assert!(stale.is_none(), "{stale:?} has its old name");
+        let change = format!("`{}` → `{}`", key(old), key(new));
+        assert!(changes.unwrap().contains(&change), "{change}");
+    }
 }

@@ -21,11 +21,12 @@ fn without_arguments_the_embedded_record_gives_a_ledger_without_colours() {
     assert_eq!(output.status.code(), Some(0));
     let ledger = text(&output.stdout);
     for word in [
-        "as declared",
-        "viscous@phi_p",
-        "held out",
-        "verdict",
-        "explained",
+        "MISSING: friction over the velocity of phi_p",
+        "viscous@phi_p -0.2637",
+        "bouc-wen (baseline)",
+        "held-out",
+        "vs noise",
+        "The residual is the sensor's noise.",
     ] {
         assert!(ledger.contains(word), "{word} is not in\n{ledger}");
     }
@@ -37,19 +38,6 @@ fn without_arguments_the_embedded_record_gives_a_ledger_without_colours() {
 }
 
 #[test]
-fn the_readme_shows_what_the_first_command_prints() {
-    let readme = include_str!("../../../README.md");
-    let output = bowden(&[]);
-    // Of the rejected only the list's order could differ between processors.
-    for line in text(&output.stdout)
-        .lines()
-        .filter(|l| !l.starts_with("rejected"))
-    {
-        assert!(readme.contains(line.trim_end()), "not in README.md: {line}");
-    }
-}
-
-#[test]
 fn the_embedded_record_is_the_one_that_the_named_command_writes() {
     let folder = tempfile::tempdir().unwrap();
     let path = record(
@@ -58,11 +46,11 @@ fn the_embedded_record_is_the_one_that_the_named_command_writes() {
         &["--mode", "torque", "--effect", "viscous", "--seed", "7"],
     );
     let own: serde_json::Value =
-        serde_json::from_slice(&bowden(&["close", "--json"]).stdout).unwrap();
+        serde_json::from_slice(&bowden(&["identify", "--json"]).stdout).unwrap();
     let file: serde_json::Value =
-        serde_json::from_slice(&bowden(&["close", &path, "--json"]).stdout).unwrap();
+        serde_json::from_slice(&bowden(&["identify", &path, "--json"]).stdout).unwrap();
     assert_eq!(own["final"], file["final"]);
-    assert_eq!(own["rounds"], file["rounds"]);
+    assert_eq!(own["terms"], file["terms"]);
 }
 
 #[test]
@@ -80,37 +68,39 @@ fn the_same_record_gives_the_same_bytes_whatever_the_number_of_threads() {
             "3",
         ],
     );
-    let run = |threads: &str| bowden_on(threads, &["close", &path, "--json"]).stdout;
+    let run = |threads: &str| bowden_on(threads, &["identify", &path, "--json"]).stdout;
     let first = without_seconds(&run("1"));
     assert_eq!(first, without_seconds(&run("1")));
     assert_eq!(first, without_seconds(&run("3")));
 }
 
-/// The keys of each object of `close --json` on the embedded record.
+/// The keys of each object of `identify --json` on the embedded record.
 const LAYOUT: &[(&str, &[&str])] = &[
     (
         "",
         &[
             "schema",
             "record",
-            "declared",
-            "rounds",
-            "beyond",
+            "baseline",
+            "lacks",
+            "complete",
+            "terms",
+            "undelivered",
             "final",
             "rejected",
             "defects",
             "notes",
-            "unneeded",
+            "redundant",
             "unknown",
             "noise_floor",
-            "stopped_by_request",
-            "stopped_by_budget",
-            "beyond",
-            "deviation",
+            "stopped_by_max_terms",
+            "stopped_by_time_limit",
+            "undelivered",
+            "output_std",
             "explains",
             "integrates",
             "verdict",
-            "sentence",
+            "summary",
             "cost",
         ],
     ),
@@ -127,9 +117,22 @@ const LAYOUT: &[(&str, &[&str])] = &[
         ],
     ),
     (
-        "/declared",
+        "/baseline",
         &["effects", "parameters", "rmse", "nrmse", "nrmse_raw"],
     ),
+    (
+        "/lacks/0",
+        &[
+            "mechanism",
+            "channel",
+            "title",
+            "share",
+            "confidence",
+            "alternatives",
+            "members",
+        ],
+    ),
+    ("/complete", &["floors", "at_floor"]),
     (
         "/final",
         &[
@@ -140,37 +143,43 @@ const LAYOUT: &[(&str, &[&str])] = &[
             "nrmse",
             "causal_nrmse",
             "feed_forward",
-            "handed_over",
+            "exported_model",
         ],
     ),
-    ("/final/feed_forward", &["invertible", "because", "nearest"]),
+    ("/final/feed_forward", &["invertible", "reason", "nearest"]),
     (
-        "/final/handed_over",
+        "/final/exported_model",
         &[
             "effects",
-            "left_out",
+            "excluded_terms",
             "within_inverse",
             "nrmse",
             "rates_time_constant_s",
         ],
     ),
-    ("/declared/rmse", &["fit", "stop", "held_out"]),
+    ("/baseline/rmse", &["fit", "selection", "held_out"]),
     (
-        "/declared/parameters/0",
-        &["name", "value", "unit", "ci95", "identified", "refused"],
+        "/baseline/parameters/0",
+        &[
+            "name",
+            "value",
+            "unit",
+            "ci95",
+            "identified",
+            "not_identified",
+        ],
     ),
     (
-        "/rounds/0",
+        "/terms/0",
         &[
             "family",
             "effect",
             "channel",
-            "grade",
-            "support",
+            "confidence",
             "coefficients",
             "p",
             "explained",
-            "confounded_with",
+            "alternatives",
             "experiment",
             "rmse_before",
             "rmse_after",
@@ -181,10 +190,9 @@ const LAYOUT: &[(&str, &[&str])] = &[
         ],
     ),
     (
-        "/rounds/0/coefficients/0",
+        "/terms/0/coefficients/0",
         &["name", "value", "unit", "ci95"],
     ),
-    ("/rounds/0/support", &["recurs", "of"]),
     (
         "/cost",
         &[
@@ -200,7 +208,7 @@ const LAYOUT: &[(&str, &[&str])] = &[
         &[
             "reading",
             "preparing",
-            "fitting_declared",
+            "fitting_baseline",
             "searching",
             "concluding",
         ],
@@ -209,10 +217,10 @@ const LAYOUT: &[(&str, &[&str])] = &[
 
 #[test]
 fn the_json_is_laid_out_as_documented() {
-    let output = bowden(&["close", "--json"]);
+    let output = bowden(&["identify", "--json"]);
     assert!(output.stderr.is_empty());
     let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(report["schema"], "bowden.close/2");
+    assert_eq!(report["schema"], "bowden.identify/1");
     for (place, names) in LAYOUT {
         let found = report.pointer(place).unwrap().as_object().unwrap();
         let found: BTreeSet<&str> = found.keys().map(String::as_str).collect();
@@ -229,12 +237,12 @@ fn the_json_is_laid_out_as_documented() {
         "2",
     ];
     let path = record(&folder, "coulomb.csv", &coulomb);
-    let other = bowden(&["close", &path, "--json"]);
+    let other = bowden(&["identify", &path, "--json"]);
     let other: serde_json::Value = serde_json::from_slice(&other.stdout).unwrap();
     let rejected = other["rejected"][0].as_object().unwrap();
     let keys: Vec<&str> = rejected.keys().map(String::as_str).collect();
     assert_eq!(keys, ["channel", "effect", "family", "gate"]);
-    let round = &report["rounds"][0];
+    let round = &report["terms"][0];
     assert_eq!(
         (round["family"].as_str(), round["channel"].as_str()),
         (Some("viscous"), Some("phi_p"))
@@ -246,15 +254,15 @@ fn the_json_is_laid_out_as_documented() {
 #[test]
 fn a_search_whose_time_is_over_gives_the_best_so_far_and_says_so() {
     // Over before the first look at what is missing, on whatever machine.
-    let output = bowden(&["close", "--json", "--budget", "1e-9"]);
+    let output = bowden(&["identify", "--json", "--time-limit", "1e-9"]);
     assert!(output.status.success());
     let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(report["stopped_by_budget"], 1e-9);
+    assert_eq!(report["stopped_by_time_limit"], 1e-9);
     assert_eq!(report["verdict"], "stopped");
-    let sentence = report["sentence"].as_str().unwrap();
+    let sentence = report["summary"].as_str().unwrap();
     assert!(sentence.contains("stopped after"), "{sentence}");
-    assert_eq!(report["rounds"].as_array().unwrap().len(), 0);
-    assert!(report["declared"]["rmse"]["fit"].as_f64().unwrap() > 0.0);
+    assert_eq!(report["terms"].as_array().unwrap().len(), 0);
+    assert!(report["baseline"]["rmse"]["fit"].as_f64().unwrap() > 0.0);
     // With time enough it is as if none had been given.
     let found = |arguments: &[&str]| {
         let output = bowden(arguments);
@@ -262,8 +270,8 @@ fn a_search_whose_time_is_over_gives_the_best_so_far_and_says_so() {
         report["cost"].take();
         report
     };
-    let ample = found(&["close", "--json", "--budget", "3600"]);
-    assert_eq!(found(&["close", "--json"]), ample);
+    let ample = found(&["identify", "--json", "--time-limit", "3600"]);
+    assert_eq!(found(&["identify", "--json"]), ample);
 }
 
 #[test]
@@ -275,42 +283,52 @@ fn a_bad_record_or_option_gives_one_line_and_status_two() {
         path.display().to_string()
     };
     let missing = folder.path().join("missing.csv").display().to_string();
-    assert!(refused(&["close", &missing]).contains("missing.csv"));
-    assert!(refused(&["close", &folder.path().display().to_string()]).contains("bowden: "));
-    refused(&["close", &file("empty.csv", b"")]);
-    refused(&["close", &file("binary.csv", &[0, 159, 146, 150, 0, 0])]);
-    let text = refused(&["close", &file("text.csv", b"t,x,f\n0,0,0\n0.1,zero,1\n")]);
+    assert!(refused(&["identify", &missing]).contains("missing.csv"));
+    assert!(refused(&["identify", &folder.path().display().to_string()]).contains("bowden: "));
+    refused(&["identify", &file("empty.csv", b"")]);
+    refused(&["identify", &file("binary.csv", &[0, 159, 146, 150, 0, 0])]);
+    let text = refused(&["identify", &file("text.csv", b"t,x,f\n0,0,0\n0.1,zero,1\n")]);
     assert!(text.contains("text.csv:3") && text.contains('x'), "{text}");
     let good = record(&folder, "good.csv", &["--seconds", "5"]);
     for (option, value) in [
-        ("--budget", "0"),
-        ("--budget", "NaN"),
+        ("--time-limit", "0"),
+        ("--time-limit", "NaN"),
         ("--cutoff", "-1"),
         ("--cutoff", "NaN"),
         ("--cutoff", "900"),
         ("--cutoff", "0.01"),
-        ("--skip", "99"),
+        ("--start", "99"),
         ("--rate", "0"),
-        ("--declare", "bouc-wen,nonsense"),
-        ("--declare", "viscous,viscous"),
+        ("--baseline", "bouc-wen,nonsense"),
+        ("--baseline", "viscous,viscous"),
         ("--channel", "phi_p"),
         ("--input", "nowhere"),
         ("--model-out", "model.json"),
     ] {
-        let line = refused(&["close", &good, &format!("{option}={value}")]);
+        let line = refused(&["identify", &good, &format!("{option}={value}")]);
         assert!(line.starts_with("bowden: "), "{line}");
     }
     assert!(refused(&["generate", "--effect", "nonsense"]).contains("nonsense"));
+    for (mistyped, meant) in [
+        (["identify", "--baseline", "bouc-wen,viscos"], "`viscous`"),
+        (["identify", "--baseline", "viscous@phi-p"], "`phi_p`"),
+        (["identify", "--max-term", "1"], "'--max-terms'"),
+    ] {
+        let line = refused(&mistyped);
+        assert!(line.contains(meant), "{line}");
+    }
     assert!(refused(&["generate", "--effect", "viscous:much"]).contains("much"));
     assert!(refused(&["generate", "--seconds", "0"]).contains("seconds"));
     for taken in ["bowden.h", "Bowden_model.h"] {
         let line = refused(&["export", "--c", "model.toml", "--out", taken]);
-        assert!(line.contains("a name of the library's own"), "{line}");
+        assert!(line.contains("a name of the library"), "{line}");
     }
-    assert!(refused(&["close", "--no-such-option"]).contains("--no-such-option"));
-    assert!(refused(&["compare", "--inertia", "0"]).contains("--inertia 0: a number above zero"));
+    assert!(refused(&["identify", "--no-such-option"]).contains("--no-such-option"));
+    assert!(
+        refused(&["compare", "--inertia", "0"]).contains("--inertia 0 is out of range (above 0)")
+    );
     assert!(refused(&["compare", "--delay", "9"]).contains("9 is not in 0..=8"));
-    assert!(refused(&["compare", "--noise", "-1"]).contains("--noise -1: zero or more"));
+    assert!(refused(&["compare", "--noise", "-1"]).contains("--noise -1 is out of range (0"));
 }
 
 #[test]
@@ -330,7 +348,7 @@ fn a_model_file_is_whole_or_absent_and_reads_back_to_the_same_model() {
     );
     let path = folder.path().join("model.toml");
     let out = path.display().to_string();
-    assert!(bowden(&["close", &record, "--model-out", &out])
+    assert!(bowden(&["identify", &record, "--model-out", &out])
         .status
         .success());
     let file: bowden_lab::export::ModelFile =
@@ -356,7 +374,7 @@ fn a_model_file_is_whole_or_absent_and_reads_back_to_the_same_model() {
         .join("no-such-folder/model.toml")
         .display()
         .to_string();
-    refused(&["close", &record, "--model-out", &nowhere]);
+    refused(&["identify", &record, "--model-out", &nowhere]);
     let left: Vec<_> = std::fs::read_dir(folder.path())
         .unwrap()
         .map(|e| e.unwrap().file_name())
@@ -374,7 +392,7 @@ fn whatever_is_printed_on_a_full_disk_is_one_line_and_status_two() {
     for arguments in [
         &["--version"][..],
         &["--help"],
-        &["close", "--help"],
+        &["identify", "--help"],
         &["help", "terms"],
         &["certify"],
         &["generate", "--mode", "torque"],
@@ -398,7 +416,7 @@ fn whatever_is_printed_on_a_full_disk_is_one_line_and_status_two() {
     }
 }
 
-/// JSON is UTF-8: docs/json.md says what becomes of another path.
+/// JSON is UTF-8: docs/reference/json.md says what becomes of another path.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_path_that_is_no_utf_8_is_read_and_has_the_sign_for_that_in_the_json() {
@@ -411,7 +429,7 @@ fn a_path_that_is_no_utf_8_is_read_and_has_the_sign_for_that_in_the_json() {
     std::fs::copy(&plain, &foreign).unwrap();
     let closed = |path: &std::path::Path| {
         let output = std::process::Command::new(env!("CARGO_BIN_EXE_bowden"))
-            .args(["close", "--rounds", "0", "--json"])
+            .args(["identify", "--max-terms", "0", "--json"])
             .arg(path)
             .output()
             .unwrap();
@@ -426,7 +444,7 @@ fn a_path_that_is_no_utf_8_is_read_and_has_the_sign_for_that_in_the_json() {
     let expected = without_seconds(&closed(plain.as_ref()));
     let expected = expected.replace("plain.csv", "l\u{fffd}uft.csv");
     assert_eq!(without_seconds(&found), expected);
-    let documented = include_str!("../../../docs/json.md");
+    let documented = include_str!("../../../docs/reference/json.md");
     assert!(documented.contains("U+FFFD"));
 }
 
@@ -438,7 +456,7 @@ fn a_page_of_a_record_through_a_pipe_has_the_hash_of_what_came() {
     let plain = record(&folder, "plain.csv", &["--mode", "torque"]);
     let page = |record: &str, name: &str| {
         let page = folder.path().join(name).display().to_string();
-        let output = bowden(&["close", record, "--rounds", "0", "--report", &page]);
+        let output = bowden(&["identify", record, "--max-terms", "0", "--report", &page]);
         assert_eq!(output.status.code(), Some(0), "{output:?}");
         std::fs::read_to_string(page).unwrap()
     };

@@ -1,4 +1,4 @@
-//! `bowden close --glob`: one row a record, read back with another reader than the writer's.
+//! `bowden identify --glob`: one row a record, read back with another reader than the writer's.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 #[allow(dead_code)]
@@ -57,23 +57,39 @@ fn of(field: &Field) -> Value {
     }
 }
 
+/// As `friction@x`, of what `identify --json` prints.
+fn mechanisms(report: &Value) -> Value {
+    let of = |lack: &Value, key: &str| lack[key].as_str().unwrap().to_owned();
+    let lacks = report["lacks"].as_array().unwrap().iter();
+    let names = lacks.map(|lack| format!("{}@{}", of(lack, "mechanism"), of(lack, "channel")));
+    names.collect()
+}
+
 #[test]
 fn each_record_is_a_row_with_what_close_says_of_it_alone_or_with_its_error() {
     let folder = folder();
     let out = file(folder.path(), "rows.parquet");
     let pattern = file(folder.path(), "r*.csv");
-    let asked = ["--declare", "bouc-wen", "--cutoff", "6"];
-    let glob = ["close", "--glob", &pattern, "--out", &out, "--workers", "1"];
+    let asked = ["--baseline", "bouc-wen", "--cutoff", "6"];
+    let glob = [
+        "identify",
+        "--glob",
+        &pattern,
+        "--out",
+        &out,
+        "--workers",
+        "1",
+    ];
     let words = said(&[&glob, &asked[..]].concat());
     assert_eq!(
         words,
-        format!("{out}: 6 records, a row each; 2 of them could not be closed\n")
+        format!("{out}: 6 records, one row each; 2 of them could not be identified\n")
     );
     let rows = rows_of(&out);
     assert_eq!(rows.len(), 6);
     for (index, row) in rows.iter().enumerate().take(4) {
         let path = file(folder.path(), &format!("r{}.csv", index + 1));
-        let alone = said(&[&["close", &path, "--json"], &asked[..]].concat());
+        let alone = said(&[&["identify", &path, "--json"], &asked[..]].concat());
         let alone: Value = serde_json::from_str(&alone).unwrap();
         let each = |list: &Value, name: &str| -> Value {
             let list = list.as_array().unwrap();
@@ -83,8 +99,10 @@ fn each_record_is_a_row_with_what_close_says_of_it_alone_or_with_its_error() {
         assert_eq!(cell(row, "status"), "ok");
         let verdict = cell(row, "verdict");
         assert!(!verdict.is_null() && verdict == alone["verdict"]);
-        assert_eq!(cell(row, "names"), each(&alone["rounds"], "effect"));
-        assert_eq!(cell(row, "grades"), each(&alone["rounds"], "grade"));
+        assert_eq!(cell(row, "mechanisms"), mechanisms(&alone));
+        assert_eq!(cell(row, "names"), each(&alone["terms"], "effect"));
+        let confidences = each(&alone["terms"], "confidence");
+        assert_eq!(cell(row, "confidences"), confidences);
         let fitted = &alone["final"]["parameters"];
         assert!(fitted.as_array().unwrap().len() > 5);
         for (column, name) in [
@@ -94,8 +112,8 @@ fn each_record_is_a_row_with_what_close_says_of_it_alone_or_with_its_error() {
         ] {
             assert_eq!(cell(row, column), each(fitted, name), "{column}");
         }
-        let error = &alone["declared"]["rmse"]["held_out"];
-        assert_eq!(cell(row, "declared_held_out"), *error);
+        let error = &alone["baseline"]["rmse"]["held_out"];
+        assert_eq!(cell(row, "baseline_held_out"), *error);
         assert_eq!(
             cell(row, "final_held_out"),
             alone["final"]["rmse"]["held_out"]
@@ -105,10 +123,10 @@ fn each_record_is_a_row_with_what_close_says_of_it_alone_or_with_its_error() {
             assert_eq!(cell(row, name), alone["cost"][name], "{name}");
         }
     }
-    // What `close` says of them, in its words.
+    // What `identify` says of them, in its words.
     for (index, line) in [(4, Value::Null), (5, 100.into())] {
         let path = file(folder.path(), &format!("r{}.csv", index + 1));
-        let alone = refused(&["close", &path]);
+        let alone = refused(&["identify", &path]);
         let row = &rows[index];
         assert_eq!(cell(row, "status"), "error");
         let error = cell(row, "error");
@@ -120,7 +138,15 @@ fn each_record_is_a_row_with_what_close_says_of_it_alone_or_with_its_error() {
     }
     // Side by side the bytes are the same.
     let before = std::fs::read(&out).unwrap();
-    let glob = ["close", "--glob", &pattern, "--out", &out, "--workers", "3"];
+    let glob = [
+        "identify",
+        "--glob",
+        &pattern,
+        "--out",
+        &out,
+        "--workers",
+        "3",
+    ];
     said(&[&glob, &asked[..]].concat());
     assert_eq!(std::fs::read(&out).unwrap(), before);
 }
@@ -136,7 +162,7 @@ fn a_process_that_dies_is_the_row_of_its_record() {
         "-c",
         script,
         env!("CARGO_BIN_EXE_bowden"),
-        "close",
+        "identify",
         "--glob",
     ]);
     limited.args([
@@ -169,20 +195,20 @@ fn bad_use_of_glob_leaves_the_rows_of_before() {
     std::fs::write(&out, "rows of before").unwrap();
     let none = file(folder.path(), "q*.csv");
     assert_eq!(
-        refused(&["close", "--glob", &none, "--out", &out]),
+        refused(&["identify", "--glob", &none, "--out", &out]),
         format!("bowden: {none}: no file has such a name")
     );
     let pattern = file(folder.path(), "r*.csv");
     let record = file(folder.path(), "r1.csv");
-    let line = refused(&["close", "--glob", &pattern, "--out", &record]);
+    let line = refused(&["identify", "--glob", &pattern, "--out", &record]);
     assert!(
-        line.ends_with(&format!("would overwrite {record}, which is read")),
+        line.ends_with(&format!("would overwrite {record}, which is an input")),
         "{line}"
     );
-    let line = refused(&["close", "--glob", &pattern, "--out", &out, "--cutoff=-1"]);
-    assert!(line.contains("--cutoff -1: a positive frequency"), "{line}");
-    for more in [["--json", "--invertible"], ["--rounds", "1"]] {
-        let ended = shell::bowden(&[&["close", "--glob", &pattern], &more[..]].concat());
+    let line = refused(&["identify", "--glob", &pattern, "--out", &out, "--cutoff=-1"]);
+    assert!(line.contains("`--cutoff -1` is out of range"), "{line}");
+    for more in [["--json", "--invertible"], ["--max-terms", "1"]] {
+        let ended = shell::bowden(&[&["identify", "--glob", &pattern], &more[..]].concat());
         assert_eq!(ended.status.code(), Some(2));
     }
     assert_eq!(std::fs::read_to_string(&out).unwrap(), "rows of before");
@@ -194,7 +220,11 @@ fn an_option_of_glob_without_it_is_refused_and_not_passed_over() {
     let out = file(folder.path(), "model.toml");
     // A record that is not there would be complained of first if it were read first.
     let record = file(folder.path(), "later.csv");
-    for asked in [&["close"][..], &["close", &record], &["close", "--json"]] {
+    for asked in [
+        &["identify"][..],
+        &["identify", &record],
+        &["identify", "--json"],
+    ] {
         let line = refused(&[asked, &["--out", &out]].concat());
         assert_eq!(
             line,

@@ -48,44 +48,44 @@ fn files_that_do_not_go_together_give_one_line_with_file_and_column() {
     let folder = Folder::new();
     let a = folder.record("a.csv", &["--seed", "1"]);
     let x = folder.record("x.csv", &["--mode", "displacement"]);
-    let line = refused(&["close", &a, &x]);
+    let line = refused(&["identify", &a, &x]);
     assert!(
-        line.contains("x.csv: column `x`: ") && line.contains("torque mode was expected"),
+        line.contains("x.csv: column `x`: ") && line.contains("torque mode is needed"),
         "{line}"
     );
     let fewer = folder.renamed(&a, "fewer.csv", |h| h.replace("phi_d", "other"));
-    let line = refused(&["close", &a, &fewer]);
+    let line = refused(&["identify", &a, &fewer]);
     assert!(
         line.contains("fewer.csv: column `phi_d`: no such channel"),
         "{line}"
     );
-    let line = refused(&["close", &fewer, &a]);
+    let line = refused(&["identify", &fewer, &a]);
     assert!(
         line.contains("a.csv: column `phi_d`: a channel that"),
         "{line}"
     );
     let other = folder.renamed(&a, "unit.csv", |h| h.replacen("N·m", "V", 1));
-    let line = refused(&["close", &a, &other]);
+    let line = refused(&["identify", &a, &other]);
     assert!(
-        line.contains("unit.csv: column `tau_i`: has unit V; unit N·m was expected"),
+        line.contains("unit.csv: column `tau_i`: has unit V; unit N·m is needed"),
         "{line}"
     );
-    let line = refused(&["close", &a, &folder.path("none.csv")]);
+    let line = refused(&["identify", &a, &folder.path("none.csv")]);
     assert!(line.contains("none.csv"), "{line}");
-    assert!(refused(&["close", &a, &a]).contains("given twice"));
+    assert!(refused(&["identify", &a, &a]).contains("given twice"));
     let copy = folder.renamed(&a, "copy.csv", str::to_owned);
-    let line = refused(&["close", &a, &copy]);
+    let line = refused(&["identify", &a, &copy]);
     assert!(line.contains("copy.csv: the same samples as in"), "{line}");
-    let line = refused(&["close", &a, "--per-file", "gains"]);
+    let line = refused(&["identify", &a, "--per-file", "gains"]);
     assert!(line.contains("more than one file"), "{line}");
     let b = folder.record("b.csv", &["--seed", "2"]);
     let line = refused(&[
-        "close",
+        "identify",
         &a,
         &b,
         "--per-file",
         "gains",
-        "--declare",
+        "--baseline",
         "viscous",
     ]);
     assert!(line.contains("bouc-wen"), "{line}");
@@ -97,44 +97,44 @@ fn a_pattern_leaves_out_the_test_vectors_that_the_program_has_written_and_says_s
     let folder = Folder::new();
     let a = folder.record("a.csv", &["--seed", "1"]);
     let (model, vector) = (folder.path("a.toml"), folder.path("a.vector.csv"));
-    let quick = ["--rounds", "0"];
-    let written = bowden(&[&["close", &a, "--model-out", &model], &quick[..]].concat());
+    let quick = ["--max-terms", "0"];
+    let written = bowden(&[&["identify", &a, "--model-out", &model], &quick[..]].concat());
     assert_eq!(written.status.code(), Some(0));
     assert!(std::path::Path::new(&vector).exists());
     let pattern = folder.path("*.csv");
     let json = |arguments: &[&str]| -> serde_json::Value {
-        let output = bowden(&[&["close", "--json"], arguments, &quick].concat());
+        let output = bowden(&[&["identify", "--json"], arguments, &quick].concat());
         assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
         serde_json::from_slice(&output.stdout).unwrap()
     };
     let (alone, of_pattern) = (json(&[&a]), json(&[&pattern]));
     assert_eq!(of_pattern["record"]["path"], a.as_str());
     assert_eq!(of_pattern["final"], alone["final"]);
-    let note = "1 test vector of --model-out left out of the pattern";
+    let note = "1 test vector of --model-out excluded from the pattern";
     let noted = |json: &serde_json::Value| {
         let notes = json["notes"].as_array().unwrap();
         notes.iter().filter(|own| *own == note).count()
     };
     assert_eq!((noted(&alone), noted(&of_pattern)), (0, 1));
-    let ledger = bowden(&[&["close", &pattern], &quick[..]].concat());
-    assert!(text(&ledger.stdout).contains(&format!("note      {note}")));
+    let ledger = bowden(&[&["identify", &pattern], &quick[..]].concat());
+    assert!(text(&ledger.stdout).contains(&format!("Note    {note}")));
     // Named in full it is read; where a pattern has nothing else, that is said.
-    assert!(refused(&["close", &vector]).contains("a.vector.csv:1: neither `tau_i`"));
-    let line = refused(&["close", &folder.path("*.vector.csv")]);
+    assert!(refused(&["identify", &vector]).contains("a.vector.csv:1: neither `tau_i`"));
+    let line = refused(&["identify", &folder.path("*.vector.csv")]);
     assert!(
         line.ends_with("no file has such a name but 1 test vector of --model-out"),
         "{line}"
     );
     // A record of such a name stays one.
     std::fs::copy(&a, folder.path("b.vector.csv")).unwrap();
-    let line = refused(&["close", &pattern]);
+    let line = refused(&["identify", &pattern]);
     assert!(
         line.contains("b.vector.csv: the same samples as in"),
         "{line}"
     );
     let rows = folder.path("rows.parquet");
     let glob = [
-        "close",
+        "identify",
         "--glob",
         &pattern,
         "--out",
@@ -145,14 +145,14 @@ fn a_pattern_leaves_out_the_test_vectors_that_the_program_has_written_and_says_s
     let output = bowden(&[&glob, &quick[..]].concat());
     assert_eq!(
         text(&output.stdout),
-        format!("{rows}: 2 records, a row each; 0 of them could not be closed; {note}\n")
+        format!("{rows}: 2 records, one row each; 0 of them could not be identified; {note}\n")
     );
 }
 
 #[test]
 fn more_files_than_can_be_fitted_together_are_refused_before_any_is_read() {
     let names: Vec<String> = (1..=65).map(|k| format!("{k}.csv")).collect();
-    let mut all = vec!["close"];
+    let mut all = vec!["identify"];
     all.extend(names.iter().map(String::as_str));
     let line = refused(&all);
     assert!(
@@ -181,9 +181,9 @@ fn a_file_in_other_units_of_the_same_kind_is_converted() {
     let c = folder.path("c.csv");
     std::fs::write(&c, converted).unwrap();
     let error = |other: &str| {
-        let out = bowden(&["close", &a, other, "--json"]);
+        let out = bowden(&["identify", &a, other, "--json"]);
         let json: serde_json::Value = serde_json::from_slice(&out.stdout).unwrap();
-        json["declared"]["rmse"]["fit"].as_f64().unwrap()
+        json["baseline"]["rmse"]["fit"].as_f64().unwrap()
     };
     // Nine decimals of a thousandth were written.
     assert!((error(&b) / error(&c) - 1.0).abs() < 1e-6);
@@ -195,7 +195,7 @@ fn three_files_are_reported_one_by_one_and_the_same_on_any_number_of_threads() {
     let folder = Folder::new();
     let name = |seed: &str| folder.record(&format!("{seed}.csv"), &["--seed", seed]);
     let (a, b, c) = (name("1"), name("2"), name("3"));
-    let arguments = ["close", &a, &b, &c, "--json"];
+    let arguments = ["identify", &a, &b, &c, "--json"];
     let first = bowden_on("1", &arguments);
     assert_eq!(first.status.code(), Some(0), "{}", text(&first.stderr));
     let again = bowden_on("3", &arguments);
@@ -209,7 +209,7 @@ fn three_files_are_reported_one_by_one_and_the_same_on_any_number_of_threads() {
     let held_out: Vec<_> = records.iter().map(|r| r["held_out"].as_str()).collect();
     assert_eq!(held_out, [Some("nothing"), Some("nothing"), Some("whole")]);
     assert_eq!(records[1]["path"], b.as_str());
-    for model in ["declared", "final"] {
+    for model in ["baseline", "final"] {
         let files = json[model]["rmse_by_file"].as_array().unwrap();
         assert_eq!(files.len(), 3);
         assert!(files[0]["fit"].is_f64() && files[0]["held_out"].is_null());
@@ -217,9 +217,9 @@ fn three_files_are_reported_one_by_one_and_the_same_on_any_number_of_threads() {
         // One file is held out, so its error is that of the whole.
         assert_eq!(files[2]["held_out"], json[model]["rmse"]["held_out"]);
     }
-    let ledger = bowden(&["close", &a, &b, &c]);
+    let ledger = bowden(&["identify", &a, &b, &c]);
     let ledger = text(&ledger.stdout);
-    assert!(ledger.contains(&format!("held out: {c}")), "{ledger}");
+    assert!(ledger.contains(&format!("held-out: {c}")), "{ledger}");
     assert!(ledger.contains("error by file"), "{ledger}");
 }
 
@@ -230,7 +230,15 @@ fn with_gains_of_their_own_each_file_gets_a_model_file() {
     let a = folder.record("a.csv", &["--seed", "1"]);
     let b = folder.record("b.csv", &["--seed", "2"]);
     let out = folder.path("model.toml");
-    let ran = bowden(&["close", &a, &b, "--per-file", "gains", "--model-out", &out]);
+    let ran = bowden(&[
+        "identify",
+        &a,
+        &b,
+        "--per-file",
+        "gains",
+        "--model-out",
+        &out,
+    ]);
     assert_eq!(ran.status.code(), Some(0), "{}", text(&ran.stderr));
     assert!(text(&ran.stdout).contains("gains by file"));
     assert!(!std::path::Path::new(&out).exists());

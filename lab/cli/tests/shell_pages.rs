@@ -19,7 +19,7 @@ fn subcommands() -> Vec<String> {
         .map(|line| line.split_whitespace().next().unwrap().to_owned())
         .collect();
     assert!(
-        names.len() >= 12 && names.contains(&"close".to_owned()),
+        names.len() >= 12 && names.contains(&"identify".to_owned()),
         "{names:?}"
     );
     names
@@ -46,7 +46,7 @@ fn completions_of_each_shell_name_every_subcommand() {
         for name in subcommands() {
             assert!(script.contains(&name), "{shell} does not know {name}");
         }
-        for option in options("close") {
+        for option in options("identify") {
             // fish has the names without their dashes.
             let name = option.trim_start_matches('-');
             assert!(

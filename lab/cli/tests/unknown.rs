@@ -1,7 +1,7 @@
 //! What has no name, as it is printed.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use bowden_cli::view::{json, text};
+use bowden_cli::view::{json, text, Report, Width};
 use bowden_lab::facts::{close, Asked, Close, Detail, Facts, Meter};
 use bowden_synth::{generate, Mode, Planted, Recipe};
 
@@ -36,7 +36,7 @@ fn the_report_of_something_unknown_says_so_in_both_forms_and_is_the_same_on_one_
     let facts = bump();
     let printed = json(&facts, None).unwrap();
     let report: serde_json::Value = serde_json::from_str(&printed).unwrap();
-    assert_eq!(report["verdict"], "unknown");
+    assert_eq!(report["verdict"], "unmodelled-dependence");
     let unknown = &report["unknown"];
     assert_eq!(unknown["variable"], "position");
     assert_eq!(unknown["channel"], "x");
@@ -50,10 +50,17 @@ fn the_report_of_something_unknown_says_so_in_both_forms_and_is_the_same_on_one_
     let found = rmse("rmse_after");
     assert!((delivered / found - 1.0).abs() < 0.1, "{delivered} {found}");
 
-    let sentence = report["sentence"].as_str().unwrap();
+    let sentence = report["summary"].as_str().unwrap();
     assert!(sentence.contains("depends on x"), "{sentence}");
-    let ledger = text(&facts, false);
-    assert!(ledger.contains("unknown: The residual depends on x; to first order the best one"));
+    let ledger = text(
+        &facts,
+        Report {
+            width: Width::unlimited(),
+            verbose: false,
+            chosen_cutoff: false,
+        },
+    );
+    assert!(ledger.contains("The residual depends on x; to first order, the best one"));
 
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(1)

@@ -43,9 +43,9 @@ fn step_through<T: Real>(
         let row = row?;
         let numbers: Result<Vec<f64>, _> = row.iter().map(str::parse::<f64>).collect();
         // All but the last column are texts of `f32`.
-        let numbers: Vec<T> = numbers?.into_iter().map(T::of).collect();
+        let numbers: Vec<T> = numbers?.into_iter().map(T::from_f64).collect();
         let &[dt, x, v, a, load, ref rest @ ..] = &numbers[..] else {
-            return Err("at least seven columns were expected".into());
+            return Err("at least seven columns are allowed".into());
         };
         let (channels, expected) = rest.split_at(rest.len().saturating_sub(2));
         let motion = |m: &[T]| Motion {

@@ -35,7 +35,7 @@ impl Answer {
         let done = FinalFit::new(&data, &ledger);
         let error = done.rmse.normalised(&data, &data.target);
         let name = |round: &bowden_lab::ledger::Round| {
-            let weak = if round.grade == Grade::Firm { "" } else { "?" };
+            let weak = if round.grade == Grade::High { "" } else { "?" };
             format!("{}{weak}", round.candidate.term.effect.name())
         };
         Ok(Self {

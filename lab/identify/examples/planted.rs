@@ -109,10 +109,8 @@ struct Found {
 impl Found {
     fn new(data: &Prepared, ledger: &Ledger, family: &str) -> Self {
         let is_right = |round: &&Round| {
-            let rivals = round.rivals.iter().map(|c| c.family.name());
-            rivals
-                .chain([round.candidate.family.name()])
-                .any(|f| f == family)
+            let mut possible = round.possible();
+            possible.any(|one| one.family.name() == family)
         };
         let right = ledger.rounds.iter().filter(is_right).count();
         let mut names: Vec<String> = ledger.rounds.iter().map(|r| named(data, r)).collect();

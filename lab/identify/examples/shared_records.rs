@@ -23,7 +23,7 @@ use bowden_lab::search::{close, MOST_NAMES};
 use shared::{Row, ROWS, STRETCHED};
 use std::path::{Path, PathBuf};
 
-/// The rounds with their errors, the parameters, the sentence; `bowden close` prints it all.
+/// The rounds with their errors, the parameters, the sentence; `bowden identify` prints it all.
 fn print(facts: &Facts) {
     println!(
         "{}: declared {}",

@@ -27,7 +27,7 @@ impl Gate {
         match self {
             Self::P => "not significant",
             Self::Blocks => "not on enough blocks",
-            Self::StopCheck => "worse on the stop-check",
+            Self::StopCheck => "worse on the selection segment",
             Self::Superseded => "superseded by later ones",
         }
     }
@@ -37,10 +37,10 @@ impl Gate {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Grade {
-    /// Found again in at least half of the half-records, and without a rival.
-    Firm,
-    /// Recurs too seldom, or has rivals that explain the same as well.
-    Weak,
+    /// Part of a model within the noise, on no bound, and without a rival.
+    High,
+    /// A candidate: one of these does not hold.
+    Low,
 }
 
 /// One accepted effect.
@@ -58,8 +58,6 @@ pub struct Round {
     pub explained: f64,
     /// Blocks of sixteen on which it helped.
     pub blocks_better: usize,
-    /// Number of half-records, of a hundred, in which a search finds it again.
-    pub recurs: usize,
     /// Errors before.
     pub before: Segments,
     /// Errors after.
@@ -74,6 +72,13 @@ impl Round {
     pub fn term(&self) -> &FitTerm {
         let terms = &self.solution.structure.terms;
         terms.last().unwrap_or(&self.candidate.term)
+    }
+
+    /// Every effect that may be the one in the rig: the named one, the one that is the same function
+    /// under another name, and the rivals.
+    pub fn possible(&self) -> impl Iterator<Item = Candidate> + '_ {
+        let own = [Some(self.candidate), Candidate::twin(&self.candidate.term)];
+        own.into_iter().flatten().chain(self.rivals.iter().copied())
     }
 }
 
@@ -100,7 +105,7 @@ pub(crate) fn reject(list: &mut Vec<Rejection>, those: impl IntoIterator<Item = 
 /// The whole ledger.
 #[derive(Debug, Clone)]
 pub struct Ledger {
-    /// The declared model, fitted.
+    /// The baseline model, fitted.
     pub declared: Solution,
     /// What was added.
     pub rounds: Vec<Round>,
@@ -124,6 +129,8 @@ pub struct Ledger {
     pub rigs_apart: Option<RigsApart>,
     /// A channel that was logged otherwise in one of the files.
     pub channel_apart: Option<ChannelApart>,
+    /// Lead \[s\] of the output before the input, as a delay fitted to the last model says.
+    pub lead: Option<f64>,
     /// Channels whose steps matter to the final model.
     pub coarse: Vec<CoarseChannel>,
     /// The requested number of effects if it ended the search: further effects may be missing.
@@ -134,7 +141,7 @@ pub struct Ledger {
 }
 
 impl Ledger {
-    /// The ledger of a declared model before the search.
+    /// The ledger of a baseline model before the search.
     #[must_use]
     pub fn of(declared: Solution) -> Self {
         Self {
@@ -149,6 +156,7 @@ impl Ledger {
             apart: Vec::new(),
             rigs_apart: None,
             channel_apart: None,
+            lead: None,
             coarse: Vec::new(),
             stopped_by_request: None,
             stopped_by_budget: None,
@@ -166,14 +174,14 @@ impl Ledger {
     pub fn stopped_words(&self) -> Option<String> {
         if let Some(seconds) = self.stopped_by_budget {
             return Some(format!(
-                "The search stopped after {seconds} s, as asked: this is the best model so far, and what else is missing was not looked for."
+                "The search stopped after {seconds} s, as requested: this is the best model so far, and further terms may be missing."
             ));
         }
         Some(match self.stopped_by_request? {
-            0 => "No effect was looked for, as asked.".to_owned(),
-            1 => "The search stopped after one effect, as asked: what else is missing was not looked for.".to_owned(),
+            0 => "There was no search for effects, as requested.".to_owned(),
+            1 => "The search stopped after one effect, as requested: further terms may be missing.".to_owned(),
             most => format!(
-                "The search stopped after {most} effects, as asked: what else is missing was not looked for."
+                "The search stopped after {most} effects, as requested: further terms may be missing."
             ),
         })
     }
@@ -217,7 +225,7 @@ pub struct RigsApart {
     /// The error of the delivered model on the fit segment, as a share of the output's standard
     /// deviation there.
     pub together: f64,
-    /// The same of the declared model with gains of its own for each file.
+    /// The same of the baseline model with gains of its own for each file.
     pub own: f64,
 }
 

@@ -1,4 +1,4 @@
-//! The lab: closes the loop between a declared model and measured data.
+//! The lab: closes the loop between a baseline model and measured data.
 //!
 //! A record walks through the rooms in this order, and a room uses only those before it:
 //!

@@ -105,7 +105,7 @@ fn quoted_cells_hold_separators_quotes_and_line_ends() {
             record.notes,
             [
                 "columns not read: `what \"they\" said, or; not`",
-                "1 row goes over several lines, in quotes",
+                "1 row spans several lines, in quotes",
             ]
         );
         // Lines are counted as an editor does, those inside quotes included.
@@ -118,7 +118,7 @@ fn quoted_cells_hold_separators_quotes_and_line_ends() {
         );
         assert_eq!(
             error.unwrap_err().to_string(),
-            "r.csv:26: column `t`: `0,20` has a decimal comma, a decimal point was expected"
+            "r.csv:26: column `t`: `0,20` has a decimal comma; a decimal point is needed"
         );
     }
 }
@@ -176,7 +176,7 @@ fn cuts_count_from_the_first_time_stamp_and_hide_what_they_cut() {
     };
     let record = parse(with_line(12, "0.1,cut away,").as_bytes(), "r.csv", &options).unwrap();
     assert_eq!((record.samples(), record.time[0]), (251, 0.0));
-    assert_eq!(record.notes, ["149 of 400 samples cut away"]);
+    assert_eq!(record.notes, ["149 of 400 samples cut"]);
 }
 
 #[test]
@@ -227,9 +227,7 @@ fn angles_are_read_in_radians_and_an_output_stays_as_it_is() {
     ] {
         let record = angle(unit, of_a_radian);
         let said = |name: &str| {
-            format!(
-                "`{name}` converted from {unit} to rad, which gravity and ripple are functions of"
-            )
+            format!("`{name}` converted from {unit} to rad, the unit of gravity and ripple")
         };
         assert_eq!(record.notes, [said("stretch"), said("phi_p")]);
         for name in ["phi_p", "stretch"] {
@@ -280,7 +278,7 @@ fn an_angle_in_degrees_is_unwrapped_before_it_is_converted() {
         record.notes,
         [
             "`phi_p` wraps around at 360 once: unwrapped",
-            "`phi_p` converted from deg to rad, which gravity and ripple are functions of"
+            "`phi_p` converted from deg to rad, the unit of gravity and ripple"
         ]
     );
     let last = record.channel("phi_p").unwrap().values[399];

@@ -1,5 +1,5 @@
 //! What the project promises, on one record each, in seconds: an effect that nobody declared is
-//! found, and where nothing is missing nothing is named. The same on hundreds of records, with
+//! found, and where the search finds no term nothing is named. The same on hundreds of records, with
 //! every effect and noise of three colours, is in `identification`, which `.ci/run` runs.
 #![allow(clippy::unwrap_used, clippy::panic)]
 

@@ -42,6 +42,28 @@ const TERMINAL: [&str; 5] = ["anstream", "anstyle", "clap", "comfy-table", "indi
 /// Longest file \[lines\].
 const LONGEST: usize = 500;
 
+/// Named numeric constants of each package, and of each room of this one: thresholds, limits,
+/// grids. A constant costs nothing to add and is never missed: these numbers may only fall.
+const CONSTANTS: [(&str, usize); 17] = [
+    ("cli", 19),
+    ("identify/algebra", 1),
+    ("identify/check", 16),
+    ("identify/conclude", 30),
+    ("identify/export", 14),
+    ("identify/facts", 5),
+    ("identify/fit", 9),
+    ("identify/foresight", 12),
+    ("identify/model", 12),
+    ("identify/problem", 29),
+    ("identify/record", 99),
+    ("identify/score", 29),
+    ("identify/search", 52),
+    ("page", 4),
+    ("rig", 6),
+    ("synth", 10),
+    ("trials", 50),
+];
+
 /// The folder of a package of the lab.
 fn package(name: &str) -> PathBuf {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join(name)
@@ -294,6 +316,50 @@ fn no_file_is_longer_than_a_reader_holds_in_mind() {
             assert!(lines <= LONGEST, "{name} {own:?} has {lines} lines");
         }
     }
+}
+
+/// Number of constants in a file whose type and value are numeric, tests apart.
+fn constants(text: &str) -> usize {
+    let text = text.split("#[cfg(test)]").next().unwrap();
+    let declared = text.split(';').filter_map(|part| {
+        let (_, rest) = part.rsplit_once("const ")?;
+        let (name, rest) = rest.split_once(": ")?;
+        let (kind, value) = rest.split_once('=')?;
+        let is_name = name
+            .bytes()
+            .all(|b| b.is_ascii_uppercase() || b.is_ascii_digit() || b == b'_');
+        let mut words = kind.split(|c: char| !c.is_alphanumeric());
+        let is_number = words.any(|word| {
+            matches!(
+                word,
+                "f64" | "f32" | "usize" | "u64" | "u32" | "i64" | "i32" | "u8" | "Duration"
+            )
+        });
+        let is_text = kind.contains("str");
+        Some(is_name && is_number && !is_text && value.contains(|c: char| c.is_ascii_digit()))
+    });
+    declared.filter(|&is| is).count()
+}
+
+#[test]
+fn numeric_constants_only_become_fewer() {
+    let mut counted: BTreeMap<String, usize> = BTreeMap::new();
+    for name in DEPENDENCIES.map(|(name, _)| name) {
+        for (path, text) in sources(name) {
+            let room = match (name, path.first()) {
+                ("identify", Some(room)) => format!("{name}/{room}"),
+                _ => name.to_owned(),
+            };
+            *counted.entry(room).or_default() += constants(&text);
+        }
+    }
+    counted.retain(|_, count| *count > 0);
+    let kept: BTreeMap<String, usize> = CONSTANTS
+        .iter()
+        .map(|(room, n)| ((*room).to_owned(), *n))
+        .collect();
+    let total: usize = counted.values().sum();
+    assert_eq!(counted, kept, "{total} in all: lower the number of a room that has fewer, and take one out of a room that has more");
 }
 
 #[test]

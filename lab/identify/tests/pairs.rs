@@ -179,7 +179,6 @@ fn name(family: &'static str, grade: Grade, rivals: &[&'static str]) -> Name {
     Name {
         identity: identity(family),
         grade,
-        recurs: 50,
         rivals: rivals.iter().map(|rival| identity(rival)).collect(),
         raises: false,
     }
@@ -187,10 +186,10 @@ fn name(family: &'static str, grade: Grade, rivals: &[&'static str]) -> Name {
 
 #[test]
 fn a_firm_name_is_known_where_it_is_named_or_is_a_rival_of_a_name() {
-    let of = ["viscous", "coulomb", "lag"].map(|family| name(family, Grade::Firm, &[]));
+    let of = ["viscous", "coulomb", "lag"].map(|family| name(family, Grade::High, &[]));
     let by = [
-        name("viscous", Grade::Weak, &[]),
-        name("rate", Grade::Weak, &["coulomb"]),
+        name("viscous", Grade::Low, &[]),
+        name("rate", Grade::Low, &["coulomb"]),
     ];
     assert_eq!(known(&of, &by), Share { count: 2, of: 3 });
     // Weak names are not asked for.
@@ -199,6 +198,6 @@ fn a_firm_name_is_known_where_it_is_named_or_is_a_rival_of_a_name() {
 
 #[test]
 fn two_firm_rounds_of_one_family_on_one_channel_are_one_name() {
-    let of = ["stiffness", "stiffness"].map(|family| name(family, Grade::Firm, &[]));
+    let of = ["stiffness", "stiffness"].map(|family| name(family, Grade::High, &[]));
     assert_eq!(known(&of, &of), Share { count: 1, of: 1 });
 }

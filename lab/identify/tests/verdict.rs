@@ -1,7 +1,7 @@
 //! The verdict: what has no name is said to have none, and a tone is a tone.
 //!
 //! The records come from [`bowden_synth`], which shares no code with the fit; the
-//! seeds are none that the method was developed on. The declared model is Bouc-Wen alone.
+//! seeds are none that the method was developed on. The baseline model is Bouc-Wen alone.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use bowden::effect::Family;
@@ -113,7 +113,7 @@ fn mostly(all: &[Closed], holds: impl Fn(&Closed) -> bool) {
 }
 
 fn is_unknown(closed: &Closed, variables: &[&str], channels: &[&str]) -> bool {
-    closed.verdict() == Verdict::Unknown
+    closed.verdict() == Verdict::UnmodelledDependence
         && closed
             .unknown()
             .is_some_and(|(v, c)| variables.contains(&v) && channels.contains(&c))
@@ -231,5 +231,5 @@ fn a_line_that_is_left_and_has_no_name_is_not_taken_for_noise() {
     assert!((closed.data.cutoff - 7.1).abs() < 0.1);
     assert!(closed.names().iter().all(|name| name != "tone"));
     assert!(closed.ledger.last().rmse.fit > 10.0 * closed.data.noise_floor);
-    assert_eq!(closed.verdict(), Verdict::ExplainedColoured);
+    assert_eq!(closed.verdict(), Verdict::StructuredResidual);
 }

@@ -1,4 +1,4 @@
-//! The page of `bowden check`: a model on a record that it has not seen.
+//! The page of `bowden validate`: a model on a record that it has not seen.
 
 use crate::close::{loops_of_files, noise_of, of_files, over_all, parts};
 use crate::document::{data, page, table, Opening, Provenance, Section};
@@ -46,7 +46,7 @@ impl Check<'_> {
             sections.insert(1, section("reasons", "Why", reasons(facts)));
         }
         let opening = Opening {
-            title: format!("bowden check: {} on {}", self.model, self.record),
+            title: format!("bowden validate: {} on {}", self.model, self.record),
             verdict: Some((facts.verdict.name(), colour(facts.verdict))),
             sentence: facts.sentence.clone(),
             body: numbers(facts),
@@ -59,7 +59,7 @@ fn colour(verdict: CheckVerdict) -> &'static str {
     match verdict {
         CheckVerdict::Holds => "good",
         CheckVerdict::GainOrOffsetMoved | CheckVerdict::CannotTell => "mid",
-        CheckVerdict::DoesNotHold | CheckVerdict::DataDefect => "bad",
+        CheckVerdict::DoesNotHold | CheckVerdict::DefectiveRecord => "bad",
     }
 }
 
@@ -69,7 +69,7 @@ fn numbers(facts: &CheckFacts) -> Markup {
     html! {
         dl class="numbers" {
             div id="held-out" {
-                dt { "Held out of its own record → this record" }
+                dt { "Held-out part of its own record → this record" }
                 dd {
                     span class="was" {
                         @if let Some(own) = facts.reference { (data(own, &percent(own))) } @else { "unknown" }
@@ -129,7 +129,7 @@ fn signals(facts: &CheckFacts, figures: &Figures) -> Markup {
         @if facts.left_out > 0.0 {
             p {
                 "The first " (format!("{:.1}", facts.left_out))
-                " s do not count: what came before them is unknown."
+                " s do not count: the input before them is unknown."
             }
         }
         (of_files(&figures.signals))
@@ -144,16 +144,16 @@ fn reasons(facts: &CheckFacts) -> Markup {
     html! {
         @for one in &facts.depends_on {
             p {
-                "The residual depends on " (one.words) ": a curve of it takes "
+                "The residual depends on " (one.words) ": a curve over it removes "
                 (format!("{:.0}", 100.0 * one.share)) " % of the squared error ("
-                @if let Some(p) = one.p { "p " (format!("{p:.1e}")) } @else { "not tested: correlated for too long" }
+                @if let Some(p) = one.p { "p " (format!("{p:.1e}")) } @else { "not tested: the residual is correlated for too long" }
                 ")."
             }
         }
         @for one in &facts.outside {
             p {
                 (quantity(&one.channel, one.unit.as_deref())) ": the " (one.quantity) " goes from " (pair(one.here))
-                "; the model has seen " (pair(one.seen)) " (" (format!("{:.0}", 100.0 * one.share))
+                "; the fit covered " (pair(one.seen)) " (" (format!("{:.0}", 100.0 * one.share))
                 " % of the samples lie outside)."
             }
         }

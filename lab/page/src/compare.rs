@@ -70,7 +70,7 @@ impl Compare<'_> {
             body: html! {
                 @for sentence in own.unwrap_or_default() { p { (sentence) } }
                 p class="note" {
-                    "The pattern is Figures 7 to 10 of "
+                    "The figures follow Figures 7 to 10 of "
                     cite { "Direct Torque Control for Cable Conduit Mechanisms for the Robotic Foot for Footwear Testing" }
                     "; the plant here is simulated. Each figure shows the first seed; the tables have all seeds."
                 }

@@ -25,9 +25,12 @@ pub(crate) fn value(parameter: &Parameter) -> String {
     match parameter.ci95 {
         Some(_) => with_interval(parameter.value, parameter.ci95),
         None => {
-            let reason = parameter.refused.as_ref().map_or("", |r| r.reason.as_str());
+            let reason = parameter
+                .not_identified
+                .as_ref()
+                .map_or("", |r| r.reason.as_str());
             format!(
-                "not identified: {reason}; stands at {}",
+                "{}, not identified: {reason}",
                 number(parameter.value, None)
             )
         }

@@ -94,7 +94,7 @@ impl<T: Real> RigConfig<T> {
     /// while the input rises. Encoders: 4096 lines, four counts each.
     #[must_use]
     pub fn reference() -> Self {
-        let of = T::of;
+        let of = T::from_f64;
         Self {
             drive_gain: of(0.6),
             drive_lag: of(0.0005),
@@ -185,7 +185,7 @@ impl<T: Real> RigConfig<T> {
         if usize::from(self.delay) > MOST_DELAY {
             return Err(Error::OutOfRange("delay"));
         }
-        let (h, two) = (self.sub_step, T::of(2.0));
+        let (h, two) = (self.sub_step, T::from_f64(2.0));
         let both = self.motor_inertia.recip() + self.joint_inertia.recip();
         let damping = self.cable_damping * both
             + self.joint_damping / self.joint_inertia

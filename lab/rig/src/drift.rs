@@ -38,16 +38,17 @@ impl<T: Real> Drift<T> {
     #[must_use]
     pub fn reference() -> Self {
         Self {
-            time: T::of(2.0),
-            b: T::of(0.02),
-            kappa_eta: T::of(0.10),
-            t0: T::of(0.2),
+            time: T::from_f64(2.0),
+            b: T::from_f64(0.02),
+            kappa_eta: T::from_f64(0.10),
+            t0: T::from_f64(0.2),
         }
     }
 }
 
 /// The three processes.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct DriftState<T> {
     processes: [T; 3],
@@ -72,14 +73,18 @@ impl<T: Real> DriftState<T> {
             return (config.b, config.kappa_eta, config.t0);
         };
         let keep = (-dt / drift.time).exp();
-        let push = (-(-T::of(2.0) * dt / drift.time).exp_m1()).sqrt();
+        let push = (-(-T::from_f64(2.0) * dt / drift.time).exp_m1()).sqrt();
         for process in &mut self.processes {
             *process = keep * *process + push * noise.normal();
         }
         let [first, second, third] = self.processes;
-        let half = T::of(0.5);
+        let half = T::from_f64(0.5);
         (
-            clamp(config.b - drift.b * first.abs(), T::of(0.85), T::one()),
+            clamp(
+                config.b - drift.b * first.abs(),
+                T::from_f64(0.85),
+                T::one(),
+            ),
             config.kappa_eta * (T::one() + clamp(drift.kappa_eta * second, -half, half)),
             config.t0 + drift.t0 * third,
         )

@@ -87,7 +87,7 @@ pub struct Rig<T, const N: usize> {
 
 /// What can be read off the rig at one sample, the truth beside the measurement.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RigSample<T> {
     /// Since the start \[s\].
@@ -120,6 +120,14 @@ pub struct RigSample<T> {
 
 /// What a [`Rig`] remembers between samples. Made by [`Rig::start`].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(
+        serialize = "T: Real + serde::Serialize, [bowden::effect::EffectState<T>; N]: serde::Serialize",
+        deserialize = "T: Real + serde::Deserialize<'de>, [bowden::effect::EffectState<T>; N]: serde::Deserialize<'de>"
+    ))
+)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RigState<T, const N: usize> {
     plant: PlantState<T, N>,
@@ -338,7 +346,7 @@ impl<T: Real, const N: usize> RigState<T, N> {
 
 /// How many sub-steps there are in a step: none longer than wanted, within rounding.
 fn sub_steps<T: Real>(ratio: T) -> u32 {
-    let wanted = (ratio - T::of(1e-3)).ceil();
+    let wanted = (ratio - T::from_f64(1e-3)).ceil();
     match wanted.to_u32() {
         Some(count) => count.clamp(1, MOST_SUB_STEPS),
         None => MOST_SUB_STEPS,

@@ -14,6 +14,7 @@ use bowden::Real;
 /// assert_ne!(a.normal::<f64>(), Noise::new(8).normal::<f64>());
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Noise {
     state: u64,
@@ -81,16 +82,16 @@ fn mixed(state: u64) -> u64 {
 
 /// In [0, 1), exact in `f64`.
 fn uniform<T: Real>(bits: u64) -> T {
-    T::from(bits >> 11).map_or_else(T::zero, |count| count * T::of(LEAST))
+    T::from(bits >> 11).map_or_else(T::zero, |count| count * T::from_f64(LEAST))
 }
 
 /// Two deviates of the last two states, where their point lies in the circle.
 fn pair<T: Real>(state: u64) -> Option<(T, T)> {
-    let place = |state: u64| T::of(2.0) * uniform::<T>(mixed(state)) - T::one();
+    let place = |state: u64| T::from_f64(2.0) * uniform::<T>(mixed(state)) - T::one();
     let (x, y) = (place(state.wrapping_sub(STEP)), place(state));
     let square = x * x + y * y;
     (square > T::zero() && square < T::one()).then(|| {
-        let factor = (T::of(-2.0) * square.ln() / square).sqrt();
+        let factor = (T::from_f64(-2.0) * square.ln() / square).sqrt();
         (x * factor, y * factor)
     })
 }

@@ -2,8 +2,8 @@
 
 use super::checked::{finite, saturate};
 use super::RigConfig;
-use bowden::effect::{Effect, EffectState, Motion, Quantity, Situation};
-use bowden::hysteresis::{BoucWen, Shape};
+use bowden::effect::{Effect, EffectState, Inputs, Motion, Quantity};
+use bowden::hysteresis::{BoucWen, BoucWenState};
 use bowden::model::{Source, Term};
 use bowden::{Error, Real};
 
@@ -12,7 +12,7 @@ use bowden::{Error, Real};
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Plant<T, const N: usize> {
     config: RigConfig<T>,
-    shape: Shape<T>,
+    shape: BoucWen<T>,
     /// The first `len` count; the rest add nothing.
     undeclared: [Term<T>; N],
     len: usize,
@@ -20,6 +20,14 @@ pub(super) struct Plant<T, const N: usize> {
 
 /// All that moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(
+        serialize = "T: Real + serde::Serialize, [EffectState<T>; N]: serde::Serialize",
+        deserialize = "T: Real + serde::Deserialize<'de>, [EffectState<T>; N]: serde::Deserialize<'de>"
+    ))
+)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct PlantState<T, const N: usize> {
     pub(super) tau_m: T,
@@ -28,7 +36,7 @@ pub(super) struct PlantState<T, const N: usize> {
     proximal: Motion<T>,
     distal: Motion<T>,
     input_rate: T,
-    hysteresis: BoucWen<T>,
+    hysteresis: BoucWenState<T>,
     effects: [EffectState<T>; N],
     configuration: (T, T, T),
     time: T,
@@ -48,7 +56,7 @@ impl<T: Real, const N: usize> PlantState<T, N> {
             proximal: rest,
             distal: rest,
             input_rate: T::zero(),
-            hysteresis: BoucWen::new(),
+            hysteresis: BoucWenState::new(),
             effects: [EffectState::new(); N],
             configuration: (T::zero(), T::zero(), T::zero()),
             time: T::zero(),
@@ -108,7 +116,7 @@ impl<T: Real, const N: usize> Plant<T, N> {
         }
         Ok(Self {
             config: *config,
-            shape: Shape::try_new(config.rho, config.sigma, config.n)?,
+            shape: BoucWen::try_new(config.rho, config.sigma, config.n)?,
             undeclared: own,
             len: undeclared.len(),
         })
@@ -165,7 +173,7 @@ impl<T: Real, const N: usize> Plant<T, N> {
         let mut moved = input.position;
         for (term, memory) in self.undeclared().iter().zip(&mut state.effects) {
             if term.effect.is_input_stage() {
-                let at = Situation {
+                let at = Inputs {
                     dt: h,
                     time: state.time,
                     motion: match term.source {
@@ -175,7 +183,7 @@ impl<T: Real, const N: usize> Plant<T, N> {
                     },
                     input,
                     load: input.position,
-                    ..Situation::default()
+                    ..Inputs::default()
                 };
                 moved = saturate(moved + term.gain * term.effect.regressor(memory, &at));
             }
@@ -210,7 +218,7 @@ impl<T: Real, const N: usize> Plant<T, N> {
                 if term.effect.info().reads.contains(&Quantity::Position) {
                     motion.position -= term.origin;
                 }
-                let at = Situation {
+                let at = Inputs {
                     dt: h,
                     time: state.time,
                     motion,

@@ -42,10 +42,13 @@ impl<T: Real> Reference<T> {
     pub fn paper() -> Self {
         let turn = 2.0 * core::f64::consts::PI;
         Self {
-            mean: T::of(25.0),
+            mean: T::from_f64(25.0),
             task: Task::Tones([
-                (T::of(10.0), T::of(turn * 0.25)),
-                (T::of(3.0), T::of(turn * 0.2 * Real::sqrt(3.0_f64))),
+                (T::from_f64(10.0), T::from_f64(turn * 0.25)),
+                (
+                    T::from_f64(3.0),
+                    T::from_f64(turn * 0.2 * Real::sqrt(3.0_f64)),
+                ),
             ]),
             ramp: T::zero(),
         }
@@ -64,8 +67,8 @@ impl<T: Real> Reference<T> {
     #[must_use]
     pub fn gait() -> Self {
         Self {
-            mean: T::of(5.0),
-            task: Task::Push(T::of(30.0)),
+            mean: T::from_f64(5.0),
+            task: Task::Push(T::from_f64(30.0)),
             ramp: T::zero(),
         }
     }
@@ -103,8 +106,8 @@ impl<T: Real> Reference<T> {
     /// ```
     #[must_use]
     pub fn between(&self, low: T, high: T) -> Self {
-        let half = T::of(0.5) * (high - low);
-        let factor = half / (T::of(0.5) * (self.maximum() - self.minimum()));
+        let half = T::from_f64(0.5) * (high - low);
+        let factor = half / (T::from_f64(0.5) * (self.maximum() - self.minimum()));
         let (mean, task) = match self.task {
             Task::Tones(tones) => {
                 let tones = tones.map(|(amplitude, w)| (factor * amplitude, w));
@@ -185,7 +188,7 @@ impl<T: Real> Reference<T> {
             return full;
         }
         let x = (t / self.ramp).max(T::zero());
-        let (two, three, six) = (T::of(2.0), T::of(3.0), T::of(6.0));
+        let (two, three, six) = (T::from_f64(2.0), T::from_f64(3.0), T::from_f64(6.0));
         let f = x * x * (three - two * x);
         let df = six * x * (T::one() - x) / self.ramp;
         let ddf = six * (T::one() - two * x) / (self.ramp * self.ramp);
@@ -199,7 +202,7 @@ impl<T: Real> Reference<T> {
 
 /// A push-off of height one, in a cycle of one second.
 fn push<T: Real>(t: T) -> Motion<T> {
-    let [start, highest, end] = PUSH.map(T::of);
+    let [start, highest, end] = PUSH.map(T::from_f64);
     let into = t - t.floor();
     let (since, length) = if into < highest {
         (into - start, highest - start)
@@ -208,12 +211,12 @@ fn push<T: Real>(t: T) -> Motion<T> {
     };
     let x = (since / length).max(T::zero());
     // `10·x³ - 15·x⁴ + 6·x⁵` from 0 to 1; the second half runs backwards.
-    let (one, two) = (T::one(), T::of(2.0));
+    let (one, two) = (T::one(), T::from_f64(2.0));
     let sign = if into < highest { one } else { -one };
-    let rate = T::of(30.0) * x * x * (one - x) * (one - x) / length;
-    let curvature = T::of(60.0) * x * (one - x) * (one - two * x) / (length * length);
+    let rate = T::from_f64(30.0) * x * x * (one - x) * (one - x) / length;
+    let curvature = T::from_f64(60.0) * x * (one - x) * (one - two * x) / (length * length);
     Motion {
-        position: x * x * x * (T::of(10.0) - x * (T::of(15.0) - T::of(6.0) * x)),
+        position: x * x * x * (T::from_f64(10.0) - x * (T::from_f64(15.0) - T::from_f64(6.0) * x)),
         velocity: sign * rate,
         acceleration: curvature,
     }

@@ -17,6 +17,7 @@ pub(super) struct TorqueSensor<T> {
 
 /// The lagged torque \[N·m\].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct TorqueSensorState<T> {
     pub(super) level: T,
@@ -27,7 +28,7 @@ impl<T: Real> TorqueSensor<T> {
         Self {
             noise,
             range,
-            count: T::of(2.0) * range / config.converter_counts,
+            count: T::from_f64(2.0) * range / config.converter_counts,
         }
     }
 
@@ -63,6 +64,7 @@ pub(super) struct Encoder<T> {
 
 /// Last count and filtered rates.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct EncoderState<T> {
     motion: Motion<T>,
@@ -71,7 +73,7 @@ pub(super) struct EncoderState<T> {
 impl<T: Real> Encoder<T> {
     pub(super) fn new(config: &RigConfig<T>) -> Self {
         Self {
-            count: T::of(2.0 * core::f64::consts::PI) / config.encoder_counts,
+            count: T::from_f64(2.0 * core::f64::consts::PI) / config.encoder_counts,
             lag: config.velocity_lag,
         }
     }

@@ -29,7 +29,7 @@ impl Running {
         let (name, mode) = (planted.effect.as_str(), recipe.mode);
         if !effects(mode).contains(&name) && !outsiders().contains(&name) {
             return refuse(format!(
-                "effect `{name}`: one of {} was expected",
+                "effect `{name}`: one of {} is needed",
                 effects(mode).join(", ")
             ));
         }

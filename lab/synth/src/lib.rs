@@ -2,10 +2,10 @@
 //!
 //! ```text
 //! bowden generate --mode torque --effect viscous --seed 7 > my.csv
-//! bowden close my.csv
+//! bowden identify my.csv
 //! ```
 //! writes twenty seconds at 1 kHz of a transmission by the paper's (5) to (7)
-//! with a viscous term on `phi_p` that the declared model does not have: three
+//! with a viscous term on `phi_p` that the baseline model does not have: three
 //! times as large (rms) as the noise. Several effects may be planted at once;
 //! [`effects`] lists their names. The same seed gives the same bytes.
 //!

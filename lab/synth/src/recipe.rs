@@ -92,7 +92,7 @@ impl Base {
 pub struct Recipe {
     /// What drives the transmission.
     pub mode: Mode,
-    /// The effects that the declared model will not have.
+    /// The effects that the baseline model will not have.
     pub effects: Vec<Planted>,
     /// Every random choice follows from it.
     pub seed: u64,
@@ -179,7 +179,7 @@ impl Recipe {
         for (name, value) in positive {
             if !(value > 0.0 && value <= 1e6) {
                 return refuse(format!(
-                    "{name} {value}: a number above 0, at most a million, was expected"
+                    "{name} {value}: a number above 0, at most a million, is allowed"
                 ));
             }
         }
@@ -193,21 +193,21 @@ impl Recipe {
         for (name, value) in sizes {
             if !(0.0..=1e6).contains(&value) {
                 return refuse(format!(
-                    "{name} {value}: a number from 0 to a million was expected"
+                    "{name} {value}: a number from 0 to a million is allowed"
                 ));
             }
         }
         if !(0.0..1.0).contains(&self.colour) {
             return refuse(format!(
-                "colour {}: a number from 0 to below 1 was expected",
+                "colour {}: a number from 0 to below 1 is allowed",
                 self.colour
             ));
         }
         if self.bias.is_nan() || self.bias.abs() > 1e6 {
-            return refuse(format!("bias {}: a finite number was expected", self.bias));
+            return refuse(format!("bias {}: a finite number is needed", self.bias));
         }
         if !(10.0..=1e7).contains(&(self.seconds * self.rate)) {
-            return refuse("seconds times rate: 10 to 10000000 samples were expected".to_owned());
+            return refuse("seconds times rate: 10 to 10000000 samples are allowed".to_owned());
         }
         if let Some(planted) = self
             .effects
@@ -216,7 +216,7 @@ impl Recipe {
         {
             let (name, strength) = (&planted.effect, planted.strength);
             return refuse(format!(
-                "strength {strength} of {name}: a positive number was expected"
+                "strength {strength} of {name}: a positive number is needed"
             ));
         }
         let given = |p: &Planted| {
@@ -228,12 +228,12 @@ impl Recipe {
         if let Some(planted) = self.effects.iter().find(|p| given(p)) {
             let name = &planted.effect;
             return refuse(format!(
-                "gain and origin of {name}: finite numbers were expected"
+                "gain and origin of {name}: finite numbers are needed"
             ));
         }
         match &self.base {
             Some(base) if !base.is_sound() => refuse(
-                "base: finite numbers, rho > 0, sigma >= 1/2 and n >= 1 were expected".to_owned(),
+                "base: finite numbers, rho > 0, sigma >= 1/2 and n >= 1 are needed".to_owned(),
             ),
             _ => Ok(()),
         }

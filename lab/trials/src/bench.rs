@@ -65,7 +65,7 @@ impl Multisine {
 /// What was recorded, as two CSV files.
 #[derive(Debug, Clone)]
 pub struct Record {
-    /// t, tau_i, tau_o, phi_p, phi_d: what `bowden close` reads.
+    /// t, tau_i, tau_o, phi_p, phi_d: what `bowden identify` reads.
     pub csv: String,
     /// The same with the command and the load, for drive, spring and cable.
     surroundings: String,
@@ -115,7 +115,7 @@ pub fn record(
             "{t:.4},{i:.6},{o:.6},{o:.6},{p:.8},{d:.8},{command:.6},{load:.6}"
         );
         if rig.step_with_load(&mut state, command, load, STEP).diverged {
-            return Err("the rig ran away on the bench".to_owned());
+            return Err("the rig diverged on the bench".to_owned());
         }
     }
     Ok(Record {
@@ -131,12 +131,12 @@ pub struct Identified {
     pub ledger: Ledger,
     /// Drive, spring and cable.
     pub surroundings: Surroundings,
-    /// The declared model alone.
+    /// The baseline model alone.
     pub declared: ModelFile,
-    /// The declared model with what was found: the round that is best on the stop-check,
+    /// The baseline model with what was found: the round that is best on the stop-check,
     /// among those of which every term can be fed forward.
     pub found: ModelFile,
-    /// Rms error of the declared model on the held-out part \[N·m\].
+    /// Rms error of the baseline model on the held-out part \[N·m\].
     pub before: f64,
     /// The same of the model with what was found \[N·m\].
     pub after: f64,
@@ -150,7 +150,7 @@ pub struct Identified {
 /// Puts the record through the lab.
 ///
 /// # Errors
-/// One sentence, as of `bowden close`.
+/// One sentence, as of `bowden identify`.
 pub fn identify(record: &Record) -> Result<Identified, String> {
     let options = Options {
         // The fade-in is over, and so is what the start has left behind.
@@ -175,7 +175,7 @@ pub fn identify(record: &Record) -> Result<Identified, String> {
     let solution = solutions
         .iter()
         .filter(|s| s.structure.terms.iter().all(|t| t.is_linear()))
-        .min_by(|a, b| a.rmse.stop.total_cmp(&b.rmse.stop))
+        .min_by(|a, b| a.rmse.selection.total_cmp(&b.rmse.selection))
         .map_or(&ledger.declared, |found| *found);
     let named = |solution: &Solution| -> Vec<String> {
         let name = |term: &FitTerm| {

@@ -107,7 +107,7 @@ fn line(law: &str, kind: &'static str, certificate: Result<Certificate<f64>, Err
 
 /// Theorem 1 at its best, with the term that is to blame.
 fn tightest(law: &str, found: Result<Tightest<f64>, Error>) -> Promise {
-    let blamed = found.map(|found| found.to_blame());
+    let blamed = found.map(|found| found.dominant_term());
     Promise {
         mostly: blamed.ok().map(|(term, share)| Mostly { term, share }),
         ..line(law, "theorem1-tightest", found.map(|c| c.certificate()))
@@ -120,7 +120,7 @@ const RESTING_DISTURBANCE: f64 = 8.0;
 
 /// The law of the proofs: the setup's gains in lag form, g = alpha·beta_hat in 0.8..=1.2.
 fn resting(settings: &AdaptiveSettings<f64, 2>) -> Result<Adaptive<f64, 0>, Error> {
-    let lag = Form::Lag {
+    let lag = Form::FirstOrder {
         step: 1.0 / RATE,
         plant_gain: 1.0,
     };
@@ -200,7 +200,7 @@ pub fn all(setup: &Setup) -> Result<Vec<Promise>, String> {
             ..settings
         })
     };
-    let lag = Form::Lag {
+    let lag = Form::FirstOrder {
         step: 1.0 / RATE,
         plant_gain: alpha,
     };

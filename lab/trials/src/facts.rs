@@ -25,9 +25,10 @@ pub use super::design::{
 pub use super::found::{Outcome, Pair};
 pub use super::heading::Heading;
 pub use super::limited::AtLimit;
+pub use super::lineup::knows;
 pub use super::own_rig::RigChanges;
 pub use super::proof::{coq, gappa, prove, Proof, Sides};
-pub use super::table::{told_of_limits, Line, Spread};
+pub use super::table::{smallest_error, told_of_limits, Line, Spread};
 pub use super::tolerance::Tolerance;
 pub use super::trial::Row;
 pub use super::undeclared::Undeclared;
@@ -138,7 +139,7 @@ pub fn compare(question: &Question<'_>) -> Result<Compared, String> {
     let effect = question.effect.map(Undeclared::parse).transpose()?;
     if effect.is_some() && (is_given || gains.is_some()) {
         return Err(
-            "--effect: is hidden in the reference rig and found with the paper's gains; it goes with neither a model nor the gains of `bowden design`"
+            "--effect: works on the reference rig with the paper's gains; it cannot be combined with a model or with gains of `bowden design`"
                 .to_owned(),
         );
     }
@@ -232,7 +233,7 @@ fn no_model_is_refused(path: &Path) -> Result<(), String> {
     match is_model(Some(path)) {
         true => Ok(()),
         false => Err(format!(
-            "{}: a model of `bowden close --model-out` was expected beside --gains",
+            "{}: a model of `bowden identify --model-out` is needed with --gains",
             path.display()
         )),
     }
@@ -252,7 +253,7 @@ fn inputs(question: &Question<'_>) -> Result<(Setup, Option<GainsFile>, bool), S
         .and_then(|table| Some(table.get("schema")?.as_str()?.to_owned()));
     match schema.as_deref() {
         Some("bowden.model/1") if question.setup.is_some() => Err(format!(
-            "{label}: is a model; gains of `bowden design` were expected beside --model"
+            "{label}: is a model; gains of `bowden design` are needed with --model"
         )),
         Some("bowden.model/1") | None => {
             let mut gains = setup(question, Some(path))?;
@@ -301,7 +302,8 @@ pub fn certify(setup: Option<&Path>) -> Result<Certified, String> {
         let text = std::fs::read_to_string(path).unwrap_or_default();
         if is_of_design(&text) {
             return Err(format!(
-                "{}: is a file of `bowden design`; gains and rig in one file were expected. It is certified without --gains: `bowden certify FILE`",
+                "{}: is a file of `bowden design`; gains and rig in one file are needed. Certify \
+                 it without --gains: `bowden certify FILE`",
                 path.display()
             ));
         }
@@ -309,7 +311,7 @@ pub fn certify(setup: Option<&Path>) -> Result<Certified, String> {
     let own = read(setup)?;
     match (setup, &own.model) {
         (Some(path), Some(_)) => Err(format!(
-            "{}: holds a model; these certificates are of gains on the reference rig, or on that of a table [rig]. `bowden design MODEL.toml --rate HZ --delay S` derives gains from a model, with what is promised of them",
+            "{}: is a model; these certificates need gains, on the reference rig or on the rig of a table [rig]. `bowden design MODEL.toml --rate HZ --delay S` derives gains from a model, with their guarantees",
             path.display()
         )),
         _ => Ok(Certified {
@@ -333,7 +335,7 @@ fn setup(question: &Question<'_>, path: Option<&Path>) -> Result<Setup, String> 
     let quiet = question.effect.is_some() && path.is_none();
     if let Some(noise) = question.noise.or(quiet.then_some(QUIET)) {
         if !(noise.is_finite() && noise >= 0.0) {
-            return Err(format!("--noise {noise}: zero or more N·m was expected"));
+            return Err(format!("--noise {noise} is out of range (0 N·m or more)"));
         }
         setup.rig.noise = noise;
         setup.rig.input_noise = noise;
@@ -472,7 +474,7 @@ fn first_gain(found: &Found) -> String {
         false => outcome.identified.names.join(", "),
     };
     let mut text = format!(
-        "The rig had {} that nobody declared; the bench found {names}.",
+        "The rig had {}, which the baseline model lacks; identification found {names}.",
         found.effect.name
     );
     let errors = outcome.pairs.first().and_then(|pair| {
@@ -481,7 +483,7 @@ fn first_gain(found: &Found) -> String {
     });
     if let Some((controller, before, after)) = errors {
         text.push_str(&format!(
-            " Fed forward, it takes the true error of {controller} from {before:.4} to {after:.4} N·m rms."
+            " With the found model as a feed-forward, the true error of {controller} goes from {before:.4} to {after:.4} N·m rms."
         ));
     }
     text

@@ -28,7 +28,7 @@ pub struct Pair {
     pub controller: String,
     /// Without any model.
     pub plain: Line,
-    /// With the declared model, as the bench has fitted it.
+    /// With the baseline model, as the bench has fitted it.
     pub declared: Line,
     /// With what was found beside it.
     pub found: Line,
@@ -174,7 +174,7 @@ pub fn outcome(
         let plain = controller(0.0)?;
         controllers.push(plain.clone());
         if kind.regressor {
-            // The law compensates what it knows by itself; the declared model adds none.
+            // The law compensates what it knows by itself; the baseline model adds none.
             controllers.push(plain);
             controllers.push(Controller {
                 regressor: Some(found),

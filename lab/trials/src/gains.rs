@@ -47,12 +47,12 @@ pub struct Known {
 }
 
 impl Known {
-    /// The first number that is none of its kind: its key, and what was expected.
+    /// The first number that is none of its kind: its key, and what is needed.
     fn refused(&self) -> Option<(&'static str, String)> {
         let [low, high] = self.alpha;
         if !(low.is_finite() && high.is_finite() && 0.0 < low && low <= high) {
-            let what = "a box of two finite numbers above zero, the lower one first";
-            return Some(("alpha", format!("[{low}, {high}]: {what} was expected")));
+            let what = "a pair of finite numbers above zero, the lower one first";
+            return Some(("alpha", format!("[{low}, {high}]: {what} is needed")));
         }
         let bounds = [
             ("disturbance", self.disturbance),
@@ -62,7 +62,7 @@ impl Known {
         ];
         let wrong = bounds.iter().find(|(_, x)| !(x.is_finite() && *x >= 0.0));
         wrong.map(|(name, x)| {
-            let what = "a finite number, zero or above, was expected";
+            let what = "a finite number, zero or above, is allowed";
             (*name, format!("{x}: {what}"))
         })
     }
@@ -99,7 +99,7 @@ impl GainsFile {
                 label,
                 "",
                 "schema",
-                &format!("schema {:?}: {SCHEMA:?} was expected", gains.schema),
+                &format!("schema {:?}: {SCHEMA:?} is needed", gains.schema),
             ));
         }
         let d = &gains.design;
@@ -111,12 +111,12 @@ impl GainsFile {
         ] {
             if !(value.is_finite() && value >= 0.0 && (value > 0.0 || !above)) {
                 let what = if above { "above zero" } else { "from zero up" };
-                let line = format!("[design]: {name} {value}: a finite number {what} was expected");
+                let line = format!("[design]: {name} {value}: a finite number {what} is needed");
                 return Err(at(text, label, "design", name, &line));
             }
         }
         let refused = |table: &str, error: bowden::Error| {
-            let name = error.about().split(['.', ' ']).next().unwrap_or("");
+            let name = error.parameter().split(['.', ' ']).next().unwrap_or("");
             at(text, label, table, name, &format!("[{table}]: {error}"))
         };
         Pid::try_new(gains.pi).map_err(|e| refused("pi", e))?;
@@ -154,7 +154,7 @@ impl GainsFile {
     pub fn adaptive_every(&self) -> usize {
         let step = self.adaptive.map(|law| law.form);
         match step {
-            Some(bowden::control::Form::Lag { step, .. }) => {
+            Some(bowden::control::Form::FirstOrder { step, .. }) => {
                 (step * self.design.rate).round().max(1.0) as usize
             }
             _ => 1,
@@ -196,7 +196,7 @@ fn at(text: &str, label: &str, table: &str, key: &str, line: &str) -> String {
 pub(crate) fn message(error: &toml::de::Error, text: &str, label: &str) -> String {
     if text.trim_start().starts_with('{') {
         return format!(
-            "{label}: is JSON; TOML was expected, as `bowden close --model-out MODEL.toml` and `bowden design --out GAINS.toml` write it"
+            "{label}: is JSON; TOML is needed, as `bowden identify --model-out MODEL.toml` and `bowden design --out GAINS.toml` write it"
         );
     }
     let what = error.message().replace('\n', " ");

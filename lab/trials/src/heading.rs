@@ -84,7 +84,7 @@ impl Heading {
         if let Some([low, high]) = self.reference {
             let places = places(low.abs().max(high.abs()), 2);
             all.push(format!(
-                "Reference: {} between {low:.places$} and {high:.places$} N·m, within what the model's record has covered.",
+                "Reference: {} between {low:.places$} and {high:.places$} N·m, within the range of the model's record.",
                 match self.gait {
                     true => "a push-off a second",
                     false => "the paper's",
@@ -97,7 +97,7 @@ impl Heading {
         if self.gait {
             let error = self.lag_error;
             all.push(format!(
-                "The lag of the torque sensor alone makes a true error of {error:.3} N·m rms where the measured one is zero."
+                "The lag of the torque sensor alone causes a true error of {error:.3} N·m rms when the measured error is zero."
             ));
         }
         let rig = &self.rig;

@@ -1,8 +1,10 @@
 //! Learning beside a law, with its nominal plant turned round along the reference.
 
 use super::data_sheet::{above_zero, nominal, shown};
-use super::setup::LearningGains;
-use bowden::control::{Learning, LearningInput, LearningState, NominalPlant};
+use super::setup::IterativeLearningGains;
+use bowden::control::{
+    IterativeLearning, IterativeLearningInput, IterativeLearningState, NominalPlant,
+};
 use bowden::effect::Motion;
 use bowden::Error;
 use bowden_rig::RigConfig;
@@ -11,7 +13,7 @@ use bowden_rig::RigConfig;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Learned {
     /// Its gain, lead, filter and limit.
-    pub learning: Learning<f64>,
+    pub learning: IterativeLearning<f64>,
     /// Cells of a cycle.
     pub cells: usize,
     /// The cycle \[s\].
@@ -31,13 +33,13 @@ impl Learned {
     /// # Errors
     /// What the core refuses of the numbers.
     pub fn new(
-        gains: &LearningGains,
+        gains: &IterativeLearningGains,
         period: f64,
         rig: &RigConfig<f64>,
         rate: f64,
     ) -> Result<Self, Error> {
         above_zero(gains.frequency, "frequency")?;
-        if gains.cells > Learning::<f64>::MOST_CELLS {
+        if gains.cells > IterativeLearning::<f64>::MOST_CELLS {
             return Err(Error::Capacity("cells"));
         }
         let a_second = gains.cells as f64 / period;
@@ -49,7 +51,7 @@ impl Learned {
         };
         let lead = whole((gains.lead * a_second).round(), "lead")?;
         let half_width = whole(width - 1.0, "frequency")?;
-        let learning = Learning::try_new(gains.gain, gains.limit, lead, half_width)?;
+        let learning = IterativeLearning::try_new(gains.gain, gains.limit, lead, half_width)?;
         let learned = Self {
             learning,
             cells: gains.cells,
@@ -62,7 +64,7 @@ impl Learned {
         Ok(learned)
     }
 
-    fn start(&self) -> Result<LearningState<f64, Vec<f64>>, Error> {
+    fn start(&self) -> Result<IterativeLearningState<f64, Vec<f64>>, Error> {
         self.learning
             .start(vec![0.0; self.cells], vec![0.0; self.cells])
     }
@@ -71,7 +73,7 @@ impl Learned {
 /// Learning while it runs.
 pub(crate) struct Running {
     learned: Learned,
-    state: LearningState<f64, Vec<f64>>,
+    state: IterativeLearningState<f64, Vec<f64>>,
 }
 
 impl Running {
@@ -92,7 +94,7 @@ impl Running {
         ahead: impl Fn(f64) -> Motion<f64>,
     ) -> f64 {
         let cycles = t / self.learned.period;
-        let at = LearningInput::new(cycles - cycles.floor(), reference, measured);
+        let at = IterativeLearningInput::new(cycles - cycles.floor(), reference, measured);
         let out = self.learned.learning.step(&mut self.state, &at);
         let wanted = ahead(self.learned.latency);
         out.feed_forward + self.learned.plant.feed_forward(&wanted)

@@ -8,7 +8,7 @@ use super::trial::{Controller, Law, ThreeRegressors};
 use bowden::control::{
     Adaptive, AdaptiveSettings, DisturbanceObserver, Estimator, Pid, PidSettings,
 };
-use bowden::hysteresis::Shape;
+use bowden::hysteresis::BoucWen;
 use bowden::model::{Model, Source, Term};
 use bowden::transmission::Transmission;
 use bowden_rig::RigConfig;
@@ -98,6 +98,21 @@ impl Surroundings {
     }
 }
 
+/// What a controller knows of the plant that it runs on; `None` if its law has no plant model.
+#[must_use]
+pub fn knows(controller: &str) -> Option<&'static str> {
+    match controller {
+        "pi-observer" => Some("the rig's drive gain, inertia, damping and stiffness"),
+        "pi-learning" => {
+            Some("the phase of the gait, and the rig's drive gain, inertia, damping and stiffness")
+        }
+        "adaptive-frozen" => Some("the rig's drive gain and the gain of its cable"),
+        "adaptive-feed-forward" => Some("the transmission of the rig, or the model of --model"),
+        "pi-feed-forward" => Some("the transmission of the rig: the model of --model"),
+        _ => None,
+    }
+}
+
 /// The eight of `bowden compare`, in its order, and a ninth that learns where the reference repeats.
 ///
 /// # Errors
@@ -163,7 +178,7 @@ pub fn declared_feed(setup: &Setup) -> Result<FeedForward, String> {
         None => {
             let rig = &setup.rig;
             let none: [Term<f64>; 0] = [];
-            let model = Shape::try_new(rig.rho, rig.sigma, rig.n)
+            let model = BoucWen::try_new(rig.rho, rig.sigma, rig.n)
                 .and_then(|shape| Transmission::torque(rig.b, rig.kappa_eta, rig.t0, shape))
                 .and_then(|cable| Model::try_new(Some(cable), &none))
                 .map_err(|e| format!("[rig]: {e}"))?;

@@ -5,7 +5,7 @@ use super::gains::GainsFile;
 use super::lineup::declared_feed;
 use super::setup::Setup;
 use super::trial::{Controller, Law, MOST_UNDECLARED};
-use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Missing, Pid};
+use bowden::control::{Adaptive, AdaptiveSettings, Estimator, OnMissing, Pid};
 use bowden::model::{Source, Term};
 use bowden::transmission::Transmission;
 use bowden_lab::export::{ModelFile, MOST_TERMS};
@@ -57,7 +57,7 @@ impl RigChanges {
         };
         if !(rig.drive_gain > 0.0 && rig.drive_gain.is_finite()) {
             return Err(format!(
-                "the rig: drive_gain {}: a number above zero was expected",
+                "the rig: drive_gain {} is out of range (above 0)",
                 rig.drive_gain
             ));
         }
@@ -97,7 +97,7 @@ pub fn with_transmission(rig: &RigConfig<f64>, cable: &Transmission<f64>) -> Rig
 pub fn transmission(file: &ModelFile) -> Result<Transmission<f64>, String> {
     let model = file.model::<MOST_TERMS>()?;
     let cable = model.transmission().copied();
-    cable.ok_or_else(|| "no table `transmission`: a model with one was expected".to_owned())
+    cable.ok_or_else(|| "no table `transmission`: a model with this table is needed".to_owned())
 }
 
 /// The effects of a model as the rig has them: its pulleys are the channels `phi_p` and `phi_d`.
@@ -202,7 +202,7 @@ fn padded(own: &AdaptiveSettings<f64, 0>) -> AdaptiveSettings<f64, 3> {
         theta: [Estimator::fixed(0.0); 3],
         z_limit: own.z_limit,
         frozen: own.frozen,
-        missing: [Missing::Drop; 3],
+        missing: [OnMissing::DropRegressor; 3],
         limits: own.limits,
         longest_dt: own.longest_dt,
         fallback: own.fallback,

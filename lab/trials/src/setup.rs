@@ -51,7 +51,7 @@
 //! beta = 0.0               # initial estimates
 //! delta = 7.0
 //!
-//! [model]                  # what `bowden close --model-out` writes
+//! [model]                  # what `bowden identify --model-out` writes
 //! schema = "bowden.model/1"
 //! mode = "torque"
 //! channels = []
@@ -68,7 +68,7 @@
 //! gives the rig its transmission and its effects ([`own_rig`](super::own_rig)).
 
 use super::gains::{is_of_design, message};
-use bowden::control::{AdaptiveSettings, Damping, Estimator, Form, Leakage, PidSettings};
+use bowden::control::{AdaptiveSettings, DerivativeSource, Estimator, Form, Leakage, PidSettings};
 use bowden_lab::export::ModelFile;
 use bowden_rig::RigConfig;
 use serde::{Deserialize, Serialize};
@@ -91,7 +91,7 @@ pub struct Setup {
     /// The PI with a disturbance observer.
     pub observer: ObserverGains,
     /// The PI with learning, where the reference repeats.
-    pub learning: LearningGains,
+    pub learning: IterativeLearningGains,
     /// The adaptive law.
     pub adaptive: AdaptiveGains,
     /// The model that is fed forward; the rig's own transmission where there is none.
@@ -129,7 +129,7 @@ impl PidGains {
     #[must_use]
     pub fn over_piv(&self, paper: &PidSettings<f64>) -> PidSettings<f64> {
         PidSettings {
-            damping: Damping::Velocity,
+            damping: DerivativeSource::Velocity,
             ..self.over(paper)
         }
     }
@@ -173,7 +173,7 @@ impl Default for ObserverGains {
 /// A PI with learning over the cycle of a reference that repeats.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct LearningGains {
+pub struct IterativeLearningGains {
     /// Proportional gain \[units/(N·m)\].
     pub k_p: f64,
     /// Integral gain \[units/(N·m·s)\].
@@ -190,7 +190,7 @@ pub struct LearningGains {
     pub limit: f64,
 }
 
-impl Default for LearningGains {
+impl Default for IterativeLearningGains {
     /// The paper's PI.
     fn default() -> Self {
         Self {
@@ -291,7 +291,7 @@ impl AdaptiveGains {
             },
             ..Estimator::free(prior)
         };
-        let literal = Form::Literal {
+        let literal = Form::AsPublished {
             time_constant: self.derivative_time,
         };
         AdaptiveSettings {
@@ -322,7 +322,7 @@ impl Setup {
     pub fn parse(text: &str, label: &str) -> Result<Self, String> {
         if is_of_design(text) {
             return Err(format!(
-                "{label}: is a file of `bowden design`; a model of `bowden close --model-out`, or gains and rig in one file, was expected"
+                "{label}: is a file of `bowden design`; a model of `bowden identify --model-out`, or gains and rig in one file, is needed"
             ));
         }
         let failed = |e: toml::de::Error| message(&e, text, label);
@@ -344,13 +344,13 @@ impl Setup {
         if let Some(model) = &self.model {
             if model.schema != "bowden.model/1" {
                 return Err(format!(
-                    "{label}: model.schema {:?}: \"bowden.model/1\" was expected",
+                    "{label}: model.schema {:?}: \"bowden.model/1\" is needed",
                     model.schema
                 ));
             }
             if model.mode != "torque" {
                 return Err(format!(
-                    "{label}: model.mode {:?}: \"torque\" was expected, since the simulated rig transmits torque to torque",
+                    "{label}: model.mode {:?}: \"torque\" is needed, since the simulated rig transmits torque to torque",
                     model.mode
                 ));
             }

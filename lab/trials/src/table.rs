@@ -124,6 +124,15 @@ fn line(name: &str, trials: &[Trial], conditions: &Conditions) -> Line {
     }
 }
 
+/// The controller with the smallest mean true error among those that `among` admits; `None` if all of
+/// them ran away.
+pub fn smallest_error(lines: &[Line], among: impl Fn(&str) -> bool) -> Option<&Line> {
+    let lines = lines.iter().filter(|line| among(&line.controller));
+    let finished = lines.filter_map(|line| Some((line.mean_error()?, line)));
+    let least = finished.min_by(|(a, _), (b, _)| a.total_cmp(b));
+    least.map(|(_, line)| line)
+}
+
 /// Which commands are at a limit for much of the steady part; `None` where none is.
 #[must_use]
 pub fn told_of_limits(lines: &[Line]) -> Option<String> {
@@ -133,7 +142,7 @@ pub fn told_of_limits(lines: &[Line]) -> Option<String> {
     let all: Vec<String> = own.collect();
     (!all.is_empty()).then(|| {
         format!(
-            "At a limit of the command: {}. Such a row shows what the limit does, and not what the gains can do.",
+            "At a limit of the command: {}. Such a row shows the effect of the limit, not of the gains.",
             all.join("; ")
         )
     })

@@ -4,7 +4,7 @@
 use super::data_sheet::{nominal, shown};
 use super::lineup::{Laws, GAIT, RATE};
 use super::setup::Setup;
-use bowden::bound::{Interval, LearningConvergence, ObserverStability, PlantRange};
+use bowden::bound::{Interval, IterativeLearningConvergence, ObserverStability, PlantRange};
 use bowden::Error;
 use bowden_rig::RigConfig;
 use serde::Serialize;
@@ -56,20 +56,20 @@ const CADENCE: f64 = 0.1;
 
 static ASSUMPTIONS: &[&str] = &[
     "the plant is f*alpha*e^(-theta*s)/(1 + f*(s^2/wn^2 + 2*zeta*s/wn)/(1 + c/K*s)), its numbers constant",
-    "the rig is of that form: the joint's inertia, and the cable's place before the hysteresis, are left out",
+    "the rig is of that form: the joint's inertia, and the cable's position before the hysteresis, are neglected",
     "continuous time: samples much shorter than tau and 1/wn; hold, delay and the lags of drive and sensor act as a delay",
-    "friction and load are disturbances that stay bounded; f is any slope of the hysteresis, and does not change",
-    "neither a limit of the command nor that of the observer is met, and no sample is bad",
+    "friction and load are bounded disturbances; f is any constant slope of the hysteresis",
+    "neither the limit of the command nor that of the observer is active, and no sample is bad",
 ];
 
 static OF_LEARNING: &[&str] = &[
     ASSUMPTIONS[0],
     ASSUMPTIONS[1],
-    "continuous time: many samples a cell; hold, delay and the lags of drive and sensor act as a delay",
-    "one cycle time throughout, from 0.9 to 1.1 s, and a phase that is uniform in time",
-    "friction and load repeat, or are disturbances that stay bounded; f is any slope of the hysteresis, and does not change",
-    "neither a limit of the command nor that of what is learned is met, and no sample is bad",
-    "what stays of the error is not bounded: near the filter's corner and above it may exceed what was there without",
+    "continuous time: many samples per cell; hold, delay and the lags of drive and sensor act as a delay",
+    "a constant cycle time from 0.9 to 1.1 s, and a phase that is uniform in time",
+    "friction and load repeat, or are bounded disturbances; f is any constant slope of the hysteresis",
+    "neither the limit of the command nor that of the learned values is active, and no sample is bad",
+    "the remaining error is not bounded: near and above the filter's corner frequency it may exceed the error without learning",
 ];
 
 impl Middle {
@@ -141,7 +141,8 @@ pub fn convergence(setup: &Setup) -> Result<Tolerance, String> {
     let (learning, cells) = (&laws.learning.learning, laws.learning.cells);
     let converges = |share: f64| {
         let (law, range) = (&laws.learning_pi, plant.within(share));
-        LearningConvergence::try_new(learning, cells, &cycle, law, &range, FACTOR).map(drop)
+        IterativeLearningConvergence::try_new(learning, cells, &cycle, law, &range, FACTOR)
+            .map(drop)
     };
     let (share, refused) = found(converges, most_in_hundredths);
     Ok(Tolerance {

@@ -3,7 +3,7 @@
 //! Shapes are in units of what the reference makes the joint do; the gain is such that
 //! the effect's contribution along the reference has the wanted rms.
 
-use bowden::effect::{Effect, EffectState, Motion, Quantity, Situation, CATALOGUE};
+use bowden::effect::{Effect, EffectState, Inputs, Motion, Quantity, CATALOGUE};
 use bowden::model::{Source, Term};
 use bowden_rig::{Reference, RigConfig};
 
@@ -35,13 +35,13 @@ impl Undeclared {
     /// Reads the text of `--effect`.
     ///
     /// # Errors
-    /// One sentence that says what was expected.
+    /// One sentence that says what is needed.
     pub fn parse(text: &str) -> Result<Self, String> {
         let (what, strength) = match text.split_once(':') {
             None => (text, None),
             Some((what, strength)) => {
                 let value: f64 = strength.parse().map_err(|_| {
-                    format!("--effect {text}: {strength:?} is no number of N·m; NAME:STRENGTH was expected")
+                    format!("--effect {text}: {strength:?} is not a number of N·m; NAME:STRENGTH is needed")
                 })?;
                 if !(value.is_finite() && value > 0.0) {
                     return Err(format!(
@@ -58,7 +58,7 @@ impl Undeclared {
         if !CATALOGUE.iter().any(|info| info.name == name) {
             let names: Vec<&str> = CATALOGUE.iter().map(|info| info.name).collect();
             return Err(format!(
-                "--effect {text}: one of {} was expected",
+                "--effect {text}: one of {} is needed",
                 names.join(", ")
             ));
         }
@@ -88,7 +88,7 @@ impl Undeclared {
             Some("phi_d") => Source::Channel(1),
             Some(other) => {
                 return Err(format!(
-                    "--effect {name}@{other}: tau_i, phi_p or phi_d was expected"
+                    "--effect {name}@{other}: tau_i, phi_p or phi_d is needed"
                 ))
             }
         };
@@ -214,7 +214,7 @@ impl Path {
             .map(|(k, (motion, input))| {
                 let mut motion = *motion;
                 motion.position -= term.origin;
-                let at = Situation {
+                let at = Inputs {
                     dt: STEP,
                     time: STEP * k as f64,
                     motion,

@@ -1,4 +1,4 @@
-//! An undeclared effect on the rig: what `close` finds lowers the tracking error.
+//! An undeclared effect on the rig: what `identify` finds lowers the tracking error.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use bowden_rig::{Reference, RigConfig};
@@ -36,7 +36,7 @@ fn outcomes(effect: &str, noise: f64) -> Vec<Outcome> {
         .collect()
 }
 
-/// With what was found, PI with feed-forward follows better than with the declared model:
+/// With what was found, PI with feed-forward follows better than with the baseline model:
 /// at full gain, at a fifth of it, and that at 250 Hz; on every seed.
 #[track_caller]
 fn lowers_the_error_of_pi(effect: &str, noise: f64) -> Vec<Outcome> {
@@ -104,7 +104,7 @@ fn dry_friction_that_nobody_declared_is_found_and_fed_forward() {
 }
 
 /// Friction that falls with speed excites this light joint by itself. Stick and slip are
-/// half of what the bench record holds, and on some seeds `close` names nothing in it or
+/// half of what the bench record holds, and on some seeds `identify` names nothing in it or
 /// only what cannot be fed forward: then nothing is gained, and nothing may be lost.
 #[test]
 #[ignore = "slow: bash .ci/run closed-loop"]

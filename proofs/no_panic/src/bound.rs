@@ -3,7 +3,7 @@
 use crate::control::law;
 use crate::{any, never_panics};
 use bowden::bound::*;
-use bowden::control::{DisturbanceObserver, Learning, NominalPlant, Pid};
+use bowden::control::{DisturbanceObserver, IterativeLearning, NominalPlant, Pid};
 use bowden::Real;
 use std::hint::black_box;
 
@@ -12,7 +12,7 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(bound_plant_between, Interval::<T>::between(any(), any()));
     let interval = black_box(Interval::<T>::exactly(any()));
     never_panics!(bound_plant_magnitude, interval.magnitude());
-    never_panics!(bound_plant_furthest_from, interval.furthest_from(any()));
+    never_panics!(bound_plant_max_distance_from, interval.max_distance_from(any()));
     never_panics!(bound_plant_new, Plant::<T, 2>::new(any(), any()));
 
     let (law, plant) = (law::<T>()?, black_box(Plant::<T, 2>::new(any(), any())));
@@ -28,7 +28,7 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(bound_rms_sampled_certificate, rms_sampled.certificate());
     never_panics!(bound_tightest_try_new, Tightest::try_new(&law, &plant));
     let tightest = black_box(Tightest::try_new(&law, &plant)).ok()?;
-    never_panics!(bound_tightest_to_blame, tightest.to_blame());
+    never_panics!(bound_tightest_dominant_term, tightest.dominant_term());
     never_panics!(bound_tightest_certificate, tightest.certificate());
     let theorem_1 = black_box(Theorem1::try_new(&law, &plant)).ok()?;
     never_panics!(bound_theorem_1_certificate, theorem_1.certificate());
@@ -122,14 +122,14 @@ fn observer<T: Real>() -> Option<()> {
 /// Convergence of a learning.
 fn learning<T: Real>() -> Option<()> {
     let number = || black_box(2_u16);
-    let learning = Learning::<T>::try_new(any(), any(), number(), number());
+    let learning = IterativeLearning::<T>::try_new(any(), any(), number(), number());
     let learning = black_box(learning).ok()?;
     let law = black_box(Pid::<T>::paper_pi());
     let cycle = black_box(Interval::<f64>::between(any(), any()));
     let (plants, cells) = (plants(), black_box(250));
     never_panics!(
         bound_learning_try_new,
-        LearningConvergence::try_new(&learning, cells, &cycle, &law, &plants, any())
+        IterativeLearningConvergence::try_new(&learning, cells, &cycle, &law, &plants, any())
     );
     Some(())
 }

@@ -5,6 +5,7 @@ mod compensator;
 mod learning;
 mod observer;
 mod pid;
+mod relay;
 
 use crate::{any, never_panics};
 use bowden::control::{
@@ -26,14 +27,17 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(control_limits_slew, limits.slew());
     never_panics!(control_limits_contains, limits.contains(any()));
     never_panics!(control_limits_apply, limits.apply(any(), any(), any()));
-    never_panics!(control_limits_confine, limits.confine(any()));
+    never_panics!(control_limits_clamp, limits.clamp(any()));
 
     never_panics!(
         control_status_try_new,
         Fallback::<T>::try_new(black_box(3), any())
     );
-    never_panics!(control_status_hold_for_ever, Fallback::<T>::hold_for_ever());
-    let fallback = black_box(Fallback::<T>::hold_for_ever());
+    never_panics!(
+        control_status_hold_indefinitely,
+        Fallback::<T>::hold_indefinitely()
+    );
+    let fallback = black_box(Fallback::<T>::hold_indefinitely());
     never_panics!(
         control_status_with_weight,
         fallback.with_weight(black_box(3))
@@ -58,12 +62,13 @@ pub fn all<T: Real>() -> Option<()> {
         Controller::step(&pi, &mut state, &at)
     );
     never_panics!(
-        error_about,
-        black_box(bowden::Error::Capacity("terms")).about()
+        error_parameter,
+        black_box(bowden::Error::Capacity("terms")).parameter()
     );
     constants();
 
     pid::all::<T>()?;
+    relay::all::<T>()?;
     observer::all::<T>()?;
     learning::all::<T>()?;
     adaptive::all::<T>()?;

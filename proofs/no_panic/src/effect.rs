@@ -15,7 +15,7 @@ pub fn motion<T: Real>() -> Motion<T> {
 }
 
 pub fn all<T: Real>() -> Option<()> {
-    let situation = Situation::<T> {
+    let situation = Inputs::<T> {
         dt: any(),
         time: any(),
         motion: motion(),

@@ -6,18 +6,25 @@ use bowden::Real;
 use std::hint::black_box;
 
 pub fn all<T: Real>() -> Option<()> {
-    never_panics!(hysteresis_state_new, BoucWen::<T>::new());
-    never_panics!(hysteresis_state_with_eta, BoucWen::<T>::with_eta(any()));
-    let mut state = black_box(BoucWen::<T>::new());
+    never_panics!(hysteresis_state_new, BoucWenState::<T>::new());
+    never_panics!(
+        hysteresis_state_with_eta,
+        BoucWenState::<T>::with_eta(any())
+    );
+    let mut state = black_box(BoucWenState::<T>::new());
     never_panics!(hysteresis_state_eta, state.eta());
     never_panics!(hysteresis_state_input, state.input());
     never_panics!(hysteresis_state_start, Sensitivity::<T>::start(any()));
 
     never_panics!(
-        hysteresis_shape_try_new,
-        Shape::<T>::try_new(any(), any(), any())
+        hysteresis_shape_const_new,
+        BoucWen::<f32>::const_new(any(), any(), any())
     );
-    let shape = black_box(Shape::<T>::try_new(any(), any(), any())).ok()?;
+    never_panics!(
+        hysteresis_shape_try_new,
+        BoucWen::<T>::try_new(any(), any(), any())
+    );
+    let shape = black_box(BoucWen::<T>::try_new(any(), any(), any())).ok()?;
     never_panics!(hysteresis_shape_rho, shape.rho());
     never_panics!(hysteresis_shape_sigma, shape.sigma());
     never_panics!(hysteresis_shape_n, shape.n());
@@ -54,7 +61,7 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(hysteresis_textbook_class, textbook.class());
     never_panics!(
         hysteresis_textbook_from_textbook,
-        Shape::from_textbook(textbook)
+        BoucWen::from_textbook(textbook)
     );
     let actuator = Actuator::<T> {
         yield_torque: any(),
@@ -64,7 +71,7 @@ pub fn all<T: Real>() -> Option<()> {
     };
     never_panics!(
         hysteresis_textbook_from_actuator,
-        Shape::from_actuator(actuator)
+        BoucWen::from_actuator(actuator)
     );
     Some(())
 }

@@ -25,8 +25,22 @@ pub fn all<T: Real>() -> Option<()> {
         signal_plausible_const_with_rate,
         single.const_with_rate(any())
     );
+    never_panics!(
+        signal_plausible_const_with_sample_period,
+        single.const_with_sample_period(any())
+    );
+    never_panics!(
+        signal_plausible_const_with_longest_dt,
+        single.const_with_longest_dt(any())
+    );
     let plausible = black_box(Plausible::<T>::try_new(any(), any())).ok()?;
     never_panics!(signal_plausible_with_rate, plausible.with_rate(any()));
+    let plausible = black_box(plausible.with_rate(any())).ok()?;
+    never_panics!(
+        signal_plausible_with_sample_period,
+        plausible.with_sample_period(any())
+    );
+    let plausible = black_box(plausible.with_sample_period(any())).ok()?;
     never_panics!(
         signal_plausible_with_stuck_after,
         plausible.with_stuck_after(black_box(3))
@@ -43,6 +57,12 @@ pub fn all<T: Real>() -> Option<()> {
     );
     never_panics!(signal_plausible_last, state.last());
 
+    never_panics!(signal_ramp_const_new, Ramp::<f32>::const_new(any(), any()));
+    let single = black_box(Ramp::<f32>::try_new(any(), any())).ok()?;
+    never_panics!(
+        signal_ramp_const_with_longest_dt,
+        single.const_with_longest_dt(any())
+    );
     never_panics!(signal_ramp_try_new, Ramp::<T>::try_new(any(), any()));
     let ramp = black_box(Ramp::<T>::try_new(any(), any())).ok()?;
     never_panics!(signal_ramp_with_longest_dt, ramp.with_longest_dt(any()));
@@ -51,6 +71,7 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(signal_ramp_step, ramp.step(&mut state, any(), any()));
     never_panics!(signal_ramp_value, state.value());
 
+    never_panics!(signal_play_const_new, Play::<f32>::const_new(any()));
     never_panics!(signal_play_try_new, Play::<T>::try_new(any()));
     let play = black_box(Play::<T>::try_new(any())).ok()?;
     never_panics!(signal_play_new, PlayState::<T>::new());
@@ -59,6 +80,7 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(signal_play_step, play.step(&mut state, any()));
     never_panics!(signal_play_output, state.output());
 
+    never_panics!(signal_guard_const_new, Guard::<f32>::const_new(any()));
     never_panics!(signal_guard_try_new, Guard::<T>::try_new(any()));
     let held = black_box(Guard::<T>::try_new(any())).ok()?;
     never_panics!(signal_guard_new, GuardState::<T>::new(any()));
@@ -68,6 +90,10 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(signal_guard_consecutive_bad, state.consecutive_bad());
     never_panics!(signal_guard_good, state.good());
 
+    never_panics!(
+        signal_derivative_const_new,
+        Derivative::<f32>::const_new(any())
+    );
     never_panics!(signal_derivative_try_new, Derivative::<T>::try_new(any()));
     let rate = black_box(Derivative::<T>::try_new(any())).ok()?;
     never_panics!(signal_derivative_new, DerivativeState::<T>::new());
@@ -76,6 +102,20 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(signal_derivative_step, rate.step(&mut state, any(), any()));
     never_panics!(signal_derivative_rate, state.rate());
 
+    never_panics!(signal_rates_const_new, Rates::<f32>::const_new(any()));
+    never_panics!(
+        signal_rates_const_for_cutoff,
+        Rates::<f32>::const_for_cutoff(any())
+    );
+    let single = black_box(Rates::<f32>::try_new(any())).ok()?;
+    never_panics!(
+        signal_rates_const_with_period,
+        single.const_with_period(any())
+    );
+    never_panics!(
+        signal_rates_const_with_longest_gap,
+        single.const_with_longest_gap(any())
+    );
     never_panics!(signal_rates_try_new, Rates::<T>::try_new(any()));
     never_panics!(signal_rates_for_cutoff, Rates::<T>::for_cutoff(any()));
     let rates = black_box(Rates::<T>::try_new(any())).ok()?;
@@ -90,5 +130,69 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(signal_rates_step, rates.step(&mut state, any(), any()));
     never_panics!(signal_rates_motion, state.motion());
     never_panics!(signal_rates_gap, state.gap());
+    filters::<T>()?;
+    edges::<T>()
+}
+
+fn filters<T: Real>() -> Option<()> {
+    never_panics!(signal_low_pass_const_new, LowPass::<f32>::const_new(any()));
+    never_panics!(signal_low_pass_try_new, LowPass::<T>::try_new(any()));
+    let low_pass = black_box(LowPass::<T>::try_new(any())).ok()?;
+    never_panics!(signal_low_pass_time_constant, low_pass.time_constant());
+    never_panics!(signal_low_pass_new, LowPassState::<T>::new());
+    never_panics!(signal_low_pass_at, LowPassState::<T>::at(any()));
+    let mut state = black_box(LowPassState::<T>::at(any()));
+    never_panics!(
+        signal_low_pass_step,
+        low_pass.step(&mut state, any(), any())
+    );
+    never_panics!(signal_low_pass_value, state.value());
+
+    never_panics!(
+        signal_biquad_const_low_pass,
+        Biquad::<f32>::const_low_pass(any(), any(), any())
+    );
+    never_panics!(
+        signal_biquad_const_notch,
+        Biquad::<f32>::const_notch(any(), any(), any())
+    );
+    never_panics!(
+        signal_biquad_low_pass,
+        Biquad::<T>::low_pass(any(), any(), any())
+    );
+    never_panics!(signal_biquad_notch, Biquad::<T>::notch(any(), any(), any()));
+    let biquad = black_box(Biquad::<T>::notch(any(), any(), any())).ok()?;
+    never_panics!(signal_biquad_frequency, biquad.frequency());
+    never_panics!(signal_biquad_q, biquad.q());
+    never_panics!(signal_biquad_sample_time, biquad.sample_time());
+    never_panics!(signal_biquad_new, BiquadState::<T>::new());
+    never_panics!(signal_biquad_at, BiquadState::<T>::at(any()));
+    let mut state = black_box(BiquadState::<T>::at(any()));
+    never_panics!(signal_biquad_step, biquad.step(&mut state, any(), any()));
+    never_panics!(signal_biquad_value, state.value());
+    Some(())
+}
+
+fn edges<T: Real>() -> Option<()> {
+    never_panics!(
+        signal_edges_const_new,
+        EdgeVelocity::<f32>::const_new(any(), any(), any())
+    );
+    let single = black_box(EdgeVelocity::<f32>::try_new(any(), any(), any())).ok()?;
+    never_panics!(
+        signal_edges_const_with_period,
+        single.const_with_period(any())
+    );
+    never_panics!(
+        signal_edges_try_new,
+        EdgeVelocity::<T>::try_new(any(), any(), any())
+    );
+    let edges = black_box(EdgeVelocity::<T>::try_new(any(), any(), any())).ok()?;
+    never_panics!(signal_edges_with_period, edges.with_period(any()));
+    let edges = black_box(edges.with_period(any())).ok()?;
+    never_panics!(signal_edges_new, EdgeVelocityState::<T>::new());
+    let mut state = black_box(EdgeVelocityState::<T>::new());
+    never_panics!(signal_edges_step, edges.step(&mut state, any(), any()));
+    never_panics!(signal_edges_velocity, state.velocity());
     Some(())
 }

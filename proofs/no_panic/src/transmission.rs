@@ -1,19 +1,19 @@
 //! `transmission.rs`
 
 use crate::{any, never_panics};
-use bowden::hysteresis::{BoucWen, Shape};
+use bowden::hysteresis::{BoucWen, BoucWenState};
 use bowden::transmission::Transmission;
 use bowden::Real;
 use std::hint::black_box;
 
 /// Any transmission.
 pub fn transmission<T: Real>() -> Option<Transmission<T>> {
-    let shape = black_box(Shape::try_new(any(), any(), any())).ok()?;
+    let shape = black_box(BoucWen::try_new(any(), any(), any())).ok()?;
     black_box(Transmission::torque(any(), any(), any(), shape)).ok()
 }
 
 pub fn all<T: Real>() -> Option<()> {
-    let shape = black_box(Shape::<T>::try_new(any(), any(), any())).ok()?;
+    let shape = black_box(BoucWen::<T>::try_new(any(), any(), any())).ok()?;
     never_panics!(
         transmission_torque,
         Transmission::torque(any(), any(), any(), shape)
@@ -22,8 +22,17 @@ pub fn all<T: Real>() -> Option<()> {
         transmission_displacement,
         Transmission::displacement(any(), any(), any(), shape)
     );
+    let single = black_box(BoucWen::<f32>::try_new(any(), any(), any())).ok()?;
+    never_panics!(
+        transmission_const_torque,
+        Transmission::<f32>::const_torque(any(), any(), any(), single)
+    );
+    never_panics!(
+        transmission_const_displacement,
+        Transmission::<f32>::const_displacement(any(), any(), any(), single)
+    );
     let cable = transmission::<T>()?;
-    let mut state = black_box(BoucWen::new());
+    let mut state = black_box(BoucWenState::new());
     never_panics!(transmission_mode, cable.mode());
     never_panics!(transmission_gain, cable.gain());
     never_panics!(transmission_kappa_eta, cable.kappa_eta());
@@ -38,6 +47,6 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(transmission_nearest_invertible, cable.nearest_invertible());
     never_panics!(transmission_inverse, cable.inverse());
     let inverse = black_box(cable.inverse()).ok()?;
-    never_panics!(transmission_step, inverse.step(&mut state, any()));
+    never_panics!(transmission_inverse_step, inverse.step(&mut state, any()));
     Some(())
 }

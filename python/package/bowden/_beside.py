@@ -1,129 +1,153 @@
-"""What goes beside a controller: a disturbance observer, and learning over a cycle."""
+"""What is added to a controller's command: a disturbance observer, and learning over a cycle."""
 
 from __future__ import annotations
 
-from typing import Any, Optional
+import json
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
-from . import _bowden
-from ._columns import unmasked, whole
+from . import _bowden, _numbers
 from ._error import Error
-from ._toml import document
-
-_Floats = np.ndarray[Any, np.dtype[np.float64]]
+from ._settings import GREATEST, Settings, instance, setting
 
 
-class NominalPlant:
+def _real(name: str, value: Any) -> float:
+    return _numbers.finite(name, _numbers.number(name, value))
+
+
+def _time(name: str, value: Any) -> float:
+    return _numbers.finite(name, _numbers.duration(name, value))
+
+
+def _count(name: str, value: Any) -> int:
+    return _numbers.whole(name, value, 0, 65_535, "a whole number from 0 to 65535 is allowed")
+
+
+class NominalPlant(Settings):
     """alpha/(s²/wn² + 2·zeta·s/wn + 1) from command to output.
 
-    ``gain`` alpha [N·m/unit], ``natural_frequency`` wn [rad/s], ``damping_ratio`` zeta. Where they
-    are uncertain, err low with the first two.
+    Where gain and natural frequency are uncertain, err low.
     """
 
-    def __init__(self, gain: float, natural_frequency: float, damping_ratio: float) -> None:
-        self._settings = {
-            "gain": float(gain),
-            "natural_frequency": float(natural_frequency),
-            "damping_ratio": float(damping_ratio),
-        }
+    gain: float = setting(convert=_real, kw_only=False, doc="alpha [N·m/command unit].")
+    natural_frequency: float = setting(convert=_real, kw_only=False, doc="wn [rad/s].")
+    damping_ratio: float = setting(convert=_real, kw_only=False, doc="zeta.")
+
+    def _made(self, given: Mapping[str, Any]) -> dict[str, Any]:
+        settings = self._converted(given)
+        document = json.dumps({k: v for k, v in settings.items() if v is not None})
         # Refuses what makes no sense.
-        self.feed_forward(0.0)
+        _bowden.nominal_feed_forward(document, [np.zeros(1)] * 3)
+        return {"_settings": settings, "_document": document}
 
     @classmethod
-    def of_mechanics(
-        cls, gain: float, inertia: float, damping: float, stiffness: float
-    ) -> NominalPlant:
+    def of_mechanics(cls, gain: Any, inertia: Any, damping: Any, stiffness: Any) -> NominalPlant:
         """A motor with inertia [kg·m²] and damping [N·m·s/rad] against a stiffness [N·m/rad]."""
+        inertia, stiffness = _real("inertia", inertia), _real("stiffness", stiffness)
+        damping = _real("damping", damping)
         if not (inertia > 0.0 and stiffness > 0.0):
-            raise Error(f"inertia={inertia}, stiffness={stiffness}: both above zero were expected")
+            raise Error(f"inertia={inertia}, stiffness={stiffness}: numbers above zero are allowed")
         frequency = float(np.sqrt(stiffness / inertia))
-        return cls(gain, frequency, damping / (2.0 * float(np.sqrt(stiffness * inertia))))
+        ratio = damping / (2.0 * float(np.sqrt(stiffness * inertia)))
+        return cls(gain=gain, natural_frequency=frequency, damping_ratio=ratio)
 
     def feed_forward(self, output: Any, velocity: Any = 0.0, acceleration: Any = 0.0) -> Any:
-        """The command [units] at which the plant's output moves so [N·m, N·m/s, N·m/s²].
+        """The command [command unit] at which the plant's output moves so [N·m, N·m/s, N·m/s²].
 
         Numbers, or arrays of one shape.
         """
-        given = [np.asarray(own, dtype=np.float64) for own in (output, velocity, acceleration)]
+        named = {"output": output, "velocity": velocity, "acceleration": acceleration}
+        given = [_numbers.numbers(name, own) for name, own in named.items()]
         try:
             wanted = np.broadcast_arrays(*given)
         except ValueError:
             shapes = ", ".join(str(own.shape) for own in given)
-            raise Error(f"output, velocity, acceleration: one shape was expected, not {shapes}") from None
+            raise Error(
+                f"output, velocity, acceleration: shapes {shapes}; one is allowed"
+            ) from None
         flat = [np.ascontiguousarray(own).ravel() for own in wanted]
-        found = _bowden.nominal_feed_forward(document(self._settings), flat)
+        document: str = self.__dict__["_document"]
+        found = _bowden.nominal_feed_forward(document, flat)
         return found.reshape(wanted[0].shape) if wanted[0].ndim else float(found[0])
 
-    def __repr__(self) -> str:
-        return f"NominalPlant({', '.join(f'{k}={v!r}' for k, v in self._settings.items())})"
 
-
-class DisturbanceObserver:
+class DisturbanceObserver(Settings):
     """Compares what a command does with what the plant would do, and takes the rest out.
 
-    ``time_constant`` tau of Q = 1/(tau·s + 1)² [s]; ``limit`` of the estimate [units]; ``latency``
-    [s] after which a command shows in what is measured, beside the plant itself; ``longest_dt``
-    [s], beyond which a sample is a bad one. Given to a controller (``PI(observer=…)``), which adds
-    the estimate to its command; whether the loop is stable, ``bowden certify`` says for the rig's
-    own numbers.
+    Given to a controller (``PI(observer=…)``), which adds the estimate to its command. Whether the
+    loop is stable, ``bowden certify`` says for the rig's own numbers.
     """
 
-    def __init__(
-        self,
-        plant: NominalPlant,
-        time_constant: float,
-        limit: float,
-        *,
-        latency: float = 0.0,
-        longest_dt: Optional[float] = None,
-    ) -> None:
-        if not isinstance(plant, NominalPlant):
-            raise Error(f"plant: a NominalPlant was expected, not {type(plant).__name__}")
-        longest = np.finfo(np.float64).max if longest_dt is None else longest_dt
-        self._document = document(
-            {
-                "plant": plant._settings,
-                "time_constant": float(time_constant),
-                "limit": float(limit),
-                "longest_dt": float(longest),
-                "latency": float(latency),
-            }
-        )
-        _bowden.check_beside(self._document, None)
+    plant: NominalPlant = setting(
+        convert=instance(NominalPlant), kw_only=False, doc="A NominalPlant."
+    )
+    time_constant: float = setting(
+        convert=_time, kw_only=False, doc="tau of Q = 1/(tau·s + 1)² [s]."
+    )
+    limit: float = setting(
+        convert=_real, kw_only=False, doc="Greatest magnitude of the estimate [command unit]."
+    )
+    latency: float = setting(
+        default=0.0,
+        convert=_time,
+        doc="Time after which a command shows in the measurement, the plant's own apart [s].",
+    )
+    longest_dt: Any = setting(
+        default=None, convert=_time, doc="Longest dt that is a good sample [s]; None: any."
+    )
+
+    def _made(self, given: Mapping[str, Any]) -> dict[str, Any]:
+        settings = self._converted(given)
+        longest, plant = settings["longest_dt"], settings["plant"]
+        core = {
+            **{k: v for k, v in settings.items() if v is not None},
+            "longest_dt": GREATEST if longest is None else longest,
+            "plant": None if plant is None else plant.settings,
+        }
+        document = json.dumps(core)
+        _bowden.check_beside(document, None)
+        return {"_settings": settings, "_document": document}
 
 
-class Learning:
+class IterativeLearning(Settings):
     """Learns from cycle to cycle what a task that repeats has lacked so far, and feeds it forward.
 
-    ``gain`` [units/(N·m)] of the error; ``limit`` [units] of what is learned; ``cells`` a cycle is
-    divided into; ``lead`` and ``half_width`` of the filter in cells; ``forgetting``, the share that
-    is forgotten each time. ``learned`` is what another controller's ``learned`` was: it goes on from
-    there. Given to a controller (``PI(learning=…)``), whose samples then have a ``phase``.
+    Given to a controller (``PI(learning=…)``), whose samples then have a ``phase``.
     """
 
-    def __init__(
-        self,
-        gain: float,
-        limit: float,
-        *,
-        cells: int,
-        lead: int = 0,
-        half_width: int = 0,
-        forgetting: float = 0.0,
-        learned: Any = None,
-    ) -> None:
-        expected = "a whole number from 0 to 65535 was expected"
-        cells = whole("cells", cells, 0, 65_535, expected)
-        first = np.zeros(cells) if learned is None else np.asarray(unmasked(learned), dtype=np.float64)
+    gain: float = setting(
+        convert=_real, kw_only=False, doc="Gain of the error [command unit/(N·m)]."
+    )
+    limit: float = setting(
+        convert=_real, kw_only=False, doc="Greatest magnitude of what is learned [command unit]."
+    )
+    cells: int = setting(convert=_count, doc="Cells that a cycle is divided into.")
+    lead: int = setting(
+        default=0, convert=_count, doc="How many cells a command comes before its effect."
+    )
+    half_width: int = setting(default=0, convert=_count, doc="Half width of the filter [cells].")
+    forgetting: float = setting(
+        default=0.0, convert=_real, doc="Share that is forgotten each time, from 0 to 1."
+    )
+    learned: Any = setting(
+        default=None,
+        convert=_numbers.numbers,
+        doc="What another controller's `learned` was, to continue from it; None: nothing.",
+    )
+
+    def _made(self, given: Mapping[str, Any]) -> dict[str, Any]:
+        settings = self._converted(given)
+        cells = settings["cells"]
+        if cells is None:
+            raise Error("cells: a whole number from 0 to 65535 is needed")
+        learned = settings["learned"]
+        first = np.zeros(cells) if learned is None else learned
         if first.shape != (cells,):
-            raise Error(f"learned: shape {first.shape}, {(cells,)} was expected")
-        settings = {
-            "gain": float(gain),
-            "limit": float(limit),
-            "lead": whole("lead", lead, 0, 65_535, expected),
-            "half_width": whole("half_width", half_width, 0, 65_535, expected),
-            "forgetting": float(forgetting),
-        }
-        self._native = (document(settings), first.tolist())
-        _bowden.check_beside(None, self._native)
+            raise Error(f"learned: shape {first.shape}; {(cells,)} is allowed")
+        apart = ("cells", "learned")
+        core = {k: v for k, v in settings.items() if k not in apart and v is not None}
+        native = (json.dumps(core), first.tolist())
+        _bowden.check_beside(None, native)
+        return {"_settings": settings, "_native": native}

@@ -10,11 +10,12 @@ from . import _bowden
 from ._close import command_of, records_of, threads_of
 from ._error import Error
 from ._model import Model
-from ._read import Channels, Reading
+from ._numbers import number
+from ._read import HERTZ, Channels, Reading
 from ._report import CheckReport
 
 
-def check(
+def validate(
     model: Union[Model, str, "os.PathLike[str]"],
     t: Any = None,
     tau_i: Any = None,
@@ -27,8 +28,8 @@ def check(
     time: Optional[str] = None,
     input: Optional[str] = None,
     output: Optional[str] = None,
-    skip: float = 0.0,
-    until: Optional[float] = None,
+    start: float = 0.0,
+    end: Optional[float] = None,
     cutoff: Optional[float] = None,
     rate: Optional[float] = None,
     header_line: Optional[int] = None,
@@ -41,7 +42,7 @@ def check(
     """Tries a model on another record of the same rig: nothing is fitted but gain and offset.
 
     ``model`` is a :class:`Model` or the path of a ``.toml``; the record comes as in
-    :func:`bowden.close`, whose options of reading mean the same here.
+    :func:`bowden.identify`, whose options of reading mean the same here.
 
     Raises :class:`bowden.Error`.
     """
@@ -54,8 +55,8 @@ def check(
         input=input,
         output=output,
         channels=channels,
-        skip=skip,
-        until=until,
+        start=start,
+        end=end,
         rate=rate,
         header_line=header_line,
         names=names,
@@ -66,10 +67,10 @@ def check(
     ends = {"tau_i": tau_i, "tau_o": tau_o, "x": x, "f": f}
     records = records_of(reading, t, ends)
     if len(records) != 1:
-        raise Error(f"{len(records)} records were given, one was expected")
-    hertz = None if cutoff is None else float(cutoff)
+        raise Error(f"{len(records)} records are given; one is allowed")
+    hertz = None if cutoff is None else number("cutoff", cutoff, HERTZ)
     checked = _bowden.check(own._native, own.name, records[0], hertz, threads_of(threads))
-    given = {"cutoff": cutoff, "skip": skip or None, "until": until, "rate": rate}
-    command = command_of("check", [own.name], {}).rstrip(")")
-    rest = command_of("check", [records[0].path], given).partition("(")[2]
+    given = {"cutoff": cutoff, "start": start or None, "end": end, "rate": rate}
+    command = command_of("validate", [own.name], {}).rstrip(")")
+    rest = command_of("validate", [records[0].path], given).partition("(")[2]
     return CheckReport(checked, f"{command}, {rest}")

@@ -6,14 +6,14 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Optional, Union
 
 from . import _bowden
-from ._columns import whole
 from ._error import Error
+from ._numbers import duration, number, whole
 from ._progress import Progress
-from ._read import Channels, Reading
+from ._read import HERTZ, Channels, Reading
 from ._report import Report
 
 
-def close(
+def identify(
     t: Any = None,
     tau_i: Any = None,
     tau_o: Any = None,
@@ -21,20 +21,20 @@ def close(
     x: Any = None,
     f: Any = None,
     channels: Optional[Channels] = None,
-    declare: Union[str, Sequence[str], None] = None,
+    baseline: Union[str, Sequence[str], None] = None,
     mode: Optional[str] = None,
     time: Optional[str] = None,
     input: Optional[str] = None,
     output: Optional[str] = None,
-    skip: float = 0.0,
-    until: Optional[float] = None,
+    start: float = 0.0,
+    end: Optional[float] = None,
     cutoff: Optional[float] = None,
     rate: Optional[float] = None,
     header_line: Optional[int] = None,
     names: Optional[Sequence[str]] = None,
     drop_bad: bool = False,
-    rounds: Optional[int] = None,
-    budget: Optional[float] = None,
+    max_terms: Optional[int] = None,
+    time_limit: Optional[float] = None,
     per_file: Optional[str] = None,
     invertible: bool = False,
     units: Optional[Mapping[str, str]] = None,
@@ -43,11 +43,11 @@ def close(
     threads: Optional[int] = None,
     progress: Any = None,
 ) -> Report:
-    """Fits the declared model, finds the effect that it lacks, adds it, compares.
+    """Fits the baseline model, finds the effect that it lacks, adds it, compares.
 
-    What is closed is one of
+    The record is one of
 
-    * arrays: ``close(t, tau_i=…, tau_o=…)`` in torque mode, ``close(t, x=…, f=…)`` in
+    * arrays: ``identify(t, tau_i=…, tau_o=…)`` in torque mode, ``identify(t, x=…, f=…)`` in
       displacement mode, one-dimensional, of one length, of any numeric type; ``t`` in seconds,
       or ``None`` with ``rate``;
     * a record: a path (CSV, .mat v5 and v7.3, Parquet, each also in gzip), a frame of pandas or polars, a
@@ -55,20 +55,20 @@ def close(
     * a list of such records of one rig, for one joint model; of three or more the last is held
       out as a whole.
 
-    Options of the program `bowden close`, under the same names:
+    Options of the program `bowden identify`, under the same names:
 
     channels
         Further channels by name (``phi_p``, ``phi_d``, ``temperature``, ``load``, or any other):
         an array, or the name of a column, ``"A-B"`` or ``"A+B"`` of two.
-    declare
-        The declared model: ``bouc-wen`` and any effects; ``"NAME@CHANNEL"`` reads a channel.
+    baseline
+        The baseline model: ``bouc-wen`` and any effects; ``"NAME@CHANNEL"`` reads a channel.
         A list, or one text with commas as for the program.
     mode
         ``"torque"`` or ``"displacement"``; from the columns where it is not given.
     time, input, output
         Names of columns; ``t``, ``tau_i`` or ``x``, ``tau_o`` or ``f`` where not given.
-    skip, until
-        Seconds from the first time stamp: what lies outside is left out.
+    start, end
+        Seconds after the first time stamp at which the record is cut.
     cutoff
         Cut-off of the one filter [Hz]; from the input's spectrum where it is not given.
     rate
@@ -80,12 +80,12 @@ def close(
         (``["t", "x [mm]", "f"]``); an empty one is that of a column which is not read.
     drop_bad
         Leave out rows with an empty cell, a NaN or a time stamp that repeats.
-    rounds, budget
-        At most so many effects (0 to 8), at most so many seconds.
+    max_terms, time_limit
+        Highest number of added terms (0 to 8); time after which the search ends [s].
     per_file
         ``"gains"``: the gains may differ from file to file.
     invertible
-        Fit the model that is handed over within what a feed-forward can invert.
+        Fit the exported model within what a feed-forward can invert.
 
     And of Python:
 
@@ -107,15 +107,15 @@ def close(
     Raises :class:`bowden.Error`.
     """
     if per_file not in (None, "gains"):
-        raise Error(f'per_file={per_file!r}: "gains" was expected')
+        raise Error(f'per_file={per_file!r}: "gains" is allowed')
     reading = Reading(
         mode=mode,
         time=time,
         input=input,
         output=output,
         channels=channels,
-        skip=skip,
-        until=until,
+        start=start,
+        end=end,
         rate=rate,
         header_line=header_line,
         names=names,
@@ -124,14 +124,14 @@ def close(
         label=label,
     )
     wanted = {
-        "declare": [own.strip() for own in declare.split(",")]
-        if isinstance(declare, str)
-        else list(declare or []),
-        "rounds": None
-        if rounds is None
-        else whole("rounds", rounds, 0, 8, "0 to 8 were expected"),
-        "budget": None if budget is None else float(budget),
-        "cutoff": None if cutoff is None else float(cutoff),
+        "baseline": [own.strip() for own in baseline.split(",")]
+        if isinstance(baseline, str)
+        else list(baseline or []),
+        "max_terms": None
+        if max_terms is None
+        else whole("max_terms", max_terms, 0, 8, "a whole number from 0 to 8 is allowed"),
+        "time_limit": None if time_limit is None else duration("time_limit", time_limit),
+        "cutoff": None if cutoff is None else number("cutoff", cutoff, HERTZ),
         "own_gains": per_file is not None,
         "invertible": bool(invertible),
         "figures": bool(figures),
@@ -143,24 +143,24 @@ def close(
         closed = _bowden.close(records, wanted, threads_of(threads), told)
     given = {
         "channels": sorted(reading.channels) or None,
-        "declare": wanted["declare"] or None,
+        "baseline": wanted["baseline"] or None,
         "mode": mode,
         "time": time,
         "input": input,
         "output": output,
-        "skip": skip or None,
-        "until": until,
+        "start": start or None,
+        "end": end,
         "cutoff": cutoff,
         "rate": rate,
         "header_line": header_line,
         "names": names,
         "drop_bad": drop_bad or None,
-        "rounds": rounds,
-        "budget": budget,
+        "max_terms": max_terms,
+        "time_limit": time_limit,
         "per_file": per_file,
         "invertible": invertible or None,
     }
-    return Report(closed, command_of("close", [r.path for r in records], given), figures)
+    return Report(closed, command_of("identify", [r.path for r in records], given), figures)
 
 
 def records_of(
@@ -170,7 +170,7 @@ def records_of(
     if any(end is not None for end in ends.values()):
         return [reading.of_ends({"t": first, **ends})]
     if first is None:
-        raise Error("no record was given: arrays, a frame or a path were expected")
+        raise Error("no record is given: arrays, a frame or a path are needed")
     return reading.all_of(first)
 
 
@@ -178,7 +178,7 @@ def threads_of(threads: Optional[int]) -> Optional[int]:
     """The number of threads, checked."""
     if threads is None:
         return None
-    return whole("threads", threads, 1, 2**16, "one or more were expected")
+    return whole("threads", threads, 1, 2**16, "one or more are allowed")
 
 
 def command_of(function: str, paths: list[str], given: Mapping[str, Any]) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import operator
 import os
 from collections.abc import Iterable, Mapping
 from typing import Any, Optional
@@ -15,27 +14,16 @@ from ._error import Error
 Column = tuple[str, Optional[str], "np.ndarray[Any, np.dtype[np.float64]]"]
 
 
-def whole(name: str, value: Any, least: int, most: int, expected: str) -> int:
-    """An option that counts something."""
-    try:
-        number = operator.index(value)
-    except TypeError:
-        raise Error(f"{name}={value!r}: {expected}") from None
-    if not least <= number <= most:
-        raise Error(f"{name}={number}: {expected}")
-    return number
-
-
 def list_of_names(names: Any) -> list[str]:
     """The names of the columns of a text without them; a list of texts."""
     if names is None:
         return []
-    expected = "a list of names was expected"
+    allowed = "a list of names is allowed"
     if isinstance(names, str) or not isinstance(names, Iterable):
-        raise Error(f"names={names!r}: {expected}")
+        raise Error(f"names={names!r}: {allowed}")
     every = list(names)
     if not every or not all(isinstance(name, str) for name in every):
-        raise Error(f"names={every!r}: {expected}")
+        raise Error(f"names={every!r}: {allowed}")
     return every
 
 
@@ -71,7 +59,7 @@ def check_units(units: Mapping[str, str], names: Iterable[object]) -> None:
             there = ", ".join(known)
             raise Error(f"units: `{name}`: no such column; the columns are {there}", column=str(name))
         if not isinstance(unit, str):
-            raise Error(f"units: `{name}`: {unit!r}: a text was expected", column=name)
+            raise Error(f"units: `{name}`: {unit!r}: a text is allowed", column=name)
 
 
 def names_of(frame: Any) -> Iterable[object]:
@@ -88,7 +76,7 @@ def columns_of_frame(frame: Any, units: Mapping[str, str]) -> list[Column]:
     """The numeric columns of a frame; others are left out, as those of a Parquet file are."""
     found: list[Column] = []
     for name in names_of(frame):
-        column = _array(frame[name])
+        column = values_of(frame[name])
         numbers = None if column is None else _numbers(column)
         if numbers is not None:
             values, unit = numbers
@@ -96,22 +84,38 @@ def columns_of_frame(frame: Any, units: Mapping[str, str]) -> list[Column]:
     return found
 
 
+def is_timed(column: Any) -> bool:
+    """Whether it holds durations or points in time."""
+    found = values_of(column)
+    return found is not None and found.dtype.kind in "mM"
+
+
+def refuse_times(name: str, column: Any) -> None:
+    """Refuses durations and points in time where a signal is meant."""
+    if is_timed(column):
+        raise Error(
+            f"column `{name}`: values of {getattr(column, 'dtype', type(column).__name__)}; "
+            "numbers are allowed, times only in the time column",
+            column=name,
+        )
+
+
 def column_of_array(name: str, array: Any, units: Mapping[str, str]) -> Column:
     """A column that was given by itself, which has to be one."""
-    found = _array(array)
+    found = values_of(array)
     numbers = None if found is None else _numbers(found)
     if found is None or numbers is None:
         kind = type(array).__name__ if found is None else f"{found.dtype}"
-        raise Error(f"column `{name}`: values of {kind}, numbers were expected", column=name)
+        raise Error(f"column `{name}`: values of {kind}; numbers are allowed", column=name)
     values, unit = numbers
     if values.ndim != 1:
         raise Error(
-            f"column `{name}`: shape {values.shape}, one dimension was expected", column=name
+            f"column `{name}`: shape {values.shape}; one dimension is allowed", column=name
         )
     return name, units.get(name, unit), values
 
 
-def _array(column: Any) -> Optional[np.ndarray[Any, Any]]:
+def values_of(column: Any) -> Optional[np.ndarray[Any, Any]]:
     """The values of a column of any library."""
     dtype = getattr(column, "dtype", None)
     if hasattr(column, "to_numpy"):

@@ -1,129 +1,158 @@
-"""Controllers and the simulated rig, one or many side by side."""
+"""Controllers, one or many side by side: what all laws have in common."""
 
 from __future__ import annotations
 
-import math
+import json
 from collections.abc import Mapping, Sequence
-from typing import Any, Optional, Union
+from typing import Any
 
 import numpy as np
 
-from . import _bowden
-from ._beside import DisturbanceObserver, Learning
-from ._columns import unmasked, whole
+from . import _bowden, _numbers
+from ._beside import DisturbanceObserver, IterativeLearning
 from ._error import Error
-from ._toml import document
+from ._fields import Fields
+from ._lanes import Changing, merged
+from ._settings import GREATEST, count, duration, instance, pair, setting
+from ._status import RunResult, StepResult, step_result
 
-_Floats = np.ndarray[Any, np.dtype[np.float64]]
-
-#: Without a limit: every float.
-GREATEST = float(np.finfo(np.float64).max)
-#: Without a safe command.
-HOLD_FOR_EVER = {"after": 2**32 - 1}
-
-#: What the numbers of :attr:`Controller.status` mean.
-STATUS = ("good", "degraded", "held", "safe")
-
-
-def _lanes(settings: Mapping[str, Any], lanes: Optional[int]) -> tuple[list[str], bool]:
-    """The settings of each lane, and whether there is one alone: arrays give one lane each."""
-    if lanes is not None:
-        lanes = whole("lanes", lanes, 1, 2**31, "one or more were expected")
-    arrays = {k: v for k, v in settings.items() if isinstance(v, np.ndarray) and v.ndim}
-    lengths = {len(v) for v in arrays.values()} | ({lanes} if lanes is not None else set())
-    if len(lengths) > 1 or any(v.ndim != 1 for v in arrays.values()):
-        raise Error(f"settings of {sorted(lengths)} lanes: arrays of one length were expected")
-    if 0 in lengths:
-        raise Error("settings of no lane: arrays of one value or more were expected")
-    alone = {k: (v.item() if isinstance(v, np.ndarray) and not v.ndim else v) for k, v in settings.items()}
-    if not lengths:
-        return [document(alone)], True
-    count = lengths.pop()
-    each = ({**alone, **{k: v[lane].item() for k, v in arrays.items()}} for lane in range(count))
-    return [document(one) for one in each], False
+#: Without a safe command, in the core's form.
+_HOLD = {"after": 2**32 - 1, "weight": 4, "command": None}
+#: Without limits, likewise.
+_UNLIMITED = {"low": -GREATEST, "high": GREATEST, "slew": None}
+_MOST_COUNT = 2**32 - 1
 
 
-class Controller:
+def limits_of(name: str, value: Any) -> dict[str, Any]:
+    """Two numbers, the first one below the second."""
+    found: dict[str, Any] = pair("low", "high")(name, value)
+    if np.any(found["low"] >= found["high"]):
+        raise Error(f"{name}={value!r}: (low, high) with low < high is allowed")
+    return found
+
+
+_APPLIED = ("as-commanded", "at-upper-limit", "at-lower-limit")
+
+
+def _applied(what: Any) -> str:
+    words = ", ".join(f'"{own}"' for own in _APPLIED)
+    if isinstance(what, str):
+        if what not in _APPLIED:
+            raise Error(f"what={what!r}: a command, or one of {words}, is allowed")
+        return json.dumps(what)
+    command = _numbers.number("what", what, f"a command, or one of {words}, is allowed")
+    return json.dumps({"command": command} if np.isfinite(command) else _APPLIED[0])
+
+
+class Controller(Changing):
     """A torque controller with its state: :class:`PI`, :class:`PID`, :class:`PIV`, :class:`Adaptive`.
 
     A setting that is an array makes one controller of each value, side by side; with ``lanes``
-    there are as many of the same settings.
+    there are as many of the same settings. Times are in seconds, or durations with a unit.
 
-    As in a simulation, no setting is there that was not given: without ``limits`` any command goes
-    out, without ``longest_dt`` [s] any positive ``dt`` is a good one, and without ``fallback``,
-    ``(bad samples, safe command)``, the last good command is held for ever. A machine needs all
-    three.
+    Each setting is also an attribute. It cannot be assigned: :meth:`bumpless_transfer` changes settings of a
+    running controller without a jump of the command.
 
-    What an ``observer`` estimates and what ``learning`` knows of a phase are added to the command
-    before its limits, for each lane by itself. A status is ``degraded`` where the law had a good
-    sample that one of these could not use.
+    As in a simulation, no limit holds that was not given: without ``limits`` any command goes
+    out, without ``longest_dt`` any positive ``dt`` is a good one, and without ``fallback`` the
+    last good command is held for ever. A machine needs all three.
+
+    The estimate of an ``observer`` and what ``learning`` knows of a phase are added to the command
+    before its limits, for each lane by itself.
+
+    Copies are independent: ``copy.copy``, ``copy.deepcopy`` and ``pickle`` take settings and state along.
+    A second thread waits while the first one steps.
     """
 
-    def __init__(
-        self,
-        settings: Mapping[str, Any],
-        regressors: Optional[int],
-        lanes: Optional[int],
-        observer: Optional[DisturbanceObserver] = None,
-        learning: Optional[Learning] = None,
-    ):
-        texts, self._alone = _lanes(settings, lanes)
-        if not isinstance(observer, (DisturbanceObserver, type(None))):
-            raise Error(f"observer: a DisturbanceObserver was expected, not {type(observer).__name__}")
-        if not isinstance(learning, (Learning, type(None))):
-            raise Error(f"learning: a Learning was expected, not {type(learning).__name__}")
-        self._native = _bowden.Controllers(
-            texts,
-            regressors,
+    limits: Any = setting(
+        default=None,
+        convert=limits_of,
+        core=False,
+        doc="(low, high) of the command [command unit]; None: no limits.",
+    )
+    slew: Any = setting(
+        default=None,
+        core=False,
+        doc="Most change of the command [command unit/s], with limits; None: any.",
+    )
+    longest_dt: Any = setting(
+        default=None,
+        convert=duration,
+        core=False,
+        doc="Longest dt that is a good sample [s]; None: any.",
+    )
+    fallback: Any = setting(
+        default=None,
+        convert=pair("after", "command", count(_MOST_COUNT)),
+        core=False,
+        doc="(bad samples in a row, safe command [command unit]); None: the last good command is "
+        "held for ever.",
+    )
+    fallback_weight: Any = setting(
+        default=None,
+        convert=count(_MOST_COUNT),
+        core=False,
+        doc="How many good samples make up for a bad one, with fallback; None: 4.",
+    )
+    observer: Any = setting(
+        default=None,
+        convert=instance(DisturbanceObserver),
+        core=False,
+        doc="A DisturbanceObserver.",
+    )
+    learning: Any = setting(default=None, convert=instance(IterativeLearning), core=False, doc="An IterativeLearning.")
+
+    @classmethod
+    def _kept(cls, values: Mapping[str, Any]) -> dict[str, Any]:
+        return {name: values[name] for name in ("observer", "learning")}
+
+    @classmethod
+    def _regressors(cls, documents: list[str]) -> Any:
+        """How many the law has; None of one that has no such list."""
+        return None
+
+    @classmethod
+    def _start(cls, documents: list[str], kept: Mapping[str, Any]) -> _bowden.Controllers:
+        observer, learning = kept["observer"], kept["learning"]
+        return _bowden.Controllers(
+            documents,
+            cls._regressors(documents),
             None if observer is None else observer._document,
             None if learning is None else learning._native,
         )
-        self._learning = learning
-        self._regressors = regressors or 0
-        self._status: np.ndarray[Any, np.dtype[np.uint8]] = np.zeros(len(texts), dtype=np.uint8)
 
-    @property
-    def lanes(self) -> int:
-        """Controllers side by side."""
-        return len(self._native)
+    @classmethod
+    def _to_core(cls, values: Mapping[str, Any]) -> dict[str, Any]:
+        limits, slew, weight = (values[n] for n in ("limits", "slew", "fallback_weight"))
+        if slew is not None and limits is None:
+            raise Error("slew: limits=(low, high) is needed with it")
+        if weight is not None and values["fallback"] is None:
+            raise Error("fallback_weight: fallback=(bad samples, safe command) is needed with it")
+        longest = values["longest_dt"]
+        more = {} if weight is None else {"weight": weight}
+        return {
+            **super()._to_core(values),
+            "longest_dt": GREATEST if longest is None else longest,
+            "limits": _UNLIMITED if limits is None else {**limits, "slew": slew},
+            "fallback": _HOLD if values["fallback"] is None else {**values["fallback"], **more},
+        }
 
-    def _signal(self, name: str, values: Any, samples: int) -> _Floats:
-        shape = (samples, self.lanes)
-        array = np.asarray(unmasked(values), dtype=np.float64)
-        if array.ndim == 1 and array.shape[0] == samples and samples > 1:
-            array = array[:, None]
-        try:
-            return np.ascontiguousarray(np.broadcast_to(array, shape))
-        except ValueError:
-            raise Error(f"{name}: shape {array.shape}, {shape} was expected") from None
-
-    def run(
-        self,
-        dt: float,
-        reference: Any,
-        measured: Any,
-        *,
-        next_reference: Any = None,
-        velocity: Any = 0.0,
-        feed_forward: Any = 0.0,
-        regressors: Sequence[Any] = (),
-        phase: Any = None,
-        learns: Any = True,
-    ) -> Any:
-        """Many samples: commands of shape (samples,), or (samples, lanes) of several lanes.
-
-        Each signal is a number, (samples,) for all lanes, or (samples, lanes). The reference at
-        the next sample is the next row of the reference unless it is given. ``phase`` from 0 to 1
-        and ``learns`` are for learning: see :meth:`step`.
-        """
-        sizes = [np.shape(s)[0] for s in (reference, measured) if np.ndim(s)]
-        samples = max(sizes, default=1)
-        more = (velocity, feed_forward, phase, learns, regressors)
-        return self._run(dt, samples, reference, measured, next_reference, *more)
+    @classmethod
+    def _from_core(cls, core: Mapping[str, Any]) -> dict[str, Any]:
+        limits, fallback, longest = core["limits"], core["fallback"], core["longest_dt"]
+        limited, falls = limits != _UNLIMITED, fallback["command"] is not None
+        return {
+            **super()._from_core(core),
+            "limits": (limits["low"], limits["high"]) if limited else None,
+            "slew": limits["slew"],
+            "longest_dt": None if longest == GREATEST else longest,
+            "fallback": (fallback["after"], fallback["command"]) if falls else None,
+            "fallback_weight": fallback["weight"] if falls else None,
+        }
 
     def step(
         self,
-        dt: float,
+        dt: Any,
         reference: Any,
         measured: Any,
         *,
@@ -133,23 +162,58 @@ class Controller:
         regressors: Sequence[Any] = (),
         phase: Any = None,
         learns: Any = True,
-    ) -> Any:
-        """One sample: the command, of several lanes one for each.
+    ) -> StepResult:
+        """One sample: command, status and fault.
 
-        ``dt`` [s]; ``reference``, ``measured`` [N·m]; ``velocity`` [rad/s] for PIV;
-        ``regressors`` one number (or one for each lane) each, for the adaptive law; ``phase`` where
-        in its cycle a sample is, from 0 to 1, for learning, and ``learns`` whether it is learned
-        from (not where a limit cut the command, nor during another task). A bad sample
-        raises nothing: the command is held, and :attr:`status` says so.
+        ``dt`` since the last sample [s], or a duration with a unit; ``reference``, ``measured``
+        [N·m]; ``velocity`` [rad/s] for PIV; ``regressors`` one number (or one for each lane) each, for
+        the adaptive law; ``phase`` where in its cycle a sample is, from 0 to 1, for learning, and
+        ``learns`` whether it is learned from (not where a limit cut the command, nor during
+        another task).
+
+        A bad sample (NaN, a ``dt`` that is not positive) raises nothing: the command is held, the
+        status says so and the fault which input it was. What is no number raises
+        :class:`bowden.Error`.
         """
         following = reference if next_reference is None else next_reference
+        more = (velocity, feed_forward, phase, learns)
+        if self._alone:
+            numbers = self._numbers(reference, following, measured, *more)
+            own = [
+                _numbers.number(f"regressors[{k}]", x) for k, x in enumerate(self._each(regressors))
+            ]
+            command, status, fault = self._native.step(_numbers.duration("dt", dt), numbers, own)
+            return step_result(command, status, fault)
+        _numbers.duration("dt", dt)
+        found = self._run(dt, 1, reference, measured, following, *more, regressors)
+        return StepResult(*(own[0] for own in found))
+
+    def run(
+        self,
+        dt: Any,
+        reference: Any,
+        measured: Any,
+        *,
+        next_reference: Any = None,
+        velocity: Any = 0.0,
+        feed_forward: Any = 0.0,
+        regressors: Sequence[Any] = (),
+        phase: Any = None,
+        learns: Any = True,
+    ) -> RunResult:
+        """Many samples: commands, statuses and faults, each of shape (samples,) or (samples, lanes).
+
+        ``dt`` is one time or (samples,): seconds, or durations with a unit. Each signal is a number,
+        (samples,) for all lanes, or (samples, lanes). The reference at the next sample is the next
+        row of the reference unless it is given. The rest is as in :meth:`step`.
+        """
+        samples = _numbers.samples_of(dt, reference, measured)
         more = (velocity, feed_forward, phase, learns, regressors)
-        commands = self._run(dt, 1, reference, measured, following, *more)
-        return float(commands[0]) if self._alone else commands[0]
+        return self._run(dt, samples, reference, measured, next_reference, *more)
 
     def _run(
         self,
-        dt: float,
+        dt: Any,
         samples: int,
         reference: Any,
         measured: Any,
@@ -159,54 +223,175 @@ class Controller:
         phase: Any,
         learns: Any,
         regressors: Sequence[Any],
-    ) -> Any:
-        if len(regressors) != self._regressors:
-            raise Error(f"regressors: {len(regressors)}; {self._regressors} were expected")
-        wanted = self._signal("reference", reference, samples)
+    ) -> RunResult:
+        def signal(name: str, values: Any) -> _numbers.Floats:
+            return _numbers.spread(name, _numbers.numbers(name, values), samples, len(self._native))
+
+        wanted = signal("reference", reference)
         following = (
             np.concatenate([wanted[1:], wanted[-1:]])
             if next_reference is None
-            else self._signal("next_reference", next_reference, samples)
+            else signal("next_reference", next_reference)
         )
-        commands, status = self._native.run(
-            np.full(samples, dt, dtype=np.float64),
-            wanted,
-            following,
-            self._signal("measured", measured, samples),
-            self._signal("velocity", velocity, samples),
-            self._signal("feed_forward", feed_forward, samples),
-            self._signal("phase", self._phase(phase), samples),
-            self._signal("learns", learns, samples),
-            [self._signal(f"regressors[{k}]", own, samples) for k, own in enumerate(regressors)],
+        found = self._native.run(
+            _numbers.along("dt", _numbers.seconds("dt", dt), samples),
+            [
+                wanted,
+                following,
+                signal("measured", measured),
+                signal("velocity", velocity),
+                signal("feed_forward", feed_forward),
+                signal("phase", self._phase(phase)),
+                _numbers.spread(
+                    "learns", _numbers.flags("learns", learns), samples, len(self._native)
+                ),
+            ],
+            [signal(f"regressors[{k}]", own) for k, own in enumerate(self._each(regressors))],
         )
-        self._status = status[-1]
-        return commands[:, 0] if self._alone else commands
+        return RunResult(*map(self._rows, found))
+
+    def _numbers(
+        self,
+        reference: Any,
+        next_reference: Any,
+        measured: Any,
+        velocity: Any,
+        feed_forward: Any,
+        phase: Any,
+        learns: Any,
+    ) -> list[float]:
+        number = _numbers.number
+        return [
+            number("reference", reference),
+            number("next_reference", next_reference),
+            number("measured", measured),
+            number("velocity", velocity),
+            number("feed_forward", feed_forward),
+            number("phase", self._phase(phase)),
+            float(learns) if isinstance(learns, bool) else float(_numbers.flag("learns", learns)),
+        ]
+
+    def _each(self, regressors: Any) -> Any:
+        own = self._rest.get("regressors", 0)
+        if isinstance(regressors, (str, Mapping)) or not hasattr(regressors, "__len__"):
+            raise Error(f"regressors={regressors!r}: a sequence of {own} is allowed")
+        if len(regressors) != own:
+            raise Error(f"regressors: {len(regressors)} are given; {own} is the law's number")
+        return regressors
 
     def _phase(self, phase: Any) -> Any:
-        if (phase is None) != (self._learning is None):
-            raise Error("phase: one was expected beside learning, and only there")
+        if (phase is None) != (self._rest["learning"] is None):
+            raise Error("phase: allowed and needed with learning=…, and only there")
         return 0.0 if phase is None else phase
 
-    def restart(self) -> None:
-        """Back to a state that has seen no sample, and has learned nothing from one."""
-        self._native.restart()
-        self._status = np.zeros(self.lanes, dtype=np.uint8)
+    def terms(self) -> Fields:
+        """Every term of the last step, by name: ``terms().integral``, or ``terms()["integral"]``.
+
+        Of several lanes each is an array. PI, PID and PIV: after a bad sample those of the last good
+        one. The adaptive law: the estimates that the step used.
+        """
+        return Fields(merged([json.loads(text) for text in self._native.terms()]))
+
+    def resume_from(
+        self,
+        output: Any,
+        reference: Any,
+        measured: Any,
+        *,
+        next_reference: Any = None,
+        velocity: Any = 0.0,
+        feed_forward: Any = 0.0,
+        regressors: Sequence[Any] = (),
+    ) -> StepResult:
+        """Starts so that the command goes on from ``output`` [command unit] without a jump.
+
+        For the hand-over from another controller or from a person: the rest is the sample at
+        which this happens. Does nothing while the safe command is latched.
+        """
+        lanes = len(self._native)
+
+        def each(name: str, value: Any) -> list[float]:
+            row = _numbers.spread(name, _numbers.numbers(name, value), 1, lanes)[0]
+            return [float(one) for one in row]
+
+        following = reference if next_reference is None else next_reference
+        signals = [
+            each("reference", reference),
+            each("next_reference", following),
+            each("measured", measured),
+            each("velocity", velocity),
+            each("feed_forward", feed_forward),
+            [0.0] * lanes,
+            [1.0] * lanes,
+        ]
+        own = [each(f"regressors[{k}]", x) for k, x in enumerate(self._each(regressors))]
+        rows = [[signal[lane] for signal in own] for lane in range(lanes)]
+        samples = [[signal[lane] for signal in signals] for lane in range(lanes)]
+        return self._told(self._native.resume_from(each("output", output), samples, rows))
+
+    def _told(self, lanes: list[tuple[float, int, int]]) -> StepResult:
+        if self._alone:
+            return step_result(*lanes[0])
+        return StepResult(*(np.array(own) for own in zip(*lanes)))
+
+    def applied(self, what: Any) -> None:
+        """Tells what the drive did with the last command; call it between two steps.
+
+        ``what`` is the command that went out [command unit], ``"at-upper-limit"`` (less went out
+        than was commanded, how much is unknown), ``"at-lower-limit"``, or ``"as-commanded"``, as
+        without this call. Of several lanes: one for all, or a sequence with one for each. A number
+        that is not finite says nothing.
+
+        Slew rate, anti-windup and a bumpless start then count from what went out.
+        """
+        lanes = len(self._native)
+        one = isinstance(what, str) or not np.ndim(what)
+        each = [what] * lanes if one else list(what)
+        if len(each) != lanes:
+            raise Error(
+                f"what: {len(each)} values; one, or one for each of {lanes} lanes, is allowed"
+            )
+        self._native.applied([_applied(own) for own in each])
 
     def acknowledge(self) -> None:
-        """Takes note of a safe command: the next good sample closes the loop again."""
+        """Somebody has seen the fault: the next good sample closes the loop again."""
         self._native.acknowledge()
 
+    def reset(self) -> None:
+        """Forgets all but the command that is out, bad samples, and a latched safe command."""
+        self._native.reset()
+
+    def restore(self) -> None:
+        """Makes a restored state fit for a start: the power was off, nothing is out.
+
+        The estimates of an adaptive law stay, and so does a latched safe command.
+        """
+        self._native.restore()
+
     @property
-    def status(self) -> Any:
-        """Of the last sample: ``good``, ``degraded``, ``held`` or ``safe``; a list of several lanes."""
-        names = [STATUS[int(code)] for code in self._status]
-        return names[0] if self._alone else names
+    def is_latched(self) -> Any:
+        """Whether the safe command is out until :meth:`acknowledge`."""
+        return self._single(self._native.are_latched())
+
+    @property
+    def last(self) -> StepResult:
+        """The command that is out, with status and fault of the last sample."""
+        return self._told(self._native.last())
 
     @property
     def command(self) -> Any:
-        """The command that is out."""
-        commands = self._native.commands()
-        return commands[0] if self._alone else np.asarray(commands)
+        """The command that is out [command unit]."""
+        return self.last.command
+
+    @property
+    def status(self) -> Any:
+        """The :class:`Status` of the last sample."""
+        return self.last.status
+
+    @property
+    def fault(self) -> Any:
+        """The :class:`Fault` of the last sample."""
+        return self.last.fault
 
     @property
     def estimates(self) -> Any:
@@ -216,312 +401,13 @@ class Controller:
 
     @property
     def disturbance(self) -> Any:
-        """d_hat of the observer, which is added to the command [units]; ``None`` without one."""
+        """d_hat of the observer, which is added to the command [command unit]; ``None`` without one."""
         all = self._native.disturbances()
         return all if all is None else all[0] if self._alone else np.asarray(all)
 
     @property
     def learned(self) -> Any:
-        """What each cell of a cycle has learned [units], (cells,) or (lanes, cells); ``None``
-        without learning. ``Learning(…, learned=…)`` goes on from it."""
+        """What each cell of a cycle has learned [command unit], (cells,) or (lanes, cells); ``None``
+        without learning. ``IterativeLearning(…, learned=…)`` continues from it."""
         all = self._native.learned()
         return all if all is None else np.asarray(all[0] if self._alone else all)
-
-
-def _shared(
-    limits: Optional[tuple[float, float]],
-    slew: Optional[float],
-    longest_dt: Any,
-    fallback: Optional[tuple[int, float]],
-) -> dict[str, Any]:
-    if slew is not None and limits is None:
-        raise Error("slew: limits=(low, high) were expected beside it")
-    return {
-        "longest_dt": GREATEST if longest_dt is None else longest_dt,
-        "limits": {"low": -GREATEST, "high": GREATEST}
-        if limits is None
-        else {"low": float(limits[0]), "high": float(limits[1]), "slew": slew},
-        "fallback": HOLD_FOR_EVER
-        if fallback is None
-        else {"after": int(fallback[0]), "weight": 4, "command": float(fallback[1])},
-    }
-
-
-class PI(Controller):
-    """PI (15); with ``lanes`` or arrays of gains several side by side. Gains as in Table 1.
-
-    No limits, longest ``dt`` or fallback unless they are given: see :class:`Controller`.
-    """
-
-    def __init__(
-        self,
-        k_p: Any = 30.0,
-        k_i: Any = 18.0,
-        *,
-        setpoint_weight: Any = None,
-        limits: Optional[tuple[float, float]] = None,
-        slew: Optional[float] = None,
-        longest_dt: Any = None,
-        fallback: Optional[tuple[int, float]] = None,
-        observer: Optional[DisturbanceObserver] = None,
-        learning: Optional[Learning] = None,
-        lanes: Optional[int] = None,
-    ) -> None:
-        settings = {"k_p": k_p, "k_i": k_i, "setpoint_weight": setpoint_weight}
-        shared = _shared(limits, slew, longest_dt, fallback)
-        super().__init__({**settings, **shared}, None, lanes, observer, learning)
-
-
-class PID(Controller):
-    """PID (14): the derivative is filtered over ``derivative_time`` [s]."""
-
-    def __init__(
-        self,
-        k_p: Any = 30.0,
-        k_i: Any = 18.0,
-        k_d: Any = 2.0,
-        derivative_time: Any = 0.1,
-        *,
-        derivative_weight: float = 1.0,
-        setpoint_weight: Any = None,
-        limits: Optional[tuple[float, float]] = None,
-        slew: Optional[float] = None,
-        longest_dt: Any = None,
-        fallback: Optional[tuple[int, float]] = None,
-        observer: Optional[DisturbanceObserver] = None,
-        learning: Optional[Learning] = None,
-        lanes: Optional[int] = None,
-    ) -> None:
-        settings = {
-            "k_p": k_p,
-            "k_i": k_i,
-            "k_d": k_d,
-            "derivative_time": derivative_time,
-            "damping": {"rate": {"weight": float(derivative_weight)}},
-            "setpoint_weight": setpoint_weight,
-        }
-        shared = _shared(limits, slew, longest_dt, fallback)
-        super().__init__({**settings, **shared}, None, lanes, observer, learning)
-
-
-class PIV(Controller):
-    """PIV (16): ``k_d`` on the measured distal velocity."""
-
-    def __init__(
-        self,
-        k_p: Any = 30.0,
-        k_i: Any = 18.0,
-        k_d: Any = 10.0,
-        *,
-        setpoint_weight: Any = None,
-        limits: Optional[tuple[float, float]] = None,
-        slew: Optional[float] = None,
-        longest_dt: Any = None,
-        fallback: Optional[tuple[int, float]] = None,
-        observer: Optional[DisturbanceObserver] = None,
-        learning: Optional[Learning] = None,
-        lanes: Optional[int] = None,
-    ) -> None:
-        settings = {
-            "k_p": k_p,
-            "k_i": k_i,
-            "k_d": k_d,
-            "damping": "velocity",
-            "setpoint_weight": setpoint_weight,
-        }
-        shared = _shared(limits, slew, longest_dt, fallback)
-        super().__init__({**settings, **shared}, None, lanes, observer, learning)
-
-
-class Adaptive(Controller):
-    """The robust adaptive law (17)-(26), by default with the numbers of Table 2.
-
-    ``form`` is ``("literal", time_constant)`` or ``("lag", step, plant_gain)``; an estimate is a
-    mapping of ``initial``, ``low``, ``high``, ``gain``, ``leakage`` [1/s] and ``prior``.
-    """
-
-    #: Estimates of Table 2: lambda times the gains is what the paper states.
-    BETA: Mapping[str, float] = {"initial": 0.0, "gain": 0.002 / 8.0, "leakage": 0.01}
-    DELTA: Mapping[str, float] = {"initial": 7.0, "gain": 0.05 / 8.0, "leakage": 0.01}
-    THETA: Sequence[Mapping[str, float]] = ({"initial": 0.0, "gain": 0.004 / 8.0, "leakage": 0.01},) * 2
-
-    def __init__(
-        self,
-        gain: Any = 24.0,
-        lambda_: Any = 8.0,
-        epsilon: Any = 0.05,
-        *,
-        form: tuple[Any, ...] = ("literal", 0.005),
-        beta: Mapping[str, float] = BETA,
-        delta: Mapping[str, float] = DELTA,
-        theta: Sequence[Mapping[str, float]] = THETA,
-        z_limit: Any = None,
-        frozen: bool = False,
-        limits: Optional[tuple[float, float]] = None,
-        slew: Optional[float] = None,
-        longest_dt: Any = None,
-        fallback: Optional[tuple[int, float]] = None,
-        observer: Optional[DisturbanceObserver] = None,
-        learning: Optional[Learning] = None,
-        lanes: Optional[int] = None,
-    ) -> None:
-        settings = {
-            "form": _form(form),
-            "gain": gain,
-            "lambda": lambda_,
-            "epsilon": epsilon,
-            "beta": _estimator(beta),
-            "delta": _estimator(delta),
-            "theta": [_estimator(one) for one in theta],
-            "z_limit": z_limit,
-            "frozen": bool(frozen),
-        }
-        shared = _shared(limits, slew, longest_dt, fallback)
-        super().__init__({**settings, **shared}, len(theta), lanes, observer, learning)
-
-
-def _form(form: tuple[Any, ...]) -> dict[str, Any]:
-    kind, *numbers = form
-    if kind == "literal" and len(numbers) == 1:
-        return {"literal": {"time_constant": float(numbers[0])}}
-    if kind == "lag" and len(numbers) == 2:
-        return {"lag": {"step": float(numbers[0]), "plant_gain": float(numbers[1])}}
-    raise Error(f'form={form!r}: ("literal", time_constant) or ("lag", step, plant_gain) was expected')
-
-
-def _estimator(one: Mapping[str, float]) -> dict[str, Any]:
-    settings: dict[str, Any] = {key: float(value) for key, value in one.items()}
-    leakage = settings.pop("leakage", 0.0)
-    if leakage:
-        settings["leakage"] = {"constant": {"rate": leakage}}
-    return {"low": -GREATEST, "high": GREATEST, **settings}
-
-
-class Rig:
-    """The simulated rig: motor, cable, joint against its spring, sensors; one or many.
-
-    Any field of the rig's configuration may be given; an array makes one rig of each value.
-    ``undeclared`` are effects that no controller knows of: mappings of ``effect``, ``source``
-    (``input``, ``proximal`` or ``distal``), ``gain`` and, where the effect has them, ``shapes``.
-    """
-
-    def __init__(
-        self,
-        *,
-        undeclared: Sequence[Mapping[str, Any]] = (),
-        seed: Union[int, Sequence[int]] = 7,
-        lanes: Optional[int] = None,
-        **config: Any,
-    ) -> None:
-        seeds = None if isinstance(seed, (int, np.integer)) else [_seed(one) for one in seed]
-        if seeds is not None and lanes is None:
-            lanes = len(seeds)
-        texts, self._alone = _lanes(config, lanes)
-        terms = None
-        if undeclared:
-            terms = document(
-                {
-                    "schema": "bowden.model/1",
-                    "mode": "torque",
-                    "channels": ["proximal", "distal"],
-                    "terms": [_term(one) for one in undeclared],
-                }
-            )
-        own = seeds if seeds is not None else [(_seed(seed) + k) % 2**64 for k in range(len(texts))]
-        if len(own) != len(texts):
-            raise Error(f"seed: {len(own)} of {len(texts)} rigs")
-        self._native = _bowden.Rigs(texts, terms, own)
-
-    @property
-    def lanes(self) -> int:
-        """Rigs side by side."""
-        return len(self._native)
-
-    def _named(self, signals: list[tuple[str, _Floats]], row: Optional[int]) -> dict[str, Any]:
-        def part(values: _Floats) -> Any:
-            own = values if row is None else values[row]
-            return own[..., 0] if self._alone else own
-
-        found = {name: part(values) for name, values in signals}
-        found["diverged"] = found["diverged"].astype(bool)
-        if self._alone and row is not None:
-            return {name: value.item() for name, value in found.items()}
-        return found
-
-    def restart(self) -> None:
-        """At rest, with the same seeds."""
-        self._native.restart()
-
-    def sample(self) -> dict[str, Any]:
-        """What is read off now: the truth (``tau_o``) beside what the sensor tells (``measured``)."""
-        return self._named(self._native.sample(), 0)
-
-    def step(self, command: Any, dt: float = 0.001, load: Any = 0.0) -> dict[str, Any]:
-        """One step of ``dt`` [s]: what is read off after it; arrays of several lanes."""
-        shape = (1, self.lanes)
-        both = [np.ascontiguousarray(np.broadcast_to(np.asarray(v, float), shape)) for v in (command, load)]
-        return self._named(self._native.run(both[0], both[1], float(dt)), 0)
-
-    def run(self, commands: Any, dt: float = 0.001, load: Any = 0.0) -> dict[str, Any]:
-        """Many steps: signals of shape (samples,), or (samples, lanes) of several lanes."""
-        given = np.asarray(commands, dtype=np.float64)
-        given = given[:, None] if given.ndim == 1 else given
-        shape = (given.shape[0], self.lanes)
-        loads = np.asarray(load, dtype=np.float64)
-        loads = loads[:, None] if loads.ndim == 1 and len(loads) == shape[0] else loads
-        both = [np.ascontiguousarray(np.broadcast_to(v, shape)) for v in (given, loads)]
-        return self._named(self._native.run(both[0], both[1], float(dt)), None)
-
-    def track(
-        self,
-        controller: Controller,
-        reference: Any,
-        dt: float = 0.001,
-        *,
-        feed_forward: Any = 0.0,
-        phase: Any = None,
-    ) -> dict[str, Any]:
-        """The closed loop: each controller on its rig, all on one reference [N·m].
-
-        ``feed_forward`` [units] is added to each command; ``phase``, from 0 to 1, is where in its
-        cycle a sample is, for learning. Each is a number or (samples,).
-
-        Gives what was read off before each command, ``command``, ``status`` (places in
-        :data:`STATUS`) and ``error`` = tau_o - reference. The adaptive law's regressors are
-        velocity and acceleration of the proximal pulley.
-        """
-        wanted = np.ascontiguousarray(reference, dtype=np.float64)
-        if wanted.ndim != 1 or not len(wanted):
-            raise Error(f"reference: shape {wanted.shape}, (samples,) was expected")
-        more = {"feed_forward": feed_forward, "phase": controller._phase(phase)}
-        feeds = {name: np.asarray(unmasked(own), dtype=np.float64) for name, own in more.items()}
-        for name, own in feeds.items():
-            if own.shape not in ((), wanted.shape):
-                raise Error(f"{name}: shape {own.shape}, {wanted.shape} was expected")
-        both = [np.ascontiguousarray(np.broadcast_to(own, wanted.shape)) for own in feeds.values()]
-        native = controller._native
-        signals, commands, status = self._native.track(native, wanted, both[0], both[1], float(dt))
-        controller._status = status[-1]
-        found = self._named(signals, None)
-        found["command"] = commands[:, 0] if self._alone else commands
-        found["status"] = status[:, 0] if self._alone else status
-        found["error"] = found["tau_o"] - (wanted if self._alone else wanted[:, None])
-        return found
-
-
-def _seed(seed: Any) -> int:
-    return whole("seed", seed, 0, 2**64 - 1, "whole numbers from 0 to 2**64 - 1 were expected")
-
-
-def _term(one: Mapping[str, Any]) -> dict[str, Any]:
-    shapes = [{"name": name, "value": float(v)} for name, v in one.get("shapes", {}).items()]
-    numbers = {k: float(v) for k, v in one.items() if k in ("gain", "origin")}
-    rest = {k: v for k, v in one.items() if k not in ("gain", "origin", "shapes")}
-    return {"source": "input", **rest, **numbers, "shapes": shapes}
-
-
-def paper_reference(t: Any, ramp: float = 0.0) -> _Floats:
-    """The paper's reference [N·m] (section 4.2) at times [s], rising smoothly in ``ramp`` [s]."""
-    if not math.isfinite(ramp):
-        raise Error(f"ramp={ramp}: seconds were expected")
-    return _bowden.paper_reference(np.ascontiguousarray(t, dtype=np.float64), float(ramp))

@@ -29,6 +29,14 @@ class Error(ValueError):
         return type(self), (str(self), self.file, self.line, self.column)
 
 
+class FrozenError(Error, AttributeError):
+    """An assignment to an attribute that cannot be assigned."""
+
+
+class CallError(Error, TypeError):
+    """A call with a keyword that there is not."""
+
+
 #: The program's options that are written otherwise here.
 _OTHER = {
     "--channel NAME=COL": "channels",
@@ -38,7 +46,7 @@ _OTHER = {
     "--per-file gains": 'per_file="gains"',
 }
 _OPTION = re.compile(
-    r"--(channel|time|input|output|mode|skip|until|cutoff|rate|header-line|names|declare|rounds|budget)\b"
+    r"--(channel|time|input|output|mode|start|end|cutoff|rate|header-line|names|baseline|max-terms|time-limit)\b"
     r"(?: (?:COL|HZ)\b)?(?: (?=[-\d]|torque|displacement))?"
 )
 

@@ -13,12 +13,13 @@ from . import _bowden
 from ._columns import column_of_array, unmasked
 from ._error import Error
 from ._fields import Fields, wrapped
+from ._numbers import positive_duration
 
 _Path = Union[str, "os.PathLike[str]"]
 
 
 class Model:
-    """A model as it stands in a file of schema ``bowden.model/1``."""
+    """A model file of schema ``bowden.model/1``."""
 
     def __init__(self, toml: str, name: str = "(model)") -> None:
         self._native = _bowden.Model(toml)
@@ -26,7 +27,7 @@ class Model:
 
     @classmethod
     def load(cls, path: _Path) -> Model:
-        """Reads a ``.toml`` that :meth:`save` or `bowden close --model-out` has written."""
+        """Reads a ``.toml`` that :meth:`save` or `bowden identify --model-out` has written."""
         name = os.fspath(path)
         try:
             with open(name, encoding="utf-8", newline="") as file:
@@ -36,7 +37,7 @@ class Model:
         except OSError as error:
             raise Error(f"{name}: cannot be read: {error.strerror}", file=name) from None
         except UnicodeDecodeError:
-            raise Error(f"{name}: is no text; a TOML file was expected", file=name) from None
+            raise Error(f"{name}: is no text; a TOML file is allowed", file=name) from None
         try:
             return cls(text, name)
         except Error as error:
@@ -53,7 +54,7 @@ class Model:
         elif ending == ".postcard":
             data = self._native.postcard()
         else:
-            raise Error(f"{name}: a name that ends in .toml, .rs or .postcard was expected")
+            raise Error(f"{name}: a name that ends in .toml, .rs or .postcard is allowed")
         with open(name, "wb") as file:
             file.write(data)
 
@@ -64,7 +65,7 @@ class Model:
 
     @property
     def name(self) -> str:
-        """Its file, or what stands for it."""
+        """Its file, or its name."""
         return self._name
 
     @property
@@ -74,7 +75,7 @@ class Model:
 
     @property
     def channels(self) -> list[str]:
-        """Names of the channels that it reads beside the input."""
+        """Names of the channels that it reads besides the input."""
         return self._native.channels
 
     def to_dict(self) -> dict[str, Any]:
@@ -99,8 +100,8 @@ class Model:
         input: Any = None,
         channels: Optional[Mapping[str, Any]] = None,
         *,
-        dt: Optional[float] = None,
-        time_constant: Optional[float] = None,
+        dt: Any = None,
+        time_constant: Any = None,
         dtype: Any = np.float64,
     ) -> np.ndarray[Any, Any]:
         """The output sample by sample, as firmware computes it, from a fresh state on.
@@ -109,7 +110,7 @@ class Model:
         accelerations then come from the causal filter of the core's `Rates` with
         ``time_constant`` [s] (of the model's file where not given); or of shape (samples, 3):
         position, velocity, acceleration. ``t`` are seconds, or points in time as in
-        :func:`bowden.close`; or ``dt`` is one step [s].
+        :func:`bowden.identify`; or ``dt`` is one step [s], or a duration with a unit.
         ``dtype`` is ``numpy.float64`` or ``numpy.float32``: the model runs in it.
         """
         given = dict(channels or {})
@@ -119,14 +120,18 @@ class Model:
         sources = [_motions("input", input)]
         sources += [_motions(name, given[name]) for name in self.channels]
         steps = _steps(t, dt, len(sources[0]))
-        constant = time_constant if time_constant is not None else self._native.time_constant
+        constant = (
+            self._native.time_constant
+            if time_constant is None
+            else positive_duration("time_constant", time_constant)
+        )
         if constant is None:
             if any(source.shape[1] == 1 for source in sources):
-                raise Error("the model's file states no time constant: time_constant= was expected")
+                raise Error("the model's file states no time constant: time_constant= is needed")
             constant = 1.0
         kind = np.dtype(dtype)
         if kind not in (np.dtype(np.float32), np.dtype(np.float64)):
-            raise Error(f"dtype={kind}: float32 or float64 was expected")
+            raise Error(f"dtype={kind}: float32 or float64 is allowed")
         single = kind == np.dtype(np.float32)
         answers = self._native.answers(steps, sources, float(constant), single)
         return answers.astype(kind, copy=False)
@@ -150,29 +155,23 @@ def _motions(name: str, array: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
     if values.ndim == 2 and values.shape[1] == 3 and values.dtype.kind in "fiu":
         return np.ascontiguousarray(values, dtype=np.float64)
     if values.ndim == 2:
-        raise Error(f"column `{name}`: shape {values.shape}, (n,) or (n, 3) was expected")
+        raise Error(f"column `{name}`: shape {values.shape}; (n,) or (n, 3) is allowed")
     _, unit, numbers = column_of_array(name, array, {})
     if unit is not None:
-        raise Error(f"column `{name}`: values of {values.dtype}, numbers were expected", column=name)
+        raise Error(f"column `{name}`: values of {values.dtype}; numbers are allowed", column=name)
     return numbers.reshape(-1, 1)
 
 
-def _steps(t: Any, dt: Optional[float], samples: int) -> np.ndarray[Any, np.dtype[np.float64]]:
+def _steps(t: Any, dt: Any, samples: int) -> np.ndarray[Any, np.dtype[np.float64]]:
     if (t is None) == (dt is None):
-        raise Error("one of t and dt was expected")
+        raise Error("t and dt: exactly one of them is allowed")
     if t is None:
-        try:
-            step = float(dt)  # type: ignore[arg-type]
-        except (TypeError, ValueError):
-            step = np.nan
-        if not (np.isfinite(step) and step > 0.0):
-            raise Error(f"dt={dt!r}: a positive number of seconds was expected")
-        return np.full(samples, step, dtype=np.float64)
+        return np.full(samples, positive_duration("dt", dt), dtype=np.float64)
     _, unit, time = column_of_array("t", t, {})
     if unit == "ns":
         time = time * 1e-9
     if len(time) != samples:
-        raise Error(f"column `t`: {len(time)} values; {samples} were expected", column="t")
+        raise Error(f"column `t`: {len(time)} values; {samples} are allowed", column="t")
     if not np.isfinite(time).all():
         row = int(np.argmin(np.isfinite(time)))
         raise Error(f"column `t`: t[{row}] = {time[row]}: no time", line=row + 1, column="t")

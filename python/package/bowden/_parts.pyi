@@ -6,7 +6,7 @@ from ._fields import Fields as Fields
 
 class Segments(Fields):
     fit: float
-    stop: float
+    selection: float
     held_out: float
 
 class Coefficient(Fields):
@@ -21,7 +21,7 @@ class Refusal(Fields):
 
 class Parameter(Coefficient):
     identified: bool
-    refused: Optional[Refusal]
+    not_identified: Optional[Refusal]
 
 class RecordPart(Fields):
     path: str
@@ -39,9 +39,9 @@ class CheckedRecord(Fields):
     rate_hz: float
     mode: str
     cutoff_hz: float
-    left_out_s: float
+    excluded_s: float
     unit: Optional[str]
-    deviation: float
+    output_std: float
 
 class ModelPart(Fields):
     effects: list[str]
@@ -58,18 +58,30 @@ class FinalPart(Fields):
     nrmse: Segments
     causal_nrmse: Optional[Segments]
     feed_forward: Fields
-    handed_over: Optional[Fields]
+    exported_model: Optional[Fields]
 
-class Round(Fields):
+class Lack(Fields):
+    mechanism: str
+    channel: str
+    title: str
+    share: float
+    confidence: str
+    alternatives: list[str]
+    members: list[str]
+
+class Complete(Fields):
+    floors: Optional[float]
+    at_floor: bool
+
+class Term(Fields):
     family: str
     effect: str
     channel: str
-    grade: str
-    support: Fields
+    confidence: str
     coefficients: list[Coefficient]
     p: Optional[float]
     explained: float
-    confounded_with: list[Fields]
+    alternatives: list[Fields]
     experiment: Optional[Fields]
     rmse_before: Segments
     rmse_after: Segments

@@ -58,7 +58,7 @@ class Progress:
             self.told = wanted
         else:
             raise TypeError(
-                f"progress: {type(wanted).__name__}; True, a bar of tqdm or a function was expected"
+                f"progress: {type(wanted).__name__}; True, a bar of tqdm or a function is allowed"
             )
 
     def __enter__(self) -> Optional[Told]:

@@ -15,9 +15,16 @@ from ._columns import (
     is_path,
     list_of_names,
     names_of,
-    whole,
+    refuse_times,
 )
 from ._error import Error
+from ._numbers import duration, number, whole
+
+#: Columns that are signals by their names alone.
+SIGNALS = frozenset({"tau_i", "tau_o", "x", "f", "phi_p", "phi_d", "temperature", "load"})
+
+#: What a frequency may be.
+HERTZ = "a number of Hz is allowed"
 
 #: A channel is the name of a column, ``A-B`` or ``A+B`` of two, or an array.
 Channels = Mapping[str, Any]
@@ -34,8 +41,8 @@ class Reading:
         input: Optional[str],
         output: Optional[str],
         channels: Optional[Channels],
-        skip: float,
-        until: Optional[float],
+        start: float,
+        end: Optional[float],
         rate: Optional[float],
         header_line: Optional[int],
         names: Optional[Sequence[str]],
@@ -48,7 +55,7 @@ class Reading:
         self.label = label
         if header_line is not None:
             header_line = whole(
-                "header_line", header_line, 1, 2**31, "a line from 1 up was expected"
+                "header_line", header_line, 1, 2**31, "a line from 1 up is allowed"
             )
         self.options: dict[str, Any] = {
             "mode": mode,
@@ -59,9 +66,9 @@ class Reading:
                 (name, column if isinstance(column, str) else name)
                 for name, column in self.channels.items()
             ],
-            "skip": float(skip),
-            "until": None if until is None else float(until),
-            "rate": None if rate is None else float(rate),
+            "start": duration("start", start),
+            "end": None if end is None else duration("end", end),
+            "rate": None if rate is None else number("rate", rate, HERTZ),
             "header_line": header_line,
             "names": list_of_names(names),
             "drop_bad": bool(drop_bad),
@@ -72,6 +79,9 @@ class Reading:
         arrays = [(name, array) for name, array in ends.items() if array is not None]
         arrays += [(n, a) for n, a in self.channels.items() if not isinstance(a, str)]
         check_units(self.units, [name for name, _ in arrays])
+        for name, array in arrays:
+            if name != "t":
+                refuse_times(name, array)
         columns = [column_of_array(name, array, self.units) for name, array in arrays]
         return _bowden.record_of_columns(columns, self.label or "(arrays)", self.options)
 
@@ -87,6 +97,11 @@ class Reading:
         if is_frame(source):
             arrays = [name for name, own in self.channels.items() if not isinstance(own, str)]
             check_units(self.units, [*names_of(source), *arrays])
+            there = {str(name) for name in names_of(source)}
+            for name in sorted(self._signals() & there):
+                refuse_times(name, source[name])
+            for name in arrays:
+                refuse_times(name, self.channels[name])
             columns = columns_of_frame(source, self.units)
             if number is not None:
                 self._no_arrays()
@@ -98,8 +113,14 @@ class Reading:
             label = self.label or ("(frame)" if number is None else f"(frame {number})")
             return _bowden.record_of_columns(columns, label, self.options)
         raise Error(
-            f"{type(source).__name__}: a path, a frame, a bowden.Record or arrays were expected"
+            f"{type(source).__name__}: a path, a frame, a bowden.Record or arrays are allowed"
         )
+
+    def _signals(self) -> frozenset[str]:
+        """Names of columns that are signals, whichever of them there are."""
+        ends = {own for own in (self.options["input"], self.options["output"]) if own}
+        columns = {column for _, column in self.options["channels"]}
+        return (SIGNALS | ends | columns) - {self.options["time"] or "t"}
 
     def all_of(self, sources: Union[Any, Sequence[Any]]) -> list[_bowden.Record]:
         """Of one source or of a list of them, in the units of the first one."""
@@ -127,7 +148,7 @@ class Reading:
         for name, column in self.channels.items():
             if not isinstance(column, str):
                 raise Error(
-                    f"channels: `{name}` is an array; the name of a column was expected",
+                    f"channels: `{name}` is an array; the name of a column is allowed",
                     column=name,
                 )
 
@@ -140,8 +161,8 @@ def read(
     input: Optional[str] = None,
     output: Optional[str] = None,
     channels: Optional[Channels] = None,
-    skip: float = 0.0,
-    until: Optional[float] = None,
+    start: float = 0.0,
+    end: Optional[float] = None,
     rate: Optional[float] = None,
     header_line: Optional[int] = None,
     names: Optional[Sequence[str]] = None,
@@ -151,7 +172,7 @@ def read(
 ) -> _bowden.Record:
     """Reads one record: a file (CSV, .mat v5 and v7.3, Parquet, each also in gzip) or a frame.
 
-    The options are those of `bowden close`; see :func:`close`.
+    The options are those of `bowden identify`; see :func:`identify`.
     """
     reading = Reading(
         mode=mode,
@@ -159,8 +180,8 @@ def read(
         input=input,
         output=output,
         channels=channels,
-        skip=skip,
-        until=until,
+        start=start,
+        end=end,
         rate=rate,
         header_line=header_line,
         names=names,

@@ -19,10 +19,10 @@ if TYPE_CHECKING:
 _COLOURS = {
     "explained": "good",
     "holds": "good",
-    "no-model": "bad",
-    "does-not-carry-over": "bad",
+    "no-input-dependence": "bad",
+    "not-transferable": "bad",
     "does-not-hold": "bad",
-    "data-defect": "bad",
+    "defective-record": "bad",
 }
 _HEX = {"good": "#15803d", "mid": "#a16207", "bad": "#b91c1c"}
 
@@ -72,7 +72,7 @@ class _Found(Fields):
             else:
                 return polars.DataFrame(columns)
         if frame not in (None, "dict"):
-            raise Error(f'frame={frame!r}: "pandas", "polars" or "dict" was expected')
+            raise Error(f'frame={frame!r}: "pandas", "polars" or "dict" is allowed')
         return columns
 
     @property
@@ -101,7 +101,7 @@ class _Found(Fields):
             file.write(text)
 
     def __repr__(self) -> str:
-        return f"<{type(self).__name__} {self['verdict']}: {self['sentence']}>"
+        return f"<{type(self).__name__} {self['verdict']}: {self['summary']}>"
 
     def _numbers(self) -> str:
         return ""
@@ -112,7 +112,7 @@ class _Found(Fields):
         colour = _HEX[_COLOURS.get(verdict, "mid")]
         head = (
             f'<div style="font-family:system-ui,sans-serif;max-width:960px">'
-            f'<p style="font-size:1.1em;margin:0 0 .4em">{html.escape(str(self["sentence"]))}</p>'
+            f'<p style="font-size:1.1em;margin:0 0 .4em">{html.escape(str(self["summary"]))}</p>'
             f'<p style="margin:0 0 .6em"><span style="background:{colour};color:#fff;'
             f'border-radius:4px;padding:2px 8px;font-size:.85em">{html.escape(verdict)}</span>'
             f"{self._numbers()}</p>"
@@ -137,7 +137,7 @@ class _Found(Fields):
 
 
 class Report(_Found):
-    """What :func:`bowden.close` has found; fields as in schema ``bowden.close/2``.
+    """What :func:`bowden.identify` has found; fields as in schema ``bowden.identify/1``.
 
     Each key of the JSON is an attribute (``report.final.nrmse.held_out``); the text itself is
     :attr:`json`.
@@ -149,27 +149,29 @@ class Report(_Found):
         schema: str
         record: parts.RecordPart
         records: list[parts.RecordPart]
-        declared: parts.ModelPart
-        rounds: list[parts.Round]
-        beyond: list[parts.Round]
+        baseline: parts.ModelPart
+        lacks: list[parts.Lack]
+        complete: parts.Complete
+        terms: list[parts.Term]
+        undelivered: list[parts.Term]
         final: parts.FinalPart
         rejected: list[parts.Rejected]
         defects: list[parts.Defect]
         notes: list[str]
-        unneeded: list[parts.Fields]
+        redundant: list[parts.Fields]
         unknown: Optional[parts.Fields]
         noise_floor: float
-        deviation: parts.Segments
+        output_std: parts.Segments
         explains: parts.Fields
         integrates: bool
         held_out_floor: float
-        files_apart: list[parts.Fields]
-        channel_apart: Optional[parts.Fields]
+        inconsistent_files: list[parts.Fields]
+        inconsistent_channel: Optional[parts.Fields]
         worse_files: list[parts.Fields]
-        stopped_by_request: Optional[int]
-        stopped_by_budget: Optional[float]
+        stopped_by_max_terms: Optional[int]
+        stopped_by_time_limit: Optional[float]
         verdict: str
-        sentence: str
+        summary: str
         cost: parts.Cost
 
     def __init__(self, closed: _bowden.Closed, command: str, kept: bool) -> None:
@@ -182,7 +184,7 @@ class Report(_Found):
     def model(self) -> Model:
         """The model for firmware; with ``per_file="gains"`` that of the first file."""
         if not self._models:
-            raise Error(f"nothing is handed over: {self._no_model}")
+            raise Error(f"no model can be exported: {self._no_model}")
         return self._models[0]
 
     @property
@@ -192,20 +194,20 @@ class Report(_Found):
 
     @property
     def vectors(self) -> list[str]:
-        """The test vector of each model as CSV, as beside the program's ``--model-out``."""
+        """The test vector of each model as CSV, as next to the program's ``--model-out``."""
         return list(self._vectors)
 
     @property
     def names(self) -> list[str]:
         """The effects that were found and delivered, in the order in which they were."""
-        return [str(found.effect) for found in self.rounds]
+        return [str(found.effect) for found in self.terms]
 
     def _numbers(self) -> str:
-        before, after = (100.0 * part.nrmse.held_out for part in (self.declared, self.final))
+        before, after = (100.0 * part.nrmse.held_out for part in (self.baseline, self.final))
         found = ", ".join(html.escape(name) for name in self.names) or "nothing"
         return (
             f" &nbsp;held-out error {before:.2f} % → <b>{after:.2f} %</b> of the output's "
-            f"deviation; found: {found}"
+            f"standard deviation; found: {found}"
         )
 
     def __getstate__(self) -> Any:
@@ -217,7 +219,7 @@ class Report(_Found):
 
 
 class CheckReport(_Found):
-    """What :func:`bowden.check` has found; fields as in schema ``bowden.check/1``."""
+    """What :func:`bowden.validate` has found; fields as in schema ``bowden.validate/1``."""
 
     __slots__ = ()
 
@@ -231,27 +233,27 @@ class CheckReport(_Found):
         nrmse_gain_offset: float
         gain: parts.Fitted
         offset: parts.Fitted
-        from_: parts.Fields
-        allowed: Optional[float]
+        trained_on: parts.Fields
+        threshold_nrmse: Optional[float]
         noise_floor: float
         outside: list[parts.Fields]
         depends_on: list[parts.Fields]
-        otherwise: Optional[parts.Fields]
+        suspected_logging_error: Optional[parts.Fields]
         defects: list[parts.Defect]
         notes: list[str]
         verdict: str
-        sentence: str
+        summary: str
 
     def __init__(self, checked: _bowden.Checked, command: str) -> None:
         super().__init__(checked.json, checked, command)
 
     def _numbers(self) -> str:
-        return f" &nbsp;error {100.0 * self.nrmse:.2f} % of the output's deviation"
+        return f" &nbsp;error {100.0 * self.nrmse:.2f} % of the output's standard deviation"
 
 
 def _image(name: str, svg: str) -> str:
     data = b64encode(svg.encode()).decode()
     return (
-        f'<img alt="{name}: measured, declared and final model" '
+        f'<img alt="{name}: measured, baseline and final model" '
         f'src="data:image/svg+xml;base64,{data}" style="max-width:100%;display:block;margin:.4em 0">'
     )

@@ -1,20 +1,22 @@
-//! The loop of a P or PI without learning: stable, and quiet above the cells' Nyquist frequency.
+//! The loop of a P or PI without learning: stable, with a small response above the cells'
+//! Nyquist frequency.
 
 use crate::bound::plants::Plants;
 use crate::bound::span::{Plane, Span};
 use crate::bound::zeros::{excluded, Closed};
 
-/// A P or PI with a plant, and nothing else.
+/// A P or PI with a plant alone.
 pub(super) struct Loop {
     pub(super) k_p: f64,
     pub(super) k_i: f64,
-    /// That of the middle of the range \[rad/s\].
+    /// Natural frequency in the middle of the range \[rad/s\].
     pub(super) natural_frequency: f64,
 }
 
 impl Loop {
-    /// How many boxes show that `s·D~ + f·alpha~·(1 + c/K·s)·e^(−theta·s)·(k_p·s + k_i)` has no zero on
-    /// the right, for any plant; without the s of the first term for a P.
+    /// Number of regions in the proof that
+    /// `s·D~ + f·alpha~·(1 + c/K·s)·e^(−theta·s)·(k_p·s + k_i)` has no zero on the right, for
+    /// any plant; without the s of the first term for a P.
     pub(super) fn is_stable(&self, all: &Plants) -> Option<u32> {
         let middle = all.middle();
         // The plant in the middle, without latency, joint and hysteresis.
@@ -31,8 +33,8 @@ impl Loop {
         excluded(self, first, *all, highest)
     }
 
-    /// A frequency from which on, for all `|s|` on the right, the first term is the greater one. Both
-    /// are divided by `|s|³`; then the one falls and the other grows with `1/|s|`.
+    /// A frequency above which, for all `|s|` on the right, the first term is the greater one.
+    /// Both are divided by `|s|³`; then one falls and the other grows with `1/|s|`.
     fn highest(&self, hull: &Plants) -> Option<f64> {
         let mut r = self.natural_frequency;
         for _ in 0..64 {
@@ -60,7 +62,7 @@ impl Loop {
         Span::at(self.k_p.abs()) + Span::at(self.k_i.abs()) * x
     }
 
-    /// |G| above the cells' Nyquist frequency, at most; `None` where there is no such bound.
+    /// Upper bound of |G| above the cells' Nyquist frequency; `None` if there is no bound.
     pub(super) fn beyond(&self, all: &Plants, cell: Span) -> Option<f64> {
         let x = Span::at(cell.high) * Span::at(core::f64::consts::PI).recip();
         let (least, most) = self.shares(all, Span::at(x.high))?;

@@ -1,4 +1,4 @@
-//! What a cycle leaves of a tone, over boxes of frequencies, cycle times and plants.
+//! The factor of a tone over one cycle, for regions of frequencies, cycle times and plants.
 
 use super::alone::Loop;
 use crate::bound::plants::Plants;
@@ -8,7 +8,7 @@ use crate::bound::span::{Plane, Span};
 /// others.
 const IMAGES: f64 = 0.32;
 
-/// What is the same for every box.
+/// The common numbers of all regions.
 pub(super) struct Cycle<'a> {
     pub(super) closed: &'a Loop,
     pub(super) gain: f64,
@@ -31,10 +31,11 @@ pub(super) struct Boxed {
 }
 
 impl Cycle<'_> {
-    /// Whether `|H| <= factor`, without a division by what may be small: with `W = e^(−jw·lead·T)/G`,
-    /// `a = gain·S³` and s, what Q and the images leave of the factor, it is so where
-    /// `|kept·W − a|² − s²·|W|²` is not above zero. (A box around H itself needs many more boxes: in a
-    /// version that is not in the repository 1 % about the reference rig was not shown.)
+    /// Whether `|H| <= factor`, without a division by a number that may be small. Let
+    /// `W = e^(−jw·lead·T)/G`, `a = gain·S³`, and let s be the part of the factor that Q and
+    /// the images do not use. The inequality holds if `|kept·W − a|² − s²·|W|²` is not above
+    /// zero. (A region around H itself needs many more regions: in a version outside the
+    /// repository 1 % about the reference rig was not shown.)
     pub(super) fn is_small(&self, all: &Boxed) -> bool {
         let w = all.frequency;
         let Some(x) = (Span::at(0.5) * w * all.cell).meets(self.half_phases) else {
@@ -73,9 +74,9 @@ impl Cycle<'_> {
         })
     }
 
-    /// Whether `|H| < 1`, from frequency zero on, where 1/G of a PI grows beyond all bounds: with
-    /// `W = e^(−jw·L)/G` and `m >= 0.32·sin³` of the images, it is so where
-    /// `(kept² − (1 − m)²)·|W|² + a² − 2·kept·a·Re(W)` is below zero. Of that Re(W) is finite,
+    /// Whether `|H| < 1`, from frequency zero on, where 1/G of a PI is unbounded. Let
+    /// `W = e^(−jw·L)/G` and `m >= 0.32·sin³` of the images. The inequality holds if
+    /// `(kept² − (1 − m)²)·|W|² + a² − 2·kept·a·Re(W)` is below zero. Here Re(W) is finite,
     /// `Re(e^(−jw·L)·(1/P~ + k_p)) − k_i·sin(w·L)/w`, and so is `|w·W|`.
     pub(super) fn is_below_one(&self, all: &Boxed) -> bool {
         let (w, one) = (all.frequency, Span::at(1.0));
@@ -150,7 +151,7 @@ impl Cycle<'_> {
             }
     }
 
-    /// Two halves, along the number that moves 1/G most across the box.
+    /// Two halves, along the number that moves 1/G most across the region.
     pub(super) fn halves(&self, all: &Boxed) -> [Boxed; 2] {
         let (w, plants) = (all.frequency.middle(), &all.plants);
         let [gain, slow, damping, joint, slope, latency] = [
@@ -178,7 +179,7 @@ impl Cycle<'_> {
             share(plants.latency) * latency * open,
         ];
         let turns = unit * (2.0 * slow * slow + rate) + (latency + joint) * open + integral.abs();
-        // The lead turns it, and Q falls by (M² − 1)·x²/3.
+        // The lead rotates it, and Q falls by (M² − 1)·x²/3.
         let x = 0.5 * w * all.cell.middle();
         let falls = 2.0 / 3.0 * (self.width * self.width - 1.0) * x * x;
         let turned = size * (2.0 * self.lead * x + falls);

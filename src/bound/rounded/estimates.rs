@@ -1,4 +1,4 @@
-//! The numbers of an estimate's update, (24)-(26): how large they can be.
+//! Upper bounds of the numbers in an estimate's update, (24)-(26).
 
 use crate::bound::dyadic::Enclosure;
 use crate::bound::truth::range;
@@ -6,7 +6,7 @@ use crate::control::{Estimator, Leakage};
 use crate::error::finite;
 use crate::{Error, Real};
 
-/// How an estimate adapts, at most.
+/// Upper bounds of the adaptation of an estimate.
 #[derive(Clone, Copy)]
 pub(super) struct Adapts {
     gain: Enclosure,
@@ -22,7 +22,7 @@ pub(super) struct Adapts {
 
 impl Adapts {
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `name`, where no number can be stated.
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `name`, if no number can be stated.
     pub(super) fn try_new<T: Real>(
         estimator: &Estimator<T>,
         frozen: bool,
@@ -50,9 +50,9 @@ impl Adapts {
 
     /// A sum of which every number of the update is a part, or a part less a factor below one.
     ///
-    /// Line by line what `Estimator::update` computes under a drive of at most `drive`, over
-    /// `step` \[s\]: the distance, the rate of the leakage, what drives and what leaks, the
-    /// share of both that a step takes, and the sum with the estimate.
+    /// The lines follow `Estimator::update` with an input of at most `drive`, over `step`
+    /// \[s\]. They are the distance, the rate of the leakage, the input and leakage terms,
+    /// their share in a step, and the sum.
     pub(super) fn numbers(&self, drive: Enclosure, step: Enclosure) -> Enclosure {
         let one = Enclosure::ONE;
         let rate = self.gain * drive + self.leakage * self.distance;

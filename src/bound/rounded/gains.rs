@@ -27,7 +27,7 @@ pub(super) struct Term {
     pub(super) adapts: Adapts,
 }
 
-/// Everything that the inequalities are made of.
+/// All numbers of the inequalities.
 pub(super) struct Gains {
     pub(super) word: Word,
     pub(super) gain: Enclosure,
@@ -56,7 +56,7 @@ pub(super) struct Gains {
     pub(super) xi: Enclosure,
     /// Greatest `|theta'x + D|`.
     pub(super) load: Enclosure,
-    /// How beta_hat and delta_hat adapt.
+    /// Adaptation of beta_hat and delta_hat.
     pub(super) adapts: [Adapts; 2],
     terms: [Option<Term>; MOST],
 }
@@ -67,7 +67,7 @@ impl Gains {
     }
 
     /// # Errors
-    /// What no inequality can be made of.
+    /// If no inequality can be stated.
     pub(super) fn try_new<T: Real, const N: usize>(
         settings: &AdaptiveSettings<T, N>,
         plant: &Plant<f64, N>,
@@ -126,7 +126,7 @@ impl Gains {
     }
 }
 
-/// Both word lengths by what their floats say of themselves.
+/// Both word lengths, from the constants of their floats.
 fn word<T: Real>() -> Word {
     let unit = Enclosure::of(T::epsilon()) * Enclosure::power(-1);
     // Half of the least subnormal number: the least normal one has as many bits above it.
@@ -137,7 +137,7 @@ fn word<T: Real>() -> Word {
 
 /// The step \[s\] of settings whose single numbers make sense.
 fn usable<T: Real, const N: usize>(settings: &AdaptiveSettings<T, N>) -> Result<T, Error> {
-    let Form::Lag { step, .. } = settings.form else {
+    let Form::FirstOrder { step, .. } = settings.form else {
         return Err(Error::Inadmissible("the lag form"));
     };
     above_zero!(step, T::ZERO, "step");
@@ -151,7 +151,7 @@ fn usable<T: Real, const N: usize>(settings: &AdaptiveSettings<T, N>) -> Result<
     Ok(step)
 }
 
-/// The boxes of beta_hat, above zero, and of delta_hat, not below zero.
+/// The bounds of beta_hat, above zero, and of delta_hat, not below zero.
 fn boxes<T: Real, const N: usize>(
     settings: &AdaptiveSettings<T, N>,
 ) -> Result<([Enclosure; 2], [Enclosure; 2]), Error> {

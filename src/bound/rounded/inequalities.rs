@@ -5,7 +5,7 @@ use super::roundings::{roundings, Roundings};
 use super::PeakRounded;
 use crate::bound::dyadic::{Dyadic, Enclosure};
 
-/// Which inequality.
+/// Name of an inequality.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
@@ -21,24 +21,26 @@ pub enum Named {
     Stiffness,
     /// `h·lambda·W + h·Xi + R_s + E_s <= h·g⁻·(lambda·k·S - Z)`.
     SStays,
-    /// What z's sum owes after a step, and what it may owe.
+    /// The carry of z's sum after a step, and its permitted maximum.
     Owed,
     /// `Z <= z_limit`.
     ZLimit,
-    /// `(r + S + lambda·Z + theta'x + D)/alpha⁻ <=` the limit of the command: it is not met.
+    /// `(r + S + lambda·Z + theta'x + D)/alpha⁻ <=` the limit of the command: it is not active.
     Command,
-    /// Twice the sum of what the step adds and multiplies, the updates of the estimates
-    /// included, `<=` the largest float.
+    /// Twice the sum of all numbers that the step adds and multiplies, the updates of the
+    /// estimates included, `<=` the largest float.
     Overflow,
-    /// `(r + theta'x + D + lambda·Z - S)/alpha⁻ <=` the limit of the command, which may be met.
+    /// `(r + theta'x + D + lambda·Z - S)/alpha⁻ <=` the limit of the command, which may be
+    /// active.
     Reserve,
-    /// `h·lambda·(2 + g⁺·k) <= 1`: while z waits, one step does not lead over the box.
+    /// `h·lambda·(2 + g⁺·k) <= 1`: while z is frozen, one step does not overshoot the box.
     Waiting,
-    /// `lambda²·Z <= lambda·S + 2·g⁻·Z`: the room that rounding needs of Z, while z waits.
+    /// `lambda²·Z <= lambda·S + 2·g⁻·Z`: the margin of Z for rounding, while z is frozen.
     Slack,
-    /// What a step moves the command by `<=` what the slew rate allows: it is not met.
-    /// `h·(lambda·(W + g⁺·(k·S + delta_hat)) + g⁺·Z + r' + lambda·(S + lambda·Z))/alpha⁻`
-    /// and `E_c`, the roundings of the command, `<= h·slew`.
+    /// The change of the command in a step `<=` the change that the slew rate allows: it is not
+    /// active.
+    /// `h·(lambda·(W + g⁺·(k·S + delta_hat)) + g⁺·Z + r' + lambda·(S + lambda·Z))/alpha⁻` and
+    /// `E_c`, the roundings of the command, `<= h·slew`.
     Slew,
 }
 
@@ -66,15 +68,15 @@ impl Named {
     }
 }
 
-/// One inequality with both sides, rounded against it.
+/// One inequality: both sides, rounded against the claim.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Inequality {
-    /// Which one.
+    /// Its name.
     pub name: Named,
-    /// At least the left side.
+    /// Upper bound of the left side.
     pub left: Dyadic,
-    /// At most the right side.
+    /// Lower bound of the right side.
     pub right: Dyadic,
 }
 
@@ -94,14 +96,14 @@ impl Inequality {
     }
 }
 
-/// Bits of Z: few, so that it can be written down.
+/// Bits of Z: few, so Z has a short notation.
 const BITS_OF_Z: u32 = 40;
 
 /// Rounds of the search for Z.
 const ROUNDS: u32 = 4;
 
 impl Gains {
-    /// S of [`PeakSampled`](crate::bound::PeakSampled); one where there is none.
+    /// S of [`PeakSampled`](crate::bound::PeakSampled); one if there is none.
     pub(super) fn exact_box(&self) -> Enclosure {
         let stiffness = self.gain - Enclosure::ONE / (self.lambda * self.lambda);
         if stiffness.is_at_most(Enclosure::ZERO) {
@@ -116,7 +118,7 @@ impl Gains {
         (self.reference + s + self.lambda * z + self.load) / self.alpha[0]
     }
 
-    /// Z for an S: S/lambda, and room for what rounding adds to z.
+    /// Z for an S: S/lambda, with a margin for the rounding of z.
     fn z(&self, s: Enclosure) -> Enclosure {
         let above = Enclosure::ONE + Enclosure::power(-20);
         let mut z = s / self.lambda;
@@ -173,14 +175,14 @@ fn inequalities(
         Inequality::new(Named::ZStays, gains.step * s + added.z, share * z),
         Inequality::new(Named::Stiffness, z, stiff),
         Inequality::new(Named::SStays, pushed, gains.step * g_low * (stiff - z)),
-        Inequality::new(Named::Owed, added.owed_after, added.owed_by_z),
+        Inequality::new(Named::Owed, added.owed_after, added.carry_error_z),
         Inequality::new(Named::ZLimit, z, gains.z_limit),
         Inequality::new(Named::Command, command, gains.command),
         Inequality::new(Named::Overflow, added.largest, gains.word.most),
     ]
 }
 
-/// Where the limit of the command may be met: `theorems/Limit.v`.
+/// If the limit of the command may be active: `theorems/Limit.v`.
 fn at_the_limit(gains: &Gains, s: Enclosure, z: Enclosure) -> [Inequality; 3] {
     let two = Enclosure::power(1);
     let [g_low, g_high] = gains.g;
@@ -198,9 +200,9 @@ fn at_the_limit(gains: &Gains, s: Enclosure, z: Enclosure) -> [Inequality; 3] {
     ]
 }
 
-/// That no step moves the command by as much as the slew rate allows: `theorems/Slew.v`.
+/// No step changes the command by as much as the slew rate allows: `theorems/Slew.v`.
 ///
-/// The plant tells the command that is out, `alpha·u = y + theta'x + D`, whatever limited it.
+/// The plant gives the applied command, `alpha·u = y + theta'x + D`, for any limit.
 fn not_met(
     gains: &Gains,
     slew: Enclosure,

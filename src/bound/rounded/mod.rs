@@ -14,38 +14,46 @@ use crate::control::{Adaptive, AdaptiveSettings};
 use crate::{Error, Real};
 use gains::Gains;
 
-/// The box theorem of the lag form, for the step as it is shipped, with every rounding.
+/// The box theorem of the first-order form, for the shipped step, with every rounding.
 ///
-/// [`PeakSampled`](super::PeakSampled) is about exact numbers. This is about the floats of
-/// the controller: let `|s| <= S`, `|z| <= Z`, and let the sums of z and of the command owe
-/// no more than their last addition lost. If the nine [`inequalities`](Self::inequalities)
-/// hold, all of that holds after every step too, and `|e| <= S + lambda·Z` at every sample,
-/// for `f32` and `f64`. Each inequality is computed in integers, rounded outwards: what is
-/// proved here needs no trust in a float. It needs no heap, so that a controller can check
-/// its own gains at start-up; its time on a microcontroller is not measured.
+/// [`PeakSampled`](super::PeakSampled) applies to exact numbers. This theorem applies to the
+/// floats of the controller. Let `|s| <= S`, `|z| <= Z`, and let the carries of the sums of z
+/// and of the command be at most the rounding error of their last addition. If the nine
+/// [`inequalities`](Self::inequalities) hold, these conditions hold after every step too, and
+/// `|e| <= S + lambda·Z` at every sample, for `f32` and `f64`.
 ///
-/// *Proof.* The exact step keeps the box with room to spare, as in
-/// [`PeakSampled`](super::PeakSampled); the [`Roundings`] are less than the room. The theorem
+/// Each inequality is computed in integers, rounded outwards: the proof does not rely on a
+/// float. The computation needs no heap, so a controller can check its own gains at
+/// start-up. Its time on a microcontroller is not measured.
+///
+/// *Proof.* The exact step stays in the box with a margin, as in
+/// [`PeakSampled`](super::PeakSampled); the [`Roundings`] are less than the margin. The theorem
 /// over the reals is `theorems/Box.v`.
 ///
-/// **A limit that may be met.** The eighth inequality says that the box needs no command beyond
-/// the limit. Where it fails, the three of [`at_the_limit`](Self::at_the_limit) will do: a limit
-/// that holds the reference against the load cuts a command, z waits, and the box is the same
-/// (`theorems/Limit.v`).
+/// **A limit that may be active.** The eighth inequality states that no command in the box exceeds
+/// the limit. If it fails, the three inequalities of [`at_the_limit`](Self::at_the_limit) are
+/// sufficient. If a limit that can hold the reference against the load cuts a command, z is frozen,
+/// and the box is the same (`theorems/Limit.v`).
 ///
-/// **A slew rate must not be met.** Where the law has one, [`slew`](Self::slew) says that no step
-/// from the box moves the command by as much as it allows (`theorems/Slew.v`).
+/// **A slew rate must not be active.** [`slew`](Self::slew) states that every step from the box
+/// changes the command by less than the slew rate allows (`theorems/Slew.v`).
 ///
-/// Assumed beside: the plant `y = alpha·u - theta'x - D` without dynamics, where y is as the
-/// controller reads it: what the sensor rounds is part of D and counts in its rate; `dt` is
-/// the form's step at every sample; the next reference is the one that comes; no feed-forward;
-/// no sample is bad; the errors start in the box. The truth need not lie in the boxes, and the
-/// estimates may move in theirs as they like.
+/// Further assumptions:
+/// - the plant is `y = alpha·u - theta'x - D` without dynamics, with y as the controller reads
+///   it: the rounding of the sensor is part of D and counts in its rate;
+/// - `dt` is the form's step at every sample;
+/// - the next reference is the true one;
+/// - no feed-forward;
+/// - no sample is bad;
+/// - the errors start in the box.
+///
+/// The true values need not lie within the bounds of the estimates, and the estimates may move
+/// freely within their bounds.
 ///
 /// ```
 /// use bowden::bound::{PeakRounded, Plant};
 /// use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form, Limits};
-/// let lag = Form::Lag { step: 0.001, plant_gain: 1.0 };
+/// let lag = Form::FirstOrder { step: 0.001, plant_gain: 1.0 };
 /// let law = Adaptive::try_new(AdaptiveSettings {
 ///     beta: Estimator::free(1.0).within(0.8, 1.2).adapting(2.5e-4, 0.01),
 ///     delta: Estimator::free(1.0).within(0.0, 4.0).adapting(0.00625, 0.01),
@@ -60,9 +68,9 @@ use gains::Gains;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PeakRounded {
-    /// S \[N·m\]: the box of s. The least that is proved, to 2^-14 of itself.
+    /// S \[N·m\]: the bound of `|s|`. The least value that is proved, to 2^-14 of itself.
     pub s: Enclosure,
-    /// Z \[N·m·s\]: the box of z.
+    /// Z \[N·m·s\]: the bound of `|z|`.
     pub z: Enclosure,
     /// W \[N·m\]: greatest `|(g-1)·(r + r'/lambda) + (g·theta_hat - theta)'x - D|`.
     pub w: Enclosure,
@@ -72,13 +80,13 @@ pub struct PeakRounded {
     pub g: [Enclosure; 2],
     /// S + lambda·Z \[N·m\].
     pub error: Enclosure,
-    /// What one step rounds.
+    /// The roundings of one step.
     pub roundings: Roundings,
     /// The nine inequalities, in the order of [`Named`].
     pub inequalities: [Inequality; 9],
-    /// What stands for [`Named::Command`] where that one fails.
+    /// The inequalities that replace [`Named::Command`] if it fails.
     pub at_the_limit: [Inequality; 3],
-    /// That the slew rate is not met; `None` where the law has none.
+    /// The inequality of the slew rate; `None` if the law has no slew rate.
     pub slew: Option<Inequality>,
 }
 
@@ -90,8 +98,8 @@ impl PeakRounded {
     /// The certificate of a law on a plant.
     ///
     /// # Errors
-    /// Those of [`examine`](Self::examine), and [`Error::Inadmissible`] with the first
-    /// inequality that does not hold.
+    /// As [`examine`](Self::examine), and [`Error::Inadmissible`] with the first violated
+    /// inequality.
     pub fn try_new<T: Real, const N: usize>(
         law: &Adaptive<T, N>,
         plant: &Plant<f64, N>,
@@ -103,15 +111,16 @@ impl PeakRounded {
         }
     }
 
-    /// The inequalities at the least S that they allow, whether all of them hold or not.
+    /// The inequalities at the least S that they allow, even if some do not hold.
     ///
-    /// Of settings, since [`Adaptive::try_new`] refuses some that fail. Where no S will do,
-    /// they stand at the S that exact numbers would need.
+    /// The argument is a settings struct, since [`Adaptive::try_new`] refuses some settings
+    /// that fail. If no S is sufficient, the inequalities are evaluated at the S for exact
+    /// numbers.
     ///
     /// # Errors
-    /// [`Error::NonFinite`], [`Error::OutOfRange`] or [`Error::Inadmissible`] where settings
-    /// or plant are such that no inequality can be stated; [`Error::Capacity`] for more than
-    /// 16 regressors.
+    /// [`Error::NonFinite`], [`Error::OutOfRange`] or [`Error::Inadmissible`] if no inequality
+    /// can be stated for these settings and this plant; [`Error::Capacity`] for more than 16
+    /// regressors.
     pub fn examine<T: Real, const N: usize>(
         settings: &AdaptiveSettings<T, N>,
         plant: &Plant<f64, N>,
@@ -141,22 +150,22 @@ impl PeakRounded {
         Ok(Self::at(&gains, high))
     }
 
-    /// Whether all inequalities hold, that of a slew rate too, or of [`Named::Command`] what
-    /// stands for it.
+    /// Whether all inequalities hold, including that of a slew rate; [`Named::Command`] may be
+    /// replaced by its three substitutes.
     #[must_use]
     pub fn is_proved(&self) -> bool {
         self.refused().is_none()
     }
 
-    /// Whether the limit of the command may be met in the box: [`Named::Command`] fails.
+    /// Whether the limit of the command may be active in the box: [`Named::Command`] fails.
     #[must_use]
     pub fn may_meet_the_limit(&self) -> bool {
         let mut fails = self.inequalities.iter().filter(|it| !it.holds());
         fails.any(|it| it.name == Named::Command)
     }
 
-    /// The first inequality that does not hold; of a limit that may be met
-    /// [`Named::Reserve`], where it is that which fails.
+    /// The first violated inequality; for a limit that may be active [`Named::Reserve`], if
+    /// that one fails.
     #[must_use]
     pub fn refused(&self) -> Option<&Inequality> {
         let [reserve, waiting, slack] = &self.at_the_limit;
@@ -184,9 +193,10 @@ impl PeakRounded {
         }
     }
 
-    /// Whether the inequalities hold that a greater S can mend.
+    /// Whether the inequalities hold that a greater S can satisfy.
     fn grows_into(&self) -> bool {
-        // The step's own two are the same at every S, the last three are lost with a greater one.
+        // Two inequalities of the step are the same at every S; a greater S violates the last
+        // three.
         let [_, _, z, stiff, s, owed, ..] = &self.inequalities;
         [z, stiff, s, owed]
             .iter()

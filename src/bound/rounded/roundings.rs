@@ -1,4 +1,4 @@
-//! What rounding adds in one shipped step of the lag form, operation by operation.
+//! Rounding errors in one shipped step of the first-order form, operation by operation.
 
 use super::gains::Gains;
 use crate::bound::dyadic::Enclosure;
@@ -12,7 +12,7 @@ struct Computed {
 }
 
 impl Computed {
-    /// A float that goes in: nothing has been rounded yet.
+    /// An input float: not yet rounded.
     fn given(most: Enclosure) -> Self {
         Self {
             most,
@@ -21,7 +21,7 @@ impl Computed {
     }
 }
 
-/// Of sums and differences alike: only magnitudes count.
+/// For sums and differences alike: only magnitudes count.
 impl Add for Computed {
     type Output = Self;
     fn add(self, other: Self) -> Self {
@@ -43,7 +43,7 @@ impl Mul for Computed {
     }
 }
 
-/// Rounding to nearest of one word length.
+/// Rounding to nearest for one word length.
 #[derive(Clone, Copy)]
 pub(super) struct Word {
     /// Half a unit in the last place of one: 2^-24 of `f32`, 2^-53 of `f64`.
@@ -55,13 +55,13 @@ pub(super) struct Word {
 }
 
 impl Word {
-    /// A sum as it is stored. Where it underflows it is exact.
+    /// A sum as stored. If it underflows it is exact.
     fn sum(self, x: Computed) -> Computed {
         let error = x.error + self.unit * (x.most + x.error);
         Computed { error, ..x }
     }
 
-    /// A product or a quotient as it is stored.
+    /// A product or a quotient as stored.
     fn product(self, x: Computed) -> Computed {
         let stored = self.sum(x);
         Computed {
@@ -78,34 +78,35 @@ impl Word {
     }
 }
 
-/// By how much the shipped step differs from the exact one.
+/// Difference between the shipped step and the exact step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Roundings {
-    /// Of s \[N·m\].
+    /// Rounding error of s \[N·m\].
     pub s: Enclosure,
-    /// Of the command, with what its sum owed before \[command unit\].
+    /// Rounding error of the command, with the earlier carry of its sum \[command unit\].
     pub command: Enclosure,
-    /// Of z, with what its sum owed before \[N·m·s\].
+    /// Rounding error of z, with the earlier carry of its sum \[N·m·s\].
     pub z: Enclosure,
-    /// What the sum of the command may owe \[command unit\].
+    /// Greatest permitted carry of the command's sum \[command unit\].
     pub owed_by_command: Enclosure,
-    /// What the sum of z may owe \[N·m·s\].
-    pub owed_by_z: Enclosure,
-    /// What the sum of z owes after a step in which it owed that \[N·m·s\].
+    /// Greatest permitted carry of z's sum \[N·m·s\].
+    pub carry_error_z: Enclosure,
+    /// Carry of z's sum after a step that starts with the permitted carry \[N·m·s\].
     pub owed_after: Enclosure,
-    /// What of `T(s/epsilon)` is not in proportion to s: underflow.
+    /// The part of `T(s/epsilon)` that is not proportional to s: underflow.
     pub smooth_sign: Enclosure,
-    /// More than any number of the step, the updates of the estimates included: twice the sum of
-    /// all that it adds and multiplies, half of which is for rounding.
+    /// Upper bound of every number of the step, the updates of the estimates included: twice
+    /// the sum of all numbers that it adds and multiplies. Half of this bound covers rounding.
     pub largest: Enclosure,
 }
 
 /// The roundings while `|s| <= S`, `|z| <= Z` and `|u| <= command`.
 ///
-/// Line by line what `Adaptive::step` computes; a test compares the lines with it, bit for
-/// bit. The lag and z are compensated sums: `two_sum` is exact, so a sum owes what its last
-/// addition lost, half a unit in the last place of the sum at most.
+/// Line by line the computation of `Adaptive::step`; a test compares the lines with the step,
+/// bit for bit. The lag and z are compensated sums: `two_sum` is exact. The carry of a sum is
+/// therefore the rounding error of its last addition, at most half a unit in the last place of
+/// the sum.
 pub(super) fn roundings(
     gains: &Gains,
     s: Enclosure,
@@ -128,7 +129,7 @@ pub(super) fn roundings(
     ubar = word.sum(ubar + rate);
     ubar = word.sum(ubar + compensation(gains));
     ubar = word.sum(ubar + word.product(given(gains.delta) * given(Enclosure::ONE)));
-    // The way to go, and the share of it that one step takes.
+    // The distance, and the share of the distance that one step takes.
     let wanted = word.product(given(gains.beta) * ubar);
     let way = word.sum(wanted + given(command));
     let moved = word.product(word.product(step * lambda) * way);
@@ -136,18 +137,18 @@ pub(super) fn roundings(
     let law = summed(word, given(command), moved, owed_by_command);
     // z⁺ = z + dt·e.
     let moved = word.product(step * error);
-    // What is owed must reproduce itself: a little more than from nothing.
-    let owed_by_z = word.unit * (z + moved.most) * (Enclosure::ONE + Enclosure::power(-10));
-    let accumulated = summed(word, given(z), moved, owed_by_z);
-    let increment = word.sum(owing(moved, owed_by_z));
+    // The carry must reproduce itself: a little more than from zero.
+    let carry_error_z = word.unit * (z + moved.most) * (Enclosure::ONE + Enclosure::power(-10));
+    let accumulated = summed(word, given(z), moved, carry_error_z);
+    let increment = word.sum(owing(moved, carry_error_z));
     Roundings {
         s: s_error,
         command: law.error,
         z: accumulated.error,
         owed_by_command,
-        owed_by_z,
+        carry_error_z,
         owed_after: word.unit * (z + increment.most + increment.error),
-        // The quotient s/epsilon, and a smooth sign that is off by as much.
+        // The quotient s/epsilon, and a smooth sign with the same error.
         smooth_sign: word.least * Enclosure::power(2),
         largest: largest(gains, s + s_error, z, command, ubar.most),
     }
@@ -171,7 +172,7 @@ fn largest(
     (all + updates(gains, gains.lambda * s, ubar)) * Enclosure::power(1)
 }
 
-/// The same of the estimates' updates, of which `lambda·s` and what it multiplies are the drives.
+/// The same for the estimates' updates, whose inputs are `lambda·s` and its factors.
 fn updates(gains: &Gains, pull: Enclosure, ubar: Enclosure) -> Enclosure {
     let [beta, delta] = &gains.adapts;
     let mut all = pull + beta.numbers(pull * ubar, gains.step) + delta.numbers(pull, gains.step);
@@ -181,7 +182,7 @@ fn updates(gains: &Gains, pull: Enclosure, ubar: Enclosure) -> Enclosure {
     all
 }
 
-/// `sum(theta_hat_i·x_i)`: the first product is added to zero, which rounds nothing.
+/// `sum(theta_hat_i·x_i)`: the sum of zero and the first product is exact.
 fn compensation(gains: &Gains) -> Computed {
     let (word, mut sum) = (gains.word, None);
     for term in gains.regressors() {
@@ -192,7 +193,7 @@ fn compensation(gains: &Gains) -> Computed {
     sum.unwrap_or(Computed::given(Enclosure::ZERO))
 }
 
-/// An increment with what a sum owes: all of that is an error of the increment.
+/// An increment with the carry of a sum: the carry is an error of the increment.
 fn owing(increment: Computed, owed: Enclosure) -> Computed {
     Computed {
         error: increment.error + owed,
@@ -200,7 +201,7 @@ fn owing(increment: Computed, owed: Enclosure) -> Computed {
     }
 }
 
-/// `Compensated::plus`: the value, whose error holds what was owed before.
+/// `Compensated::plus`: the value, whose error includes the earlier carry.
 fn summed(word: Word, value: Computed, increment: Computed, owed: Enclosure) -> Computed {
     word.sum(value + word.sum(owing(increment, owed)))
 }

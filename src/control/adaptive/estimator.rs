@@ -1,9 +1,9 @@
-//! How one estimate adapts: gain, leakage, box.
+//! Adaptation of one estimate: gain, leakage, bounds.
 
 use crate::signal::Compensated;
 use crate::Real;
 
-/// How an estimate leaks back to its prior, so that it cannot drift.
+/// Leakage of an estimate back to its prior, which prevents drift.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -12,18 +12,18 @@ use crate::Real;
 )]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Leakage<T> {
-    /// None: the box alone holds the estimate.
+    /// No leakage: only the bounds limit the estimate.
     None,
-    /// At `rate` \[1/s\] always: the sigma of (24)-(26).
+    /// Leakage at `rate` \[1/s\] at all times: the sigma of (24)-(26).
     Constant {
         /// Leakage \[1/s\], not negative.
         rate: T,
     },
-    /// Only where the estimate is further than `bound` from its prior (Remark 1).
+    /// Leakage only if the estimate is further than `bound` from its prior (Remark 1).
     ///
-    /// The rate rises from zero at `bound` to `rate` at twice that: the switching
-    /// sigma-modification of P. Ioannou, J. Sun, *Robust Adaptive Control*, 8.4.1, which
-    /// leaves no residue where the truth lies within the bound.
+    /// The rate rises from zero at `bound` to `rate` at twice the bound. This is the switching
+    /// sigma-modification of P. Ioannou, J. Sun, *Robust Adaptive Control*, 8.4.1. It leaves no
+    /// bias if the true value lies within the bound.
     Switching {
         /// Leakage from twice the bound on \[1/s\], not negative.
         rate: T,
@@ -71,17 +71,17 @@ impl<T: Real> Leakage<T> {
     }
 }
 
-/// How one estimate `p` adapts: (24)-(26) in sampled time, with a box.
+/// Adaptation of one estimate `p`: (24)-(26) in sampled time, with bounds.
 ///
-/// `p⁺ = (p + h·(gain·v + sigma·prior))/(1 + h·sigma)`, then into `[low, high]`, where v
-/// is what the law says (`-lambda·s·x` for a regressor x). The leakage is implicit: it
-/// cannot overshoot at any rate, and where the estimate settles, `prior +
-/// gain·v/sigma`, does not depend on h. It is computed as an increment and summed with
-/// compensation, so that a slow leakage does not stall in f32.
+/// `p⁺ = (p + h·(gain·v + sigma·prior))/(1 + h·sigma)`, then clamped to `[low, high]`. Here v
+/// is the input from the law (`-lambda·s·x` for a regressor x). The leakage is implicit: it
+/// cannot overshoot at any rate. The steady state of the estimate, `prior + gain·v/sigma`, does
+/// not depend on h. The update is computed as an increment and summed with compensation, so
+/// a slow leakage does not stall in f32.
 ///
 /// ```
 /// use bowden::control::{Estimator, Leakage};
-/// // Viscous friction [N·m·s/rad]: the bench found 2.7, and it stays between 0 and 6.
+/// // Viscous friction [N·m·s/rad]: 2.7 from the bench, bounds 0 and 6.
 /// let velocity = Estimator {
 ///     gain: 5e-4,
 ///     leakage: Leakage::Constant { rate: 0.01 },
@@ -105,7 +105,7 @@ impl<T: Real> Leakage<T> {
     )
 )]
 pub struct Estimator<T> {
-    /// Where the estimate starts \[unit of the estimate\], within the box.
+    /// Initial value of the estimate \[unit of the estimate\], within the bounds.
     pub initial: T,
     /// Least value \[unit of the estimate\].
     pub low: T,
@@ -115,12 +115,12 @@ pub struct Estimator<T> {
     pub gain: T,
     /// Leakage to the prior.
     pub leakage: Leakage<T>,
-    /// What the leakage pulls to \[unit of the estimate\]; zero in the paper.
+    /// Prior, the target of the leakage \[unit of the estimate\]; zero in the paper.
     pub prior: T,
 }
 
 impl<T: Real> Estimator<T> {
-    /// An estimate that keeps its value: its box is that one point.
+    /// An estimate with a constant value: both bounds equal this value.
     #[must_use]
     pub const fn fixed(value: T) -> Self {
         Self {
@@ -133,21 +133,21 @@ impl<T: Real> Estimator<T> {
         }
     }
 
-    /// An estimate without a box, as the paper has them: nothing bounds it but its leakage.
+    /// An estimate without bounds, as in the paper: only its leakage limits it.
     #[must_use]
     pub const fn free(initial: T) -> Self {
         Self::fixed(initial).within(T::LOWEST, T::HIGHEST)
     }
 
-    /// The same within a box \[unit of the estimate\].
+    /// The same estimate with bounds \[unit of the estimate\].
     #[must_use]
     pub const fn within(self, low: T, high: T) -> Self {
         Self { low, high, ..self }
     }
 
-    /// The same with a gain, and a leakage \[1/s\] to the prior.
+    /// The same estimate with a gain, and a leakage \[1/s\] to the prior.
     ///
-    /// It needs a box: [`within`](Self::within) or [`free`](Self::free).
+    /// This method requires bounds: [`within`](Self::within) or [`free`](Self::free).
     #[must_use]
     pub const fn adapting(self, gain: T, leakage: T) -> Self {
         let leakage = Leakage::Constant { rate: leakage };
@@ -158,21 +158,21 @@ impl<T: Real> Estimator<T> {
         }
     }
 
-    /// Whether a value \[unit of the estimate\] lies in the box; NaN does not.
+    /// Whether a value \[unit of the estimate\] lies within the bounds; NaN does not.
     #[must_use]
     pub fn contains(&self, value: T) -> bool {
         self.low <= value && value <= self.high
     }
 
-    /// The estimate after `dt` \[s\] under the drive `v`, in its box; where that overflows, its
-    /// carry is not finite.
+    /// The estimate after `dt` \[s\] with the input `v`, within its bounds. If it overflows,
+    /// its carry is not finite.
     #[inline]
     pub(crate) fn update(&self, p: Compensated<T>, dt: T, v: T) -> Compensated<T> {
         let increment = self.increment(p.value - self.prior, dt, v);
         p.plus(increment).within(self.low, self.high)
     }
 
-    /// How far an estimate moves that is a `distance` from its prior.
+    /// The increment of an estimate at a `distance` from its prior.
     ///
     /// `(p + h·(m·v + sigma·prior))/(1 + h·sigma) - p`, without the cancellation.
     #[inline]
@@ -182,7 +182,7 @@ impl<T: Real> Estimator<T> {
         dt * rate / (T::one() + dt * sigma)
     }
 
-    /// Whether an estimate could have come from updates.
+    /// Whether updates can produce this estimate.
     pub(super) fn holds(&self, estimate: &Compensated<T>) -> bool {
         self.contains(estimate.value) && estimate.carry.is_finite()
     }
@@ -222,7 +222,7 @@ macro_rules! checks {
 }
 pub(super) use checks;
 
-/// What an error calls the fields of an estimator.
+/// Names of an estimator's fields in an error.
 pub(super) struct Names {
     pub(super) initial: &'static str,
     pub(super) low: &'static str,

@@ -1,4 +1,4 @@
-//! Arrays of any length as serde sees them: lists of exactly `N` items.
+//! Arrays of any length for serde: lists of exactly `N` items.
 
 use core::fmt;
 use core::marker::PhantomData;

@@ -1,21 +1,25 @@
-//! The paper's robust adaptive law, (17)-(26), over any number of regressors.
+//! Robust adaptive torque control, (17)-(26), with any number of regressors.
 //!
-//! With the plant `y = alpha·u - theta'x - D` (11) and the errors `e = y - y_r`,
-//! `z = ∫e` and `s = e + lambda·z`, the virtual command
-//! `ubar = -k·s + y_r - (z + e')/lambda + theta_hat'x - delta_hat·T(s/eps)` (23) is
-//! scaled by beta_hat, the estimate of 1/alpha (19); the estimates follow (24)-(26).
-//! The paper's regressors are velocity and acceleration; **an effect found on the bench is
-//! the next one**, with its bench value as prior.
+//! The plant is `y = alpha·u - theta'x - D` (11). The errors are `e = y - y_r`, `z = ∫e` and
+//! `s = e + lambda·z`. The virtual command (23) is
+//! `ubar = -k·s + y_r - (z + e')/lambda + theta_hat'x - delta_hat·T(s/eps)`. The law multiplies
+//! ubar by beta_hat, the estimate of 1/alpha (19). The estimates follow (24)-(26). The paper's
+//! regressors are velocity and acceleration; **each effect that the bench identifies is a
+//! further regressor**, with its bench value as prior.
 //!
-//! **Two forms, two plants.** In sampled time e' makes an algebraic loop. The
-//! [literal form](Form::Literal) closes it through a filtered difference, for plants with
-//! inertia; the [lag form](Form::Lag) solves it, for plants that answer within a sample.
-//! Either diverges on the other's plant (tests `control_adaptive`).
+//! **Two forms for two plants.** In sampled time e' makes an algebraic loop:
+//! - The form [as published](Form::AsPublished) closes the loop through a filtered difference.
+//!   It is for plants with inertia.
+//! - The [first-order](Form::FirstOrder) form solves the loop. It is for plants that respond
+//!   within a sample.
 //!
-//! **Boxes.** Each estimate is clamped into its box. Where the box holds the truth, that
-//! cannot raise the Lyapunov function, and every invariant holds whatever was measured.
-//! The paper has none: [`AdaptiveSettings::paper`] has boxes as wide as the float. The lag
-//! form demands one for beta_hat, above zero, and one for delta_hat, not below zero.
+//! Each form diverges on the plant of the other form (tests `control_adaptive`).
+//!
+//! **Bounds of the estimates.** The law clamps each estimate to its bounds (projection). If the
+//! true value lies within the bounds, the clamp cannot raise the Lyapunov function, and every
+//! invariant holds for any measurement. The paper has no bounds: [`AdaptiveSettings::paper`]
+//! has bounds as wide as the float. The first-order form requires bounds above zero for
+//! beta_hat, and bounds not below zero for delta_hat.
 
 mod estimator;
 #[cfg(feature = "serde")]
@@ -32,13 +36,13 @@ mod step;
 
 pub use estimator::{Estimator, Leakage};
 pub use recursion::{Disturbance, ErrorState, LagRecursion};
-pub use settings::{AdaptiveSettings, Form, Missing};
+pub use settings::{AdaptiveSettings, Form, OnMissing};
 pub use smooth_sign::SmoothSign;
 pub use state::{AdaptiveInput, AdaptiveOutput, AdaptiveState, AdaptiveTerms};
 
 use crate::{Error, Real};
 
-/// Robust adaptive torque control over `N` regressors, (17)-(26).
+/// Robust adaptive torque control with `N` regressors, (17)-(26).
 ///
 /// ```
 /// use bowden::control::{Adaptive, AdaptiveInput, AdaptiveState};
@@ -74,12 +78,12 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// Checks the settings.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the field's name
-    /// (`"theta.gain"`); [`Error::Inadmissible`] where the safe command lies outside of the
-    /// limits, and with the condition of the lag form that does not hold: `beta.low > 0`,
-    /// `delta.low >= 0`, `h·lambda <= 1` or `h·lambda·g·(k + delta.high/epsilon) <= 1` with
-    /// g the plant's gain times `beta.high`. Then
-    /// [`AdaptiveSettings::largest_step`] says which step would do.
+    /// - [`Error::NonFinite`] or [`Error::OutOfRange`] with the field's name (`"theta.gain"`).
+    /// - [`Error::Inadmissible`] if the safe command lies outside the limits.
+    /// - [`Error::Inadmissible`] with the violated condition of the first-order form:
+    ///   `beta.low > 0`, `delta.low >= 0`, `h·lambda <= 1` or
+    ///   `h·lambda·g·(k + delta.high/epsilon) <= 1`, with g the plant's gain times `beta.high`.
+    ///   [`AdaptiveSettings::largest_step`] then returns an admissible step.
     pub fn try_new(settings: AdaptiveSettings<T, N>) -> Result<Self, Error> {
         settings.check()?;
         Ok(Self::checked(settings))
@@ -92,30 +96,31 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         }
     }
 
-    /// The settings.
+    /// The settings of this law.
     #[must_use]
     pub fn settings(&self) -> &AdaptiveSettings<T, N> {
         &self.settings
     }
 
-    /// Longest `dt` \[s\] that a step accepts: the stated one or, in the lag form, the
-    /// [largest](AdaptiveSettings::largest_step) that it admits where that is shorter.
+    /// Longest `dt` \[s\] that a step accepts: `longest_dt` of the settings or, in the
+    /// first-order form, the [largest step](AdaptiveSettings::largest_step) if that is shorter.
     #[must_use]
     pub fn longest_dt(&self) -> T {
         self.longest
     }
 
-    /// Longest `dt` \[s\] that the box theorem of the lag form admits; `None` for the literal
-    /// form. See [`AdaptiveSettings::largest_step`].
+    /// Longest `dt` \[s\] that the box theorem of the first-order form admits; `None` for the
+    /// form as published. See [`AdaptiveSettings::largest_step`].
     #[must_use]
     pub fn largest_step(&self) -> Option<T> {
         self.settings.largest_step()
     }
 
-    /// Whether a state could have come from this law: finite, everything in its box.
+    /// Whether this law can produce the state: finite numbers, every estimate within its
+    /// bounds.
     ///
-    /// States that were stored may not be: check them before they are used. A step
-    /// takes a valid state to a valid state, whatever its input.
+    /// Check a stored state before its first use. A step maps a valid state to a valid state,
+    /// for any input.
     ///
     /// ```
     /// use bowden::control::{Adaptive, AdaptiveState};

@@ -1,4 +1,4 @@
-//! What the lag form does to the error of a static plant, exactly.
+//! The exact error recursion of the first-order form on a static plant.
 
 use super::SmoothSign;
 use crate::Real;
@@ -14,28 +14,28 @@ pub struct ErrorState<T> {
     pub z: T,
 }
 
-/// What acts on the errors in one step of the [`LagRecursion`].
+/// The disturbances of the errors in one step of the [`LagRecursion`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Disturbance<T> {
-    /// g = alpha·beta_hat, one where beta is known.
+    /// g = alpha·beta_hat, 1 if beta is known.
     pub g: T,
     /// delta_hat \[N·m\].
     pub delta_hat: T,
     /// `w = (g-1)·(r + (r⁺-r)/(h·lambda)) + (g·theta_hat - theta)'x - D` \[N·m\].
     pub w: T,
-    /// `xi = (D⁺ - D) + theta'(x⁺ - x)` \[N·m\]: what the plant moves by itself.
+    /// `xi = (D⁺ - D) + theta'(x⁺ - x)` \[N·m\]: the motion of the plant without a command.
     pub xi: T,
 }
 
-/// The closed loop of lag form and static plant: one step of its errors.
+/// One step of the errors in the closed loop of the first-order form and a static plant.
 ///
-/// On `y = alpha·u - theta'x - D` with u from the sample before, the errors obey
+/// On `y = alpha·u - theta'x - D` with u from the previous sample, the errors satisfy exactly
 /// `s⁺ = s - h·lambda·g·k·s - h·g·z + h·lambda·(w - g·delta_hat·T(s/eps)) - xi` and
-/// `z⁺ = z + h·(s - lambda·z)`, exactly, for any sequence of `h`, as long as no limit and
-/// no box of z is met. The box theorem ([`PeakSampled`](crate::bound::PeakSampled)) is about
-/// this recursion: it bounds `|w|`, of which the disturbance D is one term, and its box is
-/// kept by errors that start inside.
+/// `z⁺ = z + h·(s - lambda·z)`. This holds for any sequence of `h`, as long as no limit and no
+/// bound of z is active. The box theorem ([`PeakSampled`](crate::bound::PeakSampled)) applies
+/// to this recursion. It bounds `|w|`, which contains the disturbance D. Errors that start
+/// inside its box of s and z stay inside.
 ///
 /// ```
 /// use bowden::control::{Disturbance, ErrorState, LagRecursion, SmoothSign};
@@ -53,7 +53,7 @@ pub struct LagRecursion<T> {
     pub lambda: T,
     /// epsilon \[N·m\].
     pub epsilon: T,
-    /// Which smooth sign.
+    /// The smooth sign function.
     pub smooth_sign: SmoothSign,
 }
 

@@ -1,4 +1,4 @@
-//! Hand-over without a jump: from another controller, or to other gains.
+//! Bumpless transfer: from another controller, or to other gains.
 
 use super::{Adaptive, AdaptiveInput, AdaptiveState, AdaptiveTerms};
 use crate::control::status::Held;
@@ -6,24 +6,24 @@ use crate::control::{Fault, Status};
 use crate::signal::{clamp, Compensated, DerivativeState};
 use crate::Real;
 
-/// More halvings than a float has digits: what is left of the bracket is below its rounding.
+/// More halvings than a float has digits: the remaining bracket is below its rounding.
 const HALVINGS: (u32, u32) = (26, 56);
 
 impl<T: Real, const N: usize> AdaptiveState<T, N> {
     /// A state whose first step on `input` commands `output` \[command unit\].
     ///
-    /// Initial estimates; the accumulated error is chosen such that the law gives
-    /// `output`, feed-forward included. It cannot where beta_hat is zero, where z would
-    /// leave its box, where the limits exclude `output`, or where the sample is bad: then
-    /// the slew rate or the lag alone softens the jump.
+    /// The estimates are initial. The accumulated error is chosen so that the law gives
+    /// `output`, feed-forward included. This is impossible if beta_hat is zero, z would leave
+    /// its bounds, the limits exclude `output`, or the sample is bad. Then only the slew rate
+    /// or the lag softens the jump.
     ///
-    /// It is a new state, which knows of no fault and of no bad sample: for one that has run,
+    /// The state is new: it has no fault and no bad samples. For a running state use
     /// [`Adaptive::resume`].
     ///
     /// ```
     /// use bowden::control::{Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState};
     /// use bowden::control::{Estimator, Form};
-    /// let literal = Form::Literal { time_constant: 0.005 }; // \[s\]
+    /// let literal = Form::AsPublished { time_constant: 0.005 }; // \[s\]
     /// let law = Adaptive::try_new(AdaptiveSettings {
     ///     beta: Estimator::fixed(1.2).within(0.5, 2.0),
     ///     delta: Estimator::fixed(7.0).within(0.0, 7.0),
@@ -38,7 +38,7 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
     pub fn resume_from(law: &Adaptive<T, N>, output: T, input: &AdaptiveInput<T, N>) -> Self {
         let mut state = Self::new(law);
         if output.is_finite() {
-            state.held = Held::new(law.settings().limits.confine(output));
+            state.held = Held::new(law.settings().limits.clamp(output));
             law.settle(&mut state, input);
         }
         state
@@ -46,10 +46,10 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
 }
 
 impl<T: Real, const N: usize> Adaptive<T, N> {
-    /// Takes a running state over from other settings without a jump of the command.
+    /// Continues a running state with other settings without a jump of the command.
     ///
-    /// The estimates stay, each in its new box; the accumulated error is chosen such that
-    /// the next step on `input` commands what is out now, as in
+    /// The estimates stay, each within its new bounds. The accumulated error is chosen so that
+    /// the next step on `input` gives the applied command, as in
     /// [`AdaptiveState::resume_from`].
     ///
     /// ```
@@ -62,11 +62,11 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// }
     /// let before = state.command();
     /// let eager = Adaptive::try_new(AdaptiveSettings { gain: 30.0, ..*quiet.settings() })?;
-    /// eager.take_over(&mut state, &input);
+    /// eager.bumpless_transfer(&mut state, &input);
     /// assert!((eager.step(&mut state, &input).command - before).abs() < 1e-9);
     /// # Ok::<(), bowden::Error>(())
     /// ```
-    pub fn take_over(&self, state: &mut AdaptiveState<T, N>, input: &AdaptiveInput<T, N>) {
+    pub fn bumpless_transfer(&self, state: &mut AdaptiveState<T, N>, input: &AdaptiveInput<T, N>) {
         let settings = &self.settings;
         let into = |value: T, low: T, high: T| Compensated::new(clamp(value, low, high));
         state.beta = into(state.beta.value, settings.beta.low, settings.beta.high);
@@ -74,16 +74,16 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         for (estimate, theta) in state.theta.iter_mut().zip(&settings.theta) {
             *estimate = into(estimate.value, theta.low, theta.high);
         }
-        state.held.command = settings.limits.confine(state.held.command);
+        state.held.command = settings.limits.clamp(state.held.command);
         self.settle(state, input);
     }
 
     /// Starts so that the next step on `input` commands `output` \[command unit\].
     ///
-    /// As [`AdaptiveState::resume_from`], for a state that is there: a sample that cannot be
-    /// used counts as a bad one, and where the safe command is latched it stays. So does the score
-    /// of the bad samples: whoever starts anew after each of them still gets the safe command.
-    /// `input.dt` is not read.
+    /// As [`AdaptiveState::resume_from`], for a running state. An unusable sample counts as a
+    /// bad one, and a latched safe command stays latched. The score of the bad samples stays
+    /// too, so a restart after each bad sample does not prevent the safe command.
+    /// `input.dt` is ignored.
     pub fn resume(
         &self,
         state: &mut AdaptiveState<T, N>,
@@ -110,7 +110,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         }
     }
 
-    /// Chooses z such that the law gives the held command on this input.
+    /// Chooses z so that the law gives the held command on this input.
     pub(super) fn settle(&self, state: &mut AdaptiveState<T, N>, input: &AdaptiveInput<T, N>) {
         let settings = &self.settings;
         let limit = settings.z_limit;
@@ -118,7 +118,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         state.error_rate = DerivativeState::new();
         state.gap = T::ZERO;
         let share = state.held.command - input.feed_forward;
-        // Also on a sample that cannot be used: the lag goes on from what is out.
+        // On an unusable sample too: the lag continues from the applied command.
         state.lag = Compensated::new(if share.is_finite() {
             share
         } else {
@@ -134,7 +134,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         }
     }
 
-    /// z at which the virtual command is `wanted`; not finite where the law overflows.
+    /// z for which the virtual command is `wanted`; not finite if the law overflows.
     pub(super) fn z_that_gives(
         &self,
         wanted: T,
@@ -159,16 +159,16 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         let (mut low, mut high) = (linear - reach, linear + reach);
         let (few, many) = HALVINGS;
         // A float of 24 digits, or one of 53.
-        let halvings = if T::epsilon() > T::of(1e-9) {
+        let halvings = if T::epsilon() > T::from_f64(1e-9) {
             few
         } else {
             many
         };
         let mut z = linear;
         for _ in 0..halvings {
-            z = low + (high - low) * T::of(0.5);
+            z = low + (high - low) * T::from_f64(0.5);
             let s = terms.error + settings.lambda * z;
-            // (linear - z)·slope is what the linear part gives above what is wanted.
+            // (linear - z)·slope is the excess of the linear part over the wanted command.
             let sign = settings.smooth_sign.of(s / settings.epsilon);
             if (linear - z) * slope > terms.delta_hat * sign {
                 low = z;

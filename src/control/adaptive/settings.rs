@@ -1,4 +1,4 @@
-//! What the law is made from, and the conditions it must meet.
+//! Settings of the law, and the conditions on them.
 
 use super::estimator::{self, BETA, DELTA, THETA};
 use super::{Adaptive, Estimator, Leakage, SmoothSign};
@@ -7,7 +7,7 @@ use crate::control::{Fallback, Limits};
 use crate::error::{above_zero, must_be_finite, not_below_zero};
 use crate::{Error, Real};
 
-/// How the error's rate enters the law: each form is for one kind of plant.
+/// Treatment of the error's rate in the law: each form is for one kind of plant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -16,46 +16,46 @@ use crate::{Error, Real};
 )]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Form<T> {
-    /// (23) as it stands, with a filtered difference of the error.
+    /// (23) as published, with a filtered difference of the error.
     ///
-    /// For a plant with inertia, whose output cannot follow the command at once. On a
-    /// static plant with one sample of delay it diverges unless
-    /// `g·(k + 2/(lambda·h)) < 1`: at 1 kHz g would have to be 0.004.
-    Literal {
-        /// Of the filter of the error's rate \[s\]: 2 to 20 ms.
+    /// For a plant with inertia, whose output cannot follow the command at once. On a static
+    /// plant with one sample of delay this form diverges unless `g·(k + 2/(lambda·h)) < 1`: at
+    /// 1 kHz g would have to be 0.004.
+    AsPublished {
+        /// Time constant of the filter of the error's rate \[s\]: 2 to 20 ms.
         time_constant: T,
     },
-    /// The error's rate solved for: the command follows through a lag of 1/lambda.
+    /// The law solved for the error's rate: the command follows through a lag of 1/lambda.
     ///
-    /// `u⁺ = u + h·lambda·(beta_hat·ubar - u)`. For a plant that answers within a
-    /// sample (a stiff drive, a blocked joint): there it is (22) exactly. On a plant with
-    /// inertia it diverges.
-    Lag {
-        /// Longest sample time that is intended \[s\].
+    /// `u⁺ = u + h·lambda·(beta_hat·ubar - u)`. For a plant that responds within a sample (a
+    /// stiff drive, a blocked joint) this form is (22) exactly. On a plant with inertia it
+    /// diverges.
+    FirstOrder {
+        /// Longest intended sample time \[s\].
         step: T,
         /// Upper bound of the plant's gain alpha \[N·m/command unit\].
         plant_gain: T,
     },
 }
 
-/// What a regressor that is not finite does: a NaN encoder need not open the torque loop.
+/// Response to a regressor that is not finite: a NaN encoder need not open the torque loop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Missing {
+pub enum OnMissing {
     /// A bad sample: the command is held.
     #[default]
     Hold,
-    /// Its term is left out of this sample's command, all estimates wait, the torque loop
-    /// stays closed: [`Status::Degraded`](crate::control::Status::Degraded).
-    Drop,
+    /// The command of this sample omits its term, all estimates stay unchanged, and the torque
+    /// loop stays closed: [`Status::Degraded`](crate::control::Status::Degraded).
+    DropRegressor,
 }
 
 /// Settings of an [`Adaptive`](super::Adaptive) law over `N` regressors, (19)-(26).
 ///
-/// A stored form without `limits`, `longest_dt` or `fallback` is refused: a table that was lost must
-/// not take them away. One of a simulation states them as `unlimited` gives them.
+/// A stored form without `limits`, `longest_dt` or `fallback` is refused: a lost table must not
+/// remove these safeguards. A stored form for simulation states them as `unlimited` does.
 ///
 /// ```
 /// use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form};
@@ -63,11 +63,11 @@ pub enum Missing {
 ///     beta: Estimator::fixed(1.0).within(0.8, 1.2).adapting(2.5e-4, 0.01),
 ///     delta: Estimator::fixed(1.0).within(0.0, 7.0).adapting(6e-3, 0.01),
 ///     ..AdaptiveSettings::<f64, 2>::unlimited(
-///         Form::Lag { step: 0.001, plant_gain: 1.0 }, // \[s\], [N·m/command unit]
+///         Form::FirstOrder { step: 0.001, plant_gain: 1.0 }, // \[s\], [N·m/command unit]
 ///         24.0, 8.0, 0.05,
 ///     )
 /// };
-/// // 1 ms is too long with this epsilon: the constructor says so, and what would do.
+/// // 1 ms is too long with this epsilon: the constructor refuses it.
 /// assert!(Adaptive::try_new(settings).is_err());
 /// assert!((settings.largest_step().unwrap() - 635e-6).abs() < 1e-6);
 /// let wider = AdaptiveSettings { epsilon: 0.1, ..settings };
@@ -87,7 +87,7 @@ pub enum Missing {
     )
 )]
 pub struct AdaptiveSettings<T, const N: usize> {
-    /// Literal or lag form.
+    /// Form as published, or first-order form.
     pub form: Form<T>,
     /// Control gain k, above zero.
     pub gain: T,
@@ -95,10 +95,10 @@ pub struct AdaptiveSettings<T, const N: usize> {
     pub lambda: T,
     /// epsilon \[N·m\], above zero: width of the smooth sign.
     ///
-    /// With one sample of delay at least a fortieth of the greatest delta_hat, or the
-    /// command chatters.
+    /// With one sample of delay, choose at least a fortieth of the greatest delta_hat.
+    /// Otherwise the command chatters.
     pub epsilon: T,
-    /// Which smooth sign.
+    /// The smooth sign function.
     #[cfg_attr(feature = "serde", serde(default))]
     pub smooth_sign: SmoothSign,
     /// Estimate of 1/alpha \[command unit/(N·m)\], (24).
@@ -108,34 +108,35 @@ pub struct AdaptiveSettings<T, const N: usize> {
     /// Estimates of theta_i \[N·m/unit of the regressor\], (26).
     #[cfg_attr(feature = "serde", serde(with = "super::list"))]
     pub theta: [Estimator<T>; N],
-    /// Most that the accumulated error z may be \[N·m·s\].
+    /// Greatest magnitude of the accumulated error z \[N·m·s\].
     #[cfg_attr(feature = "serde", serde(default = "T::max_value"))]
     pub z_limit: T,
-    /// The estimates stay as they are.
+    /// Whether the estimates are frozen.
     #[cfg_attr(feature = "serde", serde(default))]
     pub frozen: bool,
-    /// What each regressor does where it is not finite.
+    /// Response of each regressor to a value that is not finite.
     #[cfg_attr(
         feature = "serde",
         serde(with = "super::list", default = "all_hold::<N>")
     )]
-    pub missing: [Missing; N],
+    pub missing: [OnMissing; N],
     /// Range and slew rate of the command.
     pub limits: Limits<T>,
-    /// Longest `dt` that is a sample, above zero \[s\]: five nominal steps, say.
+    /// Longest `dt` of a good sample, above zero \[s\]: for example five nominal steps.
     ///
-    /// The lag form accepts none longer than [`largest_step`](Self::largest_step) either.
+    /// The first-order form also rejects a `dt` longer than
+    /// [`largest_step`](Self::largest_step).
     pub longest_dt: T,
-    /// What to command when samples stay bad.
+    /// Fallback after repeated bad samples.
     pub fallback: Fallback<T>,
 }
 
 #[cfg(feature = "serde")]
-fn all_hold<const N: usize>() -> [Missing; N] {
-    [Missing::Hold; N]
+fn all_hold<const N: usize>() -> [OnMissing; N] {
+    [OnMissing::Hold; N]
 }
 
-/// The largest step of the lag form, for any float and for constants.
+/// The largest step of the first-order form, for any float and for constants.
 macro_rules! largest_step {
     ($settings:ident, $plant_gain:ident, $T:ty) => {{
         let (s, one) = ($settings, <$T as Real>::ONE);
@@ -155,7 +156,7 @@ macro_rules! longest {
     ($settings:ident, $T:ty) => {{
         let s = $settings;
         match s.form {
-            Form::Lag { plant_gain, .. } => {
+            Form::FirstOrder { plant_gain, .. } => {
                 let largest: $T = largest_step!(s, plant_gain, $T);
                 if largest < s.longest_dt {
                     largest
@@ -163,7 +164,7 @@ macro_rules! longest {
                     s.longest_dt
                 }
             }
-            Form::Literal { .. } => s.longest_dt,
+            Form::AsPublished { .. } => s.longest_dt,
         }
     }};
 }
@@ -191,10 +192,10 @@ macro_rules! checks {
             }
         }
         match s.form {
-            Form::Literal { time_constant } => {
+            Form::AsPublished { time_constant } => {
                 not_below_zero!(time_constant, zero, "time_constant");
             }
-            Form::Lag { step, plant_gain } => {
+            Form::FirstOrder { step, plant_gain } => {
                 above_zero!(step, zero, "step");
                 above_zero!(plant_gain, zero, "plant_gain");
                 if s.beta.low <= zero {
@@ -246,8 +247,8 @@ constant!(f32);
 constant!(f64);
 
 impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
-    /// k, lambda \[1/s\] and epsilon \[N·m\] for a machine, with fixed estimates: start of a
-    /// struct update.
+    /// Settings for a machine with fixed estimates, from k, lambda \[1/s\] and epsilon \[N·m\]:
+    /// the base of a struct update.
     ///
     /// beta_hat is one, delta_hat and theta_hat are zero; `longest_dt` in \[s\].
     #[must_use]
@@ -268,8 +269,8 @@ impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
         }
     }
 
-    /// The same for a simulation: no limits, any `dt` that the form admits, the last command
-    /// for ever.
+    /// Settings for a simulation: no limits, any `dt` that the form admits, the last command
+    /// indefinitely.
     #[must_use]
     pub const fn unlimited(form: Form<T>, gain: T, lambda: T, epsilon: T) -> Self {
         Self {
@@ -283,23 +284,24 @@ impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
             theta: [Estimator::fixed(T::ZERO); N],
             z_limit: T::HIGHEST,
             frozen: false,
-            missing: [Missing::Hold; N],
+            missing: [OnMissing::Hold; N],
             limits: Limits::unlimited(),
             longest_dt: T::HIGHEST,
-            fallback: Fallback::hold_for_ever(),
+            fallback: Fallback::hold_indefinitely(),
         }
     }
 
-    /// Largest sample time \[s\] that the lag form admits; `None` for the literal form.
+    /// Largest sample time \[s\] that the first-order form admits; `None` for the form as
+    /// published.
     ///
-    /// `1/(lambda·max(1, g⁺·(k + delta_max/epsilon)))`, where g⁺ is the plant's gain
-    /// times the greatest beta_hat: then the error's map does not fall in s, and the box
-    /// theorem ([`PeakSampled`](crate::bound::PeakSampled)) holds. It can be asked of
-    /// settings that [`Adaptive::try_new`](super::Adaptive::try_new) refuses; not for
-    /// gains that are not positive and finite.
+    /// `1/(lambda·max(1, g⁺·(k + delta_max/epsilon)))`, where g⁺ is the plant's gain times the
+    /// greatest beta_hat. Up to this step the map of the error does not fall in s, and the box
+    /// theorem ([`PeakSampled`](crate::bound::PeakSampled)) holds. The method also serves
+    /// settings that [`Adaptive::try_new`](super::Adaptive::try_new) refuses. Its gains must be
+    /// positive and finite.
     #[must_use]
     pub fn largest_step(&self) -> Option<T> {
-        let Form::Lag { plant_gain, .. } = self.form else {
+        let Form::FirstOrder { plant_gain, .. } = self.form else {
             return None;
         };
         Some(largest_step!(self, plant_gain, T))
@@ -310,7 +312,7 @@ impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
         longest!(self, T)
     }
 
-    /// Everything that must hold.
+    /// Every condition on the settings.
     pub(super) fn check(&self) -> Result<(), Error> {
         checks!(self, T)
     }
@@ -319,10 +321,10 @@ impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
 impl<T: Real> AdaptiveSettings<T, 2> {
     /// Table 2, with the paper's initial estimates and no projection.
     ///
-    /// Literal form. The filter of the error's rate, 5 ms, is not in the paper. The
-    /// regressors are velocity \[rad/s\] and acceleration \[rad/s²\] of the proximal
-    /// pulley. beta_hat starts at zero, the singular point of the loop: the start-up
-    /// overshoots (Figure 9). Boxes and `beta.initial = 0.8/alpha` avoid that.
+    /// The form is as published. The filter of the error's rate, 5 ms, is not in the paper. The
+    /// regressors are velocity \[rad/s\] and acceleration \[rad/s²\] of the proximal pulley.
+    /// The estimate beta_hat starts at zero, the singular point of the loop, so the start-up
+    /// overshoots (Figure 9). Bounds and `beta.initial = 0.8/alpha` avoid this overshoot.
     ///
     /// ```
     /// use bowden::control::AdaptiveSettings;
@@ -332,16 +334,21 @@ impl<T: Real> AdaptiveSettings<T, 2> {
     /// ```
     #[must_use]
     pub fn paper() -> Self {
-        let leakage = T::of(0.01);
-        let velocity = Estimator::free(T::zero()).adapting(T::of(0.004 / 8.0), leakage);
-        let literal = Form::Literal {
-            time_constant: T::of(0.005),
+        let leakage = T::from_f64(0.01);
+        let velocity = Estimator::free(T::zero()).adapting(T::from_f64(0.004 / 8.0), leakage);
+        let literal = Form::AsPublished {
+            time_constant: T::from_f64(0.005),
         };
         Self {
-            beta: Estimator::free(T::zero()).adapting(T::of(0.002 / 8.0), leakage),
-            delta: Estimator::free(T::of(7.0)).adapting(T::of(0.05 / 8.0), leakage),
+            beta: Estimator::free(T::zero()).adapting(T::from_f64(0.002 / 8.0), leakage),
+            delta: Estimator::free(T::from_f64(7.0)).adapting(T::from_f64(0.05 / 8.0), leakage),
             theta: [velocity; 2],
-            ..Self::unlimited(literal, T::of(24.0), T::of(8.0), T::of(0.05))
+            ..Self::unlimited(
+                literal,
+                T::from_f64(24.0),
+                T::from_f64(8.0),
+                T::from_f64(0.05),
+            )
         }
     }
 }

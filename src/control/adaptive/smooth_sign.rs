@@ -1,13 +1,13 @@
-//! The smooth sign of the law: `tanh`, as the paper has it, or a clamped line.
+//! The smooth sign of the law: `tanh`, as in the paper, or a clamped line.
 
 use crate::signal::clamp;
 use crate::Real;
 
-/// Which smooth sign `T(x)` stands in (23) and (25), with `x = s/epsilon`.
+/// The smooth sign `T(x)` of (23) and (25), with `x = s/epsilon`.
 ///
-/// Both are odd, do not fall, have slope at most one and stay within `[-1, 1]`: all
-/// that the theorems use. The clamped line costs two comparisons and leaves less:
-/// the most of `x·(1 - T(x))` is 1/4 instead of 0.2785.
+/// Both functions are odd, do not fall, have a slope of at most one and stay within `[-1, 1]`;
+/// the theorems need no more. The clamped line costs two comparisons and has a smaller
+/// residual: the maximum of `x·(1 - T(x))` is 1/4 instead of 0.2785.
 ///
 /// ```
 /// use bowden::control::SmoothSign;
@@ -20,7 +20,7 @@ use crate::Real;
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum SmoothSign {
-    /// `tanh(x)`, (23) and (25).
+    /// `tanh(x)`.
     #[default]
     Tanh,
     /// `x` within `[-1, 1]`.
@@ -41,7 +41,7 @@ impl SmoothSign {
         }
     }
 
-    /// Largest `|x|·(1 - |T(x)|)`: what smoothing the sign costs the bounds.
+    /// Largest `|x|·(1 - |T(x)|)`: the contribution of the smooth sign to the bounds.
     ///
     /// W(1/e) = 0.27846 for `tanh` (Lemma 1 of the paper's reference 50), 1/4 for the
     /// clamped line.
@@ -53,8 +53,8 @@ impl SmoothSign {
     #[must_use]
     pub fn residue<T: Real>(self) -> T {
         match self {
-            Self::Tanh => T::of(TANH_RESIDUE),
-            Self::Clamp => T::of(0.25),
+            Self::Tanh => T::from_f64(TANH_RESIDUE),
+            Self::Clamp => T::from_f64(0.25),
         }
     }
 }

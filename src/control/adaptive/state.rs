@@ -1,8 +1,10 @@
-//! What goes into a step, what comes out, and what is kept between.
+//! Input, output and state of a step.
 
 use super::Adaptive;
 use crate::control::status::Held;
-use crate::control::Status;
+#[cfg(feature = "serde")]
+use crate::control::status::Latch;
+use crate::control::{Applied, Status};
 use crate::signal::{gap_after, Compensated, DerivativeState};
 use crate::Real;
 
@@ -14,7 +16,7 @@ pub struct AdaptiveInput<T, const N: usize> {
     pub dt: T,
     /// Reference y_r \[N·m\].
     pub reference: T,
-    /// Reference at the next sample \[N·m\]; only the lag form reads it.
+    /// Reference at the next sample \[N·m\]; only the first-order form reads it.
     pub next_reference: T,
     /// Measured output torque y \[N·m\].
     pub measured: T,
@@ -45,7 +47,7 @@ impl<T: Real, const N: usize> AdaptiveInput<T, N> {
     }
 }
 
-/// What [`Adaptive::step_with_terms`] gives: the command, and why.
+/// Output of [`Adaptive::step_with_terms`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct AdaptiveOutput<T, const N: usize> {
@@ -59,8 +61,8 @@ pub struct AdaptiveOutput<T, const N: usize> {
 
 /// Every term of the law in one step, with the estimates that the step used.
 ///
-/// After a bad sample, and where a regressor is left out ([`Status::Degraded`]), `z` and the
-/// estimates are those of the state; the rest is zero.
+/// After a bad sample, or with a dropped regressor ([`Status::Degraded`]), `z` and the
+/// estimates are those of the state; the other terms are zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -71,7 +73,7 @@ pub struct AdaptiveTerms<T, const N: usize> {
     pub z: T,
     /// s = e + lambda·z \[N·m\], (18).
     pub s: T,
-    /// Filtered rate of the error \[N·m/s\]; zero in the lag form.
+    /// Filtered rate of the error \[N·m/s\]; zero in the first-order form.
     pub error_rate: T,
     /// Smooth sign of s/epsilon.
     pub smooth_sign: T,
@@ -114,24 +116,47 @@ pub struct AdaptiveTerms<T, const N: usize> {
 pub struct AdaptiveState<T, const N: usize> {
     pub(super) z: Compensated<T>,
     pub(super) error_rate: DerivativeState<T>,
-    /// The law's share of the last command, which the lag form moves on from.
+    /// The law's share of the last command, from which the first-order form continues.
     pub(super) lag: Compensated<T>,
     pub(super) beta: Compensated<T>,
     pub(super) delta: Compensated<T>,
     #[cfg_attr(feature = "serde", serde(with = "super::list"))]
     pub(super) theta: [Compensated<T>; N],
     pub(super) held: Held<T>,
-    /// Time of the bad samples since the last good one \[s\]; the highest float where nobody
-    /// knows it: the error's rate then stays as it is for a sample.
+    /// Time of the bad samples since the last good one \[s\]. The highest float means an
+    /// unknown time: the error's rate then stays unchanged for a sample.
     pub(super) gap: T,
+    /// The limit of the drive at the last command; outdated if the latch is not set.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub(super) drive: Option<End>,
+}
+
+/// A limit of the drive.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(crate) enum End {
+    Upper,
+    Lower,
+}
+
+impl End {
+    /// Whether an error of this sign requires more than the drive gives.
+    pub(super) fn is_asked_for_more<T: Real>(self, error: T) -> bool {
+        match self {
+            Self::Upper => error < T::ZERO,
+            Self::Lower => error > T::ZERO,
+        }
+    }
 }
 
 impl<T: Real, const N: usize> AdaptiveState<T, N> {
-    /// The start: initial estimates, no accumulated error, the command nearest to zero.
+    /// A new state: initial estimates, no accumulated error, the command nearest to zero.
     #[must_use]
     pub fn new(law: &Adaptive<T, N>) -> Self {
         let settings = law.settings();
-        let command = settings.limits.confine(T::ZERO);
+        let command = settings.limits.clamp(T::ZERO);
         Self {
             z: Compensated::new(T::ZERO),
             error_rate: DerivativeState::new(),
@@ -141,30 +166,32 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
             theta: settings.theta.map(|theta| Compensated::new(theta.initial)),
             held: Held::new(command),
             gap: T::ZERO,
+            drive: None,
         }
     }
 
-    /// Back to the start, as [`new`](Self::new), but the command that is out stays known, and
-    /// with it the score of the bad samples and whether the safe command is out.
+    /// Resets to the start, as [`new`](Self::new), but keeps the applied command, the score of
+    /// the bad samples and the latch of the safe command.
     ///
-    /// A slew rate goes on from there, a bad sample holds it, and the next good one after an
-    /// acknowledged fault starts from it. For a state that knows of no command, assign
-    /// [`AdaptiveState::new`].
+    /// A slew rate and the first-order form continue from the applied command, and a bad sample
+    /// holds it. The next good sample after an acknowledged fault starts from it. For a state
+    /// without a command, assign [`AdaptiveState::new`].
     pub fn reset(&mut self, law: &Adaptive<T, N>) {
         *self = Self {
             held: self.held,
+            lag: Compensated::new(self.held.command),
             ..Self::new(law)
         };
     }
 
-    /// Makes a state that was stored fit for a start: the power was off, nothing is out.
+    /// Prepares a stored state for a start after a power-off: no command is applied.
     ///
-    /// As [`reset`](Self::reset), but the estimates stay and the command is the one nearest to zero
-    /// that the limits allow. A safe command that was latched stays so, and so does the score of the
-    /// bad samples. The first good sample starts from that command, as after
-    /// [`acknowledge`](Self::acknowledge). A step on a stored state *without* this goes on with the
-    /// command of then.
-    pub fn power_up(&mut self, law: &Adaptive<T, N>) {
+    /// As [`reset`](Self::reset), but the estimates stay, and the command becomes the one
+    /// nearest to zero within the limits. A latched safe command stays latched, and the score
+    /// of the bad samples is kept. The first good sample starts from this command, as after
+    /// [`acknowledge`](Self::acknowledge). Without this call a step on a stored state continues
+    /// with the stored command.
+    pub fn restore(&mut self, law: &Adaptive<T, N>) {
         let fresh = Self::new(law);
         *self = Self {
             beta: self.beta,
@@ -175,12 +202,35 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
         };
     }
 
-    /// Takes note that somebody has seen the fault: the loop may be closed again.
+    /// Acknowledges the fault: the next good sample closes the loop again.
     ///
-    /// While the safe command is latched ([`Status::Safe`]) nothing else closes it. The next
-    /// good sample then goes on from the safe command, with the estimates as they were.
+    /// While the safe command is latched ([`Status::Safe`]) only this call ends it. The next
+    /// good sample then continues from the safe command, with unchanged estimates.
     pub fn acknowledge(&mut self) {
         self.held.acknowledge();
+    }
+
+    /// Reports the drive's response to the last command, if the drive did not apply it.
+    ///
+    /// Call this method between two steps. The slew rate and the first-order form then continue
+    /// from the applied command. At the next good sample z moves no further towards this limit of
+    /// the drive. The estimates do not change, as at a limit of the law itself. See [`Applied`].
+    pub fn applied(&mut self, applied: Applied<T>) {
+        let out = self.held.command;
+        self.drive = match applied {
+            Applied::AtUpperLimit => Some(End::Upper),
+            Applied::AtLowerLimit => Some(End::Lower),
+            Applied::Command(sent) if sent.is_finite() && sent != out => {
+                let lag = self.lag.value + (sent - out);
+                if lag.is_finite() {
+                    self.lag = Compensated::new(lag);
+                }
+                self.held.command = sent;
+                Some(if sent < out { End::Upper } else { End::Lower })
+            }
+            Applied::AsCommanded | Applied::Command(_) => return,
+        };
+        self.held.tell();
     }
 
     /// Accumulated error z \[N·m·s\], (17).
@@ -207,7 +257,7 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
         self.theta.map(|theta| theta.value)
     }
 
-    /// The command that is out \[command unit\].
+    /// The applied command \[command unit\].
     #[must_use]
     pub fn command(&self) -> T {
         self.held.command
@@ -215,7 +265,7 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
 
     /// Score of the bad samples, see [`Fallback`](crate::control::Fallback).
     #[must_use]
-    pub fn bad_score(&self) -> u32 {
+    pub fn fault_counter(&self) -> u32 {
         self.held.score
     }
 
@@ -231,7 +281,7 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
     }
 }
 
-/// What is read before it is checked.
+/// The stored form, before its checks.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields, bound = "T: Real + serde::Deserialize<'de>")]
@@ -245,13 +295,15 @@ struct Unchecked<T, const N: usize> {
     theta: [Compensated<T>; N],
     held: Held<T>,
     gap: T,
+    #[serde(default)]
+    drive: Option<End>,
 }
 
 #[cfg(feature = "serde")]
 impl<T: Real, const N: usize> TryFrom<Unchecked<T, N>> for AdaptiveState<T, N> {
     type Error = crate::Error;
 
-    /// Refuses numbers that are not finite; [`Adaptive::is_valid`] says more, of one law.
+    /// Refuses numbers that are not finite; [`Adaptive::is_valid`] checks more, for one law.
     fn try_from(raw: Unchecked<T, N>) -> Result<Self, crate::Error> {
         let sums = [raw.z, raw.lag, raw.beta, raw.delta];
         let finite = sums.iter().chain(&raw.theta).all(Compensated::is_finite)
@@ -264,6 +316,10 @@ impl<T: Real, const N: usize> TryFrom<Unchecked<T, N>> for AdaptiveState<T, N> {
                 "a state has finite numbers and no negative gap",
             ));
         }
+        let (told, mut held) = (raw.held.latch == Latch::Told, raw.held.remembering());
+        if told {
+            held.tell();
+        }
         Ok(Self {
             z: raw.z,
             error_rate: raw.error_rate,
@@ -271,8 +327,9 @@ impl<T: Real, const N: usize> TryFrom<Unchecked<T, N>> for AdaptiveState<T, N> {
             beta: raw.beta,
             delta: raw.delta,
             theta: raw.theta,
-            held: raw.held.remembering(),
+            held,
             gap: raw.gap,
+            drive: raw.drive,
         })
     }
 }

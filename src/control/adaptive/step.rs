@@ -1,7 +1,8 @@
 //! One step of the law, in the order that the theorems assume.
 
+use super::state::End;
 use super::{Adaptive, AdaptiveInput, AdaptiveOutput, AdaptiveState, AdaptiveTerms};
-use super::{Form, Missing};
+use super::{Form, OnMissing};
 use crate::control::status::{fault_of_dt, unless_finite, Latch};
 use crate::control::{Fault, Output, Status};
 use crate::error::{is_usable, rarely};
@@ -9,30 +10,34 @@ use crate::signal::{Compensated, Derivative, DerivativeState};
 use crate::Real;
 
 impl<T: Real, const N: usize> Adaptive<T, N> {
-    /// The command \[command unit\] for one sample; call it once a sample.
+    /// The command \[command unit\] for one sample; call this method once a sample.
     ///
-    /// In order: `e = y - y_r`; `s = e + lambda·z`, with z as the samples before left it;
-    /// the command from the estimates of the samples before; then `z⁺ = z + dt·e` and the
-    /// estimates from (s, ubar, x), each into its box. Were z updated before s, the exact
-    /// recursion of the lag form, and with it the box theorem, would not hold.
+    /// The order of a step is:
+    /// 1. `e = y - y_r`, and `s = e + lambda·z` with z from the previous sample;
+    /// 2. the command, from the estimates of the previous sample;
+    /// 3. `z⁺ = z + dt·e`, and the estimates from (s, ubar, x), each clamped to its bounds.
     ///
-    /// Where a limit cuts the command, z does not move further against that limit, and the
-    /// estimates wait while s asks for more than the limit gives; both unwind at once.
+    /// With z updated before s, the exact recursion of the first-order form and the box theorem
+    /// would not hold.
     ///
-    /// A bad sample leaves the state and holds the last good command, see
-    /// [`control`](crate::control). A `dt` longer than [`longest_dt`](Self::longest_dt)
-    /// counts as one. So does a sample that is finite but so large that the law
-    /// overflows ([`Fault::Overflow`]). The command is within the limits **from any state**,
-    /// one that was stored or that belongs to another law included.
+    /// If a limit cuts the command, or the drive is at a limit (see [`AdaptiveState::applied`]), z
+    /// does not move further against that limit. The estimates do not change while s requires more
+    /// than the limit allows. Both unwind at once.
+    ///
+    /// A bad sample leaves the state unchanged and holds the last good command, see
+    /// [`control`](crate::control). A `dt` longer than [`longest_dt`](Self::longest_dt) is a
+    /// bad sample. So is a finite sample so large that the law overflows ([`Fault::Overflow`]).
+    /// The command is within the limits **for any state**, including a stored state and a state
+    /// of another law.
     #[inline]
     pub fn step(&self, state: &mut AdaptiveState<T, N>, input: &AdaptiveInput<T, N>) -> Output<T> {
         if state.held.may_step() {
-            if let Some(command) = self.advance(state, input, self.settings.frozen) {
+            if let Some(command) = self.advance(state, input, self.settings.frozen, None) {
                 let status = Status::Good;
                 return Output { command, status };
             }
         }
-        // Number by number, so that the sample of a good step stays in registers.
+        // Passed field by field, so that the sample of a good step stays in registers.
         let mut sample = AdaptiveInput {
             dt: input.dt,
             reference: input.reference,
@@ -44,9 +49,9 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         self.exception(state, &mut sample)
     }
 
-    /// The same, and every term for telemetry: [`terms`](Self::terms) before the step.
+    /// The same step with every term for telemetry: [`terms`](Self::terms) before the step.
     ///
-    /// `limited` is told of the command that went out.
+    /// `limited` refers to the applied command.
     pub fn step_with_terms(
         &self,
         state: &mut AdaptiveState<T, N>,
@@ -81,8 +86,8 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         self.evaluated(state, input).terms
     }
 
-    /// The command of a good sample, which moves the state; `None`, and nothing has moved,
-    /// where a number cannot be used or the law overflows.
+    /// The command of a good sample, which advances the state. `None` leaves the state
+    /// unchanged: a number cannot be used, or the law overflows.
     ///
     /// Inlined where the usual step calls it; the exceptions have their own copy.
     #[inline(always)]
@@ -91,6 +96,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         state: &mut AdaptiveState<T, N>,
         input: &AdaptiveInput<T, N>,
         frozen: bool,
+        drive: Option<End>,
     ) -> Option<T> {
         let dt = input.dt;
         let mut given = (input.measured - input.reference) + input.next_reference;
@@ -112,16 +118,20 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         let limits = &settings.limits;
         let mut command = terms.unlimited;
         let (mut z_waits, mut estimates_wait) = (false, frozen);
-        if limits.slew().is_some() || !limits.contains(command) {
+        if limits.slew().is_some() || !limits.contains(command) || drive.is_some() {
             rarely();
             command = limits.apply(state.held.command, terms.unlimited, dt);
-            // An error of this sign asks for more than the limit gives.
+            // An error of this sign requires more than the limit gives.
             let asks_more = |error: T| {
                 (command < terms.unlimited && error < T::ZERO)
                     || (command > terms.unlimited && error > T::ZERO)
             };
             z_waits = asks_more(terms.error);
             estimates_wait |= asks_more(terms.s);
+            if let Some(end) = drive {
+                z_waits |= end.is_asked_for_more(terms.error);
+                estimates_wait |= end.is_asked_for_more(terms.s);
+            }
             if command != terms.unlimited {
                 lag = Compensated::new(command - input.feed_forward);
                 all += lag.value;
@@ -164,11 +174,12 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         input: &AdaptiveInput<T, N>,
         frozen: bool,
     ) -> Option<T> {
-        self.advance(state, input, frozen)
+        let told = state.held.latch == Latch::Told;
+        self.advance(state, input, frozen, state.drive.filter(|_| told))
     }
 
     /// A bad sample, a dropped regressor, a latched safe command, or the first good sample
-    /// after one. What may be dropped of the sample becomes zero in it.
+    /// after one. The droppable parts of the sample become zero.
     #[cold]
     #[inline(never)]
     fn exception(
@@ -180,8 +191,12 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         let status = match state.held.latched(fallback) {
             Some(safe) => safe,
             None => match self.live(state, input) {
-                Ok(None) => Status::Good,
-                Ok(Some(dropped)) => Status::Degraded(dropped),
+                Ok(dropped) => {
+                    if matches!(state.held.latch, Latch::Returning | Latch::Told) {
+                        state.held.good();
+                    }
+                    dropped.map_or(Status::Good, Status::Degraded)
+                }
                 Err(fault) => {
                     state.wait(input.dt, self.longest);
                     state.held.bad_after_step(fault, fallback)
@@ -189,13 +204,13 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
             },
         };
         Output {
-            // A state may come from anywhere.
-            command: self.settings.limits.confine(state.held.command),
+            // The state may come from any source.
+            command: self.settings.limits.clamp(state.held.command),
             status,
         }
     }
 
-    /// A sample without what may be dropped of it; the first fault that was dropped.
+    /// A sample without its droppable parts; the first fault that was dropped.
     fn live(
         &self,
         state: &mut AdaptiveState<T, N>,
@@ -211,10 +226,10 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         command.map(|_| dropped).ok_or(Fault::Overflow)
     }
 
-    /// The first good sample after a safe command that was acknowledged.
+    /// The first good sample after an acknowledged safe command.
     ///
-    /// The lag goes on from the safe command; the literal form starts where it gives that
-    /// command. The estimates are as they were.
+    /// The lag continues from the safe command; the form as published starts where it gives
+    /// this command. The estimates are unchanged.
     fn close(
         &self,
         state: &mut AdaptiveState<T, N>,
@@ -225,16 +240,14 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         let (lag, gap, command) = (state.lag, state.gap, state.held.command);
         self.go_back(state, live);
         let next = self.advance_again(state, live, frozen);
-        if next.is_some() {
-            state.held.close();
-        } else {
+        if next.is_none() {
             (state.z, state.error_rate) = (z, error_rate);
             (state.lag, state.gap, state.held.command) = (lag, gap, command);
         }
         next
     }
 
-    /// The state from which the first good sample after a safe command goes on.
+    /// The state from which the first good sample after a safe command continues.
     fn returned(
         &self,
         state: &AdaptiveState<T, N>,
@@ -245,28 +258,28 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         next
     }
 
-    /// Takes a state there: z, rate, lag, gap and command. A call, for its bisection needs a stack
-    /// of its own.
+    /// Moves a state there: z, rate, lag, gap and command. A call, because its bisection needs
+    /// a stack frame of its own.
     #[inline(never)]
     fn go_back(&self, state: &mut AdaptiveState<T, N>, live: &AdaptiveInput<T, N>) {
-        state.held.command = self.settings.limits.confine(state.held.command);
+        state.held.command = self.settings.limits.clamp(state.held.command);
         match self.settings.form {
-            Form::Literal { .. } => self.settle(state, live),
-            Form::Lag { .. } => {
+            Form::AsPublished { .. } => self.settle(state, live),
+            Form::FirstOrder { .. } => {
                 state.gap = T::ZERO;
                 state.lag = Compensated::new(state.held.command - live.feed_forward);
             }
         }
     }
 
-    /// Takes the regressors that may be dropped out of a sample; the first that was.
+    /// Removes the droppable regressors from a sample; returns the first fault.
     ///
     /// In place: a second sample would be on the stack of the deepest call.
     fn drop_missing(&self, input: &mut AdaptiveInput<T, N>) -> Result<Option<Fault>, Fault> {
         let mut dropped = None;
         let policies = &self.settings.missing;
         for ((i, x), missing) in input.regressors.iter_mut().enumerate().zip(policies) {
-            if !x.is_finite() && *missing == Missing::Drop {
+            if !x.is_finite() && *missing == OnMissing::DropRegressor {
                 *x = T::ZERO;
                 dropped = dropped.or(Some(Fault::Regressor(u8::try_from(i).unwrap_or(u8::MAX))));
             }
@@ -277,12 +290,12 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         }
     }
 
-    /// What is wrong with a sample, where something is; not whether the law overflows on it.
+    /// The fault of a sample, if there is one; an overflow of the law is not included.
     pub(super) fn fault(&self, input: &AdaptiveInput<T, N>) -> Option<Fault> {
         fault_of_dt(input.dt, self.longest).or_else(|| self.fault_of_numbers(input))
     }
 
-    /// The same of its numbers, whatever its `dt`.
+    /// The fault of the numbers of a sample, without a test of `dt`.
     pub(super) fn fault_of_numbers(&self, input: &AdaptiveInput<T, N>) -> Option<Fault> {
         let bad = |x: &T| !x.is_finite();
         unless_finite(input.reference, Fault::Reference)
@@ -295,7 +308,8 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
             .or_else(|| unless_finite(input.feed_forward, Fault::FeedForward))
     }
 
-    /// The law (18), (19), (23), or its lag form, and where it leaves its two memories.
+    /// The law (18), (19), (23), or its first-order form, and the new values of its two
+    /// memories.
     #[inline]
     pub(super) fn evaluated(
         &self,
@@ -305,7 +319,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         let settings = &self.settings;
         let error = input.measured - input.reference;
         let mut rate = state.error_rate;
-        if let Form::Literal { time_constant } = settings.form {
+        if let Form::AsPublished { time_constant } = settings.form {
             let filter = Derivative::assumed(time_constant);
             filter.follow(&mut rate, error, input.dt + state.gap);
         }
@@ -314,7 +328,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
             feed_forward: input.feed_forward,
             ..AdaptiveTerms::at_rest(state)
         };
-        if let Form::Literal { .. } = settings.form {
+        if let Form::AsPublished { .. } = settings.form {
             terms.error_rate = rate.rate();
         }
         terms.s = error + settings.lambda * terms.z;
@@ -322,8 +336,8 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         terms.virtual_command = self.virtual_command(&terms, input);
         let wanted = terms.beta_hat * terms.virtual_command;
         let lag = match settings.form {
-            Form::Literal { .. } => Compensated::new(wanted),
-            Form::Lag { .. } => {
+            Form::AsPublished { .. } => Compensated::new(wanted),
+            Form::FirstOrder { .. } => {
                 let way = wanted - state.lag.value;
                 state.lag.plus(input.dt * settings.lambda * way)
             }
@@ -337,7 +351,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         }
     }
 
-    /// ubar of (23), where the lag form has the reference's rate for the error's.
+    /// ubar of (23); the first-order form uses the reference's rate for the error's rate.
     #[inline]
     pub(super) fn virtual_command(
         &self,
@@ -351,8 +365,10 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         }
         let proportional = -settings.gain * terms.s + input.reference;
         let damped = match settings.form {
-            Form::Literal { .. } => proportional - (terms.error_rate + terms.z) / settings.lambda,
-            Form::Lag { .. } => {
+            Form::AsPublished { .. } => {
+                proportional - (terms.error_rate + terms.z) / settings.lambda
+            }
+            Form::FirstOrder { .. } => {
                 let rate = (input.next_reference - input.reference) / input.dt;
                 proportional + (rate - terms.z) / settings.lambda
             }
@@ -387,7 +403,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
 pub(super) type Estimates<T, const N: usize> =
     (Compensated<T>, Compensated<T>, [Compensated<T>; N]);
 
-/// The law on one sample, and where it leaves its memories.
+/// The law on one sample, and the new values of its memories.
 pub(super) struct Evaluated<T, const N: usize> {
     pub(super) terms: AdaptiveTerms<T, N>,
     pub(super) error_rate: DerivativeState<T>,
@@ -395,7 +411,7 @@ pub(super) struct Evaluated<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> AdaptiveTerms<T, N> {
-    /// What a state alone says: z and the estimates.
+    /// The terms of a state alone: z and the estimates.
     pub(super) fn at_rest(state: &AdaptiveState<T, N>) -> Self {
         let zero = T::zero();
         Self {

@@ -1,4 +1,4 @@
-//! A compensator for a model that cannot be turned round as it is.
+//! A compensator for a model without an exact inverse.
 
 use super::Compensator;
 use crate::model::{Model, Term};
@@ -15,59 +15,61 @@ pub struct Lowered<T> {
     pub to: T,
 }
 
-/// In what a [`Compensator`] differs from the model that it was made of.
+/// The differences between a [`Compensator`] and its model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Changed<T, const N: usize> {
-    /// Sigma, where it was lowered.
+    /// Sigma, if it was lowered.
     pub sigma: Option<Lowered<T>>,
-    /// Rho \[1/input unit\], where sigma = 1/2 was not enough.
+    /// Rho \[1/input unit\], if sigma = 1/2 was not sufficient.
     pub rho: Option<Lowered<T>>,
     left_out: [bool; N],
 }
 
 impl<T: Real, const N: usize> Changed<T, N> {
-    /// Whether the compensator is the model's own, as of [`Compensator::try_new`].
+    /// Whether the compensator is the model's own, as from [`Compensator::try_new`].
     #[must_use]
     pub fn is_nothing(&self) -> bool {
         self.sigma.is_none() && self.rho.is_none() && self.left_out().next().is_none()
     }
 
-    /// The terms that are not fed forward, by their place in [`Model::terms`].
+    /// The terms without feed-forward, by their index in [`Model::terms`].
     pub fn left_out(&self) -> impl Iterator<Item = usize> + '_ {
         let places = self.left_out.iter().enumerate();
         places.filter_map(|(term, &is_left_out)| is_left_out.then_some(term))
     }
 }
 
-/// What cannot be subtracted from the desired output.
+/// The terms that cannot be subtracted from the desired output.
 fn is_stage<T: Real>(term: &Term<T>) -> bool {
     term.effect.is_output_stage() || term.effect.is_input_stage()
 }
 
 impl<T: Real, const N: usize> Compensator<T, N> {
-    /// Turns the nearest model round that can be, and tells what it changed.
+    /// Inverts the nearest invertible model and returns the changes.
     ///
     /// The transmission becomes
     /// [`Transmission::nearest_invertible`](crate::transmission::Transmission::nearest_invertible):
-    /// sigma is lowered to `|gain|/(2·|kappa_eta|·rho)`; where that is below 1/2, sigma
-    /// becomes 1/2 and rho `|gain|/|kappa_eta|`. Output stages (delay, lag) and input
-    /// stages (a play in series) are left out; the other terms keep their places, so a
+    /// - sigma is lowered to `|gain|/(2·|kappa_eta|·rho)`;
+    /// - if this value is below 1/2, sigma becomes 1/2 and rho becomes `|gain|/|kappa_eta|`.
+    ///
+    /// Output stages (delay, lag) and input stages (a play in series) are excluded. The other
+    /// terms keep their indices, so a
     /// [`Fault::Regressor`](crate::control::Fault::Regressor) still counts as in the model.
     ///
-    /// What it costs is the error of the true model behind the command: a feed-forward is
-    /// best judged by running the one behind the other, as `examples/nearest.rs` does. A
-    /// model that was fitted within the bound from the start costs less than one that was
-    /// lowered to it.
+    /// The cost is the error of the true model behind the command. To measure it, run the
+    /// feed-forward and the true model in series, as `examples/nearest.rs` does. A model that
+    /// was fitted within the bound has a smaller error than one that was lowered to the bound
+    /// afterwards.
     ///
     /// ```
     /// use bowden::control::Compensator;
     /// use bowden::effect::Effect;
-    /// use bowden::hysteresis::Shape;
+    /// use bowden::hysteresis::BoucWen;
     /// use bowden::model::{Model, Source, Term};
     /// use bowden::transmission::Transmission;
     ///
-    /// let cable = Transmission::torque(0.952, 2.29, 0.05, Shape::try_new(0.382, 2.97, 1.02)?)?;
+    /// let cable = Transmission::torque(0.952, 2.29, 0.05, BoucWen::try_new(0.382, 2.97, 1.02)?)?;
     /// let term = |effect, gain| Term { effect, source: Source::Channel(0), origin: 0.0, gain };
     /// let terms = [term(Effect::Viscous, -0.264), term(Effect::Delay, 0.002_f32)];
     /// let model = Model::<f32, 2>::try_new(Some(cable), &terms)?;
@@ -80,8 +82,8 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Inadmissible`] where the model has no transmission or its gain is zero;
-    /// [`Error::OutOfRange`] with `"rho"` where no float is small enough for it.
+    /// [`Error::Inadmissible`] if the model has no transmission or its gain is zero;
+    /// [`Error::OutOfRange`] with `"rho"` if no float is small enough for it.
     pub fn try_nearest(model: &Model<T, N>) -> Result<(Self, Changed<T, N>), Error> {
         let identified = *model
             .transmission()

@@ -1,8 +1,8 @@
-//! The cells of a cycle, whose end is its start.
+//! The cells of a cycle as a ring.
 
 use crate::Real;
 
-/// The cell that comes `by` before another, of a cycle with so many.
+/// The cell that lies `by` before another, in a cycle of the given number of cells.
 #[inline]
 pub(super) fn back(cell: usize, by: usize, cells: usize) -> usize {
     if cell >= by {
@@ -23,10 +23,10 @@ pub(super) fn next(cell: usize, cells: usize) -> usize {
     }
 }
 
-/// Between the middles of the cells by straight lines.
+/// Linear interpolation between the middles of the cells.
 #[inline]
 pub(super) fn between<T: Real>(cells: &[T], cell: usize, part: T) -> T {
-    let half = T::of(0.5);
+    let half = T::from_f64(0.5);
     let (before, after, share) = if part < half {
         (back(cell, 1, cells.len()), cell, part + half)
     } else {
@@ -39,7 +39,7 @@ pub(super) fn between<T: Real>(cells: &[T], cell: usize, part: T) -> T {
 /// The mean of the cells around one, weighted by a triangle.
 pub(super) fn triangle<T: Real>(cells: &[T], around: usize, half_width: usize) -> T {
     let value = |cell: usize| cells.get(cell).copied().unwrap_or(T::ZERO);
-    let most = T::of(half_width as f64) + T::ONE;
+    let most = T::from_f64(half_width as f64) + T::ONE;
     let (mut weight, mut sum) = (most, most * value(around));
     let (mut below, mut above) = (around, around);
     for _ in 0..half_width {

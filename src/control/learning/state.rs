@@ -1,40 +1,42 @@
-//! What [`Learning`](super::Learning) remembers: two buffers, and the cell that it is in.
+//! State of [`IterativeLearning`](super::IterativeLearning): two buffers and the present cell.
 
 use crate::Real;
 
-/// State of [`Learning`](super::Learning) over two buffers, arrays or slices, from
-/// [`start`](super::Learning::start) or [`resume`](super::Learning::resume).
+/// State of [`IterativeLearning`](super::IterativeLearning) over two buffers, arrays or slices, from
+/// [`start`](super::IterativeLearning::start) or [`resume`](super::IterativeLearning::resume).
 ///
 /// ```
-/// use bowden::control::Learning;
-/// let learning = Learning::try_new(4.0_f32, 30.0, 2, 2)?;
+/// use bowden::control::IterativeLearning;
+/// let learning = IterativeLearning::try_new(4.0_f32, 30.0, 2, 2)?;
 /// let state = learning.start([0.0; 100], [0.0; 100])?;
 /// assert_eq!((state.learned().len(), state.feed_forward()), (100, 0.0));
-/// // Or over buffers that somebody else owns.
+/// // Or over borrowed buffers.
 /// let (mut learned, mut unfiltered) = (vec![0.0; 100], vec![0.0; 100]);
 /// let state = learning.start(&mut learned[..], &mut unfiltered[..])?;
 /// # assert_eq!(state.learned().len(), 100);
 /// # Ok::<(), bowden::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct LearningState<T, M> {
+pub struct IterativeLearningState<T, M> {
     pub(super) learned: M,
-    /// What the cells would have learned without the filter.
+    /// Learned values of the cells before the filter.
     pub(super) unfiltered: M,
-    /// The cell that is gathered from; none of them before the first sample.
+    /// The present cell; none before the first sample.
     pub(super) cell: usize,
-    /// Of the errors in that cell, and how many.
+    /// Sum of the errors in this cell, and their number.
     pub(super) sum: T,
     pub(super) count: T,
     pub(super) output: T,
-    /// Samples in that cell that are not to be learned from.
+    /// Samples in this cell from which the law does not learn.
     pub(super) missed: u16,
-    /// Whole cells that were left since a jump, the start, or one that was not to be learned from.
+    /// Whole cells since a jump, the start, or a cell without learning.
     pub(super) since: u16,
 }
 
-impl<T: Real, M: AsRef<[T]>> LearningState<T, M> {
+impl<T: Real, M: AsRef<[T]>> IterativeLearningState<T, M> {
     pub(super) fn over(learned: M, unfiltered: M) -> Self {
         Self {
             learned,
@@ -48,8 +50,8 @@ impl<T: Real, M: AsRef<[T]>> LearningState<T, M> {
         }
     }
 
-    /// What each cell has learned \[command unit\], within ±limit: for a plot, or to be stored for
-    /// [`resume`](super::Learning::resume).
+    /// The learned value of each cell \[command unit\], within ±limit: for a plot, or to be
+    /// stored for [`resume`](super::IterativeLearning::resume).
     #[inline]
     #[must_use]
     pub fn learned(&self) -> &[T] {
@@ -62,26 +64,26 @@ impl<T: Real, M: AsRef<[T]>> LearningState<T, M> {
         self.output
     }
 
-    /// The cell of a phase from 0 to 1, and how far in it that is, from 0 to 1.
+    /// The cell of a phase from 0 to 1, and the position in this cell, from 0 to 1.
     #[inline]
     pub(super) fn place(&self, phase: T) -> Option<(usize, T)> {
         if !(T::ZERO <= phase && phase <= T::ONE) {
             return None;
         }
         let cells = self.learned().len();
-        let along = phase * T::of(cells as f64);
+        let along = phase * T::from_f64(cells as f64);
         let cell = along.to_usize()?;
-        // The end of a cycle is the start of the next; rounding may lead there too.
+        // The end of a cycle is the start of the next; rounding may reach this end too.
         if cell >= cells {
             return Some((0, T::ZERO));
         }
-        Some((cell, along - T::of(cell as f64)))
+        Some((cell, along - T::from_f64(cell as f64)))
     }
 
-    /// Whether the error of a cell that is left is that of what was out in the cell `lead` before it,
-    /// and may be learned from; counts the cell.
+    /// Whether the error of a finished cell belongs to the command of the cell `lead` before
+    /// it, and is usable; counts the cell.
     pub(super) fn may_teach(&mut self, lead: u16) -> bool {
-        if T::of(f64::from(self.missed)) > self.count {
+        if T::from_f64(f64::from(self.missed)) > self.count {
             self.since = 0;
             return false;
         }
@@ -90,7 +92,7 @@ impl<T: Real, M: AsRef<[T]>> LearningState<T, M> {
         teaches
     }
 
-    /// Begins to gather in another cell.
+    /// Starts the mean of another cell.
     pub(super) fn begin(&mut self, cell: usize) {
         self.cell = cell;
         self.sum = T::ZERO;

@@ -1,4 +1,4 @@
-//! What a command does without friction.
+//! The nominal plant: response to a command without friction.
 
 use crate::error::{above_zero, finite, must_be_finite, not_below_zero};
 use crate::signal::Motion;
@@ -6,14 +6,14 @@ use crate::{Error, Real};
 
 /// The nominal plant from command to output, `P(s) = alpha/(s²/wn² + 2·zeta·s/wn + 1)`.
 ///
-/// Of a motor with inertia J and damping c that works through the cable against a stiffness K:
-/// `wn = √(K/J)`, `zeta = c/(2·√(K·J))`, alpha the torque of one command unit. Where they
-/// are uncertain, err low with wn and alpha.
+/// For a motor with inertia J and damping c that works through the cable against a stiffness K:
+/// `wn = √(K/J)`, `zeta = c/(2·√(K·J))`, and alpha is the torque of one command unit. If wn and
+/// alpha are uncertain, choose low values.
 ///
 /// ```
 /// use bowden::control::NominalPlant;
 /// use bowden::signal::Motion;
-/// // 0.6 N·m a unit, 0.2 kg·m², 2.7 N·m·s/rad, 130 N·m/rad.
+/// // 0.6 N·m per unit, 0.2 kg·m², 2.7 N·m·s/rad, 130 N·m/rad.
 /// let plant = NominalPlant::of_mechanics(0.6_f64, 0.2, 2.7, 130.0)?;
 /// assert!((plant.natural_frequency() - 25.5).abs() < 0.01); // [rad/s]
 /// assert!((plant.damping_ratio() - 0.265).abs() < 0.001);
@@ -70,13 +70,13 @@ impl<T: Real> NominalPlant<T> {
         plant!(gain, natural_frequency, damping_ratio, T::ZERO, T::ONE)
     }
 
-    /// From the drive's data sheet: torque of one command unit at rest, inertia > 0
-    /// \[kg·m²\], viscous damping ≥ 0 \[N·m·s/rad\] and stiffness > 0 \[N·m/rad\], that of
-    /// cable and load one behind the other.
+    /// A plant from the drive's specification: torque of one command unit at rest, inertia > 0
+    /// \[kg·m²\], viscous damping ≥ 0 \[N·m·s/rad\] and stiffness > 0 \[N·m/rad\]. The
+    /// stiffness is that of cable and load in series.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the name of the parameter, or of the
-    /// derived one that is none.
+    /// derived parameter that is invalid.
     pub fn of_mechanics(gain: T, inertia: T, damping: T, stiffness: T) -> Result<Self, Error> {
         for (value, name) in [(inertia, "inertia"), (stiffness, "stiffness")] {
             if finite(value, name)? <= T::ZERO {
@@ -90,7 +90,7 @@ impl<T: Real> NominalPlant<T> {
         Self::try_new(
             gain,
             (stiffness / inertia).sqrt(),
-            damping / (T::of(2.0) * root),
+            damping / (T::from_f64(2.0) * root),
         )
     }
 
@@ -115,11 +115,11 @@ impl<T: Real> NominalPlant<T> {
         self.damping_ratio
     }
 
-    /// The command that makes the nominal plant follow: `P⁻¹` of the output that is wanted,
-    /// with its rates \[output unit, /s, /s²\].
+    /// The command for which the nominal plant follows the desired output: `P⁻¹` of the output
+    /// and its rates \[output unit, /s, /s²\].
     ///
-    /// Take the reference as far ahead as a command needs to show in the output. It is what it
-    /// is: not finite where the motion is not, which a controller refuses.
+    /// Use the reference ahead of time by the latency of a command. The result is not checked:
+    /// it is not finite if the motion is not, and a controller rejects it.
     #[inline]
     #[must_use]
     pub fn feed_forward(&self, wanted: &Motion<T>) -> T {
@@ -131,7 +131,7 @@ impl<T: Real> NominalPlant<T> {
     #[inline]
     fn terms(&self) -> (T, T) {
         let slow = self.natural_frequency.recip();
-        (T::of(2.0) * self.damping_ratio * slow, slow * slow)
+        (T::from_f64(2.0) * self.damping_ratio * slow, slow * slow)
     }
 }
 
@@ -155,7 +155,7 @@ macro_rules! constant {
 constant!(f32);
 constant!(f64);
 
-/// What is read before it is checked.
+/// The stored form, before its checks.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]

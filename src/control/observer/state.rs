@@ -1,4 +1,4 @@
-//! What a [`DisturbanceObserver`](super::DisturbanceObserver) remembers between samples.
+//! State of a [`DisturbanceObserver`](super::DisturbanceObserver) between samples.
 
 use crate::signal::Compensated;
 #[cfg(feature = "serde")]
@@ -28,12 +28,12 @@ pub struct ObserverState<T> {
     /// None before the first good sample.
     pub(super) lags: Option<Lags<T>>,
     pub(super) estimate: T,
-    /// Time of the bad samples since the last good one \[s\]; the highest float where nobody
-    /// knows it, which counts as one more dt then.
+    /// Time of the bad samples since the last good one \[s\]. The highest float means an
+    /// unknown time, which counts as one more dt.
     pub(super) gap: T,
 }
 
-/// The command behind latency and Q, and the output behind Q; each with what rounding owes.
+/// The command behind latency and Q, and the output behind Q; each with its rounding error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -51,7 +51,7 @@ impl<T: Real> Lags<T> {
         }
     }
 
-    /// The sum of all numbers: not finite where one of them is not.
+    /// The sum of all numbers: not finite if one of them is not.
     #[inline]
     pub(super) fn sum(&self) -> T {
         let all = self.sent.iter().chain(&self.measured);
@@ -66,11 +66,11 @@ pub(super) fn lag<T: Real>(state: Compensated<T>, target: T, share: T) -> Compen
 }
 
 impl<T: Real> ObserverState<T> {
-    /// A state that has seen no sample; its estimate is zero.
+    /// A new state, before the first sample; its estimate is zero.
     ///
-    /// The first good sample counts as one that has lasted: the estimate is then what the plant
-    /// at rest lacks. Start anew with it where the drive was off, for a command that did not
-    /// reach the motor is no command.
+    /// The first good sample counts as a steady state: the estimate is then the command that
+    /// the plant at rest lacks. Use a new state after the drive was off: a command that did not
+    /// reach the motor does not count.
     #[must_use]
     pub const fn new() -> Self {
         Self {
@@ -87,7 +87,7 @@ impl<T: Real> ObserverState<T> {
     }
 }
 
-/// What is read, or made by a proof, before it is checked.
+/// The stored form, or a proof's state, before its checks.
 #[cfg(any(feature = "serde", kani))]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -99,7 +99,7 @@ pub(super) struct Unchecked<T> {
 
 #[cfg(any(feature = "serde", kani))]
 impl<T: Real> ObserverState<T> {
-    /// These fields, whatever they are.
+    /// A state of these fields, with any values.
     pub(super) fn assumed(raw: Unchecked<T>) -> Self {
         Self {
             lags: raw.lags,

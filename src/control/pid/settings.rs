@@ -1,4 +1,4 @@
-//! What a [`Pid`](super::Pid) is made of, before it is checked.
+//! Settings of a [`Pid`](super::Pid), before their checks.
 
 use super::Pid;
 use crate::control::status::OUTSIDE;
@@ -6,44 +6,45 @@ use crate::control::{Fallback, Limits};
 use crate::error::{above_zero, must_be_finite, not_below_zero};
 use crate::{Error, Real};
 
-/// What the gain `k_d` multiplies.
+/// The signal that the gain `k_d` multiplies.
 ///
 /// ```
-/// use bowden::control::Damping;
-/// assert_eq!(Damping::on_error(), Damping::Rate { weight: 1.0 });
-/// assert_eq!(Damping::on_measurement(), Damping::Rate { weight: 0.0 });
+/// use bowden::control::DerivativeSource;
+/// assert_eq!(DerivativeSource::on_error(), DerivativeSource::Rate { weight: 1.0 });
+/// assert_eq!(DerivativeSource::on_measurement(), DerivativeSource::Rate { weight: 0.0 });
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Damping<T> {
+pub enum DerivativeSource<T> {
     /// The filtered derivative of `y − c·y_r`, PID (14).
     Rate {
-        /// Set-point weight c within 0..=1: 1 on the error, 0 on the measurement.
+        /// Set-point weight c within 0..=1: 1 means the error, 0 the measurement.
         weight: T,
     },
-    /// The measured distal velocity as it is, PIV (16); nothing is filtered.
+    /// The measured distal velocity, unfiltered, PIV (16).
     Velocity,
 }
 
-impl<T: Real> Damping<T> {
-    /// Derivative of the error, as in (14): a step of the reference kicks.
+impl<T: Real> DerivativeSource<T> {
+    /// Derivative of the error, as in (14): a step of the reference causes a derivative kick.
     #[must_use]
     pub const fn on_error() -> Self {
         Self::Rate { weight: T::ONE }
     }
 
-    /// Derivative of the measurement: a step of the reference does not kick.
+    /// Derivative of the measurement, the default: a step of the reference causes no derivative
+    /// kick.
     #[must_use]
     pub const fn on_measurement() -> Self {
         Self::Rate { weight: T::ZERO }
     }
 }
 
-/// What keeps the integral from growing while the command is limited.
+/// Anti-windup: limits the integral while the command is limited.
 ///
-/// Limited means: by the range or by the slew rate, unless a variant says otherwise.
+/// The command is limited by the range or by the slew rate, unless a variant states otherwise.
 ///
 /// ```
 /// use bowden::control::{AntiWindup, Limits, Pid, PidInput, PidSettings, PidState};
@@ -52,14 +53,14 @@ impl<T: Real> Damping<T> {
 ///     let pid = Pid::try_new(PidSettings { anti_windup, limits, ..PidSettings::unlimited(2.0, 5.0) })?;
 ///     let mut state = PidState::new();
 ///     for _ in 0..1000 {
-///         pid.step(&mut state, &PidInput::new(0.001, 8.0, 0.0)); // wants 16 and more
+///         pid.step(&mut state, &PidInput::new(0.001, 8.0, 0.0)); // the demand is 16 or more
 ///     }
 ///     Ok::<f64, bowden::Error>(state.integral())
 /// };
 /// assert!((integral(AntiWindup::None)? - 40.0).abs() < 1e-9);
 /// assert_eq!(integral(AntiWindup::Clamp)?, 10.0);
 /// assert_eq!(integral(AntiWindup::Conditional)?, 0.0);
-/// // Back-calculation gives up what the limits cut off, to the command itself and less.
+/// // Back-calculation removes the part that the limits cut off.
 /// assert!(integral(AntiWindup::BackCalculation { tracking_time: 0.05 })? < 0.0);
 /// # Ok::<(), bowden::Error>(())
 /// ```
@@ -68,39 +69,40 @@ impl<T: Real> Damping<T> {
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum AntiWindup<T> {
-    /// Nothing: the integral winds up.
+    /// No anti-windup: the integral winds up.
     None,
-    /// The integral term stays within the range of the command, widened to hold zero.
+    /// The integral term stays within the range of the command. This range is widened to
+    /// contain zero and the value that, with the other terms, fills the range.
     Clamp,
-    /// What the limits cut off flows back into the integral.
+    /// The part that the limits cut off returns to the integral. Without `k_i` nothing returns.
     ///
-    /// The part cut off at one sample enters at the next one, times
-    /// `dt/(T_t + dt)`: with the other terms at rest it decays by `T_t/(T_t + dt)` a sample,
-    /// as `e^(−t/T_t)` where dt is short, and never overshoots.
+    /// The part that is cut off at one sample enters at the next one, times `dt/(T_t + dt)`.
+    /// With the other terms at rest it decays by `T_t/(T_t + dt)` a sample, as `e^(−t/T_t)` for
+    /// a short dt, and never overshoots.
     BackCalculation {
         /// T_t, above zero \[s\]; `k_p/k_i` is a usual choice.
         tracking_time: T,
     },
-    /// A change that would push a command beyond the range further out is left out.
+    /// A change that would take the command beyond its range is cut to the value that fills the
+    /// range.
     ///
-    /// A change in the other direction is always taken, so that the integral unwinds. What
-    /// the slew rate cuts off, which passes by itself, is back-calculated with
-    /// T_t = `k_p/k_i`: were it treated as the range, the integral would stand still for as
-    /// long as the command moves.
+    /// A change away from that limit acts in full, so the integral unwinds. The part that
+    /// the slew rate cuts off is back-calculated with T_t = `k_p/k_i`. If the slew rate counted
+    /// as a range, the integral would stop while the command moves.
     Conditional,
 }
 
 /// Settings of a [`Pid`](super::Pid), with public fields; [`Pid::try_new`] checks them.
 ///
-/// A stored form without `limits`, `longest_dt` or `fallback` is refused: a table that was lost must
-/// not take them away. One of a simulation states them as `unlimited` gives them.
+/// A stored form without `limits`, `longest_dt` or `fallback` is refused: a lost table must not
+/// remove these safeguards. A stored form for simulation states them as `unlimited` does.
 ///
 /// ```
-/// use bowden::control::{Damping, Fallback, Limits, Pid, PidSettings};
+/// use bowden::control::{DerivativeSource, Fallback, Limits, Pid, PidSettings};
 /// let pid = Pid::try_new(PidSettings {
 ///     k_d: 2.0,
 ///     derivative_time: 0.1, // [s]
-///     damping: Damping::on_measurement(),
+///     damping: DerivativeSource::on_measurement(),
 ///     ..PidSettings::new(
 ///         30.0,
 ///         18.0_f64,
@@ -129,38 +131,63 @@ pub struct PidSettings<T> {
     /// Proportional gain \[command unit/output unit\]; finite.
     pub k_p: T,
     /// Integral gain \[command unit/(output unit·s)\]; finite, of the sign of `k_p`.
-    pub k_i: T,
-    /// Gain of the damping; finite, with [`Damping::Rate`] of the sign of `k_p`.
     ///
-    /// \[command unit·s/output unit\], for PIV \[command unit·s/rad\]. At zero nothing is
+    /// **With 0 there is no integral.** An existing integral (from another law, or from a start
+    /// at a given command) returns to zero with a time constant of 1 s. The command moves to
+    /// the other terms without a jump.
+    pub k_i: T,
+    /// Gain of the damping; finite, with [`DerivativeSource::Rate`] of the sign of `k_p`.
+    ///
+    /// \[command unit·s/output unit\], for PIV \[command unit·s/rad\]. With 0 nothing is
     /// filtered.
     #[cfg_attr(feature = "serde", serde(default = "T::zero"))]
     pub k_d: T,
-    /// What `k_d` multiplies.
-    #[cfg_attr(feature = "serde", serde(default = "Damping::on_error"))]
-    pub damping: Damping<T>,
-    /// Time constant of the derivative's filter, from zero (none) up \[s\].
+    /// The signal that `k_d` multiplies.
+    #[cfg_attr(feature = "serde", serde(default = "DerivativeSource::on_measurement"))]
+    pub damping: DerivativeSource<T>,
+    /// Time constant of the derivative filter, zero (no filter) or above \[s\].
     #[cfg_attr(feature = "serde", serde(default = "T::zero"))]
     pub derivative_time: T,
     /// Set-point weight b of the proportional term, within 0..=1.
     #[cfg_attr(feature = "serde", serde(default = "T::one"))]
     pub setpoint_weight: T,
-    /// What the integral does while the command is limited.
+    /// Anti-windup method.
     #[cfg_attr(feature = "serde", serde(default = "conditional"))]
     pub anti_windup: AntiWindup<T>,
+    /// Greatest magnitude of the integral term, above zero \[command unit\].
+    #[cfg_attr(feature = "serde", serde(default = "none"))]
+    pub integral_limit: Option<T>,
+    /// The integral is frozen while `|e|` is at most this value, zero or above \[output unit\].
+    ///
+    /// With static friction an integral winds up until the output jumps past the reference, and
+    /// the cycle repeats (hunting). A deadband wider than this jump prevents hunting.
+    #[cfg_attr(feature = "serde", serde(default = "T::zero"))]
+    pub deadband: T,
+    /// Period of an output that wraps, above zero \[output unit\], such as 360°.
+    ///
+    /// The error and the changes of the output are then taken along the shorter direction,
+    /// within half a period. A period requires the full set-point weight b = 1, and c of 0 or
+    /// 1.
+    #[cfg_attr(feature = "serde", serde(default = "none"))]
+    pub period: Option<T>,
     /// Range and slew rate of the command.
     pub limits: Limits<T>,
-    /// Longest `dt` that is a sample, above zero \[s\]: five nominal steps, say.
+    /// Longest `dt` of a good sample, above zero \[s\]: for example five nominal steps.
     ///
-    /// A longer one (a counter that wrapped, a task that was starved) is a bad sample.
+    /// A longer `dt` (a wrapped counter, a starved task) is a bad sample.
     pub longest_dt: T,
-    /// What goes out when samples stay bad; a safe command lies within `limits`.
+    /// Fallback after repeated bad samples; its safe command lies within `limits`.
     pub fallback: Fallback<T>,
 }
 
 #[cfg(feature = "serde")]
 fn conditional<T>() -> AntiWindup<T> {
     AntiWindup::Conditional
+}
+
+#[cfg(feature = "serde")]
+fn none<T>() -> Option<T> {
+    None
 }
 
 /// A number within 0..=1, or the error with its name.
@@ -183,7 +210,7 @@ macro_rules! checks {
         if (s.k_p > zero && s.k_i < zero) || (s.k_p < zero && s.k_i > zero) {
             return Err(Error::Inadmissible("k_p and k_i have the same sign"));
         }
-        if let Damping::Rate { weight } = s.damping {
+        if let DerivativeSource::Rate { weight } = s.damping {
             share!(weight, zero, one, "derivative weight");
             let above = s.k_p > zero || s.k_i > zero;
             let below = s.k_p < zero || s.k_i < zero;
@@ -196,6 +223,22 @@ macro_rules! checks {
         if let AntiWindup::BackCalculation { tracking_time } = s.anti_windup {
             above_zero!(tracking_time, zero, "tracking_time");
         }
+        if let Some(limit) = s.integral_limit {
+            above_zero!(limit, zero, "integral_limit");
+        }
+        not_below_zero!(s.deadband, zero, "deadband");
+        if let Some(period) = s.period {
+            above_zero!(period, zero, "period");
+            let whole = match s.damping {
+                DerivativeSource::Rate { weight } => weight == zero || weight == one,
+                DerivativeSource::Velocity => true,
+            };
+            if s.setpoint_weight != one || !whole {
+                return Err(Error::Inadmissible(
+                    "a period needs setpoint_weight = 1 and a derivative weight of 0 or 1",
+                ));
+            }
+        }
         above_zero!(s.longest_dt, zero, "longest_dt");
         if let Some(safe) = s.fallback.command() {
             if safe < s.limits.low() || safe > s.limits.high() {
@@ -204,6 +247,18 @@ macro_rules! checks {
         }
         Ok(())
     }};
+}
+
+/// Whether only the range limits the sum of the terms, for any float and for constants.
+macro_rules! plain {
+    ($s:ident, $zero:expr) => {
+        $s.limits.slew().is_none()
+            && matches!($s.anti_windup, AntiWindup::None | AntiWindup::Conditional)
+            && $s.k_i != $zero
+            && $s.integral_limit.is_none()
+            && $s.deadband == $zero
+            && $s.period.is_none()
+    };
 }
 
 macro_rules! constant {
@@ -221,7 +276,10 @@ macro_rules! constant {
             /// As [`try_new`](Self::try_new).
             pub const fn const_new(settings: PidSettings<$float>) -> Result<Self, Error> {
                 match settings.const_check() {
-                    Ok(()) => Ok(Self { settings }),
+                    Ok(()) => Ok(Self {
+                        plain: plain!(settings, 0.0),
+                        settings,
+                    }),
                     Err(error) => Err(error),
                 }
             }
@@ -232,9 +290,10 @@ constant!(f32);
 constant!(f64);
 
 impl<T: Real> PidSettings<T> {
-    /// A plain PI (15) for a machine: what the drive may get, and what happens in a fault.
+    /// A plain PI (15) for a machine, with limits and a fallback.
     ///
-    /// Full set-point weight, conditional anti-windup. `longest_dt` in \[s\].
+    /// Full set-point weight, conditional anti-windup. A derivative, if `k_d` is set, acts on
+    /// the measurement. `longest_dt` in \[s\].
     #[must_use]
     pub const fn new(
         k_p: T,
@@ -251,24 +310,33 @@ impl<T: Real> PidSettings<T> {
         }
     }
 
-    /// The same for a simulation: no limits, any `dt`, the last command for ever.
+    /// Settings for a simulation: no limits, any `dt`, the last command indefinitely.
     #[must_use]
     pub const fn unlimited(k_p: T, k_i: T) -> Self {
         Self {
             k_p,
             k_i,
             k_d: T::ZERO,
-            damping: Damping::on_error(),
+            damping: DerivativeSource::on_measurement(),
             derivative_time: T::ZERO,
             setpoint_weight: T::ONE,
             anti_windup: AntiWindup::Conditional,
+            integral_limit: None,
+            deadband: T::ZERO,
+            period: None,
             limits: Limits::unlimited(),
             longest_dt: T::HIGHEST,
-            fallback: Fallback::hold_for_ever(),
+            fallback: Fallback::hold_indefinitely(),
         }
     }
 
-    /// Everything that a field's docs promise.
+    /// Whether a step needs none of the rarer settings: no slew rate, an anti-windup that
+    /// depends on the range alone, an integral gain.
+    pub(super) fn is_plain(&self) -> bool {
+        plain!(self, T::ZERO)
+    }
+
+    /// Every check that the documentation of the fields states.
     pub(super) fn check(&self) -> Result<(), Error> {
         checks!(self, T)
     }

@@ -1,4 +1,4 @@
-//! What goes into a step of a [`Pid`](super::Pid), and what comes out.
+//! Input and output of a step of a [`Pid`](super::Pid).
 
 use crate::control::Status;
 use crate::Real;
@@ -15,7 +15,7 @@ use crate::Real;
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PidInput<T> {
-    /// Since the last call, also where that was a bad sample \[s\].
+    /// Time since the last call \[s\], after a bad sample too.
     pub dt: T,
     /// y_r \[output unit\], such as \[N·m\]
     pub reference: T,
@@ -42,16 +42,16 @@ impl<T: Real> PidInput<T> {
     }
 }
 
-/// What [`Pid::step_with_terms`](super::Pid::step_with_terms) gives.
+/// Output of [`Pid::step_with_terms`](super::Pid::step_with_terms).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PidOutput<T> {
-    /// What goes to the drive \[command unit\]: finite and within the limits.
+    /// Command for the drive \[command unit\]: finite and within the limits.
     pub command: T,
-    /// A good sample, or what was wrong and what is out instead.
+    /// Result of the sample: good, or the fault and the substitute command.
     pub status: Status,
-    /// Telemetry; on a bad sample, the terms of the last good one.
+    /// Telemetry; on a bad sample, the terms of the last good sample.
     pub terms: PidTerms<T>,
 }
 
@@ -72,13 +72,13 @@ pub struct PidTerms<T> {
     pub error: T,
     /// −k_p·(y − b·y_r) \[command unit\]
     pub proportional: T,
-    /// −k_i·∫e, with what the anti-windup did to it \[command unit\]
+    /// −k_i·∫e, after the anti-windup \[command unit\]
     pub integral: T,
     /// −k_d·d/dt(y − c·y_r), filtered \[command unit\]; zero with PIV
     pub derivative: T,
     /// −k_d·v_d of PIV \[command unit\]; zero with PI and PID
     pub velocity: T,
-    /// As it was given \[command unit\].
+    /// The feed-forward of the sample \[command unit\].
     pub feed_forward: T,
     /// The sum before range and slew rate \[command unit\].
     pub unlimited: T,

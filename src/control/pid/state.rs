@@ -1,4 +1,4 @@
-//! What a [`Pid`] remembers between samples.
+//! State of a [`Pid`] between samples.
 
 use super::{Pid, PidInput};
 use crate::control::status::Held;
@@ -9,8 +9,8 @@ use crate::Real;
 
 /// State of a [`Pid`]: the integral, the filtered rate, the last good sample.
 ///
-/// `Copy`: it can be saved and restored. Any state works with any [`Pid`]; to change
-/// the gains of a running one without a jump see [`Pid::take_over`].
+/// `Copy`: it can be saved and restored. Any state works with any [`Pid`]. To change the gains
+/// of a running controller without a jump see [`Pid::bumpless_transfer`].
 ///
 /// ```
 /// use bowden::control::{Pid, PidInput, PidState};
@@ -37,16 +37,16 @@ use crate::Real;
 pub struct PidState<T> {
     /// The integral term \[command unit\].
     pub(super) integral: Compensated<T>,
-    /// Filtered rate of y − c·y_r, zero where that is not used.
+    /// Filtered rate of y − c·y_r, zero if it is not used.
     pub(super) rate: T,
-    pub(super) last: Option<Last<T>>,
-    pub(super) held: Held<T>,
-    /// Time of the bad samples since the last good one \[s\]; the highest float where
-    /// nobody knows it: the rate then stays as it is for a sample.
+    pub(crate) last: Option<Last<T>>,
+    pub(crate) held: Held<T>,
+    /// Time of the bad samples since the last good one \[s\]. The highest float means an
+    /// unknown time: the rate then stays unchanged for a sample.
     pub(super) gap: T,
 }
 
-/// The last good sample, and what came of it.
+/// The last good sample and its terms.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -54,15 +54,16 @@ pub struct PidState<T> {
 pub(crate) struct Last<T> {
     pub(crate) reference: T,
     pub(crate) measured: T,
-    /// Zero where it was no number, which only PIV minds.
+    /// Zero for NaN, which affects PIV only.
     pub(crate) velocity: T,
     pub(crate) feed_forward: T,
-    pub(crate) command: T,
     pub(crate) unlimited: T,
+    /// Change of the integral at this sample, before the limits cut it.
+    pub(crate) change: T,
 }
 
 impl<T: Real> Last<T> {
-    /// A sample before the law has seen it.
+    /// A sample before the law has processed it.
     #[inline]
     pub(super) fn at(at: &PidInput<T>) -> Self {
         Self {
@@ -70,12 +71,12 @@ impl<T: Real> Last<T> {
             measured: at.measured,
             velocity: at.velocity,
             feed_forward: at.feed_forward,
-            command: T::ZERO,
             unlimited: T::ZERO,
+            change: T::ZERO,
         }
     }
 
-    /// The same, with zero for a velocity that is no number.
+    /// The same, with zero for a velocity that is NaN.
     pub(super) fn with_known_velocity(self) -> Self {
         if is_usable(self.velocity) {
             return self;
@@ -88,10 +89,10 @@ impl<T: Real> Last<T> {
 }
 
 impl<T: Real> PidState<T> {
-    /// A state that has seen no sample; its command is zero.
+    /// A new state, before the first sample; its command is zero.
     ///
-    /// A slew rate starts from that zero; start with [`PidState::resume_from`] where
-    /// something else is out.
+    /// A slew rate starts from this zero. Use [`PidState::resume_from`] if another command is
+    /// applied.
     #[must_use]
     pub const fn new() -> Self {
         Self {
@@ -103,23 +104,22 @@ impl<T: Real> PidState<T> {
         }
     }
 
-    /// Starts anew so that the command goes on from `output` \[command unit\].
+    /// Starts from a new integral so that the command continues from `output` \[command unit\].
     ///
-    /// At the sample `at`, with its feed-forward, the terms add up to `output` (which is
-    /// taken within the limits): for a start at a command that is already out, for the
-    /// hand-over from a human or from another controller. The rate starts at zero. The
-    /// next step at the same sample adds one step of the integral, nothing else. `at.dt`
-    /// is not read. Where [`AntiWindup::Clamp`](super::AntiWindup::Clamp) does not let
-    /// the integral go that far, it goes as far as it may.
+    /// At the sample `at`, with its feed-forward, the terms add up to `output`, clamped to the
+    /// limits. Use this method for a start at a command that is already applied, and for a
+    /// transfer from manual control or from another controller. The rate starts at zero. The
+    /// next step at the same sample adds one step of the integral and nothing else. `at.dt` is
+    /// ignored. [`AntiWindup::Clamp`](super::AntiWindup::Clamp) limits this integral.
     ///
-    /// A number that is not finite, or an overflow, leaves the state as it was, but for
-    /// the count of bad samples, and is told. Where the safe command is latched it stays. The
-    /// score of the bad samples stays too: whoever starts anew after each of them still gets the
-    /// safe command.
+    /// A number that is not finite, or an overflow, leaves the state unchanged except for the
+    /// count of bad samples, and returns a fault. A latched safe command stays latched. The
+    /// score of the bad samples stays too, so a restart after each bad sample does not
+    /// prevent the safe command.
     ///
-    /// What the terms lack at `at` goes into the integral. Without an integral gain nothing moves
-    /// it again, so that a P, PD or PIV law keeps the difference for ever: there, a new state
-    /// starts at the terms themselves.
+    /// The integral takes the difference between `output` and the other terms at `at`. A law
+    /// without `k_i` returns this difference to zero: see
+    /// [`PidSettings::k_i`](super::PidSettings::k_i).
     ///
     /// ```
     /// use bowden::control::{Pid, PidInput, PidState, Status};
@@ -136,38 +136,37 @@ impl<T: Real> PidState<T> {
         }
         match pid.started_at(output, at) {
             Ok((last, integral)) => {
-                self.start(last, integral);
+                self.start(pid.settings().limits.clamp(output), last, integral);
                 Status::Good
             }
             Err(fault) => self.held.bad(fault, fallback),
         }
     }
 
-    /// Stands at a sample with this integral, at rest.
-    pub(super) fn start(&mut self, last: Last<T>, integral: T) {
+    /// Starts at rest at a sample, with this command and this integral.
+    pub(super) fn start(&mut self, command: T, last: Last<T>, integral: T) {
         *self = Self {
             integral: Compensated::new(integral),
             last: Some(last),
-            held: self.held.going_on_from(last.command),
+            held: self.held.going_on_from(command),
             ..Self::new()
         };
     }
 
-    /// Takes note that somebody has seen the fault: the loop may be closed again.
+    /// Acknowledges the fault: the next good sample closes the loop again.
     ///
-    /// While the safe command is latched ([`Status::Safe`]) nothing else closes it. The next
-    /// good sample then starts from the safe command, without a jump, as
-    /// [`resume_from`](Self::resume_from) does; without an integral gain it starts from the
-    /// terms themselves, through the slew rate.
+    /// While the safe command is latched ([`Status::Safe`]) only this call ends it. The next
+    /// good sample then starts from the safe command, without a jump, as after
+    /// [`resume_from`](Self::resume_from).
     pub fn acknowledge(&mut self) {
         self.held.acknowledge();
     }
 
-    /// Forgets integral, rate and samples; the command that is out stays known.
+    /// Clears integral, rate and samples; the applied command is kept.
     ///
-    /// A slew rate goes on from there, and a safe command that is latched stays so. So does the
-    /// score of the bad samples: whoever resets at each of them still gets the safe command. For
-    /// a state that knows of no command, assign [`PidState::new`].
+    /// A slew rate continues from the applied command, and a latched safe command stays
+    /// latched. The score of the bad samples stays too, so a reset at each bad sample does
+    /// not prevent the safe command. For a state without a command, assign [`PidState::new`].
     pub fn reset(&mut self) {
         *self = Self {
             held: self.held,
@@ -175,33 +174,33 @@ impl<T: Real> PidState<T> {
         };
     }
 
-    /// Makes a state that was stored fit for a start: the power was off, nothing is out.
+    /// Prepares a stored state for a start after a power-off: no command is applied.
     ///
-    /// Integral, rate and samples are forgotten, and the command is the one nearest to zero that
-    /// the limits allow. A safe command that was latched stays so, and so does the score of the bad
-    /// samples. The first good sample starts from that command without a jump, as after
-    /// [`acknowledge`](Self::acknowledge). A step on a stored state *without* this
-    /// goes on with the command of then.
+    /// Integral, rate and samples are cleared. The command becomes the one nearest to zero
+    /// within the limits. A latched safe command stays latched, and the score of the bad
+    /// samples is kept. The first good sample starts from this command without a jump, as after
+    /// [`acknowledge`](Self::acknowledge). Without this call a step on a stored state continues
+    /// with the stored command.
     ///
     /// ```
     /// use bowden::control::{Pid, PidInput, PidState};
     /// let pi = Pid::paper_pi();
     /// let mut state = PidState::new();
     /// pi.step(&mut state, &PidInput::new(0.001, 2.0, 0.0_f64));
-    /// let stored = state; // 60 units are out; then the power fails
+    /// let stored = state; // a command of 60 units; then the power fails
     /// let mut state = stored;
-    /// state.power_up(&pi);
+    /// state.restore(&pi);
     /// assert_eq!(pi.step(&mut state, &PidInput::new(0.001, 2.0, 0.0)).command, 0.0);
     /// ```
-    pub fn power_up(&mut self, pid: &Pid<T>) {
-        let command = pid.settings().limits.confine(T::ZERO);
+    pub fn restore(&mut self, pid: &Pid<T>) {
+        let command = pid.settings().limits.clamp(T::ZERO);
         *self = Self {
             held: self.held.after_power_off(command),
             ..Self::new()
         };
     }
 
-    /// The command that is out \[command unit\].
+    /// The applied command \[command unit\].
     #[inline]
     #[must_use]
     pub fn command(&self) -> T {
@@ -215,7 +214,7 @@ impl<T: Real> PidState<T> {
         self.integral.value
     }
 
-    /// The filtered rate of `y − c·y_r` \[output unit/s\]; zero where it is not used.
+    /// The filtered rate of `y − c·y_r` \[output unit/s\]; zero if it is not used.
     #[inline]
     #[must_use]
     pub fn rate(&self) -> T {
@@ -225,7 +224,7 @@ impl<T: Real> PidState<T> {
     /// Score of the bad samples, see [`Fallback`](crate::control::Fallback).
     #[inline]
     #[must_use]
-    pub fn bad_score(&self) -> u32 {
+    pub fn fault_counter(&self) -> u32 {
         self.held.score
     }
 
@@ -236,7 +235,7 @@ impl<T: Real> PidState<T> {
         self.held.is_latched()
     }
 
-    /// Whether this is a state that steps can lead to: every number is finite.
+    /// Whether steps can lead to this state: every number is finite.
     #[cfg(any(feature = "serde", kani))]
     pub(crate) fn is_valid(&self) -> bool {
         self.integral.is_finite()
@@ -247,15 +246,21 @@ impl<T: Real> PidState<T> {
             && self.last.is_none_or(|last| last.is_valid())
     }
 
-    /// Takes note of a good sample; its command.
+    /// Records a good sample; returns its command.
     #[inline(always)]
-    pub(super) fn moved_on(&mut self, last: Last<T>, integral: Compensated<T>, rate: T) -> T {
+    pub(super) fn moved_on(
+        &mut self,
+        command: T,
+        last: Last<T>,
+        integral: Compensated<T>,
+        rate: T,
+    ) -> T {
         self.integral = integral;
         self.rate = rate;
         self.gap = T::ZERO;
         self.last = Some(last);
-        self.held.command = last.command;
-        last.command
+        self.held.command = command;
+        command
     }
 
     /// Counts the time of a bad sample.
@@ -268,13 +273,13 @@ impl<T: Real> PidState<T> {
 impl<T: Real> Last<T> {
     fn is_valid(&self) -> bool {
         let samples = [self.reference, self.measured, self.velocity];
-        let commands = [self.feed_forward, self.command, self.unlimited];
+        let commands = [self.feed_forward, self.unlimited, self.change];
         samples.iter().chain(&commands).all(|x| x.is_finite())
             && (self.measured - self.reference).is_finite()
     }
 }
 
-/// What is read, or made by a proof, before it is checked.
+/// The stored form, or a proof's state, before its checks.
 #[cfg(any(feature = "serde", kani))]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -288,7 +293,7 @@ pub(crate) struct Unchecked<T> {
 
 #[cfg(any(feature = "serde", kani))]
 impl<T: Real> PidState<T> {
-    /// These fields, whatever they are.
+    /// A state of these fields, with any values.
     pub(crate) fn assumed(raw: Unchecked<T>) -> Self {
         Self {
             integral: raw.integral,

@@ -1,19 +1,19 @@
-//! One step: what a good sample moves, and what happens on any other.
+//! One step: the law on a good sample, and the response to a bad one.
 
 use super::state::Last;
-use super::{AntiWindup, Pid, PidInput, PidState};
+use super::{AntiWindup, DerivativeSource, Pid, PidInput, PidState};
+use crate::control::limits::around;
 use crate::control::{Fault, Output, Status};
 use crate::error::{is_usable, rarely};
-use crate::signal::clamp;
+use crate::signal::{clamp, greatest, least, Compensated};
 use crate::Real;
 
 impl<T: Real> Pid<T> {
-    /// The command of a good sample, which moves the state; `None`, and nothing has moved,
-    /// where a number cannot be used or the law overflows.
+    /// The command of a good sample, which advances the state. `None` leaves the state
+    /// unchanged: a number cannot be used, or the law overflows.
     ///
-    /// One test at the end for all numbers of the sample: one that is not finite leaves no finite
-    /// sum. [`AntiWindup::Clamp`] would hide an infinite error. A `velocity` that is none, which
-    /// only PIV reads, becomes zero.
+    /// One test at the end covers all numbers of the sample: a number that is not finite leaves
+    /// no finite sum. A `velocity` that is NaN, which only PIV reads, becomes zero.
     #[inline(always)]
     pub(super) fn advance(
         &self,
@@ -21,106 +21,111 @@ impl<T: Real> Pid<T> {
         at: &PidInput<T>,
         velocity: &mut T,
     ) -> Option<T> {
-        let s = &self.settings;
-        if !at.dt.positive_up_to(s.longest_dt) {
+        if !at.dt.positive_up_to(self.settings.longest_dt) {
             return None;
         }
-        let last = Last::at(at);
-        let error = at.measured - at.reference;
-        let rate = self.rate(state, &last, at.dt);
-        let moving = Moving {
-            error,
-            rate,
-            rest: self.rest(&last, rate),
-            change: -s.k_i * error * at.dt,
-        };
-        if self.is_plain() {
-            self.integrated::<true>(state, at, velocity, &moving)
+        if self.plain {
+            self.follow::<true>(state, Last::at(at), at.dt, velocity)
         } else {
-            self.integrated::<false>(state, at, velocity, &moving)
+            self.follow::<false>(state, self.sample(at), at.dt, velocity)
         }
     }
 
-    /// The rest of [`advance`](Self::advance): the integral, the limits, and what stays.
+    /// The rest of [`advance`](Self::advance).
     ///
     /// Two copies of it: with a test for each of the settings, the usual step is 20 instructions
     /// longer.
     #[inline(always)]
-    fn integrated<const PLAIN: bool>(
+    fn follow<const PLAIN: bool>(
         &self,
         state: &mut PidState<T>,
-        at: &PidInput<T>,
+        mut last: Last<T>,
+        dt: T,
         velocity: &mut T,
-        moving: &Moving<T>,
     ) -> Option<T> {
-        let s = &self.settings;
-        let (error, rest, change) = (moving.error, moving.rest, moving.change);
-        let mut last = Last::at(at);
-        let returned = if PLAIN {
-            None
-        } else {
-            self.returned(state, at.dt)
-        };
-        let moved = returned.map_or(change, |returned| change + returned);
-        let mut integral = state.integral.plus(moved);
+        let (s, limits) = (&self.settings, &self.settings.limits);
+        let error = last.measured - last.reference;
+        let rate = self.rate::<PLAIN>(state, &last, dt);
+        let rest = self.rest(&last, rate);
+        let mut change = -s.k_i * error * dt;
+        let mut before = state.integral;
         if !PLAIN {
-            integral = self.confined(integral);
+            // Written so that an error that is NaN stays NaN.
+            if error.abs() <= s.deadband {
+                change = T::ZERO;
+            }
+            before = self.returned(state, dt);
         }
-        last.unlimited = rest + integral.value;
-        let mut all = last.unlimited + integral.carry;
-        if !PLAIN && s.anti_windup == AntiWindup::Clamp {
-            all += error;
-        }
-        if !is_usable(all + at.velocity) {
+        let mut integral = before.plus(change);
+        let wanted = rest + integral.value;
+        let all = wanted + integral.carry;
+        if !is_usable(all + last.velocity) {
             rarely();
-            if !is_usable(all + self.velocity(at)) {
+            let read = match s.damping {
+                DerivativeSource::Velocity => last.velocity,
+                DerivativeSource::Rate { .. } => T::ZERO,
+            };
+            if !is_usable(all + read) {
                 return None;
             }
-            if !is_usable(at.velocity) {
+            if !is_usable(last.velocity) {
                 *velocity = T::ZERO;
             }
         }
         last.velocity = *velocity;
-        let inside = s.limits.contains(last.unlimited);
-        if inside && (PLAIN || s.limits.slew().is_none()) {
-            last.command = last.unlimited;
-            return Some(state.moved_on(last, integral, moving.rate));
+        last.change = change;
+        last.unlimited = wanted;
+        let inside = limits.contains(wanted);
+        if PLAIN && inside {
+            return Some(state.moved_on(wanted, last, integral, rate));
         }
         rarely();
-        if !inside && self.asks_for_more(last.unlimited, change) {
-            integral = state.integral.plus(returned.unwrap_or(T::ZERO));
-            last.unlimited = rest + integral.value;
-            if !is_usable(last.unlimited + integral.carry + error) {
-                return None;
+        let end = clamp(wanted, limits.low(), limits.high());
+        if !inside {
+            integral = self.cut(before.value, integral, rest, end);
+        }
+        // Exactly at the limit, for any rounding of the difference.
+        let mut command = end;
+        if !PLAIN {
+            if let Some(limit) = s.integral_limit {
+                let (low, high) = (least(-limit, before.value), greatest(limit, before.value));
+                integral = integral.within(low, high);
+                command = rest + integral.value;
             }
+            command = limits.apply(state.command(), command, dt);
         }
-        last.command = s.limits.apply(state.command(), last.unlimited, at.dt);
-        Some(state.moved_on(last, integral, moving.rate))
+        last.unlimited = rest + integral.value;
+        Some(state.moved_on(command, last, integral, rate))
     }
 
-    /// Whether nothing but the range changes what the terms add up to: no slew rate, and an
-    /// anti-windup that looks at the range only.
-    #[inline(always)]
-    fn is_plain(&self) -> bool {
-        self.settings.limits.slew().is_none()
-            && matches!(
-                self.settings.anti_windup,
-                AntiWindup::None | AntiWindup::Conditional
-            )
-    }
-
-    /// Whether conditional integration leaves a change out: the limits are passed already, and
-    /// it would go further.
+    /// The integral after its change, cut to the value that takes the command to the `end` of
+    /// the range that the command has passed.
+    ///
+    /// The other terms leave `end − rest` to the integral. With [`AntiWindup::Clamp`] the
+    /// integral may also take any value up to the end itself, and zero. A change beyond this
+    /// value is cut to it. An integral beyond it, after a change of the other terms, stays or
+    /// moves back. So the command reaches its limit, and leaves it at once.
     #[inline]
-    fn asks_for_more(&self, unlimited: T, change: T) -> bool {
-        let s = &self.settings;
-        if !matches!(s.anti_windup, AntiWindup::Conditional) {
-            return false;
-        }
-        if unlimited > s.limits.high() {
-            change > T::ZERO
-        } else {
-            unlimited < s.limits.low() && change < T::ZERO
+    pub(crate) fn cut(
+        &self,
+        before: T,
+        integral: Compensated<T>,
+        rest: T,
+        end: T,
+    ) -> Compensated<T> {
+        let full = end - rest;
+        let rises = rest + integral.value > end;
+        match self.settings.anti_windup {
+            AntiWindup::None | AntiWindup::BackCalculation { .. } => integral,
+            AntiWindup::Conditional => stopped(integral, before, full, rises),
+            AntiWindup::Clamp if rises => {
+                let own = greatest(end, T::ZERO);
+                stopped(integral, before, greatest(full, own), true)
+            }
+            AntiWindup::Clamp => {
+                let own = least(end, T::ZERO);
+                stopped(integral, before, least(full, own), false)
+            }
         }
     }
 
@@ -141,61 +146,73 @@ impl<T: Real> Pid<T> {
         });
         Output {
             // A state may come from anywhere.
-            command: s.limits.confine(state.command()),
+            command: s.limits.clamp(state.command()),
             status,
         }
     }
 
-    /// The first good sample after a safe command that was acknowledged.
+    /// The first good sample after an acknowledged safe command: it starts from that command.
     fn close(&self, state: &mut PidState<T>, at: &PidInput<T>) -> Status {
-        let started = if self.settings.k_i == T::ZERO {
-            // An integral that nothing moves would stay in the command for ever. The rate is that
-            // of a motion before the fault.
-            let at_rest = PidState {
-                rate: T::ZERO,
-                ..*state
-            };
-            self.without_integrating(&at_rest, at).map(|last| {
-                state.moved_on(last, state.integral, T::ZERO);
-            })
-        } else {
-            let started = self.started_at(state.command(), at);
-            started.map(|(last, integral)| state.start(last, integral))
-        };
-        match started {
-            Ok(()) => {
-                state.held.close();
+        let command = self.settings.limits.clamp(state.command());
+        match self.started_at(command, at) {
+            Ok((last, integral)) => {
+                state.start(command, last, integral);
+                state.held.good();
                 Status::Good
             }
             Err(fault) => state.held.bad(fault, &self.settings.fallback),
         }
     }
 
-    /// What the limits cut off the last command, as far as it flows back into the integral.
+    /// The integral before its change: with the part that the limits cut off the last command
+    /// or, in a law without `k_i`, with the return to zero.
     #[inline]
-    fn returned(&self, state: &PidState<T>, dt: T) -> Option<T> {
-        let (before, s) = (state.last.as_ref()?, &self.settings);
-        match s.anti_windup {
-            AntiWindup::BackCalculation { tracking_time } => {
-                Some((before.command - before.unlimited) * (dt / (tracking_time + dt)))
-            }
-            // T_t = k_p/k_i, without dividing by a gain that may be zero.
-            AntiWindup::Conditional if s.limits.slew().is_some() && s.k_i != T::ZERO => {
-                let wanted = clamp(before.unlimited, s.limits.low(), s.limits.high());
-                let share = s.k_i * dt / (s.k_p + s.k_i * dt);
-                Some((before.command - wanted) * share)
-            }
-            _ => None,
+    pub(crate) fn returned(&self, state: &PidState<T>, dt: T) -> Compensated<T> {
+        let s = &self.settings;
+        if s.k_i == T::ZERO {
+            // A lag of 1 s; the least normal number is added, so that it reaches zero.
+            let integral = state.integral.value;
+            let way = integral.abs() * (dt / (T::ONE + dt)) + T::min_positive_value();
+            let (low, high) = around(integral, way);
+            return Compensated::new(clamp(T::ZERO, low, high));
         }
+        let Some(last) = &state.last else {
+            return state.integral;
+        };
+        let share = match s.anti_windup {
+            AntiWindup::BackCalculation { tracking_time } => {
+                (state.command() - last.unlimited) * (dt / (tracking_time + dt))
+            }
+            // T_t = k_p/k_i, without a division by a gain that may be zero.
+            AntiWindup::Conditional if s.limits.slew().is_some() => {
+                let wanted = clamp(last.unlimited, s.limits.low(), s.limits.high());
+                (state.command() - wanted) * (s.k_i * dt / (s.k_p + s.k_i * dt))
+            }
+            _ => return state.integral,
+        };
+        state.integral.plus(share)
     }
 }
 
-/// What a sample asks for, before the integral has moved.
-struct Moving<T> {
-    error: T,
-    rate: T,
-    /// The command without limits and without the integral.
-    rest: T,
-    /// What the integral gains.
-    change: T,
+/// An integral that rises, or falls, to the value at a limit, or to its earlier value beyond
+/// that.
+#[inline]
+pub(super) fn stopped<T: Real>(
+    integral: Compensated<T>,
+    before: T,
+    full: T,
+    rises: bool,
+) -> Compensated<T> {
+    if rises {
+        let stop = greatest(full, before);
+        if integral.value > stop {
+            return Compensated::new(stop);
+        }
+    } else {
+        let stop = least(full, before);
+        if integral.value < stop {
+            return Compensated::new(stop);
+        }
+    }
+    integral
 }

@@ -1,4 +1,4 @@
-//! `bowden close --glob PATTERN --out ROWS.parquet`: each of many records by itself, one row a
+//! `bowden identify --glob PATTERN --out ROWS.parquet`: each of many records by itself, one row a
 //! record.
 //!
 //! Each record is closed by a process of its own, the program itself with `--row`: what one record
@@ -23,19 +23,18 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use std::time::Duration;
 
-/// Of `close`: what concerns many records.
+/// Of `identify`: what concerns many records.
 #[derive(Args, Default)]
 #[group(id = "rows")]
 pub struct Rows {
-    /// Close each record of a pattern by itself, as 'runs/*.csv', and write one row a record with
-    /// --out; a record that cannot be closed becomes a row with its error.
+    /// Identify each record of a pattern such as 'runs/*.csv' separately and write one row per
+    /// record with --out; a record that cannot be identified becomes a row with its error.
     #[arg(long, value_name = "PATTERN", requires = "out", conflicts_with_all = ["records", "per_file", "json", "model_out", "trace", "invertible", "Drawing"])]
     glob: Option<PathBuf>,
-    /// Where --glob writes its rows.
+    /// File for the rows of --glob.
     #[arg(long, value_name = "ROWS.parquet")]
     out: Option<PathBuf>,
-    /// How many records --glob closes at a time; as many as there are processors where it is not
-    /// given.
+    /// Number of records that --glob identifies at a time [default: the number of processors].
     #[arg(long, value_name = "N")]
     workers: Option<NonZeroUsize>,
     /// Print the row of this record as JSON: what --glob has its processes do.
@@ -60,7 +59,7 @@ impl Rows {
         }
         match self.workers {
             Some(workers) => Err(format!(
-                "--workers {workers}: only --glob closes records side by side"
+                "--workers {workers}: only --glob identifies records in parallel"
             )),
             None => Ok(()),
         }
@@ -72,7 +71,7 @@ impl Rows {
             return crate::say(&one(file, asked).json()?);
         }
         let (Some(pattern), Some(out)) = (&self.glob, &self.out) else {
-            return Err("--glob and --out go together".to_owned());
+            return Err("--glob and --out need each other".to_owned());
         };
         let found = reading::files(std::slice::from_ref(pattern))?;
         let left_out = found
@@ -85,7 +84,7 @@ impl Rows {
         let errors = rows.iter().filter(|row| row.is_error()).count();
         outputs::write_whole(out, &table::parquet(&rows)?)?;
         crate::say(&format!(
-            "{}: {} records, a row each; {errors} of them could not be closed{left_out}",
+            "{}: {} records, one row each; {errors} of them could not be identified{left_out}",
             out.display(),
             rows.len()
         ))

@@ -19,11 +19,13 @@ pub struct Row {
     /// Which column of the file.
     pub column: Option<String>,
     pub verdict: Option<String>,
+    /// As `friction@x`, the largest share first.
+    pub mechanisms: Option<Vec<String>>,
     /// Of the delivered rounds; none in a row with an error.
     pub names: Option<Vec<String>>,
-    pub grades: Option<Vec<String>>,
+    pub confidences: Option<Vec<String>>,
     /// Root mean square errors \[unit of the output\].
-    pub declared_held_out: Option<f64>,
+    pub baseline_held_out: Option<f64>,
     pub final_held_out: Option<f64>,
     pub floor: Option<f64>,
     /// Of the final model.
@@ -56,7 +58,7 @@ impl Row {
         }
     }
 
-    /// The row of what `close --json` prints.
+    /// The row of what `identify --json` prints.
     pub fn of_json(file: &str, text: &str) -> Result<Self, String> {
         let report: Value = serde_json::from_str(text).map_err(|e| e.to_string())?;
         let at = |path: &str| report.pointer(path);
@@ -64,15 +66,20 @@ impl Row {
         let count = |name: &str| at(&format!("/cost/{name}")).and_then(Value::as_i64);
         let each = |path: &str| at(path).and_then(Value::as_array).into_iter().flatten();
         let text = |of: &Value, name: &str| of[name].as_str().map(str::to_owned);
-        let rounds = |name: &str| each("/rounds").map(|round| text(round, name)).collect();
+        let rounds = |name: &str| each("/terms").map(|round| text(round, name)).collect();
+        let mechanism = |lack: &Value| {
+            let (name, channel) = (text(lack, "mechanism")?, text(lack, "channel")?);
+            Some(format!("{name}@{channel}"))
+        };
         let parameters = || each("/final/parameters");
         Ok(Self {
             file: file.to_owned(),
             status: "ok".to_owned(),
             verdict: text(&report, "verdict"),
+            mechanisms: each("/lacks").map(mechanism).collect(),
             names: rounds("effect"),
-            grades: rounds("grade"),
-            declared_held_out: number("/declared/rmse/held_out"),
+            confidences: rounds("confidence"),
+            baseline_held_out: number("/baseline/rmse/held_out"),
             final_held_out: number("/final/rmse/held_out"),
             floor: number("/noise_floor/held_out").or_else(|| number("/noise_floor")),
             parameters: parameters().map(|own| text(own, "name")).collect(),

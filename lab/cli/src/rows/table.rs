@@ -17,9 +17,10 @@ const SCHEMA: &str = "message rows {
     optional int64 line;
     optional binary column (STRING);
     optional binary verdict (STRING);
+    optional group mechanisms (LIST) { repeated group list { optional binary element (STRING); } }
     optional group names (LIST) { repeated group list { optional binary element (STRING); } }
-    optional group grades (LIST) { repeated group list { optional binary element (STRING); } }
-    optional double declared_held_out;
+    optional group confidences (LIST) { repeated group list { optional binary element (STRING); } }
+    optional double baseline_held_out;
     optional double final_held_out;
     optional double floor;
     optional group parameters (LIST) { repeated group list { optional binary element (STRING); } }
@@ -50,9 +51,10 @@ fn write(rows: &[Row]) -> Result<Vec<u8>, ParquetError> {
     all.integers(rows.iter().map(|row| row.line))?;
     all.texts(rows.iter().map(|row| row.column.as_deref()))?;
     all.texts(rows.iter().map(|row| row.verdict.as_deref()))?;
+    all.text_lists(rows.iter().map(|row| some(row.mechanisms.as_deref())))?;
     all.text_lists(rows.iter().map(|row| some(row.names.as_deref())))?;
-    all.text_lists(rows.iter().map(|row| some(row.grades.as_deref())))?;
-    all.numbers(rows.iter().map(|row| row.declared_held_out))?;
+    all.text_lists(rows.iter().map(|row| some(row.confidences.as_deref())))?;
+    all.numbers(rows.iter().map(|row| row.baseline_held_out))?;
     all.numbers(rows.iter().map(|row| row.final_held_out))?;
     all.numbers(rows.iter().map(|row| row.floor))?;
     all.text_lists(rows.iter().map(|row| some(row.parameters.as_deref())))?;

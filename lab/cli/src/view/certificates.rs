@@ -1,6 +1,8 @@
-//! The table of `bowden certify`, and its JSON.
+//! The bounds of `bowden certify`, for people and as JSON.
 
-use bowden_trials::facts::{Certified, Tolerance};
+use super::layout::{block, heading, prose, Columns, Width};
+use anstyle::AnsiColor;
+use bowden_trials::facts::{Certified, Promise, Tolerance};
 use std::fmt::Write as _;
 
 /// Schema `bowden.certify/1`.
@@ -20,78 +22,134 @@ pub fn json(all: &Certified) -> String {
     .to_string()
 }
 
-/// For people.
+/// Kinds of bounds in the order of the text.
+const ORDER: [&str; 4] = ["rms", "peak-sampled", "rms-sampled", "peak-continuous"];
+
+/// For people: the bound of the law as given first, then the others; vacuous ones last.
 #[must_use]
-pub fn text(all: &Certified) -> String {
+pub fn text(all: &Certified, label: Option<&str>, width: Width, verbose: bool) -> String {
     let lines = &all.certificates;
-    let mut out =
-        String::from("bowden certify: what the tracking error is promised to stay below\n\n");
-    let mut told: Vec<&[&str]> = Vec::new();
-    for line in lines {
-        let what = match (line.value, &line.refused) {
-            (Some(value), _) => {
-                let note = if line.vacuous {
-                    "  (vacuous: more than the reference itself)"
-                } else {
-                    ""
-                };
-                format!(
-                    "{} <= {value:.4} {}{note}",
-                    line.bounds.unwrap_or("|e|"),
-                    line.unit
-                )
-            }
-            (None, Some(reason)) => format!("none: {reason}"),
-            (None, None) => "none".to_owned(),
-        };
-        let _ = writeln!(out, "{:<47} {:<17} {what}", line.law, line.kind);
-        if let Some(mostly) = &line.mostly {
-            let _ = writeln!(
-                out,
-                "{:<47} {:<17} best free constants; {:.0} % of it is the {}",
-                "",
-                "",
-                100.0 * mostly.share,
-                mostly.term
-            );
-        }
-        if !line.assumptions.is_empty() && !told.contains(&line.assumptions) {
-            told.push(line.assumptions);
-        }
-    }
-    out += &within(&all.tolerance, "stable");
-    out += &within(&all.learning, "converges");
-    out.push_str(
-        "\nBeta within p %: the box of beta_hat about 1/alpha, alpha = N_A·B of the rig.\n\
-         The proofs check the line at rest in f32, with room for rounding: |s| <= 0.43 N·m and\n\
-         |e| <= 0.86 N·m with Table 2's gains, if |w| <= 8 N·m and s, z start in their box\n\
-         (proofs/README.md).\n",
+    let is_useful = |line: &&Promise| line.value.is_some() && !line.vacuous;
+    let mut useful: Vec<&Promise> = lines.iter().filter(is_useful).collect();
+    let place = |line: &Promise| ORDER.iter().position(|kind| *kind == line.kind);
+    useful.sort_by_key(|line| place(line).unwrap_or(ORDER.len()));
+    let mut out = String::new();
+    let subject = label.unwrap_or("the paper's gains on the reference rig");
+    let (colour, answer) = match useful.first() {
+        Some(first) => (
+            AnsiColor::Green,
+            format!("BOUND: {} ({})", bound(first), first.law),
+        ),
+        None => (AnsiColor::Red, "NO USEFUL BOUND OF THE ERROR".to_owned()),
+    };
+    heading(
+        &mut out,
+        width,
+        ("bowden certify", subject),
+        (colour, &answer),
     );
-    for list in told {
-        let names: Vec<&str> = lines
-            .iter()
-            .filter(|l| l.assumptions == list)
-            .map(|l| l.kind)
-            .fold(Vec::new(), |mut all, kind| {
-                if !all.contains(&kind) {
-                    all.push(kind);
-                }
-                all
-            });
-        let _ = writeln!(out, "\nTo check for {}:", names.join(", "));
-        for assumption in list {
-            let _ = writeln!(out, "  - {assumption}");
-        }
+    let peaks = useful.iter().filter(|line| line.kind == "peak-sampled");
+    let peaks: Vec<f64> = peaks.filter_map(|line| line.value).collect();
+    if let (Some(least), Some(greatest)) = (peaks.first(), peaks.last()) {
+        let words = format!(
+            "The sampled law has peak bounds from {least:.4} to {greatest:.4} N·m, one for each plant."
+        );
+        prose(&mut out, width, &words);
     }
-    for tolerance in [&all.tolerance, &all.learning] {
-        if tolerance.share.is_some() {
-            let _ = writeln!(out, "\nTo check for {}:", tolerance.kind);
-            for assumption in tolerance.assumptions {
-                let _ = writeln!(out, "  - {assumption}");
-            }
-        }
+    let mut rows = Columns::new(&["Law", "error", "bound [N·m]", "theorem"], &[3]);
+    for line in &useful {
+        rows.add([
+            format!("  {}", line.law),
+            quantity(line.kind).to_owned(),
+            line.value
+                .map_or_else(String::new, |value| format!("{value:.4}")),
+            line.kind.to_owned(),
+        ]);
     }
+    let _ = writeln!(out, "\n{}", rows.text(width));
+    let told = [(&all.tolerance, "stable"), (&all.learning, "converges")];
+    let told = told.map(|(tolerance, what)| within(tolerance, what));
+    block(&mut out, width, "Range", told);
+    let vacuous = lines.iter().filter(|line| line.vacuous);
+    let vacuous = vacuous.map(|line| match (&line.mostly, verbose) {
+        (Some(mostly), true) => format!(
+            "{}; {:.0} % of it is the {}, with the best free constants",
+            beyond(line),
+            100.0 * mostly.share,
+            mostly.term
+        ),
+        _ => beyond(line),
+    });
+    block(&mut out, width, "Vacuous", vacuous);
+    if verbose {
+        let refused = lines.iter().filter_map(|line| {
+            let reason = line.refused.as_ref()?;
+            Some(format!("{}, {}: {reason}", line.law, line.kind))
+        });
+        block(&mut out, width, "Refused", refused);
+        block(&mut out, width, "Note", NOTES);
+        assumptions(&mut out, all, width);
+        return out;
+    }
+    let hint = ["every bound rests on assumptions about the plant: -v lists them"];
+    block(&mut out, width, "Note", hint);
+    block(
+        &mut out,
+        width,
+        "Next",
+        ["-v · --json · bowden certify GAINS.toml"],
+    );
     out
+}
+
+/// What a theorem bounds: the rms over a long time, the error at every sample, or its limit superior.
+fn quantity(kind: &str) -> &'static str {
+    match kind {
+        "rms" | "rms-sampled" => "rms",
+        "peak-sampled" => "peak",
+        _ => "limsup",
+    }
+}
+
+/// "|e| at every sample <= 0.8339 N·m".
+fn bound(line: &Promise) -> String {
+    let what = line.bounds.unwrap_or("|e|");
+    let value = line.value.unwrap_or(f64::INFINITY);
+    format!("{what} <= {value:.4} {}", line.unit)
+}
+
+fn beyond(line: &Promise) -> String {
+    format!("{}: {}, above the reference", line.kind, bound(line))
+}
+
+const NOTES: [&str; 3] = [
+    "range: alpha, zeta, c/K and latency of the plant are within the first share of the rig's, and wn is within the second, all at once",
+    "beta within p %: bounds of beta_hat around 1/alpha, where alpha = N_A·B of the rig",
+    "the proofs cover the row at rest in f32, rounding included: |s| <= 0.43 N·m and |e| <= 0.86 N·m with Table 2's gains, if |w| <= 8 N·m and s, z start within their bounds (proofs/README.md)",
+];
+
+/// The assumptions of each kind of bound.
+fn assumptions(out: &mut String, all: &Certified, width: Width) {
+    let mut told: Vec<(&[&str], Vec<&str>)> = Vec::new();
+    let certificates = all.certificates.iter();
+    let certificates = certificates.map(|line| (line.assumptions, line.kind));
+    let tolerances = [&all.tolerance, &all.learning];
+    let tolerances = tolerances.into_iter().filter(|t| t.share.is_some());
+    let tolerances = tolerances.map(|t| (t.assumptions, t.kind));
+    for (list, kind) in certificates.chain(tolerances) {
+        match told.iter_mut().find(|(own, _)| *own == list) {
+            _ if list.is_empty() => (),
+            Some((_, kinds)) if kinds.contains(&kind) => (),
+            Some((_, kinds)) => kinds.push(kind),
+            None => told.push((list, vec![kind])),
+        }
+    }
+    for (list, kinds) in told {
+        let _ = writeln!(out, "\nAssumptions of {}:", kinds.join(", "));
+        for assumption in list {
+            prose(out, width, &format!("- {assumption}"));
+        }
+    }
 }
 
 /// How far the plant may be off until something is no longer so.
@@ -101,13 +159,12 @@ fn within(tolerance: &Tolerance, what: &str) -> String {
             format!("{what} with the rig's own plant; nothing is shown of others")
         }
         (Some(share), _) => format!(
-            "{what} with every plant within {:.1} % of the rig's\n{:<66}alpha, zeta, c/K and latency and {:.2} % of its wn, all at once",
+            "{what} with every plant within {:.1} %, wn within {:.2} %",
             100.0 * share,
-            "",
             50.0 * share
         ),
-        (None, Some(reason)) => format!("none: {reason}"),
-        (None, None) => "none".to_owned(),
+        (None, Some(reason)) => format!("nothing is shown: {reason}"),
+        (None, None) => "nothing is shown".to_owned(),
     };
-    format!("{:<47} {:<17} {told}\n", tolerance.law, tolerance.kind)
+    format!("{}: {told}", tolerance.law)
 }

@@ -1,8 +1,9 @@
-//! `bowden check` for programs, schema `bowden.check/1`, and for people.
+//! `bowden validate` for programs, schema `bowden.validate/1`, and for people.
 
+use super::layout::{block, heading, prose, Columns, Width};
 use super::several::size;
-use super::words::table;
-use anstyle::{AnsiColor, Style};
+use super::words::in_brackets;
+use anstyle::AnsiColor;
 use bowden_lab::facts::{
     number, share as percent, with_interval, CheckFacts, CheckVerdict as Verdict, Defect, Errors,
     Fitted, Line, Otherwise, Outside,
@@ -21,16 +22,16 @@ struct Report<'a> {
     nrmse_gain_offset: f64,
     gain: Fitted,
     offset: Fitted,
-    from: From,
-    allowed: Option<f64>,
+    trained_on: TrainedOn,
+    threshold_nrmse: Option<f64>,
     noise_floor: f64,
     outside: &'a [Outside],
     depends_on: Vec<DependsOn<'a>>,
-    otherwise: Option<&'a Otherwise>,
+    suspected_logging_error: Option<&'a Otherwise>,
     defects: &'a [Defect],
     notes: &'a [String],
     verdict: &'static str,
-    sentence: &'a str,
+    summary: &'a str,
 }
 
 #[derive(Serialize)]
@@ -41,15 +42,15 @@ struct RecordPart<'a> {
     mode: &'static str,
     cutoff_hz: f64,
     /// Seconds at the start that are excluded.
-    left_out_s: f64,
+    excluded_s: f64,
     unit: Option<&'a str>,
     /// Standard deviation of the filtered output on the rest.
-    deviation: f64,
+    output_std: f64,
 }
 
 /// What the model file states about its own record.
 #[derive(Serialize)]
-struct From {
+struct TrainedOn {
     nrmse: Option<Errors>,
     held_out_rmse: Option<f64>,
     cutoff_hz: Option<f64>,
@@ -82,7 +83,7 @@ pub fn check_json(
         p: one.p,
     });
     serde_json::to_string(&Report {
-        schema: "bowden.check/1",
+        schema: "bowden.validate/1",
         model,
         record: RecordPart {
             path,
@@ -90,9 +91,9 @@ pub fn check_json(
             rate_hz: record.rate,
             mode: record.mode.name(),
             cutoff_hz: record.cutoff,
-            left_out_s: check.left_out,
+            excluded_s: check.left_out,
             unit: record.unit.as_deref(),
-            deviation: check.deviation,
+            output_std: check.deviation,
         },
         rmse: check.rmse,
         nrmse: share(check.rmse),
@@ -100,21 +101,21 @@ pub fn check_json(
         nrmse_gain_offset: share(check.rmse_gain_offset),
         gain: check.line.gain,
         offset: check.line.offset,
-        from: From {
+        trained_on: TrainedOn {
             nrmse: check.came_with,
             held_out_rmse: check.reference_rmse,
             cutoff_hz: check.own_cutoff,
             rate_hz: check.own_rate,
         },
-        allowed: check.allowed.map(share),
+        threshold_nrmse: check.allowed.map(share),
         noise_floor: record.noise_floor,
         outside: &check.outside,
         depends_on: depends_on.collect(),
-        otherwise: check.otherwise.as_ref(),
+        suspected_logging_error: check.otherwise.as_ref(),
         defects: &record.defects,
         notes: &record.notes,
         verdict: check.verdict.name(),
-        sentence: &check.sentence,
+        summary: &check.sentence,
     })
 }
 
@@ -129,76 +130,77 @@ macro_rules! line {
     };
 }
 
-/// The check for people, with ANSI styles that the caller may strip. Its last line can be quoted
-/// alone.
+/// The validation for people, with ANSI styles that the caller may strip: the answer first.
 #[must_use]
-pub fn check_text(model: &str, path: &str, check: &CheckFacts) -> String {
-    let (bold, dim) = (Style::new().bold(), Style::new().dimmed());
+pub fn check_text(model: &str, path: &str, check: &CheckFacts, width: Width) -> String {
     let record = &check.record;
     let mut out = String::new();
-    line!(out, "{bold}bowden check{bold:#}  {model} on {path}");
-    line!(
-        out,
-        "read      {}; {} mode: {} → {}",
-        size(record),
-        record.mode.name(),
-        record.input,
-        record.output
-    );
+    let (colour, headline) = match check.verdict {
+        Verdict::Holds => (AnsiColor::Green, "THE MODEL HOLDS"),
+        Verdict::GainOrOffsetMoved => (AnsiColor::Yellow, "GAIN OR OFFSET HAS MOVED"),
+        Verdict::CannotTell => (AnsiColor::Yellow, "THIS RECORD CANNOT TELL"),
+        Verdict::DoesNotHold => (AnsiColor::Red, "THE MODEL DOES NOT HOLD"),
+        Verdict::DefectiveRecord => (AnsiColor::Red, "DEFECTIVE RECORD: repeat the measurement"),
+    };
+    let subject = format!("{model} on {path}");
+    let command = ("bowden validate", subject.as_str());
+    heading(&mut out, width, command, (colour, headline));
+    prose(&mut out, width, &check.sentence);
+    out.push('\n');
     let start = match check.left_out > 0.0 {
         true => format!(
-            "; the first {:.1} s do not count: what came before them is unknown",
+            " · the first {:.1} s do not count: the input before them is unknown",
             check.left_out
         ),
         false => String::new(),
     };
-    line!(out, "filtered  zero-phase at {} Hz{start}", record.cutoff);
-    for note in &record.notes {
-        line!(out, "{dim}note      {note}{dim:#}");
-    }
-    for defect in &record.defects {
-        line!(out, "defect    {}: {}", defect.channel, defect.message);
-    }
-    line!(out, "\n{}\n", errors(check));
-    if let Some(allowed) = check.allowed {
-        line!(
-            out,
-            "{dim}holds up to {}: {}{dim:#}",
+    let data = [
+        format!(
+            "{} · {} mode, {} → {}",
+            size(record),
+            record.mode.name(),
+            record.input,
+            record.output
+        ),
+        format!("zero-phase low-pass {} Hz{start}", record.cutoff),
+    ];
+    block(&mut out, width, "Data", data);
+    block(&mut out, width, "Note", &record.notes);
+    let defects = record.defects.iter();
+    let defects = defects.map(|defect| format!("{}: {}", defect.channel, defect.message));
+    block(&mut out, width, "Defect", defects);
+    line!(out, "\n{}", errors(check).text(width));
+    let bound = check.allowed.map(|allowed| {
+        format!(
+            "the model holds up to {}: {}",
             percent(allowed / check.deviation),
             check.rule()
-        );
-    }
-    for one in &check.outside {
-        line!(out, "outside   {}", beyond(one));
-    }
-    for one in &check.depends_on {
+        )
+    });
+    block(&mut out, width, "Bound", bound);
+    block(&mut out, width, "Outside", check.outside.iter().map(beyond));
+    let depends = check.depends_on.iter().map(|one| {
         let tested = one.p.map_or_else(
-            || "not tested: correlated for too long".to_owned(),
+            || "not tested: the residual is correlated for too long".to_owned(),
             |p| format!("p {p:.1e}"),
         );
-        line!(
-            out,
-            "depends   on {}: a curve of it takes {:.0} % of the squared error ({tested})",
+        format!(
+            "the residual depends on {}: a curve removes {:.0} % of the squared error ({tested})",
             one.words,
             100.0 * one.share
-        );
-    }
-    let colour = match check.verdict {
-        Verdict::Holds => AnsiColor::Green,
-        Verdict::GainOrOffsetMoved | Verdict::CannotTell => AnsiColor::Yellow,
-        Verdict::DoesNotHold | Verdict::DataDefect => AnsiColor::Red,
-    };
-    let style = Style::new().bold().fg_color(Some(colour.into()));
-    line!(
-        out,
-        "verdict   {style}{}{style:#}. {}",
-        check.verdict.name(),
-        check.sentence
+        )
+    });
+    block(&mut out, width, "Depends", depends);
+    block(
+        &mut out,
+        width,
+        "Next",
+        ["--json · --report page.html · bowden identify (a new model of this record)"],
     );
     out
 }
 
-/// "x: velocity −30 to 30 mm/s, the model has seen −10 to 10 (12 % of the samples lie outside)".
+/// "x: velocity −30 to 30 mm/s, the fit covered −10 to 10 (12 % of the samples are outside)".
 fn beyond(one: &Outside) -> String {
     let pair = |[low, high]: [f64; 2]| {
         let digits = Some(0.01 * (high - low).abs());
@@ -206,7 +208,7 @@ fn beyond(one: &Outside) -> String {
     };
     let unit = one.unit.as_deref();
     format!(
-        "{}: {} {}{}, the model has seen {} ({:.0} % of the samples lie outside)",
+        "{}: {} {}{}, the fit covered {} ({:.0} % of the samples are outside)",
         one.channel,
         one.quantity,
         pair(one.here),
@@ -216,34 +218,40 @@ fn beyond(one: &Outside) -> String {
     )
 }
 
-fn errors(check: &CheckFacts) -> comfy_table::Table {
+/// Where the width is too small, the noise goes first, then the share.
+const DROPPED: &[usize] = &[3, 2];
+
+fn errors(check: &CheckFacts) -> Columns {
     let record = &check.record;
     let unit = record.unit.as_deref().unwrap_or_default();
-    let heading = match unit {
-        "" => "RMSE".to_owned(),
-        unit => format!("RMSE [{unit}]"),
-    };
-    let mut rows = table(
-        &["", &heading, "of the output's deviation", "× floor"],
-        1..4,
-    );
+    let name = format!("Error{}", in_brackets(record.unit.as_deref()));
+    let mut rows = Columns::new(&[&name, "RMSE", "of the output's std", "vs noise"], DROPPED);
     let open = || "–".to_owned();
-    let mut add = |name: String, rmse: f64| {
+    let mut add = |name: &str, rmse: f64| {
         let times = record.floors(rmse);
-        let times = times.map_or_else(open, |times| format!("{times:.1}"));
-        let digits = number(rmse, Some(0.05 * rmse));
-        rows.add_row([name, digits, percent(rmse / check.deviation), times]);
+        rows.add([
+            format!("  {name}"),
+            number(rmse, Some(0.05 * rmse)),
+            percent(rmse / check.deviation),
+            times.map_or_else(open, |times| format!("{times:.1} ×")),
+        ]);
     };
-    add("as it is".to_owned(), check.rmse);
+    add("as it is", check.rmse);
     let Line { gain, offset } = &check.line;
-    let fit = format!("gain {}, offset {} {unit}", fitted(gain), fitted(offset));
-    add(format!("with {}", fit.trim_end()), check.rmse_gain_offset);
-    let own = check
-        .reference
-        .map_or_else(|| "unknown".to_owned(), percent);
-    let rmse = check
-        .reference_rmse
-        .map_or_else(open, |rmse| number(rmse, Some(0.05 * rmse)));
-    rows.add_row(["held out of its own record".to_owned(), rmse, own, open()]);
+    let fit = format!(
+        "with gain {}, offset {} {unit}",
+        fitted(gain),
+        fitted(offset)
+    );
+    add(fit.trim_end(), check.rmse_gain_offset);
+    let own = check.reference.map_or_else(open, percent);
+    let rmse = check.reference_rmse;
+    let rmse = rmse.map_or_else(open, |rmse| number(rmse, Some(0.05 * rmse)));
+    rows.add([
+        "  held-out, on its own record".to_owned(),
+        rmse,
+        own,
+        open(),
+    ]);
     rows
 }

@@ -1,19 +1,22 @@
-//! Output of `bowden compare`: tables, JSON, traces.
+//! Output of `bowden compare`: text, JSON, traces.
 
 use super::compare_found;
-use super::compare_rows::{conditions, configuration, own, row};
+use super::compare_rows::{conditions, configuration, row, trials};
+use super::layout::{block, heading as headline, prose, Columns, Width, NONE};
+use anstyle::AnsiColor;
 use bowden_trials::facts::{
-    places, told_of_limits, Compared, Heading, Line, Lineup, Promise, Results, Spread,
+    knows, places, smallest_error, told_of_limits, Compared, Heading, Line, Lineup, Results,
 };
 use serde_json::{json, Value};
 use std::fmt::Write as _;
 
-/// The comparison for people.
+/// The comparison for people: the answer first.
 #[must_use]
-pub fn text(compared: &Compared) -> String {
+pub fn text(compared: &Compared, width: Width, verbose: bool) -> String {
+    let heading = &compared.heading;
     match &compared.results {
-        Results::Lineup(lineup) => lineup_text(&compared.heading, lineup),
-        Results::Found(found) => compare_found::text(&compared.heading, found),
+        Results::Lineup(lineup) => lineup_text(heading, lineup, width, verbose),
+        Results::Found(found) => compare_found::text(heading, found, width, verbose),
     }
 }
 
@@ -26,12 +29,7 @@ pub fn json(compared: &Compared) -> String {
     }
 }
 
-fn spread(spread: Spread) -> String {
-    let places = places(spread.mean, 4);
-    format!("{:.places$} ± {:.places$}", spread.mean, spread.sd)
-}
-
-/// "–, ran away at 0.31 s", in place of errors that were summed over a part of the trial;
+/// "ran away at 0.31 s", instead of errors that were summed over a part of the trial;
 /// `None` if no trial ran away.
 fn ran_away(line: &Line, seeds: usize) -> Option<String> {
     let at = line.ran_away?;
@@ -42,173 +40,238 @@ fn ran_away(line: &Line, seeds: usize) -> Option<String> {
     Some(format!("–, ran away{share} at {at:.2} s"))
 }
 
-fn lineup_text(heading: &Heading, lineup: &Lineup) -> String {
-    let mut out = format!(
-        "bowden compare: {} trials of {} s on the reference rig{}, noise {} N·m rms, configuration {}\n\n",
-        heading.seeds,
-        heading.seconds,
-        match &heading.model {
-            Some(model) => format!(" with the transmission of {model}"),
-            None => String::new(),
-        },
+fn lineup_text(heading: &Heading, lineup: &Lineup, width: Width, verbose: bool) -> String {
+    let mut out = String::new();
+    answer(&mut out, heading, &lineup.lines, width);
+    let data = format!(
+        "{} · errors from {} s · noise {} N·m rms · conduit {}",
+        trials(heading),
+        heading.from,
         heading.noise,
         configuration(heading)
     );
-    out += &own(heading);
-    if let Some(changed) = &heading.fed_with {
-        let _ = writeln!(
-            out,
-            "The model has no inverse as it is: fed forward with {changed}.\n"
+    let data = std::iter::once(data).chain(heading.own());
+    block(&mut out, width, "Data", data);
+    out.push('\n');
+    out += &steady(heading, lineup, verbose).text(width);
+    if verbose {
+        out.push('\n');
+        out += &transient(heading, &lineup.lines).text(width);
+    }
+    out.push('\n');
+    block(&mut out, width, "Note", notes(heading, lineup, verbose));
+    let verbose = if verbose { "" } else { "-v · " };
+    let certify = match &heading.gains {
+        Some(gains) => format!("bowden certify {gains}"),
+        None => "bowden certify".to_owned(),
+    };
+    let next = format!("{verbose}--trace trace.csv · --report page.html · {certify}");
+    block(&mut out, width, "Next", [next]);
+    out
+}
+
+/// The controller with the smallest error, what it knows of the plant, and the best one that knows
+/// nothing of it.
+fn answer(out: &mut String, heading: &Heading, lines: &[Line], width: Width) {
+    let subject = match &heading.model {
+        Some(model) => format!("simulated reference rig with the transmission of {model}"),
+        None => "simulated reference rig".to_owned(),
+    };
+    let command = ("bowden compare", subject.as_str());
+    let Some(best) = smallest_error(lines, |_| true) else {
+        let answer = (AnsiColor::Red, "EVERY CONTROLLER RAN AWAY");
+        headline(out, width, command, answer);
+        return out.push('\n');
+    };
+    let size = |line: &Line| {
+        let mean = line.rmse_true.mean;
+        format!("{mean:.*} N·m rms", places(mean, 4))
+    };
+    let (name, known) = (&best.controller, knows(&best.controller));
+    let knowledge = known.map_or("", |_| " (knows the plant)");
+    let answer = format!("SMALLEST ERROR: {name}{knowledge}, {}", size(best));
+    // At a limit the errors say little of the gains.
+    let colour = match told_of_limits(lines) {
+        None => AnsiColor::Green,
+        Some(_) => AnsiColor::Yellow,
+    };
+    headline(out, width, command, (colour, &answer));
+    match known {
+        Some(what) => prose(out, width, &format!("{name} knows {what}.")),
+        None if heading.gains.is_some() => {
+            let origin = "`bowden design` derived its gains from one";
+            prose(
+                out,
+                width,
+                &format!("{name} computes with no plant model; {origin}."),
+            );
+        }
+        None => prose(out, width, &format!("{name} computes with no plant model.")),
+    }
+    let other = smallest_error(lines, |name| knows(name).is_none());
+    if let Some(other) = other.filter(|_| known.is_some()) {
+        let name = &other.controller;
+        let words = format!(
+            "Smallest error without a plant model: {name}, {}.",
+            size(other)
         );
+        prose(out, width, &words);
     }
-    let notes = match (heading.is_paper, &heading.model, heading.gait) {
-        (true, ..) => NOTES,
-        (false, Some(_), _) => OWN_NOTES,
-        (false, None, true) => GAIT_NOTES,
-        (false, None, false) => CHANGED_NOTES,
-    };
-    let at_limits = told_of_limits(&lineup.lines);
-    out + &steady(heading, lineup)
-        + &at_limits.map_or_else(String::new, |told| format!("{told}\n"))
-        + &transient(heading, &lineup.lines)
-        + notes
-        + without_certificate(heading, lineup)
+    out.push('\n');
 }
 
-/// Why a row has a dash in the column of the certificates.
-fn without_certificate(heading: &Heading, lineup: &Lineup) -> &'static str {
-    match (lineup.certificates.is_empty(), &heading.gains) {
-        (false, _) => NO_CERTIFICATE,
-        (true, Some(_)) => NOT_OF_THESE_GAINS,
-        (true, None) if heading.gait && heading.model.is_none() => NOT_OF_A_GAIT,
-        (true, None) => NOT_OF_THIS_RIG,
-    }
-}
+/// Where the width is too small, the share of the reference is dropped first, then the reversals, the
+/// deviations, the paper, the bound, the measured error, the effort, and the peak.
+const DROPPED: &[usize] = &[5, 10, 7, 4, 2, 6, 11, 3, 9, 8];
 
-fn steady(heading: &Heading, lineup: &Lineup) -> String {
-    let mut out = format!(
-        "Steady part, from {} s on; errors in N·m\n{:<22} {:>17} {:>17} {:>6} {:>7} {:>9} {:>8}  {:<17} certificate\n",
-        heading.from,
-        "controller",
-        "rmse, true",
-        "rmse, measured",
-        "% max",
-        "peak",
-        "effort/s",
-        "turns/s",
-        "paper, Table 3"
+fn steady(heading: &Heading, lineup: &Lineup, verbose: bool) -> Columns {
+    let mut rows = Columns::new(
+        &[
+            "Error [N·m]",
+            "true rms",
+            "± sd",
+            "measured",
+            "± sd",
+            "% max",
+            "paper",
+            "± sd",
+            "peak",
+            "effort",
+            "reversals/s",
+            "bound",
+        ],
+        DROPPED,
     );
-    let certificate = |promise: &Promise| {
-        let value = promise.value?;
-        Some(format!("{} {value:.*}", promise.kind, places(value, 3)))
+    let more = |cell: String| if verbose { cell } else { NONE.to_owned() };
+    // One trial has no deviation.
+    let sd = |sd: String| {
+        if heading.seeds > 1 {
+            sd
+        } else {
+            NONE.to_owned()
+        }
     };
+    let or_none = |cell: Option<String>| cell.unwrap_or_else(|| NONE.to_owned());
     for line in &lineup.lines {
+        let name = format!("  {}", line.controller);
         if let Some(when) = ran_away(line, heading.seeds) {
-            let _ = writeln!(out, "{:<22} {when}", line.controller);
+            rows.add([name, when]);
             continue;
         }
         let paper = heading.paper(&line.controller);
-        let paper = paper.map(|[mean, sd]| format!("{mean:.4} ± {sd:.4}"));
-        let own = lineup.certificates.get(&line.controller);
-        let _ = writeln!(
-            out,
-            "{:<22} {:>17} {:>17} {:>6.2} {:>7.*} {:>9.*} {:>8.0}  {:<17} {}",
-            line.controller,
-            spread(line.rmse_true),
-            spread(line.rmse_measured),
-            100.0 * line.share,
-            places(line.peak, 3),
-            line.peak,
-            places(line.effort, 0),
-            line.effort,
-            line.reversals,
-            paper.as_deref().unwrap_or("-"),
-            own.and_then(certificate).as_deref().unwrap_or("-"),
-        );
+        let bound = lineup.certificates.get(&line.controller);
+        let bound = bound.and_then(|promise| promise.value);
+        let (own, measured) = (line.rmse_true, line.rmse_measured);
+        let digits = places(own.mean, 4);
+        rows.add([
+            name,
+            format!("{:.digits$}", own.mean),
+            sd(format!("{:.digits$}", own.sd)),
+            format!("{:.*}", places(measured.mean, 4), measured.mean),
+            more(sd(format!("{:.*}", places(measured.mean, 4), measured.sd))),
+            more(format!("{:.2}", 100.0 * line.share)),
+            or_none(paper.map(|[mean, _]| format!("{mean:.4}"))),
+            more(or_none(paper.map(|[_, sd]| format!("{sd:.4}")))),
+            format!("{:.*}", places(line.peak, 3), line.peak),
+            format!("{:.*}", places(line.effort, 0), line.effort),
+            more(format!("{:.0}", line.reversals)),
+            or_none(bound.map(|value| format!("{value:.*}", places(value, 3)))),
+        ]);
     }
-    out
+    rows
 }
 
-fn transient(heading: &Heading, lines: &[Line]) -> String {
-    let mut out = format!(
-        "\nTransient, the first {} s\n{:<22} {:>17} {:>9} {:>14}\n",
-        heading.transient, "controller", "rmse, true", "peak", "most command"
-    );
+fn transient(heading: &Heading, lines: &[Line]) -> Columns {
+    let name = format!("Transient, the first {} s [N·m]", heading.transient);
+    let header = [&name, "true rms", "± sd", "peak", "largest command"];
+    let mut rows = Columns::new(&header, &[2, 4, 3]);
     for line in lines {
+        let name = format!("  {}", line.controller);
         if let Some(when) = ran_away(line, heading.seeds) {
-            let _ = writeln!(out, "{:<22} {when}", line.controller);
+            rows.add([name, when]);
             continue;
         }
-        let _ = writeln!(
-            out,
-            "{:<22} {:>17} {:>9.*} {:>14.*}",
-            line.controller,
-            spread(line.transient),
-            places(line.transient_peak, 2),
-            line.transient_peak,
-            places(line.command, 1),
-            line.command
-        );
+        let digits = places(line.transient.mean, 4);
+        let sd = match heading.seeds {
+            1 => NONE.to_owned(),
+            _ => format!("{:.digits$}", line.transient.sd),
+        };
+        rows.add([
+            name,
+            format!("{:.digits$}", line.transient.mean),
+            sd,
+            format!("{:.*}", places(line.transient_peak, 2), line.transient_peak),
+            format!("{:.*}", places(line.command, 1), line.command),
+        ]);
     }
-    out
+    rows
 }
 
-const NOTES: &str = "
-The rig's drive gain and noise were picked so that PI and the adaptive law come out as in
-Table 3: those two are calibration, not validation. Not reproduced: PIV below PI (here it
-is not), and the paper's scatter between trials. matched-pi is a PI with the integral gain
-that the adaptive law has in effect (320): what it reaches is gain, not adaptation.
-pi-observer is a softer PI with a disturbance observer: it knows the rig's drive gain, inertia,
-damping and stiffness, and nothing of the friction. The frozen law starts with beta_hat at
-1/alpha and delta_hat as given, and never adapts; the feed-forward knows the rig's own
-transmission, or the --model. A certificate bounds an idealised plant without sensor noise:
-`bowden certify` lists what each assumes.
-";
+/// What the table does not say.
+fn notes(heading: &Heading, lineup: &Lineup, verbose: bool) -> Vec<String> {
+    let mut notes = Vec::new();
+    notes.extend(told_of_limits(&lineup.lines));
+    let changed = heading.fed_with.as_ref();
+    notes.extend(
+        changed.map(|changed| {
+            format!("The model has no inverse; the feed-forward inverts {changed}.")
+        }),
+    );
+    let rig = match (heading.is_paper, &heading.model, heading.gait) {
+        (true, ..) => &[CALIBRATED, NOT_REPRODUCED][..],
+        (false, Some(_), _) => &[OF_THE_REFERENCE_RIG],
+        (false, None, true) => &[],
+        (false, None, false) => &[CHANGED],
+    };
+    notes.extend(rig.iter().map(|&note| note.to_owned()));
+    let no_bound = match (lineup.certificates.is_empty(), &heading.gains) {
+        (false, _) => None,
+        (true, Some(_)) => Some(NOT_OF_THESE_GAINS),
+        (true, None) if heading.gait && heading.model.is_none() => Some(NOT_OF_A_GAIT),
+        (true, None) => Some(NOT_OF_THIS_RIG),
+    };
+    notes.extend(no_bound.map(str::to_owned));
+    if verbose {
+        let runs = |name: &str| lineup.lines.iter().any(|line| line.controller == name);
+        let own = OF_CONTROLLERS.iter().filter(|(name, _)| runs(name));
+        notes.extend(own.map(|(name, note)| format!("{name}: {note}")));
+        notes.extend(heading.gains.as_ref().map(|_| RINGING.to_owned()));
+        notes.extend(OF_COLUMNS.map(str::to_owned));
+    }
+    notes
+}
 
-const OWN_NOTES: &str = "
-Inertias, spring, damping, lags and delay of the rig are those of the reference rig unless they
-are given. The transmission and the effects are the model's, which the feed-forward inverts as far
-as that can be. Gains of `bowden design` are for a plant that answers after the stated delay: a
-heavy joint that swings may ring with them.
-";
+const CALIBRATED: &str = "Drive gain and noise of the rig are chosen so that PI and the adaptive law match Table 3 of the paper. The rows pi and adaptive are calibration, not validation.";
 
-const CHANGED_NOTES: &str = "
-Rig or gains are not the paper's: Table 3 does not compare with them. What is not given is the
-paper's or the reference rig's; matched-pi then has the integral gain that the paper's adaptive
-law has in effect (320). pi-observer knows the rig's drive gain, inertia, damping and stiffness, and
-nothing of the friction. The frozen law starts with beta_hat at 1/alpha and delta_hat as given,
-and never adapts; the feed-forward knows the rig's own transmission, or the model that is given.
-A certificate bounds an idealised plant without sensor noise: `bowden certify` lists what each
-assumes.
-";
+const NOT_REPRODUCED: &str = "Not reproduced: PIV below PI, and the paper's scatter of trials.";
 
-const GAIT_NOTES: &str = "
-pi-learning is the paper's PI with what the steps before have lacked, a number for each cell of the
-cycle, and with its nominal plant turned round along the reference; it needs the phase of the cycle,
-and five to twenty cycles. What else differs from the paper's table: `bowden compare` without --gait
-says so. matched-pi has the integral gain that the adaptive law has in effect (320); pi-observer
-knows the rig's drive gain, inertia, damping and stiffness, and nothing of the friction; the
-feed-forward of adaptive-feed-forward knows the rig's own transmission, or the model that is given.
-";
+const OF_THE_REFERENCE_RIG: &str =
+    "Numbers of the rig that you do not set are those of the reference rig.";
 
-const NOT_OF_A_GAIT: &str = "\
-certificate -: the table has those of the paper's reference alone.
-";
+const RINGING: &str = "Gains of `bowden design` can ring on a heavy joint that swings.";
 
-const NO_CERTIFICATE: &str = "\
-certificate -: no bound of its error is known. `bowden certify` says for which plants the loop of
-pi-observer is stable.
-";
+const CHANGED: &str =
+    "Rig or gains are not the paper's: its Table 3 is no reference for this comparison.";
 
-const NOT_OF_THESE_GAINS: &str = "\
-certificate -: the table has those of the reference rig alone. `bowden certify GAINS.toml` says what
-is proved of the adaptive law of these gains, on the plant that their file states in [plant].
-";
+const NOT_OF_A_GAIT: &str = "No bounds: they hold for the paper's reference only.";
 
-const NOT_OF_THIS_RIG: &str = "\
-certificate -: the table has those of the reference rig alone. `bowden design` derives gains from a
-model, with what is promised of them.
-";
+const NOT_OF_THESE_GAINS: &str = "No bounds here: `bowden certify GAINS.toml` says what is proved.";
+
+const NOT_OF_THIS_RIG: &str = "No bounds: they hold for the reference rig only. `bowden design` derives gains from a model, and a bound for them.";
+
+const OF_CONTROLLERS: [(&str, &str); 5] = [
+    ("matched-pi", "a PI with the integral gain that the paper's adaptive law has in effect (320). Its error shows what gain achieves without adaptation."),
+    ("pi-observer", "a softer PI with a disturbance observer. It has no model of the friction. `bowden certify` prints for which plants its loop is stable."),
+    ("adaptive-frozen", "beta_hat is 1/alpha, delta_hat is as given, and neither adapts."),
+    ("adaptive-feed-forward", "the adaptive law, plus the inverse of the rig's own transmission or of the given model."),
+    ("pi-learning", "the paper's PI, plus a correction for each cell of the cycle and the inverse of the nominal plant. It needs the phase of the cycle, and five to twenty cycles."),
+];
+
+const OF_COLUMNS: [&str; 3] = [
+    "Columns: `measured` is the rms of the measured error, which the paper's Table 3 has; `% max` is its share of the greatest reference.",
+    "Columns: `effort` is the total variation of the command [units/s].",
+    "Columns: `bound` is the proved bound of the rms error of an idealised plant without sensor noise. `bowden certify` lists its assumptions.",
+];
 
 fn lineup_json(heading: &Heading, lineup: &Lineup) -> String {
     let rows = lineup.lines.iter().map(|line| {

@@ -1,101 +1,144 @@
 //! Output of `bowden compare --effect`: the loop closed through the controllers.
 
-use super::compare_rows::{conditions, own, row};
-use bowden_trials::facts::{Found, Heading, Line, Outcome, OverSeeds, Pair};
+use super::compare_rows::{conditions, row, trials};
+use super::layout::{block, heading as headline, prose, Columns, Width};
+use anstyle::AnsiColor;
+use bowden_trials::facts::{Found, Heading, Line, Outcome, Pair};
 use serde_json::{json, Value};
-use std::fmt::Write as _;
+
+/// Maximum number of listed bench records; `--verbose` and the JSON have all.
+const LISTED: usize = 4;
 
 /// "0.123", or when the loop ran away.
 fn error(line: &Line) -> String {
     match line.ran_away {
         None => format!("{:.4}", line.rmse_true.mean),
-        Some(at) => format!("–, {at:.2} s"),
+        Some(at) => format!("ran away at {at:.2} s"),
     }
 }
 
-/// Relative reduction from before to after.
+/// Relative change from before to after.
 fn change(pair: &Pair) -> String {
     let change = pair.change();
     change.map_or_else(
-        || "-".to_owned(),
+        || "–".to_owned(),
         |share| format!("{:+.0} %", 100.0 * share),
     )
 }
 
-/// For people.
-pub(super) fn text(heading: &Heading, found: &Found) -> String {
-    let Found {
-        effect, outcomes, ..
-    } = found;
-    let mut out = format!(
-        "bowden compare --effect {}: {} N·m rms of it on the rig, declared to nobody; noise {} N·m rms, {} s\n\n",
-        effect.name, effect.strength, heading.noise, heading.seconds
+/// For people: the answer first.
+pub(super) fn text(heading: &Heading, found: &Found, width: Width, verbose: bool) -> String {
+    let (effect, outcomes) = (&found.effect, &found.outcomes);
+    let mut out = String::new();
+    let (all, count) = (found.over_seeds.len(), outcomes.len());
+    let gained = found.over_seeds.iter().filter(|over| over.lower == count);
+    let gained = gained.count();
+    let colour = match gained {
+        0 => AnsiColor::Yellow,
+        _ => AnsiColor::Green,
+    };
+    let answer = format!("THE IDENTIFIED TERMS LOWER THE ERROR OF {gained} OF {all} CONTROLLERS");
+    let subject = format!("--effect {}", effect.name);
+    let command = ("bowden compare", subject.as_str());
+    headline(&mut out, width, command, (colour, &answer));
+    let words = format!(
+        "The rig has {} N·m rms of {}, which the baseline model lacks. A controller counts if its error falls in every trial.",
+        effect.strength, effect.name
     );
-    out.push_str(&own(heading));
-    for outcome in outcomes {
-        out.push_str(&seed(outcome));
-    }
-    let _ = writeln!(
-        out,
-        "\nover {} seeds: lower, the same, higher",
-        outcomes.len()
+    prose(&mut out, width, &words);
+    out.push('\n');
+    let data = format!("{} · noise {} N·m rms", trials(heading), heading.noise);
+    block(
+        &mut out,
+        width,
+        "Data",
+        std::iter::once(data).chain(heading.own()),
     );
-    for over in &found.over_seeds {
-        let OverSeeds {
-            controller,
-            lower,
-            same,
-            higher,
-        } = over;
-        let _ = writeln!(out, "  {controller:<40} {lower:>9} {same:>15} {higher:>12}");
+    let mut bench: Vec<String> = outcomes.iter().map(on_the_bench).collect();
+    if !verbose && bench.len() > LISTED {
+        bench.truncate(LISTED);
+        bench.push(format!("{} more: -v", count - LISTED));
     }
-    out.push_str(NOTES);
+    block(&mut out, width, "Bench", bench);
+    out.push('\n');
+    if verbose || count == 1 {
+        for outcome in outcomes {
+            out += &seed(outcome).text(width);
+            out.push('\n');
+        }
+    }
+    if count > 1 {
+        out += &over_seeds(found).text(width);
+        out.push('\n');
+    }
+    if verbose {
+        block(&mut out, width, "Note", NOTES);
+    }
+    let next = match verbose {
+        true => "--json · --report page.html",
+        false => "-v (errors of each seed) · --json · --report page.html",
+    };
+    block(&mut out, width, "Next", [next]);
     out
 }
 
-fn seed(outcome: &Outcome) -> String {
+/// What `identify` found on the bench record of a seed.
+fn on_the_bench(outcome: &Outcome) -> String {
     let found = &outcome.identified;
     let names = match found.names.is_empty() {
         true => "nothing".to_owned(),
         false => found.names.join(", "),
     };
     let mut out = format!(
-        "seed {}: on the bench `close` found {names}; held-out rmse {:.4} -> {:.4} N·m\n",
+        "seed {}: found {names}; held-out rmse {:.4} → {:.4} N·m",
         outcome.seed, found.before, found.after
     );
     if !found.left_out.is_empty() {
-        let left_out = found.left_out.join(", ");
-        let _ = writeln!(out, "  not fed forward: {left_out}");
+        out += &format!("; not fed forward: {}", found.left_out.join(", "));
     }
     if let Some(changed) = &outcome.fed_with {
-        let _ = writeln!(out, "  no inverse as fitted; fed forward with {changed}");
-    }
-    let _ = writeln!(
-        out,
-        "  {:<40} {:>9} {:>15} {:>12} {:>9}",
-        "true rmse [N·m], steady part", "no model", "declared model", "with found", "change"
-    );
-    for pair in &outcome.pairs {
-        let _ = writeln!(
-            out,
-            "  {:<40} {:>9} {:>15} {:>12} {:>9}",
-            pair.controller,
-            error(&pair.plain),
-            error(&pair.declared),
-            error(&pair.found),
-            change(pair)
-        );
+        out += &format!("; no inverse as fitted, fed forward with {changed}");
     }
     out
 }
 
-const NOTES: &str = "
-declared model: Bouc-Wen alone, fitted to the bench record, as feed-forward; with found:
-the same with what `close` added, refitted together. As third regressor the found effects
-enter with their bench value as prior; there the column before is the law without it. Loops
-called quiet have a fifth of the paper's gains: what a full gain hides, they show. A dash
-with a time is a loop that ran away then.
-";
+/// Number of trials in which each controller gains.
+fn over_seeds(found: &Found) -> Columns {
+    let header = ["Error in how many trials", "lower", "the same", "higher"];
+    let mut rows = Columns::new(&header, &[]);
+    for over in &found.over_seeds {
+        let counts = [over.lower, over.same, over.higher].map(|count| count.to_string());
+        let name = format!("  {}", over.controller);
+        rows.add(std::iter::once(name).chain(counts));
+    }
+    rows
+}
+
+/// Where the width is too small, the error without a model is dropped first, then the change.
+const DROPPED: &[usize] = &[1, 4];
+
+fn seed(outcome: &Outcome) -> Columns {
+    let name = format!("True rms [N·m], seed {}", outcome.seed);
+    let header = [&name, "no model", "baseline", "with found", "change"];
+    let mut rows = Columns::new(&header, DROPPED);
+    for pair in &outcome.pairs {
+        rows.add([
+            format!("  {}", pair.controller),
+            error(&pair.plain),
+            error(&pair.declared),
+            error(&pair.found),
+            change(pair),
+        ]);
+    }
+    rows
+}
+
+const NOTES: [&str; 4] = [
+    "Baseline: the feed-forward is Bouc-Wen alone, fitted to the bench record.",
+    "With found: the terms that `identify` adds are refitted together with Bouc-Wen and fed forward.",
+    "Third regressor: the found terms enter the adaptive law with their bench value as prior. Its baseline is the law without them.",
+    "Quiet: the loop has a fifth of the paper's gains. It shows what a full gain hides.",
+];
 
 /// Schema `bowden.compare/1`.
 pub(super) fn json(heading: &Heading, found: &Found) -> String {

@@ -11,13 +11,10 @@ pub(super) fn configuration(heading: &Heading) -> &'static str {
     }
 }
 
-/// What is the user's own, a line each, and an empty line below.
-pub(super) fn own(heading: &Heading) -> String {
-    let own = heading.own();
-    match own.is_empty() {
-        true => String::new(),
-        false => own.join("\n") + "\n\n",
-    }
+/// "6 trials of 60 s".
+pub(super) fn trials(heading: &Heading) -> String {
+    let plural = if heading.seeds == 1 { "" } else { "s" };
+    format!("{} trial{plural} of {} s", heading.seeds, heading.seconds)
 }
 
 pub(super) fn conditions(heading: &Heading) -> Value {

@@ -1,4 +1,4 @@
-//! Cost of a run of `bowden close`, in one line for a terminal.
+//! Cost of a run of `bowden identify`, in one line for a terminal.
 
 use bowden_lab::facts::CostFacts;
 
@@ -7,10 +7,10 @@ use bowden_lab::facts::CostFacts;
 pub fn cost_line(cost: &CostFacts) -> String {
     let seconds = &cost.seconds;
     format!(
-        "took {:.1} s: reading {:.1}, declared model {:.1}, search {:.1}, conclusions {:.1}; {} evaluations of the model, {} Jacobians",
+        "took {:.1} s: reading {:.1}, baseline model {:.1}, search {:.1}, conclusions {:.1}; {} evaluations of the model, {} Jacobians",
         seconds.total(),
         seconds.before_the_fit(),
-        seconds.fitting_declared,
+        seconds.fitting_baseline,
         seconds.searching,
         seconds.concluding,
         cost.counts.evaluations,
@@ -34,14 +34,14 @@ mod tests {
             seconds: StageSeconds {
                 reading: 0.25,
                 preparing: 0.25,
-                fitting_declared: 1.0,
+                fitting_baseline: 1.0,
                 searching: 2.0,
                 concluding: 0.5,
             },
         };
         assert_eq!(
             cost_line(&cost),
-            "took 4.0 s: reading 0.5, declared model 1.0, search 2.0, conclusions 0.5; 412 evaluations of the model, 97 Jacobians"
+            "took 4.0 s: reading 0.5, baseline model 1.0, search 2.0, conclusions 0.5; 412 evaluations of the model, 97 Jacobians"
         );
     }
 }

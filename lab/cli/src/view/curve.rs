@@ -1,5 +1,6 @@
 //! The unmodelled curve, for programs and for people.
 
+use super::layout::{block, Report};
 use super::words::in_brackets;
 use bowden_lab::facts::{number, with_interval, Facts, Knot, Segments, UnknownFacts};
 use serde::Serialize;
@@ -39,18 +40,22 @@ impl<'a> UnknownPart<'a> {
 }
 
 /// The section of the ledger; empty if there is no such curve.
-pub(super) fn text(facts: &Facts) -> Option<String> {
+pub(super) fn text(facts: &Facts, report: Report) -> Option<String> {
     let unknown = facts.unknown.as_ref()?;
     let knots = &unknown.curve;
     let every = knots.len().div_ceil(LINES).max(1);
     let largest = knots.iter().map(|k| k.value.abs()).fold(0.0, f64::max);
     let mut out = String::new();
-    let _ = writeln!(
-        out,
-        "unknown: {} A free curve of it takes {:.1} % of the squared error (p {:.1e}); it stays in the final model as a table.",
-        unknown.sentence,
-        100.0 * unknown.share,
-        unknown.p
+    block(
+        &mut out,
+        report.width,
+        "Curve",
+        [format!(
+            "over {}: removes {:.1} % of the squared error (p {:.1e}); the final model contains the curve as a table",
+            unknown.words,
+            100.0 * unknown.share,
+            unknown.p
+        )],
     );
     let _ = writeln!(
         out,

@@ -1,9 +1,11 @@
 //! The model for firmware: its errors there, and whether it is a feed-forward.
 
-use bowden_lab::facts::{three_digits, Calmed, FeedForward, HandOverFacts, LeftOut, Segments};
+use super::layout::{block, Width};
+use bowden_lab::facts::{
+    three_digits, Calmed, FeedForward, HandOverFacts, LeftOut, Parameter, Segments,
+};
 use serde::Serialize;
 use std::borrow::Cow;
-use std::fmt::Write as _;
 
 /// The part of the JSON's `final` that is about the model of `--model-out`.
 #[derive(Serialize)]
@@ -11,18 +13,20 @@ pub(super) struct HandOverPart<'a> {
     /// Errors sample by sample with causal rates; `null` if nothing can be handed over.
     causal_nrmse: Option<Segments>,
     feed_forward: Cow<'a, FeedForward>,
-    handed_over: Option<HandedOver<'a>>,
+    exported_model: Option<ExportedModel<'a>>,
 }
 
 #[derive(Serialize)]
-struct HandedOver<'a> {
+struct ExportedModel<'a> {
     effects: &'a [String],
-    left_out: &'a [LeftOut],
+    excluded_terms: &'a [LeftOut],
     within_inverse: bool,
     nrmse: Segments,
     #[serde(skip_serializing_if = "Option::is_none")]
-    calmed: Option<Calmed>,
+    with_deadband: Option<Calmed>,
     rates_time_constant_s: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    parameters: Option<&'a [Parameter]>,
 }
 
 impl<'a> HandOverPart<'a> {
@@ -31,24 +35,25 @@ impl<'a> HandOverPart<'a> {
             Ok(hand) => Self {
                 causal_nrmse: Some(hand.causal),
                 feed_forward: Cow::Borrowed(&hand.feed_forward),
-                handed_over: Some(HandedOver {
+                exported_model: Some(ExportedModel {
                     effects: &hand.effects,
-                    left_out: &hand.left_out,
+                    excluded_terms: &hand.left_out,
                     within_inverse: hand.within_inverse,
                     nrmse: hand.nrmse,
-                    calmed: hand.calmed,
+                    with_deadband: hand.calmed,
                     rates_time_constant_s: hand.time_constant,
+                    parameters: hand.model.as_ref().map(|model| &model.parameters[..]),
                 }),
             },
             Err(because) => Self {
                 causal_nrmse: None,
                 feed_forward: Cow::Owned(FeedForward {
                     invertible: false,
-                    because: Some(because.clone()),
+                    reason: Some(because.clone()),
                     nearest: None,
                     caution: None,
                 }),
-                handed_over: None,
+                exported_model: None,
             },
         }
     }
@@ -62,56 +67,65 @@ fn per_cent(share: f64) -> String {
     format!("{:.2} %", 100.0 * share)
 }
 
-/// The lines of the ledger.
-pub(super) fn text(hand: &Result<HandOverFacts, String>) -> String {
+/// The block on the exported model: its error on a controller, and whether it has an inverse.
+pub(super) fn text(hand: &Result<HandOverFacts, String>, width: Width) -> String {
+    let mut out = String::new();
     let hand = match hand {
         Ok(hand) => hand,
-        Err(because) => return format!("firmware  nothing is handed over: {because}\n"),
+        Err(reason) => {
+            block(
+                &mut out,
+                width,
+                "Use it",
+                [format!("no model can be exported: {reason}")],
+            );
+            return out;
+        }
     };
-    let mut out = String::new();
-    let mut line = |text: String| {
-        let _ = writeln!(out, "firmware  {text}");
-    };
-    if !hand.left_out.is_empty() || hand.on_inverse_bound {
+    let mut lines = Vec::new();
+    if !hand.left_out.is_empty() {
         let names: Vec<String> = hand
             .left_out
             .iter()
-            .map(|part| format!("{} ({})", part.effect, part.because))
+            .map(|part| format!("{} ({})", part.effect, part.reason))
             .collect();
-        let without = match names.is_empty() {
-            true => "the model fitted within what can be inverted".to_owned(),
-            false => format!("the model without {}, fitted again", names.join(", ")),
-        };
-        line(format!(
-            "held out {} with {without}; {} with the final model",
-            per_cent(hand.nrmse.held_out),
-            per_cent(hand.as_fitted.held_out)
-        ));
+        let names = names.join(", ");
+        lines.push(match &hand.model {
+            // The model above is the exported one.
+            Some(_) => format!("exported without {names}, fitted again"),
+            None => format!(
+                "exported: held-out {} without {names}, fitted again; {} with the model above",
+                per_cent(hand.nrmse.held_out),
+                per_cent(hand.as_fitted.held_out)
+            ),
+        });
     }
-    line(format!(
-        "held out {} sample by sample as firmware runs it (input as recorded, causal velocities by Rates, {} ms), {} with the fit's smoothed signals",
+    lines.push(format!(
+        "on a controller: held-out {} (f32, sample by sample, causal rates)",
         per_cent(hand.causal.held_out),
-        three_digits(1e3 * hand.time_constant),
-        per_cent(hand.nrmse.held_out)
     ));
     if let Some(calmed) = &hand.calmed {
-        line(format!(
-            "held out {} with the input behind signal::Play of half-width {}: its noise turns the hysteresis",
+        lines.push(format!(
+            "with signal::Play of half-width {} on the input: held-out {}; the input's noise drives the hysteresis",
+            three_digits(calmed.half_width),
             per_cent(calmed.causal_nrmse.held_out),
-            three_digits(calmed.half_width)
         ));
     }
-    let mend = match (&hand.feed_forward.because, &hand.feed_forward.nearest) {
-        (None, _) => String::new(),
-        // A model that was left without a hysteresis has none with --invertible either.
-        _ if !hand.effects.iter().any(|part| part == "bouc-wen") => String::new(),
-        (Some(_), None) => "; --invertible fits one that can be inverted".to_owned(),
-        (Some(_), Some(near)) => format!(
-            "; --invertible fits one that can be inverted, the nearest one ({}) has {} held out",
-            near.changed,
-            per_cent(near.nrmse.held_out)
-        ),
-    };
-    line(format!("feed-forward: {}{mend}", hand.feed_forward.words()));
+    lines.push(format!("as feed-forward: {}", hand.feed_forward.words()));
+    // A model without a hysteresis has none with --invertible either.
+    if hand.effects.iter().any(|part| part == "bouc-wen") {
+        lines.extend(
+            match (&hand.feed_forward.reason, &hand.feed_forward.nearest) {
+                (None, _) => None,
+                (Some(_), None) => Some("--invertible: a model with an inverse".to_owned()),
+                (Some(_), Some(near)) => Some(format!(
+                    "--invertible: held-out {} (nearest model: {})",
+                    per_cent(near.nrmse.held_out),
+                    near.changed
+                )),
+            },
+        );
+    }
+    block(&mut out, width, "Use it", lines);
     out
 }

@@ -1,11 +1,11 @@
-//! The JSON of `bowden close --json`, schema `bowden.close/2`.
+//! The JSON of `bowden identify --json`, schema `bowden.identify/1`.
 
 use super::curve::UnknownPart;
 use super::hand_over::HandOverPart;
 use bowden_lab::facts::{
-    ChannelApart, CostFacts, Defect, Experiment, Explained, Facts, FileApart, FileErrors,
-    FinalFacts, Gate, Grade, HeldOutOf, ModelFacts, Parameter, RejectedFacts, RivalFacts,
-    RoundFacts, RoundModel, Segments, Unneeded, Worse, HALVES,
+    ChannelApart, Complete, CostFacts, Defect, Experiment, Explained, Facts, FileApart, FileErrors,
+    FinalFacts, Gate, Grade, HeldOutOf, Lack, ModelFacts, Parameter, RejectedFacts, RivalFacts,
+    RoundFacts, RoundModel, Segments, Unneeded, Worse,
 };
 use serde::Serialize;
 
@@ -17,38 +17,41 @@ struct Report<'a> {
     record: Option<RecordPart<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     records: Option<Vec<RecordPart<'a>>>,
-    declared: ModelPart<'a>,
-    rounds: Vec<RoundPart<'a>>,
+    baseline: ModelPart<'a>,
+    /// The missing mechanisms, the largest share first.
+    lacks: &'a [Lack],
+    complete: Complete,
+    terms: Vec<RoundPart<'a>>,
     /// Later rounds, which are not delivered.
-    beyond: Vec<RoundPart<'a>>,
+    undelivered: Vec<RoundPart<'a>>,
     r#final: FinalPart<'a>,
     rejected: Vec<RejectedPart<'a>>,
     defects: &'a [Defect],
     /// Remarks on how the record was read.
     notes: &'a [String],
-    unneeded: &'a [Unneeded],
+    redundant: &'a [Unneeded],
     unknown: Option<UnknownPart<'a>>,
     noise_floor: f64,
     /// The noise floor over what is held out.
     #[serde(skip_serializing_if = "Option::is_none")]
     held_out_floor: Option<f64>,
     /// Standard deviation of the filtered output on each segment.
-    deviation: Segments,
+    output_std: Segments,
     /// Shares of the held-out output's variance.
     explains: Explained,
     integrates: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
-    files_apart: Option<&'a [FileApart]>,
+    inconsistent_files: Option<&'a [FileApart]>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    channel_apart: Option<Option<&'a ChannelApart>>,
+    inconsistent_channel: Option<Option<&'a ChannelApart>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     worse_files: Option<&'a [Worse]>,
     /// The requested number of effects, if it ended the search.
-    stopped_by_request: Option<usize>,
+    stopped_by_max_terms: Option<usize>,
     /// The requested time [s], if it ended the search.
-    stopped_by_budget: Option<f64>,
+    stopped_by_time_limit: Option<f64>,
     verdict: &'static str,
-    sentence: &'a str,
+    summary: &'a str,
     /// Absent if it was not measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     cost: Option<&'a CostFacts>,
@@ -107,25 +110,17 @@ struct RoundPart<'a> {
     family: &'static str,
     effect: &'static str,
     channel: &'a str,
-    grade: Grade,
-    support: Support,
+    confidence: Grade,
     coefficients: Vec<Coefficient<'a>>,
     p: Option<f64>,
     explained: f64,
-    confounded_with: Vec<Rival<'a>>,
+    alternatives: Vec<Rival<'a>>,
     experiment: Option<&'a Experiment>,
     rmse_before: Segments,
     rmse_after: Segments,
     raises_held_out: bool,
     #[serde(flatten)]
     model: Option<&'a RoundModel>,
-}
-
-/// Number of half-records in which the same search finds the effect again.
-#[derive(Serialize)]
-struct Support {
-    recurs: usize,
-    of: usize,
 }
 
 #[derive(Serialize)]
@@ -231,15 +226,11 @@ impl<'a> From<&'a RoundFacts> for RoundPart<'a> {
             family: round.family,
             effect: round.effect,
             channel: &round.channel,
-            grade: round.grade,
-            support: Support {
-                recurs: round.recurs,
-                of: HALVES,
-            },
+            confidence: round.grade,
             coefficients: coefficients.iter().map(Coefficient::from).collect(),
             p: round.p,
             explained: round.explained,
-            confounded_with: round.rivals.iter().map(Rival::from).collect(),
+            alternatives: round.rivals.iter().map(Rival::from).collect(),
             experiment: round.experiment.as_ref(),
             rmse_before: round.before,
             rmse_after: round.after,
@@ -287,30 +278,32 @@ impl<'a> From<&'a RejectedFacts> for RejectedPart<'a> {
 pub fn json(facts: &Facts, cost: Option<&CostFacts>) -> Result<String, serde_json::Error> {
     let several = facts.record.files.len() > 1;
     serde_json::to_string(&Report {
-        schema: "bowden.close/2",
+        schema: "bowden.identify/1",
         record: (!several).then(|| RecordPart::of_all(facts)),
         records: several.then(|| RecordPart::of_each(facts)),
-        declared: ModelPart::from(&facts.declared),
-        rounds: facts.rounds.iter().map(RoundPart::from).collect(),
-        beyond: facts.beyond.iter().map(RoundPart::from).collect(),
+        baseline: ModelPart::from(&facts.declared),
+        lacks: &facts.lacks,
+        complete: facts.complete,
+        terms: facts.rounds.iter().map(RoundPart::from).collect(),
+        undelivered: facts.beyond.iter().map(RoundPart::from).collect(),
         r#final: FinalPart::new(&facts.last, HandOverPart::new(&facts.hand_over)),
         rejected: facts.rejected.iter().map(RejectedPart::from).collect(),
         defects: &facts.record.defects,
         notes: &facts.record.notes,
-        unneeded: &facts.unneeded,
+        redundant: &facts.unneeded,
         unknown: facts.unknown.as_ref().map(UnknownPart::new),
         noise_floor: facts.record.noise_floor,
         held_out_floor: several.then_some(facts.record.held_out_floor),
-        deviation: facts.deviation,
+        output_std: facts.deviation,
         explains: facts.explains,
         integrates: facts.integrates,
-        files_apart: several.then_some(&facts.apart[..]),
-        channel_apart: several.then_some(facts.channel_apart.as_ref()),
+        inconsistent_files: several.then_some(&facts.apart[..]),
+        inconsistent_channel: several.then_some(facts.channel_apart.as_ref()),
         worse_files: several.then_some(&facts.worse[..]),
-        stopped_by_request: facts.stopped_by_request,
-        stopped_by_budget: facts.stopped_by_budget,
+        stopped_by_max_terms: facts.stopped_by_request,
+        stopped_by_time_limit: facts.stopped_by_budget,
         verdict: facts.verdict.name(),
-        sentence: &facts.sentence,
+        summary: &facts.sentence,
         cost,
     })
 }

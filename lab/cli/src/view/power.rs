@@ -1,9 +1,11 @@
 //! The table of `bowden power`, for people and as JSON, schema `bowden.power/1`.
 
-use super::words::{in_brackets, table};
+use super::layout::{block, heading, prose, Columns, Width, NONE};
+use super::words::in_brackets;
+use anstyle::AnsiColor;
 use bowden_lab::facts::{number, Answer, PowerFacts, PowerRow, RecordFacts, SHARE};
 use serde::Serialize;
-use std::fmt::Write as _;
+use std::cmp::Ordering;
 
 /// The method, in one sentence.
 const SIMULATED: &str = "each effect at the middle one of its trial shapes, added to the last model's prediction and its residual under circular shifts and changes of sign; every trial closed as a whole: the search with its refits and tests; found: its family named or among the rivals";
@@ -118,69 +120,141 @@ pub fn power_json(power: &PowerFacts) -> Result<String, serde_json::Error> {
     })
 }
 
-/// The table as text.
-#[must_use]
-pub fn power_text(power: &PowerFacts) -> String {
-    let rms = format!("rms{}", in_brackets(power.record.unit.as_deref()));
-    let header = [
-        "family", "effect", &rms, "× floor", "gain", "found", "remark",
-    ];
-    let mut rows = table(&header, 2..4);
-    for row in &power.rows {
-        let part = part(&power.record, row);
-        let short =
-            |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| number(v, Some(0.05 * v)));
-        let gain = part.gain.as_ref().map_or_else(
-            || "–".to_owned(),
-            |g| {
-                let unit = match g.unit {
-                    Some("1") => "",
-                    Some(unit) => unit,
-                    None => "(no unit in the record)",
-                };
-                format!("{} {unit}", number(g.value, Some(0.05 * g.value)))
-                    .trim_end()
-                    .to_owned()
-            },
-        );
-        let remark = match row.answer {
-            Answer::Found { .. } => String::new(),
-            Answer::NotFound { tried } => {
-                format!("not found up to {}", number(tried, Some(0.05 * tried)))
-            }
-            Answer::NotExcited => "not excited by this motion".to_owned(),
-            Answer::InModel => "in the model already".to_owned(),
-        };
-        rows.add_row([
-            part.family.to_owned(),
-            row.name.clone(),
-            short(part.amplitude),
-            short(part.noise_floors),
-            gain,
-            part.found
-                .map_or_else(|| "–".to_owned(), |n| format!("{n} of {}", power.trials)),
-            remark,
-        ]);
+/// Maximum number of rows without `--verbose`.
+const LISTED: usize = 10;
+
+/// Whether an amplitude was tried.
+fn amplitude(row: &PowerRow) -> Option<f64> {
+    match row.answer {
+        Answer::Found { amplitude, .. } => Some(amplitude),
+        Answer::NotFound { tried } => Some(tried),
+        Answer::NotExcited | Answer::InModel => None,
     }
+}
+
+/// For people: which effects the search finds, and from which amplitude on.
+#[must_use]
+pub fn power_text(power: &PowerFacts, width: Width, verbose: bool) -> String {
     let mut out = String::new();
-    // Writing to a String cannot fail.
-    let _ = writeln!(out, "bowden power  {}", power.label);
-    let _ = writeln!(out, "model     {}", power.model.join(", "));
-    let _ = writeln!(
+    answer(&mut out, power, width);
+    let mut rows: Vec<&PowerRow> = power.rows.iter().collect();
+    rows.retain(|row| amplitude(row).is_some());
+    let mut more = 0;
+    if !verbose {
+        // The effects that are hardest to find.
+        rows.sort_by(|a, b| {
+            amplitude(b)
+                .partial_cmp(&amplitude(a))
+                .unwrap_or(Ordering::Equal)
+        });
+        more = rows.len().saturating_sub(LISTED);
+        rows.truncate(LISTED);
+    }
+    if !rows.is_empty() {
+        out += &table(power, &rows).text(width);
+        if more > 0 {
+            prose(
+                &mut out,
+                width,
+                &format!("{more} effects with a smaller amplitude: -v"),
+            );
+        }
+        out.push('\n');
+    }
+    block(&mut out, width, "Model", [power.model.join(", ")]);
+    let (named, trials) = (power.named_without, power.trials);
+    let mut notes = vec![format!(
+        "with nothing planted, {named} of {trials} trials name an effect"
+    )];
+    if verbose {
+        notes.push(format!("simulated: {SIMULATED}"));
+    }
+    block(&mut out, width, "Note", notes);
+    let next = "--effects NAME,… · --trials K · bowden plan RECORD";
+    let next = match verbose {
+        true => next.to_owned(),
+        false => format!("-v · {next}"),
+    };
+    block(&mut out, width, "Next", [next]);
+    out
+}
+
+/// How many effects are found, and which are not.
+fn answer(out: &mut String, power: &PowerFacts, width: Width) {
+    let names = |is: fn(&Answer) -> bool| {
+        let rows = power.rows.iter().filter(|row| is(&row.answer));
+        rows.map(|row| row.name.as_str()).collect::<Vec<&str>>()
+    };
+    let found = names(|answer| matches!(answer, Answer::Found { .. })).len();
+    let in_model = names(|answer| matches!(answer, Answer::InModel));
+    let tested = power.rows.len() - in_model.len();
+    let colour = if found == tested {
+        AnsiColor::Green
+    } else {
+        AnsiColor::Yellow
+    };
+    let headline = format!("{found} OF {tested} EFFECTS WOULD BE FOUND");
+    heading(
         out,
-        "planted   {SIMULATED}; {} trials of each amplitude",
+        width,
+        ("bowden power", &power.label),
+        (colour, &headline),
+    );
+    let words = format!(
+        "The table has the smallest amplitude that at least {:.0} % of {} trials find.",
+        100.0 * SHARE,
         power.trials
     );
-    let _ = writeln!(
-        out,
-        "\nThe smallest effect that is found in {:.0} % of the trials, by the rms of what it adds to the output:",
-        100.0 * SHARE
-    );
-    let _ = writeln!(out, "{rows}\n");
-    let _ = writeln!(
-        out,
-        "without   with nothing planted, {} of {} trials name an effect",
-        power.named_without, power.trials
-    );
+    prose(out, width, &words);
+    for (what, names) in [
+        (
+            "Not excited by this motion",
+            names(|answer| matches!(answer, Answer::NotExcited)),
+        ),
+        (
+            "Not found",
+            names(|answer| matches!(answer, Answer::NotFound { .. })),
+        ),
+        ("In the model already", in_model),
+    ] {
+        if !names.is_empty() {
+            prose(out, width, &format!("{what}: {}.", names.join(", ")));
+        }
+    }
+    out.push('\n');
+}
+
+/// Where the width is too small, the family is dropped first, then the trials, the noise, and the gain.
+const DROPPED: &[usize] = &[1, 5, 3, 4];
+
+fn table(power: &PowerFacts, rows: &[&PowerRow]) -> Columns {
+    let rms = format!("rms{}", in_brackets(power.record.unit.as_deref()));
+    let header = ["Effect", "family", &rms, "vs noise", "gain", "found"];
+    let mut out = Columns::new(&header, DROPPED);
+    for row in rows {
+        let part = part(&power.record, row);
+        let digits = |value: f64| number(value, Some(0.05 * value));
+        let or_none = |cell: Option<String>| cell.unwrap_or_else(|| NONE.to_owned());
+        let gain = part.gain.as_ref().map(|gain| {
+            let unit = match gain.unit {
+                Some("1") => "",
+                Some(unit) => unit,
+                None => "(no unit in the record)",
+            };
+            format!("{} {unit}", digits(gain.value))
+                .trim_end()
+                .to_owned()
+        });
+        let tried = part.tried.map(|tried| format!("> {}", digits(tried)));
+        let found = part.found;
+        out.add([
+            format!("  {}", row.name),
+            part.family.to_owned(),
+            or_none(part.amplitude.map(digits).or(tried)),
+            or_none(part.noise_floors.map(|times| format!("{times:.1} ×"))),
+            or_none(gain),
+            or_none(found.map(|found| format!("{found} of {}", power.trials))),
+        ]);
+    }
     out
 }

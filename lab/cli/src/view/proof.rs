@@ -1,10 +1,11 @@
 //! `bowden certify GAINS.toml`: what is proved of one's own gains.
 
+use super::layout::{block, heading, prose, Width};
+use anstyle::AnsiColor;
 use bowden_trials::facts::{above, fixed, scientific, Named, Proof, Sides, Towards};
-use std::fmt::Write as _;
 
 /// Of a proof in which the limit of the command may be met.
-const AT_THE_LIMIT: &str = "The box needs commands beyond the limit; the limit may be met, and the box holds all the same\n(theorems/Limit.v: it holds the reference against the load).\n\n";
+const AT_THE_LIMIT: &str = "The box needs commands beyond the limit: the limit may be met. The bound holds, since the limit holds the reference against the load (theorems/Limit.v).";
 
 /// Schema `bowden.certificate/1`.
 ///
@@ -14,63 +15,95 @@ pub fn json(proof: &Proof) -> Result<String, serde_json::Error> {
     serde_json::to_string(proof)
 }
 
-/// For people.
+/// For people: the bound, or what would make it provable.
 #[must_use]
-pub fn text(proof: &Proof, label: &str) -> String {
-    let mut out = format!("bowden certify {label}: the step of the lag form as it is computed\n\n");
+pub fn text(proof: &Proof, label: &str, width: Width, verbose: bool) -> String {
+    let mut out = String::new();
     let float = proof.float.name();
+    let subject = format!("{label}, first-order form in {float}");
+    let command = ("bowden certify", subject.as_str());
+    let (error, s) = (above(proof.error.high), above(proof.s.high));
     match &proof.refused {
         None => {
-            let (error, s) = (above(proof.error.high), above(proof.s.high));
-            let _ = writeln!(
-                out,
-                "PROVED in {float}, every rounding included: |e| <= {error} N·m, |s| <= {s} N·m at every sample\n"
-            );
+            let answer = format!("PROVED in {float}: |e| <= {error} N·m at every sample");
+            heading(&mut out, width, command, (AnsiColor::Green, &answer));
+            let words = format!("Every rounding is included. The proof also gives |s| <= {s} N·m.");
+            prose(&mut out, width, &words);
             if proof.may_meet_the_limit {
-                out.push_str(AT_THE_LIMIT);
+                prose(&mut out, width, AT_THE_LIMIT);
             }
         }
         Some(refusal) => {
-            let _ = writeln!(
-                out,
-                "NOT PROVED in {float}: {} does not hold\nmended by {}\n",
-                refusal.text, refusal.mend
-            );
+            let answer = format!("NOT PROVED in {float}: {} does not hold", refusal.text);
+            heading(&mut out, width, command, (AnsiColor::Red, &answer));
+            prose(&mut out, width, &format!("Remedy: {}", refusal.mend));
         }
     }
-    let _ = writeln!(
-        out,
-        "|w| <= {} N·m, which moves by at most {} N·m/s; g = alpha·beta_hat in [{}, {}]",
-        above(proof.w.high),
-        above(proof.xi.high),
-        fixed(proof.g[0].low, 3, Towards::Below),
-        fixed(proof.g[1].high, 3, Towards::Above)
-    );
-    let rounded = &proof.roundings;
-    let _ = writeln!(
-        out,
-        "rounding a step: s {} N·m, command {}, z {} N·m·s, of which owed from the step before {} and {}\n",
-        short(rounded.s.high),
-        short(rounded.command.high),
-        short(rounded.z.high),
-        short(rounded.owed_by_command.high),
-        short(rounded.owed_by_z.high)
-    );
+    out.push('\n');
+    let plant = [
+        format!(
+            "|w| <= {} N·m, changes at up to {} N·m/s",
+            above(proof.w.high),
+            above(proof.xi.high)
+        ),
+        format!(
+            "g = alpha·beta_hat in [{}, {}]",
+            fixed(proof.g[0].low, 3, Towards::Below),
+            fixed(proof.g[1].high, 3, Towards::Above)
+        ),
+    ];
+    block(&mut out, width, "Plant", plant);
     // Of the command one of the two ways is enough, and the other is not shown.
     let shown = |sides: &&Sides| !(sides.name == Named::Command && proof.may_meet_the_limit);
     let own = proof.inequalities.iter().filter(shown);
     let at_the_limit = proof.at_the_limit.iter();
     let at_the_limit = at_the_limit.filter(|_| proof.may_meet_the_limit);
-    for sides in own.chain(at_the_limit).chain(&proof.slew) {
+    let all: Vec<&Sides> = own.chain(at_the_limit).chain(&proof.slew).collect();
+    let listed = all.iter().filter(|sides| verbose || !sides.holds);
+    for sides in listed {
         let (left, right) = both(sides.left.high, sides.right.low, sides.holds);
         let holds = if sides.holds { "holds" } else { "FAILS" };
-        let _ = writeln!(out, "{holds}  {left:>12} <= {right:<12}  {}", sides.text);
+        let line = format!("{left:>12} <= {right:<12}  {}", sides.text);
+        block(&mut out, width, holds, [line]);
     }
-    out.push_str("\nTo check:\n");
-    for assumption in &proof.assumptions {
-        let _ = writeln!(out, "  - {assumption}");
+    let (holding, count) = (all.iter().filter(|sides| sides.holds).count(), all.len());
+    if !verbose {
+        let line = format!("{holding} of {count} inequalities");
+        block(&mut out, width, "Holds", [line]);
     }
+    out.push('\n');
+    if verbose {
+        block(&mut out, width, "Note", [rounding(proof)]);
+        out += "\nAssumptions:\n";
+        for assumption in &proof.assumptions {
+            prose(&mut out, width, &format!("- {assumption}"));
+        }
+        return out;
+    }
+    let hint = format!(
+        "a proof rests on {} assumptions: -v lists them",
+        proof.assumptions.len()
+    );
+    block(&mut out, width, "Note", [hint]);
+    let next = match proof.proved {
+        true => "-v · --coq FILE.v and --gappa FILE.g (independent checks) · --json",
+        false => "-v · change a gain, a limit or the rate, and certify again · --json",
+    };
+    block(&mut out, width, "Next", [next]);
     out
+}
+
+/// What one step rounds.
+fn rounding(proof: &Proof) -> String {
+    let rounded = &proof.roundings;
+    format!(
+        "rounding a step: s {} N·m, command {}, z {} N·m·s, of which owed from the step before {} and {}",
+        short(rounded.s.high),
+        short(rounded.command.high),
+        short(rounded.z.high),
+        short(rounded.owed_by_command.high),
+        short(rounded.carry_error_z.high)
+    )
 }
 
 /// Two digits that are not below the number.

@@ -12,7 +12,7 @@ pub(super) fn size(record: &RecordFacts) -> String {
             record.samples, record.seconds
         ),
         several => format!(
-            "{} samples in {several} files, {:.1} s together, brought to {rate} Hz",
+            "{} samples in {several} files, {:.1} s together, resampled to {rate} Hz",
             record.samples, record.seconds
         ),
     }
@@ -20,21 +20,21 @@ pub(super) fn size(record: &RecordFacts) -> String {
 
 /// The split of the records, in words.
 pub(super) fn split(record: &RecordFacts) -> String {
-    let trailing = "60 % to fit, 15 % to stop, 25 % held out";
+    let trailing = "60 % fit · 15 % selection · 25 % held-out";
     let mut files = record.files.iter();
     let whole = files.find(|file| file.held_out == HeldOutOf::Whole);
     match (record.files.len(), whole) {
         (1, _) => trailing.to_owned(),
         (_, None) => format!("of each file {trailing}"),
         (_, Some(file)) => {
-            format!("80 % to fit, 20 % to stop; held out: {}", file.path)
+            format!("80 % fit · 20 % selection · held-out: {}", file.path)
         }
     }
 }
 
 /// Errors by file before and after, as a table; empty for a single record.
 pub(super) fn errors(facts: &Facts) -> String {
-    let (Some(before), Some(after)) = (&facts.declared.nrmse_by_file, &facts.last.nrmse_by_file)
+    let (Some(before), Some(after)) = (&facts.declared.nrmse_by_file, &facts.shown().nrmse_by_file)
     else {
         return String::new();
     };
@@ -42,8 +42,8 @@ pub(super) fn errors(facts: &Facts) -> String {
         &[
             "error by file [%]",
             "fit",
-            "stop",
-            "held out",
+            "selection",
+            "held-out",
             "samples",
             "Hz",
         ],
@@ -67,7 +67,7 @@ pub(super) fn errors(facts: &Facts) -> String {
     let mut out = format!("{files}\n");
     for file in &facts.worse {
         out += &format!(
-            "worse for {}: held out {} % → {} %\n",
+            "worse for {}: held-out {} % → {} %\n",
             file.path,
             number(100.0 * file.before, Some(5.0 * file.before)),
             number(100.0 * file.after, Some(5.0 * file.after))

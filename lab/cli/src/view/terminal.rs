@@ -1,19 +1,16 @@
-//! The ledger for people: the record, the added effects, errors before and after.
+//! What a run has found, for people: the answer, the record, the errors, the model, its use.
 
 use super::curve;
 use super::hand_over;
+use super::layout::{block, heading, prose, two_columns, Columns, Report, Width};
 use super::several;
-use super::terms::LEGEND;
 use super::words::{estimate, in_brackets, table};
-use anstyle::{AnsiColor, Style};
+use anstyle::AnsiColor;
 use bowden_lab::facts::{
-    number, percent, Defect, Facts, FinalFacts, Grade, Parameter, RecordFacts, Segments, Size,
-    Verdict, BLOCKS, HALVES,
+    lacking, number, Defect, Facts, Grade, Lack, Mode, Parameter, Segments, Size, Verdict, BLOCKS,
+    TIED,
 };
 use std::fmt::Write as _;
-
-/// Style of secondary text.
-const DIM: Style = Style::new().dimmed();
 
 /// Maximum number of listed stretches; the JSON has all.
 const LISTED: usize = 3;
@@ -45,83 +42,166 @@ fn defect_line(defect: &Defect) -> String {
     )
 }
 
-/// An error and its multiple of the noise floor.
-fn with_floor(rmse: f64, floor: Option<f64>) -> [String; 2] {
-    let floor = floor.map_or_else(|| "–".to_owned(), |times| format!("{times:.1}"));
-    [number(rmse, Some(0.05 * rmse)), floor]
-}
-
-/// The cells fit, × floor, stop, held out, × floor.
-fn cells(record: &RecordFacts, rmse: &Segments) -> [String; 5] {
-    let [fit, fit_floor] = with_floor(rmse.fit, record.floors(rmse.fit));
-    let times = record.held_out_floors(rmse.held_out);
-    let [held_out, held_out_floor] = with_floor(rmse.held_out, times);
-    let stop = number(rmse.stop, Some(0.05 * rmse.stop));
-    [fit, fit_floor, stop, held_out, held_out_floor]
-}
-
 /// One more line of the text; writing to a `String` cannot fail.
 macro_rules! line {
+    ($out:ident) => {
+        $out.push('\n');
+    };
     ($out:ident, $($text:tt)+) => {
         let _ = writeln!($out, $($text)+);
     };
 }
 
-/// The whole ledger as text, with ANSI styles that the caller may strip.
+/// The whole report as text, with ANSI styles that the caller may strip.
 #[must_use]
-pub fn text(facts: &Facts, chosen_cutoff: bool) -> String {
-    let mut out = head(facts, chosen_cutoff);
-    out += &errors(facts);
+pub fn text(facts: &Facts, report: Report) -> String {
+    let mut out = answer(facts, report.width);
+    out += &record(facts, report);
+    out += &errors(facts, report);
     out += &several::errors(facts);
-    out += &names(facts);
-    out += &legend();
-    out += &experiments(facts);
-    if let Some(section) = curve::text(facts) {
+    if report.verbose {
+        out += &tests(facts);
+        out += &rejected(facts, report.width);
+    }
+    out += &experiments(facts, report);
+    if let Some(section) = curve::text(facts, report) {
         line!(out, "{section}");
     }
-    out += &model(&facts.last);
-    out += &conclusion(facts);
+    out += &model(facts, report);
+    // The headline says not to use it.
+    if is_usable(facts.verdict) {
+        out += &hand_over::text(&facts.hand_over, report.width);
+    }
+    out += &next(facts, report);
     out
 }
 
-/// The record, its filter and split, its defects, and the declared model.
-fn head(facts: &Facts, chosen_cutoff: bool) -> String {
+/// The headline, the coefficient of each added term, and the summary.
+fn answer(facts: &Facts, width: Width) -> String {
     let mut out = String::new();
-    let bold = Style::new().bold();
+    let command = ("bowden identify", facts.label.as_str());
+    let colour = colour(facts);
+    heading(&mut out, width, command, (colour, &headline(facts)));
+    for lack in facts.lacks.iter().skip(1) {
+        prose(&mut out, width, &format!("also {}", share(lack)));
+    }
+    let exported = facts.constrained().is_some();
+    for round in &facts.rounds {
+        let mut words = round.title.clone();
+        let size = coefficient(&round.size);
+        if !size.is_empty() {
+            let _ = write!(words, " {size}");
+        }
+        let _ = match (exported, &round.size, round.grade) {
+            (true, Size::Gone, _) => write!(words, " is not in the exported model"),
+            (true, ..) => write!(words, " in the exported model"),
+            (false, _, Grade::High) => write!(words, " · high confidence"),
+            (false, _, Grade::Low) => write!(words, " · candidate"),
+        };
+        prose(&mut out, width, &words);
+    }
+    prose(&mut out, width, unsaid(facts));
+    line!(out);
+    out
+}
+
+/// The summary without the mechanisms, which the headline names.
+fn unsaid(facts: &Facts) -> &str {
+    let rest = facts.sentence.strip_prefix(&lacking(&facts.lacks));
+    rest.map_or(&facts.sentence, str::trim_start)
+}
+
+/// "friction over the velocity of x (94 % of the missing output)".
+fn share(lack: &Lack) -> String {
+    let share = 100.0 * lack.share;
+    format!("{} ({share:.1} % of the missing output)", lack.title)
+}
+
+/// The answer in a few words.
+fn headline(facts: &Facts) -> String {
+    let main = facts.lacks.first().map_or_else(String::new, share);
+    match (facts.verdict, facts.rounds.len()) {
+        (Verdict::NoInputDependence, _) => {
+            "DO NOT USE THIS MODEL: the output does not follow the input".to_owned()
+        }
+        (Verdict::NotTransferable, _) => {
+            "DO NOT USE THIS MODEL: it fits one stretch of the record only".to_owned()
+        }
+        (Verdict::DefectiveRecord, _) => "DEFECTIVE RECORD: repeat the measurement".to_owned(),
+        (Verdict::UnderExcited, 0) => "UNDER-EXCITED RECORD: too short for a test".to_owned(),
+        (Verdict::UnderExcited, _) => format!("UNDER-EXCITED RECORD: perhaps {main}"),
+        (Verdict::UnmodelledDependence, _) => {
+            let words = facts
+                .unknown
+                .as_ref()
+                .map_or("", |unknown| unknown.words.as_str());
+            format!("UNMODELLED DEPENDENCE ON {words}")
+        }
+        (Verdict::Stopped, 0) => "SEARCH STOPPED: the residual exceeds sensor noise".to_owned(),
+        (Verdict::Explained, 0) if facts.constrained().is_some() => {
+            "NO TERM IS MISSING: without --invertible the residual is sensor noise".to_owned()
+        }
+        (Verdict::Explained, 0) => "NO TERM IS MISSING: the residual is sensor noise".to_owned(),
+        (_, 0) => "NO MISSING TERM FOUND: the residual exceeds sensor noise".to_owned(),
+        _ => format!("MISSING: {main}"),
+    }
+}
+
+/// The record, its filter and split, and its defects.
+fn record(facts: &Facts, report: Report) -> String {
     let record = &facts.record;
-    let with = if record.channels.is_empty() {
-        String::new()
-    } else {
-        format!(", with {}", record.channels.join(", "))
-    };
-    line!(out, "{bold}bowden close{bold:#}  {}", facts.label);
-    line!(
-        out,
-        "read      {}; {} mode: {} → {}{with}",
+    let mut data = vec![format!(
+        "{} · {} mode, {} → {}",
         several::size(record),
         record.mode.name(),
         record.input,
         record.output
-    );
-    let whence = if chosen_cutoff {
-        ""
-    } else {
-        " (8 × the input's highest tone)"
+    )];
+    let channels = match record.channels.is_empty() {
+        true => String::new(),
+        false => format!("channels {} · ", record.channels.join(", ")),
     };
-    line!(
-        out,
-        "filtered  zero-phase at {} Hz{whence}; {}; {} blocks",
-        record.cutoff,
+    let origin = match report.chosen_cutoff {
+        true => "",
+        false => " (8 × highest tone)",
+    };
+    data.push(format!(
+        "{channels}zero-phase low-pass {} Hz{origin}",
+        record.cutoff
+    ));
+    data.push(format!(
+        "split: {} · {} blocks",
         several::split(record),
         facts.blocks
+    ));
+    let mut out = String::new();
+    block(&mut out, report.width, "Data", data);
+    let seconds = facts.correlated_for.map(|seconds| format!("the residual is correlated for {seconds:.3} s: too long for sixteen independent blocks"));
+    let redundant = facts.unneeded.iter().map(|part| {
+        let (without, with) = (part.held_out_without, part.held_out_with);
+        format!(
+            "redundant: {}, held-out {} without it, {} with it{}",
+            part.effect,
+            number(without, Some(0.01 * without)),
+            number(with, Some(0.01 * with)),
+            if part.removed { "; removed" } else { "" }
+        )
+    });
+    let notes = record
+        .notes
+        .iter()
+        .cloned()
+        .chain(unlike(facts))
+        .chain(seconds)
+        .chain(redundant);
+    block(&mut out, report.width, "Note", notes);
+    block(
+        &mut out,
+        report.width,
+        "Defect",
+        record.defects.iter().map(defect_line),
     );
-    for note in record.notes.iter().chain(unlike(facts).as_ref()) {
-        line!(out, "{DIM}note      {note}{DIM:#}");
-    }
-    for defect in &record.defects {
-        line!(out, "defect    {}", defect_line(defect));
-    }
-    line!(out, "declared  {}\n", facts.declared.effects.join(", "));
+    out.push('\n');
     out
 }
 
@@ -134,110 +214,92 @@ fn unlike(facts: &Facts) -> Option<String> {
     let unit = unit.map_or_else(String::new, |u| format!(" {u}"));
     let shown = |v: f64| number(v, Some(0.05 * v));
     Some(format!(
-        "the output's standard deviation is {}{unit} on the fit segment and {}{unit} held out: percentages of the one say little of the other",
+        "the output's standard deviation is {}{unit} on the fit segment and {}{unit} on the held-out one: their percentages are not comparable",
         shown(facts.deviation.fit),
         shown(facts.deviation.held_out)
     ))
 }
 
-/// The errors of each round.
-fn errors(facts: &Facts) -> String {
-    let mut out = String::new();
-    line!(
-        out,
-        "RMSE{} of the filtered output, beside it in multiples of the noise floor:",
-        in_brackets(facts.record.unit.as_deref())
+/// Where the width is too small, the selection error is dropped first, then that of the fit.
+const DROPPED: &[usize] = &[2, 1, 4];
+
+/// The error after each term.
+fn errors(facts: &Facts, report: Report) -> String {
+    let width = report.width;
+    let record = &facts.record;
+    let name = format!("RMSE{}", in_brackets(record.unit.as_deref()));
+    let mut rows = Columns::new(
+        &[&name, "fit", "selection", "held-out", "vs noise"],
+        DROPPED,
     );
-    let mut rounds = table(
-        &[
-            "", "effect", "grade", "explains", "fit", "× floor", "stop", "held out", "× floor",
-        ],
-        3..9,
-    );
-    let mut row = |first: [String; 4], rmse: &Segments, mark: &str| {
-        let mut errors = cells(&facts.record, rmse);
-        errors[3] += mark;
-        rounds.add_row(first.into_iter().chain(errors));
+    let mut row = |name: String, rmse: &Segments, mark: &str| {
+        let digits = |rmse: f64| number(rmse, Some(0.05 * rmse));
+        let times = record.held_out_floors(rmse.held_out);
+        rows.add([
+            format!("  {name}"),
+            digits(rmse.fit),
+            digits(rmse.selection),
+            format!("{}{mark}", digits(rmse.held_out)),
+            times.map_or_else(|| "–".to_owned(), |times| format!("{times:.1} ×")),
+        ]);
     };
-    let label = |text: &str| [String::new(), text.to_owned(), String::new(), String::new()];
-    row(label("as declared"), &facts.declared.rmse, "");
+    let baseline = format!("{} (baseline)", facts.declared.effects.join(", "));
+    row(baseline, &facts.declared.rmse, "");
     let found = facts.rounds.iter().chain(&facts.beyond).enumerate();
     for (index, round) in found {
-        let is_delivered = index < facts.rounds.len();
-        let first = [
-            match is_delivered {
-                true => format!("+{}", index + 1),
-                false => format!("({})", index + 1),
-            },
-            round.title.clone(),
-            grade(round.grade).to_owned(),
-            format!("{:.1} %", 100.0 * round.explained),
-        ];
+        let name = match index < facts.rounds.len() {
+            true => format!("+ {}", round.title),
+            false => format!("({}) not delivered", round.title),
+        };
         let mark = if round.raises_held_out { " ↑" } else { "" };
-        row(first, &round.after, mark);
+        row(name, &round.after, mark);
     }
-    if facts.last.refitted {
-        row(label("refit on fit + stop"), &facts.last.rmse, "");
+    if report.verbose && facts.last.refitted {
+        row("refitted with selection".to_owned(), &facts.last.rmse, "");
     }
-    line!(out, "{rounds}");
+    if let Some(exported) = facts.constrained() {
+        row("exported (--invertible)".to_owned(), &exported.rmse, "");
+    }
+    let mut out = rows.text(width);
     if !facts.beyond.is_empty() {
-        line!(
-            out,
-            "(n) found, and not delivered: on half-records that it was not fitted to, the model does as well without it"
-        );
+        block(&mut out, width, "Note", ["not delivered: on half-records that the term was not fitted to, the model is as good without it"]);
     }
     let fell = facts.falls_up_to;
     if fell < facts.rounds.len() {
-        line!(
-            out,
-            "↑ this round raises the held-out error, which decides nothing; {}",
-            match fell {
-                0 => "the first round raises it already".to_owned(),
-                n => format!("it fell up to round {n}"),
-            }
+        let until = match fell {
+            0 => "the first term raises it already".to_owned(),
+            n => format!("the error fell up to term {n}"),
+        };
+        block(
+            &mut out,
+            width,
+            "Note",
+            [format!(
+                "↑ raises the held-out error, which selects nothing: {until}"
+            )],
         );
     }
     out.push('\n');
     out
 }
 
-fn grade(grade: Grade) -> &'static str {
-    match grade {
-        Grade::Firm => "firm",
-        Grade::Weak => "weak",
-    }
-}
-
-/// The size of each added effect in the final model, and its tests.
-fn names(facts: &Facts) -> String {
+/// The tests of each added term.
+fn tests(facts: &Facts) -> String {
     if facts.rounds.is_empty() {
         return String::new();
     }
-    let mut added = table(
-        &[
-            "",
-            "coefficient (95 %)",
-            "p",
-            "recurs",
-            "blocks better",
-            "confounded with",
-        ],
-        0..0,
-    );
+    let mut added = table(&["Tests", "p", "blocks improved", "alternatives"], 0..0);
     for round in &facts.rounds {
-        let rivals: Vec<&str> = round.rivals.iter().map(|r| r.title.as_str()).collect();
+        let alternatives: Vec<&str> = round.rivals.iter().map(|r| r.title.as_str()).collect();
         added.add_row([
             round.title.clone(),
-            coefficient(&round.size),
             round
                 .p
                 .map_or_else(|| "–".to_owned(), |p| format!("{p:.1e}")),
-            format!("{} of {HALVES}", round.recurs),
             format!("{} of {BLOCKS}", round.blocks_better),
-            if rivals.is_empty() {
-                "–".to_owned()
-            } else {
-                rivals.join(", ")
+            match alternatives.is_empty() {
+                true => "–".to_owned(),
+                false => alternatives.join(", "),
             },
         ]);
     }
@@ -254,9 +316,6 @@ fn coefficient(size: &Size) -> String {
     }
 }
 
-/// Maximum number of listed rejections.
-const REJECTED: usize = 6;
-
 /// The remark on a coefficient whose interval contains zero.
 const SIZE_UNKNOWN: &str = "acts, size unknown";
 
@@ -266,124 +325,135 @@ fn holds_zero(parameter: &Parameter) -> bool {
         .is_some_and(|[low, high]| low <= 0.0 && high >= 0.0)
 }
 
-/// The words of the tables, one line each.
-fn legend() -> String {
+/// The rejected terms.
+fn rejected(facts: &Facts, width: Width) -> String {
     let mut out = String::new();
-    for line in LEGEND {
-        line!(out, "{DIM}{line}{DIM:#}");
+    let all = facts.rejected.iter();
+    let all = all.map(|r| format!("rejected: {}, {}", r.title, r.gate.words()));
+    block(&mut out, width, "", all);
+    if !out.is_empty() {
+        out.push('\n');
     }
-    line!(out, "{DIM}more: bowden help terms{DIM:#}\n");
     out
 }
 
-/// The experiments that would separate what is confounded.
-fn experiments(facts: &Facts) -> String {
+/// The experiments that would separate the alternatives.
+fn experiments(facts: &Facts, report: Report) -> String {
     let mut out = String::new();
     for experiment in facts.rounds.iter().filter_map(|r| r.experiment.as_ref()) {
-        line!(out, "to separate: {}", experiment.trajectory);
-        for aim in &experiment.aims {
-            line!(out, "  {}", aim.words());
-        }
-        line!(out, "");
+        let aims = experiment
+            .aims
+            .iter()
+            .map(|aim| format!("  {}", aim.words()));
+        let aims = aims.filter(|_| report.verbose);
+        let motion = format!("to separate: {}", experiment.trajectory);
+        block(
+            &mut out,
+            report.width,
+            "Plan",
+            std::iter::once(motion).chain(aims),
+        );
+    }
+    if !out.is_empty() {
+        out.push('\n');
     }
     out
 }
 
-/// The final model, and the experiments that would identify its unidentified parameters.
-fn model(last: &FinalFacts) -> String {
-    let mut out = String::new();
-    let mut final_parameters = table(&["final model", "value (95 %)"], 0..0);
-    out.push_str(&several::gains(last));
+/// The model's equation, its parameters, and what would identify those that are not identified.
+fn model(facts: &Facts, report: Report) -> String {
+    let last = facts.shown();
+    let mut out = several::gains(last);
     let all = || last.parameters.iter().zip(&last.titles);
+    let (mut short, mut long) = (Vec::new(), Vec::new());
     for (parameter, title) in all().skip(last.own_gains) {
         let is_gain = parameter.term.is_some() && !parameter.name.contains('.');
         let value = match is_gain && holds_zero(parameter) {
             true => format!("{SIZE_UNKNOWN}: {}", estimate(parameter)),
             false => estimate(parameter),
         };
-        final_parameters.add_row([title.clone(), value]);
+        let item = format!("{title} {value}");
+        if parameter.not_identified.is_some() {
+            &mut long
+        } else {
+            &mut short
+        }
+        .push(item);
     }
-    line!(out, "{final_parameters}\n");
     // Initial states belong to the record, not to the model.
     let of_the_model = |p: &Parameter| !p.name.starts_with("eta0") && !p.name.contains(".start");
-    let refused = || {
-        let own = all().filter(|(p, _)| of_the_model(p));
-        own.filter_map(|(p, title)| Some((title, p.refused.as_ref()?)))
+    let own = all().filter(|(p, _)| of_the_model(p));
+    let missing = own.filter_map(|(p, title)| Some((title, p.not_identified.as_ref()?)));
+    let excitations =
+        missing.map(|(title, why)| format!("to identify {title}: {}", why.excitation));
+    let exported = facts.constrained();
+    let exported = exported.map(|_| "exported with --invertible, as in the file:".to_owned());
+    let on_bound = matches!(&facts.hand_over, Ok(hand) if hand.on_inverse_bound);
+    let tied = on_bound.then(|| format!("{} is {TIED}", last.gain_names[0]));
+    let lines = exported
+        .into_iter()
+        .chain(std::iter::once(equation(facts)))
+        .chain(tied)
+        .chain(two_columns(&short, report.width))
+        .chain(long)
+        .chain(excitations.filter(|_| report.verbose));
+    block(&mut out, report.width, "Model", lines);
+    out.push('\n');
+    out
+}
+
+/// The output as the sum of the model's parts.
+fn equation(facts: &Facts) -> String {
+    let (input, output) = (&facts.record.input, &facts.record.output);
+    let parts = &facts.shown().effects;
+    let hysteresis = parts.iter().any(|part| part == "bouc-wen");
+    let eta = |text: &'static str| if hysteresis { text } else { "" };
+    let cable = match facts.record.mode {
+        Mode::Torque => format!("B·{input}{} − T0", eta(" − kappa_eta·eta")),
+        Mode::Displacement => format!("kappa_x·{input}{} + offset", eta(" + kappa_eta·eta")),
     };
-    for (title, refusal) in refused() {
-        line!(out, "to identify {title}: {}", refusal.excitation);
-    }
-    if refused().next().is_some() {
-        line!(
-            out,
-            "{DIM}bowden plan writes a motion where it knows one{DIM:#}\n"
-        );
-    }
-    out
+    let others = parts.iter().filter(|part| *part != "bouc-wen");
+    let others: String = others.map(|part| format!(" + {part}")).collect();
+    format!("{output} = {cable}{others}")
 }
 
-/// The error before and after, rejected and unneeded effects, and the verdict.
-fn conclusion(facts: &Facts) -> String {
+/// Whether the verdict leaves a model that can be used.
+fn is_usable(verdict: Verdict) -> bool {
+    !matches!(
+        verdict,
+        Verdict::NoInputDependence | Verdict::NotTransferable | Verdict::DefectiveRecord
+    )
+}
+
+/// What to type next.
+fn next(facts: &Facts, report: Report) -> String {
+    let unidentified = facts
+        .shown()
+        .parameters
+        .iter()
+        .any(|p| p.not_identified.is_some());
+    let ambiguous = facts.rounds.iter().any(|r| r.experiment.is_some());
+    let plan = if unidentified || ambiguous {
+        " · bowden plan"
+    } else {
+        ""
+    };
+    let verbose = if report.verbose { "" } else { "-v · " };
     let mut out = String::new();
-    let (before, after) = (&facts.declared.nrmse, &facts.last.nrmse);
-    line!(
-        out,
-        "error     held out: {} → {} of the output's standard deviation (fit: {} → {})",
-        percent(before.held_out),
-        percent(after.held_out),
-        percent(before.fit),
-        percent(after.fit)
-    );
-    out.push_str(&hand_over::text(&facts.hand_over));
-    if !facts.rejected.is_empty() {
-        let rejected = facts.rejected.iter();
-        let mut list: Vec<String> = rejected
-            .map(|r| format!("{}: {}", r.title, r.gate.words()))
-            .collect();
-        let more = list.len().saturating_sub(REJECTED);
-        list.truncate(REJECTED);
-        if more > 0 {
-            list.push(format!("and {more} more, in --json"));
-        }
-        line!(out, "{DIM}rejected  {}{DIM:#}", list.join("; "));
-    }
-    for part in &facts.unneeded {
-        let (without, with) = (part.held_out_without, part.held_out_with);
-        let left_out = if part.left_out { "; left out" } else { "" };
-        line!(
-            out,
-            "unneeded  {}: held out {} without it, {} with it{left_out}",
-            part.effect,
-            number(without, Some(0.01 * without)),
-            number(with, Some(0.01 * with))
-        );
-    }
-    if let Some(seconds) = facts.correlated_for {
-        line!(
-            out,
-            "{DIM}note      the residual stays correlated for {seconds:.3} s: too long for sixteen independent blocks{DIM:#}"
-        );
-    }
-    let style = Style::new()
-        .bold()
-        .fg_color(Some(colour(facts.verdict).into()));
-    line!(
-        out,
-        "verdict   {style}{}{style:#}. {}",
-        facts.verdict.name(),
-        facts.sentence
-    );
+    let model = match is_usable(facts.verdict) {
+        true => "--model-out model.toml · ",
+        false => "",
+    };
+    let words = format!("{verbose}{model}--report page.html{plan} · bowden help terms");
+    block(&mut out, report.width, "Next", [words]);
     out
 }
 
-fn colour(verdict: Verdict) -> AnsiColor {
-    match verdict {
-        Verdict::Explained => AnsiColor::Green,
-        Verdict::ExplainedColoured
-        | Verdict::Unknown
-        | Verdict::Confounded
-        | Verdict::Stopped
-        | Verdict::UnderExcited => AnsiColor::Yellow,
-        Verdict::NoModel | Verdict::DoesNotCarryOver | Verdict::DataDefect => AnsiColor::Red,
+fn colour(facts: &Facts) -> AnsiColor {
+    match facts.verdict {
+        // What explains the record is not what is exported.
+        Verdict::Explained if facts.constrained().is_none() => AnsiColor::Green,
+        verdict if is_usable(verdict) => AnsiColor::Yellow,
+        _ => AnsiColor::Red,
     }
 }

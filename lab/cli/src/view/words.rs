@@ -13,9 +13,12 @@ pub(super) fn estimate(parameter: &Parameter) -> String {
     match parameter.ci95 {
         Some(_) => format!("{}{unit}", with_interval(parameter.value, parameter.ci95)),
         None => {
-            let reason = parameter.refused.as_ref().map_or("", |r| r.reason.as_str());
-            let stands = number(parameter.value, None);
-            format!("not identified: {reason}; stands at {stands}")
+            let reason = parameter
+                .not_identified
+                .as_ref()
+                .map_or("", |r| r.reason.as_str());
+            let value = number(parameter.value, None);
+            format!("{value}{unit}, not identified: {reason}")
         }
     }
 }

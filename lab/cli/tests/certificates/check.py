@@ -92,7 +92,7 @@ def faults(c):
     for (name, left, right), stated in zip(sides(c), c["inequalities"] + c["at_the_limit"] + [c["slew"]] * (c["slew"] is not None), strict=True):
         a, b = number(stated["left"]["exact"]), number(stated["right"]["exact"])
         if name != stated["name"]:
-            yield f"{stated['name']} stands where {name} was expected"
+            yield f"{stated['name']} stands where {name} is needed"
         if not left <= a <= left + near * abs(left):
             yield f"{name}: left side {float(a)} is not {float(left)}"
         if not right - near * abs(right) <= b <= right:

@@ -5,9 +5,10 @@ use super::shell::{bowden, refused, said, text};
 
 #[test]
 fn gains_that_are_proved_are_said_to_be_with_all_nine_inequalities() {
-    let report = said(&["certify", &example("gains_table2.toml")]);
+    let report = said(&["certify", &example("gains_table2.toml"), "--verbose"]);
     assert!(
-        report.contains("PROVED in f32, every rounding included: |e| <= 0.8340 N·m, |s| <= 0.4170"),
+        report.contains("  PROVED in f32: |e| <= 0.8340 N·m at every sample\n")
+            && report.contains("Every rounding is included. The proof also gives |s| <= 0.4170"),
         "{report}"
     );
     assert_eq!(
@@ -32,13 +33,13 @@ fn a_limit_that_may_be_met_is_proved_with_its_own_inequalities() {
     let with = |command: &str| {
         let limit = format!("command = {command}");
         std::fs::write(&path, own.replace("command = 60.0", &limit)).unwrap();
-        bowden(&["certify", path.to_str().unwrap()])
+        bowden(&["certify", path.to_str().unwrap(), "--verbose"])
     };
     let report = with("41.0");
     assert!(report.status.success(), "{report:?}");
     let report = text(&report.stdout).to_owned();
     assert!(
-        report.contains("\nPROVED") && report.contains("the limit may be met"),
+        report.contains("\n  PROVED") && report.contains("the limit may be met"),
         "{report}"
     );
     let holds = report.lines().filter(|l| l.starts_with("holds "));
@@ -49,9 +50,9 @@ fn a_limit_that_may_be_met_is_proved_with_its_own_inequalities() {
     let (_, enough) = weak.split_once("command of at least ").unwrap();
     let enough = enough.split(',').next().unwrap();
     let mended = text(&with(enough).stdout).to_owned();
-    assert!(mended.contains("\nPROVED"), "{enough}: {mended}");
+    assert!(mended.contains("\n  PROVED"), "{enough}: {mended}");
     let box_of = |report: &str| {
-        let line = report.lines().find(|l| l.starts_with("PROVED"));
+        let line = report.lines().find(|l| l.starts_with("  PROVED"));
         line.unwrap().to_owned()
     };
     assert_eq!(
@@ -74,7 +75,10 @@ fn gains_that_are_not_proved_exit_with_1_and_say_what_would_mend_them() {
         "{report}"
     );
     assert_eq!(report.lines().filter(|l| l.starts_with("FAILS")).count(), 1);
-    let mend = report.lines().find(|l| l.starts_with("mended by")).unwrap();
+    let mend = report
+        .lines()
+        .find(|l| l.starts_with("  Remedy: "))
+        .unwrap();
     for part in [
         "a rate of at least",
         "epsilon of at least",
@@ -100,7 +104,7 @@ fn what_is_said_to_mend_mends() {
     let advice = bowden(&["certify", &example("gains_refused.toml")]);
     let advice = text(&advice.stdout)
         .lines()
-        .find(|l| l.starts_with("mended by"))
+        .find(|l| l.starts_with("  Remedy: "))
         .unwrap()
         .to_owned();
     let after = |words: &str| -> f64 {
@@ -121,7 +125,7 @@ fn what_is_said_to_mend_mends() {
     ] {
         let (_folder, path) = changed(from, &to);
         let report = said(&["certify", &path]);
-        assert!(report.contains("\nPROVED"), "{to}: {report}");
+        assert!(report.contains("\n  PROVED"), "{to}: {report}");
     }
 }
 
@@ -138,7 +142,7 @@ fn what_is_said_to_mend_a_large_k_mends() {
             .replace("k = 17.3", &format!("k = {k}"))
             .replace("epsilon = 0.015", &format!("epsilon = {epsilon}"));
         std::fs::write(path, own).unwrap();
-        text(&bowden(&["certify", path]).stdout).to_owned()
+        text(&bowden(&["certify", path, "--verbose"]).stdout).to_owned()
     };
     let after = |report: &str, words: &str| -> f64 {
         let (_, rest) = report
@@ -167,7 +171,7 @@ fn what_is_said_to_mend_a_large_k_mends() {
             line.is_some_and(|l| l.starts_with("holds "))
         };
         assert!(holds(&with_k), "{k_room}, {wider}: {with_k}");
-        assert!(with_k.contains("\nPROVED"), "{k_room}, {wider}: {with_k}");
+        assert!(with_k.contains("\n  PROVED"), "{k_room}, {wider}: {with_k}");
         let with_rate = certify(after(&refused, "a rate of at least "), k, epsilon);
         assert!(holds(&with_rate), "{with_rate}");
     }
@@ -184,7 +188,10 @@ fn both_sides_are_rounded_against_the_inequality() {
         let path = path.to_str().unwrap();
         let json = bowden(&["certify", path, "--json"]).stdout;
         let json: serde_json::Value = serde_json::from_slice(&json).unwrap();
-        (text(&bowden(&["certify", path]).stdout).to_owned(), json)
+        (
+            text(&bowden(&["certify", path, "--verbose"]).stdout).to_owned(),
+            json,
+        )
     };
     let needed = certify(0.5).1["inequalities"]
         .as_array()
@@ -209,7 +216,7 @@ fn both_sides_are_rounded_against_the_inequality() {
             assert!(left >= value("left") && right <= value("right"), "{report}");
             assert_eq!(left <= right, word == "holds", "{report}");
         }
-        let (_, line) = report.split_once("\n|w| <= ").unwrap();
+        let (_, line) = report.split_once("|w| <= ").unwrap();
         let mut numbers = line
             .split([' ', ',', '[', ']', '\n'])
             .filter_map(|t| t.parse().ok());
@@ -257,12 +264,12 @@ fn a_file_that_is_none_is_refused_with_file_line_and_column() {
         (
             "k = 17.3",
             "k = nan",
-            &["gains.toml:3:5: `k`", "above zero was expected"],
+            &["gains.toml:3:5: `k`", "above zero is needed"],
         ),
         (
             "k = 17.3",
             "k = -1",
-            &["gains.toml:3:5: `k`", "above zero was expected"],
+            &["gains.toml:3:5: `k`", "above zero is needed"],
         ),
         (
             "disturbance = 7.056",
@@ -272,12 +279,12 @@ fn a_file_that_is_none_is_refused_with_file_line_and_column() {
         (
             "beta = [0.9, 1.1]",
             "beta = [0.9, 1.0, 1.1]",
-            &["gains.toml:9:8: `beta`", "a box of two"],
+            &["gains.toml:9:8: `beta`", "a pair of"],
         ),
         (
             "beta = [0.9, 1.1]",
             "beta = [0.9]",
-            &["gains.toml:9:8: `beta`", "a box of two"],
+            &["gains.toml:9:8: `beta`", "a pair of"],
         ),
         (
             "beta = [0.9, 1.1]",
@@ -321,7 +328,9 @@ fn a_file_that_is_absent_or_a_gain_beyond_its_float_is_refused() {
 #[test]
 fn without_a_file_the_certificates_of_table_2_stay() {
     let report = said(&["certify"]);
-    assert!(report.starts_with("bowden certify: what the tracking error is promised to stay below"));
+    assert!(
+        report.starts_with("bowden certify · the paper's gains on the reference rig\n\n  BOUND: ")
+    );
 }
 
 #[test]
@@ -333,7 +342,7 @@ fn one_file_for_both_checkers_is_refused_and_what_was_there_stays() {
     let path = both.to_str().unwrap();
     let line = refused(&["certify", &own, "--coq", path, "--gappa", path]);
     assert!(
-        line.contains("--gappa") && line.contains("another option writes this file"),
+        line.contains("--gappa") && line.contains("another option also writes this file"),
         "{line}"
     );
     assert_eq!(std::fs::read_to_string(&both).unwrap(), "mine");
@@ -370,7 +379,7 @@ fn gains_without_their_plant_are_told_what_was_expected() {
     let path = folder.path().join("bare.toml");
     std::fs::write(&path, format!("{before}[[regressor]]{behind}")).unwrap();
     let line = refused(&["certify", path.to_str().unwrap()]);
-    let expected = "bare.toml: has no [plant]: a table [plant] with alpha = [least, greatest], disturbance, disturbance_rate, reference and reference_rate was expected";
+    let expected = "bare.toml: has no [plant]: a table [plant] with alpha = [least, greatest], disturbance, disturbance_rate, reference and reference_rate is needed";
     assert!(line.ends_with(expected), "{line}");
     // What else is missing is told without the comment at the head of the file.
     std::fs::write(&path, own.replace("epsilon = 0.08", "")).unwrap();

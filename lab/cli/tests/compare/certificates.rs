@@ -48,7 +48,7 @@ fn every_certificate_says_what_it_rests_on() {
             assert!(line["refused"].is_string());
         }
     }
-    let text = String::from_utf8(bowden(&["certify"]).stdout).unwrap();
+    let text = String::from_utf8(bowden(&["certify", "--verbose"]).stdout).unwrap();
     assert!(text.contains("no dynamics between u and y"));
 }
 

@@ -106,7 +106,7 @@ fn a_model_that_close_has_written_is_fed_forward() {
     let (record, model) = (folder.path().join("r.csv"), folder.path().join("m.toml"));
     let (record, model) = (record.to_str().unwrap(), model.to_str().unwrap());
     assert!(bowden(&["generate", "--out", record]).status.success());
-    let closed = bowden(&["close", record, "--model-out", model]);
+    let closed = bowden(&["identify", record, "--model-out", model]);
     assert!(closed.status.success(), "{closed:?}");
     let report = json(&[
         "compare",

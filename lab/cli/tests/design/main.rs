@@ -38,7 +38,7 @@ impl Place {
     /// The model of the straight cable.
     fn model(&self) -> String {
         let model = self.path("model.toml");
-        said(&["close", RECORD, "--model-out", &model]);
+        said(&["identify", RECORD, "--model-out", &model]);
         model
     }
 }
@@ -157,20 +157,21 @@ fn the_table_says_whose_rig_gains_and_reference_they_are_and_keeps_the_papers_ou
         "0.006",
         "--drive-gain",
         "0.6",
+        "--verbose",
         "--out",
         &gains,
     ]);
     for words in [
-        "bowden design model.toml: 500 Hz",
+        "bowden design · model.toml · 500 Hz",
         "slope ",
-        "pi ",
+        "  PI: k_p ",
         "admissible: ",
-        "derivative ",
-        "limits ",
-        "slew ",
+        "A derivative ",
+        "Limits  command ",
+        "slew rate ",
         "longest dt ",
-        "adaptive ",
-        "note ",
+        "Adapt ",
+        "Note ",
     ] {
         assert!(told.contains(words), "{words} is not in\n{told}");
     }
@@ -189,9 +190,9 @@ fn the_table_says_whose_rig_gains_and_reference_they_are_and_keeps_the_papers_ou
     ];
     let table = said(&[&fixed, LIGHT.as_slice()].concat());
     for words in [
-        "on the reference rig with the transmission of model.toml",
+        "simulated reference rig with the transmission of model.toml",
         "Gains: those of gains.toml.",
-        "certificate -: the table has those of the reference rig alone. `bowden certify GAINS.toml`",
+        "No bounds here: `bowden certify GAINS.toml`",
         "Reference: the paper's between ",
         "Rig: inertia 0.002 kg·m², damping 0.5 N·m·s/rad.",
     ] {
@@ -220,7 +221,7 @@ fn gains_rs_compiles_without_warnings_and_is_the_gains() {
         }
         let written = text(&rust);
         assert!(written.contains(if index == 0 {
-            "once a sample"
+            "once per sample"
         } else {
             "one sample in 5"
         }));
@@ -277,7 +278,7 @@ fn bad_use_is_one_line_and_nothing_is_written() {
     let good = ["--rate", "1000", "--delay", "0.001"];
     let line = with(&good);
     assert!(
-        line.contains("m.toml: mode \"displacement\": a torque model was expected"),
+        line.contains("m.toml: mode \"displacement\": a torque model is needed"),
         "{line}"
     );
     for (rate, delay, part) in [
@@ -335,9 +336,9 @@ fn gains_and_rigs_that_make_no_sense_are_one_line() {
     let line = compare(&broken, &[]);
     assert!(line.contains("broken.toml:13:1: `kp`"), "{line}");
     assert!(compare(&model, &[]).contains("is a model"));
-    assert!(compare(&gains, &["--inertia", "-1"]).contains("--inertia -1: "));
-    assert!(compare(&gains, &["--spring", "nan"]).contains("--spring NaN: "));
-    assert!(compare(&gains, &["--drive-gain", "0"]).contains("--drive-gain 0: "));
+    assert!(compare(&gains, &["--inertia", "-1"]).contains("--inertia -1 is out of range"));
+    assert!(compare(&gains, &["--spring", "nan"]).contains("--spring NaN is out of range"));
+    assert!(compare(&gains, &["--drive-gain", "0"]).contains("--drive-gain 0 is out of range"));
     assert!(compare(&gains, &["--delay", "9"]).contains("delay"));
     assert!(compare(&gains, &["--effect", "viscous"]).contains("--effect"));
     let other = text(&model)
@@ -374,7 +375,7 @@ fn designed_gains_run_on_no_rig_but_that_of_a_model() {
         "compare", "--model", &setup, "--gains", &gains, "--seeds", "1",
     ]);
     assert!(
-        line.contains("setup.toml: a model of `bowden close"),
+        line.contains("setup.toml: a model of `bowden identify"),
         "{line}"
     );
 }
@@ -450,7 +451,7 @@ fn a_model_in_another_unit_of_torque_is_refused() {
             vec!["compare", "--model", &other, "--inertia", "0.002"],
         ] {
             let line = refused(&arguments);
-            let wanted = format!("its {end} is in mN·m: N·m was expected");
+            let wanted = format!("its {end} is in mN·m: N·m is needed");
             assert!(
                 line.contains("milli.toml") && line.contains(&wanted),
                 "{line}"
@@ -465,7 +466,7 @@ fn an_effect_is_hidden_in_the_reference_rig_and_not_in_that_of_a_model() {
     let model = place.model();
     let line = refused(&["compare", "--effect", "viscous", "--model", &model]);
     assert!(
-        line.contains("it goes with neither a model nor the gains"),
+        line.contains("it cannot be combined with a model or with gains"),
         "{line}"
     );
 }

@@ -44,7 +44,7 @@ fn the_header_of_the_demonstration_is_the_one_that_the_c_example_includes() {
         printed, there,
         "bowden export --c examples/data/demo.toml --out capi/examples/demo.h"
     );
-    // The bytes are those that the file of `close --model-out` has.
+    // The bytes are those that the file of `identify --model-out` has.
     let bytes = std::fs::read(repository().join("examples/data/demo.postcard")).unwrap();
     let digits: Vec<String> = bytes.iter().map(|byte| format!("0x{byte:02x}")).collect();
     let (_, array) = printed.split_once("demo_bytes_f32[42] = {").unwrap();
@@ -141,7 +141,7 @@ fn a_play_before_the_model_has_its_name_and_half_width_in_c() {
     let (done, header) = exported(&text);
     assert!(done, "{header}");
     for line in [
-        " * The same with the input behind bowden_play of half-width 0.081: 2.60 %.\n",
+        " * The same with the input through bowden_play of half-width 0.081: 2.60 %.\n",
         "#define MODEL_0_RIG_PLAY_HALF_WIDTH_F32 0.081f\n",
         "#define MODEL_0_RIG_PLAY_HALF_WIDTH_F64 0.081\n",
     ] {
@@ -219,14 +219,14 @@ fn a_file_name_without_a_letter_is_refused_in_one_line_that_says_which_work() {
         let words = written(&text, folder.path(), name).unwrap_err();
         assert_eq!(words.lines().count(), 1, "{words}");
         assert!(
-            words.contains("a letter from a to z, or a Greek one,"),
+            words.contains("a letter from a to z or a Greek letter"),
             "{words}"
         );
         assert!(words.contains(name), "{words}");
     }
     // It would have the functions of the library, as bowden_model.h would.
     let words = written(&text, folder.path(), "bowden-model.h").unwrap_err();
-    assert!(words.contains("a name of the library's own"), "{words}");
+    assert!(words.contains("a name of the library"), "{words}");
     for (name, prefix) in [
         ("1a.h", "model_1a"),
         ("µm.h", "um"),
@@ -241,7 +241,7 @@ fn a_file_name_without_a_letter_is_refused_in_one_line_that_says_which_work() {
         // The comment says from where the prefix is.
         let stem = name.strip_suffix(".h").unwrap();
         let said = format!(
-            " * The prefix {prefix}_ (of macros {}_) is that of the file name \"{stem}\".\n",
+            " * The prefix {prefix}_ (of macros {}_) comes from the file name \"{stem}\".\n",
             prefix.to_uppercase()
         );
         assert!(header.contains(&said), "{header}");

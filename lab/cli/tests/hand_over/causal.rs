@@ -2,7 +2,7 @@
 
 use crate::rig::{record, Told};
 use crate::shell::said;
-use bowden_cli::view::{json, text};
+use bowden_cli::view::{json, text, Report, Width};
 use bowden_lab::export::hand_over::HandOver;
 use bowden_lab::facts::{Detail, Facts};
 use bowden_lab::record::{parse, Options};
@@ -68,17 +68,14 @@ fn without_rates_the_causal_error_of_a_hysteresis_is_that_of_the_fit() {
 }
 
 #[test]
-fn both_errors_stand_in_one_line_of_the_ledger_and_in_the_json() {
-    let json: serde_json::Value = serde_json::from_str(&said(&["close", "--json"])).unwrap();
+fn the_error_on_a_controller_is_printed_and_in_the_json() {
+    let json: serde_json::Value = serde_json::from_str(&said(&["identify", "--json"])).unwrap();
     let per_cent = |v: &serde_json::Value| format!("{:.2} %", 100.0 * v.as_f64().unwrap());
     let causal = per_cent(&json["final"]["causal_nrmse"]["held_out"]);
-    let zero_phase = per_cent(&json["final"]["handed_over"]["nrmse"]["held_out"]);
-    let ledger = said(&["close"]);
-    let line = ledger.lines().find(|l| l.contains("causal")).unwrap();
-    assert!(
-        line.contains(&causal) && line.contains(&zero_phase),
-        "{line}"
-    );
+    let zero_phase = per_cent(&json["final"]["exported_model"]["nrmse"]["held_out"]);
+    let ledger = said(&["identify"]);
+    let line = ledger.lines().find(|l| l.contains("causal rates")).unwrap();
+    assert!(line.contains(&causal), "{line}");
     assert_ne!(causal, zero_phase);
 }
 
@@ -93,10 +90,18 @@ fn what_was_found_is_told_although_nothing_can_be_handed_over() {
     let report = json(&facts, None).unwrap();
     let report: serde_json::Value = serde_json::from_str(&report).unwrap();
     let part = &report["final"];
-    assert!(part["causal_nrmse"].is_null() && part["handed_over"].is_null());
-    assert_eq!(part["feed_forward"]["because"], because);
+    assert!(part["causal_nrmse"].is_null() && part["exported_model"].is_null());
+    assert_eq!(part["feed_forward"]["reason"], because);
     assert!(part["nrmse"]["held_out"].is_f64());
-    let printed = text(&facts, false);
-    assert!(printed.contains(&format!("firmware  nothing is handed over: {because}\n")));
-    assert!(printed.contains("\nverdict   "), "{printed}");
+    let report = Report {
+        width: Width::unlimited(),
+        verbose: false,
+        chosen_cutoff: false,
+    };
+    let printed = text(&facts, report);
+    assert!(printed.contains(&format!("Use it  no model can be exported: {because}\n")));
+    assert!(
+        printed.contains("NO MISSING TERM FOUND") || printed.contains("NO TERM IS MISSING"),
+        "{printed}"
+    );
 }

@@ -31,7 +31,7 @@ fn a_channel_that_is_a_sum_is_defined_in_every_file_that_is_handed_over() {
     std::fs::write(&record, spring_of_the_stretch()).unwrap();
     let stretch = ["--channel", "stretch=proximal+distal"];
     for form in [&model, &path("rig.rs")] {
-        let mut close = vec!["close", &record, "--rounds", "0", "--declare"];
+        let mut close = vec!["identify", &record, "--max-terms", "0", "--baseline"];
         close.extend(["gain,stiffness-linear@stretch", "--model-out", form]);
         let output = run(&[&close[..], &stretch].concat());
         assert!(output.status.success(), "{output:?}");
@@ -48,7 +48,7 @@ fn a_channel_that_is_a_sum_is_defined_in_every_file_that_is_handed_over() {
     let listed = "#define RIG_CHANNEL_STRETCH 0 /* stretch = proximal + distal [rad] */";
     assert!(c.contains(listed), "{c}");
     // A record without the channel is told how to get it.
-    let output = run(&["check", &model, &record]);
+    let output = run(&["validate", &model, &record]);
     assert_eq!(output.status.code(), Some(2));
     let words = String::from_utf8(output.stderr).unwrap();
     assert!(
@@ -57,6 +57,6 @@ fn a_channel_that_is_a_sum_is_defined_in_every_file_that_is_handed_over() {
         ),
         "{words}"
     );
-    let output = run(&[&["check", &model, &record], &stretch[..]].concat());
+    let output = run(&[&["validate", &model, &record], &stretch[..]].concat());
     assert!(output.status.success(), "{output:?}");
 }

@@ -89,8 +89,8 @@ fn the_program_writes_the_same_model_as_postcard_and_as_toml() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).display().to_string();
     let (toml, bytes) = (path("model.toml"), path("model.postcard"));
-    said(&["close", "--model-out", &toml]);
-    said(&["close", "--model-out", &bytes]);
+    said(&["identify", "--model-out", &toml]);
+    said(&["identify", "--model-out", &bytes]);
     let file: ModelFile = toml::from_str(&std::fs::read_to_string(&toml).unwrap()).unwrap();
     let bytes = std::fs::read(&bytes).unwrap();
     let model: Model<f32, 8> = postcard::from_bytes_crc32(&bytes, CRC.digest()).unwrap();

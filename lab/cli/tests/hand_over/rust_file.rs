@@ -124,7 +124,7 @@ fn the_written_model_with_its_rates_and_ranges_makes_a_feed_forward() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("model.rs");
     said(&[
-        "close",
+        "identify",
         "--invertible",
         "--model-out",
         &path.display().to_string(),
@@ -174,9 +174,9 @@ fn model_rs_says_what_its_numbers_mean_and_holds_no_path() {
     ]);
     for name in ["model.rs", "model.toml"] {
         said(&[
-            "close",
+            "identify",
             &csv,
-            "--declare",
+            "--baseline",
             "bouc-wen,coulomb@phi_p",
             "--model-out",
             &path(name),
@@ -191,9 +191,9 @@ fn model_rs_says_what_its_numbers_mean_and_holds_no_path() {
         "Input [N·m], output [N·m], torque mode.",
         "Channels, in the order of `Sample::channels`: 0 phi_p [rad], 1 phi_d [rad].",
         "Fitted below ",
-        " samples a second.",
-        "Error, of the output's standard deviation: fit ",
-        "Held out sample by sample",
+        " samples per second.",
+        "Error as a share of the output's standard deviation: fit ",
+        "Held-out error sample by sample",
         "Feed-forward: ",
         "rho [1/(N·m)]",
         "B [1], kappa_eta [N·m], T0 [N·m]",
@@ -208,9 +208,9 @@ fn model_rs_says_what_its_numbers_mean_and_holds_no_path() {
     }
     // What the record does not show is named, as in the report.
     let json: serde_json::Value = serde_json::from_str(&said(&[
-        "close",
+        "identify",
         &csv,
-        "--declare",
+        "--baseline",
         "bouc-wen,coulomb@phi_p",
         "--json",
     ]))
@@ -249,7 +249,7 @@ fn the_ranges_are_those_that_the_fit_has_seen() {
         .unwrap();
     let (first, last) = (
         told.data.split.fit[0],
-        told.data.split.stop[told.data.split.stop.len() - 1],
+        told.data.split.selection[told.data.split.selection.len() - 1],
     );
     let stride = told.data.stride;
     let seen = &phi_d.motion[first * stride..(last + 1) * stride];

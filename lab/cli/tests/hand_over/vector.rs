@@ -17,19 +17,19 @@ fn replayed<T: Real>(model: &Model<T, 16>, csv: &str, from_last: usize) -> (f64,
     for line in csv.lines().skip(1) {
         let row: Vec<f64> = line.split(',').map(|v| v.parse().unwrap()).collect();
         let motion = |at: usize| Motion {
-            position: T::of(row[at]),
-            velocity: T::of(row[at + 1]),
-            acceleration: T::of(row[at + 2]),
+            position: T::from_f64(row[at]),
+            velocity: T::from_f64(row[at + 1]),
+            acceleration: T::from_f64(row[at + 2]),
         };
         let channels: Vec<Motion<T>> = (5..row.len() - 2).step_by(3).map(motion).collect();
         let sample = Sample {
-            dt: T::of(row[0]),
+            dt: T::from_f64(row[0]),
             input: motion(1),
-            load: T::of(row[4]),
+            load: T::from_f64(row[4]),
             channels: &channels,
         };
         // The text of an `f32` is the shortest one that reads back to it, as an `f32`.
-        let expected = T::of(row[row.len() - from_last]).as_f64();
+        let expected = T::from_f64(row[row.len() - from_last]).as_f64();
         let answer = model.step(&mut state, &sample).as_f64();
         worst = worst.max((answer - expected).abs());
         largest = largest.max(expected.abs());
@@ -45,7 +45,7 @@ fn model(path: &Path) -> ModelFile {
 fn a_model_steps_through_its_vector_to_the_bit_in_both_precisions() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("model.toml");
-    said(&["close", "--model-out", &path.display().to_string()]);
+    said(&["identify", "--model-out", &path.display().to_string()]);
     assert_eq!(files(folder.path()), ["model.toml", "model.vector.csv"]);
     let csv = std::fs::read_to_string(folder.path().join("model.vector.csv")).unwrap();
     assert_eq!(
@@ -102,7 +102,7 @@ fn with_gains_for_each_file_each_has_its_model_and_its_vector() {
     std::fs::create_dir(&out).unwrap();
     let path = out.join("model.toml").display().to_string();
     said(&[
-        "close",
+        "identify",
         &one,
         &two,
         "--per-file",
@@ -137,7 +137,7 @@ fn where_the_vector_cannot_be_written_there_is_no_model_either() {
     // A folder where the vector should go: its name cannot be taken.
     std::fs::create_dir(folder.path().join("model.vector.csv")).unwrap();
     let path = folder.path().join("model.rs").display().to_string();
-    let output = bowden(&["close", "--model-out", &path]);
+    let output = bowden(&["identify", "--model-out", &path]);
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(files(folder.path()), ["model.vector.csv"]);
 }
@@ -147,7 +147,7 @@ fn where_the_model_cannot_be_written_there_is_no_vector_either() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::create_dir(folder.path().join("model.rs")).unwrap();
     let path = folder.path().join("model.rs").display().to_string();
-    let output = bowden(&["close", "--model-out", &path]);
+    let output = bowden(&["identify", "--model-out", &path]);
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(files(folder.path()), ["model.rs"]);
 }

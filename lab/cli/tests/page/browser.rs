@@ -44,7 +44,7 @@ fn the_page_fits_a_telephone_and_a_desk_and_logs_no_error() {
     };
     let folder = Folder::new();
     let out = folder.path("page.html");
-    said(&["close", &example("straight.csv"), "--report", &out]);
+    said(&["identify", &example("straight.csv"), "--report", &out]);
     let page = folder.read("page.html");
     // A frame of the exact width, since a window is never narrower than the browser allows; what
     // is measured is written into the title.

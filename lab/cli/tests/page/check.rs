@@ -1,14 +1,14 @@
-//! The page of `check`.
+//! The page of `validate`.
 
 use crate::shell::said;
 use crate::{assert_sound, elements, example, parsed, sections, text, Folder};
 
 fn page(folder: &Folder, record: &str) -> (String, serde_json::Value) {
     let (model, out) = (folder.path("model.toml"), folder.path("check.html"));
-    said(&["close", &example("straight.csv"), "--model-out", &model]);
+    said(&["identify", &example("straight.csv"), "--model-out", &model]);
     let plot = folder.path("check.svg");
     let printed = said(&[
-        "check",
+        "validate",
         &model,
         &example(record),
         "--json",
@@ -35,7 +35,7 @@ fn a_model_that_holds_and_one_that_does_not_have_a_page_with_the_sentence_first(
         let document = parsed(&page);
         let main = elements(document.root(), "main").next().unwrap();
         let lead = elements(main, "p").next().unwrap();
-        assert_eq!(text(lead), report["sentence"].as_str().unwrap());
+        assert_eq!(text(lead), report["summary"].as_str().unwrap());
         let found = sections(&document);
         for wanted in [
             "verdict", "errors", "signals", "loop", "residual", "noise", "parts", "origin",

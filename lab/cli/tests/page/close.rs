@@ -1,4 +1,4 @@
-//! The page of `close`.
+//! The page of `identify`.
 
 use crate::shell::{bowden_on, said, text as utf8};
 use crate::{assert_sound, elements, example, parsed, sections, text, Folder};
@@ -13,7 +13,7 @@ fn numbers(page: &str) -> Vec<f64> {
 
 fn close(folder: &Folder, name: &str, more: &[&str]) -> (String, serde_json::Value) {
     let out = folder.path(name);
-    let printed = said(&[&["close", "--json", "--report", &out], more].concat());
+    let printed = said(&[&["identify", "--json", "--report", &out], more].concat());
     (folder.read(name), serde_json::from_str(&printed).unwrap())
 }
 
@@ -21,8 +21,8 @@ fn close(folder: &Folder, name: &str, more: &[&str]) -> (String, serde_json::Val
 fn assert_numbers(page: &str, report: &serde_json::Value) {
     let shown = numbers(page);
     let mut expected = Vec::new();
-    for model in ["declared", "final"] {
-        for segment in ["fit", "stop", "held_out"] {
+    for model in ["baseline", "final"] {
+        for segment in ["fit", "selection", "held_out"] {
             expected.push(report[model]["rmse"][segment].as_f64().unwrap());
         }
         for segment in ["fit", "held_out"] {
@@ -32,9 +32,9 @@ fn assert_numbers(page: &str, report: &serde_json::Value) {
     for parameter in report["final"]["parameters"].as_array().unwrap() {
         expected.push(parameter["value"].as_f64().unwrap());
     }
-    for round in report["rounds"].as_array().unwrap() {
+    for round in report["terms"].as_array().unwrap() {
         expected.push(round["explained"].as_f64().unwrap());
-        for segment in ["fit", "stop", "held_out"] {
+        for segment in ["fit", "selection", "held_out"] {
             expected.push(round["rmse_after"][segment].as_f64().unwrap());
         }
     }
@@ -81,16 +81,16 @@ fn the_page_has_its_sections_in_order_and_the_numbers_of_the_json() {
     // The first sentence of the page is the ledger's.
     let main = elements(document.root(), "main").next().unwrap();
     let lead = elements(main, "p").next().unwrap();
-    assert_eq!(text(lead), report["sentence"].as_str().unwrap());
+    assert_eq!(text(lead), report["summary"].as_str().unwrap());
     let all = text(document.root());
     assert!(all.contains(report["verdict"].as_str().unwrap()));
-    for round in report["rounds"].as_array().unwrap() {
+    for round in report["terms"].as_array().unwrap() {
         assert!(all.contains(round["effect"].as_str().unwrap()));
     }
     for word in [
         "fit",
-        "stop",
-        "held out",
+        "selection",
+        "held-out",
         "schema = \"bowden.model/1\"",
         "--channel phi_p=motor_rad",
         "joint_Nm",
@@ -128,7 +128,7 @@ fn a_record_with_something_unknown_shows_its_curve() {
     std::fs::write(&record, made.unwrap().to_csv()).unwrap();
     let (page, report) = close(&folder, "bump.html", &[&record]);
     assert_sound(&page);
-    assert_eq!(report["verdict"], "unknown");
+    assert_eq!(report["verdict"], "unmodelled-dependence");
     let document = parsed(&page);
     assert!(sections(&document).contains(&"unknown".to_owned()));
     let svg = elements(document.root(), "svg").find(|s| {
@@ -146,7 +146,7 @@ fn several_records_have_a_part_each_on_one_page() {
     let (page, report) = close(
         &folder,
         "both.html",
-        &[&first, &second, "--per-file", "gains", "--rounds", "1"],
+        &[&first, &second, "--per-file", "gains", "--max-terms", "1"],
     );
     assert_sound(&page);
     assert_numbers(&page, &report);
@@ -170,7 +170,7 @@ fn the_same_record_gives_the_same_page_on_any_number_of_threads() {
     let out = folder.path("page.html");
     let run = |threads: &str| {
         let arguments = [
-            "close",
+            "identify",
             &record,
             "--mode",
             "displacement",

@@ -68,7 +68,14 @@ fn the_page_names_model_gains_and_rig_and_keeps_the_papers_results_out() {
     let (model, gains) = (folder.path("model.toml"), folder.path("gains.toml"));
     let out = folder.path("compare.html");
     let record = crate::example("straight.csv");
-    said(&["close", &record, "--rounds", "0", "--model-out", &model]);
+    said(&[
+        "identify",
+        &record,
+        "--max-terms",
+        "0",
+        "--model-out",
+        &model,
+    ]);
     let asked = ["--rate", "500", "--delay", "0.006", "--out", &gains];
     said(&[&["design", &model], asked.as_slice()].concat());
     let short = [

@@ -50,7 +50,7 @@ fn a_million_samples_make_a_page_below_two_megabytes_that_keeps_its_spike() {
         models: &closed.models,
     };
     let page = page.page(&Provenance {
-        command: "bowden close large.csv".to_owned(),
+        command: "bowden identify large.csv".to_owned(),
         version: "0".to_owned(),
         sources: Vec::new(),
     });

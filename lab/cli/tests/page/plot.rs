@@ -11,7 +11,7 @@ fn each_figure_is_an_svg_of_its_own_with_a_title_and_lines() {
     let out = folder.path("figure.svg");
     let mut all = Vec::new();
     for (figure, marks) in [("loop", 3), ("residual", 2), ("trace", 3), ("shares", 4)] {
-        said(&["close", &record, "--plot", &out, "--figure", figure]);
+        said(&["identify", &record, "--plot", &out, "--figure", figure]);
         let svg = folder.read("figure.svg");
         for word in ["NaN", "inf", "url(", "<script"] {
             assert!(!svg.contains(word), "{figure}: {word}");
@@ -30,7 +30,7 @@ fn each_figure_is_an_svg_of_its_own_with_a_title_and_lines() {
         all.push(svg);
     }
     // Without a name it is the loop.
-    said(&["close", &record, "--plot", &out]);
+    said(&["identify", &record, "--plot", &out]);
     assert_eq!(folder.read("figure.svg"), all[0]);
     all.dedup();
     assert_eq!(all.len(), 4);

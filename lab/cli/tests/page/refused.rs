@@ -10,9 +10,9 @@ fn a_page_that_cannot_be_written_is_refused_before_the_record_is_read() {
     let missing = folder.path("later.csv");
     let model = folder.path("model.toml");
     said(&[
-        "close",
+        "identify",
         &example("straight.csv"),
-        "--rounds",
+        "--max-terms",
         "0",
         "--model-out",
         &model,
@@ -21,12 +21,15 @@ fn a_page_that_cannot_be_written_is_refused_before_the_record_is_read() {
     for option in ["--report", "--plot"] {
         for place in ["no-such-folder/page.html", "."] {
             let path = folder.path(place);
-            for command in [vec!["close", &missing], vec!["check", &model, &missing]] {
+            for command in [
+                vec!["identify", &missing],
+                vec!["validate", &model, &missing],
+            ] {
                 let line = refused(&[command.as_slice(), &[option, &path]].concat());
                 assert!(line.contains(option), "{line}");
             }
         }
-        let line = refused(&["check", &model, &missing, option, &model]);
+        let line = refused(&["validate", &model, &missing, option, &model]);
         assert!(line.contains("would overwrite"), "{line}");
     }
     let nowhere = folder.path("no-such-folder/page.html");
@@ -42,8 +45,11 @@ fn a_page_that_cannot_be_written_is_refused_before_the_record_is_read() {
     assert!(line.contains("--report"), "{line}");
     let same = folder.path("same.html");
     for other in ["--plot", "--trace"] {
-        let line = refused(&["close", &missing, "--report", &same, other, &same]);
-        assert!(line.contains("another option writes this file"), "{line}");
+        let line = refused(&["identify", &missing, "--report", &same, other, &same]);
+        assert!(
+            line.contains("another option also writes this file"),
+            "{line}"
+        );
     }
     assert_eq!(folder.names(), before);
 }
@@ -61,7 +67,7 @@ fn no_output_takes_the_place_of_another_file_of_the_command() {
     std::fs::write(&out, "before").unwrap();
     std::fs::copy(example("straight.csv"), &record).unwrap();
     let names = folder.names();
-    let both = "another option writes this file";
+    let both = "another option also writes this file";
     let over = "would overwrite";
     let short = ["compare", "--seconds", "8", "--seeds", "1"];
     for (arguments, part) in [
@@ -75,12 +81,19 @@ fn no_output_takes_the_place_of_another_file_of_the_command() {
         ),
         (vec!["compare", "--gains", &out, "--trace", &other], over),
         (
-            vec!["close", &missing, "--model-out", &model, "--trace", &vector],
+            vec![
+                "identify",
+                &missing,
+                "--model-out",
+                &model,
+                "--trace",
+                &vector,
+            ],
             both,
         ),
         (
             vec![
-                "check", &missing, &missing, "--trace", &out, "--plot", &other,
+                "validate", &missing, &missing, "--trace", &out, "--plot", &other,
             ],
             both,
         ),
@@ -122,8 +135,8 @@ fn a_name_of_another_form_is_refused_before_anything_is_read() {
         for name in names.into_iter().filter(|name| *name != fits) {
             let path = folder.path(name);
             let mut commands = vec![
-                vec!["close", &missing, option, &path],
-                vec!["check", &missing, &missing, option, &path],
+                vec!["identify", &missing, option, &path],
+                vec!["validate", &missing, &missing, option, &path],
             ];
             if option != "--plot" {
                 commands.push([&short[..], &[option, &path]].concat());
@@ -131,17 +144,17 @@ fn a_name_of_another_form_is_refused_before_anything_is_read() {
             for command in commands {
                 assert_eq!(
                     refused(&command),
-                    format!("bowden: {option} {path}: a name that ends in {expected} was expected")
+                    format!("bowden: {option} {path}: a name that ends in {expected} is needed")
                 );
             }
             assert_eq!(folder.read(name), "before");
         }
         // Of a name that fits the record is what is complained of.
-        let line = refused(&["close", &missing, option, &folder.path(fits)]);
+        let line = refused(&["identify", &missing, option, &folder.path(fits)]);
         assert!(line.contains("later.csv"), "{line}");
     }
     for name in ["P.HTM", "p.Html"] {
-        let line = refused(&["close", &missing, "--report", &folder.path(name)]);
+        let line = refused(&["identify", &missing, "--report", &folder.path(name)]);
         assert!(line.contains("later.csv"), "{line}");
     }
     assert_eq!(folder.names(), before);
@@ -153,7 +166,7 @@ fn a_bad_record_leaves_the_page_that_was_there() {
     let (bad, page) = (folder.path("bad.csv"), folder.path("page.html"));
     std::fs::write(&bad, "t,x,f\n0,0,0\n0.1,zero,1\n").unwrap();
     std::fs::write(&page, "before").unwrap();
-    refused(&["close", &bad, "--report", &page]);
+    refused(&["identify", &bad, "--report", &page]);
     assert_eq!(folder.read("page.html"), "before");
     assert_eq!(folder.names(), ["bad.csv", "page.html"]);
 }
@@ -163,8 +176,8 @@ fn an_unknown_figure_and_a_figure_without_a_file_are_bad_use() {
     let record = example("straight.csv");
     let out = Folder::new().path("f.svg");
     for arguments in [
-        vec!["close", &record, "--plot", &out, "--figure", "pie"],
-        vec!["close", &record, "--figure", "loop"],
+        vec!["identify", &record, "--plot", &out, "--figure", "pie"],
+        vec!["identify", &record, "--figure", "loop"],
     ] {
         let output = bowden(&arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");

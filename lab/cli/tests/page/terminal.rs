@@ -5,7 +5,7 @@ use std::process::Command;
 fn close(environment: &[(&str, &str)]) -> String {
     let mut program = Command::new(env!("CARGO_BIN_EXE_bowden"));
     let output = program
-        .args(["close", "--rounds", "0"])
+        .args(["identify", "--max-terms", "0"])
         .envs(environment.iter().copied())
         .output();
     String::from_utf8(output.unwrap().stdout).unwrap()
@@ -39,7 +39,8 @@ fn a_terminal_gets_the_loop_and_a_bar_with_a_forecast() {
     }
     let run = |columns: u32, more: &str| {
         let program = env!("CARGO_BIN_EXE_bowden");
-        let command = format!("stty cols {columns} rows 50; '{program}' close --rounds 0 {more}");
+        let command =
+            format!("stty cols {columns} rows 50; '{program}' close --max-terms 0 {more}");
         let mut script = Command::new("script");
         let output = script
             .args(["-qec", &command, "/dev/null"])

@@ -5,9 +5,9 @@ use crate::shell::{refused, said, without_seconds};
 use bowden_lab::facts::{Asked, Options, Record};
 use std::path::Path;
 
-/// The JSON of `close` but for seconds, path and notes, and the notes.
+/// The JSON of `identify` but for seconds, path and notes, and the notes.
 fn closed(path: &str, options: &[&str]) -> (String, String) {
-    let json = said(&[&["close", path, "--json"], options].concat());
+    let json = said(&[&["identify", path, "--json"], options].concat());
     let json = without_seconds(json.as_bytes()).replace(&format!("{path:?}"), "PATH");
     let (before, rest) = json.split_once("\"notes\":[").unwrap();
     let (notes, after) = rest.split_once(']').unwrap();
@@ -50,14 +50,14 @@ fn every_form_gives_the_same_answer_to_the_byte() {
 fn a_spreadsheet_says_what_was_done_to_it() {
     let folder = Folder::new();
     let path = folder.file("excel.csv", latin_1(&german()));
-    let text = said(&["close", &path, "--rounds", "0"]);
+    let text = said(&["identify", &path, "--max-terms", "0"]);
     for note in [
         "the text is Windows-1252 (Latin-1)",
-        "lines 1–4 above the names passed over",
+        "lines 1–4 above the names ignored",
         "units from line 6",
         "numbers have a decimal comma",
         "columns not read: `Öltemperatur`, `Prüfer`",
-        "lines 2567–2569 below the table passed over",
+        "lines 2567–2569 below the table ignored",
     ] {
         assert!(text.contains(note), "{note} is not in\n{text}");
     }
@@ -71,10 +71,17 @@ fn rows_that_are_left_out_are_counted_in_the_ledger_and_in_the_json() {
     lines[800] = format!("{},,1,1", 799.0 / 256.0);
     lines[900] = lines[899].clone();
     let path = folder.file("bad.csv", lines.join("\n"));
-    let text = said(&["close", &path, "--drop-bad", "--rounds", "0"]);
-    let note = "--drop-bad has left out 3 rows: 1 with an empty cell, 1 with NaN, 1 with the time stamp of the row before";
+    let text = said(&["identify", &path, "--drop-bad", "--max-terms", "0"]);
+    let note = "--drop-bad has dropped 3 rows: 1 with an empty cell, 1 with NaN, 1 with the time stamp of the row before";
     assert!(text.contains(note), "{text}");
-    let json = said(&["close", &path, "--drop-bad", "--rounds", "0", "--json"]);
+    let json = said(&[
+        "identify",
+        &path,
+        "--drop-bad",
+        "--max-terms",
+        "0",
+        "--json",
+    ]);
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["record"]["dropped"], 3);
     assert_eq!(json["record"]["samples"], 2557);
@@ -180,7 +187,13 @@ fn a_pattern_stands_for_its_files_by_name() {
         let lines: Vec<&str> = text.lines().take(kept).collect();
         folder.file(name, lines.join("\n"));
     }
-    let json = said(&["close", &folder.path("*.csv"), "--rounds", "0", "--json"]);
+    let json = said(&[
+        "identify",
+        &folder.path("*.csv"),
+        "--max-terms",
+        "0",
+        "--json",
+    ]);
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     let path = |index: usize| json["records"][index]["path"].as_str().unwrap().to_owned();
     assert_eq!(path(0), folder.path("a.csv"));
@@ -188,7 +201,7 @@ fn a_pattern_stands_for_its_files_by_name() {
     assert!(json["records"][2].is_null());
     // A file that has the very name is no pattern.
     let own = folder.file("run[1].csv", csv());
-    said(&["close", &own, "--rounds", "0"]);
+    said(&["identify", &own, "--max-terms", "0"]);
 }
 
 /// What a stranger's program has left beside the records.
@@ -201,14 +214,14 @@ fn a_name_that_is_not_utf8_is_matched_as_any_other() {
     folder.file("ok.csv", csv());
     let foreign = |name: &[u8]| Path::new(&folder.path("")).join(OsStr::from_bytes(name));
     std::fs::write(foreign(b"caf\xe9.txt"), "").unwrap();
-    let close = ["close", &folder.path("*.csv"), "--rounds", "0"];
+    let close = ["identify", &folder.path("*.csv"), "--max-terms", "0"];
     said(&close);
     std::fs::create_dir(foreign(b"\xe9")).unwrap();
     std::fs::write(foreign(b"\xe9/lat\xe9.csv"), csv()).unwrap();
-    let close = ["close", &folder.path("?/*.csv"), "--rounds", "0"];
+    let close = ["identify", &folder.path("?/*.csv"), "--max-terms", "0"];
     said(&close);
     let none = folder.path("*.dat");
-    let line = refused(&["close", &none]);
+    let line = refused(&["identify", &none]);
     assert_eq!(line, format!("bowden: {none}: no file has such a name"));
 }
 
@@ -228,7 +241,13 @@ fn a_pattern_reads_as_in_a_shell() {
         folder.file(hidden, "not a record");
     }
     let read = |pattern: &str| -> Vec<String> {
-        let json = said(&["close", &folder.path(pattern), "--rounds", "0", "--json"]);
+        let json = said(&[
+            "identify",
+            &folder.path(pattern),
+            "--max-terms",
+            "0",
+            "--json",
+        ]);
         let json: serde_json::Value = serde_json::from_str(&json).unwrap();
         let path = |part: &serde_json::Value| part["path"].as_str().unwrap().to_owned();
         match json["records"].as_array() {
@@ -244,10 +263,10 @@ fn a_pattern_reads_as_in_a_shell() {
     for (pattern, why) in [
         ("*/", "no file has such a name"),
         ("1.csv/*", "no file has such a name"),
-        ("[", "is no pattern: invalid range pattern"),
+        ("[", "is not a pattern: invalid range pattern"),
     ] {
         let path = folder.path(pattern);
-        let line = refused(&["close", &path]);
+        let line = refused(&["identify", &path]);
         assert!(
             line.starts_with(&format!("bowden: {path}: {why}")),
             "{line}"
@@ -273,16 +292,16 @@ fn every_command_that_reads_a_record_reads_every_form_with_the_same_options() {
         "--channel",
         "stretch=x_mm-load_in_mm",
     ];
-    let close = ["close", &path, "--rounds", "0", "--model-out", &model];
+    let close = ["identify", &path, "--max-terms", "0", "--model-out", &model];
     let text = said(&[&close[..], &options].concat());
-    assert!(text.contains("with stretch"), "{text}");
+    assert!(text.contains("channels stretch"), "{text}");
     for command in [
-        &["check", &model, &path][..],
-        &["plan", &path, "--rounds", "0"],
+        &["validate", &model, &path][..],
+        &["plan", &path, "--max-terms", "0"],
         &[
             "power",
             &path,
-            "--rounds",
+            "--max-terms",
             "0",
             "--trials",
             "5",

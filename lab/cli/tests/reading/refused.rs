@@ -6,7 +6,7 @@ use bowden_lab::facts::Asked;
 
 /// The line behind the file's name.
 fn line(path: &str, options: &[&str]) -> String {
-    let line = refused(&[&["close", path], options].concat());
+    let line = refused(&[&["identify", path], options].concat());
     let own = line.strip_prefix(&format!("bowden: {path}"));
     own.unwrap_or_else(|| panic!("{line}")).to_owned()
 }
@@ -35,14 +35,14 @@ fn a_form_that_is_not_read_is_named_with_what_to_do_instead() {
     let v7_3 = [b"MATLAB 7.3 MAT-file".as_slice(), &[b' '; 493]].concat();
     let line_of = line(&folder.file("r.mat", v7_3), &[]);
     assert!(
-        line_of.starts_with(": the file is damaged, or holds what is not read: ")
+        line_of.starts_with(": the file is damaged or has unsupported content: ")
             && line_of.ends_with("; save it in MATLAB with `save -v7`"),
         "{line_of}"
     );
     let v4 = foreign("version_4.mat").display().to_string();
     assert_eq!(
         line(&v4, &[]),
-        ": is a MATLAB file of version 4, which is not read; save it in MATLAB with `save -v7`"
+        ": is a MATLAB file of version 4, which bowden does not read; save it in MATLAB with `save -v7`"
     );
 }
 
@@ -112,11 +112,11 @@ fn what_a_foreign_file_lacks_is_said_with_the_column() {
     assert_eq!(
         foreign("words.mat", &[]),
         ": no vector of real numbers among the variables `who`, `rate`; one vector for each \
-         column was expected, alone or as the fields of a structure"
+         column is needed, alone or as the fields of a structure"
     );
     assert_eq!(
         foreign("lengths.mat", &[]),
-        ": column `f`: has 239 values; 240 were expected, as `t` has"
+        ": column `f`: has 239 values; 240 are needed, as `t` has"
     );
     for name in ["complex.mat", "complex_7_3.mat"] {
         let line = foreign(name, &[]);
@@ -131,19 +131,19 @@ fn what_a_foreign_file_lacks_is_said_with_the_column() {
     );
     assert_eq!(
         foreign("words.parquet", &[]),
-        ": no numeric column; one for each quantity was expected"
+        ": no numeric column; one for each quantity is needed"
     );
     for codec in ["zstd", "brotli"] {
         assert_eq!(
             foreign(&format!("{codec}.parquet"), &[]),
             format!(
-                ": column `t`: is compressed by {codec}, which is not read; write the file with snappy or gzip"
+                ": column `t`: is compressed by {codec}, which bowden does not read; write the file with snappy or gzip"
             )
         );
     }
     assert_eq!(
         foreign("null.parquet", &[]),
-        ":100: column `x`: the cell is empty, a number was expected; --drop-bad leaves such rows out"
+        ":100: column `x`: the cell is empty; a number is needed; --drop-bad drops such rows"
     );
 }
 
@@ -157,7 +157,7 @@ fn text_that_could_be_read_in_two_ways_is_refused_with_line_and_column() {
     refuses(
         comma.replacen("\n1,5;", "\n1.5;", 1),
         &[],
-        ":386: column `t`: `1.5` has a decimal point, a decimal comma was expected as in line 2",
+        ":386: column `t`: `1.5` has a decimal point; a decimal comma is needed as in line 2",
     );
     refuses(
         csv().replacen("\n1.5,", "\n1,5,", 1),
@@ -172,7 +172,7 @@ fn text_that_could_be_read_in_two_ways_is_refused_with_line_and_column() {
     refuses(
         csv(),
         &["--channel", "stretch=x_mm-load_N"],
-        ":1: column `load_N`: has unit N; unit mm was expected, as `x_mm` has, to add or subtract them",
+        ":1: column `load_N`: has unit N; unit mm is needed, as `x_mm` has, to add or subtract them",
     );
     refuses(
         csv()
@@ -192,7 +192,7 @@ fn a_pattern_without_files_or_with_several_is_refused() {
     folder.file("b.csv", csv());
     let line = refused(&["plan", &none]);
     assert!(
-        line.ends_with("2 files have such a name, one was expected"),
+        line.ends_with("2 files have such a name; one is needed"),
         "{line}"
     );
 }

@@ -34,7 +34,7 @@ fn two_files(changed: impl Fn(f64) -> f64) -> (Closed, TempDir) {
 
 /// Gain and offset of the only file that is apart, which is the second one.
 fn line(closed: &Closed) -> (f64, f64) {
-    let all = closed.json["files_apart"].as_array().unwrap();
+    let all = closed.json["inconsistent_files"].as_array().unwrap();
     assert_eq!(all.len(), 1, "{all:?}");
     assert!(all[0]["path"].as_str().unwrap().ends_with("evening.csv"));
     assert!(all[0]["than"].as_str().unwrap().ends_with("morning.csv"));
@@ -48,18 +48,18 @@ fn line(closed: &Closed) -> (f64, f64) {
 #[test]
 fn another_sign_in_one_file_is_told_and_nothing_is_called_a_model() {
     let (closed, _folder) = two_files(|force| -force);
-    assert_eq!(closed.verdict(), "no-model");
+    assert_eq!(closed.verdict(), "no-input-dependence");
     let (gain, _) = line(&closed);
     assert!((gain + 1.0).abs() < 0.02, "{gain}");
-    closed.says(&["evening.csv", "another sign", "--per-file gains"]);
+    closed.says(&["evening.csv", "the opposite sign", "--per-file gains"]);
 }
 
 #[test]
 fn another_unit_in_one_file_is_told_with_its_factor() {
     let (closed, _folder) = two_files(|force| 4.448 * force + 3.0);
-    assert_eq!(closed.verdict(), "no-model");
+    assert_eq!(closed.verdict(), "no-input-dependence");
     let (gain, offset) = line(&closed);
-    // The declared model errs by the noise alone, 0.4 % of the output.
+    // The baseline model errs by the noise alone, 0.4 % of the output.
     assert!((gain / 4.448 - 1.0).abs() < 0.02, "{gain}");
     assert!((offset - 3.0).abs() < 0.3, "{offset}");
     closed.says(&["evening.csv", "unit or calibration"]);
@@ -68,9 +68,12 @@ fn another_unit_in_one_file_is_told_with_its_factor() {
 #[test]
 fn another_zero_in_one_file_is_a_pretension_that_steps_there() {
     let (closed, _folder) = two_files(|force| force + 5.0);
-    assert!(closed.json["files_apart"].as_array().unwrap().is_empty());
+    assert!(closed.json["inconsistent_files"]
+        .as_array()
+        .unwrap()
+        .is_empty());
     assert_eq!(closed.names().first(), Some(&"pretension"));
-    closed.says(&["The pretension steps where", "evening.csv", "zero"]);
+    closed.says(&["The preload steps at the start of", "evening.csv", "zero"]);
     assert!(!closed.sentence().contains("one rig"));
 }
 
@@ -110,9 +113,11 @@ fn a_unit_of_a_thousandth_is_told_where_an_effect_is_missing_too() {
         pulled(100.0, 1e3).write(&folder, "milli.csv"),
     ];
     let closed = Closed::of(&[&paths[0], &paths[1]]);
-    assert_eq!(closed.verdict(), "no-model");
-    closed.says(&["another unit or calibration", "--per-file gains"]);
-    let gain = closed.json["files_apart"][0]["gain"].as_f64().unwrap();
+    assert_eq!(closed.verdict(), "no-input-dependence");
+    closed.says(&["a different unit or calibration", "--per-file gains"]);
+    let gain = closed.json["inconsistent_files"][0]["gain"]
+        .as_f64()
+        .unwrap();
     // In either direction, and as exactly as the missing effect lets the gains be known.
     assert!((gain.ln().abs() - 1e3_f64.ln()).abs() < 0.1, "{gain}");
 }
@@ -127,11 +132,11 @@ fn of_several_files_the_one_that_differs_from_most_is_named() {
     });
     let paths: Vec<&str> = paths.iter().map(String::as_str).collect();
     let closed = Closed::of(&paths);
-    assert_eq!(closed.verdict(), "no-model");
-    let all = closed.json["files_apart"].as_array().unwrap();
+    assert_eq!(closed.verdict(), "no-input-dependence");
+    let all = closed.json["inconsistent_files"].as_array().unwrap();
     assert_eq!(all.len(), 1, "{all:?}");
     assert!(all[0]["path"].as_str().unwrap().ends_with("one.csv"));
-    closed.says(&["one.csv", "another sign there?"]);
+    closed.says(&["one.csv", "the opposite sign there?"]);
 }
 
 /// Noise has no gain.
@@ -145,7 +150,10 @@ fn a_sensor_that_is_dead_in_one_file_is_not_called_another_unit() {
         },
     );
     let closed = Closed::of(&[&paths[0], &paths[1]]);
-    assert!(closed.json["files_apart"].as_array().unwrap().is_empty());
+    assert!(closed.json["inconsistent_files"]
+        .as_array()
+        .unwrap()
+        .is_empty());
     assert!(!closed.sentence().contains("another unit"));
 }
 
@@ -159,16 +167,22 @@ fn a_search_that_was_not_made_says_nothing_of_files_that_are_apart() {
             _ => -force,
         },
     );
-    let closed = Closed::of(&[&paths[0], &paths[1], "--rounds", "0"]);
-    assert!(closed.json["files_apart"].as_array().unwrap().is_empty());
-    assert!(!closed.sentence().contains("No one model"));
+    let closed = Closed::of(&[&paths[0], &paths[1], "--max-terms", "0"]);
+    assert!(closed.json["inconsistent_files"]
+        .as_array()
+        .unwrap()
+        .is_empty());
+    assert!(!closed.sentence().contains("No single model"));
 }
 
 #[test]
 fn files_of_one_rig_are_not_apart() {
     let (closed, _folder) = two_files(|force| force);
-    assert!(closed.json["files_apart"].as_array().unwrap().is_empty());
-    assert!(!closed.sentence().contains("No one model"));
+    assert!(closed.json["inconsistent_files"]
+        .as_array()
+        .unwrap()
+        .is_empty());
+    assert!(!closed.sentence().contains("No single model"));
     assert!(!closed.sentence().contains("pretension"));
     assert!(!closed.sentence().contains("one rig"));
 }
@@ -185,7 +199,10 @@ fn files_of_two_strokes_on_a_spring_that_hardens_are_not_apart() {
     };
     let paths = [hardens(small, "small.csv"), hardens(large, "large.csv")];
     let closed = Closed::of(&[&paths[0], &paths[1]]);
-    assert!(closed.json["files_apart"].as_array().unwrap().is_empty());
+    assert!(closed.json["inconsistent_files"]
+        .as_array()
+        .unwrap()
+        .is_empty());
     assert_eq!(closed.names().first(), Some(&"stiffness-cubic"));
     assert!(!closed.sentence().contains("one rig"));
 }
@@ -209,7 +226,7 @@ fn files_of_two_rigs_are_said_to_be_that_and_no_zero_is_blamed() {
     ];
     let closed = Closed::of(&[&paths[0], &paths[1]]);
     closed.says(&[
-        "These files do not seem to be of one rig",
+        "These files do not seem to be from one rig",
         "`--per-file gains`",
     ]);
     assert!(!closed.sentence().contains("zero of a sensor"));

@@ -25,14 +25,14 @@ fn turned() -> Rows {
 #[test]
 fn a_model_whose_held_out_error_rises_is_not_to_be_used_on_other_data() {
     let closed = turned_closed();
-    assert_eq!(closed.verdict(), "does-not-carry-over");
+    assert_eq!(closed.verdict(), "not-transferable");
     let told = closed.sentence();
     assert!(told.starts_with("The held-out error rises"), "{told}");
-    closed.says(&["do not use this model on other data", "raises it"]);
+    closed.says(&["do not use this model on other data", "raises the error"]);
     assert!(!told.contains("falls"), "{told}");
     // The same figures as on the line of errors.
     let percent = |part: &str| 100.0 * closed.json[part]["nrmse"]["held_out"].as_f64().unwrap();
-    let (before, after) = (percent("declared"), percent("final"));
+    let (before, after) = (percent("baseline"), percent("final"));
     assert!(after > before);
     closed.says(&[&format!("from {before:.2} % to {after:.2} %")]);
 }
@@ -41,7 +41,7 @@ fn a_model_whose_held_out_error_rises_is_not_to_be_used_on_other_data() {
 #[ignore = "slow: bash .ci/run conclusions"]
 fn a_round_that_raises_the_held_out_error_is_marked() {
     let closed = turned_closed();
-    let rounds = closed.json["rounds"].as_array().unwrap();
+    let rounds = closed.json["terms"].as_array().unwrap();
     let held_out =
         |round: &serde_json::Value, when: &str| round[when]["held_out"].as_f64().unwrap();
     for round in rounds {
@@ -53,7 +53,7 @@ fn a_round_that_raises_the_held_out_error_is_marked() {
     let text = closed.text();
     assert!(text.contains(" ↑"), "{text}");
     assert!(
-        text.contains("raises the held-out error, which decides nothing"),
+        text.contains("raises the held-out error, which selects nothing"),
         "{text}"
     );
 }
@@ -74,7 +74,7 @@ fn a_held_out_part_that_is_much_quieter_is_told_with_both_standard_deviations() 
         }
     }
     let closed = rows.close(&[]);
-    let deviation = |on: &str| closed.json["deviation"][on].as_f64().unwrap();
+    let deviation = |on: &str| closed.json["output_std"][on].as_f64().unwrap();
     let factor = deviation("fit") / deviation("held_out");
     assert!(factor > 3.0, "{factor}");
     let text = closed.text();
@@ -83,7 +83,7 @@ fn a_held_out_part_that_is_much_quieter_is_told_with_both_standard_deviations() 
         "{text}"
     );
     // What the hysteresis remembers of the large strokes is larger than the small ones.
-    assert_eq!(closed.verdict(), "does-not-carry-over");
+    assert_eq!(closed.verdict(), "not-transferable");
     closed.says(&[
         "worse than a constant",
         "Do not use this model on other data",
@@ -104,7 +104,7 @@ fn a_residual_of_many_floors_is_not_explained_however_white_it_is() {
     assert_ne!(closed.verdict(), "explained");
     closed.says(&[
         "times the noise floor on the fit segment and",
-        "times held out",
+        "times on the held-out segment",
     ]);
 }
 
@@ -113,7 +113,7 @@ fn a_residual_of_many_floors_is_not_explained_however_white_it_is() {
 fn noise_that_is_a_little_larger_on_a_short_held_out_part_is_noise() {
     let options = ["--effect", "viscous", "--effect", "coulomb"];
     let rows = Rows::generated(&[&options[..], &["--seed", "419"]].concat());
-    let closed = rows.close(&["--declare", "bouc-wen"]);
+    let closed = rows.close(&["--baseline", "bouc-wen"]);
     let held_out = closed.json["final"]["rmse"]["held_out"].as_f64().unwrap();
     assert!(held_out > 1.2 * closed.json["noise_floor"].as_f64().unwrap());
     assert_eq!(closed.names(), ["coulomb", "viscous"]);
@@ -130,7 +130,7 @@ fn a_sound_record_is_explained_and_the_sentence_has_the_figures_of_the_line_abov
         "falls",
         &format!(
             "from {:.2} % to {:.2} %",
-            percent("declared"),
+            percent("baseline"),
             percent("final")
         ),
         "The residual is the sensor's noise.",

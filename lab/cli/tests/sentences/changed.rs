@@ -42,9 +42,9 @@ pub fn spring_moved_by(times: f64, slip: (f64, f64), early: usize) -> Rows {
 fn a_rig_that_slips_in_the_held_out_part_does_not_carry_over_from_then_on() {
     // The held-out part begins at 18 s of 24.
     let closed = spring((21.0, 1.5), 0).close(&[]);
-    assert_eq!(closed.json["verdict"], "does-not-carry-over");
+    assert_eq!(closed.json["verdict"], "not-transferable");
     closed.says(&[
-        "The model does not carry over: its error is ",
+        "The model does not transfer: its error is ",
         "from 21.",
         "do not use",
     ]);
@@ -59,12 +59,12 @@ fn a_rig_that_slips_in_the_held_out_part_does_not_carry_over_from_then_on() {
 #[test]
 fn an_output_that_comes_before_its_input_is_a_question_of_clocks() {
     let closed = spring((99.0, 0.0), 5).close(&[]);
-    closed.says(&[
-        "ms before the input that it answers",
-        "logged on one clock?",
-    ]);
+    closed.says(&["ms, which is not causal", "logged on one clock?"]);
     let told = closed.sentence();
-    let ms = told.split("The output comes about ").nth(1).unwrap();
+    let ms = told
+        .split("The output precedes the input by about ")
+        .nth(1)
+        .unwrap();
     let ms: f64 = ms.split(' ').next().unwrap().parse().unwrap();
     // Five samples of 2 ms.
     assert!((ms - 10.0).abs() < 0.5, "{told}");
@@ -75,7 +75,7 @@ fn motion_in_a_gap_is_said_to_act_on() {
     let mut rows = spring((99.0, 0.0), 0);
     rows.rows.drain(4000..4600);
     let closed = rows.close(&[]);
-    closed.says(&["What `x` did where it was not measured is not known"]);
+    closed.says(&["The motion of `x` where it was not measured is unknown"]);
     let sound = spring((99.0, 0.0), 0).close(&[]);
     assert!(!sound.sentence().contains("not measured"));
 }
@@ -109,37 +109,37 @@ fn joint() -> Closed {
 fn an_angle_behind_a_spring_is_said_to_stand_for_the_output() {
     let closed = joint();
     closed.says(&[
-        "Nearly all of the output is made of `phi_d`",
+        "Nearly all of the model's output comes from `phi_d`",
         "does it measure the output, as the angle behind a spring does?",
     ]);
 }
 
-/// The sentence of `check` with a model of the spring, on that spring with another factor of
+/// The sentence of `validate` with a model of the spring, on that spring with another factor of
 /// its force.
 fn checked(of_force: f64) -> String {
     let folder = tempfile::tempdir().unwrap();
     let first = spring((99.0, 0.0), 0).write(&folder, "first.csv");
     let model = folder.path().join("model.toml").display().to_string();
-    let made = bowden(&["close", &first, "--model-out", &model]);
+    let made = bowden(&["identify", &first, "--model-out", &model]);
     assert!(made.status.success(), "{made:?}");
     let mut other = spring((99.0, 0.0), 0);
     for (i, row) in other.rows.iter_mut().enumerate() {
         row[2] = of_force * (row[2] + 0.02 * noise(i + 50_000));
     }
     let other = other.write(&folder, "other.csv");
-    let output = bowden(&["check", &model, &other, "--json"]);
+    let output = bowden(&["validate", &model, &other, "--json"]);
     let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    json["sentence"].as_str().unwrap().to_owned()
+    json["summary"].as_str().unwrap().to_owned()
 }
 
 #[test]
 fn a_sign_that_was_turned_is_named_by_check() {
     let told = checked(-1.0);
     assert!(
-        told.contains("With the sign of the output changed (gain -1.0"),
+        told.contains("With the sign of the output reversed (gain -1.0"),
         "{told}"
     );
-    assert!(told.contains("connected the other way round?"), "{told}");
+    assert!(told.contains("connected with the opposite sign?"), "{told}");
     let told = checked(1.0);
     assert!(told.starts_with("The model holds"), "{told}");
 }
@@ -157,15 +157,15 @@ fn a_file_with_another_zero_is_not_the_wrong_input() {
     }
     let [a, b, c] = [&*files[0], &*files[1], &*files[2]];
     let closed = Closed::of(&[a, b, c]);
-    assert_eq!(closed.json["verdict"], "does-not-carry-over");
+    assert_eq!(closed.json["verdict"], "not-transferable");
     closed.says(&[
-        "A gain of 1.00",
+        "With a gain of 1.00",
         "and an offset of 30.0",
         "2.csv",
         "`--per-file gains`",
     ]);
     // The advice works.
     let mended = Closed::of(&[a, b, c, "--per-file", "gains"]);
-    assert_ne!(mended.json["verdict"], "does-not-carry-over");
-    assert_ne!(mended.json["verdict"], "no-model");
+    assert_ne!(mended.json["verdict"], "not-transferable");
+    assert_ne!(mended.json["verdict"], "no-input-dependence");
 }

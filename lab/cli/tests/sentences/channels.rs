@@ -37,8 +37,8 @@ fn turn(rows: &mut Rows, channel: usize) {
 }
 
 fn asks(closed: &Closed, channel: &str, swapped_with: Option<&str>) {
-    assert_eq!(closed.verdict(), "no-model");
-    let apart = &closed.json["channel_apart"];
+    assert_eq!(closed.verdict(), "no-input-dependence");
+    let apart = &closed.json["inconsistent_channel"];
     assert!(apart["path"].as_str().unwrap().ends_with("evening.csv"));
     assert_eq!(apart["channel"], channel);
     assert_eq!(apart["swapped_with"].as_str(), swapped_with);
@@ -49,7 +49,7 @@ fn asks(closed: &Closed, channel: &str, swapped_with: Option<&str>) {
     let names = apart["names"].as_array().unwrap();
     assert!(names.iter().any(|n| n == "viscous@phi_p"), "{apart}");
     assert_eq!(names.len(), 2, "{apart}");
-    closed.says(&["evening.csv", "Mend the file first."]);
+    closed.says(&["evening.csv", "Correct the file first."]);
     assert!(!closed.sentence().contains("one clock"));
 }
 
@@ -57,7 +57,7 @@ fn asks(closed: &Closed, channel: &str, swapped_with: Option<&str>) {
 fn a_channel_that_counts_the_other_way_in_one_file_is_asked_about() {
     let (closed, _folder) = halves(|rows| turn(rows, PHI_P));
     asks(&closed, "phi_p", None);
-    closed.says(&["Does `phi_p` count the other way in"]);
+    closed.says(&["Does `phi_p` have the opposite sign in"]);
     let (closed, _folder) = halves(|rows| turn(rows, PHI_D));
     asks(&closed, "phi_d", None);
 }
@@ -66,16 +66,16 @@ fn a_channel_that_counts_the_other_way_in_one_file_is_asked_about() {
 fn two_channels_in_each_others_place_in_one_file_are_asked_about() {
     let (closed, _folder) = halves(|rows| rows.rows.iter_mut().for_each(|r| r.swap(PHI_P, PHI_D)));
     asks(&closed, "phi_p", Some("phi_d"));
-    closed.says(&["Do `phi_p` and `phi_d` stand in each other's place in"]);
+    closed.says(&["Are `phi_p` and `phi_d` swapped in"]);
 }
 
 #[test]
 fn files_with_equal_channels_are_asked_about_nothing() {
     let (closed, _folder) = halves(|_| {});
     assert_eq!(
-        closed.json.get("channel_apart"),
+        closed.json.get("inconsistent_channel"),
         Some(&serde_json::Value::Null)
     );
     assert_eq!(closed.names().len(), 2);
-    assert!(!closed.sentence().contains("Mend the file"));
+    assert!(!closed.sentence().contains("Correct the file"));
 }

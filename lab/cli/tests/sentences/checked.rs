@@ -1,4 +1,4 @@
-//! What `check` says of a rig whose gain has moved, of one that moves less, and of a model that hardly
+//! What `validate` says of a rig whose gain has moved, of one that moves less, and of a model that hardly
 //! reads its input.
 
 use crate::changed::{spring, spring_moved_by};
@@ -23,21 +23,21 @@ impl Bench {
         let folder = tempfile::tempdir().unwrap();
         let first = first.write(&folder, "first.csv");
         let model = folder.path().join("model.toml").display().to_string();
-        said(&["close", &first, "--model-out", &model]);
+        said(&["identify", &first, "--model-out", &model]);
         Self { folder, model }
     }
 
     fn check(&self, rows: &Rows) -> Value {
         let record = rows.write(&self.folder, "next.csv");
-        let report = said(&["check", &self.model, &record, "--json"]);
+        let report = said(&["validate", &self.model, &record, "--json"]);
         let report: Value = serde_json::from_str(&report).unwrap();
-        println!("{}", report["sentence"]);
+        println!("{}", report["summary"]);
         report
     }
 }
 
 fn sentence(report: &Value) -> &str {
-    report["sentence"].as_str().unwrap()
+    report["summary"].as_str().unwrap()
 }
 
 fn says(report: &Value, texts: &[&str]) {
@@ -49,7 +49,7 @@ fn says(report: &Value, texts: &[&str]) {
 
 /// The rms error up to which the model holds, in the output's unit.
 fn limit(report: &Value) -> f64 {
-    report["allowed"].as_f64().unwrap() * report["record"]["deviation"].as_f64().unwrap()
+    report["threshold_nrmse"].as_f64().unwrap() * report["record"]["output_std"].as_f64().unwrap()
 }
 
 /// Another draw of the sensor's noise.
@@ -86,12 +86,16 @@ fn a_gain_that_has_moved_is_no_output_that_comes_late() {
     stiffer.set(F, |i, row| 1.12 * row[F] + curve[i] + drag[i]);
     let report = bench.check(&stiffer);
     assert_eq!(report["verdict"], "does-not-hold");
-    assert!(report["otherwise"].is_null(), "{}", report["otherwise"]);
+    assert!(
+        report["suspected_logging_error"].is_null(),
+        "{}",
+        report["suspected_logging_error"]
+    );
     says(
         &report,
         &[
-            "The gain has moved to 1.12",
-            "with that corrected it misses",
+            "The gain has changed by a factor of 1.12",
+            "with this correction its error is",
             "just above the limit of",
         ],
     );
@@ -113,7 +117,11 @@ fn an_output_that_is_late_by_less_than_half_a_row_is_not_said_to_be() {
     };
     let report = late(0.4);
     assert_eq!(report["verdict"], "does-not-hold");
-    assert!(report["otherwise"].is_null(), "{}", report["otherwise"]);
+    assert!(
+        report["suspected_logging_error"].is_null(),
+        "{}",
+        report["suspected_logging_error"]
+    );
     assert!(!sentence(&report).contains("clock"));
     // The gain alone does not explain a record that is late by more, and both are told.
     let report = late(4.0);
@@ -185,9 +193,9 @@ fn a_gain_that_has_moved_within_a_wide_limit_is_told() {
     says(
         &stiffer,
         &[
-            "Yet the gain has moved to 1.10",
-            "with that corrected it would miss",
-            "has the rig changed, or is the motion another one?",
+            "Yet the gain has changed by a factor of 1.10",
+            "with this correction the error would be",
+            "has the rig changed, or is the motion different?",
         ],
     );
 }
@@ -215,12 +223,12 @@ fn a_model_that_hardly_reads_its_input_cannot_see_a_change_of_the_drive() {
     let bench = Bench::of(&sprung_joint(10.0, 0));
     let report = bench.check(&sprung_joint(10.0, 50_000));
     assert_eq!(report["verdict"], "holds");
-    says(&report, &["The model hardly reads `tau_i`"]);
+    says(&report, &["The model hardly depends on `tau_i`"]);
     // A spring is read at its input.
     let bench = Bench::of(&spring((99.0, 0.0), 0));
     let report = bench.check(&another(spring((99.0, 0.0), 0)));
     assert_eq!(report["verdict"], "holds");
-    assert!(!sentence(&report).contains("hardly reads"));
+    assert!(!sentence(&report).contains("hardly depends on"));
 }
 
 #[test]
@@ -229,7 +237,7 @@ fn a_rig_that_moves_less_is_not_said_to_have_changed() {
     let bench = Bench::of(&disturbed(1.0, 0.2, 100_000));
     let same = bench.check(&disturbed_at(0.3, 1.0, 0.2, 200_000));
     let of = |field: &str| same[field].as_f64().unwrap();
-    let own = same["from"]["nrmse"]["held_out"].as_f64().unwrap();
+    let own = same["trained_on"]["nrmse"]["held_out"].as_f64().unwrap();
     assert!(of("nrmse") > 2.0 * own);
     assert_eq!(same["verdict"], "holds");
     says(&same, &["The output moves less here"]);
@@ -238,7 +246,7 @@ fn a_rig_that_moves_less_is_not_said_to_have_changed() {
     assert_eq!(stiffer["verdict"], "gain-or-offset-moved");
     says(
         &stiffer,
-        &["at another pace or stroke such a model may be off by a gain"],
+        &["at another speed or stroke the gain of such a model may differ"],
     );
     let mut rubs = disturbed_at(0.3, 1.0, 0.2, 200_000);
     let x: Vec<f64> = rubs.rows.iter().map(|row| row[X]).collect();
@@ -248,7 +256,11 @@ fn a_rig_that_moves_less_is_not_said_to_have_changed() {
     });
     let rubs = bench.check(&rubs);
     assert_eq!(rubs["verdict"], "does-not-hold");
-    assert!(rubs["otherwise"].is_null(), "{}", rubs["otherwise"]);
+    assert!(
+        rubs["suspected_logging_error"].is_null(),
+        "{}",
+        rubs["suspected_logging_error"]
+    );
 }
 
 #[test]
@@ -260,8 +272,8 @@ fn a_model_that_did_not_carry_over_at_home_is_told_of_wherever_it_is_tried() {
         .lines()
         .find(|line| line.starts_with("verdict = "))
         .unwrap();
-    let other = text.replace(own, "verdict = \"does-not-carry-over\"");
-    let told = "Its own verdict was `does-not-carry-over`";
+    let other = text.replace(own, "verdict = \"not-transferable\"");
+    let told = "Its own verdict was `not-transferable`";
     assert!(!sentence(&bench.check(&another(rows))).contains(told));
     std::fs::write(&bench.model, other).unwrap();
     says(&bench.check(&another(spring((99.0, 0.0), 0))), &[told]);
@@ -272,7 +284,7 @@ fn a_motion_in_which_the_error_of_home_is_most_cannot_tell() {
     let bench = Bench::of(&disturbed(1.0, 1.0, 100_000));
     let same = bench.check(&disturbed_at(0.25, 1.0, 1.0, 200_000));
     assert_eq!(same["verdict"], "cannot-tell");
-    says(&same, &["which is no sign of a change", "with more motion"]);
+    says(&same, &["which is no sign of a change", "a larger motion"]);
 }
 
 #[test]
@@ -280,10 +292,13 @@ fn just_above_the_limit_of_a_model_that_was_not_exact_nothing_is_decided() {
     let bench = Bench::of(&disturbed(1.0, 1.0, 100_000));
     let above = bench.check(&disturbed(1.0, 2.3, 200_000));
     assert_eq!(above["verdict"], "cannot-tell");
-    says(&above, &["the limit is", "errs more on another motion"]);
+    says(
+        &above,
+        &["the limit is", "has a larger error on another motion"],
+    );
     let more = bench.check(&disturbed(1.0, 3.5, 200_000));
     assert_eq!(more["verdict"], "does-not-hold");
-    says(&more, &["It was not exact where it came from"]);
+    says(&more, &["It was not exact on its own record"]);
     // The model of a spring that it describes to the noise.
     let bench = Bench::of(&spring((99.0, 0.0), 0));
     let disturbed = bench.check(&disturbed(1.0, 0.1, 200_000));

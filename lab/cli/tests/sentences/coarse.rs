@@ -35,28 +35,27 @@ fn seen_in_steps_of(step: f64) -> Closed {
 fn notes(closed: &Closed) -> Vec<&str> {
     let notes = closed.json["notes"].as_array().unwrap().iter();
     let notes = notes.filter_map(|note| note.as_str());
-    notes.filter(|note| note.contains("resolved")).collect()
+    notes.filter(|note| note.contains("resolution")).collect()
 }
 
 /// About a hundred and twenty steps over the stroke.
 #[test]
 fn names_that_the_steps_of_an_encoder_explain_are_not_firm() {
     let closed = seen_in_steps_of(0.15);
-    let rounds = closed.json["rounds"].as_array().unwrap();
+    let rounds = closed.json["terms"].as_array().unwrap();
     for round in rounds {
-        let is_there = round["effect"] == "viscous";
-        let grade = if is_there { "firm" } else { "weak" };
-        assert_eq!(round["grade"], grade, "{round}");
+        // The model is above the noise: every term is a candidate, also the one that is there.
+        assert_eq!(round["confidence"], "low", "{round}");
     }
     assert!(rounds.len() > 1, "a name that is not there: {rounds:?}");
     let told = notes(&closed);
     assert!(
-        told[0].starts_with("`x` is resolved to 0.15 mm, 1/1"),
+        told[0].starts_with("`x` has a resolution of 0.15 mm, 1/1"),
         "{told:?}"
     );
     closed.says(&[
-        "`x` is resolved to 0.15 mm",
-        "names that depend on its velocity or its reversals, here ",
+        "`x` has a resolution of 0.15 mm",
+        "terms that depend on its velocity or its reversals, here ",
         "are uncertain",
     ]);
     closed.text();

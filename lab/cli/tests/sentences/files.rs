@@ -53,7 +53,7 @@ impl Rows {
         path.display().to_string()
     }
 
-    /// What `close` says of it, for people and for programs.
+    /// What `identify` says of it, for people and for programs.
     pub fn close(&self, options: &[&str]) -> Closed {
         let folder = tempfile::tempdir().unwrap();
         let path = self.write(&folder, "record.csv");
@@ -72,7 +72,7 @@ pub struct Closed {
 }
 
 fn close(arguments: &[&str], more: &[&str]) -> String {
-    let output = bowden(&[&["close"], arguments, more].concat());
+    let output = bowden(&[&["identify"], arguments, more].concat());
     assert!(output.status.success(), "{output:?}");
     String::from_utf8(output.stdout).unwrap()
 }
@@ -80,7 +80,7 @@ fn close(arguments: &[&str], more: &[&str]) -> String {
 impl Closed {
     pub fn of(arguments: &[&str]) -> Self {
         let json: Value = serde_json::from_str(&close(arguments, &["--json"])).unwrap();
-        println!("{}: {}", json["verdict"], json["sentence"]);
+        println!("{}: {}", json["verdict"], json["summary"]);
         Self {
             arguments: arguments.iter().map(|a| (*a).to_owned()).collect(),
             json,
@@ -92,10 +92,13 @@ impl Closed {
     pub fn text(&self) -> String {
         let arguments: Vec<&str> = self.arguments.iter().map(String::as_str).collect();
         let text = close(&arguments, &[]);
+        // The headline names the mechanisms, with which the sentence may begin.
+        let sentence = self.sentence();
+        let rest = sentence.strip_prefix("The baseline model lacks ");
+        let told = rest.and_then(|rest| Some(&rest[rest.find(". With ")? + 2..]));
         assert!(
-            text.contains(self.sentence()),
-            "{} is not in {text}",
-            self.sentence()
+            text.contains(told.unwrap_or(sentence)),
+            "{sentence} is not in {text}"
         );
         text
     }
@@ -105,7 +108,7 @@ impl Closed {
     }
 
     pub fn sentence(&self) -> &str {
-        self.json["sentence"].as_str().unwrap()
+        self.json["summary"].as_str().unwrap()
     }
 
     /// A share of the held-out output's variance.
@@ -114,7 +117,7 @@ impl Closed {
     }
 
     pub fn names(&self) -> Vec<&str> {
-        let rounds = self.json["rounds"].as_array().unwrap();
+        let rounds = self.json["terms"].as_array().unwrap();
         rounds
             .iter()
             .map(|r| r["effect"].as_str().unwrap())

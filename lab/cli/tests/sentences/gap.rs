@@ -1,4 +1,4 @@
-//! A spring with slack: the effect of that name, not a curve that is in no catalogue.
+//! A spring with slack: the effect of that name, not a curve that matches no effect in the catalogue.
 
 use crate::files::{noise, uniform, Rows};
 

@@ -65,7 +65,7 @@ fn a_model_of_a_rig_that_has_slipped_is_that_of_the_rig_after_it_and_tells_when_
     let slips = |t: f64| if t > 13.0 { 0.8 } else { 0.0 };
     let record = moved(4.0, tones, slips).write(&folder, "slips.csv");
     let model = folder.path().join("model.toml").display().to_string();
-    let closed = bowden(&["close", &record, "--model-out", &model]);
+    let closed = bowden(&["identify", &record, "--model-out", &model]);
     assert!(closed.status.success(), "{closed:?}");
     let text = std::fs::read_to_string(&model).unwrap();
     let table: toml::Table = toml::from_str(&text).unwrap();
@@ -76,8 +76,8 @@ fn a_model_of_a_rig_that_has_slipped_is_that_of_the_rig_after_it_and_tells_when_
     for (hysteresis, verdict) in [(4.0, "holds"), (4.8, "does-not-hold")] {
         let next = |t: f64| tones(t + 50.0);
         let next = moved(hysteresis, next, |_| 0.8).write(&folder, "next.csv");
-        let said = bowden(&["check", &model, &next, "--json"]).stdout;
+        let said = bowden(&["validate", &model, &next, "--json"]).stdout;
         let check: serde_json::Value = serde_json::from_slice(&said).unwrap();
-        assert_eq!(check["verdict"], verdict, "{}", check["sentence"]);
+        assert_eq!(check["verdict"], verdict, "{}", check["summary"]);
     }
 }

@@ -13,7 +13,7 @@ fn an_output_of_white_noise_is_no_model_and_the_input_explains_nothing() {
     let mut rows = sound();
     rows.set(TAU_O, |i, _| noise(i));
     let closed = rows.close(&[]);
-    assert_eq!(closed.verdict(), "no-model");
+    assert_eq!(closed.verdict(), "no-input-dependence");
     closed.says(&[
         "the input `tau_i` explains 0 % of the held-out output",
         "right input",
@@ -27,8 +27,8 @@ fn an_input_at_rest_is_told_and_nothing_is_planned_from_its_noise() {
     rows.set(TAU_I, |i, _| 8.0 + 1e-3 * noise(i));
     rows.set(TAU_O, |i, _| 6.5 + 1e-2 * noise(1_000_000 + i));
     let closed = rows.close(&[]);
-    assert_eq!(closed.verdict(), "no-model");
-    closed.says(&["`tau_i` is at rest", "Move it"]);
+    assert_eq!(closed.verdict(), "no-input-dependence");
+    closed.says(&["`tau_i` is at rest", "Record a motion"]);
     let folder = tempfile::tempdir().unwrap();
     let record = rows.write(&folder, "rest.csv");
     let plan = folder.path().join("plan.csv");
@@ -56,13 +56,13 @@ fn a_model_that_misses_much_is_called_poor_and_by_how_much() {
     });
     let closed = rows.close(&[]);
     closed.says(&[
-        "No effect of the catalogue explains what the declared model leaves, ",
+        "No effect of the catalogue explains the residual of the baseline model, ",
         " % of the output's standard deviation held out.",
-        "A model that misses ",
-        " of the output is a poor one.",
+        "A model with an error of ",
+        " of the output is poor.",
     ]);
     let closed = sound().close(&[]);
-    assert!(!closed.sentence().contains("a poor one"));
+    assert!(!closed.sentence().contains("is poor"));
 }
 
 /// The wrong cable is plugged in: a tone is a function of nothing measured.
@@ -73,7 +73,7 @@ fn an_output_that_is_a_sine_at_another_frequency_is_no_model_whatever_a_tone_tak
         10.0 * (TAU * 2.37 * row[T]).sin() + 0.05 * noise(i)
     });
     let closed = rows.close(&[]);
-    assert_eq!(closed.verdict(), "no-model");
+    assert_eq!(closed.verdict(), "no-input-dependence");
     assert!(
         closed.explains("input") < 0.1,
         "{}",
@@ -83,7 +83,7 @@ fn an_output_that_is_a_sine_at_another_frequency_is_no_model_whatever_a_tone_tak
     // What the tone takes is told apart, and not as explained.
     if closed.names().contains(&"tone") {
         assert!(closed.explains("time") > 0.5, "{}", closed.json["explains"]);
-        closed.says(&["functions of nothing measured"]);
+        closed.says(&["(functions of time only)"]);
     }
 }
 
@@ -97,7 +97,7 @@ fn an_output_that_integrates_the_input_is_told_with_what_to_do() {
         angle + 0.002 * noise(i)
     });
     let closed = rows.close(&[]);
-    assert_eq!(closed.verdict(), "no-model");
+    assert_eq!(closed.verdict(), "no-input-dependence");
     assert_eq!(closed.json["integrates"], true);
     assert!(closed.names().is_empty());
     closed.says(&[
@@ -130,7 +130,7 @@ fn a_damper_does_not_integrate() {
         let last = before[i.saturating_sub(1)];
         (next - last) / 0.004 + 0.05 * noise(i)
     });
-    let closed = rows.close(&["--declare", "bouc-wen"]);
+    let closed = rows.close(&["--baseline", "bouc-wen"]);
     assert_eq!(closed.json["integrates"], false);
 }
 
@@ -145,7 +145,7 @@ fn the_force_of_a_spring_in_series_with_a_dashpot_does_not_integrate_its_motion(
             before = row[1];
             force + 0.02 * noise(i)
         });
-        let closed = rows.close(&["--rounds", "0"]);
+        let closed = rows.close(&["--max-terms", "0"]);
         assert_eq!(closed.json["integrates"], false, "{tau}");
         assert!(!said_to_count_against(&closed), "{tau}");
     }
@@ -175,7 +175,7 @@ fn moved() -> Rows {
 fn said_to_count_against(closed: &Closed) -> bool {
     let notes = closed.json["notes"].as_array().unwrap();
     let mut notes = notes.iter().filter_map(|note| note.as_str());
-    notes.any(|note| note.contains("counts against"))
+    notes.any(|note| note.contains("has the opposite sign of"))
 }
 
 /// The torque channel has nothing to do with the output; an angle makes all of it.
@@ -191,7 +191,7 @@ fn where_only_the_channels_explain_the_output_the_input_is_asked_about() {
         0.3 * row[TAU_I] + 8.0 * (TAU * 0.83 * row[T]).sin() + 0.05 * noise(7 * i)
     });
     let closed = rows.close(&[]);
-    assert_eq!(closed.verdict(), "no-model");
+    assert_eq!(closed.verdict(), "no-input-dependence");
     assert!(
         closed.explains("channels") > 0.5,
         "{}",
@@ -213,17 +213,17 @@ fn the_files_of_no_model_say_so_and_no_gains_are_derived_from_it() {
     let path = |name: &str| folder.path().join(name).display().to_string();
     let (toml, rust) = (path("m.toml"), path("m.rs"));
     for out in [&toml, &rust] {
-        assert!(bowden(&["close", &record, "--model-out", out])
+        assert!(bowden(&["identify", &record, "--model-out", out])
             .status
             .success());
     }
     let read = |name: &str| std::fs::read_to_string(name).unwrap();
     assert!(
-        read(&toml).contains("verdict = \"no-model\""),
+        read(&toml).contains("verdict = \"no-input-dependence\""),
         "{}",
         read(&toml)
     );
-    let warning = "NOT TO BE USED: its verdict is `no-model`.";
+    let warning = "DO NOT USE: its verdict is `no-input-dependence`.";
     assert!(read(&rust).contains(warning), "{}", read(&rust));
     let header = bowden(&["export", "--c", &toml]);
     assert!(
@@ -233,7 +233,10 @@ fn the_files_of_no_model_say_so_and_no_gains_are_derived_from_it() {
     let design = bowden(&["design", &toml, "--rate", "1000", "--delay", "0.006"]);
     assert_eq!(design.status.code(), Some(2));
     let said = String::from_utf8_lossy(&design.stderr);
-    assert!(said.contains("its verdict is `no-model`"), "{said}");
+    assert!(
+        said.contains("its verdict is `no-input-dependence`"),
+        "{said}"
+    );
     assert_eq!(said.trim_end().lines().count(), 1, "{said}");
 }
 
@@ -264,7 +267,7 @@ fn a_model_of_the_load_that_reads_no_torque_is_called_one_of_the_load() {
     let closed = load_on_a_joint(2.0).close(&["--mode", "torque"]);
     assert_eq!(closed.names(), ["gravity"]);
     closed.says(&[
-        "Nearly all of the output is made of `phi_p` here and nothing of `tau_i`",
+        "Nearly all of the model's output comes from `phi_p` and none from `tau_i`",
         "It will not hold with another load",
     ]);
 }
@@ -281,7 +284,7 @@ fn friction_under_a_constant_load_is_a_model() {
         0.95 * row[TAU_I] - 1.5 * (rate / 0.05).tanh() - 0.4 * rate + 0.02 * noise(i)
     });
     let closed = rows.close(&["--mode", "torque"]);
-    assert_ne!(closed.verdict(), "no-model");
+    assert_ne!(closed.verdict(), "no-input-dependence");
     assert!(closed.explains("input") < 0.5);
     let names = closed.names();
     assert!(

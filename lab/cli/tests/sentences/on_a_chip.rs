@@ -24,9 +24,9 @@ fn moved(mass: f64, slow: f64) -> Closed {
     rows.close(&[
         "--mode",
         "displacement",
-        "--declare",
+        "--baseline",
         declared,
-        "--rounds",
+        "--max-terms",
         "0",
     ])
 }
@@ -65,7 +65,7 @@ fn a_model_that_a_constant_beats_on_a_chip_is_not_praised_first() {
     assert!(
         closed
             .sentence()
-            .starts_with("Do not use this model as it stands"),
+            .starts_with("Do not use this model as it is"),
         "{}",
         closed.sentence()
     );
@@ -98,12 +98,11 @@ fn noise_that_turns_the_hysteresis_is_told_with_the_play_that_stops_it() {
     let closed = cable(0.02);
     let error = |of: &str| closed.json.pointer(of).and_then(|v| v.as_f64()).unwrap();
     let firmware = error("/final/causal_nrmse/held_out");
-    let calmed = error("/final/handed_over/calmed/causal_nrmse/held_out");
+    let calmed = error("/final/exported_model/with_deadband/causal_nrmse/held_out");
     assert!(calmed < 0.5 * firmware, "{firmware} {calmed}");
-    closed
-        .says(&["the noise of `tau_i` turns the hysteresis. Behind `signal::Play` of half-width"]);
+    closed.says(&["the noise of `tau_i` drives the hysteresis. With `signal::Play` of half-width"]);
     // Four standard deviations.
-    let half_width = error("/final/handed_over/calmed/half_width");
+    let half_width = error("/final/exported_model/with_deadband/half_width");
     assert!((half_width / 0.08 - 1.0).abs() < 0.1, "{half_width}");
     let quiet = cable(0.0);
     assert!(

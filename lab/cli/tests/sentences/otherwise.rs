@@ -1,4 +1,4 @@
-//! A record that was logged otherwise than the one that the model came from: `check` asks about
+//! A record that was logged otherwise than the one that the model came from: `validate` asks about
 //! that, and does not blame the rig.
 
 use crate::files::{Rows, PHI_P, T, TAU_I, TAU_O};
@@ -27,7 +27,7 @@ impl Bench {
         let folder = tempfile::tempdir().unwrap();
         let first = first.write(&folder, "first.csv");
         let model = folder.path().join("model.toml").display().to_string();
-        said(&["close", &first, "--model-out", &model]);
+        said(&["identify", &first, "--model-out", &model]);
         Self {
             model,
             next,
@@ -43,15 +43,18 @@ impl Bench {
         };
         change(&mut rows);
         let record = rows.write(&self.folder, "next.csv");
-        let report = said(&["check", &self.model, &record, "--json"]);
+        let report = said(&["validate", &self.model, &record, "--json"]);
         let report: Value = serde_json::from_str(&report).unwrap();
-        println!("{} {}", report["sentence"], report["otherwise"]);
+        println!(
+            "{} {}",
+            report["summary"], report["suspected_logging_error"]
+        );
         report
     }
 }
 
 fn asks(report: &Value, texts: &[&str]) {
-    let sentence = report["sentence"].as_str().unwrap();
+    let sentence = report["summary"].as_str().unwrap();
     assert!(sentence.contains("does not hold"), "{sentence}");
     for text in texts {
         assert!(sentence.contains(text), "{text:?} is not in: {sentence}");
@@ -65,15 +68,15 @@ fn a_record_logged_otherwise_is_asked_about() {
     let bench = Bench::new();
     let report = bench.check(|_| ());
     assert_eq!(report["verdict"], "holds");
-    assert!(report["otherwise"].is_null());
+    assert!(report["suspected_logging_error"].is_null());
 
     let report = bench.check(|rows| rows.set(PHI_P, |_, row| -row[PHI_P]));
     asks(
         &report,
-        &["With `phi_p` turned round", "count the other way here?"],
+        &["With `phi_p` reversed", "have the opposite sign here?"],
     );
     let report = bench.check(|rows| rows.set(TAU_I, |_, row| -row[TAU_I]));
-    asks(&report, &["With `tau_i` turned round"]);
+    asks(&report, &["With `tau_i` reversed"]);
 
     let report = bench.check(|rows| {
         rows.set(PHI_P, |_, row| row[PHI_P].to_degrees());
@@ -82,7 +85,7 @@ fn a_record_logged_otherwise_is_asked_about() {
         &report,
         &[
             "With `phi_p` divided by 57.296",
-            "degrees in place of radians",
+            "degrees instead of radians",
         ],
     );
 
@@ -91,7 +94,7 @@ fn a_record_logged_otherwise_is_asked_about() {
             row.swap(TAU_I, TAU_O);
         }
     });
-    asks(&report, &["With `tau_i` and `tau_o` exchanged"]);
+    asks(&report, &["With `tau_i` and `tau_o` swapped"]);
 
     // Fifteen samples of two milliseconds.
     let report = bench.check(|rows| {
@@ -99,7 +102,9 @@ fn a_record_logged_otherwise_is_asked_about() {
         rows.set(TAU_O, |i, _| own[i.saturating_sub(15)]);
     });
     asks(&report, &["ms earlier", "logged on another clock?"]);
-    let late = report["otherwise"]["seconds"].as_f64().unwrap();
+    let late = report["suspected_logging_error"]["seconds"]
+        .as_f64()
+        .unwrap();
     // The last of the steps in which it is sought is a sixteenth of a row, some milliseconds.
     assert!((late - 0.030).abs() < 0.001, "{late}");
 }
@@ -111,11 +116,11 @@ fn a_gain_of_a_thousand_is_asked_about_as_a_unit() {
         rows.set(TAU_O, |_, row| 1e3 * row[TAU_O]);
     });
     assert_eq!(report["verdict"], "gain-or-offset-moved");
-    let sentence = report["sentence"].as_str().unwrap();
+    let sentence = report["summary"].as_str().unwrap();
     assert!(sentence.contains("in another unit here"), "{sentence}");
     // A tenth is no unit.
     let report = bench.check(|rows| rows.set(TAU_O, |_, row| 1.1 * row[TAU_O]));
-    let sentence = report["sentence"].as_str().unwrap();
+    let sentence = report["summary"].as_str().unwrap();
     assert!(!sentence.contains("unit"), "{sentence}");
 }
 
@@ -135,6 +140,6 @@ fn a_rig_that_has_changed_is_still_blamed() {
         rows.set(TAU_O, |i, row| row[TAU_O] - 2.0 * speed(i, &own).signum());
     });
     assert_eq!(report["verdict"], "does-not-hold");
-    assert!(report["otherwise"].is_null(), "{report}");
-    assert!(report["sentence"].as_str().unwrap().contains("depends on"));
+    assert!(report["suspected_logging_error"].is_null(), "{report}");
+    assert!(report["summary"].as_str().unwrap().contains("depends on"));
 }

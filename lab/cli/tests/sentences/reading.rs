@@ -29,7 +29,7 @@ fn a_column_that_is_not_there_is_named_with_the_nearest_ones() {
     }
     let path = rows.write(&folder, "excel.csv");
     for (given, meant) in [("X", "`x_mm`"), ("force_n", "`force_N`")] {
-        let output = bowden(&["close", &path, "--input", given]);
+        let output = bowden(&["identify", &path, "--input", given]);
         assert_eq!(output.status.code(), Some(2));
         let line = String::from_utf8(output.stderr).unwrap();
         assert!(line.contains(&format!("column `{given}`")), "{line}");
@@ -53,7 +53,7 @@ fn a_velocity_in_place_of_the_displacement_is_asked_about() {
     ] {
         rows.header = header.to_owned();
         let closed = rows.close(&[&ends[..], &[input]].concat());
-        let asked = format!("Is `{input}` a velocity? A displacement was expected");
+        let asked = format!("Is `{input}` a velocity? A displacement is needed");
         assert_eq!(closed.sentence().contains(&asked), is_velocity);
     }
 }

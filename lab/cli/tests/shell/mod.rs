@@ -1,5 +1,6 @@
 //! The program as a user runs it: what it is asked, and what it answers.
 
+use std::path::Path;
 use std::process::{Command, Output};
 
 pub fn bowden(arguments: &[&str]) -> Output {
@@ -44,4 +45,28 @@ pub fn without_seconds(stdout: &[u8]) -> String {
     let (before, rest) = text(stdout).split_once("\"seconds\":{").unwrap();
     let (_, after) = rest.split_once('}').unwrap();
     format!("{before}{after}")
+}
+
+/// A folder that looks like the repository to commands that read `examples/data`.
+pub fn folder_with_examples() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let data = folder.path().join("examples/data");
+    std::fs::create_dir_all(&data).unwrap();
+    let own = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/data"));
+    for file in std::fs::read_dir(own).unwrap().map(Result::unwrap) {
+        if file.path().extension().is_some_and(|e| e == "csv") {
+            std::fs::copy(file.path(), data.join(file.file_name())).unwrap();
+        }
+    }
+    folder
+}
+
+/// The program in a folder.
+pub fn bowden_in(folder: &tempfile::TempDir, arguments: &[&str]) -> Output {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_bowden"));
+    program
+        .args(arguments)
+        .current_dir(folder.path())
+        .output()
+        .unwrap()
 }

@@ -25,17 +25,17 @@ fn the_json_of_a_check_is_laid_out_as_documented_and_the_same_each_time() {
     let next = folder.record("next.csv", &viscous(76_001));
     let model = folder.path("model.toml");
     let report = json(&[
-        "close",
+        "identify",
         &own,
-        "--rounds",
+        "--max-terms",
         "1",
         "--json",
         "--model-out",
         &model,
     ]);
 
-    let first = said(&["check", &model, &next, "--json"]);
-    assert_eq!(first, said(&["check", &model, &next, "--json"]));
+    let first = said(&["validate", &model, &next, "--json"]);
+    assert_eq!(first, said(&["validate", &model, &next, "--json"]));
     let check: Value = serde_json::from_str(&first).unwrap();
     let keys: Vec<&str> = check
         .as_object()
@@ -55,50 +55,58 @@ fn the_json_of_a_check_is_laid_out_as_documented_and_the_same_each_time() {
             "nrmse_gain_offset",
             "gain",
             "offset",
-            "from",
-            "allowed",
+            "trained_on",
+            "threshold_nrmse",
             "noise_floor",
             "outside",
             "depends_on",
-            "otherwise",
+            "suspected_logging_error",
             "defects",
             "notes",
             "verdict",
-            "sentence"
+            "summary"
         ]
         .into_iter()
         .collect::<std::collections::BTreeSet<_>>()
         .into_iter()
         .collect::<Vec<_>>()
     );
-    assert_eq!(check["schema"], "bowden.check/1");
+    assert_eq!(check["schema"], "bowden.validate/1");
     assert_eq!(check["verdict"], "holds");
     for segment in ["fit", "held_out"] {
         let of = |nrmse: &Value| nrmse[segment].as_f64().unwrap();
-        let (from, own) = (of(&check["from"]["nrmse"]), of(&report["final"]["nrmse"]));
+        let (from, own) = (
+            of(&check["trained_on"]["nrmse"]),
+            of(&report["final"]["nrmse"]),
+        );
         // TOML prints the same bits; one reader may miss the last of them.
         assert!((from / own - 1.0).abs() < 1e-14, "{from} {own}");
     }
     assert_eq!(check["record"]["unit"], "N");
-    assert_eq!(check["from"]["cutoff_hz"], check["record"]["cutoff_hz"]);
+    assert_eq!(
+        check["trained_on"]["cutoff_hz"],
+        check["record"]["cutoff_hz"]
+    );
     let [nrmse, moved] = ["nrmse", "nrmse_gain_offset"].map(|key| check[key].as_f64().unwrap());
-    assert!(moved <= nrmse && nrmse <= check["allowed"].as_f64().unwrap());
+    assert!(moved <= nrmse && nrmse <= check["threshold_nrmse"].as_f64().unwrap());
     assert!(check["gain"]["ci95"].is_array() && check["offset"]["value"].is_number());
 }
 
 #[test]
-fn the_text_of_a_check_ends_with_a_sentence_and_its_trace_has_the_models_parts() {
+fn the_text_of_a_validation_begins_with_the_answer_and_its_trace_has_the_models_parts() {
     let folder = Folder::new();
     let own = folder.record("own.csv", &viscous(76_002));
     let next = folder.record("next.csv", &viscous(76_003));
     let (model, trace) = (folder.path("model.toml"), folder.path("trace.csv"));
-    said(&["close", &own, "--rounds", "1", "--model-out", &model]);
-    let text = said(&["check", &model, &next, "--trace", &trace]);
-    let last = text.trim_end().lines().last().unwrap();
+    said(&["identify", &own, "--max-terms", "1", "--model-out", &model]);
+    let text = said(&["validate", &model, &next, "--trace", &trace]);
+    let answer: Vec<&str> = text.lines().skip(2).take(2).collect();
+    assert_eq!(answer[0], "  THE MODEL HOLDS");
     assert!(
-        last.starts_with("verdict   holds. The model holds: it misses "),
-        "{last}"
+        answer[1].starts_with("  The model holds: its error is "),
+        "{text}"
     );
+    assert!(text.lines().count() <= 25, "{text}");
     assert!(!text.contains('\u{1b}'), "escape codes without a terminal");
     let trace = folder.read("trace.csv");
     let header = trace.lines().next().unwrap();
@@ -121,9 +129,9 @@ fn the_json_of_close_has_the_model_after_each_round_and_rounds_writes_the_same()
         ..Recipe::of_one_rig(Mode::Displacement, 76_004)
     };
     let record = folder.record("r.csv", &recipe);
-    let all = json(&["close", &record, "--json"]);
-    let rounds = all["rounds"].as_array().unwrap();
-    assert!(rounds.len() >= 2 && all["stopped_by_request"].is_null());
+    let all = json(&["identify", &record, "--json"]);
+    let rounds = all["terms"].as_array().unwrap();
+    assert!(rounds.len() >= 2 && all["stopped_by_max_terms"].is_null());
     for (index, round) in rounds.iter().enumerate() {
         let model: ModelFile = serde_json::from_value(round["model"].clone()).unwrap();
         assert_eq!(model.terms.len(), index + 1);
@@ -137,18 +145,18 @@ fn the_json_of_close_has_the_model_after_each_round_and_rounds_writes_the_same()
 
     let path = folder.path("one.toml");
     let one = json(&[
-        "close",
+        "identify",
         &record,
-        "--rounds",
+        "--max-terms",
         "1",
         "--json",
         "--model-out",
         &path,
     ]);
-    assert_eq!(one["stopped_by_request"], 1);
-    assert_eq!(one["rounds"].as_array().unwrap().len(), 1);
+    assert_eq!(one["stopped_by_max_terms"], 1);
+    assert_eq!(one["terms"].as_array().unwrap().len(), 1);
     let written: ModelFile = toml::from_str(&folder.read("one.toml")).unwrap();
-    let reported: ModelFile = serde_json::from_value(one["rounds"][0]["model"].clone()).unwrap();
+    let reported: ModelFile = serde_json::from_value(one["terms"][0]["model"].clone()).unwrap();
     assert_eq!(
         (written.mode, written.channels),
         (reported.mode, reported.channels)
@@ -169,10 +177,10 @@ fn a_trace_of_several_records_says_of_which_each_line_is_and_is_the_same_each_ti
     let (one, two) = (folder.path("one.csv"), folder.path("two.csv"));
     for trace in [&one, &two] {
         said(&[
-            "close",
+            "identify",
             &a,
             &b,
-            "--rounds",
+            "--max-terms",
             "0",
             "--per-file",
             "gains",
@@ -193,8 +201,11 @@ fn a_trace_of_several_records_says_of_which_each_line_is_and_is_the_same_each_ti
 
 #[test]
 fn rounds_beyond_the_loops_own_are_refused() {
-    let line = refused(&["close", "--rounds", "9"]);
-    assert!(line.contains("--rounds 9: 0 to 8"), "{line}");
+    let line = refused(&["identify", "--max-terms", "9"]);
+    assert!(
+        line.contains("`--max-terms 9` is out of range (0 to 8)"),
+        "{line}"
+    );
 }
 
 #[test]
@@ -208,11 +219,11 @@ fn plan_and_power_take_the_rounds_too() {
             ..viscous(76_007)
         },
     );
-    said(&["plan", &record, "--rounds", "0"]);
+    said(&["plan", &record, "--max-terms", "0"]);
     let power = json(&[
         "power",
         &record,
-        "--rounds",
+        "--max-terms",
         "0",
         "--effects",
         "drag-cubic",

@@ -1,4 +1,4 @@
-//! What `bowden check` does not take: one line, status 2.
+//! What `bowden validate` does not take: one line, status 2.
 
 use crate::rig::Folder;
 use crate::shell::{refused, said};
@@ -13,11 +13,11 @@ fn model(folder: &Folder, mode: Mode, declare: &str) -> (String, String) {
     let record = folder.record("own.csv", &recipe);
     let model = folder.path("model.toml");
     said(&[
-        "close",
+        "identify",
         &record,
-        "--rounds",
+        "--max-terms",
         "0",
-        "--declare",
+        "--baseline",
         declare,
         "--model-out",
         &model,
@@ -32,12 +32,12 @@ fn what_is_no_model_is_refused_with_the_reason() {
     let text = folder.read("model.toml");
     let refuse = |name: &str, bytes: &[u8], word: &str| {
         let path = folder.file(name, bytes);
-        let line = refused(&["check", &path, &record]);
+        let line = refused(&["validate", &path, &record]);
         assert!(line.contains(name) && line.contains(word), "{word}: {line}");
     };
     refuse("words.toml", b"this is no TOML", "TOML");
     refuse("empty.toml", b"", "no schema");
-    refuse("binary.toml", &[0, 159, 146, 150], "no text");
+    refuse("binary.toml", &[0, 159, 146, 150], "is not text");
     refuse(
         "other.toml",
         text.replace("bowden.model/1", "bowden.model/9").as_bytes(),
@@ -71,10 +71,10 @@ fn what_is_no_model_is_refused_with_the_reason() {
     );
     let none = "schema = \"bowden.model/1\"\nmode = \"displacement\"\nchannels = []\n";
     refuse("nothing.toml", none.as_bytes(), "without any part");
-    refused(&["check", &folder.path("missing.toml"), &record]);
-    refused(&["check", &folder.path("."), &record]);
+    refused(&["validate", &folder.path("missing.toml"), &record]);
+    refused(&["validate", &folder.path("."), &record]);
     // And the model itself is taken.
-    said(&["check", &model, &record]);
+    said(&["validate", &model, &record]);
 }
 
 #[test]
@@ -83,9 +83,9 @@ fn a_record_that_does_not_fit_the_model_is_refused_with_the_reason() {
     let (model, record) = model(&folder, Mode::Torque, "bouc-wen,viscous@phi_p");
     let csv = folder.read("own.csv");
     let without = folder.file("without.csv", csv.replace("phi_p", "angle"));
-    let line = refused(&["check", &model, &without]);
+    let line = refused(&["validate", &model, &without]);
     assert!(line.contains("`phi_p`, which the model reads"), "{line}");
-    said(&["check", &model, &without, "--channel", "phi_p=angle"]);
+    said(&["validate", &model, &without, "--channel", "phi_p=angle"]);
 
     let other = folder.record(
         "other.csv",
@@ -94,14 +94,14 @@ fn a_record_that_does_not_fit_the_model_is_refused_with_the_reason() {
             ..Recipe::of_one_rig(Mode::Displacement, 1)
         },
     );
-    let line = refused(&["check", &model, &other]);
-    assert!(line.contains("the model is of torque mode"), "{line}");
-    let line = refused(&["check", &model, &record, "--mode", "displacement"]);
-    assert!(line.contains("the model is of torque mode"), "{line}");
+    let line = refused(&["validate", &model, &other]);
+    assert!(line.contains("the model is in torque mode"), "{line}");
+    let line = refused(&["validate", &model, &record, "--mode", "displacement"]);
+    assert!(line.contains("the model is in torque mode"), "{line}");
 
     // What has nothing to do with the mode is not put down to it.
     for bad in [folder.file("empty.csv", ""), folder.path("missing.csv")] {
-        let line = refused(&["check", &model, &bad]);
+        let line = refused(&["validate", &model, &bad]);
         assert!(!line.contains("mode"), "{line}");
     }
     // The cut-off is the model's: nobody has given an option, and the time is to blame.
@@ -112,13 +112,13 @@ fn a_record_that_does_not_fit_the_model_is_refused_with_the_reason() {
         format!("{},{rest}\n", 1000.0 * time.parse::<f64>().unwrap())
     });
     let slow = folder.file("slow.csv", header + &slow.collect::<String>());
-    let line = refused(&["check", &model, &slow]);
+    let line = refused(&["validate", &model, &slow]);
     assert!(
         line.contains("the model's cut-off of") && line.contains("is the time in seconds?"),
         "{line}"
     );
     // The most that is said to be allowed is.
-    let line = refused(&["close", &record, "--cutoff", "1e6"]);
+    let line = refused(&["identify", &record, "--cutoff", "1e6"]);
     let most = line
         .split_once("at most ")
         .unwrap()
@@ -126,9 +126,9 @@ fn a_record_that_does_not_fit_the_model_is_refused_with_the_reason() {
         .split(' ')
         .next()
         .unwrap();
-    said(&["close", &record, "--rounds", "0", "--cutoff", most]);
+    said(&["identify", &record, "--max-terms", "0", "--cutoff", most]);
     let short: String = csv.lines().take(400).flat_map(|l| [l, "\n"]).collect();
-    let line = refused(&["check", &model, &folder.file("short.csv", short)]);
+    let line = refused(&["validate", &model, &folder.file("short.csv", short)]);
     assert!(
         line.contains("too short") && !line.contains("--cutoff,"),
         "{line}"
@@ -140,7 +140,10 @@ fn units_are_converted_or_refused() {
     let folder = Folder::new();
     let (model, record) = model(&folder, Mode::Displacement, "bouc-wen,viscous");
     let json = |path: &str| -> serde_json::Value {
-        serde_json::from_str(&said(&["check", &model, path, "--json", "--cutoff", "8"])).unwrap()
+        serde_json::from_str(&said(&[
+            "validate", &model, path, "--json", "--cutoff", "8",
+        ]))
+        .unwrap()
     };
     let own = json(&record);
 
@@ -175,11 +178,11 @@ fn units_are_converted_or_refused() {
         ("t [s],x [mm],f [Pa]", "unit Pa"),
     ] {
         let path = folder.file("wrong.csv", csv.replacen("t [s],x [mm],f [N]", header, 1));
-        let line = refused(&["check", &model, &path]);
+        let line = refused(&["validate", &model, &path]);
         assert!(
             line.contains("wrong.csv")
                 && line.contains(word)
-                && line.contains("was expected, as in the model"),
+                && line.contains("is needed, as in the model"),
             "{line}"
         );
     }
@@ -197,17 +200,17 @@ fn a_trace_that_cannot_be_written_is_refused_before_the_record_is_read() {
     ] {
         // A record that does not exist would be complained of first if it were read first.
         let line = refused(&[
-            "close",
+            "identify",
             &record,
             &folder.path("later.csv"),
             "--trace",
             &path,
         ]);
         assert!(line.contains("--trace"), "{line}");
-        let line = refused(&["check", &model, &record, "--trace", &path]);
+        let line = refused(&["validate", &model, &record, "--trace", &path]);
         assert!(line.contains("--trace"), "{line}");
     }
-    assert!(refused(&["check", &model, &record, "--trace", &model]).contains("would overwrite"));
+    assert!(refused(&["validate", &model, &record, "--trace", &model]).contains("would overwrite"));
     assert_eq!(folder.names(), before);
 }
 
@@ -222,7 +225,7 @@ fn a_model_that_cannot_be_written_is_refused_before_the_record_is_read() {
     let (one, two) = (folder.path("later.csv"), folder.path("last.csv"));
     let refuses = |path: &str, more: &[&str]| {
         let path = folder.path(path);
-        let line = refused(&[&["close", &one, "--model-out", &path], more].concat());
+        let line = refused(&[&["identify", &one, "--model-out", &path], more].concat());
         assert!(line.contains("--model-out"), "{line}");
     };
     refuses("no-such-folder/m.toml", &[]);
@@ -239,12 +242,12 @@ fn a_model_whose_verdict_is_no_model_is_refused() {
     let (model, record) = model(&folder, Mode::Displacement, "bouc-wen");
     let mut table: toml::Table = toml::from_str(&folder.read("model.toml")).unwrap();
     let about = table["about"].as_table_mut().unwrap();
-    about.insert("verdict".to_owned(), "no-model".into());
+    about.insert("verdict".to_owned(), "no-input-dependence".into());
     let none = folder.file("none.toml", toml::to_string(&table).unwrap().as_bytes());
-    let line = refused(&["check", &none, &record]);
+    let line = refused(&["validate", &none, &record]);
     assert!(
-        line.contains("none.toml: its verdict is `no-model`"),
+        line.contains("none.toml: its verdict is `no-input-dependence`"),
         "{line}"
     );
-    said(&["check", &model, &record]);
+    said(&["validate", &model, &record]);
 }

@@ -4,7 +4,7 @@ use crate::program::Program;
 use crate::shared::Row;
 use std::path::{Path, PathBuf};
 
-/// A generated record, and how `close` is told to read it.
+/// A generated record, and how `identify` is told to read it.
 pub struct Case {
     pub label: String,
     pub arguments: Vec<String>,

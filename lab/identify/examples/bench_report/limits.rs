@@ -120,7 +120,7 @@ fn evaluations_a_name(measured: &Measured) -> Limit {
     }
 }
 
-/// The paper's method over `close`, on the record with an undeclared effect.
+/// The paper's method over `identify`, on the record with an undeclared effect.
 fn over_the_paper(measured: &Measured) -> Limit {
     let of = |method: &str| measured.peers.0.iter().find(|p| p.method.contains(method));
     let (reached, between) = match (of("close"), of("paper")) {

@@ -1,4 +1,4 @@
-//! Measures what `bowden close` costs and writes it into `benches/README.md`, between the marks
+//! Measures what `bowden identify` costs and writes it into `benches/README.md`, between the marks
 //! that the page has for it.
 //!
 //! ```text
@@ -51,7 +51,7 @@ impl Wanted {
             program: None,
         };
         while let Some(word) = words.next() {
-            let mut value = || words.next().ok_or(format!("{word}: a value was expected"));
+            let mut value = || words.next().ok_or(format!("{word}: a value is needed"));
             match word.as_str() {
                 "--quick" => wanted.quick = true,
                 "--largest" => {
@@ -64,7 +64,7 @@ impl Wanted {
                 "--program" => wanted.program = Some(value()?.into()),
                 _ => {
                     return Err(format!(
-                        "{word}: --quick, --largest, --rows, --out or --program was expected"
+                        "{word}: --quick, --largest, --rows, --out or --program is needed"
                     ))
                 }
             }
@@ -140,7 +140,7 @@ fn measure(wanted: &Wanted, program: &Program, folder: &Path) -> Result<Measured
 /// The paper's method alone, in a process of its own: `--paper FILE.csv MOST`.
 fn paper_alone(words: &[String]) -> Result<(), String> {
     let [path, most] = words else {
-        return Err("--paper: a file and a number of evaluations were expected".to_owned());
+        return Err("--paper: a file and a number of evaluations are needed".to_owned());
     };
     let most = most
         .parse()

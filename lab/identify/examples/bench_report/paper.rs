@@ -1,4 +1,4 @@
-//! The paper's own identification of (5) to (7), to be compared with `bowden close`.
+//! The paper's own identification of (5) to (7), to be compared with `bowden identify`.
 //!
 //! The paper minimises (8), the root mean square error of the output over all samples, over
 //! rho, sigma, n, B, kappa_eta and T0: a genetic algorithm roughly, then the Nelder-Mead

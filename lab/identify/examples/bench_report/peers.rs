@@ -71,7 +71,7 @@ fn close(record: &'static str, outcome: Outcome) -> Peer {
         false => format!("named {}", outcome.names.join(", ")),
     };
     Peer {
-        method: "`bowden close`",
+        method: "`bowden identify`",
         record,
         samples: outcome.samples,
         evaluations: outcome.evaluations,

@@ -77,7 +77,7 @@ impl Instrument {
     }
 }
 
-/// What one run of `close` has cost, and what it has found.
+/// What one run of `identify` has cost, and what it has found.
 #[derive(Debug, Clone, Default)]
 pub struct Outcome {
     pub samples: f64,
@@ -144,7 +144,7 @@ impl Program {
         }
     }
 
-    /// `bowden close ARGUMENTS --json`, once timed and once counted.
+    /// `bowden identify ARGUMENTS --json`, once timed and once counted.
     pub fn close(&self, arguments: &[String]) -> Result<Outcome, String> {
         let mut all = vec!["close".to_owned()];
         all.extend_from_slice(arguments);

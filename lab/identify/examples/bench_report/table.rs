@@ -139,7 +139,7 @@ fn peers((all, notes): &Peers) -> String {
         "evaluations",
         "G instructions",
         "s",
-        "`close` is faster",
+        "`identify` is faster",
         "reached",
     ];
     let own = |record: &str| {
@@ -175,7 +175,7 @@ const HEAD: &str = "\
 Written by `cargo run --release -p bowden-lab --example bench_report`; by hand nothing is changed
 here. `--quick` measures what takes minutes.
 
-`bowden close RECORD --json` has these counts of each run under `cost`. An **evaluation** computes
+`bowden identify RECORD --json` has these counts of each run under `cost`. An **evaluation** computes
 a model's columns, its gains and its residual over all samples of a grid; a **Jacobian** its
 derivatives by all shapes; a **search** is one run of Levenberg-Marquardt from one start. The counts
 repeat exactly, instructions to about 1e-4; seconds are of one run with one thread, and depend on the
@@ -191,8 +191,8 @@ the ratio is a lower bound (`lab/identify/examples/bench_report/paper.rs`, compi
 instructions are those of one evaluation times the evaluations. SciPy
 (`python3 benches/peers/bouc_wen_scipy.py RECORD.csv`) solves for the linear gains and gets every
 fifth sample, as a mean of five; its evaluations are of one parameter set each. Both fit the six
-parameters of the declared model. Neither looks for what the model lacks, splits the record, gives
-intervals or a verdict; `close` does.
+parameters of the baseline model. Neither looks for what the model lacks, splits the record, gives
+intervals or a verdict; `identify` does.
 
 ";
 

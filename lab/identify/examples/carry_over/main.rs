@@ -3,10 +3,10 @@
 //! ```sh
 //! cargo run --release -p bowden-lab --example carry_over -- A.csv B.csv … \
 //!     [--mode torque|displacement] [--time COL] [--input COL] [--output COL] \
-//!     [--channel NAME=COL]… [--declare EFFECT,…] [--skip S] [--until S] [--rate HZ] [--cutoff HZ]
+//!     [--channel NAME=COL]… [--baseline EFFECT,…] [--start S] [--end S] [--rate HZ] [--cutoff HZ]
 //! ```
-//! The options are those of `bowden close`. Each record is closed by itself; then the model of
-//! each, as `--model-out` writes it, runs on each other record as in `bowden check`. Printed
+//! The options are those of `bowden identify`. Each record is closed by itself; then the model of
+//! each, as `--model-out` writes it, runs on each other record as in `bowden validate`. Printed
 //! are the names of each record, the share of its firm names that the other one knows, the
 //! rounds that raise the held-out error, and the error on the other record: as it is, with gain
 //! and offset refitted, and over the own held-out error. A record that cannot be read or fitted ends
@@ -61,20 +61,20 @@ impl Arguments {
                 options.mode = Some(match value.as_str() {
                     "torque" => Mode::Torque,
                     "displacement" => Mode::Displacement,
-                    _ => return Err("--mode: torque or displacement was expected".to_owned()),
+                    _ => return Err("--mode: torque or displacement is needed".to_owned()),
                 });
             }
-            "--skip" => options.skip = number()?,
-            "--until" => options.until = Some(number()?),
+            "--start" => options.skip = number()?,
+            "--end" => options.until = Some(number()?),
             "--rate" => options.rate = Some(number()?),
             "--cutoff" => self.asked.cutoff = Some(number()?),
             "--channel" => {
                 let (name, column) = value
                     .split_once('=')
-                    .ok_or("--channel: NAME=COL was expected")?;
+                    .ok_or("--channel: NAME=COL is needed")?;
                 options.channels.push((name.to_owned(), column.to_owned()));
             }
-            "--declare" => self.asked.declare = value.split(',').map(str::to_owned).collect(),
+            "--baseline" => self.asked.declare = value.split(',').map(str::to_owned).collect(),
             "--time" => options.time = Some(value),
             "--input" => options.input = Some(value),
             "--output" => options.output = Some(value),

@@ -52,14 +52,12 @@ impl std::fmt::Display for Identity {
 pub struct Name {
     pub identity: Identity,
     pub grade: Grade,
-    /// In how many of a hundred half-records it is found again.
-    pub recurs: usize,
     pub rivals: Vec<Identity>,
     /// Whether its round raises the held-out error.
     pub raises: bool,
 }
 
-/// A record that was closed, and its model as `bowden close --model-out` writes it.
+/// A record that was closed, and its model as `bowden identify --model-out` writes it.
 pub struct Closed {
     pub label: String,
     record: Record,
@@ -124,8 +122,7 @@ fn names(data: &Prepared, ledger: &Ledger) -> Vec<Name> {
     let name = |round: &Round| Name {
         identity: Identity::of(data, &round.candidate),
         grade: round.grade,
-        recurs: round.recurs,
-        rivals: round.rivals.iter().map(|r| Identity::of(data, r)).collect(),
+        rivals: (round.possible().skip(1).map(|r| Identity::of(data, &r))).collect(),
         raises: raises(round),
     };
     ledger.rounds.iter().map(name).collect()
@@ -214,7 +211,7 @@ impl std::fmt::Display for Share {
 /// has no rivals of its own.
 pub fn known(of: &[Name], by: &[Name]) -> Share {
     let mut firm: Vec<&Identity> = Vec::new();
-    for name in of.iter().filter(|name| name.grade == Grade::Firm) {
+    for name in of.iter().filter(|name| name.grade == Grade::High) {
         if !firm.contains(&&name.identity) {
             firm.push(&name.identity);
         }
@@ -272,9 +269,7 @@ impl Rig {
     /// Both tables in Markdown: what each record names, and how each model does on the others.
     pub fn print(&self) {
         println!("\n{}", self.name);
-        println!(
-            "\n| record | delivered: **firm**, weak; recurs of 100 | found beyond | held out |"
-        );
+        println!("\n| record | delivered: **high**, low confidence | found beyond | held out |");
         println!("|---|---|---|---|");
         for closed in &self.closed {
             let names: Vec<String> = closed.names.iter().map(words).collect();
@@ -318,8 +313,8 @@ impl Rig {
 
 fn words(name: &Name) -> String {
     let title = match name.grade {
-        Grade::Firm => format!("**{}**", name.identity),
-        Grade::Weak => name.identity.to_string(),
+        Grade::High => format!("**{}**", name.identity),
+        Grade::Low => name.identity.to_string(),
     };
     let rivals: Vec<String> = name.rivals.iter().map(ToString::to_string).collect();
     let rivals = match rivals.is_empty() {
@@ -327,5 +322,5 @@ fn words(name: &Name) -> String {
         false => format!(" (or {})", rivals.join(", ")),
     };
     let raises = if name.raises { ", raises held out" } else { "" };
-    format!("{title} {}{raises}{rivals}", name.recurs)
+    format!("{title}{raises}{rivals}")
 }

@@ -1,4 +1,4 @@
-//! What one model for 1, 4, 16 and 64 files costs; prints the table of `docs/results/fleet.md`.
+//! What one model for 1, 4, 16 and 64 files costs; prints the table of `lab/notes/fleet.md`.
 //!
 //! ```sh
 //! cargo run --release -p bowden-lab --example many_files
@@ -7,7 +7,7 @@
 //! ```
 //!
 //! `bowden generate` makes one record of 1280 s at 500 Hz whose model lacks viscous friction. It
-//! is cut into 64 files, and `bowden close` fits one model to the first of them, on one thread.
+//! is cut into 64 files, and `bowden identify` fits one model to the first of them, on one thread.
 //! `--gains` gives each file gains of its own, `--program` measures another build in place of the
 //! present one.
 

@@ -4,7 +4,7 @@
 //! honest, not whether the effect is found. Only curves that are the same in generator
 //! and catalogue are planted, so that there is a true value.
 
-use crate::record::recipe;
+use crate::planting::recipe;
 use bowden_lab::conclude::intervals::parameters;
 use bowden_lab::fit::fit;
 use bowden_lab::model::declared::structure;

@@ -2,11 +2,11 @@
 //! ratio.
 //!
 //! Both get what the loop's first scan gets: the same columns at the same trial shapes,
-//! behind the same filter, beside the columns and the tangents of the declared model
+//! behind the same filter, beside the columns and the tangents of the baseline model
 //! (so that its gains and shapes move along), on the same fit segment. Forward by
 //! orthogonal least squares (Chen, Billings and Luo, 1989). BIC (Schwarz, 1978) goes on
 //! while n ln(SSE/n) + k ln n falls; the ERR rule while the next column takes at least
-//! 0.1 % of the sum of squares that the declared model leaves.
+//! 0.1 % of the sum of squares that the baseline model leaves.
 
 use bowden::effect::Family;
 use bowden_lab::fit::Solution;

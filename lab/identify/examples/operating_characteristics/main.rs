@@ -19,6 +19,7 @@
 
 mod coverage;
 mod criteria;
+mod planting;
 mod record;
 #[allow(dead_code)]
 #[path = "../../tests/identification/rig.rs"]
@@ -27,11 +28,12 @@ mod rig;
 use bowden::effect::Family;
 use bowden_synth::{effects, outsiders, Mode, Recipe};
 use criteria::Chosen;
+use planting::{can_be_missing, family_of, recipe};
 use rand::seq::SliceRandom;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
-use record::{family_of, recipe, run, Outcome};
+use record::{run, Outcome};
 use std::collections::BTreeMap;
 
 const MODES: [Mode; 2] = [Mode::Torque, Mode::Displacement];
@@ -91,16 +93,6 @@ impl Wanted {
             .map(|k| (MODES[(k % 2) as usize], self.first + k))
             .collect()
     }
-}
-
-/// What is no part of the declared model under another name.
-fn can_be_missing(mode: Mode, effect: &str) -> bool {
-    let absorbed = match mode {
-        Mode::Torque => ["offset", "gain", ""],
-        // A gain on the load channel is that channel's crosstalk.
-        Mode::Displacement => ["offset", "gain", "stiffness-linear"],
-    };
-    !absorbed.contains(&effect)
 }
 
 type Planting = Vec<(&'static str, f64)>;

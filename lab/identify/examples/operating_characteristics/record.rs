@@ -2,14 +2,14 @@
 
 use crate::criteria::{self, Chosen};
 use crate::rig::Made;
-use bowden::effect::{Family, CATALOGUE};
+use bowden::effect::Family;
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::fit::fit;
 use bowden_lab::ledger::{Ledger, Round};
 use bowden_lab::model::catalogue::candidates;
 use bowden_lab::model::declared::structure;
 use bowden_lab::search::close;
-use bowden_synth::{Mode, Planted, Recipe};
+use bowden_synth::Recipe;
 
 /// What one record gave.
 pub struct Outcome {
@@ -30,36 +30,6 @@ pub struct Outcome {
     pub unknown: Option<(&'static str, String)>,
     /// For a reader who wants to see the single record.
     pub line: String,
-}
-
-/// The family of an effect of the catalogue.
-pub fn family_of(effect: &str) -> Option<Family> {
-    CATALOGUE
-        .iter()
-        .find(|info| info.name == effect)
-        .map(|info| info.family)
-}
-
-/// A record of that kind with those effects at those strengths.
-pub fn recipe(mode: Mode, planted: &[(&str, f64)], colour: f64, seed: u64) -> Recipe {
-    let names = |words: &[&str]| {
-        planted
-            .iter()
-            .any(|(effect, _)| words.iter().any(|w| effect.contains(w)))
-    };
-    Recipe {
-        seed,
-        colour,
-        effects: planted
-            .iter()
-            .map(|&(effect, strength)| Planted {
-                strength,
-                ..Planted::new(effect)
-            })
-            .collect(),
-        load: mode == Mode::Displacement && names(&["load", "capstan", "drive"]),
-        ..Recipe::new(mode)
-    }
 }
 
 /// The errors of a fit that is told of the planted effects, where they can be declared:
@@ -90,12 +60,7 @@ pub fn run(recipe: &Recipe) -> Outcome {
     let ledger = close(data, &declared, |_| ()).unwrap();
     let tried = candidates(data, &ledger.declared.structure, &ledger.declared.residual);
     let library = criteria::Library::new(data, &ledger.declared, &tried);
-    let families = |round: &Round| {
-        let rivals = round.rivals.iter().map(|c| c.family);
-        std::iter::once(round.candidate.family)
-            .chain(rivals)
-            .collect()
-    };
+    let families = |round: &Round| round.possible().map(|c| c.family).collect();
     let unknown = ledger.unknown.as_ref().map(|u| {
         let channel = data.channel(u.variable.source()).unwrap();
         (u.variable.name(data), channel.name.clone())

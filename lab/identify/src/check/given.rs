@@ -62,7 +62,7 @@ pub struct Errors {
     /// On what was fitted.
     pub fit: Option<f64>,
     /// On the stop-check.
-    pub stop: Option<f64>,
+    pub selection: Option<f64>,
     /// On what nothing had seen.
     pub held_out: Option<f64>,
 }
@@ -78,10 +78,10 @@ impl Given {
         let mut table: toml::Table = toml::from_str(text).map_err(one_line)?;
         match table.get("schema").and_then(toml::Value::as_str) {
             Some(SCHEMA) => {}
-            Some(other) => return Err(format!("schema {other:?}: {SCHEMA} was expected")),
+            Some(other) => return Err(format!("schema {other:?}: {SCHEMA} is needed")),
             None => {
                 return Err(format!(
-                    "no schema: a model of `bowden close --model-out` ({SCHEMA}) was expected"
+                    "no schema: a model of `bowden identify --model-out` ({SCHEMA}) is needed"
                 ))
             }
         }
@@ -124,9 +124,7 @@ impl Given {
         match self.file.mode.as_str() {
             "torque" => Ok(Mode::Torque),
             "displacement" => Ok(Mode::Displacement),
-            other => Err(format!(
-                "mode {other:?}: torque or displacement was expected"
-            )),
+            other => Err(format!("mode {other:?}: torque or displacement is needed")),
         }
     }
 

@@ -2,13 +2,12 @@
 //!
 //! Nothing is refitted: the model of a file runs on a record that it has never seen, behind
 //! the filter that it was fitted behind. Then its gain and offset alone are fitted. The error
-//! of each stands beside the one that the model came with, on what was held out of its own
-//! record.
+//! of each stands beside the one that the model came with, on the held-out part of its own record.
 //!
 //! **What counts.** There is no fit segment: all of the record is unseen. What came before it
 //! is unknown, though. The hysteresis starts in the middle (eta = 0) and effects with memory
 //! start at rest, and what comes before the input has covered its half-range four times does
-//! not count (at most a quarter of the record), as for a file that `close` holds out whole.
+//! not count (at most a quarter of the record), as for a file that `identify` holds out whole.
 //! Estimating eta(0) instead would be a refit. How much the unknown state still matters is
 //! measured: the model runs from eta = −1 and from eta = 1 as well.
 //!
@@ -46,7 +45,7 @@ pub const HOLDS: f64 = 2.0;
 /// Error that is noise, as a multiple of the floor: as for the verdict `explained`.
 pub const NOISE: f64 = 1.2;
 /// From this share of the output's standard deviation on a model explains less than half of the
-/// output's variance, as one whose verdict is `no-model`.
+/// output's variance, as one whose verdict is `no-input-dependence`.
 pub const NOTHING: f64 = 0.7;
 /// Up to this share of the output's standard deviation a model holds by its error in the output's
 /// unit; from there on an error that is no larger than at home says nothing. A choice: from that share
@@ -54,7 +53,7 @@ pub const NOTHING: f64 = 0.7;
 pub const FAINT: f64 = 0.2;
 /// Up to this multiple of the limit nothing is said of a model that was not exact where it came from. On
 /// another record of its rig such a model errs up to 2.5 times as much as at home, [`HOLDS`] times this
-/// (`docs/results/carry_over.md`).
+/// (`docs/results/transfer.md`).
 pub const JUST: f64 = 1.25;
 /// Gain and offset are what has moved where they leave at most this share of the squared error. Of two
 /// right models of one rig either may be past the limit by a little; half is a choice.
@@ -77,7 +76,7 @@ pub enum Verdict {
     /// Nothing says what error it should have, or the record shows nothing.
     CannotTell,
     /// The measurement itself is spoilt.
-    DataDefect,
+    DefectiveRecord,
 }
 
 impl Verdict {
@@ -89,7 +88,7 @@ impl Verdict {
             Self::GainOrOffsetMoved => "gain-or-offset-moved",
             Self::DoesNotHold => "does-not-hold",
             Self::CannotTell => "cannot-tell",
-            Self::DataDefect => "data-defect",
+            Self::DefectiveRecord => "defective-record",
         }
     }
 }
@@ -144,7 +143,7 @@ impl Check {
     pub fn new(mut record: Record, given: &Given, cutoff: Option<f64>) -> Result<Self, String> {
         if record.mode != given.mode()? {
             return Err(format!(
-                "the model is of {} mode, the record is not",
+                "the model is in {} mode, the record is not",
                 given.file.mode
             ));
         }
@@ -205,7 +204,7 @@ impl Check {
         };
         if check.start > MATTERS * check.rmse {
             let share = three_digits(100.0 * check.start / check.deviation);
-            check.data.notes.push(format!("the motion before the record is unknown, and what the model remembers of it still moves the prediction by up to {share} % of the output's deviation"));
+            check.data.notes.push(format!("the motion before the record is unknown, and the model's initial state changes the prediction by up to {share} % of the output's standard deviation"));
         }
         check.verdict = check.found(given);
         if check.verdict == Verdict::DoesNotHold {
@@ -230,7 +229,7 @@ impl Check {
 
     fn found(&self, given: &Given) -> Verdict {
         if self.spoilt(given).next().is_some() {
-            return Verdict::DataDefect;
+            return Verdict::DefectiveRecord;
         }
         let Some(allowed) = self.allowed.filter(|_| !self.is_quiet()) else {
             return Verdict::CannotTell;
@@ -379,10 +378,7 @@ fn convert(record: &mut Record, given: &Given) -> Result<(), String> {
     let states_none = columns.into_iter().chain(&record.channels);
     let states_none = states_none.map(|c| &c.unit).all(Option::is_none);
     if states_none && !given.about.units.is_empty() {
-        notes.push(
-            "the record states no units: its columns are taken to be in those of the model"
-                .to_owned(),
-        );
+        notes.push("the record states no units: the model's units are assumed".to_owned());
     }
     let Record {
         input,
@@ -413,14 +409,11 @@ fn remarks(given: &Given, cutoff: Option<f64>) -> Vec<String> {
     let about = &given.about;
     let mut notes = Vec::new();
     if about.units.is_empty() {
-        notes.push(
-            "the model's file states no units: those of the record are taken for its own"
-                .to_owned(),
-        );
+        notes.push("the model's file states no units: the record's units are assumed".to_owned());
     }
     match (about.cutoff_hz, cutoff) {
         (Some(own), Some(cutoff)) if own != cutoff => notes.push(format!(
-            "the model was fitted at a cut-off of {own} Hz: its own error is not quite comparable"
+            "the model was fitted at a cut-off of {own} Hz: its own error is not exactly comparable"
         )),
         (None, None) => notes.push(
             "the model's file states no cut-off: it is taken from this record's input; --cutoff sets it".to_owned(),
@@ -429,7 +422,7 @@ fn remarks(given: &Given, cutoff: Option<f64>) -> Vec<String> {
     }
     if !given.left_out.is_empty() {
         notes.push(format!(
-            "left out, since they belong to the record that the model came from: {}",
+            "excluded, because they belong to the model's own record: {}",
             given.left_out.join(", ")
         ));
     }

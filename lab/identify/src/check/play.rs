@@ -173,7 +173,7 @@ pub(super) fn play(
             gains.push(own.gain);
         }
     }
-    let nothing = || "the model has no value on this record".to_owned();
+    let nothing = || "the model's output is not finite on this record".to_owned();
     // Given, not searched: none of them has a bound.
     let free: Vec<Free> = known
         .iter()
@@ -188,7 +188,7 @@ pub(super) fn play(
     let columns = data.filtered_stretches(&columns);
     let prediction = weighted(&columns, &gains, data.target.len());
     if !prediction.iter().all(|p| p.is_finite()) {
-        return Err("the model runs away on this record".to_owned());
+        return Err("the model diverges on this record".to_owned());
     }
     let pairs = data.target.iter().zip(&prediction);
     let residual: Vec<f64> = pairs.map(|(y, p)| y - p).collect();

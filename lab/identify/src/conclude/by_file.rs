@@ -12,7 +12,7 @@ pub struct FileErrors {
     /// On its part of the fit segment.
     pub fit: Option<f64>,
     /// On its part of the stop-check.
-    pub stop: Option<f64>,
+    pub selection: Option<f64>,
     /// On its part of what is held out.
     pub held_out: Option<f64>,
 }
@@ -21,7 +21,7 @@ impl FileErrors {
     /// The three errors in the order of the segments.
     #[must_use]
     pub fn segments(&self) -> [Option<f64>; 3] {
-        [self.fit, self.stop, self.held_out]
+        [self.fit, self.selection, self.held_out]
     }
 }
 
@@ -36,7 +36,7 @@ fn by_file(data: &Prepared, of: impl Fn(&[usize]) -> f64) -> Option<Vec<FileErro
     let all = data.pieces.iter().map(|piece| FileErrors {
         path: piece.path.clone(),
         fit: own(piece, &data.split.fit),
-        stop: own(piece, &data.split.stop),
+        selection: own(piece, &data.split.selection),
         held_out: own(piece, &data.split.held_out),
     });
     Some(all.collect())
@@ -74,7 +74,7 @@ pub fn nrmse_by_file(data: &Prepared, solution: &Solution) -> Option<Vec<FileErr
 pub struct Worse {
     /// The file.
     pub path: String,
-    /// Held-out error of the declared model, as a share of the output's standard deviation.
+    /// Held-out error of the baseline model, as a share of the output's standard deviation.
     pub before: f64,
     /// The same of the final model.
     pub after: f64,

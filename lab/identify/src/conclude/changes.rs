@@ -4,7 +4,6 @@
 use super::final_fit::FinalFit;
 use crate::algebra::line;
 use crate::fit::{Segments, Solution};
-use crate::ledger::{Ledger, Round};
 use crate::model::structure::{FitTerm, Role};
 use crate::problem::Prepared;
 use crate::record::{is_velocity, DefectKind, Mode};
@@ -21,8 +20,8 @@ const BEFORE: f64 = 0.01;
 const LATE: f64 = 0.05;
 
 /// The terms of a channel stand for the output where their sum has this share of its standard
-/// deviation, although the declared model errs by less than the other one. Both are a choice: a
-/// term that is there for what the declared model lacks is about as large as that.
+/// deviation, although the baseline model errs by less than the other one. Both are a choice: a
+/// term that is there for what the baseline model lacks is about as large as that.
 const STANDS_FOR: (f64, f64) = (0.9, 0.3);
 
 /// Multiple of the noise floor from which the sentence says that motion was not seen.
@@ -54,51 +53,6 @@ pub(super) fn begins(data: &Prepared, done: &FinalFit) -> Option<f64> {
     (first as f64 > LATE * rows.len() as f64).then(|| data.moment(rows[first]))
 }
 
-/// By how much \[s\] a delay and lags together put the output before the input; `None` where they
-/// do not, by at least a sample.
-///
-/// A damper's force comes before the displacement too, but viscous friction is the simpler name and
-/// is preferred where it does as well. A stage in whose place a creep does as well is the rig's own
-/// doing and says nothing of clocks; nor does one whose lead a viscous term takes back, nor a lag
-/// that the record tells from a delay, which is all that clocks do: a spring that relaxes.
-pub(super) fn lead(data: &Prepared, ledger: &Ledger, solution: &Solution) -> Option<f64> {
-    let is_stage = |round: &&Round| matches!(round.term().effect.name(), "delay" | "lag");
-    let has_rival = |round: &Round, family| round.rivals.iter().any(|r| r.family == family);
-    let mut stages = ledger.rounds.iter().filter(is_stage);
-    if stages.any(|round| has_rival(round, Family::Creep)) {
-        return None;
-    }
-    let mut lags = ledger
-        .rounds
-        .iter()
-        .filter(|round| round.term().effect.name() == "lag");
-    let is_delay = lags.all(|round| has_rival(round, Family::Delay));
-    let terms = solution.structure.terms.iter().enumerate();
-    let behind = terms.map(|(index, term)| match (term.effect.name(), term.source) {
-        ("delay", _) => solution.gain(index),
-        // `gain` times of what a lag of `tau` takes away, which for slow motion is a delay.
-        ("lag", _) if is_delay => solution.gain(index) * term.effect.shape(0).unwrap_or(0.0),
-        // For slow motion a rate of the input is a lead by its gain over the input's.
-        ("viscous", Source::Input) => {
-            input_gain(solution).map_or(0.0, |gain| f64::max(0.0, -solution.gain(index) / gain))
-        }
-        _ => 0.0,
-    });
-    let lead = -behind.sum::<f64>();
-    (lead * data.rate >= 1.0).then_some(lead)
-}
-
-/// The output's gain over the input: that of the transmission, or of the line in its place.
-fn input_gain(solution: &Solution) -> Option<f64> {
-    let structure = &solution.structure;
-    if structure.hysteresis {
-        return solution.gains.first().copied();
-    }
-    let mut terms = structure.terms.iter();
-    let is_line = |t: &FitTerm| t.effect.name() == "stiffness-linear" && t.source == Source::Input;
-    terms.position(is_line).map(|index| solution.gain(index))
-}
-
 /// What is to be said of a creep that starts at an end of what it may start from: what relaxes there
 /// is no motion of the input, and may be the sensor itself.
 pub(super) fn starts_apart(data: &Prepared, solution: &Solution) -> Option<String> {
@@ -113,7 +67,7 @@ pub(super) fn starts_apart(data: &Prepared, solution: &Solution) -> Option<Strin
     let creeps = starts.any(|term| term.effect.family() == Family::Creep);
     creeps.then(|| {
         format!(
-            "The creep starts from beyond what the input has reached: is it a drift of `{}`, as of a sensor that warms up? A record after a longer run shows which.",
+            "The creep starts outside the range of the input: is it a drift of `{}`, for example of a sensor that warms up? A record after a longer run shows which.",
             data.output_name
         )
     })
@@ -138,12 +92,12 @@ pub(super) fn other_line(data: &Prepared, done: &FinalFit) -> Option<String> {
     if error >= LINE_LEAVES * now {
         let structure = &done.solution.structure;
         let may_help = structure.hysteresis && structure.own_gains == 0;
-        let said = " `--per-file gains` tells whether more than the gains differs there.";
+        let said = " `--per-file gains` shows whether only the gains differ there.";
         return may_help.then(|| said.to_owned());
     }
     let unit = data.output_unit.as_ref().map(|unit| format!(" {unit}"));
     Some(format!(
-        " A gain of {gain:.4} and an offset of {offset:.4}{} would leave {:.2} % on {}: is its unit, its sign or its zero another one? `--per-file gains` fits both for each file.",
+        " With a gain of {gain:.4} and an offset of {offset:.4}{} the error is {:.2} % on {}: does its unit, its sign or its zero differ? `--per-file gains` fits both for each file.",
         unit.unwrap_or_default(),
         100.0 * error,
         file.path
@@ -151,7 +105,7 @@ pub(super) fn other_line(data: &Prepared, done: &FinalFit) -> Option<String> {
 }
 
 /// The channel that stands for the output in the delivered model: its terms make up nearly
-/// all of the output, although the declared model explains nearly all of it by the input.
+/// all of the output, although the baseline model explains nearly all of it by the input.
 pub(super) fn stands_for_output<'a>(
     data: &'a Prepared,
     declared: &Solution,
@@ -209,7 +163,7 @@ pub(super) fn velocity_words(data: &Prepared) -> Option<String> {
     let is = data.mode == Mode::Displacement && is_velocity(&input.name, input.unit.as_deref());
     is.then(|| {
         format!(
-            "Is `{}` a velocity? A displacement was expected: give the column of the position as the input, or integrate this one.",
+            "Is `{}` a velocity? A displacement is needed: use the position as the input, or integrate this column.",
             input.name
         )
     })
@@ -222,7 +176,7 @@ pub(super) fn unseen_motion(data: &Prepared, done: &FinalFit) -> Option<String> 
     let is = is_left && done.solution.structure.hysteresis && has_unseen_motion(data);
     is.then(|| {
         format!(
-            "What `{}` did where it was not measured is not known, and acts on through the hysteresis.",
+            "The motion of `{}` where it was not measured is unknown, and its effect persists in the hysteresis.",
             data.input.name
         )
     })
@@ -231,7 +185,7 @@ pub(super) fn unseen_motion(data: &Prepared, done: &FinalFit) -> Option<String> 
 fn has_unseen_motion(data: &Prepared) -> bool {
     let split = &data.split;
     let rows = || {
-        [&split.fit, &split.stop, &split.held_out]
+        [&split.fit, &split.selection, &split.held_out]
             .into_iter()
             .flatten()
     };

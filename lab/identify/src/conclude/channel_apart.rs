@@ -12,7 +12,7 @@ use crate::search::left_by_names;
 use crate::search::policy::AT_FLOOR;
 
 /// More ways to alter a file than this are not tried. Each costs as much as one linearisation of
-/// the declared model. Four files with two channels have twelve.
+/// the baseline model. Four files with two channels have twelve.
 const MOST_WAYS: usize = 12;
 /// With an alteration names leave to first order at most this share of the squared error that they
 /// leave without: then it is searched with.
@@ -102,20 +102,20 @@ pub(super) fn channel_words(apart: &ChannelApart) -> String {
     } = apart;
     let (asked, mended) = match swapped_with {
         None => (
-            format!("Does `{channel}` count the other way in `{path}`?"),
-            "it turned there",
+            format!("Does `{channel}` have the opposite sign in `{path}`?"),
+            "its sign reversed",
         ),
         Some(other) => (
-            format!("Do `{channel}` and `{other}` stand in each other's place in `{path}`?"),
-            "them exchanged there",
+            format!("Are `{channel}` and `{other}` swapped in `{path}`?"),
+            "both swapped",
         ),
     };
     let what = match names.as_slice() {
-        [] => "nothing is missing".to_owned(),
-        names => format!("what is missing is {}", names.join(", then ")),
+        [] => "the search finds no term".to_owned(),
+        names => format!("the search finds {}", names.join(", then ")),
     };
     format!(
-        "{asked} With {mended} {what}, and the error of the fit is {:.2} % of the output's standard deviation in place of {:.2} %: what is named here are other effects that stand in for that. Mend the file first.",
+        "{asked} With {mended}, {what}, and the error of the fit is {:.2} % of the output's standard deviation instead of {:.2} %: the terms named here only compensate this error. Correct the file first.",
         100.0 * after,
         100.0 * before
     )

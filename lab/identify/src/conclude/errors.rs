@@ -43,7 +43,7 @@ pub(super) fn poor_words(data: &Prepared, done: &FinalFit) -> Option<String> {
     let is_poor = share >= POOR && !floors(data, done).is_some_and(|errors| is_noise(data, errors));
     is_poor.then(|| {
         format!(
-            "A model that misses {} of the output is a poor one.",
+            "A model with an error of {} of the output is poor.",
             percent(share)
         )
     })
@@ -119,6 +119,6 @@ pub(super) fn names(ledger: &Ledger, done: &FinalFit) -> Vec<String> {
 pub(super) fn multiples(data: &Prepared, done: &FinalFit) -> Option<String> {
     let (fit, held_out) = floors(data, done)?;
     Some(format!(
-        "{fit:.1} times the noise floor on the fit segment and {held_out:.1} times held out"
+        "{fit:.1} times the noise floor on the fit segment and {held_out:.1} times on the held-out segment"
     ))
 }

@@ -16,7 +16,7 @@ pub(crate) fn of_role(solution: &Solution, role: Role) -> &'static str {
     match role {
         Role::Rho => "reversals at several amplitudes, the smallest well inside the knee",
         Role::Sigma => "full strokes past the knee, then slow reversals of several sizes",
-        Role::N => "slow full strokes that dwell about the knee",
+        Role::N => "slow full strokes that dwell near the knee",
         Role::Eta0 { .. } => "a full stroke just before the record; it belongs to this record only",
         Role::Start { .. } => {
             "a known motion just before the record; it belongs to this record only"

@@ -23,7 +23,7 @@ const LINE_ERROR: f64 = 0.5;
 /// Gains that differ by less than this are one gain. A choice: sensors are calibrated to that.
 const SAME_GAIN: f64 = 0.05;
 
-/// The declared model with gains of its own for each file; `None` without a hysteresis.
+/// The baseline model with gains of its own for each file; `None` without a hysteresis.
 pub(crate) fn with_own_gains(data: &Prepared, declared: &Solution) -> Option<Solution> {
     if !declared.structure.hysteresis {
         return None;
@@ -45,7 +45,7 @@ enum Beside {
     Other,
 }
 
-/// Where gains of their own for each file, those of `own`, make the declared model better than all
+/// Where gains of their own for each file, those of `own`, make the baseline model better than all
 /// that was added to it: the files that have another gain, or that they are not of one rig.
 pub(crate) fn judge_files(
     data: &Prepared,
@@ -100,7 +100,7 @@ fn far_apart(data: &Prepared, own: &Solution, done: &FinalFit) -> Vec<FileApart>
 pub(super) fn rigs_words(ledger: &Ledger) -> Option<String> {
     let rigs = ledger.rigs_apart.as_ref()?;
     Some(format!(
-        "These files do not seem to be of one rig: on the fit segments one model for all of them errs by {:.1} % of the output's standard deviation, and the declared model with gains of its own for each by {:.1} %. `--per-file gains` fits those.",
+        "These files do not seem to be from one rig: on the fit segments one model for all files has an error of {:.1} % of the output's standard deviation; with separate gains for each file the error is {:.1} %. `--per-file gains` fits separate gains.",
         100.0 * rigs.together,
         100.0 * rigs.own
     ))
@@ -196,11 +196,11 @@ pub(super) fn another_zero(data: &Prepared, done: &Solution) -> Option<String> {
     let piece = data.pieces.iter().skip(1).find(begins)?;
     let may_help = done.structure.hysteresis && done.structure.own_gains == 0;
     let gains = match may_help {
-        true => " `--per-file gains` fits one for each file.",
+        true => " `--per-file gains` fits an offset for each file.",
         false => "",
     };
     Some(format!(
-        "The pretension steps where `{}` begins: is the zero of a sensor another one there?{gains}",
+        "The preload steps at the start of `{}`: does the zero of a sensor differ in this file?{gains}",
         piece.path
     ))
 }
@@ -217,13 +217,13 @@ pub(super) fn apart_words(data: &Prepared, apart: &[FileApart]) -> Option<String
     let (first, others) = apart.split_first()?;
     let unit = data.output_unit.as_ref().map(|unit| format!(" {unit}"));
     let where_it_is = match data.pieces.iter().filter(|p| p.fitted).count() {
-        2 => "in one of the two",
+        2 => "in one of the two files",
         _ => "there",
     };
     let asked = match first.gain < 0.0 {
-        true => format!("Has a sensor another sign {where_it_is}?"),
+        true => format!("Does a sensor have the opposite sign {where_it_is}?"),
         false => format!(
-            "Has a sensor another unit or calibration {where_it_is}, or is the rig another one?"
+            "Does a sensor have a different unit or calibration {where_it_is}, or is the rig a different one?"
         ),
     };
     let also = match others {
@@ -233,10 +233,10 @@ pub(super) fn apart_words(data: &Prepared, apart: &[FileApart]) -> Option<String
             second.path,
             four_digits(second.gain)
         ),
-        more => format!(" {} more files have another gain.", more.len()),
+        more => format!(" {} more files have a different gain.", more.len()),
     };
     Some(format!(
-        "No one model describes these files: in `{}` the output is {} times what the gains of `{}` say, with an offset of {}{}. An error of {:.1} % of its standard deviation remains with that, {:.0} % without.{also} {asked} Mend the file, or give each one its gains with `--per-file gains`.",
+        "No single model describes these files: in `{}` the output is {} times the output with the gains of `{}`, with an offset of {}{}. An error of {:.1} % of its standard deviation remains with this correction, {:.0} % without.{also} {asked} Correct the file, or fit the gains of each file with `--per-file gains`.",
         first.path,
         four_digits(first.gain),
         first.than,

@@ -34,7 +34,7 @@ pub struct Parameter {
     /// Whether the record determines it.
     pub identified: bool,
     /// Why not, and what would show it; `None` where it is identified.
-    pub refused: Option<Refusal>,
+    pub not_identified: Option<Refusal>,
     /// By how many times its interval is too wide, where it is refused for that.
     #[serde(skip)]
     pub too_wide: Option<f64>,
@@ -407,7 +407,7 @@ fn refusal(entry: &Entry<'_>, wide: bool, partner: Option<(&str, f64)>) -> Refus
         (None, Some(with)) if wide => format!("interval wider than half its value, {with}"),
         (None, Some(with)) => with,
         (None, None) if wide => "interval wider than half its value".to_owned(),
-        (None, None) => "nothing in the record depends on it alone".to_owned(),
+        (None, None) => "no part of the record depends on it alone".to_owned(),
     };
     Refusal {
         reason,
@@ -456,7 +456,7 @@ pub fn parameters(data: &Prepared, solution: &Solution) -> Vec<Parameter> {
                 unit: entry.unit,
                 ci95: width.map(|w| [value - w, value + w]),
                 identified: width.is_some(),
-                refused,
+                not_identified: refused,
                 too_wide,
                 term: entry.term,
             }

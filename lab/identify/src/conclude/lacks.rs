@@ -1,4 +1,4 @@
-//! What the declared model lacks, and what naming it has done to the error: the first sentence.
+//! What the baseline model lacks, and what naming it has done to the error: the first sentence.
 
 use super::changes::{begins, other_rig};
 use super::errors::{
@@ -6,6 +6,7 @@ use super::errors::{
     worse_than_a_constant, RISES,
 };
 use super::final_fit::FinalFit;
+use super::mechanisms::{lacking, mechanisms, Complete};
 use crate::fit::Segments;
 use crate::ledger::Ledger;
 use crate::problem::Prepared;
@@ -13,30 +14,40 @@ use crate::problem::Prepared;
 /// What the added effects do to the held-out error.
 pub(super) fn lacks(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     let added = names(ledger, done);
-    let them = match added.len() {
+    match added.len() {
         0 if ledger.unknown.is_some() => {
             return format!(
-                "The declared model lacks something that is in no catalogue; with a curve for it the held-out error goes {}.",
+                "The baseline model lacks something that matches no effect in the catalogue; with a free curve for it the held-out error goes {}.",
                 from_to(data, ledger, done)
             )
         }
         0 => return nothing_found(data, ledger, done),
-        1 => "it",
-        _ => "them",
-    };
+        _ => {}
+    }
     if let Some(unknown) = &ledger.unknown {
         return beside_a_curve(data, ledger, done, &unknown.before);
     }
     let goes = match held_out_ratio(ledger, done) {
         r if r > RISES => "rises",
-        r if r * RISES >= 1.0 => "stays where it was,",
+        r if r * RISES >= 1.0 => "hardly changes,",
         _ => "falls",
     };
     format!(
-        "The declared model lacks {}: with {them} the held-out error {goes} {}.",
+        "{} With {} the held-out error {goes} {}.{}",
+        lacking(&mechanisms(data, ledger, done)),
         added.join(", then "),
-        from_to(data, ledger, done)
+        from_to(data, ledger, done),
+        candidates(data, ledger)
     )
+}
+
+/// What is to be said of the names of a model that is not complete.
+fn candidates(data: &Prepared, ledger: &Ledger) -> &'static str {
+    match (Complete::new(data, ledger).at_floor, ledger.rounds.len()) {
+        (true, _) | (_, 0) => "",
+        (false, 1) => " The term is a candidate: which formula describes the mechanism, this record does not tell.",
+        (false, _) => " The terms are candidates: which formulas describe the mechanisms, this record does not tell.",
+    }
 }
 
 /// What the names do, and what is left to a curve beside them: it is in the final error, and neither
@@ -45,7 +56,7 @@ fn beside_a_curve(data: &Prepared, ledger: &Ledger, done: &FinalFit, named: &Seg
     let added = names(ledger, done);
     let held_out = |rmse: &Segments| percent(rmse.normalised(data, &data.target).held_out);
     format!(
-        "The declared model lacks {}, and something that is in no catalogue: with the named effects the held-out error goes from {} to {} of the output's standard deviation, and with a curve for the rest to {}.",
+        "The baseline model lacks {}, and something that matches no effect in the catalogue: with the named effects the held-out error goes from {} to {} of the output's standard deviation, and with a curve for the rest to {}.",
         added.join(", then "),
         held_out(&ledger.declared.rmse),
         held_out(named),
@@ -56,17 +67,17 @@ fn beside_a_curve(data: &Prepared, ledger: &Ledger, done: &FinalFit, named: &Seg
 fn nothing_found(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     if ledger.is_stopped() {
         return format!(
-            "The declared model leaves a held-out error of {} of the output's standard deviation.",
+            "The baseline model has a held-out error of {} of the output's standard deviation.",
             percent(missed(data, done))
         );
     }
     // What is left is more than noise: the model lacks something all the same.
     match floors(data, done).is_some_and(|errors| !is_noise(data, errors)) {
         true => format!(
-            "No effect of the catalogue explains what the declared model leaves, {} of the output's standard deviation held out.",
+            "No effect of the catalogue explains the residual of the baseline model, {} of the output's standard deviation held out.",
             percent(missed(data, done))
         ),
-        false => "The declared model lacks no effect that this record could show.".to_owned(),
+        false => "This record shows no effect that the baseline model lacks.".to_owned(),
     }
 }
 
@@ -80,7 +91,7 @@ pub(super) fn rises(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String
     ) {
         let since = begins(data, done).map(|t| format!(", from {t:.3} s on"));
         return format!(
-            "The model does not carry over: its error is {} of the output's standard deviation on the fit segment and {} held out{}. Something differs there that the fit has not seen: do not use this model on other data.{}",
+            "The model does not transfer: its error is {} of the output's standard deviation on the fit segment and {} held out{}. The held-out segment differs from the fit segment: do not use this model on other data.{}",
             percent(fit),
             percent(held_out),
             since.unwrap_or_default(),
@@ -89,7 +100,7 @@ pub(super) fn rises(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String
     }
     if !is_worse(ledger, done) {
         return format!(
-            "On the held-out part the model is worse than a constant: its error goes {}. Do not use this model on other data.",
+            "On the held-out segment the model is worse than a constant: its error goes {}. Do not use this model on other data.",
             from_to(data, ledger, done)
         );
     }
@@ -102,9 +113,9 @@ pub(super) fn rises(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String
         let fell = falls_up_to(ledger);
         text += &format!(" Added were {}", added.join(", then "));
         text += &match fell {
-            0 => "; the first of them raises it already.".to_owned(),
-            n if n < added.len() => format!("; up to {} the error fell.", added[n - 1]),
-            _ => "; the last fit, on more data, raises it.".to_owned(),
+            0 => "; the first one already raises the error.".to_owned(),
+            n if n < added.len() => format!("; the error falls up to {}.", added[n - 1]),
+            _ => "; the final fit, on more data, raises the error.".to_owned(),
         };
     }
     text

@@ -11,6 +11,7 @@ pub mod files_apart;
 pub mod final_fit;
 pub mod intervals;
 mod lacks;
+pub mod mechanisms;
 mod no_model;
 pub mod resolution;
 pub mod rivals;

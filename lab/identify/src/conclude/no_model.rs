@@ -15,7 +15,7 @@ use bowden::model::Source;
 /// Least share of the held-out output that the input explains of a model worth the name.
 const LEAST_EXPLAINED: f64 = 0.5;
 
-/// Whether the declared model reads the input at all: one that was declared over other
+/// Whether the baseline model reads the input at all: one that was declared over other
 /// channels alone is judged by those.
 fn reads_input(declared: &Solution) -> bool {
     let structure = &declared.structure;
@@ -53,7 +53,7 @@ fn is_friction_alone(solution: &Solution) -> bool {
     read.peek().is_some() && read.all(|t| is_friction(t.effect.family()))
 }
 
-/// The share of the output that the declared model explains by the input alone, where a channel
+/// The share of the output that the baseline model explains by the input alone, where a channel
 /// stands for the output in the delivered one.
 fn stood_in_for(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Option<f64> {
     let shares = explained(data, &done.solution);
@@ -91,7 +91,7 @@ fn explains(data: &Prepared, shares: Explained) -> String {
     }
     if shares.time >= 0.005 {
         text += &format!(
-            ", and tones and drifts, which are functions of nothing measured, {}",
+            ", and tones and drifts (functions of time only) {}",
             share_of(shares.time)
         );
     }
@@ -102,13 +102,13 @@ pub(super) fn no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Str
     let (input, output) = (&data.input.name, &data.output_name);
     if ledger.integrates {
         let swap = match data.mode {
-            Mode::Torque => "they were taken for each other".to_owned(),
+            Mode::Torque => "they were mixed up".to_owned(),
             Mode::Displacement => format!(
-                "`{input}` is the force and `{output}` the motion: a spring in series with a dashpot flows under its force"
+                "`{input}` is the force and `{output}` the motion: a spring in series with a dashpot creeps under a constant force"
             ),
         };
         return format!(
-            "The output integrates the input: the rate of `{output}` follows `{input}`, not `{output}` itself. No effect was looked for. Differentiate `{output}` first, or swap the columns if {swap}."
+            "The output integrates the input: the rate of `{output}` follows `{input}`, not `{output}` itself. There was no search. Differentiate `{output}` first, or swap the columns if {swap}."
         );
     }
     if let Some(words) = apart_words(data, &ledger.apart) {
@@ -119,19 +119,19 @@ pub(super) fn no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Str
     }
     if data.is_at_rest() {
         return format!(
-            "There is no model here: the input `{input}` is at rest, and shows its sensor's noise alone. Move it, and record that."
+            "This record gives no model: the input `{input}` is at rest and shows only its sensor's noise. Record a motion."
         );
     }
     let shares = explained(data, &done.solution);
     if let Some(alone) = stood_in_for(data, ledger, done) {
         return format!(
-            "This is no model of the transmission: {}, although the declared model alone explains {} by the input. A channel stands for the output, as the angle behind a spring does: leave its column out.",
+            "This is not a model of the transmission: {}, although in the baseline model alone the input explains {}. A channel repeats the output, as the angle behind a spring does: omit its column.",
             explains(data, shares),
             share_of(alone)
         );
     }
     format!(
-        "There is no model here: {}. Is `{input}` the right input, in the right file, and is its sensor connected?",
+        "This record gives no model: {}. Is `{input}` the right input, in the right file, and is its sensor connected?",
         explains(data, shares)
     )
 }

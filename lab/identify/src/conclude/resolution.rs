@@ -92,10 +92,10 @@ pub(crate) fn told(data: &mut Prepared, ledger: &mut Ledger, coarse: Vec<CoarseC
         };
         let is_weak = |r: &&mut Round| r.term().source == source && is_explained(r, one.error);
         for round in ledger.beyond.iter_mut().filter(is_weak) {
-            round.grade = Grade::Weak;
+            round.grade = Grade::Low;
         }
         for round in ledger.rounds.iter_mut().filter(is_weak) {
-            round.grade = Grade::Weak;
+            round.grade = Grade::Low;
             one.names.push(round.term().effect.name().to_owned());
         }
         let is_known = |d: &Defect| d.kind == DefectKind::Quantisation && d.channel == one.channel;
@@ -129,7 +129,7 @@ fn note(data: &Prepared, coarse: &CoarseChannel) -> String {
         false => format!("{:.2e} of the output's unit", coarse.error),
     };
     format!(
-        "`{}` is resolved to {}, 1/{} of its range, which through the model is an error of {error}",
+        "`{}` has a resolution of {}, 1/{} of its range, which causes an error of {error} in the model's output",
         coarse.channel,
         with_unit(data, coarse),
         coarse.counts
@@ -154,7 +154,7 @@ pub(super) fn coarse_words(data: &Prepared, ledger: &Ledger) -> Vec<String> {
             names => format!(", here {},", names.join(", ")),
         };
         format!(
-            "`{}` is resolved to {}, 1/{} of its range, and its steps account for much of the residual: names that depend on its velocity or its reversals{names} are uncertain.",
+            "`{}` has a resolution of {}, 1/{} of its range, and its steps account for much of the residual: terms that depend on its velocity or its reversals{names} are uncertain.",
             one.channel, with_unit(data, one), one.counts
         )
     };

@@ -85,13 +85,13 @@ impl Signals {
     ) -> Result<Self, String> {
         let unit = data.output_unit.as_deref();
         let mut segments = vec![Segment::Dropped; data.target.len()];
-        let first = match data.split.stop.is_empty() && data.split.held_out.is_empty() {
+        let first = match data.split.selection.is_empty() && data.split.held_out.is_empty() {
             true => Segment::Checked,
             false => Segment::Fit,
         };
         for (segment, rows) in [
             (first, &data.split.fit),
-            (Segment::Stop, &data.split.stop),
+            (Segment::Stop, &data.split.selection),
             (Segment::HeldOut, &data.split.held_out),
         ] {
             rows.iter().for_each(|&row| segments[row] = segment);

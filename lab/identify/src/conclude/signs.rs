@@ -38,7 +38,7 @@ pub(super) fn of_the_motion(data: &Prepared, solution: &Solution) -> Option<Stri
     let tones: Vec<String> = tones.map(|t| term_title(data, t)).collect();
     (!tones.is_empty()).then(|| {
         format!(
-            "The frequency of {} is a sum, a difference or a multiple of those of the motion: friction that the model lacks makes such lines, and it need be no disturbance from outside.",
+            "The frequency of {} is a sum, a difference or a multiple of the motion's frequencies: missing friction causes such lines, even without an external disturbance.",
             tones.join(", ")
         )
     })
@@ -50,7 +50,7 @@ pub(super) fn of_tension(data: &Prepared, solution: &Solution) -> Option<String>
     let is_of_torque =
         |t: &FitTerm| t.effect.name() == "position-hysteresis" && t.source == Source::Input;
     (data.mode == Mode::Torque && terms.any(is_of_torque)).then(|| {
-        "The position-hysteresis of the torque is eta times the torque: the friction of the cable grows with its tension, as that of a rope on a post does.".to_owned()
+        "The position-hysteresis of the torque is eta times the torque: the friction of the cable grows with its tension, as for a rope around a post.".to_owned()
     })
 }
 
@@ -78,7 +78,7 @@ pub(super) fn falls(data: &Prepared, solution: &Solution) -> Option<String> {
     let (slope, _) = line(rows.map(|&i| (solution.columns[0][i], data.target[i])));
     (slope < 0.0).then(|| {
         format!(
-            "`{}` falls where `{}` rises: one of them counts the other way, and `bowden design` refuses the model until that is mended.",
+            "`{}` falls while `{}` rises: one of them has the opposite sign, and `bowden design` refuses the model until this is corrected.",
             data.output_name, data.input.name
         )
     })
@@ -130,7 +130,7 @@ pub(super) fn turns_against(done: &FinalFit) -> Option<String> {
     let is_known = shown.ci95.is_none_or(|[low, high]| low * high > 0.0);
     is_known.then(|| {
         format!(
-            "The loop of the hysteresis turns against that of the output (kappa_eta {:.3}): its gain and what {} does cancel in part, so that neither is one of the rig by itself.",
+            "The hysteresis loop runs in the opposite sense to the output's loop (kappa_eta {:.3}): its gain and the effect of {} partly cancel, so neither alone is a property of the rig.",
             shown.value,
             others.join(", ")
         )

@@ -54,7 +54,7 @@ pub fn trace(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Result<String
     let mut columns = vec![
         input(data),
         Column::new("measured", unit, data.target.clone()),
-        Column::new("declared", unit, ledger.declared.prediction.clone()),
+        Column::new("baseline", unit, ledger.declared.prediction.clone()),
         Column::new("final", unit, last.prediction.clone()),
         Column::new("residual", unit, last.residual.clone()),
     ];
@@ -62,7 +62,7 @@ pub fn trace(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Result<String
     let mut segments = vec!["dropped"; data.target.len()];
     for (name, rows) in [
         ("fit", &data.split.fit),
-        ("stop", &data.split.stop),
+        ("selection", &data.split.selection),
         ("held-out", &data.split.held_out),
     ] {
         rows.iter().for_each(|&row| segments[row] = name);

@@ -1,4 +1,4 @@
-//! Parts of the declared model that the data do not need.
+//! Parts of the baseline model that the data do not need.
 //!
 //! By size and not by significance: on a long record every part is significant. Each part is
 //! taken out of the final model, the others are refitted, and where the error on held-out
@@ -28,10 +28,10 @@ pub struct Unneeded {
     /// The same with it.
     pub held_out_with: f64,
     /// Whether the final model leaves it out: the hysteresis, where it is ballast.
-    pub left_out: bool,
+    pub removed: bool,
 }
 
-/// The parts of the declared model without which the final model is as good.
+/// The parts of the baseline model without which the final model is as good.
 #[must_use]
 pub fn unneeded(ledger: &Ledger, done: &FinalFit) -> Vec<Unneeded> {
     use rayon::prelude::*;
@@ -52,7 +52,7 @@ pub fn unneeded(ledger: &Ledger, done: &FinalFit) -> Vec<Unneeded> {
                 effect: part.map_or_else(|| "bouc-wen".to_owned(), name),
                 held_out_without,
                 held_out_with: last.rmse.held_out,
-                left_out: false,
+                removed: false,
             })
         })
         .collect();
@@ -60,7 +60,7 @@ pub fn unneeded(ledger: &Ledger, done: &FinalFit) -> Vec<Unneeded> {
         effect: "bouc-wen".to_owned(),
         held_out_without: done.rmse.held_out,
         held_out_with,
-        left_out: true,
+        removed: true,
     });
     hysteresis
         .into_iter()

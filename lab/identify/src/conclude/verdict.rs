@@ -5,8 +5,8 @@
 
 use super::ballast::Part;
 use super::by_file::worse;
-use super::changes::{lead, other_line, other_rig, starts_apart, unseen_motion, velocity_words};
 use super::changes::{made_without_input, stands_for_output};
+use super::changes::{other_line, other_rig, starts_apart, unseen_motion, velocity_words};
 use super::channel_apart::channel_words;
 pub use super::errors::{falls_up_to, held_out_ratio, percent, raises, POOR, RISES};
 use super::errors::{
@@ -29,7 +29,6 @@ use crate::score::blocks::Regime;
 use crate::score::explains::{deviations, segments_differ};
 use crate::score::whiteness::is_white;
 use crate::search::policy::AT_FLOOR;
-use bowden::effect::Family;
 use bowden::model::Source;
 
 /// What the run amounts to.
@@ -38,22 +37,22 @@ use bowden::model::Source;
 pub enum Verdict {
     /// The input explains less than half of the output, the output integrates it, or one file has
     /// another gain than the others.
-    NoModel,
+    NoInputDependence,
     /// The delivered model predicts held-out data worse than the declared one, worse than a
     /// constant, or with many times the error of the fit segment.
-    DoesNotCarryOver,
+    NotTransferable,
     /// The residual is the sensor's noise, on the fit segment and held out.
     Explained,
     /// The residual is more than that, and no effect of the catalogue was found in it.
-    ExplainedColoured,
+    StructuredResidual,
     /// The residual depends on something measured, in a way that has no name.
-    Unknown,
+    UnmodelledDependence,
     /// An added effect has rivals that this record cannot tell from it.
-    Confounded,
+    Ambiguous,
     /// Too few independent stretches for a test: names are proposals.
     UnderExcited,
     /// What was concluded rests on a measurement that is spoilt.
-    DataDefect,
+    DefectiveRecord,
     /// The search was ended by request, and more than noise is left.
     Stopped,
 }
@@ -63,14 +62,14 @@ impl Verdict {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Self::NoModel => "no-model",
-            Self::DoesNotCarryOver => "does-not-carry-over",
+            Self::NoInputDependence => "no-input-dependence",
+            Self::NotTransferable => "not-transferable",
             Self::Explained => "explained",
-            Self::ExplainedColoured => "explained-coloured",
-            Self::Unknown => "unknown",
-            Self::Confounded => "confounded",
+            Self::StructuredResidual => "structured-residual",
+            Self::UnmodelledDependence => "unmodelled-dependence",
+            Self::Ambiguous => "ambiguous",
             Self::UnderExcited => "under-excited",
-            Self::DataDefect => "data-defect",
+            Self::DefectiveRecord => "defective-record",
             Self::Stopped => "stopped",
         }
     }
@@ -105,26 +104,26 @@ pub fn verdict(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Verdict {
     // Where nothing was looked for there are no names that a test could be too weak for.
     let only_fitted = ledger.is_stopped() && ledger.rounds.is_empty();
     if spoils(data, last).next().is_some() {
-        Verdict::DataDefect
+        Verdict::DefectiveRecord
     } else if is_no_model(data, ledger, done) {
-        Verdict::NoModel
+        Verdict::NoInputDependence
     } else if is_worse(ledger, done)
         || worse_than_a_constant(data, done)
         || other_rig(data, done).is_some()
     {
-        Verdict::DoesNotCarryOver
+        Verdict::NotTransferable
     } else if ledger.unknown.is_some() && !untested {
-        Verdict::Unknown
+        Verdict::UnmodelledDependence
     } else if untested || (ledger.regime == Regime::Effect && !only_fitted) {
         Verdict::UnderExcited
     } else if ledger.rounds.iter().any(|r| !r.rivals.is_empty()) {
-        Verdict::Confounded
+        Verdict::Ambiguous
     } else if floors(data, done).is_some_and(|errors| is_noise(data, errors)) {
         Verdict::Explained
     } else if ledger.is_stopped() {
         Verdict::Stopped
     } else {
-        Verdict::ExplainedColoured
+        Verdict::StructuredResidual
     }
 }
 
@@ -134,12 +133,11 @@ pub fn unknown_words(data: &Prepared, ledger: &Ledger) -> Option<String> {
     let unknown = ledger.unknown.as_ref()?;
     // What names would take is known to first order; what was refitted and tested is decisive.
     let but = match unknown.q >= NEARLY_ALL {
-        true => ", but none that was refitted is accepted",
+        true => ", but none is accepted after a refit",
         false => "",
     };
     Some(format!(
-        "The residual depends on {}; to first order the best one or two effects of the catalogue \
-         take {:.0} % of what a curve over it takes{but}.",
+        "The residual depends on {}; to first order, the best one or two effects of the catalogue explain {:.0} % of what a curve over it explains{but}.",
         unknown.variable.words(data),
         100.0 * unknown.q
     ))
@@ -148,23 +146,21 @@ pub fn unknown_words(data: &Prepared, ledger: &Ledger) -> Option<String> {
 fn coloured(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     if let Some((_, held_out)) = floors(data, done).filter(|(fit, _)| *fit <= AT_FLOOR) {
         return format!(
-            "The residual is the sensor's noise on the fit segment, but {held_out:.1} times that held out: something differs there that the fit has not seen."
+            "The residual is the sensor's noise on the fit segment, but {held_out:.1} times that held out: the held-out segment differs from the fit segment."
         );
     }
     let size = match multiples(data, done) {
         Some(size) => format!("The residual is {size}"),
-        None => "The record does not show its noise floor (the cut-off is too near to half the sampling rate)".to_owned(),
+        None => "The record does not show its noise floor (the cut-off is too close to half the sampling rate)".to_owned(),
     };
     match is_white(data, ledger.last()) {
         true => {
-            format!("{size}; it looks like white noise, and depends on nothing that was measured.")
+            format!("{size}; it looks like white noise and depends on no measured quantity.")
         }
         // The first sentence says already that no effect was found.
         false if ledger.rounds.is_empty() => format!("{size}; it is coloured."),
         false => {
-            format!(
-                "{size}; it is coloured, but no further effect of the catalogue was found in it."
-            )
+            format!("{size}; it is coloured, but no further effect of the catalogue explains it.")
         }
     }
 }
@@ -176,7 +172,7 @@ fn confounded(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
         (done.title_of(round), rivals.collect())
     });
     let pairs = each_pair_once(rounds);
-    format!("This record cannot tell {}.", pairs.join("; nor "))
+    format!("This record cannot distinguish {}.", pairs.join("; nor "))
 }
 
 /// `backlash`, `play(x) - x`, is `presliding`, `(x - play(x))/r`, with another factor: what is to be
@@ -187,12 +183,12 @@ fn one_function(data: &Prepared, done: &FinalFit) -> Option<String> {
     let is_on_the_spring = data.mode == Mode::Displacement && term.source == Source::Input;
     let own = match is_on_the_spring && done.solution.structure.hysteresis {
         true => {
-            "; a presliding of the sign of kappa_x is a spring that slips, one of the other sign is slack"
+            "; presliding with the sign of kappa_x is a slipping spring, with the opposite sign it is slack"
         }
         false => "",
     };
     Some(format!(
-        "Presliding and backlash are one function with opposite signs, so that no record tells one from the other{own}."
+        "Presliding and backlash are one function with opposite signs: either name is right{own}."
     ))
 }
 
@@ -200,13 +196,13 @@ fn one_function(data: &Prepared, done: &FinalFit) -> Option<String> {
 fn ballast(done: &FinalFit) -> Option<String> {
     if done.without_hysteresis.is_some() {
         return Some(
-            "The declared hysteresis is left out of the model: here it cannot be told from a spring and an offset."
+            "The baseline hysteresis is excluded from the model: this record cannot distinguish it from a spring and an offset."
                 .to_owned(),
         );
     }
     let part = Part::of(&done.data, &done.solution).filter(Part::is_ballast)?;
     Some(format!(
-        "The hysteresis is a spring and an offset here but for {} of the output: their gains cancel each other, and the model holds within the recorded range only.",
+        "On this record the hysteresis differs from a spring and an offset by {} of the output: their gains cancel each other, and the model holds within the recorded range only.",
         percent(part.own)
     ))
 }
@@ -215,28 +211,28 @@ fn ballast(done: &FinalFit) -> Option<String> {
 fn rest(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -> String {
     match found {
         Verdict::Explained => "The residual is the sensor's noise.".to_owned(),
-        Verdict::ExplainedColoured => coloured(data, ledger, done),
-        Verdict::Unknown => unknown_words(data, ledger).unwrap_or_default(),
-        Verdict::Confounded => confounded(data, ledger, done),
+        Verdict::StructuredResidual => coloured(data, ledger, done),
+        Verdict::UnmodelledDependence => unknown_words(data, ledger).unwrap_or_default(),
+        Verdict::Ambiguous => confounded(data, ledger, done),
         Verdict::UnderExcited => {
             let names = match ledger.rounds.is_empty() {
-                true => "an effect would have to be large to be found",
-                false => "take the names as proposals",
+                true => "only a large effect would be found",
+                false => "the named terms are proposals",
             };
             format!("The record has too few independent stretches for a test: {names}.")
         }
-        Verdict::DataDefect => {
+        Verdict::DefectiveRecord => {
             let list: Vec<String> = spoils(data, ledger.last())
                 .map(|defect| format!("{} ({})", defect.channel, defect.kind.name()))
                 .collect();
             format!(
-                "But the measurement itself is spoilt: {}. Mend it and record again.",
+                "The measurement is defective: {}. Repair it and record again.",
                 list.join(", ")
             )
         }
         Verdict::Stopped => multiples(data, done)
             .map_or_else(String::new, |size| format!("The residual is {size}.")),
-        Verdict::NoModel | Verdict::DoesNotCarryOver => String::new(),
+        Verdict::NoInputDependence | Verdict::NotTransferable => String::new(),
     }
 }
 
@@ -247,16 +243,16 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
     let is_mended = ledger.channel_apart.is_some();
     let says_no_size = matches!(
         found,
-        Verdict::Unknown | Verdict::Confounded | Verdict::UnderExcited
+        Verdict::UnmodelledDependence | Verdict::Ambiguous | Verdict::UnderExcited
     );
     if says_no_size && floors(data, done).is_some_and(|errors| !is_noise(data, errors)) {
         all.extend(multiples(data, done).map(|size| format!("The residual is {size}.")));
     }
-    if found == Verdict::DataDefect {
+    if found == Verdict::DefectiveRecord {
         all.extend(apart_words(data, &ledger.apart));
         all.extend(ledger.channel_apart.as_ref().map(channel_words));
     }
-    if found != Verdict::DoesNotCarryOver {
+    if found != Verdict::NotTransferable {
         all.extend(poor_words(data, done));
     }
     all.extend(unseen_motion(data, done));
@@ -272,35 +268,35 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
     all.extend(coarse_words(data, ledger));
     if let Some(channel) = stands_for_output(data, &ledger.declared, &done.solution) {
         all.push(format!(
-            "Nearly all of the output is made of `{channel}` here, although the declared model does without it: does it measure the output, as the angle behind a spring does? Then leave its column out."
+            "Nearly all of the model's output comes from `{channel}`, although the baseline model does not need it: does it measure the output, as the angle behind a spring does? If so, omit its column."
         ));
     } else if let Some(channel) = made_without_input(data, &done.solution) {
         all.push(format!(
-            "Nearly all of the output is made of `{channel}` here and nothing of `{}`: in this record the load follows `{channel}`, and the model is one of the load. It will not hold with another load; record with one, or declare what the transmission does.",
+            "Nearly all of the model's output comes from `{channel}` and none from `{}`: in this record the load follows `{channel}`, so the model describes the load. It will not hold with another load: record one, or name the transmission's terms in --baseline.",
             data.input.name
         ));
-    } else if let Some(lead) = lead(data, ledger, &done.solution).filter(|_| !is_mended) {
-        all.push(clocks(data, ledger, done, lead));
+    } else if let Some(lead) = ledger.lead.filter(|_| !is_mended) {
+        all.push(clocks(data, done, lead));
     }
     all.extend(ledger.stopped_words());
     if segments_differ(data) {
         let (fit, held_out) = deviations(data);
         all.push(match fit > held_out {
-            true => format!("The output moves {:.0} times less on the held-out part than on the fit segment: percentages of the one say little of the other.", fit / held_out),
-            false => format!("The output moves {:.0} times more on the held-out part than on the fit segment: percentages of the one say little of the other.", held_out / fit),
+            true => format!("The output moves {:.0} times less on the held-out segment than on the fit segment: their percentages are not comparable.", fit / held_out),
+            false => format!("The output moves {:.0} times more on the held-out segment than on the fit segment: their percentages are not comparable.", held_out / fit),
         });
     }
     let fell = falls_up_to(ledger);
-    if found != Verdict::DoesNotCarryOver && fell < ledger.rounds.len() {
+    if found != Verdict::NotTransferable && fell < ledger.rounds.len() {
         let first = &names(ledger, done)[fell];
         all.push(match fell {
-            0 => format!("On held-out data {first} raises the error already."),
-            n => format!("On held-out data the error fell up to round {n}; {first} raises it."),
+            0 => format!("On held-out data the first term, {first}, already raises the error."),
+            n => format!("On held-out data the error falls up to round {n}; {first} raises it."),
         });
     }
     for file in worse(data, &ledger.declared, &done.solution) {
         all.push(format!(
-            "It is worse for {}: {:.1} % → {:.1} %.",
+            "The error rises for {}: {:.1} % → {:.1} %.",
             file.path,
             100.0 * file.before,
             100.0 * file.after
@@ -308,7 +304,7 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
     }
     if ledger.rounds.len() > 3 {
         all.push(
-            "Names after the third round carry little meaning: by then many effects would do."
+            "Terms after the third one carry little meaning: several effects would fit equally well."
                 .to_owned(),
         );
     }
@@ -318,23 +314,16 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
 /// Multiple of the noise floor from which a lead is no matter of clocks alone. A choice.
 const MUCH: f64 = 3.0;
 
-/// What is to be said of an output that comes before its input by so much \[s\]. Where much is left, or
-/// an effect that is no stage does as well, what leads may be a part of the rig that the model lacks.
-fn clocks(data: &Prepared, ledger: &Ledger, done: &FinalFit, lead: f64) -> String {
+/// What is to be said of an output that comes before its input by so much \[s\]. Where the residual is
+/// large, the lead may be a part of the rig that the model lacks.
+fn clocks(data: &Prepared, done: &FinalFit, lead: f64) -> String {
     let ms = 1e3 * lead;
-    let is_stage = |family: Family| matches!(family, Family::Delay | Family::Lag);
-    let mut stages = ledger
-        .rounds
-        .iter()
-        .filter(|r| is_stage(r.candidate.family));
-    let is_clock = stages.any(|r| r.rivals.iter().all(|rival| is_stage(rival.family)));
-    let is_much = floors(data, done).is_some_and(|(fit, _)| fit > MUCH);
-    match is_much || !is_clock {
+    match floors(data, done).is_some_and(|(fit, _)| fit > MUCH) {
         true => format!(
-            "In the model the output comes about {ms:.1} ms before the input that it answers, which no transmission does: either the two were not logged on one clock, or that stands for something which the model lacks."
+            "In the model the output precedes the input by about {ms:.1} ms, which is not causal: either the two were logged on different clocks, or the lead is an effect that the model lacks."
         ),
         false => format!(
-            "The output comes about {ms:.1} ms before the input that it answers, which no transmission does: were both logged on one clock?"
+            "The output precedes the input by about {ms:.1} ms, which is not causal: were both logged on one clock?"
         ),
     }
 }
@@ -344,12 +333,12 @@ fn clocks(data: &Prepared, ledger: &Ledger, done: &FinalFit, lead: f64) -> Strin
 pub fn sentence(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     let found = verdict(data, ledger, done);
     let mut all = match found {
-        Verdict::NoModel => {
+        Verdict::NoInputDependence => {
             let words = velocity_words(data).into_iter();
             let all = std::iter::once(no_model(data, ledger, done)).chain(words);
             return all.collect::<Vec<_>>().join(" ");
         }
-        Verdict::DoesNotCarryOver => {
+        Verdict::NotTransferable => {
             vec![rises(data, ledger, done) + &other_line(data, done).unwrap_or_default()]
         }
         _ => vec![lacks(data, ledger, done), rest(data, ledger, done, found)],

@@ -19,7 +19,7 @@ pub struct About {
     pub by: String,
     /// Names of the files that were fitted, without folders.
     pub records: Vec<String>,
-    /// The verdict of `bowden close` on the record: with `no-model` it is not to be used.
+    /// The verdict of `bowden identify` on the record: with `no-input-dependence` it is not to be used.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub verdict: Option<String>,
     /// Which of them has the gains of this model, where each has its own.
@@ -44,7 +44,7 @@ pub struct About {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub play: Option<PlayBefore>,
     /// Parts of the fitted model that are not in this one.
-    pub left_out: Vec<LeftOut>,
+    pub excluded_terms: Vec<LeftOut>,
     /// Parameters that the record does not determine.
     pub not_identified: Vec<NotIdentified>,
     /// The unit of each parameter and of each source, by name.
@@ -90,7 +90,7 @@ pub struct LeftOut {
     /// Its name, as in the report.
     pub effect: String,
     /// Why.
-    pub because: String,
+    pub reason: String,
 }
 
 /// A parameter that the record does not determine.
@@ -99,7 +99,7 @@ pub struct NotIdentified {
     /// Its name, as in the report.
     pub parameter: String,
     /// Why.
-    pub because: String,
+    pub reason: String,
 }
 
 /// What the fit has seen of a source: least and greatest values.
@@ -141,9 +141,14 @@ impl About {
     /// What somebody has to know before the model is used, where its verdict forbids that.
     #[must_use]
     pub fn warning(&self) -> Option<String> {
-        let forbids = |v: &&str| matches!(*v, "no-model" | "does-not-carry-over" | "data-defect");
+        let forbids = |v: &&str| {
+            matches!(
+                *v,
+                "no-input-dependence" | "not-transferable" | "defective-record"
+            )
+        };
         let verdict = self.verdict.as_deref().filter(forbids)?;
-        Some(format!("NOT TO BE USED: its verdict is `{verdict}`."))
+        Some(format!("DO NOT USE: its verdict is `{verdict}`."))
     }
 
     /// What a record says of a solution; what else there is to say is the caller's.
@@ -157,9 +162,9 @@ impl About {
         let refused = parameters
             .filter(|p| of_the_model(&p.name))
             .filter_map(|p| {
-                let because = p.refused?.reason;
+                let reason = p.not_identified?.reason;
                 let parameter = p.name;
-                Some(NotIdentified { parameter, because })
+                Some(NotIdentified { parameter, reason })
             });
         Self {
             by: format!("bowden {}", env!("CARGO_PKG_VERSION")),
@@ -201,8 +206,12 @@ impl About {
         if let Some(own) = &self.gains_of {
             remark += &format!("; gains of {own}");
         }
-        if !self.left_out.is_empty() {
-            let names: Vec<&str> = self.left_out.iter().map(|l| l.effect.as_str()).collect();
+        if !self.excluded_terms.is_empty() {
+            let names: Vec<&str> = self
+                .excluded_terms
+                .iter()
+                .map(|l| l.effect.as_str())
+                .collect();
             remark += &format!(". NOT IN THIS MODEL: {}", names.join(", "));
         }
         remark

@@ -19,7 +19,8 @@ macro_rules! line {
 impl ModelFile {
     /// As a C header: the bytes in `f32` and `f64`, functions `NAME_load_f32` and
     /// `NAME_compensator_f32` (and `_f64`), the channels' places, the ranges, and the time
-    /// constant for `bowden_rates_init`. `name` is the stem of its file, see [`prefix`].
+    /// constant for `bowden_rates_settings_f32` (and `_f64`). `name` is the stem of its file, see
+    /// [`prefix`].
     ///
     /// # Errors
     /// One sentence where the name gives no prefix, the core refuses a part, or the C interface
@@ -37,7 +38,7 @@ impl ModelFile {
             let tau = about.rates_time_constant_s;
             line!(
                 body,
-                "/* Time constant of bowden_rates_init for the rates of every source [s]. */"
+                "/* time_constant of BOWDEN_RATES_SETTINGS_F32_INIT and _F64_INIT, for every source [s]. */"
             );
             line!(
                 body,
@@ -110,7 +111,7 @@ impl ModelFile {
         let upper = lower.to_uppercase();
         line!(
             text,
-            "The prefix {lower}_ (of macros {upper}_) is that of the file name {name:?}."
+            "The prefix {lower}_ (of macros {upper}_) comes from the file name {name:?}."
         );
         line!(text, "");
         line!(text, "bowden_model_f32 model;");
@@ -128,7 +129,7 @@ impl ModelFile {
     fn places(&self, about: &About, upper: &str, out: &mut String) {
         line!(
             out,
-            "/* How many channels a sample has; at least those that the model reads. */"
+            "/* Number of channels of a sample: at least those that the model reads. */"
         );
         line!(
             out,
@@ -176,7 +177,7 @@ impl ModelFile {
             ranges = format!("{lower}_ranges_{suffix}");
             line!(
                 out,
-                "/* What the fit has seen of each source: position, velocity, acceleration. */"
+                "/* Range of each source in the fitted record: position, velocity, acceleration. */"
             );
             line!(
                 out,
@@ -208,7 +209,7 @@ impl ModelFile {
         );
         line!(
             out,
-            "/* Turns the loaded model round, within what the fit has seen. */"
+            "/* Inverts the loaded model, within the ranges of the fitted record. */"
         );
         line!(
             out,

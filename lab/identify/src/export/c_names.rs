@@ -11,13 +11,13 @@ const TAKEN: [&str; 2] = ["bowden", "bowden_model"];
 /// with different contents meet, the compiler says so.
 ///
 /// # Errors
-/// What else was expected, where there is no Latin or Greek letter, or the names would be the
+/// What else is needed, where there is no Latin or Greek letter, or the names would be the
 /// library's.
 pub fn prefix(name: &str) -> Result<String, String> {
     let own = signs(name).to_lowercase();
     if !own.contains(|c: char| c.is_ascii_alphabetic()) {
         return Err(
-            "names of C are made from this name: one with a letter from a to z, or a Greek one, was expected, such as rig or rig_1"
+            "C names are made from this name: it needs a letter from a to z or a Greek letter, as in rig or rig_1"
                 .to_owned(),
         );
     }
@@ -27,7 +27,7 @@ pub fn prefix(name: &str) -> Result<String, String> {
     };
     if TAKEN.contains(&prefix.as_str()) {
         return Err(
-            "is a name of the library's own, and what is named after it would be there twice; another one was expected"
+            "is a name of the library, and names made from it would be defined twice; another name is needed"
                 .to_owned(),
         );
     }

@@ -42,7 +42,7 @@ pub fn causal(
     let mut answered = Vec::with_capacity(records.len());
     for (index, record) in records.iter().enumerate() {
         let file = files.get(index).or(files.first());
-        let file = file.ok_or("no model was handed over")?;
+        let file = file.ok_or("no model was exported")?;
         answered.push(answers(data, record, file, time_constant, half_width)?);
     }
     let answered = data.answered(records, answered)?;

@@ -36,11 +36,14 @@ const HELPS: f64 = 0.5;
 /// Why a stage is not handed over.
 const NO_INVERSE: &str = "--invertible: it has no inverse";
 
+/// What `--invertible` does to the gain of a transmission on the bound.
+pub const TIED: &str = "held at 2·sigma·kappa_eta·rho by --invertible";
+
 /// The model that is handed over, and what it is worth.
 #[derive(Debug, Clone)]
 pub struct HandOver {
     /// The fit that is written.
-    pub solution: Solution,
+    pub fitted: FinalFit,
     /// The files: one, or one for each record with gains of its own.
     pub files: Vec<ModelFile>,
     /// Parts of the final model that are not in it.
@@ -79,11 +82,18 @@ impl HandOver {
         firmware > NOTABLE && firmware > OFF * fit
     }
 
+    /// Whether `--invertible` has made it another model than the final one.
+    #[must_use]
+    pub fn is_another(&self) -> bool {
+        let on_bound = self.fitted.solution.structure.invertible;
+        self.within_inverse && (on_bound || !self.left_out.is_empty())
+    }
+
     /// With play before the hysteresis, where that helps.
     fn calmed(&self, records: &[Record], data: &Prepared) -> Result<Option<Calmed>, String> {
         let noise = records.iter().map(|record| noise(&record.input.values));
         let half_width = PLAY * noise.fold(0.0, f64::max);
-        if !self.is_off() || !self.solution.structure.hysteresis || half_width <= 0.0 {
+        if !self.is_off() || !self.fitted.solution.structure.hysteresis || half_width <= 0.0 {
             return Ok(None);
         }
         let play = Some(half_width);
@@ -110,8 +120,8 @@ impl HandOver {
     ) -> Result<Self, String> {
         if invertible && !done.solution.structure.hysteresis {
             let because = match done.without_hysteresis {
-                Some(_) => "here it cannot be told from a spring and an offset",
-                None => "--declare leaves it out",
+                Some(_) => "this record cannot distinguish it from a spring and an offset",
+                None => "--baseline leaves it out",
             };
             return Err(format!(
                 "--invertible: only bouc-wen can be inverted, and {because}"
@@ -120,75 +130,70 @@ impl HandOver {
         let mut left_out = Vec::new();
         let mut base = done.clone();
         if invertible {
-            progress("looking for effects that can be inverted");
+            progress("searching for invertible effects");
             if let Some(other) = without_stages(data, ledger, done, &mut progress)? {
                 let names = stages(data, &done.solution).into_iter();
                 left_out.extend(names.map(|effect| LeftOut {
                     effect,
-                    because: NO_INVERSE.to_owned(),
+                    reason: NO_INVERSE.to_owned(),
                 }));
                 base = other;
             }
         }
         left_out.extend(records_own(data, &base.solution));
-        progress("fitting what is handed over");
-        let solution = handed_over(&base, invertible)?;
-        let models = || -> Vec<ModelFile> {
-            let several = match solution.structure.own_gains {
-                0 => 1,
-                own => own,
-            };
-            let own = |record| ModelFile::of_record(&base.data, &solution, record);
-            (0..several).map(own).collect()
-        };
-        let files = models();
+        progress("fitting the exported model");
+        base.solution = handed_over(&base, invertible)?;
+        base.rmse = Segments::of(data, &base.solution.residual);
+        let own = |record| ModelFile::of_record(&base.data, &base.solution, record);
+        let several = base.solution.structure.own_gains.max(1);
+        let files: Vec<ModelFile> = (0..several).map(own).collect();
         let time_constant = time_constant(data.cutoff)?;
         let share = |rmse: &Segments| rmse.normalised(data, &data.target);
         let mut own = Self {
-            nrmse: share(&Segments::of(data, &solution.residual)),
+            nrmse: share(&base.rmse),
             as_fitted: share(&done.rmse),
             causal: causal(records, data, &files, time_constant, None)?,
             calmed: None,
-            feed_forward: feed_forward(data, &solution, &files)?,
+            feed_forward: feed_forward(data, &base.solution, &files)?,
             within_inverse: invertible,
-            solution,
+            fitted: base,
             files,
             left_out,
             time_constant,
         };
         if invertible && !own.feed_forward.invertible {
             return Err(format!(
-                "--invertible: no model that can be inverted was found: {}",
+                "--invertible: found no invertible model: {}",
                 own.feed_forward.words()
             ));
         }
         own.calmed = own.calmed(records, data)?;
-        own.describe(data, &base.data, verdict(data, ledger, done));
+        own.describe(data, verdict(data, ledger, done));
         Ok(own)
     }
 
     /// Gives each file its table `about`.
-    fn describe(&mut self, data: &Prepared, fitted: &Prepared, verdict: Verdict) {
+    fn describe(&mut self, data: &Prepared, verdict: Verdict) {
         let several = self.files.len() > 1;
         let mut about = About {
             verdict: Some(verdict.name().to_owned()),
             rates_time_constant_s: self.time_constant,
             fitted_invertible: self.within_inverse,
             feed_forward: self.feed_forward.words(),
-            held_out_rmse: Some(Segments::of(data, &self.solution.residual).held_out)
-                .filter(|rmse| rmse.is_finite()),
+            held_out_rmse: Some(self.fitted.rmse.held_out).filter(|rmse| rmse.is_finite()),
             play: self.calmed.map(|calmed| PlayBefore {
                 half_width: calmed.half_width,
                 held_out_causal: calmed.causal_nrmse.held_out,
             }),
-            left_out: self.left_out.clone(),
-            ..About::new(fitted, &self.solution)
+            excluded_terms: self.left_out.clone(),
+            ..About::new(&self.fitted.data, &self.fitted.solution)
         }
         .with_errors(&self.nrmse, Some(&self.causal), self.as_fitted.held_out);
-        if self.solution.structure.invertible {
-            let because = "held at 2·sigma·kappa_eta·rho by --invertible".to_owned();
-            let parameter = "gain".to_owned();
-            let tied = NotIdentified { parameter, because };
+        if self.fitted.solution.structure.invertible {
+            let tied = NotIdentified {
+                parameter: "gain".to_owned(),
+                reason: TIED.to_owned(),
+            };
             about.not_identified.insert(0, tied);
         }
         for (record, file) in self.files.iter_mut().enumerate() {
@@ -208,12 +213,12 @@ fn records_own(data: &Prepared, solution: &Solution) -> Vec<LeftOut> {
     let clocks = terms.filter(|t| is_clockwork(&t.effect));
     let table = table_name(data, solution).map(|effect| LeftOut {
         effect,
-        because: "it has no name, and no effect of the catalogue is like it".to_owned(),
+        reason: "it matches no effect in the catalogue".to_owned(),
     });
     clocks
         .map(|term| LeftOut {
             effect: term_name(data, term),
-            because: because(term.effect.family()).to_owned(),
+            reason: because(term.effect.family()).to_owned(),
         })
         .chain(table)
         .collect()
@@ -237,7 +242,7 @@ fn fitted_without(data: &Prepared, last: &Solution, invertible: bool) -> Result<
     let free = match has_clockwork(last) || structure.terms.len() < last.structure.terms.len() {
         false => last.clone(),
         true => fit_from(data, &structure, Some(&Known::of(last)), 0.0)
-            .ok_or("the model cannot be fitted without what belongs to the record")?,
+            .ok_or("the model cannot be fitted without the terms that belong to the record")?,
     };
     if !invertible || !stands_against(data, &free)? {
         return Ok(free);
@@ -283,6 +288,6 @@ fn feed_forward(
             Some(_) => nearest(data, solution, files)?,
             None => None,
         },
-        because,
+        reason: because,
     })
 }

@@ -28,7 +28,7 @@ pub struct FeedForward {
     /// Whether `Compensator::try_new` takes it, in `f32` and in `f64`.
     pub invertible: bool,
     /// Why not.
-    pub because: Option<String>,
+    pub reason: Option<String>,
     /// The nearest model that it takes, if not this one.
     pub nearest: Option<Nearest>,
     /// What is to be known of its inverse, where it has one: its sign, and what is not proved in `f32`.
@@ -49,7 +49,7 @@ impl FeedForward {
     /// `yes`, with what is not proved, or `no, because …`.
     #[must_use]
     pub fn words(&self) -> String {
-        match (&self.because, &self.caution) {
+        match (&self.reason, &self.caution) {
             (None, None) => "yes".to_owned(),
             (None, Some(caution)) => format!("yes, but {caution}"),
             (Some(because), _) => format!("no, because {because}"),
@@ -109,7 +109,7 @@ const ABOVE: f64 = 1.39;
 pub fn caution(file: &ModelFile) -> Option<String> {
     let t = file.transmission.as_ref()?;
     let falls = (file.mode == "torque" && t.gain < 0.0).then(|| {
-        "the output falls where the input rises, which `bowden design` refuses".to_owned()
+        "the output falls while the input rises, which `bowden design` refuses".to_owned()
     });
     let all: Vec<String> = falls.into_iter().chain(unproved(file)).collect();
     (!all.is_empty()).then(|| all.join("; "))

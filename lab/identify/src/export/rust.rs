@@ -33,7 +33,7 @@ pub(super) fn origin(about: &About, play: &str) -> String {
     let (cutoff, rate) = (about.cutoff_hz, about.rate_hz);
     line!(
         out,
-        "//! Fitted below {cutoff} Hz to a record of {rate} samples a second."
+        "//! Fitted below {cutoff} Hz to a record of {rate} samples per second."
     );
     line!(out, "//!");
     if let Some(warning) = about.warning() {
@@ -43,32 +43,32 @@ pub(super) fn origin(about: &About, play: &str) -> String {
     let errors = &about.nrmse;
     line!(
         out,
-        "//! Error, of the output's standard deviation: fit {}, held out {}.",
+        "//! Error as a share of the output's standard deviation: fit {}, held out {}.",
         per_cent(errors.fit),
         per_cent(errors.held_out)
     );
     if let Some(causal) = errors.held_out_causal {
         line!(
             out,
-            "//! Held out sample by sample, with the rates as below: {}.",
+            "//! Held-out error sample by sample, with the rates below: {}.",
             per_cent(causal)
         );
     }
     if let Some(before) = &about.play {
         line!(
             out,
-            "//! The same with the input behind {play} of half-width {}: {}.",
+            "//! The same with the input through {play} of half-width {}: {}.",
             number(before.half_width),
             per_cent(before.held_out_causal)
         );
     }
-    for part in &about.left_out {
-        line!(out, "//! Left out: {} ({}).", part.effect, part.because);
+    for part in &about.excluded_terms {
+        line!(out, "//! Excluded: {} ({}).", part.effect, part.reason);
     }
-    if !about.left_out.is_empty() {
+    if !about.excluded_terms.is_empty() {
         line!(
             out,
-            "//! Held out with all that was left out: {}.",
+            "//! Held-out error with the excluded terms: {}.",
             per_cent(errors.held_out_as_fitted)
         );
     }
@@ -77,7 +77,7 @@ pub(super) fn origin(about: &About, play: &str) -> String {
             out,
             "//! Not identified: {} ({}).",
             one.parameter,
-            one.because
+            one.reason
         );
     }
     out
@@ -149,7 +149,7 @@ impl ModelFile {
             line!(out, "//!");
             line!(
                 out,
-                "//! The rates of each source, once a sample, with a `RatesState` of its own:"
+                "//! The rates of each source, once per sample, each source with its own `RatesState`:"
             );
             line!(
                 out,
@@ -196,7 +196,7 @@ impl ModelFile {
             [one] => add(true, &format!("model::{one}")),
             several => add(true, &format!("model::{{{}}}", several.join(", "))),
         }
-        add(self.transmission.is_some(), "hysteresis::Shape");
+        add(self.transmission.is_some(), "hysteresis::BoucWen");
         add(self.transmission.is_some(), "transmission::Transmission");
         let mut all: Vec<String> = all.into_iter().collect();
         // As rustfmt has them: modules before types before lists.
@@ -246,7 +246,7 @@ impl ModelFile {
         line!(out);
         line!(
             out,
-            "/// The identified model as one that holds any effect: for a `Compensator`, or a file."
+            "/// The identified model as a type that can hold any effect: for a `Compensator` or a file."
         );
         line!(out, "///");
         line!(out, "/// # Errors");
@@ -267,7 +267,7 @@ impl ModelFile {
             self.fixed_types(out)?;
             line!(
                 out,
-                "/// The identified model; firmware that steps it links the effects that it names, no others."
+                "/// The identified model; firmware links only the effects that it names."
             );
         } else {
             line!(out, "/// The identified model.");
@@ -292,7 +292,7 @@ impl ModelFile {
             line!(out, "    // rho [{}], sigma [1], n [1]", about.unit("rho"));
             line!(
                 out,
-                "    let shape = Shape::try_new({}, {}, {})?;",
+                "    let shape = BoucWen::try_new({}, {}, {})?;",
                 number(t.rho),
                 number(t.sigma),
                 number(t.n)
@@ -397,7 +397,7 @@ impl ModelFile {
         line!(out);
         line!(
             out,
-            "/// What the fit has seen of each source that the model reads, for `Compensator::with_ranges`."
+            "/// Range in the fitted record of each source that the model reads, for `Compensator::with_ranges`."
         );
         line!(out, "#[allow(dead_code, clippy::approx_constant)]");
         line!(

@@ -113,18 +113,18 @@ pub(crate) fn load<T: Real>(data: &Prepared, input: T, channels: &[Motion<T>]) -
 /// What the model answers, from a fresh state on.
 fn answers<T: Real>(rows: &[Row], model: &Model<T, MOST_TERMS>) -> Vec<T> {
     let own = |m: &Motion<f64>| Motion {
-        position: T::of(m.position),
-        velocity: T::of(m.velocity),
-        acceleration: T::of(m.acceleration),
+        position: T::from_f64(m.position),
+        velocity: T::from_f64(m.velocity),
+        acceleration: T::from_f64(m.acceleration),
     };
     let mut state = ModelState::new();
     rows.iter()
         .map(|row| {
             let channels: Vec<Motion<T>> = row.channels.iter().map(own).collect();
             let sample = Sample {
-                dt: T::of(row.dt),
+                dt: T::from_f64(row.dt),
                 input: own(&row.input),
-                load: T::of(row.load),
+                load: T::from_f64(row.load),
                 channels: &channels,
             };
             model.step(&mut state, &sample)

@@ -9,14 +9,14 @@ use crate::record::{agree, parse, read, Options, Record, RecordError};
 use crate::search::{close_within, Limits, MOST_NAMES};
 use std::path::{Path, PathBuf};
 
-/// Columns, filter, declared model and length of the search.
+/// Columns, filter, baseline model and length of the search.
 #[derive(Debug, Clone, Default)]
 pub struct Asked {
     /// Columns and the part of the record that are read.
     pub options: Options,
     /// Cut-off of the one filter \[Hz\]; if absent it follows from the input's spectrum.
     pub cutoff: Option<f64>,
-    /// The declared model; `bouc-wen` if the list is empty.
+    /// The baseline model; `bouc-wen` if the list is empty.
     pub declare: Vec<String>,
     /// Maximum number of effects that may be added.
     pub rounds: Option<usize>,
@@ -99,7 +99,7 @@ impl Asked {
         Ok(records)
     }
 
-    /// A record on its grids, and the declared model.
+    /// A record on its grids, and the baseline model.
     pub(super) fn prepare(&self, record: &Record) -> Result<(Prepared, Structure), String> {
         let named = |message: String| format!("{}: {message}", record.path);
         let cutoff = self.cutoff;
@@ -113,14 +113,14 @@ impl Asked {
         let (data, structure) = self.prepare(record)?;
         match data.is_at_rest() {
             true => Err(format!(
-                "{}: the input `{}` is at rest, and shows its sensor's noise alone: a record of a motion was expected",
+                "{}: the input `{}` is at rest and shows only its sensor's noise: a record of a motion is needed",
                 record.path, data.input.name
             )),
             false => Ok((data, structure)),
         }
     }
 
-    /// Several records on common grids, and the declared model.
+    /// Several records on common grids, and the baseline model.
     pub(super) fn prepare_joined(
         &self,
         records: &[Record],

@@ -1,4 +1,4 @@
-//! The main question: which effect does the declared model lack?
+//! The main question: which effect does the baseline model lack?
 
 use super::asked::Asked;
 use super::cost::{CostFacts, Meter, Stage};
@@ -21,7 +21,7 @@ use std::cell::Cell;
 /// A question to one or several records.
 #[derive(Debug, Clone)]
 pub struct Close {
-    /// Columns, filter, declared model and length of the search.
+    /// Columns, filter, baseline model and length of the search.
     pub asked: Asked,
     /// Whether each file has gains of its own.
     pub own_gains: bool,
@@ -133,7 +133,7 @@ impl Close {
 /// Closes the loop. `tell` receives one message a step.
 ///
 /// # Errors
-/// One line if the records cannot be prepared or the declared model cannot be fitted; if a
+/// One line if the records cannot be prepared or the baseline model cannot be fitted; if a
 /// model is requested, also if nothing can be handed over.
 pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Result<Closed, String> {
     let asked = &question.asked;
@@ -145,8 +145,7 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
     if question.own_gains {
         if !structure.hysteresis {
             return Err(
-                "--per-file gains: they are those of bouc-wen, which --declare leaves out"
-                    .to_owned(),
+                "--per-file gains: they belong to bouc-wen, which --baseline omits".to_owned(),
             );
         }
         structure.own_gains = records.len();
@@ -164,7 +163,7 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
     let mut meter = heard.get();
     let mut own = None;
     if !question.own_gains && records.len() > 1 {
-        tell("trying each file with gains of its own");
+        tell("fitting each file with its own gains");
         own = with_own_gains(&data, &ledger.declared);
         let hint = own.as_ref().and_then(|own| hint(&ledger.declared, own));
         data.notes.extend(hint);
@@ -175,7 +174,7 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
     judge_files(&data, own.as_ref(), &done, &mut ledger);
     let has_time = asked.budget.is_none() && !ledger.is_stopped();
     if records.len() > 1 && ledger.apart.is_empty() && has_time {
-        tell("trying each channel the other way in each file");
+        tell("testing each channel with the opposite sign in each file");
         ledger.channel_apart = channel_apart(&data, &ledger, &done, |mended| {
             asked.search(mended, &structure, &|_| {}).ok()
         });
@@ -188,7 +187,7 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
         }
         hand => hand,
     };
-    tell("looking for declared parts that are not needed");
+    tell("searching for redundant baseline parts");
     let told = hand.as_ref().map_err(String::as_str);
     let facts = Facts::new(&label, &data, &ledger, &done, told, question.detail);
     // Before anything is drawn: the cost of an answer is not that of its figures.
@@ -202,7 +201,11 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
         false => None,
     };
     let figures = match question.figures {
-        true => Some(Figures::of_close(&data, &ledger, &done)?),
+        true => {
+            let another = hand.as_ref().ok().filter(|hand| hand.is_another());
+            let shown = another.map_or(("final", &done), |hand| ("exported", &hand.fitted));
+            Some(Figures::of_close(&data, &ledger, shown)?)
+        }
         false => None,
     };
     Ok(Closed {
@@ -233,13 +236,13 @@ fn handed(data: &Prepared, hand: &HandOver) -> Vec<Handed> {
         .collect()
 }
 
-/// A hint if the files do not seem to be of one configuration: `own` is the declared model with
+/// A hint if the files do not seem to be of one configuration: `own` is the baseline model with
 /// gains of its own for each.
 fn hint(declared: &Solution, own: &Solution) -> Option<String> {
     let left = own.rmse.fit / declared.rmse.fit;
     (left < OTHER_CONFIGURATION).then(|| {
         format!(
-            "with gains of its own for each file the declared model leaves {:.0} % of this error on the fit segments: try --per-file gains",
+            "with separate gains for each file the baseline model has {:.0} % of this error on the fit segments: try --per-file gains",
             100.0 * left
         )
     })

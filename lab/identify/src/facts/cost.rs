@@ -1,4 +1,4 @@
-//! Cost of a run of `close`: counts, which are reproducible, and seconds, which are not.
+//! Cost of a run of `identify`: counts, which are reproducible, and seconds, which are not.
 
 use crate::problem::cost::Counts;
 use serde::Serialize;
@@ -21,9 +21,9 @@ pub struct StageSeconds {
     pub reading: f64,
     /// Uniform time, filters, grids.
     pub preparing: f64,
-    /// The fit of the declared model.
-    pub fitting_declared: f64,
-    /// The search for what the declared model lacks.
+    /// The fit of the baseline model.
+    pub fitting_baseline: f64,
+    /// The search for what the baseline model lacks.
     pub searching: f64,
     /// The final fit, what is handed over, intervals, the verdict.
     pub concluding: f64,
@@ -43,7 +43,7 @@ impl StageSeconds {
     /// All stages together \[s\].
     #[must_use]
     pub fn total(&self) -> f64 {
-        self.before_the_fit() + self.fitting_declared + self.searching + self.concluding
+        self.before_the_fit() + self.fitting_baseline + self.searching + self.concluding
     }
 
     /// Reading and preparing \[s\].
@@ -56,7 +56,7 @@ impl StageSeconds {
         match stage {
             Stage::Reading => &mut self.reading,
             Stage::Preparing => &mut self.preparing,
-            Stage::FittingDeclared => &mut self.fitting_declared,
+            Stage::FittingDeclared => &mut self.fitting_baseline,
             Stage::Searching => &mut self.searching,
             Stage::Concluding => &mut self.concluding,
         }
@@ -133,7 +133,7 @@ mod tests {
         let all = [
             seconds.reading,
             seconds.preparing,
-            seconds.fitting_declared,
+            seconds.fitting_baseline,
             seconds.searching,
             seconds.concluding,
         ];
@@ -146,7 +146,7 @@ mod tests {
         let seconds = StageSeconds {
             reading: 1.0,
             preparing: 2.0,
-            fitting_declared: 4.0,
+            fitting_baseline: 4.0,
             searching: 8.0,
             concluding: 16.0,
         };

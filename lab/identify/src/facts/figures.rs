@@ -50,15 +50,19 @@ pub struct BlockScores {
 }
 
 impl Figures {
-    /// What a page draws of a closed record.
+    /// What a page draws of a closed record and of a model with its name.
     ///
     /// # Errors
-    /// One sentence if the parts of the final model cannot be computed.
-    pub fn of_close(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Result<Self, String> {
-        let (first, last) = (&ledger.declared, &done.solution);
+    /// One sentence if the parts of the model cannot be computed.
+    pub fn of_close(
+        data: &Prepared,
+        ledger: &Ledger,
+        (name, shown): (&str, &FinalFit),
+    ) -> Result<Self, String> {
+        let (first, last) = (&ledger.declared, &shown.solution);
         let models = [
-            ("declared", first.prediction.as_slice()),
-            ("final", last.prediction.as_slice()),
+            ("baseline", first.prediction.as_slice()),
+            (name, last.prediction.as_slice()),
         ];
         let mut figures = Self::new(data, models, last)?;
         let mut before = first;

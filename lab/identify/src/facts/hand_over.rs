@@ -1,6 +1,6 @@
 //! The model for firmware: its parts, its errors there, its inverse.
 
-use super::model::effects;
+use super::model::{effects, FinalFacts};
 use crate::conclude::verdict::percent;
 use crate::export::hand_over::{Calmed, HandOver};
 use crate::export::invertible::{three_digits, FeedForward};
@@ -20,6 +20,8 @@ pub struct HandOverFacts {
     pub within_inverse: bool,
     /// Whether that fit ended on the bound of this range.
     pub on_inverse_bound: bool,
+    /// The model itself, if that fit is another than the final model.
+    pub model: Option<FinalFacts>,
     /// Its errors as shares of the output's standard deviation.
     pub nrmse: Segments,
     /// The errors of the final model, likewise.
@@ -46,7 +48,7 @@ pub(super) fn warning(data: &Prepared, hand: &HandOver) -> Option<String> {
         Some(calmed) => {
             let unit = data.input.unit.as_ref().map(|unit| format!(" {unit}"));
             format!(
-                "In firmware, sample by sample, {errors}: the noise of `{}` turns the hysteresis. Behind `signal::Play` of half-width {}{} it is {}.",
+                "In firmware, sample by sample, {errors}: the noise of `{}` drives the hysteresis. With `signal::Play` of half-width {}{} on the input it is {}.",
                 data.input.name,
                 three_digits(calmed.half_width),
                 unit.unwrap_or_default(),
@@ -61,6 +63,17 @@ pub(super) fn warning(data: &Prepared, hand: &HandOver) -> Option<String> {
     hand.is_off().then(said)
 }
 
+/// The error of a model that `--invertible` has changed, and that of the model without the bound.
+pub(super) fn price(hand: &HandOver) -> Option<String> {
+    hand.is_another().then(|| {
+        format!(
+            "The exported model can be inverted and has a held-out error of {} of the output's standard deviation; the unconstrained model has {}.",
+            percent(hand.nrmse.held_out),
+            percent(hand.as_fitted.held_out)
+        )
+    })
+}
+
 /// What comes before all else of a model that a constant would beat where it is used: with causal
 /// velocities and from a start of the hysteresis that no other record tells.
 pub(super) fn useless(hand: &HandOver) -> Option<String> {
@@ -71,7 +84,7 @@ pub(super) fn useless(hand: &HandOver) -> Option<String> {
     let error = calmed.unwrap_or(hand.causal.held_out);
     (error > 1.0).then(|| {
         format!(
-            "Do not use this model as it stands: it describes this record after the fact, but run sample by sample it misses {} of the output's standard deviation on the held-out part, more than a constant would.",
+            "Do not use this model as it is: run sample by sample, its held-out error is {} of the output's standard deviation, more than that of a constant.",
             percent(error)
         )
     })
@@ -97,10 +110,11 @@ fn spikes(data: &Prepared) -> String {
 impl HandOverFacts {
     pub(super) fn new(data: &Prepared, hand: &HandOver) -> Self {
         Self {
-            effects: effects(data, &hand.solution),
+            effects: effects(data, &hand.fitted.solution),
             left_out: hand.left_out.clone(),
             within_inverse: hand.within_inverse,
-            on_inverse_bound: hand.solution.structure.invertible,
+            on_inverse_bound: hand.fitted.solution.structure.invertible,
+            model: (hand.is_another()).then(|| FinalFacts::new(data, &hand.fitted)),
             nrmse: hand.nrmse,
             as_fitted: hand.as_fitted,
             causal: hand.causal,

@@ -1,13 +1,14 @@
 //! The facts of a closed record.
 
-use super::hand_over::{useless, warning, HandOverFacts};
+use super::hand_over::{price, useless, warning, HandOverFacts};
 use super::model::{FinalFacts, ModelFacts};
 use super::record::{channel_name, RecordFacts};
-use super::round::{fits, RoundFacts};
+use super::round::{fits, size, RoundFacts};
 use crate::conclude::by_file::{worse, Worse};
 use crate::conclude::curve::{curve, Knot};
 use crate::conclude::final_fit::FinalFit;
 use crate::conclude::intervals::term_title;
+use crate::conclude::mechanisms::{mechanisms, Complete, Lack};
 use crate::conclude::unneeded::{unneeded, Unneeded};
 use crate::conclude::verdict::{falls_up_to, sentence, unknown_words, verdict, Verdict};
 use crate::export::hand_over::HandOver;
@@ -26,8 +27,12 @@ pub struct Facts {
     pub record: RecordFacts,
     /// Independent stretches of the fit segment, at most [`BLOCKS`].
     pub blocks: usize,
-    /// The declared model.
+    /// The baseline model.
     pub declared: ModelFacts,
+    /// The mechanisms that the baseline model lacks.
+    pub lacks: Vec<Lack>,
+    /// Whether the delivered model is complete.
+    pub complete: Complete,
     /// The added effects, in order.
     pub rounds: Vec<RoundFacts>,
     /// Later rounds that are not delivered: on left-out half-records the model does as well without
@@ -161,6 +166,9 @@ impl Facts {
         detail: Detail,
     ) -> Self {
         let last = FinalFacts::new(data, done);
+        let hand_over = hand
+            .map(|hand| HandOverFacts::new(data, hand))
+            .map_err(str::to_owned);
         let rejected = ledger.rejected.iter().map(|r| RejectedFacts {
             title: term_title(data, &r.candidate.term),
             family: r.candidate.family.name(),
@@ -170,13 +178,28 @@ impl Facts {
         });
         let unknown = ledger.unknown.as_ref();
         let found = verdict(data, ledger, done);
-        let is_model = !matches!(found, Verdict::NoModel | Verdict::DoesNotCarryOver);
-        let in_firmware = hand.ok().filter(|_| is_model);
-        let in_firmware = in_firmware.and_then(|hand| warning(data, hand));
-        let lead = hand.ok().filter(|_| is_model).and_then(useless);
-        let sentence = std::iter::once(sentence(data, ledger, done));
-        let words = lead.into_iter().chain(sentence).chain(in_firmware);
-        let mut rounds = rounds(data, ledger, done, &last, detail);
+        let is_model = !matches!(found, Verdict::NoInputDependence | Verdict::NotTransferable);
+        let used = hand.ok().filter(|_| is_model);
+        let in_firmware = used.and_then(|hand| warning(data, hand));
+        let price = hand.ok().and_then(price);
+        let mut words: Vec<String> = used.and_then(useless).into_iter().collect();
+        let sentence = sentence(data, ledger, done);
+        match price {
+            Some(price) if is_model => {
+                words.push(price);
+                words.extend(in_firmware);
+                words.push("The rest describes the unconstrained model.".to_owned());
+                words.push(sentence);
+            }
+            price => {
+                words.push(sentence);
+                words.extend(in_firmware.or(price));
+            }
+        }
+        let exported = hand_over.as_ref().ok().and_then(|own| own.model.as_ref());
+        let exported = hand.ok().map(|hand| &hand.fitted).zip(exported);
+        let shown = exported.unwrap_or((done, &last));
+        let mut rounds = rounds(data, ledger, done, shown, detail);
         let beyond = rounds.split_off(ledger.rounds.len());
         Self {
             label: label.to_owned(),
@@ -185,10 +208,10 @@ impl Facts {
             declared: ModelFacts::new(data, &ledger.declared),
             rounds,
             beyond,
+            lacks: mechanisms(data, ledger, done),
+            complete: Complete::new(data, ledger),
             falls_up_to: falls_up_to(ledger),
-            hand_over: hand
-                .map(|hand| HandOverFacts::new(data, hand))
-                .map_err(str::to_owned),
+            hand_over,
             rejected: rejected.collect(),
             unneeded: unneeded(ledger, done),
             unknown: unknown.map(|u| UnknownFacts::new(data, ledger, u, done)),
@@ -203,9 +226,21 @@ impl Facts {
             stopped_by_budget: ledger.stopped_by_budget,
             correlated_for: (ledger.regime == Regime::Effect).then_some(ledger.correlation_time),
             verdict: found,
-            sentence: words.collect::<Vec<_>>().join(" "),
+            sentence: words.join(" "),
             last,
         }
+    }
+
+    /// The exported model, if `--invertible` has made it another than the final model.
+    #[must_use]
+    pub fn constrained(&self) -> Option<&FinalFacts> {
+        self.hand_over.as_ref().ok()?.model.as_ref()
+    }
+
+    /// The model that a report describes: the constrained one, else the final one.
+    #[must_use]
+    pub fn shown(&self) -> &FinalFacts {
+        self.constrained().unwrap_or(&self.last)
     }
 }
 
@@ -213,7 +248,7 @@ fn rounds(
     data: &Prepared,
     ledger: &Ledger,
     done: &FinalFit,
-    last: &FinalFacts,
+    (shown, its): (&FinalFit, &FinalFacts),
     detail: Detail,
 ) -> Vec<RoundFacts> {
     let mut fits = match detail {
@@ -223,6 +258,9 @@ fn rounds(
     .into_iter();
     let rounds = ledger.rounds.iter().chain(&ledger.beyond);
     rounds
-        .map(|round| RoundFacts::new(data, done, &last.parameters, round, fits.next()))
+        .map(|round| {
+            let size = size(data, shown, &its.parameters, round);
+            RoundFacts::new(data, done, size, round, fits.next())
+        })
         .collect()
 }

@@ -8,7 +8,7 @@ use crate::conclude::intervals::{
 use crate::fit::{Segments, Solution};
 use crate::problem::Prepared;
 
-/// The declared model.
+/// The baseline model.
 #[derive(Debug, Clone)]
 pub struct ModelFacts {
     /// Names of all its parts.

@@ -56,7 +56,7 @@ pub fn plan(record: &Record, asked: &Asked, tell: &dyn Fn(&str)) -> Result<Plan,
     let done = FinalFit::new(&data, &ledger);
     let found = verdict(&data, &ledger, &done);
     let said = || sentence(&data, &ledger, &done);
-    if found == Verdict::NoModel {
+    if found == Verdict::NoInputDependence {
         return Err(format!(
             "{}: no motion can be planned without a model. {}",
             record.path,
@@ -65,7 +65,7 @@ pub fn plan(record: &Record, asked: &Asked, tell: &dyn Fn(&str)) -> Result<Plan,
     }
     let is_described = !matches!(
         found,
-        Verdict::DoesNotCarryOver | Verdict::Unknown | Verdict::DataDefect
+        Verdict::NotTransferable | Verdict::UnmodelledDependence | Verdict::DefectiveRecord
     );
     let undescribed = (!is_described).then(|| format!("{}: {}", found.name(), said()));
     let separated = separate_first(&data, &ledger);

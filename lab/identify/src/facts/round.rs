@@ -25,9 +25,7 @@ pub struct RoundFacts {
     pub channel: String,
     /// How far the name can be trusted.
     pub grade: Grade,
-    /// Number of half-records, of [`HALVES`](super::HALVES), in which it is found again.
-    pub recurs: usize,
-    /// Its size in the final model.
+    /// Its size in the model that is [shown](super::Facts::shown).
     pub size: Size,
     /// Exact sign-flip p-value; `None` if the blocks were too short for a test.
     pub p: Option<f64>,
@@ -67,7 +65,7 @@ pub enum Size {
     Gain(Parameter),
     /// The width of an input stage, which has no gain.
     Width(Parameter),
-    /// The final model does not contain the effect.
+    /// That model does not contain the effect.
     Gone,
 }
 
@@ -144,11 +142,10 @@ pub(super) fn fits(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Vec<Rou
 }
 
 impl RoundFacts {
-    /// `all` are the parameters of the final model.
     pub(super) fn new(
         data: &Prepared,
         done: &FinalFit,
-        all: &[Parameter],
+        size: Size,
         round: &Round,
         fit: Option<RoundFit>,
     ) -> Self {
@@ -163,8 +160,7 @@ impl RoundFacts {
             effect: round.candidate.term.effect.name(),
             channel: channel_name(data, round.candidate.term.source),
             grade: round.grade,
-            recurs: round.recurs,
-            size: size(data, done, all, round),
+            size,
             p: round.p,
             explained: round.explained,
             blocks_better: round.blocks_better,
@@ -178,9 +174,10 @@ impl RoundFacts {
     }
 }
 
-fn size(data: &Prepared, done: &FinalFit, all: &[Parameter], round: &Round) -> Size {
+/// The size of what a round has added in a model with these parameters.
+pub(super) fn size(data: &Prepared, shown: &FinalFit, all: &[Parameter], round: &Round) -> Size {
     let name = term_name(data, round.term());
-    let term = done.term_of(round);
+    let term = shown.term_of(round);
     let own = |wanted: &str| {
         let mut own = all.iter().filter(|p| p.term.is_some() && p.term == term);
         own.find(|p| p.name == wanted).cloned()

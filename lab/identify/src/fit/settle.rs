@@ -107,7 +107,7 @@ pub(super) fn choose(mut settled: Vec<Solution>) -> Option<Solution> {
     settled
         .into_iter()
         .filter(|s| s.rmse.fit <= 1.05 * best)
-        .min_by(|a, b| a.rmse.stop.total_cmp(&b.rmse.stop))
+        .min_by(|a, b| a.rmse.selection.total_cmp(&b.rmse.selection))
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ pub struct Segments {
     /// First 60 %.
     pub fit: f64,
     /// Next 15 %.
-    pub stop: f64,
+    pub selection: f64,
     /// Last 25 %.
     pub held_out: f64,
 }
@@ -26,7 +26,7 @@ impl Segments {
         };
         Self {
             fit: rms(&data.split.fit),
-            stop: rms(&data.split.stop),
+            selection: rms(&data.split.selection),
             held_out: rms(&data.split.held_out),
         }
     }
@@ -46,7 +46,7 @@ impl Segments {
         };
         Self {
             fit: deviation(&data.split.fit),
-            stop: deviation(&data.split.stop),
+            selection: deviation(&data.split.selection),
             held_out: deviation(&data.split.held_out),
         }
     }
@@ -57,7 +57,7 @@ impl Segments {
         let by = Self::deviation(data, signal);
         Self {
             fit: self.fit / by.fit,
-            stop: self.stop / by.stop,
+            selection: self.selection / by.selection,
             held_out: self.held_out / by.held_out,
         }
     }
@@ -142,6 +142,22 @@ impl Solution {
             return series_column(data, &self.structure, at, &self.gains, term);
         }
         effect_column(data, term, &self.eta)
+    }
+
+    /// Whether the gain of a stage or a shape of this term is on a bound of its range. A lag with a
+    /// gain of 1 is not: that is a whole low-pass.
+    pub(crate) fn is_on_bound(&self, index: usize) -> bool {
+        let terms = &self.structure.terms;
+        let id = terms.ids().get(index).copied();
+        let is_whole = |value: f64| terms[index].effect.name() == "lag" && value > 0.5;
+        let roles = self.free.iter().zip(&self.values).zip(&self.on_bound);
+        roles
+            .filter(|((free, value), _)| match free.role {
+                Role::Stage { term } => Some(term) == id && !is_whole(**value),
+                Role::Shape { term, .. } => Some(term) == id,
+                _ => false,
+            })
+            .any(|(_, on_bound)| *on_bound)
     }
 
     /// Number of shapes of the model that stopped on a bound.

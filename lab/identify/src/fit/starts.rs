@@ -22,10 +22,6 @@ impl Known {
     }
 }
 
-/// Limit of the start of eta(0): at the end of its range the map is flat, and a search from
-/// there does not move.
-pub(crate) const INSIDE: f64 = 0.9;
-
 /// Eight deterministic starts, and the present optimum if there is one.
 pub(super) fn starts(
     data: &Prepared,
@@ -53,10 +49,10 @@ pub(super) fn starts(
                 (Role::Rho, Some((rho, ..))) => rho / x,
                 (Role::Sigma, Some((_, sigma, _))) => sigma,
                 (Role::N, Some((.., n))) => n,
-                (Role::Eta0 { .. }, Some(_)) => {
-                    present(f.role).unwrap_or(0.0).clamp(-INSIDE, INSIDE)
+                (Role::Eta0 { .. }, Some(_)) => f.range.inside(present(f.role).unwrap_or(0.0)),
+                (Role::Stage { .. }, _) => {
+                    present(f.role).unwrap_or_else(|| f.range.inside(stage_gain))
                 }
-                (Role::Stage { .. }, _) => present(f.role).unwrap_or(stage_gain),
                 (Role::Shape { term, index }, _) => {
                     let term = structure.terms.find(term);
                     term.and_then(|t| t.effect.shape(index)).unwrap_or(0.0)

@@ -43,13 +43,6 @@ impl Candidate {
         Some(Self::from(FitTerm { effect, ..*term }))
     }
 
-    /// Whether this is the same function as that term with the opposite sign, once the shapes of both
-    /// are fitted: then no record tells the two apart.
-    #[must_use]
-    pub fn is_twin_of(&self, term: &FitTerm) -> bool {
-        Self::twin(term).is_some_and(|twin| twin.is_like(self))
-    }
-
     /// What the effect is a function of, or stands for.
     #[must_use]
     pub fn variables(&self) -> Vec<Variable> {

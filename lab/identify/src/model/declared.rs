@@ -1,14 +1,14 @@
-//! What a `--declare` list means.
+//! What a `--baseline` list means.
 
 use super::effects::{entry, first_of, Declared, Zero};
 use super::kind::{kind, Kind};
 use super::structure::{FitTerm, Structure};
 use crate::problem::{Prepared, MOST_RECORDS};
-use crate::record::Mode;
-use bowden::effect::{Effect, Family};
+use crate::record::{nearest, Mode};
+use bowden::effect::{Effect, Family, CATALOGUE};
 use bowden::model::Source;
 
-/// The effect that a user means by a name in `--declare`: an effect's own name, or a
+/// The effect that a user means by a name in `--baseline`: an effect's own name, or a
 /// family's, which stands for its first member. Shapes start at the record's scale.
 ///
 /// # Errors
@@ -22,9 +22,13 @@ pub fn declared(name: &str, data: &Prepared) -> Result<FitTerm, String> {
                 Some(i) => Source::Channel(i as u8),
                 None if channel == data.input.name => Source::Input,
                 None => {
+                    let names = data.channels.iter().map(|c| c.name.as_str());
+                    let all: Vec<&str> = names.chain([data.input.name.as_str()]).collect();
                     return Err(format!(
-                        "--declare {name}@{channel}: no channel of that name in the record"
-                    ))
+                        "--baseline {name}@{channel}: no such channel among {}{}",
+                        all.join(", "),
+                        nearest(channel, all.iter().copied())
+                    ));
                 }
             };
             (name, Some(source))
@@ -32,13 +36,18 @@ pub fn declared(name: &str, data: &Prepared) -> Result<FitTerm, String> {
     };
     let unknown = || {
         let known = families().join(", ");
-        format!("--declare {name}: not an effect that can be declared; known: bouc-wen, {known}, or an effect of these families by its own name, such as play-in-series")
+        let effects = CATALOGUE.iter().map(|info| info.name);
+        let mut names: Vec<&str> = effects.chain(["bouc-wen"]).chain(families()).collect();
+        names.sort_unstable();
+        names.dedup();
+        let near = nearest(name, names);
+        format!("--baseline {name}: no such effect{near}; known: bouc-wen, {known}, or an effect of these families by its own name, such as play-in-series")
     };
     let entry = entry(name).or_else(|| first_of(name)).ok_or_else(unknown)?;
     let source = match (given, entry.declared) {
         (Some(source), _) => source,
         (None, Declared::OnStretch) => stretch(data).ok_or_else(|| {
-            format!("--declare {name}: no channel of the record is a stretch; --channel stretch=phi_p-phi_d makes one")
+            format!("--baseline {name}: no channel of the record is a stretch; --channel stretch=phi_p-phi_d makes one")
         })?,
         (None, _) => default_source(data),
     };
@@ -50,7 +59,7 @@ pub fn declared(name: &str, data: &Prepared) -> Result<FitTerm, String> {
         (Declared::OnInput(scales), _) => (scales, Source::Input, 0.0),
         (Declared::Never, _) => {
             return Err(format!(
-                "--declare {name}: it is looked for, and cannot be declared; leave it out"
+                "--baseline {name}: only the search adds this effect; leave it out"
             ))
         }
     };
@@ -71,7 +80,7 @@ fn families() -> Vec<&'static str> {
     names.filter(can).collect()
 }
 
-/// The structure that a `--declare` list means.
+/// The structure that a `--baseline` list means.
 ///
 /// # Errors
 /// One sentence where a name is not known or comes twice.
@@ -87,7 +96,7 @@ pub fn structure(list: &[String], data: &Prepared) -> Result<Structure, String> 
                 .iter()
                 .any(|t| t.effect.name() == term.effect.name() && t.source == term.source)
             {
-                return Err(format!("--declare {name}: named twice"));
+                return Err(format!("--baseline {name}: named twice"));
             }
             structure.terms.push(term);
         }

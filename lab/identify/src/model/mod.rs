@@ -5,6 +5,7 @@ pub mod columns;
 pub mod declared;
 pub(crate) mod effects;
 pub(crate) mod kind;
+pub mod mechanism;
 mod parameter;
 mod range;
 pub mod structure;

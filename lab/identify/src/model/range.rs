@@ -13,6 +13,9 @@ pub enum Range {
     Free,
 }
 
+/// Least distance of a start from the ends of a linear range, in widths. A choice.
+const EDGE: f64 = 0.05;
+
 fn logistic(u: f64) -> f64 {
     1.0 / (1.0 + (-u).exp())
 }
@@ -67,6 +70,16 @@ impl Range {
             Self::Linear(lo, hi) => hi - lo,
             Self::Above(base, lo, hi) => (value - base).max(lo) * (hi / lo).ln(),
             Self::Free => value.abs().max(1.0),
+        }
+    }
+
+    /// A value at least 5 % of a linear range from both ends: at an end the map is flat, and a
+    /// search that starts there does not move.
+    #[must_use]
+    pub(crate) fn inside(self, value: f64) -> f64 {
+        match self {
+            Self::Linear(lo, hi) => value.clamp(lo + EDGE * (hi - lo), hi - EDGE * (hi - lo)),
+            _ => value,
         }
     }
 

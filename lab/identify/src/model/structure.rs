@@ -26,6 +26,9 @@ pub struct Structure {
     /// Whether output stages and input stages are kept out of the search: a model with one
     /// of them has no inverse.
     pub no_stages: bool,
+    /// Whether a delay may be negative. No transmission has a lead: only a test of the clocks of a
+    /// record allows one.
+    pub may_lead: bool,
     /// Whether the gains are confined to those for which the transmission has an inverse,
     /// `sigma <= B/(2·kappa_eta·rho)`.
     pub invertible: bool,
@@ -73,10 +76,12 @@ impl Structure {
                 continue;
             };
             if let Some(stage) = entry.stage {
-                let range = match stage {
-                    Stage::Periods(most) => Range::Linear(-most / data.cutoff, most / data.cutoff),
-                    Stage::Number(most) => Range::Linear(-most, most),
+                let most = match stage {
+                    Stage::Periods(most) => most / data.cutoff,
+                    Stage::Number(most) => most,
                 };
+                let least = if self.may_lead { -most } else { 0.0 };
+                let range = Range::Linear(least, most);
                 free.push(Free {
                     role: Role::Stage { term },
                     range,

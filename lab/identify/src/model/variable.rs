@@ -24,9 +24,9 @@ pub enum Variable {
     DirectedPosition(Source),
     /// The load, with the sign of the channel's velocity.
     DirectedLoad(Source),
-    /// The way since the motion last turned.
+    /// The way since the motion last reversed.
     ReversalDistance(Source),
-    /// The time since the motion last turned.
+    /// The time since the motion last reversed.
     ReversalTime(Source),
     /// The hysteresis state.
     Eta,
@@ -115,8 +115,8 @@ impl Variable {
             Self::Acceleration(_) => format!("the acceleration of {channel}"),
             Self::DirectedPosition(_) => format!("{channel} with the sign of its velocity"),
             Self::DirectedLoad(_) => format!("the load with the sign of {channel}'s velocity"),
-            Self::ReversalDistance(_) => format!("the way since {channel} last turned"),
-            Self::ReversalTime(_) => format!("the time since {channel} last turned"),
+            Self::ReversalDistance(_) => format!("the travel since {channel} last reversed"),
+            Self::ReversalTime(_) => format!("the time since {channel} last reversed"),
             Self::Eta => "the hysteresis state".to_owned(),
             Self::Time => "time".to_owned(),
         }
@@ -225,7 +225,7 @@ fn turns(channel: &Channel, record: &Range<usize>) -> Vec<usize> {
     turns
 }
 
-/// Way and time since the channel last turned in a record; before its first turn the
+/// Way and time since the channel last reversed in a record; before its first turn the
 /// largest of all.
 fn since_reversal(channel: &Channel, record: &Range<usize>, dt: f64) -> (Vec<f64>, Vec<f64>) {
     let turns = turns(channel, record);

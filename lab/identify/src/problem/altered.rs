@@ -59,7 +59,7 @@ impl Prepared {
 
     /// The samples on the work grid that belong to rows of the fit segment and the stop-check.
     fn used(&self) -> Vec<usize> {
-        let rows = self.split.fit.iter().chain(&self.split.stop);
+        let rows = self.split.fit.iter().chain(&self.split.selection);
         rows.filter_map(|row| {
             let piece = self.pieces.iter().find(|p| p.rows.contains(row))?;
             Some(piece.work.start + (row - piece.rows.start) * self.stride)

@@ -44,7 +44,7 @@ struct Placed {
     raw: Vec<f64>,
     /// Estimation samples, by their place in the record.
     fit: Vec<usize>,
-    stop: Vec<usize>,
+    selection: Vec<usize>,
     held_out: Vec<usize>,
     /// What the fit may see, on the work grid.
     seen: Range<usize>,
@@ -96,7 +96,7 @@ impl Prepared {
             .find(|(_, own)| **own > RATES_APART * step)
         {
             return Err(named(record, format!(
-                "has {:.6} samples a second, another file {:.6}: at most {RATES_APART} times as many can be brought onto one grid",
+                "has {:.6} samples per second, another file {:.6}: the rates may differ by a factor of {RATES_APART} at most",
                 1.0 / own,
                 1.0 / step
             )));
@@ -169,7 +169,7 @@ fn cutoff(
     match preparation.cutoff {
         // What the line below prints as the most is allowed, whatever its last digit is.
         Some(cutoff) if cutoff <= 0.4 * rate * (1.0 + 1e-6) => Ok(cutoff),
-        Some(cutoff) => Err(format!("--cutoff {cutoff} Hz is too high: the record has {rate:.6} samples a second and allows at most {:.6} Hz", 0.4 * rate)),
+        Some(cutoff) => Err(format!("--cutoff {cutoff} Hz is too high: the record has {rate:.6} samples per second and allows at most {:.6} Hz", 0.4 * rate)),
         None => {
             let own = inputs.iter().map(|i| spectrum::default_cutoff(i, 1.0 / step));
             let highest = own.fold(0.0, f64::max);
@@ -269,7 +269,7 @@ fn place(
         output: on_work,
         raw,
         fit: keep(start..fit_end),
-        stop: keep(fit_end..stop_end),
+        selection: keep(fit_end..stop_end),
         held_out: keep(stop_end..end),
         // Shapes and origins are chosen on what the fit may see.
         seen: start * stride..fit_end * stride,
@@ -358,7 +358,7 @@ impl Collected {
         self.noise
             .push((placed.noise_floor, placed.fit.len(), placed.held_out.len()));
         self.split.fit.extend(moved(placed.fit));
-        self.split.stop.extend(moved(placed.stop));
+        self.split.selection.extend(moved(placed.selection));
         self.split.held_out.extend(moved(placed.held_out));
         self.seen
             .push(work + placed.seen.start..work + placed.seen.end);
@@ -385,7 +385,7 @@ impl Collected {
             self.split.held_out.retain(|row| !too_early(row));
         }
         let split = &self.split;
-        let kept_back = split.stop.len().min(split.held_out.len());
+        let kept_back = split.selection.len().min(split.held_out.len());
         let unseen = held_out == HeldOut::Nothing || kept_back >= 20;
         if split.fit.len() < 96 || !unseen {
             return Err("gaps in time and defects leave too few samples to fit".to_owned());

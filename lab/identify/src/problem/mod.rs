@@ -49,7 +49,7 @@ pub const MOST_RECORDS: usize = 64;
 pub fn together(records: usize) -> Result<(), String> {
     match records > MOST_RECORDS {
         true => Err(format!(
-            "{records} records: at most {MOST_RECORDS} can be fitted together; --glob PATTERN --out ROWS.parquet closes each by itself"
+            "{records} records: at most {MOST_RECORDS} can be fitted together; --glob PATTERN --out ROWS.parquet identifies each by itself"
         )),
         false => Ok(()),
     }
@@ -176,7 +176,7 @@ pub struct Split {
     /// The first 60 % (80 % where a whole record is held out): parameters are fitted and effects selected here.
     pub fit: Vec<usize>,
     /// The next 15 % (20 %): a round must not make this worse.
-    pub stop: Vec<usize>,
+    pub selection: Vec<usize>,
     /// The last 25 %, or the last record: seen by nothing, only reported.
     pub held_out: Vec<usize>,
 }
@@ -267,7 +267,7 @@ impl Prepared {
     #[must_use]
     pub fn with_stop_fitted(&self) -> Self {
         let mut wide = self.clone();
-        wide.split.fit.extend(&self.split.stop);
+        wide.split.fit.extend(&self.split.selection);
         // Of several records each has its own stop-check, between the others' segments.
         wide.split.fit.sort_unstable();
         wide

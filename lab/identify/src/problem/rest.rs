@@ -58,9 +58,9 @@ pub(super) fn note(first: (bool, f64), last: (bool, f64), still: f64) -> Option<
         .into_iter()
         .flatten()
         .collect();
-    let left_out = format!("nothing moves {}: left out", ends.join(" and "));
+    let left_out = format!("nothing moves {}: excluded", ends.join(" and "));
     let line = format!(
-        "the input rests within its noise for {still:.3} s: a straight line stands in, lest the noise turn the hysteresis"
+        "the input rests within its noise for {still:.3} s: a straight line replaces it, because its noise would drive the hysteresis"
     );
     let said = [(!ends.is_empty(), left_out), (still > 0.0, line)];
     let said: Vec<String> = said

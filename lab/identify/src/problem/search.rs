@@ -55,7 +55,7 @@ impl Prepared {
             target,
             split: Split {
                 fit: fit.collect(),
-                stop: Vec::new(),
+                selection: Vec::new(),
                 held_out: Vec::new(),
             },
             pieces,

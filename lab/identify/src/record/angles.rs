@@ -27,7 +27,7 @@ fn converted(column: &mut Column) -> Option<String> {
     }
     column.values.iter_mut().for_each(|value| *value *= factor);
     Some(format!(
-        "`{}` converted from {unit} to {UNIT}, which gravity and ripple are functions of",
+        "`{}` converted from {unit} to {UNIT}, the unit of gravity and ripple",
         column.name
     ))
 }

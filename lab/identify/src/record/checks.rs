@@ -12,27 +12,27 @@ pub(super) fn options(options: &Options) -> Result<(), RecordError> {
     let refuse = |message: String| Err(RecordError::new(message));
     if !(options.skip.is_finite() && options.skip >= 0.0) {
         return refuse(format!(
-            "--skip {}: seconds from 0 up were expected",
+            "--start {} is out of range (0 s or more)",
             options.skip
         ));
     }
     if let Some(until) = options.until {
         if until.is_nan() || until <= options.skip {
             return refuse(format!(
-                "--until {until}: more than --skip {} was expected",
+                "--end {until} is out of range (above --start {})",
                 options.skip
             ));
         }
     }
     if options.header_line.is_some() && !options.names.is_empty() {
         return refuse(
-            "--names is for a text without names, --header-line for one with them".to_owned(),
+            "--names is for a file without names, --header-line for a file with names".to_owned(),
         );
     }
     match options.rate {
-        Some(rate) if !(1e-9..=1e12).contains(&rate) => refuse(format!(
-            "--rate {rate}: a positive number of Hz was expected"
-        )),
+        Some(rate) if !(1e-9..=1e12).contains(&rate) => {
+            refuse(format!("--rate {rate} is out of range (above 0 Hz)"))
+        }
         _ => Ok(()),
     }
 }
@@ -52,13 +52,13 @@ pub(super) fn record(table: &Table, header: &Header, roles: &Roles) -> Result<()
         let (low, high) = range(values);
         if high - low <= 1e-12 * low.abs().max(high.abs()) {
             let line = table.lines.first().copied().unwrap_or(header.line);
-            let message = format!("the {role} is {low} in every sample, it has to move");
+            let message = format!("the {role} is {low} in every sample, but it must move");
             return Err(RecordError::at(line, message).on(name(index)));
         }
     }
     if input == output {
         let message = format!(
-            "the output is the input `{}`, number for number: the force or torque that answers it was expected",
+            "the output equals the input `{}` in every sample: the resulting force or torque is needed",
             name(roles.input)
         );
         let line = table.lines.first().copied().unwrap_or(header.line);

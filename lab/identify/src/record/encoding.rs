@@ -25,7 +25,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded<'_>, RecordError> {
     if bytes.is_empty() {
         return Err(RecordError::at(
             1,
-            "the file is empty, a header with column names was expected",
+            "the file is empty; a header with column names is needed",
         ));
     }
     let (text, note) = match wide(bytes) {
@@ -83,7 +83,7 @@ fn utf_16<'a>(bytes: &'a [u8], own: &'static Encoding) -> Result<Cow<'a, str>, R
     match text.find('\0') {
         Some(at) => Err(RecordError::at(
             line_of(&text[..at]),
-            "a character is NUL: a binary file, CSV text was expected",
+            "a character is NUL: a binary file; CSV text is needed",
         )),
         None => Ok(text),
     }
@@ -98,7 +98,7 @@ fn narrow(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<&'static str>), RecordEr
             .count()
     };
     if let Some(offset) = bytes.iter().position(|byte| *byte == 0) {
-        let message = format!("byte {offset} is NUL: a binary file, CSV text was expected");
+        let message = format!("byte {offset} is NUL: a binary file; CSV text is needed");
         return Err(RecordError::at(line_of(offset), message));
     }
     let error = match std::str::from_utf8(bytes) {
@@ -119,7 +119,7 @@ fn narrow(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<&'static str>), RecordEr
         return refuse(
             at,
             format!(
-                "byte {at} (0x{:02X}) is no character of UTF-8 nor of Windows-1252; save the file as UTF-8",
+                "byte {at} (0x{:02X}) is not valid in UTF-8 or Windows-1252; save the file as UTF-8",
                 bytes[at]
             ),
         );
@@ -196,8 +196,8 @@ mod tests {
                 .as_slice()
         )
         .contains(":2: byte 4 (0xB5) is not UTF-8, but characters before it are"));
-        assert!(line(b"a\n\xb5\x02").contains(":2: byte 3 (0x02) is no character"));
-        assert!(line(b"a\n\x81").contains(":2: byte 2 (0x81) is no character"));
+        assert!(line(b"a\n\xb5\x02").contains(":2: byte 3 (0x02) is not valid in"));
+        assert!(line(b"a\n\x81").contains(":2: byte 2 (0x81) is not valid in"));
         // A surrogate without its other half.
         assert!(
             line(b"\xff\xfea\0\n\0\x00\xd8b\0").contains(":2: a character is not valid UTF-16LE")

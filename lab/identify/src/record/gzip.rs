@@ -17,7 +17,7 @@ pub(super) fn unpack(bytes: &[u8]) -> Result<Vec<u8>, RecordError> {
             "the gzip file is damaged: {error}"
         ))),
         Ok(_) if unpacked.len() as u64 > LIMIT => Err(RecordError::new(format!(
-            "is larger than {} MiB unpacked, cut it into records",
+            "is larger than {} MiB unpacked; cut it into records",
             LIMIT >> 20
         ))),
         Ok(_) => Ok(unpacked),

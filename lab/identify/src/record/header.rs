@@ -97,24 +97,6 @@ impl Header {
         Self::with(line, names.iter().map(|name| of_cell(name)).collect())
     }
 
-    /// At most three names that are much like one that does not exist, for a message.
-    pub(super) fn nearest(&self, name: &str) -> Vec<String> {
-        let wanted = name.trim().to_lowercase();
-        let alike = |column: &Named| strsim::jaro_winkler(&wanted, &column.name.to_lowercase());
-        let mut near: Vec<(f64, &Named)> = self
-            .columns
-            .iter()
-            .filter(|column| !column.name.is_empty())
-            .map(|column| (alike(column), column))
-            .filter(|(alike, _)| *alike >= ALIKE)
-            .collect();
-        near.sort_by(|a, b| b.0.total_cmp(&a.0));
-        near.truncate(3);
-        let quoted =
-            |(_, column): &(f64, &Named)| format!("`{}`", shown(&column.name, NAME_LENGTH));
-        near.iter().map(quoted).collect()
-    }
-
     /// The names that exist, for a message.
     pub(super) fn list(&self) -> String {
         let names: Vec<_> = self
@@ -164,7 +146,7 @@ fn tell_apart(columns: &mut [Named]) {
 pub(super) fn read(rows: &mut Rows<'_>) -> Result<Header, RecordError> {
     let (text, before) = rows.rest();
     let refuse = |what: &str| {
-        let message = format!("the {what}, a header with column names was expected");
+        let message = format!("the {what}; a header with column names is needed");
         Err(RecordError::at(before + 1, message))
     };
     if text
@@ -198,7 +180,7 @@ pub(super) fn read(rows: &mut Rows<'_>) -> Result<Header, RecordError> {
         return refuse("line has no names");
     }
     if named.all(|column| number::is_number(&column.name)) {
-        let message = "the line holds numbers, a header with column names was expected; \
+        let message = "the line holds numbers; a header with column names is needed; \
                        --names t,x,f gives the names of a file without them";
         return Err(RecordError::at(before + 1, message));
     }
@@ -210,13 +192,28 @@ pub(super) fn require(header: &Header, name: &str, hint: &str) -> Result<usize, 
     header.find(name).ok_or_else(|| missing(header, name, hint))
 }
 
+/// At most three names that are much like one that does not exist, in brackets, for a message.
+pub(crate) fn nearest<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) -> String {
+    let wanted = name.trim().to_lowercase();
+    let alike = |name: &str| strsim::jaro_winkler(&wanted, &name.to_lowercase());
+    let named = names.into_iter().filter(|name| !name.is_empty());
+    let mut near: Vec<(f64, &str)> = named
+        .map(|name| (alike(name), name))
+        .filter(|(alike, _)| *alike >= ALIKE)
+        .collect();
+    near.sort_by(|a, b| b.0.total_cmp(&a.0));
+    near.truncate(3);
+    let quoted = |(_, name): &(f64, &str)| format!("`{}`", shown(name, NAME_LENGTH));
+    let quoted: Vec<String> = near.iter().map(quoted).collect();
+    match quoted.is_empty() {
+        true => String::new(),
+        false => format!(" (nearest: {})", quoted.join(", ")),
+    }
+}
+
 /// The refusal of a name that no column has.
 pub(super) fn missing(header: &Header, name: &str, hint: &str) -> RecordError {
-    let near = header.nearest(name);
-    let meant = match near.is_empty() {
-        true => String::new(),
-        false => format!(" (nearest: {})", near.join(", ")),
-    };
+    let meant = nearest(name, header.columns.iter().map(|c| c.name.as_str()));
     let message = format!("no such column among {}{meant}; {hint}", header.list());
     RecordError::at(header.line, message).on(name)
 }

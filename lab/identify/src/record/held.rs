@@ -64,7 +64,7 @@ pub(super) fn smooth(name: &str, values: &mut [f64], step: f64) -> Option<String
         }
     }
     Some(format!(
-        "`{name}` changes in every {}th row only ({:.1} Hz), which makes it {:.3} ms late: a curve through its updates stands in",
+        "`{name}` changes in every {}th row only ({:.1} Hz), which delays it by {:.3} ms: a curve through its updates replaces it",
         two_decimals(period),
         1.0 / (period * step),
         500.0 * (period - 1.0) * step

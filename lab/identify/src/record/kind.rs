@@ -55,7 +55,7 @@ const OTHERS: [(&[u8], &str, &str); 16] = [
     (
         b"\x93NUMPY",
         "a NumPy array",
-        "save it as CSV or .mat with names of columns",
+        "save it as CSV or .mat with column names",
     ),
     (
         b"SQLite format 3\0",
@@ -83,7 +83,7 @@ const BEHIND_HEADER: usize = 512;
 /// One sentence that names a form that is not read, and what to do instead.
 pub(super) fn of(bytes: &[u8]) -> Result<Kind, RecordError> {
     let refuse = |what: &str, instead: &str| {
-        let message = format!("is {what}, which is not read; {instead}");
+        let message = format!("is {what}, which bowden does not read; {instead}");
         Err(RecordError::new(message))
     };
     if bytes.starts_with(b"\x1f\x8b") {
@@ -153,7 +153,10 @@ mod tests {
     fn every_other_form_is_named_with_what_to_do_instead() {
         for (magic, what, instead) in OTHERS {
             let line = of(magic).unwrap_err().to_string();
-            assert_eq!(line, format!(": is {what}, which is not read; {instead}"));
+            assert_eq!(
+                line,
+                format!(": is {what}, which bowden does not read; {instead}")
+            );
         }
         let line = |bytes: &[u8]| of(bytes).unwrap_err().to_string();
         let v4 = b"\0\0\0\0\x02\0\0\0\x01\0\0\0\0\0\0\0\x02\0\0\0x\0";

@@ -155,7 +155,7 @@ fn unknown(header: &Header, cells: &[&str], index: usize, line: usize) -> Record
     let cell = shown(cells.get(index).copied().unwrap_or_default(), NAME_LENGTH);
     let name = &header.columns[index].name;
     let message = format!(
-        "`{cell}` is no unit that is known; mm, N, N·m, deg or another was expected in a row of \
+        "`{cell}` is not a known unit; mm, N, N·m, deg or another is needed in a row of \
          units, or an empty cell (`{} [{cell}]` as a name states any unit)",
         shown(name, NAME_LENGTH)
     );
@@ -325,7 +325,7 @@ fn units_between<'a>(
                     return Err(unknown(&table.header, cells, index, line));
                 }
                 Between::Unknown { index, most: false } => strange.push(format!(
-                    "`{}` in line {line} is no unit that is known: no unit of that line counts",
+                    "`{}` in line {line} is not a known unit: all units of that line are ignored",
                     shown(cells[index], NAME_LENGTH)
                 )),
                 Between::Words => {}
@@ -339,7 +339,7 @@ fn units_between<'a>(
     if !others.is_empty() {
         let lines = if others.len() == 1 { "line" } else { "lines" };
         let list = others.join(", ");
-        let note = format!("{lines} {list} between names and values passed over");
+        let note = format!("{lines} {list} between names and values ignored");
         table.notes.push(note);
     }
     table.notes.extend(strange);
@@ -349,8 +349,8 @@ fn units_between<'a>(
 /// "lines 2–7 above the names passed over".
 pub(super) fn passed_over(from: usize, to: usize, place: &str) -> String {
     match from == to {
-        true => format!("line {from} {place} passed over"),
-        false => format!("lines {from}–{to} {place} passed over"),
+        true => format!("line {from} {place} ignored"),
+        false => format!("lines {from}–{to} {place} ignored"),
     }
 }
 

@@ -58,6 +58,7 @@ pub use agree::{agree, is_same_unit};
 pub(crate) use defects::bridged;
 pub use defects::{Defect, DefectKind, Steps};
 pub use error::RecordError;
+pub(crate) use header::nearest;
 pub(crate) use units::is_velocity;
 
 use header::Header;

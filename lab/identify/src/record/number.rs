@@ -97,7 +97,7 @@ impl Notation {
         let text = shown(cell, CELL_LENGTH);
         let message = match cell.parse::<f64>() {
             Ok(_) => format!(
-                "`{text}` has a decimal point, a decimal comma was expected as in line {}",
+                "`{text}` has a decimal point; a decimal comma is needed as in line {}",
                 self.decided.get()
             ),
             Err(_) => no_number(cell),
@@ -118,7 +118,7 @@ fn with_comma(cell: &str) -> Option<f64> {
 fn refuse(cell: &str, parsed: Option<f64>, line: usize, column: &str) -> Result<f64, RecordError> {
     let refuse = |message: String| Err(RecordError::at(line, message).on(column));
     if cell.is_empty() {
-        let message = "the cell is empty, a number was expected; --drop-bad leaves such rows out";
+        let message = "the cell is empty; a number is needed; --drop-bad drops such rows";
         return Err(RecordError::at(line, message).on(column).from(Bad::Empty));
     }
     let text = shown(cell, CELL_LENGTH);
@@ -128,7 +128,7 @@ fn refuse(cell: &str, parsed: Option<f64>, line: usize, column: &str) -> Result<
             .from(Bad::NotANumber)),
         Some(value) => measured(value, &text, line, column),
         None if cell.replacen(',', ".", 1).parse::<f64>().is_ok() => refuse(format!(
-            "`{text}` has a decimal comma, a decimal point was expected"
+            "`{text}` has a decimal comma; a decimal point is needed"
         )),
         None => refuse(no_number(cell)),
     }
@@ -159,7 +159,7 @@ const MARKS: [&str; 21] = [
     "---",
 ];
 
-/// That a cell is no number, and what was expected where that can be told.
+/// That a cell is no number, and what is needed where that can be told.
 fn no_number(cell: &str) -> String {
     let text = shown(cell, CELL_LENGTH);
     let upper = cell.to_uppercase();
@@ -170,14 +170,12 @@ fn no_number(cell: &str) -> String {
     let is_mark = of_a_sheet || MARKS.contains(&upper.trim_start_matches('+'));
     if is_mark || MARKS.contains(&upper.trim_start_matches('-')) {
         return format!(
-            "`{text}` is not a number but a mark in place of one; leave the cell empty and \
-             --drop-bad leaves such rows out"
+            "`{text}` is a mark instead of a number; empty the cell, and --drop-bad drops the row"
         );
     }
     match has_thousands(cell) {
         true => format!(
-            "`{text}` is not a number: separators of thousands are not read, digits without them \
-             were expected"
+            "`{text}` is not a number: bowden does not read thousands separators; use digits without them"
         ),
         false => format!("`{text}` is not a number"),
     }
@@ -204,16 +202,16 @@ fn has_thousands(cell: &str) -> bool {
 }
 
 fn not_finite(text: &str) -> String {
-    format!("`{text}` is not finite, a finite number was expected; --drop-bad leaves such rows out")
+    format!("`{text}` is not finite; a finite number is needed; --drop-bad drops such rows")
 }
 
 fn measured(value: f64, text: &str, line: usize, column: &str) -> Result<f64, RecordError> {
     let message = match value {
         value if value.abs() <= LARGEST => return Ok(value),
         value if value.is_finite() => {
-            format!("`{text}` is larger than {LARGEST:e}, a measured value was expected")
+            format!("`{text}` is larger than {LARGEST:e}; a measured value is needed")
         }
-        _ => format!("`{text}` is not finite, a finite number was expected"),
+        _ => format!("`{text}` is not finite; a finite number is needed"),
     };
     Err(RecordError::at(line, message).on(column))
 }
@@ -257,16 +255,16 @@ mod tests {
         assert_eq!(all(b'\t', &[",5", "1,"]), Ok(vec![0.5, 1.0]));
         assert_eq!(
             all(b';', &["0", "1,5", "1.5"]).unwrap_err(),
-            ":4: column `x`: `1.5` has a decimal point, a decimal comma was expected as in line 3"
+            ":4: column `x`: `1.5` has a decimal point; a decimal comma is needed as in line 3"
         );
         assert_eq!(
             all(b';', &["0.5", "1,5"]).unwrap_err(),
-            ":3: column `x`: `1,5` has a decimal comma, a decimal point was expected"
+            ":3: column `x`: `1,5` has a decimal comma; a decimal point is needed"
         );
         // In quotes, of a file whose cells commas separate: thousands or decimals, who knows.
         assert_eq!(
             all(b',', &["1,5"]).unwrap_err(),
-            ":2: column `x`: `1,5` has a decimal comma, a decimal point was expected"
+            ":2: column `x`: `1,5` has a decimal comma; a decimal point is needed"
         );
     }
 

@@ -41,7 +41,7 @@ impl File {
             .collect();
         if places.is_empty() {
             return Err(RecordError::new(
-                "no numeric column; one for each quantity was expected",
+                "no numeric column; one for each quantity is needed",
             ));
         }
         Ok(Self { reader, places })
@@ -77,7 +77,7 @@ impl File {
             let known = group.columns().get(place).map(|chunk| chunk.compression());
             if let Some(unread) = known.and_then(unread) {
                 let message = format!(
-                    "is compressed by {unread}, which is not read; write the file with snappy or gzip"
+                    "is compressed by {unread}, which bowden does not read; write the file with snappy or gzip"
                 );
                 return Err(RecordError::new(message).on(&name));
             }

@@ -96,7 +96,7 @@ fn parts(header: &Header, options: &Options) -> Result<Roles, RecordError> {
     if let Some(time) = time.filter(|time| *time == input || *time == output) {
         return refuse(
             time,
-            "is the time, it cannot be input or output too".to_owned(),
+            "is the time and cannot also be input or output".to_owned(),
         );
     }
     let channels = channels(header, options, mode)?;
@@ -105,7 +105,7 @@ fn parts(header: &Header, options: &Options) -> Result<Roles, RecordError> {
         let name = shown(name, NAME_LENGTH);
         return refuse(
             output,
-            format!("is the output, it cannot explain itself as channel `{name}`"),
+            format!("is the output and cannot also be channel `{name}`"),
         );
     }
     let mut roles = Roles {
@@ -125,7 +125,7 @@ const TIMES: [&str; 3] = ["t", "time", "timestamp"];
 
 /// The column of the time. `T` without a unit may as well be a temperature.
 fn time(header: &Header, options: &Options) -> Result<usize, RecordError> {
-    let hint = "--time COL names another one, --rate HZ takes time from the row number";
+    let hint = "--time COL names another one; --rate HZ takes time from the row number";
     let usual = |index: &usize| {
         let column = &header.columns[*index];
         let unit = column.unit.as_deref();
@@ -190,7 +190,7 @@ fn mode(header: &Header, options: &Options) -> Result<Mode, RecordError> {
         (false, true) => Ok(Mode::Displacement),
         (true, true) => ask("the columns fit both modes".to_owned()),
         (false, false) if !mapped.is_empty() => {
-            ask("the mode does not follow from the columns named".to_owned())
+            ask("the named columns do not determine the mode".to_owned())
         }
         (false, false) => {
             let list = header.list();

@@ -57,7 +57,7 @@ impl Dropped {
         let rows = if self.all() == 1 { "row" } else { "rows" };
         (self.all() > 0).then(|| {
             format!(
-                "--drop-bad has left out {} {rows}: {}",
+                "--drop-bad has dropped {} {rows}: {}",
                 self.all(),
                 list.join(", ")
             )
@@ -114,14 +114,14 @@ impl<'a> Reader<'a> {
     fn said(&self) -> impl Iterator<Item = String> {
         let several = match self.carried {
             0 => None,
-            1 => Some("1 row goes over several lines, in quotes".to_owned()),
-            rows => Some(format!("{rows} rows go over several lines, in quotes")),
+            1 => Some("1 row spans several lines, in quotes".to_owned()),
+            rows => Some(format!("{rows} rows span several lines, in quotes")),
         };
         let columns = &self.header.columns;
         let has_name = |cells: &usize| columns[*cells..].iter().any(|c| !c.name.is_empty());
         let short = self.short.filter(has_name).map(|cells| {
             format!(
-                "each row has {cells} of the header's {} cells; what lacks is not read",
+                "each row has {cells} of the header's {} cells; the missing cells are not read",
                 columns.len()
             )
         });
@@ -211,7 +211,7 @@ impl<'a> Reader<'a> {
         }
         let mut message = format!("{} cells, the header has {}", row.len(), columns.len());
         if row.last > row.line {
-            message += &format!("; a quote carries the row on to line {}", row.last);
+            message += &format!("; a quote extends the row to line {}", row.last);
         }
         Err(RecordError::at(row.line, message))
     }
@@ -250,7 +250,7 @@ pub(super) fn read(
                 let text = rows.text_below(&used).filter(|_| clock.rows() > 0);
                 if text.is_none() && rows.may_be_cut() && reader.lacks_its_end(&error) {
                     below = Some(format!(
-                        "line {}, the last one, left out: the file ends within it",
+                        "line {}, the last one, dropped: the file ends within it",
                         rows.line()
                     ));
                     break;
@@ -334,12 +334,12 @@ fn long_enough(left: usize, clock: &Clock, dropped: usize, line: usize) -> Resul
     // An option in the file's own stamps, which may be seconds since 1970.
     let counts = match all > 0 && clock.cut() == all {
         true => format!(
-            "; --skip and --until count seconds from the first time stamp, the last one is at {:.3} s",
+            "; --start and --end count seconds from the first time stamp, the last one is at {:.3} s",
             clock.last()
         ),
         false => String::new(),
     };
     let message =
-        format!("too short: {left} {samples}{cut}, at least {MIN_SAMPLES} are needed{counts}");
+        format!("too short: {left} {samples}{cut}; at least {MIN_SAMPLES} are needed{counts}");
     Err(RecordError::at(line, message))
 }

@@ -96,7 +96,7 @@ impl Series {
             None => Err(RecordError::at(
                 header.line,
                 format!(
-                    "has {}; {} was expected, as `{}` has, to add or subtract them",
+                    "has {}; {} is needed, as `{}` has, to add or subtract them",
                     unit(&b.unit),
                     unit(&a.unit),
                     shown(&a.name, NAME_LENGTH)

@@ -73,7 +73,7 @@ pub(super) fn record(file: Columns, options: &Options) -> Result<Record, RecordE
     }
     if !options.names.is_empty() {
         return Err(RecordError::new(
-            "--names: the file is no text; its columns have names already",
+            "--names: the file is not text; its columns have names already",
         ));
     }
     let Columns { header, mut stored } = file;
@@ -109,7 +109,7 @@ fn same_length(
     let length = columns[first].len();
     match roles.read().find(|index| columns[*index].len() != length) {
         Some(other) => Err(RecordError::new(format!(
-            "has {} values; {length} were expected, as `{}` has",
+            "has {} values; {length} are needed, as `{}` has",
             columns[other].len(),
             super::error::shown(&header.columns[first].name, NAME_LENGTH)
         ))

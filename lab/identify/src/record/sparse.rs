@@ -84,19 +84,19 @@ pub(super) fn fill(
         let asked = options.channels.iter().any(|(other, _)| other == name);
         said.push(match readings {
             0 if asked => {
-                let message = "has no number in any row that is read";
+                let message = "has no number in any row of the record";
                 return Err(RecordError::at(header.line, message).on(own));
             }
-            0 => format!("`{own}` has no number in any row: left out"),
+            0 => format!("`{own}` has no number in any row: excluded"),
             _ => {
                 let (all, span) = (
                     at.len(),
                     at.last().unwrap_or(&0.0) - at.first().unwrap_or(&0.0),
                 );
                 let what = match readings {
-                    1 => "one reading, which stands in for all".to_owned(),
+                    1 => "one reading, used for all samples".to_owned(),
                     _ => format!(
-                        "{readings} readings, one in {:.3} s: a line through them stands in",
+                        "{readings} readings, one in {:.3} s: interpolated linearly",
                         span / readings as f64
                     ),
                 };

@@ -138,7 +138,7 @@ impl<'a> Rows<'a> {
         }
         if line.len() > LINE_LIMIT {
             return refuse(format!(
-                "the line has {} bytes, at most {LINE_LIMIT} are read",
+                "the line has {} bytes; at most {LINE_LIMIT} are read",
                 line.len()
             ));
         }
@@ -287,7 +287,7 @@ mod tests {
         let error = rows.read().err().unwrap();
         assert_eq!(
             error.message(),
-            "the line has 131072 bytes, at most 65536 are read"
+            "the line has 131072 bytes; at most 65536 are read"
         );
     }
 }

@@ -62,8 +62,8 @@ impl Thousands {
         };
         let number = grouped.trim_start_matches('+');
         let message = format!(
-            "`{}` may be {} or {}, beside `{}` without a comma in line {whole_line}; thousands \
-             without a separator or the same decimals in every cell were expected",
+            "`{}` may be {} or {}, next to `{}` without a comma in line {whole_line}; thousands \
+             without a separator or the same decimals in every cell are needed",
             shown(grouped, CELL_LENGTH),
             number.replace(',', "."),
             number.replace(',', ""),
@@ -121,8 +121,8 @@ mod tests {
         }
         assert_eq!(
             check(&["900", "1,197"]).unwrap_err(),
-            ":3: column `f`: `1,197` may be 1.197 or 1197, beside `900` without a comma in line 2; \
-             thousands without a separator or the same decimals in every cell were expected"
+            ":3: column `f`: `1,197` may be 1.197 or 1197, next to `900` without a comma in line 2; \
+             thousands without a separator or the same decimals in every cell are needed"
         );
     }
 

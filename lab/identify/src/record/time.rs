@@ -25,7 +25,7 @@ pub(super) struct Clock {
 pub(super) enum Stamp {
     /// Time \[s\] since the first row.
     Kept(f64),
-    /// Before `--skip` or behind `--until`.
+    /// Before `--start` or behind `--end`.
     Cut,
     /// The stamp repeats, and such rows are left out.
     Repeats,
@@ -72,7 +72,7 @@ impl Clock {
                 let scale = units::seconds(unit).ok_or_else(|| {
                     let unit = shown(unit.unwrap_or_default(), NAME_LENGTH);
                     let message = format!(
-                        "unit `{unit}` is not a time, one of s, ms, us, ns, min, h, d was expected"
+                        "unit `{unit}` is not a time; one of s, ms, us, ns, min, h, d is needed"
                     );
                     RecordError::at(header.line, message).on(&column.name)
                 })?;
@@ -192,7 +192,7 @@ impl Clock {
             if step > 0.0 && step < SHORT_STEP {
                 let name = &header.columns[index].name;
                 let message = format!(
-                    "no unit is stated, and there are {:.3e} rows a second if it is s: `{name} [d]` for days, `{name} [h]` for hours, or `{name} [s]` was expected",
+                    "no unit is stated, and there are {:.3e} rows per second if it is s: `{name} [d]` for days, `{name} [h]` for hours, or `{name} [s]` is needed",
                     1.0 / step
                 );
                 return Err(RecordError::at(header.line, message).on(name));
@@ -210,7 +210,7 @@ impl Clock {
         // Where most rows would go, what is left is another record.
         let drop = match 2 * self.repeated > self.rows {
             true => "",
-            false => ", --drop-bad leaves such rows out",
+            false => ", --drop-bad drops such rows",
         };
         let message = if self.repeated * 100 >= self.rows && self.last > 0.0 {
             let stamps = (self.rows - self.repeated).max(2) as f64;
@@ -220,12 +220,14 @@ impl Clock {
                 false => (self.rows - 1) as f64 / self.last,
             };
             format!(
-                "time stands still at {cell}, as at {} of {} rows: the stamps are rounded; \
+                "the time stamp repeats at {cell}, as in {} of {} rows: the stamps are rounded; \
                  --rate HZ takes time from the row number (about {rate:.1} Hz){drop}",
                 self.repeated, self.rows
             )
         } else {
-            format!("time stands still at {cell}; --rate HZ takes time from the row number{drop}")
+            format!(
+                "the time stamp repeats at {cell}; --rate HZ takes time from the row number{drop}"
+            )
         };
         Err(RecordError::at(*line, message).on(name).from(Bad::Repeated))
     }
@@ -285,7 +287,7 @@ impl Clock {
             notes.push(format!("column `{name}` {asked}"));
         }
         if self.cut > 0 {
-            notes.push(format!("{} of {} samples cut away", self.cut, self.rows));
+            notes.push(format!("{} of {} samples cut", self.cut, self.rows));
         }
         notes
     }
@@ -334,7 +336,7 @@ fn no_stamp(row: &Row<'_>, index: usize, error: RecordError) -> RecordError {
     let cell = row.text(index).unwrap_or_default();
     match clock_time::expected(cell) {
         Some(expected) => error.but(format!(
-            "`{}` is not a number nor a time that is read: {expected}",
+            "`{}` is neither a number nor a time in a known format: {expected}",
             shown(cell, 24)
         )),
         None => error,

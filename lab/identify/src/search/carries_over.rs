@@ -2,14 +2,10 @@
 //!
 //! On measured records the residual is systematic: every part of a record repeats the same
 //! misfit, so that no test within one record predicts whether a second record shows the same
-//! name. Two rules help. The delivered model is the simplest one whose error on blocks that were
-//! left out of its linear fit is not worse than the least of all ([`delivered`]). And each name
-//! carries the number of half-records, out of a hundred, in which a search finds it again
-//! (`recurrences`).
+//! name. One rule helps: the delivered model is the simplest one whose error on blocks that were
+//! left out of its linear fit is not worse than the least of all ([`delivered`]).
 
-use super::bank::{on_line, Identity};
-use super::exchange::stands_for;
-use super::linear::Linear;
+use super::bank::on_line;
 use super::policy;
 use crate::algebra::least_norm;
 use crate::fit::Solution;
@@ -201,7 +197,7 @@ impl LeftOut {
 /// Index of the model to deliver, of models in the order in which they are preferred: the first
 /// one that errs on left-out blocks as little as the best, or more by no more than chance.
 ///
-/// The declared model, the first of them, is delivered only where it errs least: the first
+/// The baseline model, the first of them, is delivered only where it errs least: the first
 /// addition has passed the test of the search against it.
 #[must_use]
 pub fn delivered(data: &Prepared, models: &[&Solution]) -> usize {
@@ -215,38 +211,6 @@ pub fn delivered(data: &Prepared, models: &[&Solution]) -> usize {
         };
         errors.iter().enumerate().position(does).unwrap_or(0)
     })
-}
-
-/// Number of half-records, of [`policy::RECURRENCES`], in which each name is found again: the
-/// mean of two forward selections, one linearised at the declared and one at the final model. The
-/// first one knows no power law: what such a name replaces stands for it.
-pub(super) fn recurrences(
-    names: impl Iterator<Item = Identity>,
-    from_declared: &[Vec<Identity>],
-    last: &Linear,
-) -> Vec<usize> {
-    let mut names = names.peekable();
-    if names.peek().is_none() {
-        return Vec::new();
-    }
-    let from_last = last.found_on_halves();
-    let recurs = |name: Identity| {
-        let first = |set: &&Vec<Identity>| set.contains(&name) || stands_for(set, &name);
-        let last = |set: &&Vec<Identity>| set.contains(&name);
-        (from_declared.iter().filter(first).count() + from_last.iter().filter(last).count()) / 2
-    };
-    names.map(recurs).collect()
-}
-
-impl Linear<'_> {
-    /// Result of a forward selection on each half-set of blocks.
-    pub(super) fn found_on_halves(&self) -> Vec<Vec<Identity>> {
-        use rayon::prelude::*;
-        halves(self.grams.blocks(), policy::RECURRENCES)
-            .into_par_iter()
-            .map(|half| self.found_on(&half))
-            .collect()
-    }
 }
 
 #[cfg(test)]

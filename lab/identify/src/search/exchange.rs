@@ -59,18 +59,6 @@ pub(super) fn is_told_apart(own: &FitTerm, other: &FitTerm) -> bool {
         && PAIR.contains(&other.effect.name())
 }
 
-/// Whether a set that a search without power laws has found holds the friction that such a name
-/// replaces.
-pub(super) fn stands_for(set: &[Identity], name: &Identity) -> bool {
-    let Identity::Name(POWER_LAW, own) = name else {
-        return false;
-    };
-    set.iter().any(|member| match member {
-        Identity::Name(effect, source) => source == own && WITH_DRAG.contains(effect),
-        Identity::Curve(variable) => *variable == Variable::Velocity(*own),
-    })
-}
-
 fn has(terms: &[FitTerm], source: Source, name: &str) -> bool {
     let mut terms = terms.iter();
     terms.any(|t| t.source == source && t.effect.name() == name)
@@ -141,7 +129,7 @@ impl Search<'_> {
         places
     }
 
-    /// Whether the declared model has that effect on that channel.
+    /// Whether the baseline model has that effect on that channel.
     fn declares(&self, source: Source, name: &str) -> bool {
         has(&self.declared.structure.terms, source, name)
     }
@@ -167,7 +155,7 @@ impl Search<'_> {
             true => FALLEN,
             false => policy::EQUAL,
         };
-        if new > old - margin || law.rmse.stop > policy::NOT_WORSE * self.now.rmse.stop {
+        if new > old - margin || law.rmse.selection > policy::NOT_WORSE * self.now.rmse.selection {
             return None;
         }
         let pair = self.pair(place)?;
@@ -177,8 +165,9 @@ impl Search<'_> {
             true => (0.0, policy::NOT_WORSE),
             false => (policy::MISFIT, 1.0),
         };
-        let beats =
-            p <= policy::SHORTER && gained > least && law.rmse.stop <= worst * pair.rmse.stop;
+        let beats = p <= policy::SHORTER
+            && gained > least
+            && law.rmse.selection <= worst * pair.rmse.selection;
         beats.then_some((law, p))
     }
 

@@ -1,6 +1,5 @@
 //! Forward selection to first order: names are added one at a time while the criterion falls.
 
-use super::bank::Identity;
 use super::gram::Swept;
 use super::kept::Kept;
 use super::linear::Linear;
@@ -54,30 +53,5 @@ impl Linear<'_> {
             columns.extend(&self.groups[g].columns);
         }
         unit * self.grams.squared_error(&columns, target)
-    }
-
-    /// Forward selection on some blocks, from the declared model, among the candidates and the
-    /// names of the present model.
-    pub(super) fn found_on(&self, blocks: &[usize]) -> Vec<Identity> {
-        let sought = &self.sought;
-        let factors = sought.factors(|freedoms| self.prices.of_name(freedoms));
-        let names = self.declared..self.now.structure.terms.len();
-        let declared = Kept {
-            dropped: names.collect(),
-            table: self.has_table(),
-        };
-        let (target, _) = self.target_of(&self.everything());
-        let mut partial = Partial::on_blocks(&self.grams, blocks, &sought.entries, target);
-        partial.sweep(&self.columns_of(&declared));
-        let mut found: Vec<Identity> = Vec::new();
-        while found.len() < policy::MOST_NAMES {
-            let free = |n: usize| !found.contains(&sought.identities[n]);
-            let Some(n) = sought.best(&partial, &factors, free) else {
-                break;
-            };
-            found.push(sought.identities[n]);
-            partial.sweep(sought.entries.group(n));
-        }
-        found
     }
 }

@@ -32,8 +32,6 @@ pub struct Grams {
     whole: Vec<f64>,
     /// Of each block the lower triangle by rows: see [`place`].
     parts: Vec<Vec<f64>>,
-    /// Columns that are asked for often, each with its products with all others on each block.
-    often: Vec<(usize, Vec<Vec<f64>>)>,
 }
 
 /// Columns for which there is room beyond those that are kept.
@@ -111,7 +109,6 @@ impl Grams {
     pub fn extend(&mut self, columns: &[Arc<Stretch>], rows: &[usize], blocks: &[Range<usize>]) {
         use rayon::prelude::*;
         let (old, size) = (self.size, columns.len());
-        self.often.clear();
         self.parts.resize(blocks.len(), Vec::new());
         let new = columns[old..].iter().map(|c| scale_of(c, rows));
         self.scale.extend(new.collect::<Vec<f64>>());
@@ -165,21 +162,7 @@ impl Grams {
             scale: columns.iter().map(|&i| self.scale[i]).collect(),
             whole,
             parts,
-            often: Vec::new(),
         }
-    }
-
-    /// Prepares for frequent questions for the products of some columns with all others.
-    pub(super) fn prepare(&mut self, columns: &[usize]) {
-        let of = |part: &Vec<f64>, column: usize| -> Vec<f64> {
-            let at = |i: usize| part[place(i.max(column), i.min(column))];
-            (0..self.size).map(at).collect()
-        };
-        let rows = |&column: &usize| {
-            let rows = self.parts.iter().map(|part| of(part, column));
-            (column, rows.collect())
-        };
-        self.often = columns.iter().map(rows).collect();
     }
 
     /// Number of columns.
@@ -209,40 +192,6 @@ impl Grams {
         };
         swept.sweep(columns);
         swept
-    }
-
-    /// Sum of the product of two columns over some blocks.
-    pub(super) fn sum_at(&self, blocks: &[usize], i: usize, j: usize) -> f64 {
-        let place = place(i.max(j), i.min(j));
-        blocks.iter().map(|&b| self.parts[b][place]).sum()
-    }
-
-    /// Sums of the products of a column with the first `count` ones over some blocks.
-    pub(super) fn sum_of_row(&self, blocks: &[usize], column: usize, count: usize) -> Vec<f64> {
-        let [first, others @ ..] = blocks else {
-            return vec![0.0; count];
-        };
-        if let Some((_, rows)) = self.often.iter().find(|(own, _)| *own == column) {
-            let mut row = rows[*first][..count].to_vec();
-            for &b in others {
-                add(&mut row, &rows[b]);
-            }
-            return row;
-        }
-        let own = |b: usize| &self.parts[b][place(column, 0)..place(column + 1, 0)];
-        let below = || (column + 1..count).map(|i| place(i, column));
-        let mut row = Vec::with_capacity(count);
-        row.extend(own(*first).iter().take(count));
-        row.extend(below().map(|at| self.parts[*first][at]));
-        for &b in others {
-            let (before, after) = row.split_at_mut(count.min(column + 1));
-            add(before, own(b));
-            let part = &self.parts[b];
-            for (sum, at) in after.iter_mut().zip(below()) {
-                *sum += part[at];
-            }
-        }
-        row
     }
 
     fn compact(&self, index: &[usize]) -> Vec<f64> {

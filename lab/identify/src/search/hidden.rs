@@ -23,7 +23,6 @@ use crate::model::structure::{FitTerm, Role, Structure};
 use crate::score::blocks::{sign_flip_p_above, Regime};
 use crate::score::left_out::ratios;
 use bowden::model::Source;
-use std::sync::Arc;
 
 /// The effect that a hysteresis may hide where both read the input.
 const HIDDEN: &str = "presliding";
@@ -44,9 +43,6 @@ impl Search<'_> {
         let Some((next, p)) = self.with_hidden(standing) else {
             return false;
         };
-        if Arc::ptr_eq(&self.now, &self.declared) {
-            self.on_halves = linear.found_on_halves();
-        }
         let Some(added) = next.structure.terms.iter().last().copied() else {
             return false;
         };

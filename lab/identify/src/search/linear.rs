@@ -222,8 +222,6 @@ impl<'a> Linear<'a> {
         };
         linear.multiply();
         linear.refine(bank);
-        let now = linear.columns_of(&linear.everything());
-        linear.grams.prepare(&now);
         linear.base = linear.grams.without(&linear.own);
         linear.sought = Sought::of(&linear.choices());
         linear.kinds = kinds(&linear.groups);

@@ -30,24 +30,25 @@ mod refit;
 mod run;
 mod sought;
 
-use crate::fit::{fit, Solution};
-use crate::ledger::Ledger;
-use crate::model::structure::Structure;
+use crate::fit::{fit, glance, Solution};
+use crate::ledger::{Grade, Ledger};
+use crate::model::declared::declared as baseline_term;
+use crate::model::structure::{FitTerm, Structure};
 use crate::problem::Prepared;
 use crate::score::blocks::Regime;
 use crate::score::explains::integrates;
 use bank::Bank;
 use coarse::Coarse;
 use linear::Linear;
-pub use policy::{MOST_NAMES, RECURRENCES};
+pub use policy::MOST_NAMES;
 use refit::on;
 use run::Search;
 use std::time::Instant;
 
-/// Finds the effects that a declared model lacks. `progress` receives one message a step.
+/// Finds the effects that a baseline model lacks. `progress` receives one message a step.
 ///
 /// # Errors
-/// One sentence where the declared model cannot be fitted at all.
+/// One sentence where the baseline model cannot be fitted at all.
 pub fn close(
     data: &Prepared,
     structure: &Structure,
@@ -60,7 +61,7 @@ pub fn close(
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
     /// Maximum number of effects that are added, itself at most [`MOST_NAMES`]. With 0 the
-    /// declared model is fitted, and neither an effect nor an unmodelled curve is sought.
+    /// baseline model is fitted, and neither an effect nor an unmodelled curve is sought.
     pub names: usize,
     /// Time \[s\] after which no further model is tried. The result then depends on the speed of
     /// the machine.
@@ -77,7 +78,7 @@ impl From<usize> for Limits {
 /// As [`close`], within limits.
 ///
 /// # Errors
-/// One sentence where the declared model cannot be fitted at all.
+/// One sentence where the baseline model cannot be fitted at all.
 pub fn close_within(
     data: &Prepared,
     structure: &Structure,
@@ -85,10 +86,10 @@ pub fn close_within(
     mut progress: impl FnMut(&str),
 ) -> Result<Ledger, String> {
     let begun = Instant::now();
-    let cannot = "the declared model cannot be fitted to this record";
+    let cannot = "the baseline model cannot be fitted to this record";
     let limits = limits.into();
     let most = limits.names.min(MOST_NAMES);
-    progress("fitting the declared model");
+    progress("fitting the baseline model");
     let declared = fit(data, structure, None, 0.0).ok_or(cannot)?;
     if integrates(data, &declared) {
         return Ok(Ledger {
@@ -107,12 +108,52 @@ pub fn close_within(
     let mut search = Search::new((data, &coarse, &fine), &declared, most);
     let budget = limits.seconds.map(|seconds| (begun, seconds));
     let out_of_time = search.run(budget, &mut progress);
-    progress("looking for what would do as well");
+    progress("searching for alternatives");
     let limited = (most < MOST_NAMES && search.is_cut).then_some(most);
     let mut ledger = search.ledger().ok_or(cannot)?;
+    ledger.lead = lead(data, &fine, &ledger);
+    if ledger.lead.is_some() {
+        // The clocks explain as much as the terms.
+        let rounds = ledger.rounds.iter_mut().chain(&mut ledger.beyond);
+        rounds.for_each(|round| round.grade = Grade::Low);
+    }
     ledger.stopped_by_request = limited;
     ledger.stopped_by_budget = limits.seconds.filter(|_| out_of_time);
     Ok(ledger)
+}
+
+/// Lead \[s\] of the output before the input: one delay, which may be negative here, fitted to the
+/// baseline model and to the last model, of each that is above the noise.
+///
+/// `None` if it is less than a sample, or if it removes less than half of the squared error, both of
+/// the model without it and of the model with the first term.
+fn lead(data: &Prepared, fine: &Prepared, ledger: &Ledger) -> Option<f64> {
+    let first = ledger
+        .rounds
+        .first()
+        .map_or(&ledger.declared, |round| &round.solution);
+    let of = |model: &Solution| {
+        let is_delay = |term: &FitTerm| term.effect.name() == "delay";
+        if is_at_noise(data, model) || model.structure.terms.iter().any(is_delay) {
+            return None;
+        }
+        let mut structure = Structure {
+            may_lead: true,
+            ..model.structure.clone()
+        };
+        structure.terms.push(baseline_term("delay", data).ok()?);
+        let (sse, _, delay) = glance(fine, &structure, model, 0.0)?;
+        let most = policy::HALF * f64::min(model.sse(data), first.sse(data));
+        (-delay * data.rate >= 1.0 && sse <= most).then_some(-delay)
+    };
+    let found = of(&ledger.declared);
+    let is_other = !ledger.rounds.is_empty() || ledger.unknown.is_some();
+    found.or_else(|| is_other.then(|| of(ledger.last())).flatten())
+}
+
+/// Whether the residual of a model on the fit segment is noise.
+pub(crate) fn is_at_noise(data: &Prepared, model: &Solution) -> bool {
+    model.rmse.fit <= policy::AT_FLOOR * data.noise_floor
 }
 
 /// Whether the blocks are long enough to test the residual, and its correlation time \[s\].

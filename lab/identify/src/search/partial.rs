@@ -4,7 +4,7 @@
 //! two thousand of several hundred thousand entries. Only these are updated when a column is
 //! added; the row of a column is computed when that column is added.
 
-use super::gram::{gain, Grams, Swept, DEPENDENT};
+use super::gram::{gain, Swept, DEPENDENT};
 use super::policy::EXCITED;
 use crate::algebra::{subtract, subtract_products};
 use std::ops::Range;
@@ -45,17 +45,9 @@ impl Entries {
     }
 }
 
-/// Source of the entries.
-enum Source<'a> {
-    /// Some blocks, scaled up to the whole record.
-    Blocks(&'a Grams, &'a [usize], f64),
-    /// A matrix swept by a set, on the whole fit segment.
-    Swept(&'a Swept),
-}
-
 /// Residual products of groups of columns and a target, given a growing set of columns.
 pub struct Partial<'a> {
-    source: Source<'a>,
+    source: &'a Swept,
     entries: &'a Entries,
     target: usize,
     /// Products within the groups. The first row has those of each column with itself, the
@@ -74,25 +66,9 @@ pub struct Partial<'a> {
 }
 
 impl<'a> Partial<'a> {
-    /// On some blocks only, with entries scaled up to the whole record.
-    #[must_use]
-    pub fn on_blocks(
-        grams: &'a Grams,
-        blocks: &'a [usize],
-        entries: &'a Entries,
-        target: usize,
-    ) -> Self {
-        let factor = grams.blocks() as f64 / blocks.len().max(1) as f64;
-        Self::new(Source::Blocks(grams, blocks, factor), entries, target)
-    }
-
     /// On a matrix that is swept by a set already.
     #[must_use]
-    pub fn beside(swept: &'a Swept, entries: &'a Entries, target: usize) -> Self {
-        Self::new(Source::Swept(swept), entries, target)
-    }
-
-    fn new(source: Source<'a>, entries: &'a Entries, target: usize) -> Self {
+    pub fn beside(source: &'a Swept, entries: &'a Entries, target: usize) -> Self {
         let count = entries.columns.len();
         let mut inner: Vec<Vec<f64>> = (0..entries.largest)
             .map(|apart| vec![0.0; count - apart])
@@ -151,7 +127,7 @@ impl<'a> Partial<'a> {
     /// The residual products of a column, given the set, divided by its own residual norm;
     /// `None` where it depends on the set.
     fn row(&self, s: usize) -> Option<Vec<f64>> {
-        let mut row = self.source.row(s, self.reach);
+        let mut row: Vec<f64> = (0..self.reach).map(|j| self.source.at(s, j)).collect();
         for before in &self.swept {
             subtract(&mut row, before[s], before);
         }
@@ -192,29 +168,6 @@ impl<'a> Partial<'a> {
                 end - start,
             ),
             _ => 0.0,
-        }
-    }
-}
-
-impl Source<'_> {
-    fn at(&self, i: usize, j: usize) -> f64 {
-        match self {
-            Self::Blocks(grams, blocks, factor) => factor * grams.sum_at(blocks, i, j),
-            Self::Swept(swept) => swept.at(i, j),
-        }
-    }
-
-    /// Products of a column with the first `count` ones.
-    fn row(&self, s: usize, count: usize) -> Vec<f64> {
-        match self {
-            Self::Blocks(grams, blocks, factor) => {
-                let mut row = grams.sum_of_row(blocks, s, count);
-                for r in &mut row {
-                    *r *= factor;
-                }
-                row
-            }
-            Self::Swept(swept) => (0..count).map(|j| swept.at(s, j)).collect(),
         }
     }
 }

@@ -45,7 +45,7 @@ pub const RIVAL_REST: f64 = 2.0;
 /// The mere rule "not worse" lets one coloured null in fifty through; a quarter is a choice.
 pub const CARRIED: f64 = 0.25;
 
-/// Least share of the SSE whose removal need only not be worse on the stop-check.
+/// Least share of the SSE whose removal need only not be worse on the selection segment.
 ///
 /// No null was seen to reach it.
 pub const LARGE: f64 = 0.3;
@@ -55,7 +55,7 @@ pub const LARGE: f64 = 0.3;
 /// A choice: a residual with a longer memory gives larger shares by chance.
 pub const LARGE_UNTESTED: f64 = 0.6;
 
-/// Least reduction of ln SSE by an unmodelled curve in place of the best set of names, while
+/// Least reduction of ln SSE by an unmodelled curve, compared with the best set of names, while
 /// names are still found: a factor of 2.
 ///
 /// A choice: a curve of ten hats fits any two names over one variable, so that it has to be
@@ -72,8 +72,13 @@ pub const CURVE_AFTER_NAMES: f64 = 0.2231;
 ///
 /// On measured records that are described by the pair the power law takes up to 0.21 more, in
 /// every block: 0.17 on the positioning drive, whose friction is viscous and Coulomb's, and 0.21 on
-/// a damper, where it carries over worse (`docs/results/catalogue.md`).
+/// a damper, where it carries over worse (`lab/notes/catalogue.md`).
 pub const MISFIT: f64 = core::f64::consts::LN_2;
+
+/// Share of a squared error from which one of its causes is the main one.
+///
+/// A choice: the rest is less.
+pub const HALF: f64 = 0.5;
 
 /// Largest RMSE that counts as noise, in units of the noise floor.
 ///
@@ -114,30 +119,13 @@ pub const FAILURES: usize = 2;
 /// the best one. Where the test does not say so, the simpler model is delivered.
 ///
 /// A choice: the usual level. What it reaches on pairs of measured records is in
-/// `docs/results/carry_over.md`; other levels were not compared.
+/// `docs/results/transfer.md`; other levels were not compared.
 pub const SHORTER: f64 = 0.05;
 
 /// Number of half-sets of blocks that decide how many names are delivered.
 ///
 /// A choice: ten complementary pairs, so that each block is left out equally often.
 pub const HALVES: usize = 20;
-
-/// Number of half-sets of blocks on which a name is sought again, in complementary pairs.
-///
-/// A choice.
-pub const RECURRENCES: usize = 100;
-
-/// Least share of the half-records in which a firm name is found again.
-///
-/// On 28 pairs of records of nine rigs three in five names at or above it came again in the other
-/// record, and one in eight below it; on records without a missing effect no share exceeded
-/// 0.38. Other definitions of a firm name are compared in `docs/results/carry_over.md`.
-pub const FIRM: f64 = 0.5;
-
-/// Least share of the blocks on which a firm name lowers the error, in its place among the rounds.
-///
-/// A choice: a name that does harm on most of the record helps only together with another one.
-pub const HELPS: f64 = 0.5;
 
 /// Largest factor by which an accepted move may raise the error on the stop-check.
 ///

@@ -1,7 +1,7 @@
 //! From the final set of a search to the ledger: rounds, rivals, the unmodelled curve.
 
 use super::bank::Identity;
-use super::carries_over::{delivered, recurrences};
+use super::carries_over::delivered;
 use super::exchange::is_told_apart;
 use super::kept::Kept;
 use super::linear::Linear;
@@ -19,7 +19,7 @@ use crate::model::kind::is_stage;
 use crate::model::structure::{FitTerm, Free, Structure};
 use crate::model::Table;
 use crate::problem::Prepared;
-use crate::score::blocks::{Regime, BLOCKS};
+use crate::score::blocks::Regime;
 use crate::score::left_out::on_blocks;
 use crate::score::tones::may_be_of_the_motion;
 use std::sync::Arc;
@@ -37,12 +37,10 @@ impl Search<'_> {
         let standing = self.last()?;
         let rivals = self.rivals(&standing);
         let own = self.declared.structure.terms.len();
-        let names = self.now.structure.terms[own..].iter().map(Identity::of);
-        let recurs = recurrences(names, &self.on_halves, &standing.linear);
         let order = standing.linear.by_weight();
         self.now = Arc::new(arranged(self.data, &self.now, &order)?);
         let weight = order[own..].iter().map(|index| index - own);
-        let weighed: Vec<_> = weight.map(|i| (rivals[i].clone(), recurs[i])).collect();
+        let weighed: Vec<_> = weight.map(|i| rivals[i].clone()).collect();
         let path = self.path()?;
         let mut ledger = Ledger::of((*self.declared).clone());
         ledger.regime = self.regime;
@@ -53,7 +51,7 @@ impl Search<'_> {
         ledger.rejected = std::mem::take(&mut self.rejected);
         reject(&mut ledger.rejected, superseded);
         let mut before = Arc::clone(&self.declared);
-        for (index, (solution, (rivals, recurs))) in path.iter().zip(weighed).enumerate() {
+        for (index, (solution, rivals)) in path.iter().zip(weighed).enumerate() {
             let term = self.now.structure.terms[own + index];
             let candidate = Candidate::from(term);
             let p = self.entry(Identity::of(&term)).and_then(|e| e.p);
@@ -63,16 +61,18 @@ impl Search<'_> {
             let explained = 1.0 - solution.sse(self.data) / before.sse(self.data);
             let (blocks_better, _) = on_blocks(self.data, &before, solution, self.regime);
             ledger.rounds.push(Round {
-                grade: match may_be_of_the_motion(self.data, &term) {
-                    true => Grade::Weak,
-                    false => grade(recurs, blocks_better, &rivals),
+                grade: match rivals.is_empty()
+                    && !self.now.is_on_bound(own + index)
+                    && !may_be_of_the_motion(self.data, &term)
+                {
+                    true => Grade::High,
+                    false => Grade::Low,
                 },
                 candidate,
                 p,
                 rivals,
                 explained,
                 blocks_better,
-                recurs,
                 before: before.rmse,
                 after: solution.rmse,
                 solution: (**solution).clone(),
@@ -81,6 +81,11 @@ impl Search<'_> {
         }
         ledger.unknown = self.unknown(&before);
         self.deliver(&mut ledger)?;
+        // Only a model within the noise can tell which formula is right.
+        if !self.is_at_noise(ledger.last()) {
+            let rounds = ledger.rounds.iter_mut().chain(&mut ledger.beyond);
+            rounds.for_each(|round| round.grade = Grade::Low);
+        }
         let rounds = ledger.rounds.iter().chain(&ledger.beyond);
         let found: Vec<Candidate> = rounds.map(|r| r.candidate).collect();
         ledger
@@ -251,12 +256,13 @@ impl Search<'_> {
         let mut found: Vec<(Candidate, f64)> = really.into_iter().flatten().collect();
         found.extend(self.stages_instead(context, index));
         found.sort_by(|a, b| a.1.total_cmp(&b.1));
-        // One function under two names: no refit is needed to know that it does as well.
-        let mut rivals: Vec<Candidate> = Candidate::twin(&term).into_iter().collect();
+        // One function under two names is one effect: neither family is a rival of it.
+        let twin = Candidate::twin(&term);
+        let mut rivals: Vec<Candidate> = Vec::new();
         for (rival, _) in found {
             let same =
                 |o: &Candidate| (o.family, o.term.source) == (rival.family, rival.term.source);
-            if !rivals.iter().any(same) {
+            if !twin.iter().chain(&rivals).any(same) {
                 rivals.push(rival);
             }
         }
@@ -352,16 +358,6 @@ impl Linear<'_> {
     }
 }
 
-/// Grade of a name from its recurrence, the blocks that it helps on, and its rivals.
-fn grade(recurs: usize, blocks_better: usize, rivals: &[Candidate]) -> Grade {
-    let least = policy::FIRM * policy::RECURRENCES as f64;
-    let helps = blocks_better as f64 >= policy::HELPS * BLOCKS as f64;
-    match recurs as f64 >= least && helps && rivals.is_empty() {
-        true => Grade::Firm,
-        false => Grade::Weak,
-    }
-}
-
 /// The final model, to first order and in fact.
 struct Context<'a, 'b> {
     linear: &'a Linear<'b>,
@@ -412,17 +408,5 @@ impl Context<'_, '_> {
             close.into_iter().take(RIVALS).map(|(_, g)| g).collect(),
             sse,
         )
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_name_that_does_harm_on_most_blocks_or_seldom_recurs_is_weak() {
-        assert_eq!(grade(50, 8, &[]), Grade::Firm);
-        assert_eq!(grade(49, 16, &[]), Grade::Weak);
-        assert_eq!(grade(100, 7, &[]), Grade::Weak);
     }
 }

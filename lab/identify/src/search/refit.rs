@@ -7,7 +7,6 @@ use super::linear::{Linear, Member};
 use super::moves::Move;
 use crate::fit::projection::Span;
 use crate::fit::settle::settle;
-use crate::fit::starts::INSIDE;
 use crate::fit::Solution;
 use crate::model::catalogue::{simplicity, Candidate};
 use crate::model::structure::{FitTerm, Free, Range, Role, Structure, TermId};
@@ -180,10 +179,7 @@ impl Linear<'_> {
             let at = columns.iter().position(|&c| c == column);
             at.map_or(0.0, |i| gains[i])
         };
-        let known: Vec<(f64, f64)> = free
-            .iter()
-            .map(|f| self.known(plan, f.role, &gain))
-            .collect();
+        let known: Vec<(f64, f64)> = free.iter().map(|f| self.known(plan, f, &gain)).collect();
         let stepped = free.iter().zip(&known).map(|(f, &(value, step))| {
             let step = match step.is_finite() {
                 true => step.clamp(-1.0, 1.0),
@@ -204,7 +200,8 @@ impl Linear<'_> {
     }
 
     /// Value of a parameter, and its linear step on the unbounded scale of its range.
-    fn known(&self, plan: &Plan, role: Role, gain: &dyn Fn(usize) -> f64) -> (f64, f64) {
+    fn known(&self, plan: &Plan, free: &Free, gain: &dyn Fn(usize) -> f64) -> (f64, f64) {
+        let role = free.role;
         let present = |role: Role| {
             let i = self.now.free.iter().position(|f| f.role == role)?;
             Some((self.now.values[i], gain(self.free[i])))
@@ -224,7 +221,7 @@ impl Linear<'_> {
         });
         let step = slope.map_or(0.0, |i| gain(group.columns[1 + i]) / own);
         let start = plan.structure.terms.find(term);
-        (start.map_or(0.0, |t| start_of(t, role, own)), step)
+        (start.map_or(0.0, |t| start_of(t, free, own)), step)
     }
 }
 
@@ -239,7 +236,7 @@ pub(super) fn other_hystereses<'a>(
             Role::Rho => rho / data.input.reach,
             Role::Sigma => sigma,
             Role::N => n,
-            Role::Eta0 { .. } => v.clamp(-INSIDE, INSIDE),
+            Role::Eta0 { .. } => f.range.inside(v),
             _ => v,
         };
         free.iter().zip(values).map(at).collect()
@@ -247,11 +244,11 @@ pub(super) fn other_hystereses<'a>(
 }
 
 /// Start of a parameter of an added term.
-fn start_of(term: &FitTerm, role: Role, gain: f64) -> f64 {
-    match role {
+fn start_of(term: &FitTerm, free: &Free, gain: f64) -> f64 {
+    match free.role {
         Role::Shape { index, .. } => term.effect.shape(index).unwrap_or(0.0),
         Role::Origin { .. } => term.origin,
-        Role::Stage { .. } => gain,
+        Role::Stage { .. } => free.range.inside(gain),
         _ => 0.0,
     }
 }

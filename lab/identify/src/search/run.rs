@@ -68,8 +68,6 @@ pub(super) struct Search<'a> {
     phase: Phase,
     /// Whether the final model has been fitted from all starts.
     is_last_anew: bool,
-    /// Result of a forward selection on each half-record, linearised at the declared model.
-    pub(super) on_halves: Vec<Vec<Identity>>,
     linear: Option<Standing<'a>>,
 }
 
@@ -112,7 +110,6 @@ impl<'a> Search<'a> {
             failures: 0,
             phase: Phase::Any,
             is_last_anew: false,
-            on_halves: Vec::new(),
             linear: None,
         }
     }
@@ -130,7 +127,7 @@ impl<'a> Search<'a> {
             }
             let found = self.now.structure.terms.len() - self.declared.structure.terms.len();
             progress(&format!(
-                "looking for what is missing, turn {turn}, found so far: {found}"
+                "searching for missing terms, round {turn}, found so far: {found}"
             ));
             let Some(mut standing) = self.last() else {
                 break;
@@ -164,7 +161,7 @@ impl<'a> Search<'a> {
             return false;
         };
         let gained = (now.sse(self.data) / next.sse(self.data)).ln();
-        if gained < policy::LEAST || next.rmse.stop > policy::NOT_WORSE * now.rmse.stop {
+        if gained < policy::LEAST || next.rmse.selection > policy::NOT_WORSE * now.rmse.selection {
             return false;
         }
         self.now = Arc::new(next);
@@ -335,7 +332,7 @@ impl<'a> Search<'a> {
             return false;
         };
         if linear.takes_names_out(&best.made) {
-            if next.rmse.stop > policy::NOT_WORSE * self.now.rmse.stop {
+            if next.rmse.selection > policy::NOT_WORSE * self.now.rmse.selection {
                 return false;
             }
         } else if !best.made.added.is_empty() {
@@ -348,9 +345,6 @@ impl<'a> Search<'a> {
                 }
                 return false;
             }
-        }
-        if Arc::ptr_eq(&self.now, &self.declared) {
-            self.on_halves = linear.found_on_halves();
         }
         for (&g, &p) in best.made.added.iter().zip(&best.made.p) {
             let group = &linear.groups[g];
@@ -393,7 +387,7 @@ impl<'a> Search<'a> {
 
     /// Whether nothing but noise is left by a model.
     pub(super) fn is_at_noise(&self, model: &Solution) -> bool {
-        model.rmse.fit <= policy::AT_FLOOR * self.data.noise_floor
+        super::is_at_noise(self.data, model)
     }
 
     /// The rejection of a term that a move removes.
@@ -450,12 +444,12 @@ pub(super) fn gates(
     regime: Regime,
 ) -> Result<(), Gate> {
     let taken = 1.0 - (new.rmse.fit / old.rmse.fit).powi(2);
-    let carried = 1.0 - (new.rmse.stop / old.rmse.stop).powi(2);
+    let carried = 1.0 - (new.rmse.selection / old.rmse.selection).powi(2);
     let large = match regime {
         Regime::Blocks => policy::LARGE,
         Regime::Effect => policy::LARGE_UNTESTED,
     };
-    let worse = new.rmse.stop > policy::NOT_WORSE * old.rmse.stop;
+    let worse = new.rmse.selection > policy::NOT_WORSE * old.rmse.selection;
     if taken > 0.0 && carried < policy::CARRIED * taken && (taken < large || worse) {
         return Err(Gate::StopCheck);
     }

@@ -1,4 +1,4 @@
-//! A refusal says what was expected, where that can be told from the cell.
+//! A refusal says what is needed, where that can be told from the cell.
 
 use super::{accepted, refusal, refused, with_line, with_time};
 use bowden_lab::record::Options;
@@ -51,23 +51,21 @@ fn a_stamp_of_another_form_says_which_forms_are_read() {
         refused(
             with_line(2, &format!("{cell},1,2")),
             &format!(
-                "r.csv:2: column `t`: `{cell}` is not a number nor a time that is read: {expected}"
+                "r.csv:2: column `t`: `{cell}` is neither a number nor a time in a known format: {expected}"
             ),
         );
     };
     cell(
         "3/1/2026 23:59:50.000",
-        "1/2/2026 may be two days; ISO 8601 (2026-02-01T23:59:50.250) or 1.2.2026 23:59:50.250 was \
-         expected",
+        "1/2/2026 may be two days; ISO 8601 (2026-02-01T23:59:50.250) or 1.2.2026 23:59:50.250 is needed",
     );
     cell(
         "11:59:50.000 PM",
-        "hours from 0 to 23 without AM and PM were expected, as in 23:59:50.250",
+        "hours from 0 to 23 without AM and PM are allowed, as in 23:59:50.250",
     );
     cell(
         "2026-03-01",
-        "seconds, 23:59:50.250, 2026-02-01T23:59:50.250 (ISO 8601) or 1.2.2026 23:59:50.250 was \
-         expected",
+        "seconds, 23:59:50.250, 2026-02-01T23:59:50.250 (ISO 8601) or 1.2.2026 23:59:50.250 is needed",
     );
 }
 
@@ -77,8 +75,7 @@ fn marks_and_separators_of_thousands_are_told_from_other_words() {
         refused(
             with_line(9, &format!("0.07,{mark},2")),
             &format!(
-                "r.csv:9: column `x`: `{mark}` is not a number but a mark in place of one; leave the \
-                 cell empty and --drop-bad leaves such rows out"
+                "r.csv:9: column `x`: `{mark}` is a mark instead of a number; empty the cell, and --drop-bad drops the row"
             ),
         );
     }
@@ -88,8 +85,7 @@ fn marks_and_separators_of_thousands_are_told_from_other_words() {
                 .replace(',', "\t")
                 .replace("CELL", cell),
             &format!(
-                "r.csv:9: column `x`: `{cell}` is not a number: separators of thousands are not read, \
-                 digits without them were expected"
+                "r.csv:9: column `x`: `{cell}` is not a number: bowden does not read thousands separators; use digits without them"
             ),
         );
     }
@@ -111,8 +107,8 @@ fn cuts_that_leave_nothing_say_from_where_they_count() {
     });
     assert_eq!(
         refusal(text, &options),
-        "r.csv:401: too short: 0 samples of 400 are left after cutting, at least 200 are needed; \
-         --skip and --until count seconds from the first time stamp, the last one is at 3.990 s"
+        "r.csv:401: too short: 0 samples of 400 are left after cutting; at least 200 are needed; \
+         --start and --end count seconds from the first time stamp, the last one is at 3.990 s"
     );
 }
 
@@ -125,7 +121,7 @@ fn rows_are_to_be_left_out_only_where_most_stay() {
     assert!(!line.contains("--drop-bad"), "{line}");
     let some = with_time("t,x,f", |i| (i - i % 4 / 3).to_string());
     let line = refusal(some, &Options::default());
-    assert!(line.ends_with("--drop-bad leaves such rows out"), "{line}");
+    assert!(line.ends_with("--drop-bad drops such rows"), "{line}");
     let line = refusal(with_time("t,x,f", |_| "7".to_owned()), &Options::default());
     assert!(!line.contains("--drop-bad"), "{line}");
 }

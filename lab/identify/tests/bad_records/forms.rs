@@ -34,17 +34,16 @@ fn a_decimal_comma_is_read_behind_semicolons_and_tabs() {
     refused(comma(&plain, ","), "r.csv:2: 6 cells, the header has 3");
     refused(
         comma(&plain, ";").replace("0,20;", "0.20;"),
-        "r.csv:22: column `t`: `0.20` has a decimal point, a decimal comma was expected as in line 2",
+        "r.csv:22: column `t`: `0.20` has a decimal point; a decimal comma is needed as in line 2",
     );
     refused(
         plain.replace(',', ";").replace("0.20;", "0,20;"),
-        "r.csv:22: column `t`: `0,20` has a decimal comma, a decimal point was expected",
+        "r.csv:22: column `t`: `0,20` has a decimal comma; a decimal point is needed",
     );
     let thousands = comma(&plain, ";").replace("0,20;", "1.000,20;");
     refused(
         thousands,
-        "r.csv:22: column `t`: `1.000,20` is not a number: separators of thousands are not read, \
-         digits without them were expected",
+        "r.csv:22: column `t`: `1.000,20` is not a number: bowden does not read thousands separators; use digits without them",
     );
 }
 
@@ -61,14 +60,14 @@ fn commas_that_may_separate_thousands_are_refused() {
     };
     refused(
         with(&|i| grouped(900 + i), &seconds),
-        "r.csv:102: column `f`: `1,000` may be 1.000 or 1000, beside `900` without a comma in \
-         line 2; thousands without a separator or the same decimals in every cell were expected",
+        "r.csv:102: column `f`: `1,000` may be 1.000 or 1000, next to `900` without a comma in \
+         line 2; thousands without a separator or the same decimals in every cell are needed",
     );
     // Time would run backwards at this place.
     refused(
         with(&|i| format!("{i},5"), &|i| grouped(10 * i)),
-        "r.csv:102: column `t`: `1,000` may be 1.000 or 1000, beside `0` without a comma in \
-         line 2; thousands without a separator or the same decimals in every cell were expected",
+        "r.csv:102: column `t`: `1,000` may be 1.000 or 1000, next to `0` without a comma in \
+         line 2; thousands without a separator or the same decimals in every cell are needed",
     );
     // Three decimals in every cell, four digits without a comma, another number of decimals.
     for (force, value) in [
@@ -112,7 +111,7 @@ fn a_preamble_and_a_row_of_units_are_found() {
     let record = read(
         german(&format!("{preamble}t;x;f\ns;mm;N\n")),
         &[
-            "lines 1–5 above the names passed over",
+            "lines 1–5 above the names ignored",
             "units from line 7",
             commas,
         ],
@@ -123,9 +122,9 @@ fn a_preamble_and_a_row_of_units_are_found() {
     read(
         german("sep=;\na;b;c;d;e\n1;2\nt [s];x;f\nclock;pot;cell\n[s];(mm);[N]\n"),
         &[
-            "lines 1–3 above the names passed over",
+            "lines 1–3 above the names ignored",
             "units from line 6",
-            "line 5 between names and values passed over",
+            "line 5 between names and values ignored",
             commas,
         ],
     );
@@ -149,9 +148,9 @@ fn labelled_rows_of_a_trace_export_are_read() {
     let record = read(
         format!("{head}{}\n", values.join("\n")),
         &[
-            "lines 1–4 above the names passed over",
+            "lines 1–4 above the names ignored",
             "units from line 7",
-            "line 6 between names and values passed over",
+            "line 6 between names and values ignored",
             "columns not read: `name`",
             "numbers have a decimal comma",
         ],
@@ -181,7 +180,7 @@ fn the_line_of_the_names_can_be_given() {
     );
     assert_eq!(
         refusal(&text, &at(9)),
-        "r.csv:9: the line holds numbers, a header with column names was expected; \
+        "r.csv:9: the line holds numbers; a header with column names is needed; \
          --names t,x,f gives the names of a file without them"
     );
 }
@@ -198,7 +197,7 @@ fn a_preamble_without_the_names_is_refused_at_the_line_that_should_have_them() {
 #[test]
 fn text_below_and_empty_cells_beside_the_table_are_passed_over() {
     let plain = csv("t,x,f", &rows());
-    let note = |lines: &str| format!("{lines} below the table passed over");
+    let note = |lines: &str| format!("{lines} below the table ignored");
     read(
         format!("{plain}\nEnd of record\n"),
         &[&note("lines 402–403")],
@@ -233,15 +232,15 @@ fn text_below_and_empty_cells_beside_the_table_are_passed_over() {
     );
     refused(
         format!("{plain}NaN,NaN,NaN\n"),
-        "r.csv:402: column `t`: `NaN` is not finite, a finite number was expected; \
-         --drop-bad leaves such rows out",
+        "r.csv:402: column `t`: `NaN` is not finite; a finite number is needed; \
+         --drop-bad drops such rows",
     );
 }
 
 #[test]
 fn a_column_at_the_end_that_no_row_has_is_passed_over() {
     // As LabVIEW writes it: a name for comments, and no cell for them.
-    let note = "each row has 3 of the header's 4 cells; what lacks is not read";
+    let note = "each row has 3 of the header's 4 cells; the missing cells are not read";
     let text = csv("t,x,f,Comment", &rows());
     same(
         &text,
@@ -386,7 +385,7 @@ fn bad_rows_are_left_out_where_that_is_asked_for() {
     assert_eq!((record.samples(), record.dropped), (396, 4));
     assert_eq!(
         record.notes,
-        ["--drop-bad has left out 4 rows: 2 with an empty cell, 1 with NaN, 1 with the time stamp of the row before"]
+        ["--drop-bad has dropped 4 rows: 2 with an empty cell, 1 with NaN, 1 with the time stamp of the row before"]
     );
     assert!(!record.time.contains(&0.20) && record.time.contains(&0.22));
     // Each is a gap, from a time column and from the row number.
@@ -405,25 +404,25 @@ fn bad_rows_are_left_out_where_that_is_asked_for() {
     // Without it the first one is named.
     refused(
         &text,
-        "r.csv:22: column `x`: the cell is empty, a number was expected; --drop-bad leaves such rows out",
+        "r.csv:22: column `x`: the cell is empty; a number is needed; --drop-bad drops such rows",
     );
     spoilt = rows();
     spoilt[30] = "0.29,1,1".to_owned();
     refused(
         csv("t,x,f", &spoilt),
-        "r.csv:32: column `t`: time stands still at 0.29; --rate HZ takes time from the row number, \
-         --drop-bad leaves such rows out",
+        "r.csv:32: column `t`: the time stamp repeats at 0.29; --rate HZ takes time from the row number, \
+         --drop-bad drops such rows",
     );
     // Words and infinities stay refused, and what is left has to be enough.
     spoilt[30] = "0.30,inf,1".to_owned();
     assert_eq!(
         refusal(csv("t,x,f", &spoilt), &drop),
-        "r.csv:32: column `x`: `inf` is not finite, a finite number was expected"
+        "r.csv:32: column `x`: `inf` is not finite; a finite number is needed"
     );
     let empty: Vec<_> = rows().iter().map(|_| "0,,".to_owned()).collect();
     assert_eq!(
         refusal(csv("t,x,f", &empty), &drop),
-        "r.csv:401: too short: 0 samples of 400 are left after cutting and --drop-bad, at least 200 are needed"
+        "r.csv:401: too short: 0 samples of 400 are left after cutting and --drop-bad; at least 200 are needed"
     );
 }
 
@@ -451,11 +450,11 @@ fn a_channel_is_the_difference_or_the_sum_of_two() {
     let line = |column: &str| of(&[("stretch", column)]).unwrap_err();
     assert_eq!(
         line("a-t"),
-        "r.csv:1: column `t`: has no unit; unit rad was expected, as `a` has, to add or subtract them"
+        "r.csv:1: column `t`: has no unit; unit rad is needed, as `a` has, to add or subtract them"
     );
     assert_eq!(
         line("tau_i-tau_o"),
-        "r.csv:1: column `tau_o`: is the output, it cannot explain itself as channel `stretch`"
+        "r.csv:1: column `tau_o`: is the output and cannot also be channel `stretch`"
     );
     assert!(line("a-c").starts_with("r.csv:1: column `c`: no such column"));
     assert!(line("q-a").starts_with("r.csv:1: column `q`: no such column"));

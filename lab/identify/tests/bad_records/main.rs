@@ -77,7 +77,7 @@ fn the_unit_of_time_is_converted() {
     assert_eq!(record.notes, ["time converted from ms to s"]);
     refused(
         csv("t [V],x,f", &rows()),
-        "r.csv:1: column `t`: unit `V` is not a time, one of s, ms, us, ns, min, h, d was expected",
+        "r.csv:1: column `t`: unit `V` is not a time; one of s, ms, us, ns, min, h, d is needed",
     );
 }
 
@@ -86,7 +86,7 @@ fn days_without_a_unit_are_not_taken_for_seconds() {
     let day = |i: usize| format!("{:.12}", 45_000.0 + i as f64 * 1e-3 / 86_400.0);
     refused(
         with_time("t,x,f", day),
-        "r.csv:1: column `t`: no unit is stated, and there are 8.640e7 rows a second if it is s: `t [d]` for days, `t [h]` for hours, or `t [s]` was expected",
+        "r.csv:1: column `t`: no unit is stated, and there are 8.640e7 rows per second if it is s: `t [d]` for days, `t [h]` for hours, or `t [s]` is needed",
     );
     let record = accepted(with_time("t [d],x,f", day));
     // A day's twelfth digit is a tenth of a microsecond.
@@ -113,7 +113,7 @@ fn a_file_that_cannot_be_opened_is_named() {
     );
     let error = read(folder.path(), &Options::default()).unwrap_err();
     let line = format!(
-        "{}: is a folder, a CSV file was expected",
+        "{}: is a folder; a CSV file is needed",
         folder.path().display()
     );
     assert_eq!(error.to_string(), line);
@@ -121,24 +121,24 @@ fn a_file_that_cannot_be_opened_is_named() {
 
 #[test]
 fn a_file_without_a_record_is_refused() {
-    let header = "a header with column names was expected";
-    refused("", &format!("r.csv:1: the file is empty, {header}"));
+    let header = "a header with column names is needed";
+    refused("", &format!("r.csv:1: the file is empty; {header}"));
     refused(
         "\u{feff}\r\n \n",
-        &format!("r.csv:1: the file is blank, {header}"),
+        &format!("r.csv:1: the file is blank; {header}"),
     );
     let short = "at least 200 are needed";
     refused(
         "t,x,f\n",
-        &format!("r.csv:1: too short: 0 samples, {short}"),
+        &format!("r.csv:1: too short: 0 samples; {short}"),
     );
     refused(
         "t,x,f\n0,1,2\n",
-        &format!("r.csv:2: too short: 1 sample, {short}"),
+        &format!("r.csv:2: too short: 1 sample; {short}"),
     );
     refused(
         "t,x,f\n0,1,2\n1,2,3\n2,5,4\n",
-        &format!("r.csv:4: too short: 3 samples, {short}"),
+        &format!("r.csv:4: too short: 3 samples; {short}"),
     );
 }
 
@@ -146,7 +146,7 @@ fn a_file_without_a_record_is_refused() {
 fn a_file_that_is_not_text_is_refused() {
     refused(
         b"t,x,f\n0,1,2\n\x00\x01",
-        "r.csv:3: byte 12 is NUL: a binary file, CSV text was expected",
+        "r.csv:3: byte 12 is NUL: a binary file; CSV text is needed",
     );
     refused(
         b"t,x,f\n0,1\xb5,2\n",
@@ -158,7 +158,7 @@ fn a_file_that_is_not_text_is_refused() {
     );
     refused(
         b"t,x,f\n0,1\xb5\x02,2\n",
-        "r.csv:2: byte 10 (0x02) is no character of UTF-8 nor of Windows-1252; save the file as UTF-8",
+        "r.csv:2: byte 10 (0x02) is not valid in UTF-8 or Windows-1252; save the file as UTF-8",
     );
     refused(
         b"\xff\xfet\0,\0x\0,\0f\0\n\x000\0,\0a\0,\x001\0",
@@ -168,15 +168,15 @@ fn a_file_that_is_not_text_is_refused() {
 
 #[test]
 fn a_header_that_is_none_is_refused() {
-    let header = "a header with column names was expected";
+    let header = "a header with column names is needed";
     refused(
         ",,\n1,2,3\n",
-        &format!("r.csv:1: the line has no names, {header}"),
+        &format!("r.csv:1: the line has no names; {header}"),
     );
     refused(
         rows().join("\n"),
         &format!(
-            "r.csv:1: the line holds numbers, {header}; --names t,x,f gives the names of a file \
+            "r.csv:1: the line holds numbers; {header}; --names t,x,f gives the names of a file \
              without them"
         ),
     );
@@ -195,7 +195,7 @@ fn a_missing_column_is_named_with_those_that_exist() {
     refused(
         csv("tim,x,f", &rows()),
         "r.csv:1: column `t`: no such column among `tim`, `x`, `f` (nearest: `tim`); \
-         --time COL names another one, --rate HZ takes time from the row number",
+         --time COL names another one; --rate HZ takes time from the row number",
     );
     refused(
         csv("t,tau_i,torque", &rows()),
@@ -232,7 +232,7 @@ fn an_open_mode_is_asked_for() {
     };
     assert_eq!(
         refusal(csv("t,q,u,a,b", &rows), &options),
-        "r.csv:1: the mode does not follow from the columns named; \
+        "r.csv:1: the named columns do not determine the mode; \
          state --mode torque or --mode displacement"
     );
 }
@@ -256,7 +256,7 @@ fn one_column_has_one_part() {
             mode,
             ..Options::default()
         },
-        "r.csv:1: column `t`: is the time, it cannot be input or output too",
+        "r.csv:1: column `t`: is the time and cannot also be input or output",
     );
     let channels = |pairs: &[(&str, &str)]| Options {
         channels: pairs
@@ -267,7 +267,7 @@ fn one_column_has_one_part() {
     };
     refuses(
         channels(&[("load", "f")]),
-        "r.csv:1: column `f`: is the output, it cannot explain itself as channel `load`",
+        "r.csv:1: column `f`: is the output and cannot also be channel `load`",
     );
     refuses(
         channels(&[("a", "t"), ("a", "x")]),
@@ -285,24 +285,21 @@ fn a_cell_that_is_no_measured_number_is_shown() {
         let line = format!("r.csv:57: column `x`: {message}");
         refused(with_line(57, &format!("0.55,{cell},3")), &line);
     };
-    let drop = "--drop-bad leaves such rows out";
+    let drop = "--drop-bad drops such rows";
     refuses(
         "",
-        &format!("the cell is empty, a number was expected; {drop}"),
+        &format!("the cell is empty; a number is needed; {drop}"),
     );
     refuses("abc", "`abc` is not a number");
     refuses(
         "NaN",
-        &format!("`NaN` is not finite, a finite number was expected; {drop}"),
+        &format!("`NaN` is not finite; a finite number is needed; {drop}"),
     );
-    refuses("-inf", "`-inf` is not finite, a finite number was expected");
-    refuses(
-        "1e999",
-        "`1e999` is not finite, a finite number was expected",
-    );
+    refuses("-inf", "`-inf` is not finite; a finite number is needed");
+    refuses("1e999", "`1e999` is not finite; a finite number is needed");
     refuses(
         "1e308",
-        "`1e308` is larger than 1e150, a measured value was expected",
+        "`1e308` is larger than 1e150; a measured value is needed",
     );
     refuses("\u{1b}[2J\u{7}", "`\\u{1b}[2J\\u{7}` is not a number");
     refuses(
@@ -311,7 +308,7 @@ fn a_cell_that_is_no_measured_number_is_shown() {
     );
     refused(
         with_line(9, "0.07,1,"),
-        &format!("r.csv:9: column `f`: the cell is empty, a number was expected; {drop}"),
+        &format!("r.csv:9: column `f`: the cell is empty; a number is needed; {drop}"),
     );
     refused(
         with_line(9, "x,1,2"),
@@ -321,7 +318,7 @@ fn a_cell_that_is_no_measured_number_is_shown() {
         with_line(9, "0.07,1.5,2")
             .replace(',', ";")
             .replace("1.5;", "1,5;"),
-        "r.csv:9: column `x`: `1,5` has a decimal comma, a decimal point was expected",
+        "r.csv:9: column `x`: `1,5` has a decimal comma; a decimal point is needed",
     );
 }
 
@@ -341,7 +338,7 @@ fn a_row_that_does_not_fit_the_header_is_refused() {
     );
     refused(
         with_line(57, &"1".repeat(5_000_000)),
-        "r.csv:57: the line has 5000000 bytes, at most 65536 are read",
+        "r.csv:57: the line has 5000000 bytes; at most 65536 are read",
     );
 }
 
@@ -355,11 +352,11 @@ fn a_line_of_any_length_gets_one_short_line() {
         let bytes = long.trim_end().len();
         refused(
             &long,
-            &format!("r.csv:1: the line has {bytes} bytes, {limit}"),
+            &format!("r.csv:1: the line has {bytes} bytes; {limit}"),
         );
         refused(
             format!("t,x,f\n0,1,2\n{long}\n0.02,1,2\n"),
-            &format!("r.csv:3: the line has {} bytes, {limit}", long.len()),
+            &format!("r.csv:3: the line has {} bytes; {limit}", long.len()),
         );
     }
 }
@@ -394,7 +391,7 @@ fn a_quote_that_stays_open_is_refused() {
     // Closed by the next stray quote.
     refused(
         with_line(57, "0.55,\"1,2\n0.56,3,4\""),
-        "r.csv:57: 2 cells, the header has 3; a quote carries the row on to line 58",
+        "r.csv:57: 2 cells, the header has 3; a quote extends the row to line 58",
     );
     refused(
         with_line(57, "0.55,\"1,2\n0.56,\"3,4"),

@@ -40,7 +40,7 @@ fn blanks_may_separate_the_columns() {
     let record = same(&text, &none, &[BLANKS]);
     assert_eq!(record.input.unit.as_deref(), Some("mm"));
     assert_eq!(record.output.unit.as_deref(), Some("N"));
-    let above = "lines 1–2 above the names passed over";
+    let above = "lines 1–2 above the names ignored";
     same(
         &format!("rig seven\nof the lab\n{single}"),
         &none,
@@ -65,7 +65,7 @@ fn names_can_be_given_to_a_text_without_them() {
     let decimal = "numbers have a decimal comma";
     same(&comma, &named(&[t, x, f]), &[decimal]);
     let preamble = format!("% made by a rig\n% on a day\n{lines}");
-    let above = "lines 1–2 above the values passed over";
+    let above = "lines 1–2 above the values ignored";
     same(&preamble, &named(&[t, x, f]), &[above]);
     // An empty name is that of a column which is not read.
     let wide = lines.replace('\n', ",7\n") + ",7";
@@ -78,7 +78,7 @@ fn names_that_do_not_fit_are_refused() {
     let lines = rows().join("\n");
     assert_eq!(
         refusal(&lines, &Options::default()),
-        "r.csv:1: the line holds numbers, a header with column names was expected; \
+        "r.csv:1: the line holds numbers; a header with column names is needed; \
          --names t,x,f gives the names of a file without them"
     );
     assert_eq!(
@@ -99,7 +99,7 @@ fn names_that_do_not_fit_are_refused() {
     };
     assert_eq!(
         refusal(&lines, &both),
-        "r.csv: --names is for a text without names, --header-line for one with them"
+        "r.csv: --names is for a file without names, --header-line for a file with names"
     );
 }
 
@@ -139,7 +139,7 @@ fn one_name_with_two_units_is_two_columns() {
 fn a_file_that_ends_within_a_line_loses_that_line() {
     let whole = csv("t,x,f", &rows());
     let cut = |text: &str| format!("{whole}{text}");
-    let note = "line 402, the last one, left out: the file ends within it";
+    let note = "line 402, the last one, dropped: the file ends within it";
     for end in ["4.00,1.5", "4.00,1.5,", "4.00,1.5,-", "4.00,1.5,2.e", "4"] {
         same(&cut(end), &Options::default(), &[note]);
         // A line that ends is whole, and something else is wrong with it.
@@ -148,7 +148,7 @@ fn a_file_that_ends_within_a_line_loses_that_line() {
     same(
         &cut("end of file"),
         &Options::default(),
-        &["line 402 below the table passed over"],
+        &["line 402 below the table ignored"],
     );
     refused(
         cut("4.00,x,2.0"),

@@ -10,15 +10,15 @@ fn time_that_does_not_run_forward_is_refused() {
     );
     refused(
         with_line(57, "0.54,1,2"),
-        "r.csv:57: column `t`: time stands still at 0.54; \
-         --rate HZ takes time from the row number, --drop-bad leaves such rows out",
+        "r.csv:57: column `t`: the time stamp repeats at 0.54; \
+         --rate HZ takes time from the row number, --drop-bad drops such rows",
     );
     let rounded = with_time("t,x,f", |i| format!("{:.2}", i as f64 / 128.0));
     refused(
         &rounded,
-        "r.csv:5: column `t`: time stands still at 0.02, as at 87 of 400 rows: \
+        "r.csv:5: column `t`: the time stamp repeats at 0.02, as in 87 of 400 rows: \
          the stamps are rounded; --rate HZ takes time from the row number (about 127.9 Hz), \
-         --drop-bad leaves such rows out",
+         --drop-bad drops such rows",
     );
     let options = Options {
         rate: Some(128.0),
@@ -34,7 +34,7 @@ fn time_that_does_not_run_forward_is_refused() {
             format!("{i}e-12")
         }
     });
-    assert!(refusal(far, &Options::default()).contains("time stands still"));
+    assert!(refusal(far, &Options::default()).contains("the time stamp repeats"));
 }
 
 #[test]
@@ -45,17 +45,11 @@ fn options_that_cannot_be_followed_are_refused() {
         rate: Some(rate),
         ..Options::default()
     };
-    refuses(
-        rate(0.0),
-        "r.csv: --rate 0: a positive number of Hz was expected",
-    );
-    refuses(
-        rate(-5.0),
-        "r.csv: --rate -5: a positive number of Hz was expected",
-    );
+    refuses(rate(0.0), "r.csv: --rate 0 is out of range (above 0 Hz)");
+    refuses(rate(-5.0), "r.csv: --rate -5 is out of range (above 0 Hz)");
     refuses(
         rate(f64::NAN),
-        "r.csv: --rate NaN: a positive number of Hz was expected",
+        "r.csv: --rate NaN is out of range (above 0 Hz)",
     );
     let cut = |skip: f64, until: Option<f64>| Options {
         skip,
@@ -64,30 +58,30 @@ fn options_that_cannot_be_followed_are_refused() {
     };
     refuses(
         cut(-1.0, None),
-        "r.csv: --skip -1: seconds from 0 up were expected",
+        "r.csv: --start -1 is out of range (0 s or more)",
     );
     refuses(
         cut(f64::NAN, None),
-        "r.csv: --skip NaN: seconds from 0 up were expected",
+        "r.csv: --start NaN is out of range (0 s or more)",
     );
     refuses(
         cut(2.0, Some(2.0)),
-        "r.csv: --until 2: more than --skip 2 was expected",
+        "r.csv: --end 2 is out of range (above --start 2)",
     );
     refuses(
         cut(0.0, Some(f64::NAN)),
-        "r.csv: --until NaN: more than --skip 0 was expected",
+        "r.csv: --end NaN is out of range (above --start 0)",
     );
     refuses(
         cut(3.0, None),
-        "r.csv:401: too short: 100 samples of 400 are left after cutting, \
+        "r.csv:401: too short: 100 samples of 400 are left after cutting; \
          at least 200 are needed",
     );
 }
 
 #[test]
 fn an_end_that_stands_still_is_refused() {
-    let still = "in every sample, it has to move";
+    let still = "in every sample, but it must move";
     refused(
         of(|_| 2.5, f64::sin),
         &format!("r.csv:2: column `x`: the input is 2.5 {still}"),
@@ -103,8 +97,7 @@ fn an_end_that_stands_still_is_refused() {
 fn an_output_that_is_the_input_is_refused() {
     refused(
         of(f64::sin, f64::sin),
-        "r.csv:2: column `f`: the output is the input `x`, number for number: the force or torque \
-         that answers it was expected",
+        "r.csv:2: column `f`: the output equals the input `x` in every sample: the resulting force or torque is needed",
     );
 }
 
@@ -114,12 +107,12 @@ fn a_clipped_sensor_is_recognised() {
     refused(
         of(sine, |t| (3.0 * sine(t)).clamp(-24.0, 24.0)),
         "r.csv:49: column `f`: clipped: flat at 24 7 times, 22.5 % of the samples; \
-         a wider range of the sensor was expected",
+         a wider range of the sensor is needed",
     );
     refused(
         of(|t| sine(t).min(9.5), |t| 3.0 * sine(t)),
         "r.csv:65: column `x`: clipped: flat at 9.5 7 times, 11.2 % of the samples; \
-         a wider range of the sensor was expected",
+         a wider range of the sensor is needed",
     );
     // With noise, and a force that mostly follows the speed: the input does not turn.
     let noise = |t: f64| (7919.0 * t * t).sin();

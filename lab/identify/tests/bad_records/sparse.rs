@@ -29,7 +29,7 @@ fn a_slow_channel_is_a_line_through_its_readings() {
                 let expected = 20.0 + 0.5 * (i.clamp(3, 383) as f64);
                 assert!((value - expected).abs() < 1e-9, "{i}: {value}");
             }
-            let said = "`temperature` has no number in 380 of 400 rows, and 20 readings, one in 0.200 s: a line through them stands in";
+            let said = "`temperature` has no number in 380 of 400 rows, and 20 readings, one in 0.200 s: interpolated linearly";
             assert!(
                 record.notes.iter().any(|note| note == said),
                 "{:?}",
@@ -50,7 +50,7 @@ fn cells_that_lack_in_a_channel_that_is_mostly_there_are_faults() {
     };
     refused(
         gap(","),
-        "r.csv:32: column `temperature`: the cell is empty, a number was expected; --drop-bad leaves such rows out",
+        "r.csv:32: column `temperature`: the cell is empty; a number is needed; --drop-bad drops such rows",
     );
     let options = Options {
         drop_bad: true,
@@ -64,7 +64,7 @@ fn cells_that_lack_in_a_channel_that_is_mostly_there_are_faults() {
     assert!(later.contains("abc"));
     refused(
         later,
-        "r.csv:32: column `temperature`: the cell is empty, a number was expected; --drop-bad leaves such rows out",
+        "r.csv:32: column `temperature`: the cell is empty; a number is needed; --drop-bad drops such rows",
     );
 }
 
@@ -95,7 +95,7 @@ fn what_is_no_number_and_an_end_with_few_numbers_are_refused() {
     );
     let record = accepted(&none);
     assert!(record.channels.is_empty());
-    let said = "`temperature` has no number in any row: left out";
+    let said = "`temperature` has no number in any row: excluded";
     assert!(record.notes.iter().any(|note| note == said));
     // What was asked for has to be there.
     let options = Options {
@@ -104,6 +104,6 @@ fn what_is_no_number_and_an_end_with_few_numbers_are_refused() {
     };
     assert_eq!(
         refusal(none, &options),
-        "r.csv:1: column `temperature`: has no number in any row that is read"
+        "r.csv:1: column `temperature`: has no number in any row of the record"
     );
 }

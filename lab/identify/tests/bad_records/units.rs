@@ -56,8 +56,8 @@ fn a_row_of_units_has_torques_in_every_spelling() {
 fn the_cell_of_a_row_of_units_that_is_no_unit_is_named() {
     let says = |line: usize, name: &str, cell: &str| {
         format!(
-            "r.csv:{line}: column `{name}`: `{cell}` is no unit that is known; mm, N, N·m, deg or \
-             another was expected in a row of units, or an empty cell (`{name} [{cell}]` as a name \
+            "r.csv:{line}: column `{name}`: `{cell}` is not a known unit; mm, N, N·m, deg or \
+             another is needed in a row of units, or an empty cell (`{name} [{cell}]` as a name \
              states any unit)"
         )
     };
@@ -73,9 +73,9 @@ fn the_cell_of_a_row_of_units_that_is_no_unit_is_named() {
     assert_eq!(
         record.notes,
         [
-            "lines 1–2 above the names passed over",
-            "line 4 between names and values passed over",
-            "`wide` in line 4 is no unit that is known: no unit of that line counts"
+            "lines 1–2 above the names ignored",
+            "line 4 between names and values ignored",
+            "`wide` in line 4 is not a known unit: all units of that line are ignored"
         ]
     );
     // Letters that number the channels are words, although two of them are units.
@@ -107,8 +107,5 @@ fn spellings_of_one_unit_are_one_and_newton_millimetres_convert() {
     // What is not known stays as it is, and is not taken for anything else.
     let mut both = [of("N·m"), of("wide")];
     let line = agree(&mut both).unwrap_err().to_string();
-    assert!(
-        line.contains("has unit wide; unit N·m was expected"),
-        "{line}"
-    );
+    assert!(line.contains("has unit wide; unit N·m is needed"), "{line}");
 }

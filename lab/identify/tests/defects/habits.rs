@@ -155,7 +155,7 @@ fn noise_of_an_input_at_rest_is_given_no_name() {
     let least = error(&data, &quiet);
     let (data, ledger) = closed(&rested(2e-3));
     assert!(said(&data), "{:?}", data.notes);
-    // With the noise in the hysteresis the declared model errs by 1.1 %, else by 0.06 %.
+    // With the noise in the hysteresis the baseline model errs by 1.1 %, else by 0.06 %.
     let own = error(&data, &ledger);
     assert!(own < least + 0.005, "{own} {least}");
     assert!(

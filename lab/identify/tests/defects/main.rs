@@ -261,7 +261,7 @@ fn missing_rows_are_named_by_the_lines_around_them() {
         [[line(1999), line(2000)], [line(6989), line(6990)]]
     );
     let (data, ledger) = closed(&record);
-    assert_ne!(verdict_of(&data, &ledger), Verdict::DataDefect);
+    assert_ne!(verdict_of(&data, &ledger), Verdict::DefectiveRecord);
 }
 
 #[test]
@@ -323,7 +323,7 @@ fn what_is_concluded_from_a_stuck_input_is_a_data_defect() {
     let mut cells = Cells::of(&recipe());
     cells.freeze(TAU_I, 2500, 3300);
     let (data, ledger) = closed(&cells.read());
-    assert_eq!(verdict_of(&data, &ledger), Verdict::DataDefect);
+    assert_eq!(verdict_of(&data, &ledger), Verdict::DefectiveRecord);
     let told = sentence(&data, &ledger, &FinalFit::new(&data, &ledger));
     assert!(told.contains("tau_i (stuck)"), "{told}");
 }
@@ -364,7 +364,7 @@ fn a_stuck_channel_that_nothing_reads_leaves_the_verdict() {
     let record = cells.read();
     assert_named(only(&record), DefectKind::Stuck, "phi_d");
     let (data, ledger) = closed(&record);
-    assert_ne!(verdict_of(&data, &ledger), Verdict::DataDefect);
+    assert_ne!(verdict_of(&data, &ledger), Verdict::DefectiveRecord);
 }
 
 /// Two encoders that turn against each other, and their sum as channel `stretch`: `b` flickers

@@ -33,8 +33,8 @@ fn found(effect: &str, family: &str, rms: f64) -> usize {
             record.output.values = clean.iter().zip(noise).map(|(y, e)| y + e).collect();
             let (_, ledger) = closed(&record);
             ledger.rounds.iter().any(|round| {
-                let rivals = round.rivals.iter().map(|r| r.family.name());
-                round.candidate.family.name() == family || rivals.into_iter().any(|r| r == family)
+                let mut possible = round.possible();
+                possible.any(|one| one.family.name() == family)
             })
         })
         .count()

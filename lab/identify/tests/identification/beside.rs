@@ -62,12 +62,7 @@ fn names_that_only_together_are_right_are_found_together() {
         let named: Vec<Vec<Family>> = ledger
             .rounds
             .iter()
-            .map(|round| {
-                let rivals = round.rivals.iter().map(|rival| rival.family);
-                std::iter::once(round.candidate.family)
-                    .chain(rivals)
-                    .collect()
-            })
+            .map(|round| round.possible().map(|one| one.family).collect())
             .collect();
         let family = |name| {
             bowden::effect::CATALOGUE

@@ -88,7 +88,7 @@ fn nothing_about_the_names_changes_with_the_final_fit() {
     assert_eq!(names(&done.solution), names(ledger.last()));
     assert_eq!(
         done.data.split.fit.len(),
-        made.data.split.fit.len() + made.data.split.stop.len()
+        made.data.split.fit.len() + made.data.split.selection.len()
     );
     assert_eq!(done.data.split.held_out, made.data.split.held_out);
     // Of the same data, by the same columns: what it says of the segments is its residual's.

@@ -7,7 +7,7 @@
 
 use crate::rig::Made;
 use bowden::effect::{Effect, Motion};
-use bowden::hysteresis::Shape;
+use bowden::hysteresis::BoucWen;
 use bowden::model::{Model, ModelState, Sample, Source, Term};
 use bowden::transmission::Transmission;
 use bowden::Real;
@@ -22,22 +22,22 @@ use bowden_synth::{Mode, Planted, Recipe};
 fn term<T: Real>(solution: &Solution, index: usize) -> Term<T> {
     let fitted = &solution.structure.terms[index];
     let shapes: Vec<T> = (0..fitted.effect.shape_names().len())
-        .map(|shape| T::of(fitted.effect.shape(shape).unwrap()))
+        .map(|shape| T::from_f64(fitted.effect.shape(shape).unwrap()))
         .collect();
     Term {
         effect: Effect::try_from_name(fitted.effect.name(), &shapes).unwrap(),
         source: fitted.source,
-        origin: T::of(fitted.origin),
-        gain: T::of(solution.gain(index)),
+        origin: T::from_f64(fitted.origin),
+        gain: T::from_f64(solution.gain(index)),
     }
 }
 
 /// The model as it would be written down in firmware, and the state that it starts in.
 fn firmware<T: Real>(data: &Prepared, solution: &Solution) -> (Model<T, 16>, ModelState<T, 16>) {
-    let value = |role| T::of(solution.value(role).unwrap());
-    let gain = |k: usize| T::of(solution.gains[k]);
+    let value = |role| T::from_f64(solution.value(role).unwrap());
+    let gain = |k: usize| T::from_f64(solution.gains[k]);
     let transmission = solution.structure.hysteresis.then(|| {
-        let shape = Shape::try_new(value(Role::Rho), value(Role::Sigma), value(Role::N)).unwrap();
+        let shape = BoucWen::try_new(value(Role::Rho), value(Role::Sigma), value(Role::N)).unwrap();
         match data.mode {
             // (6) subtracts its hysteresis and its pretension, (1) adds.
             record::Mode::Torque => Transmission::torque(gain(0), -gain(1), -gain(2), shape),
@@ -61,9 +61,9 @@ fn firmware<T: Real>(data: &Prepared, solution: &Solution) -> (Model<T, 16>, Mod
 fn played<T: Real>(data: &Prepared, solution: &Solution) -> Vec<f64> {
     let (model, mut state) = firmware::<T>(data, solution);
     let narrow = |m: &Motion<f64>| Motion {
-        position: T::of(m.position),
-        velocity: T::of(m.velocity),
-        acceleration: T::of(m.acceleration),
+        position: T::from_f64(m.position),
+        velocity: T::from_f64(m.velocity),
+        acceleration: T::from_f64(m.acceleration),
     };
     let output: Vec<f64> = (0..data.work_len())
         .map(|i| {
@@ -76,7 +76,7 @@ fn played<T: Real>(data: &Prepared, solution: &Solution) -> Vec<f64> {
                 (record::Mode::Displacement, None) => T::zero(),
             };
             let sample = Sample {
-                dt: T::of(data.dt),
+                dt: T::from_f64(data.dt),
                 input,
                 load,
                 channels: &channels,

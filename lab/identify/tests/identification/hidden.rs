@@ -1,4 +1,4 @@
-//! A play that the declared hysteresis has bent towards is found beside it.
+//! A play that the baseline hysteresis has bent towards is found beside it.
 
 use crate::rig::Made;
 use bowden_lab::search::close;

@@ -5,12 +5,12 @@
 //!
 //! * [`recovery`]: planted Bouc-Wen parameters come back, and so do their intervals.
 //! * [`planted`]: an undeclared effect is found, named and taken away.
-//! * [`nulls`]: where nothing is missing, nothing is added.
+//! * [`nulls`]: where the search finds no term, nothing is added.
 //! * [`determinism`]: the same record gives the same result, on any number of threads.
 //! * [`beside`]: effects that are found only beside each other.
 //! * [`imitated`]: names that imitated an effect together leave again, all at once.
 //! * [`delivered`]: the final model has seen all but what is held out, and is nearer to the truth.
-//! * [`unneeded`]: declared parts that the record does not need are told.
+//! * [`unneeded`]: baseline parts that the record does not need are told.
 //! * [`series`]: a play between the input and the transmission is found with its width.
 //! * [`hardening`]: the benchmark of Noël and Schoukens comes back.
 //! * [`power_law`]: a power law of the velocity is told from viscous and Coulomb friction.

@@ -1,4 +1,4 @@
-//! Where nothing is missing, nothing is added.
+//! Where the search finds no term, nothing is added.
 
 use crate::rig::{Made, MODES};
 use bowden_lab::conclude::intervals::term_name;

@@ -175,13 +175,16 @@ fn a_parameter_on_its_bound_is_reported_as_not_identified() {
                 !parameter.identified && parameter.ci95.is_none(),
                 "{parameter:?}"
             );
-            let refusal = parameter.refused.as_ref().unwrap();
+            let refusal = parameter.not_identified.as_ref().unwrap();
             assert_eq!(refusal.reason, format!("at its {end} bound"));
             assert!(refusal.excitation.contains("strokes"), "{refusal:?}");
             // What does not hang on it is still there: with the true value out of reach
             // the loop's height moves by less than 1 %.
             let height = named(&found, "kappa_eta");
-            assert!(height.identified && height.refused.is_none(), "{height:?}");
+            assert!(
+                height.identified && height.not_identified.is_none(),
+                "{height:?}"
+            );
             assert!(
                 (height.value / base.kappa_eta - 1.0).abs() < 0.01,
                 "{height:?}"
@@ -209,10 +212,12 @@ fn parameters_that_move_with_each_other_name_each_other() {
             ..Recipe::new(mode)
         });
         let found = made.parameters(&told(&made, &["bouc-wen"]));
-        assert!(found.iter().all(|p| p.identified == p.refused.is_none()));
+        assert!(found
+            .iter()
+            .all(|p| p.identified == p.not_identified.is_none()));
         let refused: Vec<_> = found
             .iter()
-            .filter_map(|p| Some((p.name.as_str(), p.refused.as_ref()?)))
+            .filter_map(|p| Some((p.name.as_str(), p.not_identified.as_ref()?)))
             .collect();
         assert!(
             refused

@@ -11,12 +11,7 @@ use bowden_synth::{Mode, Planted, Recipe};
 /// Names of the delivered rounds, and whose families and rivals they are.
 fn named(made: &Made) -> (Vec<String>, Vec<Vec<Family>>) {
     let ledger = close(&made.data, &made.declare(&["bouc-wen"]), |_| ()).unwrap();
-    let families = |round: &bowden_lab::ledger::Round| {
-        let rivals = round.rivals.iter().map(|c| c.family);
-        std::iter::once(round.candidate.family)
-            .chain(rivals)
-            .collect()
-    };
+    let families = |round: &bowden_lab::ledger::Round| round.possible().map(|c| c.family).collect();
     let rounds = &ledger.rounds;
     (
         rounds
@@ -75,6 +70,6 @@ fn a_declared_stretch_reads_the_stretch_and_needs_one() {
     let refused = structure(&list, &without.data).unwrap_err();
     assert_eq!(
         refused,
-        "--declare stretch-linear: no channel of the record is a stretch; --channel stretch=phi_p-phi_d makes one"
+        "--baseline stretch-linear: no channel of the record is a stretch; --channel stretch=phi_p-phi_d makes one"
     );
 }

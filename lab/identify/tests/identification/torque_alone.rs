@@ -130,7 +130,7 @@ fn near_the_noise_it_is_the_first_name_and_no_other_name_is_firm() {
         let grades = ledger.rounds.iter().map(|r| r.grade);
         let graded: Vec<_> = names(&ledger).into_iter().zip(grades).collect();
         println!("{level} times the noise, seed {seed}: {graded:?}");
-        let firm = graded.iter().filter(|(_, grade)| *grade == Grade::Firm);
+        let firm = graded.iter().filter(|(_, grade)| *grade == Grade::High);
         assert!(
             firm.clone().all(|(name, _)| *name == "viscous"),
             "{graded:?}"

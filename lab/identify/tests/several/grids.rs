@@ -109,7 +109,11 @@ fn of_three_records_the_fit_sees_nothing_of_the_last() {
     let last = data.pieces.last().unwrap();
     assert!(!last.fitted);
     assert!(data.split.fit.iter().all(|&row| row < last.rows.start));
-    assert!(data.split.stop.iter().all(|&row| row < last.rows.start));
+    assert!(data
+        .split
+        .selection
+        .iter()
+        .all(|&row| row < last.rows.start));
     assert!(data
         .split
         .held_out

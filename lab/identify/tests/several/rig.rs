@@ -38,7 +38,7 @@ impl Files {
     }
 }
 
-/// The declared model: the transmission alone.
+/// The baseline model: the transmission alone.
 pub fn declared(data: &Prepared) -> Structure {
     structure(&["bouc-wen".to_owned()], data).unwrap()
 }

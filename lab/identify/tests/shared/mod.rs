@@ -203,7 +203,7 @@ impl Row {
         Some(path)
     }
 
-    /// What `bowden close` would be asked.
+    /// What `bowden identify` would be asked.
     pub fn asked(&self) -> Asked {
         let own = |(a, b): &(&str, &str)| ((*a).to_owned(), (*b).to_owned());
         Asked {

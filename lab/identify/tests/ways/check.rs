@@ -96,7 +96,10 @@ fn a_gain_that_has_moved_by_ten_percent_is_told_from_a_model_that_does_not_hold(
         assert!(found.rmse_gain_offset < 0.1 * found.rmse);
         assert!(found.depends_on.is_empty());
         let told = CheckFacts::new(&found).sentence;
-        assert!(told.starts_with("The gain has moved to 1.1"), "{told}");
+        assert!(
+            told.starts_with("The gain has changed by a factor of 1.1"),
+            "{told}"
+        );
     }
 }
 
@@ -118,7 +121,7 @@ fn an_offset_that_has_moved_is_called_an_offset() {
     assert!((found.mean - 2.0).abs() < 0.05, "{}", found.mean);
     assert!(found.offset_alone());
     let told = CheckFacts::new(&found).sentence;
-    assert!(told.starts_with("The offset has moved by 2.0"), "{told}");
+    assert!(told.starts_with("The offset has changed by 2.0"), "{told}");
 }
 
 #[test]
@@ -170,8 +173,11 @@ fn where_the_model_holds_nothing_is_searched_and_the_sentence_says_it_plainly() 
     assert_eq!(found.verdict, Verdict::Holds);
     assert!(found.depends_on.is_empty());
     let told = CheckFacts::new(&found).sentence;
-    assert!(told.starts_with("The model holds: it misses 0."), "{told}");
-    assert!(told.contains("held out of its own record"), "{told}");
+    assert!(
+        told.starts_with("The model holds: its error is 0."),
+        "{told}"
+    );
+    assert!(told.contains("held-out part of its own record"), "{told}");
 }
 
 #[test]
@@ -228,7 +234,9 @@ fn without_a_held_out_error_only_noise_is_judged() {
     };
     let found = check(&given, &more);
     assert_eq!(found.verdict, Verdict::CannotTell);
-    assert!(CheckFacts::new(&found).sentence.contains("cannot be told"));
+    assert!(CheckFacts::new(&found)
+        .sentence
+        .contains("cannot be decided"));
 }
 
 #[test]

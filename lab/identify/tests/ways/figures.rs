@@ -20,7 +20,7 @@ fn rms(values: impl Iterator<Item = f64> + Clone) -> f64 {
 #[test]
 fn signals_residuals_and_block_scores_are_those_of_the_ledger() {
     let closed = closed();
-    let figures = Figures::of_close(&closed.data, &closed.ledger, &closed.done).unwrap();
+    let figures = Figures::of_close(&closed.data, &closed.ledger, ("final", &closed.done)).unwrap();
     let signals = &figures.signals;
     assert_eq!(signals.measured.values, closed.data.target);
     assert_eq!(signals.models[1].values, closed.done.solution.prediction);
@@ -57,7 +57,7 @@ fn signals_residuals_and_block_scores_are_those_of_the_ledger() {
 #[test]
 fn the_parts_have_the_size_that_their_signals_have_and_the_worst_spot_is_the_worst() {
     let closed = closed();
-    let figures = Figures::of_close(&closed.data, &closed.ledger, &closed.done).unwrap();
+    let figures = Figures::of_close(&closed.data, &closed.ledger, ("final", &closed.done)).unwrap();
     let signals = &figures.signals;
     let rows = signals.counting();
     let deviation = |values: &[f64]| {
@@ -89,7 +89,7 @@ fn the_parts_have_the_size_that_their_signals_have_and_the_worst_spot_is_the_wor
 #[test]
 fn the_missing_effect_shows_over_its_variable_and_the_final_residual_is_noise() {
     let closed = closed();
-    let figures = Figures::of_close(&closed.data, &closed.ledger, &closed.done).unwrap();
+    let figures = Figures::of_close(&closed.data, &closed.ledger, ("final", &closed.done)).unwrap();
     let of = |words: &str| figures.over.iter().find(|d| d.words == words).unwrap();
     let off_zero = |words: &str, which: usize| {
         let bins = of(words).bins.iter();

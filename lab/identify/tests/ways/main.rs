@@ -4,6 +4,7 @@
 mod check;
 mod figures;
 mod measured;
+mod mechanisms;
 mod rig;
 mod rounds;
 #[allow(dead_code)]

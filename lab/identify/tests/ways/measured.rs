@@ -34,7 +34,7 @@ fn check(row: Row, own: &'static str, next: &'static str, effects: &[&str]) -> O
             cutoff_hz: cutoff,
             nrmse: Some(Errors {
                 fit: Some(errors.fit),
-                stop: Some(errors.stop),
+                selection: Some(errors.selection),
                 held_out: Some(errors.held_out),
             }),
             ..About::default()

@@ -42,7 +42,7 @@ impl Closed {
                 cutoff_hz: Some(self.data.cutoff),
                 nrmse: Some(Errors {
                     fit: Some(errors.fit),
-                    stop: Some(errors.stop),
+                    selection: Some(errors.selection),
                     held_out: Some(errors.held_out),
                 }),
                 ..About::default()

@@ -102,7 +102,7 @@ fn the_trace_is_what_the_fit_sees_and_its_errors_are_those_of_the_report() {
             "segment",
             "input [mm]",
             "measured [N]",
-            "declared [N]",
+            "baseline [N]",
             "final [N]",
             "residual [N]",
             "transmission.gain [N]",
@@ -119,7 +119,7 @@ fn the_trace_is_what_the_fit_sees_and_its_errors_are_those_of_the_report() {
     let errors = closed.done.rmse;
     for (segment, error) in [
         ("fit", errors.fit),
-        ("stop", errors.stop),
+        ("selection", errors.selection),
         ("held-out", errors.held_out),
     ] {
         // Numbers are printed so that they read back.

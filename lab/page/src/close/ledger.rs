@@ -5,8 +5,8 @@ use crate::chart::{Axis, Chart};
 use crate::document::{data, share_bar, table};
 use crate::words::{in_brackets, unit, value};
 use bowden_lab::facts::{
-    number, percent, Experiment, Facts, Figures, Grade, Parameter, RoundFacts, Segments, Size,
-    BLOCKS, HALVES,
+    number, percent, Experiment, Facts, Figures, Grade, Lack, Parameter, RoundFacts, Segments,
+    Size, BLOCKS,
 };
 use maud::{html, Markup};
 
@@ -15,8 +15,8 @@ const SIZE_UNKNOWN: &str = "acts, size unknown";
 
 fn grade(grade: Grade) -> &'static str {
     match grade {
-        Grade::Firm => "firm",
-        Grade::Weak => "weak",
+        Grade::High => "high",
+        Grade::Low => "low",
     }
 }
 
@@ -26,7 +26,7 @@ fn errors(facts: &Facts, rmse: &Segments) -> Markup {
     let floors = facts.record.held_out_floors(rmse.held_out);
     html! {
         td class="number" { (cell(rmse.fit)) }
-        td class="number" { (cell(rmse.stop)) }
+        td class="number" { (cell(rmse.selection)) }
         td class="number" { (cell(rmse.held_out)) }
         td class="number" { (floors.map_or_else(|| "–".to_owned(), |f| format!("{f:.1}"))) }
     }
@@ -61,31 +61,62 @@ fn all(facts: &Facts) -> impl Iterator<Item = (usize, &RoundFacts)> {
 /// The section on rounds, names and parts.
 pub(super) fn section(facts: &Facts, figures: &Figures) -> Markup {
     let unit = facts.record.unit.as_deref();
-    let mut rows = vec![label("as declared", facts, &facts.declared.rmse)];
+    let mut rows = vec![label("baseline", facts, &facts.declared.rmse)];
     rows.extend(all(facts).map(|(k, one)| round(k, one, facts)));
     if facts.last.refitted {
-        rows.push(label("refit on fit + stop", facts, &facts.last.rmse));
+        rows.push(label("refitted with selection", facts, &facts.last.rmse));
+    }
+    if let Some(exported) = facts.constrained() {
+        rows.push(label("exported (--invertible)", facts, &exported.rmse));
     }
     let caption = format!(
         "Errors{}: root mean square of the filtered output's residual",
         in_brackets(unit)
     );
     let head = [
-        "", "grade", "explains", "fit", "stop", "held out", "× floor",
+        "",
+        "confidence",
+        "removes",
+        "fit",
+        "selection",
+        "held-out",
+        "vs noise",
     ];
     html! {
-        p { "Declared: " (facts.declared.effects.join(", ")) "." }
+        (mechanisms(facts))
+        p { "Baseline: " (facts.declared.effects.join(", ")) "." }
         (table(&caption, &head, 2..7, &rows))
         p class="note" {
-            "Explains: share of the squared error on the fit segment that the round removes. × floor: held-out error in multiples of the sensor's noise. Grade: how far the name can be trusted, not how large the effect is."
-            @if !facts.beyond.is_empty() { " In brackets: found, and not delivered." }
+            "Removes: share of the squared error on the fit segment that the term removes. vs noise: held-out error in multiples of the sensor's noise. Confidence: in the name of the term, not in its coefficient."
+            @if !facts.beyond.is_empty() { " In brackets: found, but not delivered." }
             @if facts.rounds.iter().any(|r| r.raises_held_out) { " ↑: the round raises the held-out error." }
         }
         (names(facts))
         (parts(figures))
-        p class="note" { "The parts sum to the final model; opposite ones may each be larger than the whole." }
+        p class="note" { "The parts sum to the " (figures.signals.models[1].name) " model; parts that cancel may each be larger than the sum." }
         (turned_down(facts))
     }
+}
+
+/// What the missing output depends on.
+fn mechanisms(facts: &Facts) -> Markup {
+    if facts.lacks.is_empty() {
+        return html! {};
+    }
+    let row = |lack: &Lack| {
+        html! { tr {
+            th scope="row" { (lack.title) }
+            td { (grade(lack.confidence)) }
+            td class="number" {
+                (share_bar(lack.share))
+                (data(lack.share, &format!("{:.1} %", 100.0 * lack.share)))
+            }
+            td { (lack.members.join(", ")) }
+        } }
+    };
+    let rows: Vec<Markup> = facts.lacks.iter().map(row).collect();
+    let head = ["", "confidence", "of the missing output", "terms"];
+    table("Missing mechanisms", &head, 2..3, &rows)
 }
 
 fn names(facts: &Facts) -> Markup {
@@ -106,23 +137,25 @@ fn names(facts: &Facts) -> Markup {
             td { (grade(round.grade)) }
             td class="number" { (size) }
             td class="number" { @if let Some(p) = round.p { (data(p, &format!("{p:.1e}"))) } @else { "–" } }
-            td class="number" { (round.recurs) " of " (HALVES) }
             td class="number" { (round.blocks_better) " of " (BLOCKS) }
         } }
     };
     let rows: Vec<Markup> = facts.rounds.iter().map(row).collect();
     let head = [
         "effect",
-        "grade",
+        "confidence",
         "coefficient (95 %)",
         "p",
-        "recurs",
-        "blocks better",
+        "blocks improved",
     ];
+    let caption = match facts.constrained() {
+        Some(_) => "Terms of the exported model",
+        None => "Terms of the final model",
+    };
     html! {
-        (table("What was added, in the final model", &head, 2..6, &rows))
+        (table(caption, &head, 2..5, &rows))
         p class="note" {
-            "p: probability of so large an improvement by chance, if the effect were absent. Recurs: half-records in which the same search finds the effect again. Blocks better: blocks on which the effect reduces the error."
+            "p: probability of so large an improvement by chance, if the effect were absent. Blocks improved: blocks on which the effect reduces the error."
         }
     }
 }
@@ -150,7 +183,7 @@ pub(crate) fn parts(figures: &Figures) -> Markup {
         })
         .collect();
     table(
-        "What each part of the model adds: its standard deviation as a share of the output's",
+        "Standard deviation of each part of the model, as a share of the output's",
         &["part", "share"],
         2..2,
         &rows,
@@ -160,15 +193,15 @@ pub(crate) fn parts(figures: &Figures) -> Markup {
 fn turned_down(facts: &Facts) -> Markup {
     html! {
         @if !facts.unneeded.is_empty() {
-            h3 { "Declared and not needed" }
+            h3 { "Redundant in the baseline model" }
             ul { @for part in &facts.unneeded {
                 li { (part.effect) ": held out " (number(part.held_out_without, Some(0.01 * part.held_out_without)))
                     " without it, " (number(part.held_out_with, Some(0.01 * part.held_out_with))) " with it"
-                    @if part.left_out { "; left out of the final model" } }
+                    @if part.removed { "; excluded from the final model" } }
             } }
         }
         @if !facts.rejected.is_empty() {
-            h3 { "Tried and turned down" }
+            h3 { "Tried and rejected" }
             ul { @for one in &facts.rejected { li { (one.title) ": " (one.gate.words()) } } }
         }
     }
@@ -182,7 +215,7 @@ pub(super) fn blocks(facts: &Facts, figures: &Figures) -> Markup {
         } @else {
             p {
                 "The fit segment in " (BLOCKS) " blocks of equal path. A bar is the share of the block's squared error "
-                "that the name removes; below zero it adds to it. An effect that is real helps almost everywhere."
+                "that the term removes; a negative bar adds error. A real effect reduces the error of almost every block."
             }
         }
         div class="grid-of" {
@@ -203,7 +236,7 @@ pub(super) fn blocks(facts: &Facts, figures: &Figures) -> Markup {
             }
         }
         @if !facts.rounds.is_empty() && facts.rounds.iter().all(|r| r.rivals.is_empty()) {
-            p { "No other effect of the catalogue does as well as any of these." }
+            p { "No other effect of the catalogue explains as much as any of these." }
         }
     }
 }
@@ -234,8 +267,8 @@ fn block_chart(k: usize, round: &RoundFacts, removed: &[f64; BLOCKS]) -> Chart {
     );
     let rivals: Vec<&str> = round.rivals.iter().map(|r| r.title.as_str()).collect();
     let caption = match rivals.is_empty() {
-        true => format!("{better} of {BLOCKS}; no rival"),
-        false => format!("{better} of {BLOCKS}; rivals: {}", rivals.join(", ")),
+        true => format!("{better} of {BLOCKS}; no alternative"),
+        false => format!("{better} of {BLOCKS}; alternatives: {}", rivals.join(", ")),
     };
     let points: Vec<[f64; 2]> = shown
         .iter()

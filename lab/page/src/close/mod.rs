@@ -1,4 +1,4 @@
-//! The page of `bowden close`: its sections in the order in which a reader asks.
+//! The page of `bowden identify`: its sections in the order in which a reader asks.
 
 mod ledger;
 mod model;
@@ -54,7 +54,7 @@ impl Close<'_> {
             },
             Section {
                 id: "blocks",
-                title: "Names and their rivals, block by block",
+                title: "Terms and their alternatives, block by block",
                 body: ledger::blocks(facts, figures),
             },
             Section {
@@ -75,9 +75,13 @@ impl Close<'_> {
             title: "Parameters",
             body: model::section(facts, self.models),
         });
+        let badge = match facts.constrained() {
+            Some(_) => format!("unconstrained model: {}", facts.verdict.name()),
+            None => facts.verdict.name().to_owned(),
+        };
         let opening = Opening {
-            title: format!("bowden close: {}", facts.label),
-            verdict: Some((facts.verdict.name(), colour(facts.verdict))),
+            title: format!("bowden identify: {}", facts.label),
+            verdict: Some((&badge, colour(facts))),
             sentence: facts.sentence.clone(),
             body: numbers(facts),
         };
@@ -85,22 +89,31 @@ impl Close<'_> {
     }
 }
 
-fn colour(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Explained => "good",
-        Verdict::ExplainedColoured
-        | Verdict::Unknown
-        | Verdict::Confounded
+fn colour(facts: &Facts) -> &'static str {
+    match facts.verdict {
+        // What explains the record is not what is exported.
+        Verdict::Explained if facts.constrained().is_none() => "good",
+        Verdict::Explained
+        | Verdict::StructuredResidual
+        | Verdict::UnmodelledDependence
+        | Verdict::Ambiguous
         | Verdict::Stopped
         | Verdict::UnderExcited => "mid",
-        Verdict::NoModel | Verdict::DoesNotCarryOver | Verdict::DataDefect => "bad",
+        Verdict::NoInputDependence | Verdict::NotTransferable | Verdict::DefectiveRecord => "bad",
     }
 }
 
 /// The error before and after.
 fn numbers(facts: &Facts) -> Markup {
-    let (before, after) = (&facts.declared.nrmse, &facts.last.nrmse);
-    let floors = facts.record.held_out_floors(facts.last.rmse.held_out);
+    let shown = facts.shown();
+    let (before, after) = (&facts.declared.nrmse, &shown.nrmse);
+    let floors = facts.record.held_out_floors(shown.rmse.held_out);
+    let unconstrained = facts.constrained().map(|_| &facts.last.nrmse);
+    let name = if unconstrained.is_some() {
+        "exported"
+    } else {
+        "final"
+    };
     let pair = |before: f64, after: f64| {
         html! {
             span class="was" { (data(before, &percent(before))) }
@@ -111,22 +124,28 @@ fn numbers(facts: &Facts) -> Markup {
     html! {
         dl class="numbers" {
             div id="held-out" {
-                dt { "Error on held-out data (used neither to fit nor to select)" }
+                dt { "Error on held-out data (not used for the fit or the selection)" }
                 dd { (pair(before.held_out, after.held_out)) }
             }
             div id="fitted" {
                 dt { "Error on the fitted data" }
                 dd { (pair(before.fit, after.fit)) }
             }
+            @if let Some(nrmse) = unconstrained {
+                div id="unconstrained" {
+                    dt { "Held-out error of the unconstrained model, which has no inverse" }
+                    dd { (data(nrmse.held_out, &percent(nrmse.held_out))) }
+                }
+            }
             @if let Some(floors) = floors {
                 div {
-                    dt { "Final held-out error, in noise floors" }
+                    dt { "Held-out error of the " (name) " model, in noise floors" }
                     dd { (format!("{floors:.1}")) }
                 }
             }
         }
         p class="note" {
-            "Declared model → final model. Errors are root mean squares of the filtered output's residual, as a share of that output's standard deviation."
+            "Baseline model → " (name) " model. Errors are root mean squares of the filtered output's residual, as a share of that output's standard deviation."
         }
     }
 }

@@ -2,22 +2,28 @@
 
 use crate::document::{data, table};
 use crate::words::{unit, value};
-use bowden_lab::facts::{percent, Facts, Form, Handed, Parameter};
+use bowden_lab::facts::{percent, Facts, FinalFacts, Form, Handed, Parameter};
 use maud::{html, Markup};
 
-pub(super) fn section(facts: &Facts, models: &[Handed]) -> Markup {
-    let last = &facts.last;
+/// The parameters of a model, with their intervals.
+fn parameters(model: &FinalFacts, name: &str) -> Markup {
     let row = |(parameter, title): (&Parameter, &String)| {
         html! { tr {
             th scope="row" { (title) }
             td class="number" { (data(parameter.value, &value(parameter))) }
             td { (unit(parameter)) }
             td {
-                @if let Some(refused) = &parameter.refused { "to identify it: " (refused.excitation) }
+                @if let Some(refused) = &parameter.not_identified { "to identify it: " (refused.excitation) }
             }
         } }
     };
-    let rows: Vec<Markup> = last.parameters.iter().zip(&last.titles).map(row).collect();
+    let all = model.parameters.iter().zip(&model.titles);
+    let rows: Vec<Markup> = all.map(row).collect();
+    let caption = format!("Parameters of the {name} model with 95 % intervals");
+    table(&caption, &["parameter", "value", "unit", ""], 1..2, &rows)
+}
+
+pub(super) fn section(facts: &Facts, models: &[Handed]) -> Markup {
     let texts = models.iter().map(|model| {
         let text = model
             .file(Form::Toml)
@@ -26,23 +32,29 @@ pub(super) fn section(facts: &Facts, models: &[Handed]) -> Markup {
     });
     let texts: Vec<String> = texts.collect();
     html! {
-        (table("Parameters of the final model with 95 % intervals", &["parameter", "value", "unit", ""], 1..2, &rows))
+        @match facts.constrained() {
+            Some(exported) => {
+                (parameters(exported, "exported"))
+                (parameters(&facts.last, "unconstrained"))
+            }
+            None => { (parameters(&facts.last, "final")) }
+        }
         @match &facts.hand_over {
             Ok(handed) => {
                 p {
-                    "On a chip, sample by sample with causal velocities, the model errs by "
-                    (percent(handed.causal.held_out)) " on held-out data; with those of the fit by "
+                    "On a controller, sample by sample with causal velocities, the model has an error of "
+                    (percent(handed.causal.held_out)) " on held-out data; with the velocities of the fit "
                     (percent(handed.nrmse.held_out)) "."
                 }
             }
-            Err(because) => { p { "No model can be handed over: " (because) } }
+            Err(because) => { p { "No model can be exported: " (because) } }
         }
         @for (k, text) in texts.iter().enumerate() {
             h3 {
-                "To copy: the model as TOML"
+                "The model as TOML, to copy"
                 @if texts.len() > 1 { ", file " (k + 1) }
             }
-            p class="note" { code { "bowden check model.toml RECORD.csv" } " tells whether it still holds; firmware reads the same file." }
+            p class="note" { code { "bowden validate model.toml RECORD.csv" } " shows whether the model still holds; firmware reads the same file." }
             pre tabindex="0" aria-label="The model as TOML" { code { (text) } }
         }
     }

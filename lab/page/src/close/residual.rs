@@ -39,8 +39,8 @@ fn over_one(one: &Dependence, k: usize, y: &Axis) -> Chart {
     };
     let ((before, all), (after, _)) = (off_zero(&one.bins, 0), off_zero(&one.bins, 1));
     let caption = match all {
-        0 => "means alone: each bin is one stretch of time".to_owned(),
-        _ => format!("{before} → {after} of {all} bins off zero"),
+        0 => "means only: each bin is one stretch of time".to_owned(),
+        _ => format!("{before} → {after} of {all} bins differ from zero"),
     };
     let description = format!(
         "Mean residual in bins over {}, before → after at 95 %: {caption}.",
@@ -65,7 +65,7 @@ pub(crate) fn over_all(figures: &Figures, unit: Option<&str>) -> Markup {
         p {
             "Mean residual in bins of equally many samples, with 95 % intervals that allow for correlation in time. "
             "Open: " (first.name) "; filled: " (last.name)
-            ". A curve of the filled dots is an effect that the model lacks; with 95 % about one bin in twenty is off zero by chance."
+            ". If the filled dots form a curve, the model lacks an effect; about one bin in twenty differs from zero by chance."
         }
         div class="grid-of" {
             @for (k, one) in figures.over.iter().enumerate() { (over_one(one, k, &y).figure()) }
@@ -86,9 +86,7 @@ pub(super) fn noise(facts: &Facts, figures: &Figures) -> Markup {
 pub(crate) fn noise_of(figures: &Figures, unit: Option<&str>, cutoff: f64) -> Markup {
     html! {
         p {
-            "Behind the filter noise itself is correlated for a few samples: the grey band is where "
-            "95 % of its estimates lie. A residual that stays inside is noise; one that swings "
-            "outside follows something."
+            "The filter correlates even noise over a few samples: the grey band contains 95 % of " "its estimates. A residual that stays inside the band is noise; otherwise the model " "lacks an effect."
         }
         div class="pair" {
             (autocorrelation(figures).figure())
@@ -108,7 +106,7 @@ fn autocorrelation(figures: &Figures) -> Chart {
         .map(|r| format!("{:.0} %", 100.0 * of.outside(r)))
         .collect();
     let description = format!(
-        "Autocorrelation of the residuals over lags up to {} s. Outside of the band for noise: {} of the lags, {} → {}.",
+        "Autocorrelation of the residuals over lags up to {} s. Outside the band for noise: {} of the lags, {} → {}.",
         number(at(of.white.len().saturating_sub(1)), Some(0.01)),
         outside.join(" → "),
         first.name,
@@ -141,10 +139,7 @@ fn autocorrelation(figures: &Figures) -> Chart {
         .key("before", &first.name)
         .key("final", &last.name)
         .key("band", "noise, 95 %")
-        .caption(&format!(
-            "Lags outside of the band: {}.",
-            outside.join(" → ")
-        ))
+        .caption(&format!("Lags outside the band: {}.", outside.join(" → ")))
 }
 
 fn spectrum(figures: &Figures, unit: Option<&str>, cutoff: f64) -> Chart {
@@ -208,7 +203,7 @@ pub(super) fn unknown(facts: &Facts, unknown: &UnknownFacts) -> Markup {
         scale: Scale::linear(ends.chain([0.0])),
     };
     let description = format!(
-        "What the model lacks as a free curve over {}, with 95 % intervals.",
+        "The unmodelled dependence as a free curve over {}, with 95 % intervals.",
         unknown.words
     );
     let band = knots.iter().filter_map(|k| {
@@ -217,7 +212,7 @@ pub(super) fn unknown(facts: &Facts, unknown: &UnknownFacts) -> Markup {
     });
     let chart = Chart::new(
         "unknown-curve",
-        "The unknown as a curve",
+        "The unmodelled dependence as a curve",
         &description,
         x,
         y,
@@ -229,8 +224,8 @@ pub(super) fn unknown(facts: &Facts, unknown: &UnknownFacts) -> Markup {
     .key("interval", "95 %");
     html! {
         p {
-            (unknown.sentence) " A free curve of it takes " (format!("{:.1}", 100.0 * unknown.share))
-            " % of the squared error (p " (format!("{:.1e}", unknown.p)) "); it stays in the final model as a table"
+            (unknown.sentence) " A free curve over it removes " (format!("{:.1}", 100.0 * unknown.share))
+            " % of the squared error (p " (format!("{:.1e}", unknown.p)) "); the final model contains the curve as a table"
             (in_brackets(unit)) "."
         }
         (chart.figure())

@@ -27,7 +27,7 @@ fn with_segments(mut chart: Chart, signals: &Signals, file: &File) -> Chart {
     for (segment, span) in stretches(signals, file) {
         let (class, name) = match segment {
             Segment::Fit => ("fit", "fit"),
-            Segment::Stop => ("stop", "stop"),
+            Segment::Stop => ("stop", "selection"),
             Segment::HeldOut => ("held", "held out"),
             Segment::Checked => ("held", "checked"),
             Segment::Dropped => continue,
@@ -130,7 +130,7 @@ pub(crate) fn residual_over_time(signals: &Signals, file: &File, id: &str) -> Ch
         })
     };
     let description = format!(
-        "What the {} and the {} model leave of the output over time; the largest values are {} and {}{}.",
+        "Residual of the {} and the {} model over time; the largest values are {} and {}{}.",
         first.name,
         last.name,
         number(largest(0), None),
@@ -175,7 +175,7 @@ fn zoom(signals: &Signals, file: &File, id: &str) -> Option<Chart> {
     let title = "The worst spot";
     let [first, last] = &signals.models;
     let description = format!(
-        "On {segment} a model errs most at {at} s: {} by {before}, {} by {after}{}.",
+        "On {segment} the largest error is at {at} s: {} by {before}, {} by {after}{}.",
         first.name,
         last.name,
         unit.map_or_else(String::new, |u| format!(" {u}"))
@@ -307,8 +307,8 @@ pub(super) fn section(facts: &Facts, figures: &Figures) -> Markup {
             (format!("{:.1}", record.seconds)) " s; " (record.mode.name()) " mode: "
             (record.input) " → " (record.output)
             @if !record.channels.is_empty() { ", with " (record.channels.join(", ")) }
-            ". Everything is seen through one zero-phase filter at " (record.cutoff) " Hz. Parameters are fitted on "
-            i { "fit" } ", " i { "stop" } " vetoes an effect, and " i { "held out" } " is seen by nothing."
+            ". All signals pass through one zero-phase filter at " (record.cutoff) " Hz. Parameters are fitted on "
+            i { "fit" } ", " i { "selection" } " rejects a term that raises the error, and nothing is fitted to " i { "held-out" } "."
         }
         @for note in &record.notes { p class="note" { (note) } }
         @for defect in &record.defects { p { b { "Defect. " } (defect.channel) ": " (defect.message) } }
@@ -325,7 +325,7 @@ pub(crate) fn of_files(signals: &Signals) -> Markup {
             div class="pair" {
                 @if let Some(zoom) = zoom(signals, file, &format!("zoom-{k}")) { (zoom.figure()) }
                 (residual_over_time(signals, file, &format!("over-time-{k}"))
-                    .caption("The dashed line is the worst spot.").figure())
+                    .caption("The dashed line marks the largest error.").figure())
             }
         }
     }

@@ -96,7 +96,7 @@ const LAST_DIGIT: f64 = 2e-3;
 fn near(value: f64, published: f64, tolerance: f64) {
     assert!(
         (value - published).abs() <= tolerance,
-        "{value:.4} N·m, {published} ± {tolerance} was expected"
+        "{value:.4} N·m, {published} ± {tolerance} is needed"
     );
 }
 

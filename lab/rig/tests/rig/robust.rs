@@ -14,9 +14,9 @@ fn pi<T: Real, const N: usize>(rig: &Rig<T, N>, seconds: usize) -> T {
     for _ in 0..seconds * 1000 {
         let now = state.sample();
         let e = now.measured - reference.at(now.time);
-        integral += e * T::of(1e-3);
-        let command = -T::of(30.0) * e - T::of(18.0) * integral;
-        let now = rig.step(&mut state, command, T::of(1e-3));
+        integral += e * T::from_f64(1e-3);
+        let command = -T::from_f64(30.0) * e - T::from_f64(18.0) * integral;
+        let now = rig.step(&mut state, command, T::from_f64(1e-3));
         assert!(!now.diverged && now.tau_o.is_finite() && now.measured.is_finite());
     }
     state.sample().tau_o - reference.at(state.sample().time)

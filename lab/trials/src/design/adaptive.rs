@@ -165,7 +165,7 @@ fn settings(
     let Boxes { alpha, delta, .. } = *boxes;
     if boxes.gain.low <= 0.0 {
         return Err(format!(
-            "the interval of B reaches {:.4}: the law needs a gain above zero",
+            "the interval of B extends to {:.4}: the law needs a gain above zero",
             boxes.gain.low
         ));
     }
@@ -181,7 +181,7 @@ fn settings(
     let lambda = (bandwidth / 50.0).max(4.0 * g / bandwidth);
     if h * lambda > 1.0 {
         return Err(format!(
-            "k > 1/lambda² and h·lambda <= 1 exclude each other at a step of {h} s, the first whole number of samples beyond the delay: at most {:.3} s is needed, by a higher rate or a shorter delay",
+            "k > 1/lambda² and h·lambda <= 1 exclude each other at a step of {h} s, the first whole number of samples beyond the delay; a step of at most {:.3} s is needed: a higher rate or a shorter delay",
             (0.25 * found.loop_gain / g).sqrt()
         ));
     }
@@ -193,7 +193,7 @@ fn settings(
     let torque = low.abs().max(high.abs()).max(f64::MIN_POSITIVE);
     let initial = 1.0 / (plant.cable.gain() * around.drive_gain);
     let drive = time * lambda * epsilon;
-    let lag = Form::Lag {
+    let lag = Form::FirstOrder {
         step: h,
         plant_gain,
     };

@@ -45,7 +45,7 @@ pub use rust::rust;
 
 use crate::gains::{message, DesignedFor, GainsFile, SCHEMA};
 use adaptive::Around;
-use bowden::control::{Damping, Fallback, Limits, Pid, PidSettings};
+use bowden::control::{DerivativeSource, Fallback, Limits, Pid, PidSettings};
 use bowden_lab::export::ModelFile;
 use linear::Gains;
 pub(crate) use plant::rises;
@@ -75,7 +75,7 @@ const PEAK_OF_NOISE: f64 = 6.0;
 const WORTH: f64 = 1.1;
 
 /// Why there is neither a reference nor a certificate.
-pub(crate) const TOO_SHORT: &str = "the stroke of the record is shorter than its hysteresis: it covers no torque in both directions, and so no reference; record a larger stroke";
+pub(crate) const TOO_SHORT: &str = "the stroke of the record is shorter than its hysteresis, so no torque is covered in both directions and no reference exists; record a larger stroke";
 
 /// Gain margin that a loop must keep whose every step is the longest one.
 const LONG_MARGIN: f64 = 1.4;
@@ -197,7 +197,7 @@ impl Question {
             if !(value.is_finite() && value >= 0.0 && (value > 0.0 || !above)) {
                 let from = if above { "above zero" } else { "from zero up" };
                 return Err(format!(
-                    "{option} {value}: a number {from} was expected [{unit}]"
+                    "{option} {value}: a number {from} is needed [{unit}]"
                 ));
             }
         }
@@ -228,7 +228,7 @@ fn samples(delay: f64, step: f64) -> usize {
 /// The gains of a model file's text; `label` stands for its name.
 ///
 /// # Errors
-/// One line: the option, or file, line and column, and what was expected.
+/// One line: the option, or file, line and column, and what is needed.
 pub fn design(text: &str, label: &str, asked: &Question) -> Result<Designed, String> {
     asked.check()?;
     let file = read(text, label)?;
@@ -237,7 +237,7 @@ pub fn design(text: &str, label: &str, asked: &Question) -> Result<Designed, Str
     let delay = asked.delay + plant.own_delay;
     if delay * asked.rate > MOST_DELAY {
         return Err(format!(
-            "--rate {}: the delay of {delay} s is more than {MOST_DELAY} samples; a lower rate was expected",
+            "--rate {}: the delay of {delay} s is more than {MOST_DELAY} samples; a lower rate is needed",
             asked.rate
         ));
     }
@@ -356,7 +356,7 @@ impl Safety {
             false => PidSettings {
                 k_d: own.k_d,
                 derivative_time: own.derivative_time,
-                damping: Damping::on_measurement(),
+                damping: DerivativeSource::on_measurement(),
                 ..plain
             },
         };
@@ -368,13 +368,13 @@ impl Safety {
 fn read(text: &str, label: &str) -> Result<ModelFile, String> {
     if text.trim().is_empty() {
         return Err(format!(
-            "{label}: is empty; a model of `bowden close --model-out` was expected"
+            "{label}: is empty; a model of `bowden identify --model-out` is needed"
         ));
     }
     let file: ModelFile = toml::from_str(text).map_err(|e| message(&e, text, label))?;
     if file.schema != "bowden.model/1" {
         return Err(format!(
-            "{label}: schema {:?}: \"bowden.model/1\" was expected",
+            "{label}: schema {:?}: \"bowden.model/1\" is needed",
             file.schema
         ));
     }
@@ -457,7 +457,7 @@ fn notes(plant: &Plant, adaptive: &AdaptiveDesign) -> Vec<String> {
     let least = plant.slopes.least;
     if least < 0.0 {
         notes.push(format!(
-            "the least slope is {least:.4}: after a reversal the output turns back while the input goes on, and no margin covers that; `bowden close --invertible` fits a model without it"
+            "the least slope is {least:.4}: after a reversal the output reverses while the input continues, and no margin covers this case; `bowden identify --invertible` fits a model without it"
         ));
     }
     if plant.output().is_none() {
@@ -466,11 +466,11 @@ fn notes(plant: &Plant, adaptive: &AdaptiveDesign) -> Vec<String> {
     let [low, high] = plant.input;
     if adaptive.certificate.is_some() && low * high >= 0.0 {
         notes.push(
-            "the limits are on one side of zero, as the record is: `bowden certify`, whose theorem has them on both sides, refuses such a file; the certificate above does not count the limits".to_owned(),
+            "the limits are on one side of zero, as the record is: `bowden certify` refuses such a file, because its theorem needs limits on both sides; the certificate above ignores the limits".to_owned(),
         );
     } else if let Some(why) = &adaptive.unproved {
         notes.push(format!(
-            "`bowden certify` does not prove this file as it stands, since {why}; the certificate above counts neither the limits nor the slew rate"
+            "`bowden certify` does not prove this file as it is, because {why}; the certificate above ignores the limits and the slew rate"
         ));
     }
     if plant.own_delay > 0.0 {
@@ -481,7 +481,7 @@ fn notes(plant: &Plant, adaptive: &AdaptiveDesign) -> Vec<String> {
     }
     if !plant.left_out.is_empty() {
         notes.push(format!(
-            "the slopes leave out what else reads the input: {}",
+            "the slopes exclude the other terms that read the input: {}",
             plant.left_out.join(", ")
         ));
     }

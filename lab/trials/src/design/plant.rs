@@ -15,10 +15,10 @@ use serde::Serialize;
 /// saturated, before and after a reversal.
 ///
 /// ```
-/// use bowden::hysteresis::Shape;
+/// use bowden::hysteresis::BoucWen;
 /// use bowden::transmission::Transmission;
 /// use bowden_trials::design::Slopes;
-/// let cable = Transmission::torque(1.0, 2.0, 0.0, Shape::try_new(0.1, 1.5, 2.0)?)?;
+/// let cable = Transmission::torque(1.0, 2.0, 0.0, BoucWen::try_new(0.1, 1.5, 2.0)?)?;
 /// let slopes = Slopes::of(&cable);
 /// assert!((slopes.least - 0.4).abs() < 1e-12 && slopes.greatest == 1.0);
 /// # Ok::<(), bowden::Error>(())
@@ -72,9 +72,9 @@ pub(crate) fn rises(file: &ModelFile) -> Result<(), String> {
         .about
         .as_ref()
         .and_then(|about| about.verdict.as_deref());
-    if verdict == Some("no-model") {
+    if verdict == Some("no-input-dependence") {
         return Err(
-            "its verdict is `no-model`: it does not describe its records, and nothing can be derived from it; `bowden close` says what to do".to_owned(),
+            "its verdict is `no-input-dependence`: it does not describe its records, so no gains can be derived from it; `bowden identify` says what to do".to_owned(),
         );
     }
     in_newton_metres(file)?;
@@ -88,7 +88,7 @@ pub(crate) fn rises(file: &ModelFile) -> Result<(), String> {
         return Ok(());
     }
     Err(format!(
-        "the output falls where the input rises (gain {gain:.4}): change the sign of one of them in the record and fit again, and wire the drive or the sensor accordingly"
+        "the output falls while the input rises (gain {gain:.4}): change the sign of one of them in the record and fit again, and wire the drive or the sensor accordingly"
     ))
 }
 
@@ -103,7 +103,7 @@ fn in_newton_metres(file: &ModelFile) -> Result<(), String> {
         let other = stated(end).filter(|unit| !is_same_unit(unit, TORQUE));
         if let Some(unit) = other.filter(|_| file.mode == "torque") {
             return Err(format!(
-                "its {end} is in {unit}: {TORQUE} was expected, the unit of noise, limits and gains; convert the columns of the record and fit again"
+                "its {end} is in {unit}: {TORQUE} is needed, the unit of noise, limits and gains; convert the columns of the record and fit again"
             ));
         }
     }
@@ -133,7 +133,7 @@ impl Plant {
     pub(super) fn without_unit(&self) -> Option<&'static str> {
         let stated = |end: &str| self.about.units.contains_key(end);
         (!(stated("input") && stated("output"))).then_some(
-            "the record states no unit of its torques: they are taken as N·m; in mN·m all limits would be a thousand times too wide",
+            "the record states no unit of its torques: they are taken as N·m; if they are in mN·m, all limits are a thousand times too wide",
         )
     }
 
@@ -141,25 +141,25 @@ impl Plant {
     pub(super) fn new(file: &ModelFile) -> Result<Self, String> {
         if file.mode != "torque" {
             return Err(format!(
-                "mode {:?}: a torque model was expected, since the loop commands a torque",
+                "mode {:?}: a torque model is needed, since the loop commands a torque",
                 file.mode
             ));
         }
         let model = file.model::<{ bowden_lab::export::MOST_TERMS }>()?;
         let Some(cable) = model.transmission().copied() else {
-            return Err("no table `transmission`: a model with one was expected".to_owned());
+            return Err("no table `transmission`: a model with this table is needed".to_owned());
         };
         let about = file.about.clone().ok_or(
-            "no table `about`: the limits come from `about.ranges`, which `bowden close --model-out` writes",
+            "no table `about`: the limits come from `about.ranges`, which `bowden identify --model-out` writes",
         )?;
         let seen = about.ranges.get("input").ok_or(
-            "no table `about.ranges.input`: the limits come from it; `bowden close --model-out` writes it",
+            "no table `about.ranges.input`: the limits come from it; `bowden identify --model-out` writes it",
         )?;
         let (input, input_rate) = (seen.position, seen.velocity);
         for (range, name) in [(input, "position"), (input_rate, "velocity")] {
             if !(range[0].is_finite() && range[1].is_finite() && range[0] < range[1]) {
                 return Err(format!(
-                    "about.ranges.input.{name}: two numbers, the lower one first, were expected"
+                    "about.ranges.input.{name}: two numbers, the lower one first, are allowed"
                 ));
             }
         }
@@ -201,7 +201,7 @@ impl Plant {
 
     /// The greatest share of a term over the corners and the middle of what the record covered.
     fn largest(&self, term: &TermFile) -> Result<f64, String> {
-        use bowden::effect::{EffectState, Motion, Situation};
+        use bowden::effect::{EffectState, Inputs, Motion};
         let Some(span) = self.about.ranges.get(&term.source) else {
             return Err(format!(
                 "no table `about.ranges.{}`, which the term {} reads",
@@ -221,7 +221,7 @@ impl Plant {
                     velocity: along(span.velocity, j),
                     acceleration: along(span.acceleration, k),
                 };
-                let at = Situation {
+                let at = Inputs {
                     dt: 0.0,
                     motion,
                     input: Motion {
@@ -229,7 +229,7 @@ impl Plant {
                         ..Motion::default()
                     },
                     load,
-                    ..Situation::default()
+                    ..Inputs::default()
                 };
                 let share = term.gain * effect.regressor(&mut EffectState::new(), &at);
                 if share.is_finite() {

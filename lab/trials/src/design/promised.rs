@@ -58,7 +58,7 @@ impl Designed {
     pub fn certifies(&self) -> Certifies {
         let lacks = match (&self.gains.adaptive, &self.gains.plant) {
             (None, _) => "it has no [adaptive], since no gains of that law are admissible",
-            (_, None) => "it has no [plant], for the reason that stands beside \"no certificate\"",
+            (_, None) => "it has no [plant]",
             _ => {
                 return match designed::prove(&self.gains) {
                     Ok(proof) if proof.proved => Certifies::Proves,
@@ -83,7 +83,7 @@ fn smaller_reference(gains: &mut GainsFile, command: &Sides) -> Option<()> {
 /// The slew rate that is not met.
 fn faster(gains: &mut GainsFile, slew: &Sides) -> Option<()> {
     let law = gains.adaptive.as_mut()?;
-    let Form::Lag { step, .. } = law.form else {
+    let Form::FirstOrder { step, .. } = law.form else {
         return None;
     };
     // A thousandth for what the sum with the command rounds.

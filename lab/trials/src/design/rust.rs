@@ -31,7 +31,7 @@ pub fn rust(designed: &Designed) -> String {
     let used = [
         ("Adaptive", law),
         ("AdaptiveSettings", law),
-        ("Damping", pid),
+        ("DerivativeSource", pid),
         ("Estimator", law),
         ("Fallback", true),
         ("Form", law),
@@ -111,7 +111,7 @@ fn bounds(designed: &Designed, out: &mut String) {
     let rate = number(designed.gains.design.rate);
     item("pub const RATE: f32", &rate, out);
     line!(out);
-    line!(out, "/// What the record has covered [command unit].");
+    line!(out, "/// Range of the record [command unit].");
     let (low, high) = (number(b.low), number(b.high));
     let range = format!("constant!(Limits::<f32>::const_new({low}, {high}))");
     item("const RANGE: Limits<f32>", &range, out);
@@ -146,7 +146,7 @@ fn settings(name: &str, own: &PidSettings<f64>, out: &mut String) {
         line!(out, "{what} = PidSettings {{");
         line!(out, "    k_d: {},", number(own.k_d));
         line!(out, "    derivative_time: {},", number(own.derivative_time));
-        line!(out, "    damping: Damping::on_measurement(),");
+        line!(out, "    damping: DerivativeSource::on_measurement(),");
         line!(out, "    ..{plain}");
         line!(out, "}};");
     }
@@ -159,7 +159,7 @@ fn settings(name: &str, own: &PidSettings<f64>, out: &mut String) {
 }
 
 fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
-    let Form::Lag { step, plant_gain } = own.form else {
+    let Form::FirstOrder { step, plant_gain } = own.form else {
         return;
     };
     line!(out);
@@ -167,7 +167,7 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
         out,
         "/// Step [s] and greatest gain of the plant [N·m/command unit]."
     );
-    line!(out, "const LAG: Form<f32> = Form::Lag {{");
+    line!(out, "const LAG: Form<f32> = Form::FirstOrder {{");
     line!(out, "    step: {},", number(step));
     line!(out, "    plant_gain: {},", number(plant_gain));
     line!(out, "}};");
@@ -223,14 +223,14 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
     line!(out);
     line!(
         out,
-        "/// The adaptive law in lag form without regressors, checked."
+        "/// The adaptive law in first-order form without regressors, checked."
     );
     line!(out, "///");
     match every {
-        1 => line!(out, "/// Call it once a sample."),
+        1 => line!(out, "/// Call it once per sample."),
         _ => line!(
             out,
-            "/// Call it on one sample in {every}: the plant must answer within its step."
+            "/// Call it on one sample in {every}: the plant must respond within its step."
         ),
     }
     line!(out, "#[allow(dead_code)]");
@@ -243,7 +243,10 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
 
 fn estimator(name: &str, what: &str, own: &Estimator<f64>, out: &mut String) {
     line!(out);
-    line!(out, "/// Estimate {what}: start, box, gain, leakage [1/s].");
+    line!(
+        out,
+        "/// Estimate {what}: start, bounds, gain, leakage [1/s]."
+    );
     line!(out, "const {name}: Estimator<f32> = Estimator {{");
     line!(out, "    prior: {},", number(own.prior));
     let start = format!("..Estimator::fixed({})", number(own.initial));

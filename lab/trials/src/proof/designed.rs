@@ -15,7 +15,7 @@ pub(crate) fn prove(gains: &GainsFile) -> Result<Proof, String> {
         "has no [adaptive]: the design found no admissible gains of the adaptive law (`bowden design` says why)",
     )?;
     let known = gains.plant.as_ref().ok_or_else(|| {
-        format!("{NO_PLANT} (`bowden design` writes it where the model bounds how fast the disturbance moves)")
+        format!("{NO_PLANT} (`bowden design` writes it if the model bounds the rate of the disturbance)")
     })?;
     let (low, high) = (law.limits.low(), law.limits.high());
     let mut proof = of_form(&form(law, known)?)?;
@@ -25,7 +25,7 @@ pub(crate) fn prove(gains: &GainsFile) -> Result<Proof, String> {
         proof.refused = Some(Refusal {
             text: Named::Command.text(),
             mend: format!(
-                "limits that are the same on both sides (they are {low} and {high}): where a limit is met, the proof is of such limits"
+                "symmetric limits (they are {low} and {high}): if a limit is active, the proof needs symmetric limits"
             ),
         });
     }
@@ -33,14 +33,14 @@ pub(crate) fn prove(gains: &GainsFile) -> Result<Proof, String> {
 }
 
 fn form(law: &AdaptiveSettings<f64, 0>, known: &Known) -> Result<Form, String> {
-    let control::Form::Lag { step, .. } = law.form else {
-        return Err("[adaptive]: the lag form was expected".to_owned());
+    let control::Form::FirstOrder { step, .. } = law.form else {
+        return Err("[adaptive]: the first-order form is needed".to_owned());
     };
     let (low, high) = (law.limits.low(), law.limits.high());
     let command = high.min(-low);
     if !(command.is_finite() && command > 0.0) {
         return Err(format!(
-            "[adaptive]: limits {low} to {high}: finite ones on both sides of zero were expected"
+            "[adaptive]: limits {low} to {high}: finite ones on both sides of zero are allowed"
         ));
     }
     Ok(Form {

@@ -86,7 +86,7 @@ macro_rules! number {
                 if x.is_finite() && ok(x) {
                     Ok(Self(x))
                 } else {
-                    Err(format!("{x}: {} was expected", $what))
+                    Err(format!("{x}: {} is needed", $what))
                 }
             }
         }
@@ -113,7 +113,7 @@ macro_rules! range {
                     {
                         Ok(Self([low, high]))
                     }
-                    _ => Err(format!("{list:?}: {} was expected", $what)),
+                    _ => Err(format!("{list:?}: {} is needed", $what)),
                 }
             }
         }
@@ -121,16 +121,16 @@ macro_rules! range {
 }
 range!(
     Range,
-    "a box of two finite numbers, the lower one first",
+    "a pair of finite numbers, the lower one first",
     |_| true
 );
 range!(
     Above,
-    "a box of two finite numbers above zero, the lower one first",
+    "a pair of finite numbers above zero, the lower one first",
     |low| low > 0.0
 );
 range!(
     NotBelow,
-    "a box of two finite numbers not below zero, the lower one first",
+    "a pair of finite numbers not below zero, the lower one first",
     |low| low >= 0.0
 );

@@ -28,12 +28,12 @@ pub(super) fn words(form: &Form, inequality: &Inequality) -> String {
             if room > k {
                 let epsilon = up(form.delta.0[1] / (room - k));
                 let delta = down((room - k) * form.epsilon.0);
-                format!("{rate}, epsilon of at least {epsilon} N·m, or a box of delta_hat up to {delta} N·m")
+                format!("{rate}, epsilon of at least {epsilon} N·m, or bounds of delta_hat up to {delta} N·m")
             } else if room - slope > least_k {
                 format!("{rate}, or k of at most {}", down(room - slope))
             } else {
                 format!(
-                    "{rate}, or k + delta_hat/epsilon of at most {} in place of {k} + {}",
+                    "{rate}, or k + delta_hat/epsilon of at most {} instead of {k} + {}",
                     down(room),
                     up(slope)
                 )
@@ -41,27 +41,27 @@ pub(super) fn words(form: &Form, inequality: &Inequality) -> String {
         }
         Named::Stiffness => format!("k above 1/lambda² = {}", up(1.0 / (lambda * lambda))),
         Named::SStays => format!(
-            "a greater k or lambda, a box of beta_hat that starts higher, {coarse}: k = {k} leaves too little beyond 1/lambda² = {}",
+            "a greater k or lambda, a higher lower bound of beta_hat, {coarse}: k = {k} is too close to 1/lambda² = {}",
             up(1.0 / (lambda * lambda))
         ),
-        Named::ZStays | Named::Owed | Named::Slack => format!("{coarse}: z moves by less than it is rounded by"),
+        Named::ZStays | Named::Owed | Named::Slack => format!("{coarse}: the step of z is smaller than its rounding error"),
         Named::ZLimit => format!("z_limit of at least {} N·m·s", up(left)),
         Named::Command => format!(
             "a limit of the command of at least {}, a smaller reference or a smaller disturbance (the limit is {right})",
             up(left)
         ),
         Named::Reserve => format!(
-            "a limit of the command of at least {}, a smaller reference or a smaller disturbance (the limit is {right}, and must hold the one against the other)",
+            "a limit of the command of at least {}, a smaller reference or a smaller disturbance (the limit is {right}, and must hold the reference against the disturbance)",
             up(left)
         ),
         Named::Waiting => format!("a rate of at least {} Hz", up(left / step)),
         Named::Slew => format!(
-            "a slew rate of at least {}, in place of {}, or none: below it the slew rate may be met, and the proof is of a law that does not meet it",
+            "a slew rate of at least {} instead of {}, or none: below this value the slew rate may be active, and the proof is for a law without an active slew rate",
             up(1.001 * left / step),
             form.slew.map_or(f64::NAN, |slew| slew.0)
         ),
         Named::Overflow => {
-            "a greater epsilon, or smaller gains: a number of the step is beyond its float"
+            "a greater epsilon, or smaller gains: a number of the step overflows its float"
                 .to_owned()
         }
     }

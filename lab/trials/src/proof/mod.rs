@@ -165,7 +165,7 @@ pub struct Rounded {
     /// Of z \[N·m·s\].
     pub z: Number,
     /// What the sum of z may owe \[N·m·s\].
-    pub owed_by_z: Number,
+    pub carry_error_z: Number,
     /// What the sum of the command may owe \[command unit\].
     pub owed_by_command: Number,
 }
@@ -216,7 +216,7 @@ const MOST_ADAPTATION: f64 = 1_073_741_824.0;
 /// Reads a file of gains and examines them.
 ///
 /// # Errors
-/// One line with file, line, column and what was expected.
+/// One line with file, line, column and what is needed.
 pub fn prove(path: &Path) -> Result<Proof, String> {
     let label = path.display().to_string();
     let text = std::fs::read_to_string(path).map_err(|e| format!("{label}: {e}"))?;
@@ -224,7 +224,7 @@ pub fn prove(path: &Path) -> Result<Proof, String> {
 }
 
 /// What a file of gains lacks that says nothing of its plant.
-const NO_PLANT: &str = "has no [plant]: a table [plant] with alpha = [least, greatest], disturbance, disturbance_rate, reference and reference_rate was expected";
+const NO_PLANT: &str = "has no [plant]: a table [plant] with alpha = [least, greatest], disturbance, disturbance_rate, reference and reference_rate is needed";
 
 /// The same of a text; `label` stands for the file's name.
 ///
@@ -261,7 +261,7 @@ fn of_any<T: Real>(form: &Form) -> Result<Proof, String> {
         6 => of::<T, 6>(form),
         7 => of::<T, 7>(form),
         8 => of::<T, 8>(form),
-        many => Err(format!("{many} regressors: at most {MOST} were expected")),
+        many => Err(format!("{many} regressors: at most {MOST} are allowed")),
     }
 }
 
@@ -279,28 +279,28 @@ fn of<T: Real, const N: usize>(form: &Form) -> Result<Proof, String> {
 /// The nearest floats; the upper bound of alpha is not below it.
 fn settings<T: Real, const N: usize>(form: &Form) -> Result<AdaptiveSettings<T, N>, Error> {
     let moving = |[low, high]: [f64; 2]| {
-        let low = T::of(low);
+        let low = T::from_f64(low);
         let box_of = Estimator {
             prior: low,
-            ..Estimator::free(low).within(low, T::of(high))
+            ..Estimator::free(low).within(low, T::from_f64(high))
         };
         if box_of.low == box_of.high {
             box_of
         } else {
             // The estimate is anywhere in its box; the greatest overflow first.
-            let most = T::of(MOST_ADAPTATION);
+            let most = T::from_f64(MOST_ADAPTATION);
             box_of.adapting(most, most)
         }
     };
-    let mut plant_gain = T::of(form.plant.alpha.0[1]);
+    let mut plant_gain = T::from_f64(form.plant.alpha.0[1]);
     if plant_gain.as_f64() < form.plant.alpha.0[1] {
         plant_gain *= T::ONE + T::epsilon();
     }
-    let lag = bowden::control::Form::Lag {
-        step: T::of(form.step.0),
+    let lag = bowden::control::Form::FirstOrder {
+        step: T::from_f64(form.step.0),
         plant_gain,
     };
-    let command = T::of(form.command.0);
+    let command = T::from_f64(form.command.0);
     let mut theta = [Estimator::fixed(T::ZERO); N];
     for (estimator, regressor) in theta.iter_mut().zip(&form.regressor) {
         *estimator = moving(regressor.theta_hat.0);
@@ -310,12 +310,17 @@ fn settings<T: Real, const N: usize>(form: &Form) -> Result<AdaptiveSettings<T, 
         beta: moving(form.beta.0),
         delta: moving(form.delta.0),
         theta,
-        z_limit: T::of(form.z_limit.0),
+        z_limit: T::from_f64(form.z_limit.0),
         limits: match form.slew {
-            Some(slew) => Limits::try_new(-command, command)?.with_slew(T::of(slew.0))?,
+            Some(slew) => Limits::try_new(-command, command)?.with_slew(T::from_f64(slew.0))?,
             None => Limits::try_new(-command, command)?,
         },
-        ..AdaptiveSettings::unlimited(lag, T::of(k), T::of(lambda), T::of(epsilon))
+        ..AdaptiveSettings::unlimited(
+            lag,
+            T::from_f64(k),
+            T::from_f64(lambda),
+            T::from_f64(epsilon),
+        )
     })
 }
 
@@ -360,7 +365,7 @@ fn proof<T: Real, const N: usize>(
         gains: Exact {
             k: float(settings.gain),
             lambda: float(settings.lambda),
-            step: float(T::of(form.step.0)),
+            step: float(T::from_f64(form.step.0)),
             epsilon: float(settings.epsilon),
             z_limit: float(settings.z_limit),
             command: float(settings.limits.high()),
@@ -395,7 +400,7 @@ fn proof<T: Real, const N: usize>(
             s: number(rounded.s),
             command: number(rounded.command),
             z: number(rounded.z),
-            owed_by_z: number(rounded.owed_by_z),
+            carry_error_z: number(rounded.carry_error_z),
             owed_by_command: number(rounded.owed_by_command),
         },
         inequalities: examined.inequalities.iter().map(Sides::from).collect(),
@@ -414,6 +419,8 @@ fn assumptions() -> Vec<&'static str> {
     let kind = Kind::PeakRounded;
     let certificate = bowden::bound::Certificate { kind, value: 0.0 };
     let mut all = certificate.assumptions().to_vec();
-    all.push("adaptation gains and leakages [1/s] are at most 2^30, each prior lies in its box");
+    all.push(
+        "adaptation gains and leakages [1/s] are at most 2^30, each prior lies within its bounds",
+    );
     all
 }

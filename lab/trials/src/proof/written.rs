@@ -34,7 +34,7 @@ struct Numbers {
 }
 
 /// The theorem of a limit is over the reals alone.
-const AT_THE_LIMIT: &str = "--coq: this proof is of a limit of the command that may be met; a certificate for Coq is written of limits that are not (theorems/Limit.v has the theorem, --json all numbers)";
+const AT_THE_LIMIT: &str = "--coq: this proof is for a limit of the command that may be active; certificates for Coq are for inactive limits only (theorems/Limit.v has the theorem, --json all numbers)";
 
 /// The certificate as a theorem: `coqc` checks it, or refuses it.
 ///
@@ -124,7 +124,7 @@ pub fn coq(proof: &Proof) -> Result<String, String> {
 fn slew(proof: &Proof) -> Option<String> {
     let sides = proof.slew.as_ref()?;
     Some(format!(
-        "\n\n   The slew rate is left out, since no step from the box meets it: one moves the command by at\n   most {:e}, and {:e} is allowed (theorems/Slew.v). *)\n(* The theorem over the reals.",
+        "\n\n   The slew rate is omitted, because no step from the box reaches it: a step moves the command by\n   at most {:e}, and {:e} is allowed (theorems/Slew.v). *)\n(* The theorem over the reals.",
         sides.left.high, sides.right.low
     ))
 }
@@ -244,7 +244,7 @@ fn read(exact: &str) -> Result<f64, String> {
         #[allow(clippy::cast_precision_loss)] // of a float: 53 bits at most
         Some(mantissa as f64 * 2_f64.powi(exponent.parse().ok()?))
     });
-    parts.ok_or_else(|| format!("{exact}: a number was expected"))
+    parts.ok_or_else(|| format!("{exact}: a number is needed"))
 }
 
 /// A number as Coq reads it.
@@ -355,7 +355,7 @@ impl Given {
         let roundings = &proof.roundings;
         let (nes, cz) = (
             rounded(roundings.s.value),
-            rounded(roundings.owed_by_z.value),
+            rounded(roundings.carry_error_z.value),
         );
         let moved_z = self.unit * self.step * error;
         let (einc, ew) = (up(moved_z * of(2.1), SHORT), up(moved_z * of(1.1), SHORT));

@@ -2,7 +2,7 @@
 
 use super::{cable, design, designed, model, rising, ASKED};
 use bowden::control::{Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Form, Limits};
-use bowden::hysteresis::BoucWen;
+use bowden::hysteresis::BoucWenState;
 use bowden_rig::{Noise, Reference};
 use bowden_trials::design::Question;
 
@@ -99,7 +99,7 @@ fn the_error_on_a_plant_that_answers_within_the_step_stays_within_the_certificat
         };
         let law = Adaptive::try_new(free).unwrap();
         let mut state = AdaptiveState::new(&law);
-        let (cable, mut cable_state) = (cable(numbers), BoucWen::new());
+        let (cable, mut cable_state) = (cable(numbers), BoucWenState::new());
         let rate = own.bounds.reference_rate.unwrap();
         let [low, high] = own.bounds.output.unwrap();
         let reference = Reference::paper().between(0.6 * low, 0.6 * high);
@@ -139,7 +139,7 @@ fn the_boxes_are_the_intervals_of_the_model_and_what_is_assumed_is_said() {
     assert!((law.beta.low - 1.0 / (0.92 * 1.02)).abs() < 1e-12);
     assert!((law.beta.high - 1.0 / (0.88 * 0.98)).abs() < 1e-12);
     assert!((law.delta.high - 2.2).abs() < 1e-12);
-    let Form::Lag { plant_gain, .. } = law.form else {
+    let Form::FirstOrder { plant_gain, .. } = law.form else {
         panic!()
     };
     assert!((plant_gain - 0.92 * 1.02).abs() < 1e-12);
@@ -161,11 +161,11 @@ fn where_no_gain_is_admissible_it_says_why() {
     assert!(why.contains("h·lambda <= 1 exclude each other"), "{why}");
     let text = model(numbers, "") + "[about.intervals]\ngain = [-0.1, 1.9]\n";
     let open = design(&text, "m.toml", &ASKED).unwrap().adaptive;
-    assert!(open.refused.unwrap().contains("B reaches -0.1"));
+    assert!(open.refused.unwrap().contains("B extends to -0.1"));
     // A cable that turns back has gains and no certificate.
     let back = designed([0.9, 2.0, 0.05, 0.4, 3.0, 1.0], &ASKED);
     assert!(back.slopes.least < 0.0 && back.adaptive.settings.is_some());
     assert!(back.adaptive.uncertified.unwrap().contains("least slope"));
     assert!(back.bounds.reference_rate.is_none());
-    assert!(back.notes.iter().any(|n| n.contains("turns back")));
+    assert!(back.notes.iter().any(|n| n.contains("the output reverses")));
 }

@@ -105,7 +105,7 @@ fn a_model_that_is_none_of_a_torque_loop_is_one_line() {
     expect(" \n", "is empty");
     expect(
         &text.replace("\"torque\"", "\"displacement\""),
-        "a torque model was expected",
+        "a torque model is needed",
     );
     expect(
         &text.replace("n = 2.0", "n = 2.0\nm = 1"),
@@ -126,14 +126,14 @@ fn a_model_that_is_none_of_a_torque_loop_is_one_line() {
         &text
             .replace("gain = 0.9", "gain = -0.9")
             .replace("kappa_eta = 2.0", "kappa_eta = 0.1"),
-        "falls where the input rises (gain -0.9000)",
+        "falls while the input rises (gain -0.9000)",
     );
     // The output rises after a reversal, and falls beyond: of a rig with its sensor turned.
     expect(
         &text
             .replace("gain = 0.9", "gain = -0.9")
             .replace("kappa_eta = 2.0", "kappa_eta = -20.0"),
-        "falls where the input rises (gain -0.9000)",
+        "falls while the input rises (gain -0.9000)",
     );
 }
 

@@ -11,7 +11,7 @@ mod file;
 mod pi;
 mod slopes;
 
-use bowden::hysteresis::Shape;
+use bowden::hysteresis::BoucWen;
 use bowden::transmission::Transmission;
 use bowden_rig::Noise;
 use bowden_trials::design::{design, Designed, Question};
@@ -20,7 +20,7 @@ use bowden_trials::design::{design, Designed, Question};
 type Numbers = [f64; 6];
 
 fn cable([b, kappa_eta, t0, rho, sigma, n]: Numbers) -> Transmission<f64> {
-    Transmission::torque(b, kappa_eta, t0, Shape::try_new(rho, sigma, n).unwrap()).unwrap()
+    Transmission::torque(b, kappa_eta, t0, BoucWen::try_new(rho, sigma, n).unwrap()).unwrap()
 }
 
 /// The text of a model file whose record has covered ±20 N·m.

@@ -2,7 +2,7 @@
 
 use super::{cable, designed, rising, Numbers, ASKED};
 use bowden::control::{AntiWindup, Pid, PidInput, PidSettings, PidState};
-use bowden::hysteresis::BoucWen;
+use bowden::hysteresis::BoucWenState;
 use bowden_rig::Noise;
 use bowden_trials::design::Question;
 
@@ -14,7 +14,8 @@ fn errors(
     references: &[f64],
 ) -> Vec<f64> {
     let pid = Pid::try_new(settings).unwrap();
-    let (cable, mut cable_state, mut state) = (cable(numbers), BoucWen::new(), PidState::new());
+    let (cable, mut cable_state, mut state) =
+        (cable(numbers), BoucWenState::new(), PidState::new());
     let mut commands = std::collections::VecDeque::from(vec![0.0; delay]);
     let mut errors = Vec::new();
     for reference in references {

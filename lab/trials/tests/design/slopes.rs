@@ -1,7 +1,7 @@
 //! Least and greatest slope, against the shipped step on random paths.
 
 use super::{cable, designed, model, ASKED};
-use bowden::hysteresis::BoucWen;
+use bowden::hysteresis::BoucWenState;
 use bowden_rig::Noise;
 use bowden_trials::design::{design, Slopes};
 
@@ -21,7 +21,7 @@ fn no_step_of_the_shipped_transmission_has_a_slope_outside_and_both_ends_are_rea
         ];
         let cable = cable(numbers);
         let slopes = Slopes::of(&cable);
-        let mut state = BoucWen::new();
+        let mut state = BoucWenState::new();
         let (mut u, mut before) = (0.0, cable.step(&mut state, 0.0));
         let mut seen = [f64::INFINITY, f64::NEG_INFINITY];
         for leg in 0..30 {
@@ -83,7 +83,7 @@ fn a_gain_that_reads_the_input_moves_both_slopes_and_a_delay_adds_to_the_delay()
     assert!(
         told.notes
             .iter()
-            .any(|n| n.contains("leave out") && n.contains("rate")),
+            .any(|n| n.contains("exclude") && n.contains("rate")),
         "{told:?}"
     );
 }

@@ -21,11 +21,11 @@ pub fn all<T: Real>() -> Option<()> {
         AdaptiveSettings::<T, 2>::paper()
     );
     never_panics!(control_adaptive_paper, Adaptive::<T, 2>::paper());
-    let form = black_box(Form::Literal {
+    let form = black_box(Form::AsPublished {
         time_constant: any(),
     });
     let limits = black_box(Limits::unlimited());
-    let fallback = black_box(Fallback::hold_for_ever());
+    let fallback = black_box(Fallback::hold_indefinitely());
     never_panics!(
         control_adaptive_settings_new,
         AdaptiveSettings::<T, 2>::new(form, any(), any(), any(), limits, any(), fallback)
@@ -68,16 +68,20 @@ pub fn all<T: Real>() -> Option<()> {
     );
     never_panics!(control_adaptive_state_is_latched, state.is_latched());
     never_panics!(
-        control_adaptive_state_power_up,
-        black_box(&mut state).power_up(&law)
+        control_adaptive_state_applied,
+        state.applied(black_box(Applied::Command(any())))
+    );
+    never_panics!(
+        control_adaptive_state_restore,
+        black_box(&mut state).restore(&law)
     );
     never_panics!(
         control_adaptive_resume_resume_from,
         AdaptiveState::resume_from(&law, any(), &at)
     );
     never_panics!(
-        control_adaptive_resume_take_over,
-        law.take_over(black_box(&mut state), &at)
+        control_adaptive_resume_bumpless_transfer,
+        law.bumpless_transfer(black_box(&mut state), &at)
     );
     never_panics!(
         control_adaptive_state_reset,
@@ -91,7 +95,7 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(control_adaptive_state_delta_hat, state.delta_hat());
     never_panics!(control_adaptive_state_theta_hat, state.theta_hat());
     never_panics!(control_adaptive_state_command, state.command());
-    never_panics!(control_adaptive_state_bad_score, state.bad_score());
+    never_panics!(control_adaptive_state_fault_counter, state.fault_counter());
     Some(())
 }
 

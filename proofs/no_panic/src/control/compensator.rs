@@ -3,7 +3,7 @@
 use crate::effect::motion;
 use crate::model::model;
 use crate::{any, never_panics};
-use bowden::control::{BenchRange, Compensator, CompensatorInput, CompensatorState};
+use bowden::control::{Applied, BenchRange, Compensator, CompensatorInput, CompensatorState};
 use bowden::effect::Motion;
 use bowden::model::Source;
 use bowden::Real;
@@ -64,6 +64,10 @@ pub fn all<T: Real>() -> Option<()> {
         compensator.with_longest_dt(any())
     );
     never_panics!(control_compensator_step, compensator.step(&mut state, &at));
+    never_panics!(
+        control_compensator_applied_applied,
+        compensator.applied(&mut state, black_box(Applied::Command(any())))
+    );
     never_panics!(control_compensator_command, state.command());
     never_panics!(control_compensator_eta, state.eta());
     never_panics!(control_compensator_consecutive_bad, state.consecutive_bad());

@@ -1,14 +1,14 @@
 //! `control/learning.rs`, `control/learning/`
 
 use crate::{any, never_panics};
-use bowden::control::{Learning, LearningInput, LearningState};
+use bowden::control::{IterativeLearning, IterativeLearningInput, IterativeLearningState};
 use bowden::Real;
 use std::hint::black_box;
 
 /// Cells of the cycle.
 const CELLS: usize = 32;
 
-type State<T> = LearningState<T, [T; CELLS]>;
+type State<T> = IterativeLearningState<T, [T; CELLS]>;
 
 /// Any contents of a buffer.
 fn buffer<T: Real>() -> [T; CELLS] {
@@ -24,9 +24,15 @@ pub fn all<T: Real>() -> Option<()> {
     constants()?;
     never_panics!(
         control_learning_try_new,
-        Learning::<T>::try_new(any(), any(), cells(), cells())
+        IterativeLearning::<T>::try_new(any(), any(), cells(), cells())
     );
-    let learning = black_box(Learning::<T>::try_new(any(), any(), cells(), cells())).ok()?;
+    let learning = black_box(IterativeLearning::<T>::try_new(
+        any(),
+        any(),
+        cells(),
+        cells(),
+    ))
+    .ok()?;
     never_panics!(
         control_learning_with_forgetting,
         learning.with_forgetting(any())
@@ -54,9 +60,9 @@ pub fn all<T: Real>() -> Option<()> {
     let mut state: State<T> = black_box(state).ok()?;
     never_panics!(
         control_learning_new,
-        LearningInput::<T>::new(any(), any(), any())
+        IterativeLearningInput::<T>::new(any(), any(), any())
     );
-    let at = black_box(LearningInput::<T>::new(any(), any(), any()));
+    let at = black_box(IterativeLearningInput::<T>::new(any(), any(), any()));
     never_panics!(control_learning_step, learning.step(&mut state, &at));
     never_panics!(control_learning_state_learned, state.learned());
     never_panics!(control_learning_state_feed_forward, state.feed_forward());
@@ -64,7 +70,7 @@ pub fn all<T: Real>() -> Option<()> {
 }
 
 /// The same over buffers that somebody else owns: its length is known to nobody.
-fn slices<T: Real>(learning: &Learning<T>, at: &LearningInput<T>) -> Option<()> {
+fn slices<T: Real>(learning: &IterativeLearning<T>, at: &IterativeLearningInput<T>) -> Option<()> {
     let (mut learned, mut unfiltered) = (buffer::<T>(), buffer::<T>());
     let learned = black_box(&mut learned[..]);
     let unfiltered = black_box(&mut unfiltered[..]);
@@ -86,9 +92,15 @@ fn slices<T: Real>(learning: &Learning<T>, at: &LearningInput<T>) -> Option<()> 
 fn constants() -> Option<()> {
     never_panics!(
         control_learning_const_new,
-        Learning::<f32>::const_new(any(), any(), cells(), cells())
+        IterativeLearning::<f32>::const_new(any(), any(), cells(), cells())
     );
-    let learning = black_box(Learning::<f32>::const_new(any(), any(), cells(), cells())).ok()?;
+    let learning = black_box(IterativeLearning::<f32>::const_new(
+        any(),
+        any(),
+        cells(),
+        cells(),
+    ))
+    .ok()?;
     never_panics!(
         control_learning_const_with_forgetting,
         learning.const_with_forgetting(any())

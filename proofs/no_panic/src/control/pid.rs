@@ -1,18 +1,23 @@
 //! `control/pid.rs`, `control/pid/`
 
 use crate::{any, never_panics};
-use bowden::control::{Damping, Fallback, Limits, Pid, PidInput, PidSettings, PidState};
+use bowden::control::{
+    Applied, DerivativeSource, Fallback, Limits, Pid, PidInput, PidSettings, PidState,
+};
 use bowden::Real;
 use std::hint::black_box;
 
 pub fn all<T: Real>() -> Option<()> {
-    never_panics!(control_pid_settings_on_error, Damping::<T>::on_error());
+    never_panics!(
+        control_pid_settings_on_error,
+        DerivativeSource::<T>::on_error()
+    );
     never_panics!(
         control_pid_settings_on_measurement,
-        Damping::<T>::on_measurement()
+        DerivativeSource::<T>::on_measurement()
     );
     let limits = black_box(Limits::unlimited());
-    let fallback = black_box(Fallback::hold_for_ever());
+    let fallback = black_box(Fallback::hold_indefinitely());
     never_panics!(
         control_pid_settings_new,
         PidSettings::<T>::new(any(), any(), limits, any(), fallback)
@@ -43,7 +48,15 @@ pub fn all<T: Real>() -> Option<()> {
         pid.step_with_terms(&mut state, &at)
     );
     never_panics!(control_pid_terms, pid.terms(black_box(&state)));
-    never_panics!(control_pid_take_over, pid.take_over(black_box(&mut state)));
+    never_panics!(control_pid_saturation, pid.saturation(black_box(&state)));
+    never_panics!(
+        control_pid_applied,
+        pid.applied(&mut state, black_box(Applied::Command(any())))
+    );
+    never_panics!(
+        control_pid_bumpless_transfer,
+        pid.bumpless_transfer(black_box(&mut state))
+    );
     never_panics!(
         control_pid_state_resume_from,
         state.resume_from(&pid, any(), &at)
@@ -52,11 +65,11 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(control_pid_state_command, state.command());
     never_panics!(control_pid_state_integral, state.integral());
     never_panics!(control_pid_state_rate, state.rate());
-    never_panics!(control_pid_state_bad_score, state.bad_score());
+    never_panics!(control_pid_state_fault_counter, state.fault_counter());
     never_panics!(control_pid_state_is_latched, state.is_latched());
     never_panics!(
-        control_pid_state_power_up,
-        black_box(&mut state).power_up(&pid)
+        control_pid_state_restore,
+        black_box(&mut state).restore(&pid)
     );
     never_panics!(
         control_pid_state_acknowledge,

@@ -136,11 +136,11 @@ impl ModelOfFile {
     /// Refuses a model that does not describe the records that it came from.
     ///
     /// # Errors
-    /// One sentence where its verdict is `no-model`.
+    /// One sentence where its verdict is `no-input-dependence`.
     pub fn could_hold(&self) -> Result<(), String> {
         match self.given.about.verdict.as_deref() {
-            Some("no-model") => Err(
-                "its verdict is `no-model`: it does not describe its own records, so that there is nothing that could hold; `bowden close` says what to do"
+            Some("no-input-dependence") => Err(
+                "its verdict is `no-input-dependence`: it does not describe its own records, so validation is not possible; `bowden identify` says what to do"
                     .to_owned(),
             ),
             _ => Ok(()),
@@ -175,7 +175,7 @@ pub fn check(
         };
         match any.read(record) {
             // Its columns are those of the other mode.
-            Ok(_) => format!("{e} (the model is of {} mode)", model.mode.name()),
+            Ok(_) => format!("{e} (the model is in {} mode)", model.mode.name()),
             Err(_) => e,
         }
     });
@@ -185,7 +185,7 @@ pub fn check(
 /// The same with a record that was read already.
 ///
 /// # Errors
-/// As [`check`].
+/// As [`check()`].
 pub fn check_record(
     model: &ModelOfFile,
     record: Record,
@@ -258,7 +258,7 @@ impl CheckFacts {
             is_mended: check.is_mended(),
             is_just_above: check.is_just_above(),
             was_inexact: check.was_inexact(),
-            was_of_one_record: check.about.verdict.as_deref() == Some("does-not-carry-over"),
+            was_of_one_record: check.about.verdict.as_deref() == Some("not-transferable"),
             quiet: check.is_quiet(),
             verdict: check.verdict,
             sentence: String::new(),

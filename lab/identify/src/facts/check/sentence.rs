@@ -36,13 +36,13 @@ pub(super) fn rule(check: &CheckFacts) -> String {
     let noise = format!("or {NOISE} times the noise floor");
     if check.reference.is_some_and(|own| HOLDS * own > NOTHING) {
         return format!(
-            "less than {HOLDS} times the held-out error that the model came with, since beyond that it explains less than half of the output; {noise}"
+            "less than {HOLDS} times the model's own held-out error, because above this limit it explains less than half of the output; {noise}"
         );
     }
-    let own = format!("{HOLDS} times the held-out error that the model came with");
+    let own = format!("{HOLDS} times the model's own held-out error");
     match check.reference_rmse.is_some() {
         true => format!(
-            "{own}, as a share of the deviation, or in the output's unit up to {} of the deviation; {noise}",
+            "{own}, as a share of the standard deviation, or in the output's unit up to {} of the standard deviation; {noise}",
             percent(FAINT)
         ),
         false => format!("{own}, {noise}"),
@@ -52,7 +52,7 @@ pub(super) fn rule(check: &CheckFacts) -> String {
 /// That a poor model is no better for holding.
 fn was_poor(check: &CheckFacts) -> &'static str {
     match check.reference.is_some_and(|own| own >= POOR) {
-        true => " It missed much where it came from, too: holding does not make it good.",
+        true => " Its error on its own record is large too: `holds` does not make it a good model.",
         false => "",
     }
 }
@@ -62,55 +62,55 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
     let share = |rmse: f64| percent(rmse / check.deviation);
     let as_it_is = share(check.rmse);
     let came = check.reference.map_or_else(
-        || "its file does not say how much it missed where it came from".to_owned(),
-        |own| format!("{} on what was held out of its own record", percent(own)),
+        || "its file does not state its own error".to_owned(),
+        |own| format!("{} on the held-out part of its own record", percent(own)),
     );
     let mut text = match check.verdict {
         Verdict::Holds if check.reference.is_some_and(|own| check.rmse <= HOLDS * own * check.deviation) => format!(
-            "The model holds: it misses {as_it_is} of this record's output, as against {came}; nothing was refitted.{}",
+            "The model holds: its error is {as_it_is} of this record's output, compared with {came}; nothing was refitted.{}",
             was_poor(check)
         ),
         Verdict::Holds if check.is_as_at_home && !is_noise(check) => format!(
-            "The model holds: it misses {}; nothing was refitted. The output moves less here, so that this is {as_it_is} of it, as against {came}.",
+            "The model holds: its error is {}; nothing was refitted. The output moves less here, so this is {as_it_is} of it, compared with {came}.",
             in_its_unit(check)
         ),
         Verdict::Holds => format!(
-            "The model holds: the {as_it_is} of this record's output that it misses are the sensor's noise; nothing was refitted.{}",
+            "The model holds: its error, {as_it_is} of this record's output, is the sensor's noise; nothing was refitted.{}",
             hardly_moves(check)
         ),
         Verdict::GainOrOffsetMoved => format!(
-            "The {}, and no more than that shows: the model as it is misses {as_it_is} of this record's output, with that corrected {}, as against {came}.{}",
+            "The {}, and no other change is visible: the model as it is has an error of {as_it_is} of this record's output, with this correction {}, compared with {came}.{}",
             moved(check, check.offset_alone),
             share(check.rmse_corrected),
             another_unit(check)
         ),
         Verdict::DoesNotHold if check.is_inverted => {
             return format!(
-                "The model does not hold: it misses {as_it_is} of this record's output. With the sign of the output changed (gain {}) it misses {}, as against {came}: is a sensor or the drive connected the other way round?",
+                "The model does not hold: its error is {as_it_is} of this record's output. With the sign of the output reversed (gain {}) its error is {}, compared with {came}: is a sensor or the drive connected with the opposite sign?",
                 fitted(&check.line.gain),
                 share(check.rmse_gain_offset)
             )
         }
         Verdict::DoesNotHold => format!(
-            "The model does not hold: it misses {as_it_is} of this record's output, as against {came}{}",
+            "The model does not hold: its error is {as_it_is} of this record's output, compared with {came}{}",
             with_another_gain(check)
         ),
         Verdict::CannotTell if check.quiet => {
-            "This record cannot tell: its output moves by little more than the noise.".to_owned()
+            "This record is inconclusive: its output moves by little more than the noise.".to_owned()
         }
         Verdict::CannotTell if check.is_as_at_home => format!(
-            "This record cannot tell: the model misses {}, which is no sign of a change, but the output moves so little here that this is {as_it_is} of it. A record with more motion says more.",
+            "This record is inconclusive: the error is {}, which is no sign of a change, but the output moves so little here that this is {as_it_is} of it. Record a larger motion.",
             in_its_unit(check)
         ),
         Verdict::CannotTell if check.is_just_above => format!(
-            "Whether the model holds cannot be told: it misses {as_it_is} of this record's output, as against {came}; the limit is {}. It was not exact where it came from, and such a model errs more on another motion. A record of the same motion says more.",
+            "It cannot be decided whether the model holds: its error is {as_it_is} of this record's output, compared with {came}; the limit is {}. It was not exact on its own record, and such a model has a larger error on another motion. Use a record of the same motion.",
             check.allowed.map_or_else(String::new, share)
         ),
         Verdict::CannotTell => format!(
-            "Whether the model holds cannot be told: it misses {as_it_is} of this record's output, which is more than noise, and {came}."
+            "It cannot be decided whether the model holds: its error is {as_it_is} of this record's output, which is more than noise, and {came}."
         ),
-        Verdict::DataDefect => format!(
-            "The measurement itself is spoilt, so nothing can be said of the model: it misses {as_it_is} of what was recorded."
+        Verdict::DefectiveRecord => format!(
+            "The measurement is defective, so the record says nothing about the model: its error is {as_it_is} of the recorded output."
         ),
     };
     if check.verdict == Verdict::DoesNotHold {
@@ -123,7 +123,7 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
         text.push_str(&with_reserve(check));
     }
     if check.was_of_one_record {
-        text.push_str(" Its own verdict was `does-not-carry-over`: it was not to be used on another record in the first place.");
+        text.push_str(" Its own verdict was `not-transferable`: do not use it on another record.");
     }
     text
 }
@@ -137,7 +137,7 @@ fn in_its_unit(check: &CheckFacts) -> String {
     let amount = |rmse: f64| format!("{}{}", number(rmse, Some(0.05 * rmse)), unit(check));
     let own = check.reference_rmse.map_or_else(String::new, amount);
     format!(
-        "{}, as against {own} on what was held out of its own record",
+        "{}, compared with {own} on the held-out part of its own record",
         amount(check.rmse)
     )
 }
@@ -145,7 +145,7 @@ fn in_its_unit(check: &CheckFacts) -> String {
 /// What somebody has to know of a record on which the noise is most of what is missed.
 fn hardly_moves(check: &CheckFacts) -> String {
     match check.rmse > LITTLE * check.deviation {
-        true => " The output hardly moves here: a record with more motion says more.".to_owned(),
+        true => " The output hardly moves here: record a larger motion.".to_owned(),
         false => String::new(),
     }
 }
@@ -157,12 +157,12 @@ fn with_reserve(check: &CheckFacts) -> String {
     let gain = check.line.gain_moved();
     let mut text = match check.allowed {
         Some(allowed) if gain || check.line.offset_moved(check.deviation) => format!(
-            " Yet the {}, which a limit as wide as {} does not refuse; with that corrected it would miss {left}: has the rig changed, or is the motion another one?",
+            " Yet the {}, within the limit of {}; with this correction the error would be {left}: has the rig changed, or is the motion different?",
             moved(check, !gain),
             share(allowed)
         ),
         _ if check.rmse_gain_offset < BETTER * check.rmse => format!(
-            " A gain of {} and an offset of {}{} would leave {left}.",
+            " With a gain of {} and an offset of {}{} the error would be {left}.",
             fitted(&check.line.gain),
             fitted(&check.line.offset),
             unit(check)
@@ -175,7 +175,7 @@ fn with_reserve(check: &CheckFacts) -> String {
     if let Some(made) = made {
         let _ = write!(
             text,
-            " The model hardly reads `{}`: what it makes of that is {} of this record's output. Had the transmission from there changed, this check would hardly show it.",
+            " The model hardly depends on `{}`: its contribution is {} of this record's output. This validation would hardly show a change of that part of the transmission.",
             check.record.input,
             share(made)
         );
@@ -193,17 +193,17 @@ fn with_another_gain(check: &CheckFacts) -> String {
     let alone = check.rmse_offset <= ALIKE * check.rmse_gain_offset;
     match (allowed, &check.otherwise) {
         (Some(allowed), _) if check.rmse_gain_offset <= JUST * allowed => format!(
-            ". The {}: with that corrected it misses {left}, just above the limit of {}.",
+            ". The {}: with this correction its error is {left}, just above the limit of {}.",
             moved(check, alone),
             share(allowed)
         ),
         (Some(allowed), _) => format!(
-            ". With {} it misses {left}, above the limit of {}.",
+            ". With {} its error is {left}, above the limit of {}.",
             correction(check, alone),
             share(allowed)
         ),
         (None, Some(_)) => ".".to_owned(),
-        (None, None) => format!(", and another gain and offset leave {left}."),
+        (None, None) => format!(", and with another gain and offset {left}."),
     }
 }
 
@@ -229,9 +229,13 @@ fn moved(check: &CheckFacts, offset_alone: bool) -> String {
     let Line { gain, offset } = &check.line;
     let amount = |value: f64| number(value, Some(0.05 * value.abs()));
     match offset_alone {
-        true => format!("offset has moved by {}{}", amount(check.mean), unit(check)),
+        true => format!(
+            "offset has changed by {}{}",
+            amount(check.mean),
+            unit(check)
+        ),
         false => format!(
-            "gain has moved to {} times what it was (and the offset by {}{})",
+            "gain has changed by a factor of {} (and the offset by {}{})",
             fitted(gain),
             amount(offset.value),
             unit(check)
@@ -244,9 +248,9 @@ fn moved(check: &CheckFacts, offset_alone: bool) -> String {
 fn another_unit(check: &CheckFacts) -> &'static str {
     let is_far = !check.offset_alone && is_far(check.line.gain.value);
     match (is_far, check.was_inexact && !check.offset_alone) {
-        (true, true) => " Is the output in another unit here, or calibrated otherwise, or is the motion another one? A model that was not exact where it came from may be off by a gain at another pace or stroke.",
-        (true, false) => " Is the output in another unit here, or calibrated otherwise?",
-        (false, true) => " It was not exact where it came from: at another pace or stroke such a model may be off by a gain although the rig is the same.",
+        (true, true) => " Is the output in another unit here, or calibrated differently, or is the motion different? The gain of a model that was not exact on its own record may differ at another speed or stroke.",
+        (true, false) => " Is the output in another unit here, or calibrated differently?",
+        (false, true) => " It was not exact on its own record: at another speed or stroke the gain of such a model may differ although the rig is the same.",
         (false, false) => "",
     }
 }
@@ -256,21 +260,21 @@ fn asked(one: &Otherwise) -> String {
     let left = percent(one.nrmse);
     match &one.way {
         Way::Turned { column } => format!(
-            " With `{column}` turned round it misses {left}: does it count the other way here?"
+            " With `{column}` reversed its error is {left}: does it have the opposite sign here?"
         ),
         Way::Scaled { column, factor } => format!(
-            " With `{column}` divided by {} it misses {left}: is it in another unit here{}?",
+            " With `{column}` divided by {} its error is {left}: is it in another unit here{}?",
             number(*factor, Some(0.001 * factor)),
             match (50.0..60.0).contains(factor) {
-                true => " (degrees in place of radians)",
+                true => " (degrees instead of radians)",
                 false => "",
             }
         ),
         Way::Exchanged { column, other } => format!(
-            " With `{column}` and `{other}` exchanged it misses {left}: do these stand in each other's place here?"
+            " With `{column}` and `{other}` swapped its error is {left}: are these two columns swapped here?"
         ),
         Way::Late { seconds } => format!(
-            " With the output {} ms {} it misses {left}: is it delayed here, or logged on another clock?",
+            " With the output {} ms {} its error is {left}: is it delayed here, or logged on another clock?",
             number(1e3 * seconds.abs(), Some(0.02 * 1e3 * seconds.abs())),
             if *seconds > 0.0 { "earlier" } else { "later" }
         ),
@@ -286,15 +290,14 @@ fn reasons(check: &CheckFacts) -> String {
             } else {
                 ""
             };
-            format!(" What it misses depends on {}{proposal}.", first.words)
+            format!(" The residual depends on {}{proposal}.", first.words)
         }
         None => {
-            " What it misses depends on nothing that was measured, as far as this record shows."
-                .to_owned()
+            " The residual depends on no measured quantity, as far as this record shows.".to_owned()
         }
     };
     if check.was_inexact {
-        text.push_str(" It was not exact where it came from: on another motion such a model may err so although the rig is the same.");
+        text.push_str(" It was not exact on its own record: on another motion such a model may have this error although the rig is the same.");
     }
     let mut beyond: Vec<String> = Vec::new();
     for one in &check.outside {
@@ -304,7 +307,7 @@ fn reasons(check: &CheckFacts) -> String {
     if !beyond.is_empty() {
         let _ = write!(
             text,
-            " The record goes beyond what the model has seen in {}: there the model is a guess.",
+            " The record exceeds the model's ranges in {}: there the model extrapolates.",
             beyond.join(", ")
         );
     }

@@ -107,17 +107,13 @@ fn refined(data: &Prepared, round: &Round, rival: &Candidate) -> Option<FitTerm>
 }
 
 /// The experiment that separates what one round confounds; `None` where it has no rivals or
-/// where no motion that is known here would separate any of them. A rival that is the same function
-/// is no aim of any: where its shapes end in another place than those of the named effect, it only
-/// looks as if a motion told the two apart.
+/// where no motion that is known here would separate any of them.
 #[must_use]
 pub fn separate(data: &Prepared, round: &Round) -> Option<Experiment> {
     use rayon::prelude::*;
     let last = round.solution.structure.terms.len().checked_sub(1)?;
     let named = &round.solution.structure.terms[last];
-    let others = round.rivals.iter().filter(|rival| !rival.is_twin_of(named));
-    let others: Vec<&Candidate> = others.collect();
-    if others.is_empty() {
+    if round.rivals.is_empty() {
         return None;
     }
     let model = Model::before_last(&round.solution)?;
@@ -125,8 +121,9 @@ pub fn separate(data: &Prepared, round: &Round) -> Option<Experiment> {
     let here = model.on(data)?;
     let own = here.beside(named)?;
     // A rival is as large as it must be to look like the named one on this record.
-    let rivals: Vec<(FitTerm, f64, Apart)> = others
-        .into_iter()
+    let rivals: Vec<(FitTerm, f64, Apart)> = round
+        .rivals
+        .iter()
         .filter_map(|rival| {
             let term = refined(data, round, rival)?;
             let rival = here.beside(&term)?;
@@ -218,11 +215,11 @@ impl Aim {
         let (now, then) = (self.correlation_now, self.correlation_then);
         match &self.rival {
             Some(rival) => format!(
-                "{what} from {rival}: a wrong name leaves {:.1} → {:.1} times the present error (projected correlation {now:.3} → {then:.3})",
+                "{what} from {rival}: a wrong term has {:.1} → {:.1} times the present error (projected correlation {now:.3} → {then:.3})",
                 self.left_now, self.left_then
             ),
             None => format!(
-                "{what}: shows {:.1} times as strongly (share that others imitate {now:.3} → {then:.3})",
+                "{what}: {:.1} times as visible (share that other terms can replace {now:.3} → {then:.3})",
                 self.left_then
             ),
         }

@@ -1,4 +1,4 @@
-//! Where nothing is confounded: the motion under which unknown parameters would show.
+//! Where nothing is ambiguous: the motion under which unknown parameters would show.
 
 use super::model::{Model, Placed};
 use super::trajectory::{trajectory, Kind};

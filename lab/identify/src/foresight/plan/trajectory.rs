@@ -197,11 +197,11 @@ impl Source<'_> {
         match kind {
             Kind::Slower => (
                 self.warped(2.0 * seconds, |_| 0.5),
-                "slower: the recorded motion at 0.5 of its pace".to_owned(),
+                "slower: the recorded motion at 0.5 times its speed".to_owned(),
             ),
             Kind::Faster => (
                 self.warped(seconds, |_| 2.0),
-                "faster: the recorded motion at 2 times its pace, there and back".to_owned(),
+                "faster: the recorded motion at 2 times its speed, forward and backward".to_owned(),
             ),
             Kind::LargerStroke => (
                 self.scaled(|_| 1.5),
@@ -221,14 +221,17 @@ impl Source<'_> {
             ),
             Kind::OffsetCentre => (
                 self.moved(|_, x, _, reach| x + 0.5 * reach),
-                format!("offset centre: the recorded motion moved by {}", reach(0.5)),
+                format!(
+                    "offset centre: the recorded motion shifted by {}",
+                    reach(0.5)
+                ),
             ),
             Kind::HoldAndWait => self.with_holds(),
             Kind::MixedPace => (
                 self.warped(1.25 * seconds, |t| {
                     2.0_f64.powf((5.0 * TAU * t / (1.25 * seconds)).sin())
                 }),
-                "mixed pace: between 0.5 and 2 times the recorded pace, five times".to_owned(),
+                "mixed speed: between 0.5 and 2 times the recorded speed, five times".to_owned(),
             ),
             Kind::Multisine => (
                 self.multisine(),

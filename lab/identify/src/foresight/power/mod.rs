@@ -31,6 +31,7 @@ use crate::model::catalogue::candidates;
 use crate::model::effects::rank;
 use crate::model::structure::FitTerm;
 use crate::problem::Prepared;
+use crate::record::nearest;
 use crate::search::close;
 use bowden::effect::Family;
 use planted::Trials;
@@ -158,8 +159,9 @@ fn targets(data: &Prepared, solution: &Solution, names: &[String]) -> Result<Vec
         known.sort_unstable();
         known.dedup();
         return Err(format!(
-            "--effects {name}: this record can be asked for {}",
-            known.join(", ")
+            "--effects {name}: possible with this record: {}{}",
+            known.join(", "),
+            nearest(name, known.iter().copied())
         ));
     }
     rows.retain(|row| names.is_empty() || names.iter().any(|n| asked(&row.term, n)));
@@ -175,9 +177,8 @@ fn targets(data: &Prepared, solution: &Solution, names: &[String]) -> Result<Vec
 
 /// Whether a run names that family, or holds it possible.
 fn names(ledger: &Ledger, family: Family) -> bool {
-    ledger.rounds.iter().any(|round| {
-        round.candidate.family == family || round.rivals.iter().any(|r| r.family == family)
-    })
+    let mut rounds = ledger.rounds.iter();
+    rounds.any(|round| round.possible().any(|one| one.family == family))
 }
 
 /// The trials of one record, and the question that is put to each.

@@ -3,7 +3,7 @@
 use super::effect_column;
 use crate::model::structure::FitTerm;
 use crate::problem::{is_silent, Prepared};
-use bowden::hysteresis::{Sensitivity, Shape};
+use bowden::hysteresis::{BoucWen, Sensitivity};
 use rayon::prelude::*;
 
 /// The input as the transmission sees it: behind the input stages, whose gain is one.
@@ -22,7 +22,7 @@ pub(super) fn seen(data: &Prepared, terms: &[FitTerm]) -> Option<Vec<f64>> {
 pub(super) fn trace(
     data: &Prepared,
     seen: &[f64],
-    shape: &Shape<f64>,
+    shape: &BoucWen<f64>,
     eta0: &[f64],
     eta: &mut [f64],
 ) {
@@ -41,7 +41,7 @@ pub(super) fn trace(
 pub(super) fn trajectory(
     data: &Prepared,
     seen: &[f64],
-    shape: &Shape<f64>,
+    shape: &BoucWen<f64>,
     eta0: &[f64],
 ) -> Vec<Sensitivity<f64>> {
     let mut all = vec![Sensitivity::start(0.0); data.work_len()];
@@ -52,7 +52,7 @@ pub(super) fn trajectory(
 }
 
 /// The same along one record, from its state at the start.
-fn with_slopes(shape: &Shape<f64>, seen: &[f64], all: &mut [Sensitivity<f64>], eta0: f64) {
+fn with_slopes(shape: &BoucWen<f64>, seen: &[f64], all: &mut [Sensitivity<f64>], eta0: f64) {
     let mut state = Sensitivity::start(eta0);
     let mut last = seen.first().copied().unwrap_or(0.0);
     for (slot, &input) in all.iter_mut().zip(seen) {
@@ -92,7 +92,7 @@ mod tests {
 
     #[test]
     fn the_state_at_the_start_fades_to_zero_and_not_to_denormal_floats() {
-        let shape = Shape::try_new(2.0, 0.8, 1.5).unwrap();
+        let shape = BoucWen::try_new(2.0, 0.8, 1.5).unwrap();
         let seen: Vec<f64> = (0..90_000).map(|i| (0.01 * f64::from(i)).sin()).collect();
         let mut all = vec![Sensitivity::start(0.0); seen.len()];
         with_slopes(&shape, &seen, &mut all, 0.3);

@@ -1,7 +1,7 @@
 //! The columns of the regression, computed by the core itself.
 //!
 //! Every column comes from the functions that run in firmware: the hysteresis from
-//! [`bowden::hysteresis::Shape`], the effects from [`bowden::effect::Effect`].
+//! [`bowden::hysteresis::BoucWen`], the effects from [`bowden::effect::Effect`].
 //!
 //! Where several records lie behind each other, every state begins anew with each. Time
 //! is that since the record's beginning, as a rig warms up anew; only the step of the
@@ -11,8 +11,8 @@ use crate::model::kind::is_stage;
 use crate::model::structure::{FitTerm, Free, Role, Structure, TermId, Terms};
 use crate::model::Variable;
 use crate::problem::{Channel, Piece, Prepared, Stretch};
-use bowden::effect::{Effect, EffectState, Motion, Situation};
-use bowden::hysteresis::{Sensitivity, Shape};
+use bowden::effect::{Effect, EffectState, Inputs, Motion};
+use bowden::hysteresis::{BoucWen, Sensitivity};
 use gathered::Gathered;
 use loops::{seen, trace, trajectory};
 use rayon::prelude::*;
@@ -42,7 +42,7 @@ pub struct RawColumns {
     /// The structure at these values.
     terms: Terms,
     /// The hysteresis, and its state at the start of each record.
-    shape: Option<(Shape<f64>, Vec<f64>)>,
+    shape: Option<(BoucWen<f64>, Vec<f64>)>,
     /// The hysteresis with its slopes, where they came with it.
     trajectory: Option<Vec<Sensitivity<f64>>>,
     /// The input behind the input stages.
@@ -101,7 +101,7 @@ fn effect_on(data: &Prepared, term: &FitTerm, record: usize, eta: &[f64]) -> Opt
     };
     let at = |(k, i): (usize, usize)| {
         let motion = &channel.motion[i];
-        Situation {
+        Inputs {
             dt: data.dt,
             time: since + k as f64 * data.dt,
             motion: Motion {
@@ -135,14 +135,14 @@ fn before(
     }
     let first = &channel.motion[piece.work.start];
     let start = term.start.get(record).copied().unwrap_or(0.0);
-    let at = Situation {
+    let at = Inputs {
         dt: data.dt,
         motion: Motion {
             position: first.position - term.origin - start,
             ..*first
         },
         input: data.input.motion[piece.work.start],
-        ..Situation::default()
+        ..Inputs::default()
     };
     term.effect.regressor(&mut state, &at);
     state
@@ -233,9 +233,9 @@ pub(crate) fn raw_columns_knowing(
 }
 
 /// The hysteresis at the values of its free parameters, and its state at each beginning.
-fn hysteresis(data: &Prepared, free: &[Free], values: &[f64]) -> Option<(Shape<f64>, Vec<f64>)> {
+fn hysteresis(data: &Prepared, free: &[Free], values: &[f64]) -> Option<(BoucWen<f64>, Vec<f64>)> {
     let value = |role: Role| free.iter().position(|f| f.role == role).map(|i| values[i]);
-    let shape = Shape::try_new(value(Role::Rho)?, value(Role::Sigma)?, value(Role::N)?).ok()?;
+    let shape = BoucWen::try_new(value(Role::Rho)?, value(Role::Sigma)?, value(Role::N)?).ok()?;
     // What nobody has fitted (a record that is held out) begins in the middle.
     let eta0 = |record| value(Role::Eta0 { record }).unwrap_or(0.0);
     Some((shape, (0..data.pieces.len()).map(eta0).collect()))

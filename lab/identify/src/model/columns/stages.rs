@@ -4,7 +4,7 @@ use super::abreast::{self, BLOCK};
 use super::{weighted, RawColumns};
 use crate::model::structure::{FitTerm, Free, Role, Terms};
 use crate::problem::{is_silent, Prepared, Stretch};
-use bowden::effect::{Effect, EffectState, Situation};
+use bowden::effect::{Effect, EffectState, Inputs};
 use std::cell::Cell;
 use std::ops::Range;
 use std::sync::Arc;
@@ -158,11 +158,11 @@ fn in_blocks(record: &mut [f64], mut through: impl FnMut(&mut EffectState<f64>, 
 }
 
 /// What an output stage reads of a block. Each sample is read just before it is replaced.
-fn samples(block: &[Cell<f64>], dt: f64) -> impl Iterator<Item = Situation<f64>> + '_ {
-    block.iter().map(move |output| Situation {
+fn samples(block: &[Cell<f64>], dt: f64) -> impl Iterator<Item = Inputs<f64>> + '_ {
+    block.iter().map(move |output| Inputs {
         dt,
         output: output.get(),
-        ..Situation::default()
+        ..Inputs::default()
     })
 }
 
@@ -265,10 +265,10 @@ mod tests {
                 let column = interrupted(silence);
                 let mut state = EffectState::default();
                 let expected = column.iter().map(|&output| {
-                    let at = Situation {
+                    let at = Inputs {
                         dt: DT,
                         output,
-                        ..Situation::default()
+                        ..Inputs::default()
                     };
                     output + effect.contribution(gain, &mut state, &at)
                 });
@@ -303,10 +303,10 @@ mod tests {
                     .map(|column| {
                         let mut state = EffectState::default();
                         let late = column.iter().map(|&output| {
-                            let at = Situation {
+                            let at = Inputs {
                                 dt: DT,
                                 output,
-                                ..Situation::default()
+                                ..Inputs::default()
                             };
                             output + effect.contribution(gain, &mut state, &at)
                         });

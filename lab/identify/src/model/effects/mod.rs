@@ -104,12 +104,13 @@ pub(crate) enum Trials {
     Moments,
 }
 
-/// Range of the gain of an output stage.
+/// Maximum gain of an output stage. The minimum is 0: the output of a transmission does not lead
+/// its input.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Stage {
-    /// Between minus and plus so many periods of the cut-off \[s\].
+    /// So many periods of the cut-off \[s\].
     Periods(f64),
-    /// Between minus and plus this number.
+    /// This number: a lag with a gain of 1 is a whole low-pass.
     Number(f64),
 }
 

@@ -71,7 +71,7 @@ pub(super) const MOTION: &[Entry] = &[
         declared: Declared::OnChannel(&[Speed(0.05)]),
         bounds: &[SMOOTH_SIGN],
         on: &[On::Read, On::Reversal],
-        shown_by: "slow passages through standstill, and fast ones",
+        shown_by: "slow and fast passages through standstill",
         takes_energy: true,
         ..PLAIN
     },

@@ -48,7 +48,7 @@ pub(super) const WHOLE: &[Entry] = &[
         )],
         declared: Declared::OnInput(&[Stroke(1.0)]),
         bounds: &[LAG],
-        stage: Some(Stage::Number(3.0)),
+        stage: Some(Stage::Number(1.0)),
         on: &[On::Read, On::Reversal],
         shown_by: FASTER,
         ..PLAIN
@@ -75,7 +75,7 @@ pub(super) const WHOLE: &[Entry] = &[
         tried: &[on(Place::Whole, Trials::At(&[&[Path(0.1)], &[Path(1.0)]]))],
         declared: Declared::OnChannel(&[Path(1.0)]),
         bounds: &[Bounds::Path(0.01, 30.0)],
-        of_the_record: Some("counts the path from the start of this record"),
+        of_the_record: Some("counts the travel from the start of this record"),
         shown_by: "many full strokes: a longer record",
         ..PLAIN
     },
@@ -109,7 +109,7 @@ pub(super) const WHOLE: &[Entry] = &[
         bounds: &[Bounds::FitSegment],
         several: true,
         of_the_record: Some(
-            "a step at one moment of this record; the model is that of the time after it",
+            "a step at one moment of this record; the model describes the time after the step",
         ),
         shown_by: "as much motion before the step as after it",
         ..PLAIN

@@ -137,7 +137,7 @@ impl<'a> Leaps<'a> {
         };
         (share <= NATURE).then(|| Found {
             message: format!(
-                "spikes: away by up to {} and back within {within}, {}; a straight line stands in for them, {:.2} % of the samples",
+                "spikes: up to {} for at most {within}, {}; a straight line replaces them, {:.2} % of the samples",
                 three_digits(highest),
                 times(samples.len()),
                 100.0 * share

@@ -364,12 +364,12 @@ mod tests {
         let class = Value::Object("timeseries".to_owned());
         assert_eq!(variables(&file), Ok(vec![("out".to_owned(), class)]));
         assert_eq!(
-            super::super::read(&file).err().map(|e| e.message().to_owned()),
+            super::super::read(&file)
+                .err()
+                .map(|e| e.message().to_owned()),
             Some(
                 "no vector of real numbers among the variables `out` (an object: timeseries); one \
-                 vector for each column was expected, alone or as the fields of a structure. MATLAB \
-                 alone reads its objects (tables, time series, outputs of Simulink): take their \
-                 vectors out, as in `t = out.tout; save('r.mat', 't', …)`"
+                 vector for each column is needed, alone or as the fields of a structure. only MATLAB can read its objects (tables, time series, outputs of Simulink): extract their vectors, as in `t = out.tout; save('r.mat', 't', …)`"
                     .to_owned()
             )
         );

@@ -49,7 +49,7 @@ struct File {
 pub(super) fn variables(bytes: &[u8]) -> Result<Vec<(String, Value)>, String> {
     let told = |e: Error| {
         let what = e.to_string().replace(char::is_control, " ");
-        format!("the file is damaged, or holds what is not read: {what}; save it in MATLAB with `save -v7`")
+        format!("the file is damaged or has unsupported content: {what}; save it in MATLAB with `save -v7`")
     };
     let options = OpenOptions::default()
         .with_max_read_bytes(LIMIT)
@@ -167,7 +167,7 @@ impl File {
         let held = count.saturating_mul(size_of::<f64>());
         let large = || Error::ResourceLimit(format!("more than {} MiB unpacked", LIMIT >> 20));
         self.room = self.room.checked_sub(held.max(stored)).ok_or_else(large)?;
-        let empty = || Error::InvalidData("an array larger than what the file holds".to_owned());
+        let empty = || Error::InvalidData("an array larger than the file".to_owned());
         self.packed = self.packed.checked_sub(stored).ok_or_else(empty)?;
         Ok(())
     }

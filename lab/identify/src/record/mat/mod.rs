@@ -5,7 +5,7 @@
 //! with a `Name`, as trace exports write it. The reader of version 5 is our own: of the crates,
 //! `matfile` and `mat5` read neither structures nor cells, and `matrw` panics on damaged files.
 //! Version 7.3 is HDF5, which the crate `hdf5-reader` reads; which others there are is in
-//! `docs/records.md`.
+//! `docs/reference/records.md`.
 
 mod elements;
 mod hdf5;
@@ -61,13 +61,12 @@ fn vectors(variables: Result<Vec<(String, Value)>, String>) -> Result<Vec<Vector
         };
         let objects = match has_objects(&variables) {
             true => {
-                ". MATLAB alone reads its objects (tables, time series, outputs of Simulink): \
-                     take their vectors out, as in `t = out.tout; save('r.mat', 't', …)`"
+                ". only MATLAB can read its objects (tables, time series, outputs of Simulink): extract their vectors, as in `t = out.tout; save('r.mat', 't', …)`"
             }
             false => "",
         };
         return Err(RecordError::new(format!(
-            "no vector of real numbers{among}; one vector for each column was expected, \
+            "no vector of real numbers{among}; one vector for each column is needed, \
              alone or as the fields of a structure{objects}"
         )));
     }

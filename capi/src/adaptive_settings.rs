@@ -1,0 +1,219 @@
+//! Settings of the robust adaptive law.
+
+use crate::adaptive::{Own, BOWDEN_REGRESSORS};
+use crate::choices::{bowden_form, bowden_leakage, bowden_on_missing, bowden_smooth_sign};
+use crate::result::Refused;
+use crate::settings::{marked, Marked, UNSET};
+use crate::{bowden_fallback_f32, bowden_fallback_f64, bowden_limits_f32, bowden_limits_f64};
+use core_bowden::control::{
+    Adaptive, AdaptiveSettings, Estimator, Form, Leakage, OnMissing, SmoothSign,
+};
+
+macro_rules! settings {
+    ($f:ident) => {
+        pastey::paste! {
+            /// How one estimate adapts, (24)-(26), with a box.
+            ///
+            /// Start from NAME_INIT, as the estimates in the settings of the law do. By default the
+            /// estimate is fixed at 0: the gain is 0 and nothing leaks.
+            #[repr(C)]
+            #[derive(Debug, Clone, Copy, PartialEq)]
+            pub struct [<bowden_estimator_ $f>] {
+                /// Set by the macro NAME_INIT; settings without it are refused.
+                pub init_mark: u32,
+                /// Initial value of the estimate [unit of the estimate], within its bounds.
+                pub initial: $f,
+                /// Least value [unit of the estimate].
+                pub low: $f,
+                /// Greatest value [unit of the estimate].
+                pub high: $f,
+                /// Adaptation gain: gamma, mu or mu_i of (24)-(26), not negative.
+                pub gain: $f,
+                /// Prior, the target of the leakage [unit of the estimate]; 0 in the paper.
+                pub prior: $f,
+                /// One of bowden_leakage.
+                pub leakage: u32,
+                /// Greatest leakage, not negative [1/s].
+                pub leakage_rate: $f,
+                /// For BOWDEN_LEAKAGE_SWITCHING only, above zero [unit of the estimate].
+                pub leakage_bound: $f,
+            }
+
+            marked!([<bowden_estimator_ $f>]);
+
+            impl [<bowden_estimator_ $f>] {
+                /// The defaults: fixed at 0.
+                pub const fn defaults() -> Self {
+                    Self::fixed(0.0)
+                }
+
+                const fn fixed(value: $f) -> Self {
+                    Self {
+                        init_mark: Self::MARK,
+                        initial: value,
+                        low: value,
+                        high: value,
+                        gain: 0.0,
+                        prior: 0.0,
+                        leakage: bowden_leakage::None as u32,
+                        leakage_rate: 0.0,
+                        leakage_bound: 0.0,
+                    }
+                }
+
+                fn estimator(&self) -> Result<Estimator<$f>, Refused> {
+                    Self::is_marked(self.init_mark)?;
+                    let rate = self.leakage_rate;
+                    let leakage = match self.leakage {
+                        l if l == bowden_leakage::None as u32 => Leakage::None,
+                        l if l == bowden_leakage::Constant as u32 => Leakage::Constant { rate },
+                        l if l == bowden_leakage::Switching as u32 => {
+                            Leakage::Switching { rate, bound: self.leakage_bound }
+                        }
+                        _ => return Err(Refused::choice("leakage")),
+                    };
+                    Ok(Estimator {
+                        initial: self.initial,
+                        low: self.low,
+                        high: self.high,
+                        gain: self.gain,
+                        leakage,
+                        prior: self.prior,
+                    })
+                }
+            }
+
+            /// Settings of the adaptive law, (17)-(26).
+            ///
+            /// Start from NAME_INIT. By default: no regressors, k, lambda and epsilon of the paper,
+            /// 5 ms for the form as published, beta_hat fixed at 1, delta_hat and theta_hat at 0,
+            /// tanh, no limit of z, no slew rate, 4 good samples to cancel a bad one, safe command
+            /// 0. The form (for the first-order form also step and plant_gain), limits, longest_dt
+            ///    and `after` must be set.
+            #[repr(C)]
+            #[derive(Debug, Clone, Copy, PartialEq)]
+            pub struct [<bowden_adaptive_settings_ $f>] {
+                /// Set by the macro NAME_INIT; settings without it are refused.
+                pub init_mark: u32,
+                /// One of bowden_form.
+                pub form: u32,
+                /// Form as published: time constant of the error rate's filter, 2 to 20 ms [s].
+                pub time_constant: $f,
+                /// First-order form, required: longest intended sample time [s].
+                pub step: $f,
+                /// First-order form: upper bound of the plant's gain alpha [N*m/command unit].
+                pub plant_gain: $f,
+                /// Control gain k, above zero.
+                pub gain: $f,
+                /// lambda, above zero [1/s]: weight of the accumulated error, (18).
+                pub lambda: $f,
+                /// epsilon, above zero [N*m]: width of the smooth sign.
+                pub epsilon: $f,
+                /// One of bowden_smooth_sign.
+                pub smooth_sign: u32,
+                /// Estimate of 1/alpha [command unit/(N*m)], (24).
+                pub beta: [<bowden_estimator_ $f>],
+                /// Estimate of the bound of the disturbance [N*m], (25).
+                pub delta: [<bowden_estimator_ $f>],
+                /// Number of regressors, at most BOWDEN_REGRESSORS.
+                pub regressors: u32,
+                /// Estimates of theta_i [N*m/unit of the regressor], (26); those from index
+                /// `regressors` on are ignored.
+                pub theta: [[<bowden_estimator_ $f>]; BOWDEN_REGRESSORS],
+                /// One of bowden_on_missing for each regressor.
+                pub missing: [u32; BOWDEN_REGRESSORS],
+                /// Greatest magnitude of the accumulated error z, above zero [N*m*s].
+                pub z_limit: $f,
+                /// 0; any other value freezes the estimates.
+                pub frozen: u32,
+                /// Range and slew rate of the command.
+                pub limits: [<bowden_limits_ $f>],
+                /// Longest dt that is a sample, above zero [s]; the first-order form also rejects a
+                /// dt longer than 1/(lambda*max(1, g*(k + delta.high/epsilon))).
+                pub longest_dt: $f,
+                /// Fallback after repeated bad samples.
+                pub fallback: [<bowden_fallback_ $f>],
+            }
+
+            marked!([<bowden_adaptive_settings_ $f>]);
+
+            impl [<bowden_adaptive_settings_ $f>] {
+                /// The defaults; a field without a default has an invalid value.
+                pub const fn defaults() -> Self {
+                    Self {
+                        init_mark: Self::MARK,
+                        form: UNSET,
+                        time_constant: 0.005,
+                        step: 0.0,
+                        plant_gain: 0.0,
+                        gain: 24.0,
+                        lambda: 8.0,
+                        epsilon: 0.05,
+                        smooth_sign: bowden_smooth_sign::Tanh as u32,
+                        beta: [<bowden_estimator_ $f>]::fixed(1.0),
+                        delta: [<bowden_estimator_ $f>]::fixed(0.0),
+                        regressors: 0,
+                        theta: [[<bowden_estimator_ $f>]::fixed(0.0); BOWDEN_REGRESSORS],
+                        missing: [bowden_on_missing::Hold as u32; BOWDEN_REGRESSORS],
+                        z_limit: $f::MAX,
+                        frozen: 0,
+                        limits: [<bowden_limits_ $f>]::UNSET,
+                        longest_dt: 0.0,
+                        fallback: [<bowden_fallback_ $f>] { after: 0, weight: 4, command: 0.0 },
+                    }
+                }
+            }
+
+            impl [<bowden_adaptive_settings_ $f>] {
+                fn form(&self) -> Result<Form<$f>, Refused> {
+                    let (step, plant_gain) = (self.step, self.plant_gain);
+                    match self.form {
+                        f if f == bowden_form::AsPublished as u32 => {
+                            Ok(Form::AsPublished { time_constant: self.time_constant })
+                        }
+                        f if f == bowden_form::FirstOrder as u32 => Ok(Form::FirstOrder { step, plant_gain }),
+                        _ => Err(Refused::choice("form")),
+                    }
+                }
+
+                pub(crate) fn law(&self) -> Result<Own<$f>, Refused> {
+                    let count = self.regressors as usize;
+                    if count > BOWDEN_REGRESSORS {
+                        return Err(Refused::capacity("regressors"));
+                    }
+                    let mut settings = AdaptiveSettings::<$f, BOWDEN_REGRESSORS>::new(
+                        self.form()?,
+                        self.gain,
+                        self.lambda,
+                        self.epsilon,
+                        self.limits.limits()?,
+                        self.longest_dt,
+                        self.fallback.fallback()?,
+                    );
+                    settings.smooth_sign = match self.smooth_sign {
+                        s if s == bowden_smooth_sign::Tanh as u32 => SmoothSign::Tanh,
+                        s if s == bowden_smooth_sign::Clamp as u32 => SmoothSign::Clamp,
+                        _ => return Err(Refused::choice("smooth_sign")),
+                    };
+                    settings.beta = self.beta.estimator()?;
+                    settings.delta = self.delta.estimator()?;
+                    settings.z_limit = self.z_limit;
+                    settings.frozen = self.frozen != 0;
+                    let own = settings.theta.iter_mut().zip(&mut settings.missing);
+                    let given = self.theta.iter().zip(&self.missing).take(count);
+                    for ((theta, missing), (estimator, choice)) in own.zip(given) {
+                        *theta = estimator.estimator()?;
+                        *missing = match *choice {
+                            m if m == bowden_on_missing::Hold as u32 => OnMissing::Hold,
+                            m if m == bowden_on_missing::DropRegressor as u32 => OnMissing::DropRegressor,
+                            _ => return Err(Refused::choice("missing")),
+                        };
+                    }
+                    Ok(Own { law: Adaptive::try_new(settings)?, count })
+                }
+            }
+        }
+    };
+}
+settings!(f32);
+settings!(f64);

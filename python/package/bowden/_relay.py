@@ -1,0 +1,154 @@
+"""The relay experiment: PI gains from a limit cycle of the closed loop."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any, NamedTuple, Optional
+
+import numpy as np
+
+from . import _bowden
+from ._control import limits_of
+from ._error import Error
+from ._fields import Fields
+from ._settings import count, duration, pair, setting
+from ._signal import Block
+from ._status import Code, Fault
+
+_MOST_COUNT = 2**32 - 1
+_RULES = ("tyreus-luyben", "ziegler-nichols")
+_RESULT = ("gain", "period", "amplitude", "duty")
+
+
+class RelayPhase(Code):
+    """What a :class:`Relay` is doing; a number above ``DONE`` is a failure."""
+
+    RUNNING = 0
+    #: A bad sample: the last command is held.
+    HELD = 1
+    #: The experiment has succeeded: the centre is out.
+    DONE = 2
+    #: Too many bad samples. After a failure the safe command is out.
+    BAD_SAMPLES = 3
+    #: The output was further from the reference than ``most_deviation``.
+    OUTPUT_OUT_OF_RANGE = 4
+    #: ``longest_time`` is over without a complete cycle.
+    NO_OSCILLATION = 5
+    #: ``longest_time`` is over, and the cycles did not agree with each other.
+    TIME_OUT = 6
+    OTHER = 7
+
+
+class RelayResult(NamedTuple):
+    """A command; of many samples or lanes each is an array."""
+
+    #: What goes to the drive [command unit].
+    command: Any
+    #: A :class:`RelayPhase`, or an array of its numbers.
+    phase: Any
+    #: A :class:`Fault`, or an array of its numbers.
+    fault: Any
+
+
+class Relay(Block):
+    """A relay experiment: it makes the loop oscillate and measures ultimate gain and period.
+
+    Start with the output near the reference. Step it instead of the controller until its phase is
+    ``DONE`` or a failure; then :meth:`pi` gives the gains. A failure keeps the safe command out until
+    :meth:`acknowledge`.
+    """
+
+    reference: Any = setting(doc="About which the output oscillates [output unit].")
+    centre: Any = setting(doc="Mean of the two levels of the command [command unit].")
+    amplitude: Any = setting(
+        doc="From the centre to each level [command unit]: of the sign of the plant's gain."
+    )
+    hysteresis: Any = setting(doc="At least the peak of the noise, zero or above [output unit].")
+    most_deviation: Any = setting(
+        doc="Greatest distance of the output from the reference, above hysteresis [output unit]."
+    )
+    cycles: Any = setting(
+        default=4, convert=count(_MOST_COUNT), doc="Successive cycles that are averaged, 2 or more."
+    )
+    agreement: Any = setting(
+        default=0.05,
+        doc="Largest difference between these cycles, as a share, above 0 and below 1.",
+    )
+    longest_time: Any = setting(
+        convert=duration, doc="Time after which the experiment has ended [s]."
+    )
+    longest_dt: Any = setting(convert=duration, doc="Longest dt that is a good sample [s].")
+    limits: Any = setting(
+        convert=limits_of, core=False, doc="(low, high) of the command [command unit]."
+    )
+    fallback: Any = setting(
+        convert=pair("after", "command", count(_MOST_COUNT)),
+        core=False,
+        doc="(bad samples in a row, safe command [command unit]).",
+    )
+
+    @classmethod
+    def _to_core(cls, values: Mapping[str, Any]) -> dict[str, Any]:
+        found = super()._to_core(values)
+        found["block"].update(
+            limits={**values["limits"], "slew": None}, fallback=values["fallback"]
+        )
+        return found
+
+    @classmethod
+    def _from_core(cls, core: Mapping[str, Any]) -> dict[str, Any]:
+        limits, fallback = core["block"]["limits"], core["block"]["fallback"]
+        return {
+            **super()._from_core(core),
+            "limits": (limits["low"], limits["high"]),
+            "fallback": (fallback["after"], fallback["command"]),
+        }
+
+    def step(self, dt: Any, measured: Any) -> RelayResult:
+        """One sample: ``dt`` since the last one [s], or a duration with a unit; the output."""
+        (command, *_), phase, fault = self._one(dt, "measured", measured)
+        if self._alone:
+            return RelayResult(command, RelayPhase(phase), Fault(fault))
+        return RelayResult(command, phase, fault)
+
+    def run(self, dt: Any, measured: Any) -> RelayResult:
+        """Many samples: (samples,) each, or (samples, lanes); ``dt`` one time or (samples,)."""
+        (command, *_), phase, fault = self._many(dt, "measured", measured)
+        return RelayResult(command, phase, fault)
+
+    def acknowledge(self) -> None:
+        """After a failure: the next good sample starts the experiment again."""
+        self._native.acknowledge()
+
+    @property
+    def ultimate(self) -> Optional[Fields]:
+        """Gain, period [s], amplitude [output unit] and duty of the cycles; None before the result.
+
+        Of several lanes each is an array, NaN for a lane without a result.
+        """
+        found = self._results()
+        if self._alone:
+            return None if found[0] is None else Fields(found[0])
+        lost = dict.fromkeys(_RESULT, np.nan)
+        return Fields({name: np.array([(one or lost)[name] for one in found]) for name in _RESULT})
+
+    def pi(self, rule: str = "tyreus-luyben") -> Fields:
+        """k_p and k_i of a PI: ``bowden.PI(**relay.pi())``.
+
+        The rule is "tyreus-luyben", the cautious one, or "ziegler-nichols". Raises
+        :class:`bowden.Error` without a result.
+        """
+        if rule not in _RULES:
+            words = ", ".join(f'"{own}"' for own in _RULES)
+            raise Error(f"rule={rule!r}: one of {words} is allowed")
+        found = self._results()
+        if None in found:
+            raise Error("pi: the experiment has no result; it is allowed at phase DONE")
+        gains = [_bowden.pi_gains(json.dumps(one), json.dumps(rule)) for one in found]
+        k_p, k_i = zip(*gains)
+        return Fields({"k_p": self._single(k_p), "k_i": self._single(k_i)})
+
+    def _results(self) -> list[Any]:
+        phases = [json.loads(text)["phase"] for text in self._native.states()]
+        return [one.get("done") if isinstance(one, dict) else None for one in phases]

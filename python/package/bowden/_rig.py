@@ -1,0 +1,252 @@
+"""The simulated rig, one or many side by side."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any, Optional
+
+import numpy as np
+
+from . import _bowden, _numbers
+from ._control import Controller
+from ._error import Error
+from ._lanes import Lanes
+from ._settings import count, duration, real, setting
+from ._status import Command, command_of
+
+
+def _seeds(name: str, value: Any) -> Any:
+    """One seed, or a list of one for each lane."""
+    allowed = "whole numbers from 0 to 2**64 - 1 are allowed"
+
+    def one(seed: Any) -> int:
+        return _numbers.whole(name, seed, 0, 2**64 - 1, allowed)
+
+    if isinstance(value, (str, Mapping)) or not hasattr(value, "__len__"):
+        return one(value)
+    return [one(seed) for seed in value]
+
+
+def _undeclared(name: str, value: Any) -> list[dict[str, Any]]:
+    if isinstance(value, (str, Mapping)) or not isinstance(value, Sequence):
+        raise Error(f"{name}={value!r}: a sequence of mappings is allowed")
+    return [_term(f"{name}[{k}]", one) for k, one in enumerate(value)]
+
+
+def _term(name: str, one: Any) -> dict[str, Any]:
+    if not isinstance(one, Mapping):
+        raise Error(f"{name}={one!r}: a mapping of effect, source, gain and shapes is allowed")
+
+    def number(key: str, value: Any) -> float:
+        return _numbers.finite(f"{name}.{key}", _numbers.number(f"{name}.{key}", value))
+
+    shapes = [{"name": k, "value": number(k, v)} for k, v in one.get("shapes", {}).items()]
+    numbers = {k: number(k, v) for k, v in one.items() if k in ("gain", "origin")}
+    rest = {k: v for k, v in one.items() if k not in ("gain", "origin", "shapes")}
+    return {"source": "input", **rest, **numbers, "shapes": shapes}
+
+
+def _drift(name: str, value: Any) -> dict[str, Any]:
+    if not isinstance(value, Mapping):
+        raise Error(f"{name}={value!r}: a mapping of time, b, kappa_eta and t0 is allowed")
+    kinds = {"time": duration}
+    return {key: kinds.get(key, real)(f"{name}.{key}", one) for key, one in value.items()}
+
+
+class Rig(Lanes):
+    """The simulated rig: motor, cable, joint against its spring, sensors; one or many.
+
+    A setting that is an array makes one rig of each value, side by side. A setting that is not
+    given is that of the reference rig.
+    """
+
+    _INSTEAD = "make another Rig with {}=…"
+
+    drive_gain: Any = setting(
+        default=None, doc="Torque of the motor for one unit of command [N·m/command unit]."
+    )
+    drive_lag: Any = setting(
+        default=None, convert=duration, doc="Time constant of the current loop [s]."
+    )
+    motor_inertia: Any = setting(default=None, doc="Motor, gear and proximal pulley [kg·m²].")
+    motor_damping: Any = setting(default=None, doc="Viscous friction of the same [N·m·s/rad].")
+    cable_stiffness: Any = setting(default=None, doc="[N·m/rad].")
+    cable_damping: Any = setting(default=None, doc="[N·m·s/rad].")
+    joint_inertia: Any = setting(default=None, doc="Distal pulley [kg·m²].")
+    joint_damping: Any = setting(default=None, doc="[N·m·s/rad].")
+    load_stiffness: Any = setting(
+        default=None, doc="Springs that the joint works against [N·m/rad]."
+    )
+    b: Any = setting(default=None, doc="Torque ratio B.")
+    kappa_eta: Any = setting(default=None, doc="Torque of the hysteresis at saturation [N·m].")
+    t0: Any = setting(default=None, doc="Pretension T0 [N·m].")
+    rho: Any = setting(default=None, doc="Bouc-Wen rho [1/(N·m)].")
+    sigma: Any = setting(default=None, doc="Bouc-Wen sigma.")
+    n: Any = setting(default=None, doc="Bouc-Wen n.")
+    sensor_lag: Any = setting(
+        default=None, convert=duration, doc="Time constant of both torque sensors [s]."
+    )
+    noise: Any = setting(default=None, doc="White noise of the distal torque [N·m rms].")
+    input_noise: Any = setting(default=None, doc="White noise of the proximal torque [N·m rms].")
+    output_range: Any = setting(
+        default=None, doc="Range of the distal converter, plus and minus [N·m]."
+    )
+    input_range: Any = setting(
+        default=None, doc="Range of the proximal converter, plus and minus [N·m]."
+    )
+    converter_counts: Any = setting(default=None, doc="Counts of a converter over its whole range.")
+    encoder_counts: Any = setting(default=None, doc="Counts of an encoder in one turn.")
+    velocity_lag: Any = setting(
+        default=None,
+        convert=duration,
+        doc="Time constant of the filter behind encoder differences [s].",
+    )
+    delay: Any = setting(
+        default=None, convert=count(255), doc="Samples between a command and the drive."
+    )
+    sub_step: Any = setting(
+        default=None, convert=duration, doc="Longest sub-step of the integration [s]."
+    )
+    drift: Any = setting(
+        default=None,
+        convert=_drift,
+        doc="How the conduit moves: time [s], b, kappa_eta, t0; None: it lies still.",
+    )
+    undeclared: Any = setting(
+        default=(),
+        convert=_undeclared,
+        core=False,
+        doc="Effects that no controller knows of: mappings of effect, source (input, proximal or "
+        "distal), gain and, where the effect has them, shapes.",
+    )
+    seed: Any = setting(
+        default=7,
+        convert=_seeds,
+        core=False,
+        doc="Of the noise: one, from which each lane has its own, or a list with one for each lane.",
+    )
+
+    def _made(self, given: Mapping[str, Any]) -> dict[str, Any]:
+        seed = _seeds("seed", given["seed"])
+        lanes = len(seed) if given["lanes"] is None and isinstance(seed, list) else given["lanes"]
+        return super()._made({**given, "lanes": lanes})
+
+    @classmethod
+    def _kept(cls, values: Mapping[str, Any]) -> dict[str, Any]:
+        return {"seed": values["seed"], "undeclared": values["undeclared"]}
+
+    @classmethod
+    def _start(cls, documents: list[str], kept: Mapping[str, Any]) -> _bowden.Rigs:
+        seed, terms = kept["seed"], None
+        if kept["undeclared"]:
+            model = {
+                "schema": "bowden.model/1",
+                "mode": "torque",
+                "channels": ["proximal", "distal"],
+                "terms": kept["undeclared"],
+            }
+            terms = json.dumps(model)
+        count = len(documents)
+        own = seed if isinstance(seed, list) else [(seed + k) % 2**64 for k in range(count)]
+        if len(own) != count:
+            raise Error(f"seed: {len(own)} seeds for {count} rigs; one for each is allowed")
+        return _bowden.Rigs(documents, terms, own)
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """Every setting by name, as the constructor takes it: ``Rig(**rig.settings)``."""
+        found = super().settings
+        terms = found["undeclared"] or ()
+        shown = [
+            {**one, "shapes": {shape["name"]: shape["value"] for shape in one["shapes"]}}
+            for one in terms
+        ]
+        return {**found, "undeclared": shown}
+
+    def _named(
+        self, signals: list[tuple[str, _numbers.Floats]], row: Optional[int]
+    ) -> dict[str, Any]:
+        def part(values: _numbers.Floats) -> Any:
+            own = values if row is None else values[row]
+            return own[..., 0] if self._alone else own
+
+        found = {name: part(values) for name, values in signals}
+        found["diverged"] = found["diverged"].astype(bool)
+        if self._alone and row is not None:
+            return {name: value.item() for name, value in found.items()}
+        return found
+
+    def sample(self) -> dict[str, Any]:
+        """The present sample: the truth (``tau_o``) and what the sensor measures (``measured``)."""
+        return self._named(self._native.sample(), 0)
+
+    def step(self, command: Command, dt: Any = 0.001, load: Any = 0.0) -> dict[str, Any]:
+        """One step of ``dt`` [s], or of a duration with a unit; the sample after it.
+
+        ``command`` [command unit], or the result of a controller's step; ``load`` [N·m]. Of several
+        lanes each has one value for each.
+        """
+        time = np.array([_numbers.duration("dt", dt)])
+        return self._named(self._native.run(*self._signals(command, load, 1), time), 0)
+
+    def run(self, commands: Command, dt: Any = 0.001, load: Any = 0.0) -> dict[str, Any]:
+        """Many steps: signals of shape (samples,), or (samples, lanes) of several lanes.
+
+        ``dt`` is one time or (samples,): seconds, or durations with a unit.
+        """
+        samples = _numbers.samples_of(command_of(commands), dt, load)
+        times = _numbers.along("dt", _numbers.seconds("dt", dt), samples)
+        return self._named(self._native.run(*self._signals(commands, load, samples), times), None)
+
+    def _signals(self, command: Any, load: Any, samples: int) -> list[_numbers.Floats]:
+        lanes = len(self._native)
+        both = {"command": command_of(command), "load": load}
+        return [
+            _numbers.spread(name, _numbers.numbers(name, own), samples, lanes)
+            for name, own in both.items()
+        ]
+
+    def track(
+        self,
+        controller: Controller,
+        reference: Any,
+        dt: Any = 0.001,
+        *,
+        feed_forward: Any = 0.0,
+        phase: Any = None,
+    ) -> dict[str, Any]:
+        """The closed loop: each controller on its rig, all on one reference [N·m].
+
+        ``dt`` as in :meth:`run`. ``feed_forward`` [command unit] is added to each command;
+        ``phase``, from 0 to 1, is where in its cycle a sample is, for learning. Each is a number
+        or (samples,).
+
+        Gives what was read off before each command, ``command``, ``status`` and ``fault`` (numbers
+        of :class:`Status` and :class:`Fault`) and ``error`` = tau_o - reference. The adaptive law's
+        regressors are velocity and acceleration of the proximal pulley.
+        """
+        if not isinstance(controller, Controller):
+            kind = type(controller).__name__
+            raise Error(f"controller: {kind}; PI, PID, PIV or Adaptive is allowed")
+        wanted = np.ascontiguousarray(_numbers.numbers("reference", reference))
+        if wanted.ndim != 1 or not len(wanted):
+            raise Error(f"reference: shape {wanted.shape}; (samples,) is allowed")
+        samples = len(wanted)
+        more = {"feed_forward": feed_forward, "phase": controller._phase(phase)}
+        both = [_numbers.along(n, _numbers.numbers(n, own), samples) for n, own in more.items()]
+        times = _numbers.along("dt", _numbers.seconds("dt", dt), samples)
+        signals, *codes = self._native.track(controller._native, wanted, *both, times)
+        found = self._named(signals, None)
+        found.update(zip(("command", "status", "fault"), map(self._rows, codes)))
+        found["error"] = found["tau_o"] - (wanted if self._alone else wanted[:, None])
+        return found
+
+
+def paper_reference(t: Any, ramp: Any = 0.0) -> _numbers.Floats:
+    """The paper's reference [N·m] (section 4.2) at times [s], rising smoothly in ``ramp`` [s]."""
+    rise = _numbers.finite("ramp", _numbers.duration("ramp", ramp))
+    times = np.ascontiguousarray(_numbers.seconds("t", t))
+    if times.ndim != 1:
+        raise Error(f"t: shape {times.shape}; (samples,) is allowed")
+    return _bowden.paper_reference(times, rise)

@@ -1,0 +1,316 @@
+"""Signal conditioning, one signal or many side by side: what a bad sample cannot poison."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from . import _bowden, _numbers
+from ._error import Error
+from ._lanes import Lanes
+from ._settings import GREATEST, count, duration, one_of, real, setting
+from ._status import Code, Fault
+
+
+class RatesStatus(Code):
+    """How far the motion of a :class:`Rates` can be trusted."""
+
+    GOOD = 0
+    #: A good sample, but the rates started from zero less than five time constants ago.
+    SETTLING = 1
+    #: A good position after an unknown time: the rates are held.
+    RESUMED = 2
+    #: A bad sample: the last good motion is held.
+    HELD = 3
+
+
+class EdgeStatus(Code):
+    """How far a velocity of :class:`EdgeVelocity` can be trusted."""
+
+    GOOD = 0
+    #: Two counts and the time between them are not yet known.
+    SETTLING = 1
+    #: No count for longer than ``longest_gap``: the velocity is zero.
+    STOPPED = 2
+    #: A bad sample: the last velocity is held.
+    HELD = 3
+
+
+class Implausible(Code):
+    """Why a sample cannot be true; ``NONE`` is false."""
+
+    NONE = 0
+    NOT_FINITE = 1
+    OUT_OF_RANGE = 2
+    TOO_FAST = 3
+    STUCK = 4
+    OTHER = 5
+
+
+class RatesResult(NamedTuple):
+    """A motion; of many samples or lanes each is an array."""
+
+    position: Any
+    velocity: Any
+    acceleration: Any
+    #: A :class:`RatesStatus`, or an array of its numbers.
+    status: Any
+    #: A :class:`Fault`, or an array of its numbers.
+    fault: Any
+
+
+class EdgeVelocityResult(NamedTuple):
+    """A velocity; of many samples or lanes each is an array."""
+
+    #: [channel unit/s]; zero before two counts were seen.
+    velocity: Any
+    #: An :class:`EdgeStatus`, or an array of its numbers.
+    status: Any
+    #: A :class:`Fault`, or an array of its numbers.
+    fault: Any
+
+
+class PlausibleResult(NamedTuple):
+    """A sample after the check; of many samples or lanes each is an array."""
+
+    #: The sample where it is plausible, else NaN.
+    value: Any
+    #: An :class:`Implausible`, or an array of its numbers.
+    fault: Any
+
+
+class Block(Lanes):
+    """What all blocks have in common."""
+
+    @classmethod
+    def _start(cls, documents: list[str], kept: Mapping[str, Any]) -> _bowden.Blocks:
+        return _bowden.Blocks(cls.__name__, documents)
+
+    @classmethod
+    def _to_core(cls, values: Mapping[str, Any]) -> dict[str, Any]:
+        own = super()._to_core(values)
+        if "longest_dt" in cls._SETTINGS:
+            own.setdefault("longest_dt", GREATEST)
+        return {"block": own, "start": values.get("start", 0.0)}
+
+    @classmethod
+    def _from_core(cls, core: Mapping[str, Any]) -> dict[str, Any]:
+        found = super()._from_core(core["block"])
+        if found.get("longest_dt") == GREATEST:
+            found["longest_dt"] = None
+        return {**found, "start": core["start"]}
+
+    def _one(
+        self, dt: Any, name: str, sample: Any, moves: Any = True
+    ) -> tuple[list[Any], Any, Any]:
+        """The signals of one sample, and codes of status and fault."""
+        _numbers.duration("dt", dt)
+        signals, status, fault = self._many(dt, name, sample, moves, 1)
+        first = [float(own[0]) if self._alone else own[0] for own in signals]
+        return first, status[0], fault[0]
+
+    def _many(
+        self, dt: Any, name: str, samples: Any, moves: Any = True, count: int = 0
+    ) -> tuple[list[Any], Any, Any]:
+        """The signals of many samples, and codes of status and fault."""
+        if not count:
+            count = _numbers.samples_of(dt, samples)
+        lanes = len(self._native)
+        signals, *codes = self._native.run(
+            _numbers.along("dt", _numbers.seconds("dt", dt), count),
+            _numbers.spread(name, _numbers.numbers(name, samples), count, lanes),
+            _numbers.spread("moves", _numbers.flags("moves", moves), count, lanes),
+        )
+        status, fault = map(self._rows, codes)
+        return [self._rows(own) for own in signals], status, fault
+
+
+class Rates(Block):
+    """Velocity and acceleration from position samples, causally: gaps and wrap-around included.
+
+    Below the sampling rate ``V/X = s/(tau·s + 1)`` and ``A/X = s²/(tau·s + 1)²``.
+    """
+
+    time_constant: Any = setting(
+        convert=duration,
+        kw_only=False,
+        doc="tau [s]: delay of the velocity, half of that of the acceleration.",
+    )
+    longest_gap: Any = setting(
+        default=None,
+        convert=duration,
+        core=False,
+        doc="Longest time between two good samples that is bridged [s]; None: 10 time constants.",
+    )
+    period: Any = setting(
+        default=None,
+        doc="Period of the positions, where they wrap around [channel unit]; None: they do not.",
+    )
+
+    @classmethod
+    def for_cutoff(cls, cutoff: Any, **settings: Any) -> Rates:
+        """Rates for a model that was fitted with this cut-off [Hz]: tau = 1/(2·pi·2.5·cutoff)."""
+        corner = np.asarray(real("cutoff", cutoff)) * (2.0 * np.pi * 2.5)
+        if not (corner > 0.0).all():
+            raise Error(f"cutoff={cutoff}: a frequency above zero is allowed")
+        return cls(time_constant=1.0 / corner, **settings)
+
+    @classmethod
+    def _to_core(cls, values: Mapping[str, Any]) -> dict[str, Any]:
+        found, tau, gap = super()._to_core(values), values["time_constant"], values["longest_gap"]
+        if tau is not None:
+            found["block"]["longest_gap"] = 10.0 * tau if gap is None else gap
+        return found
+
+    @classmethod
+    def _from_core(cls, core: Mapping[str, Any]) -> dict[str, Any]:
+        return {**super()._from_core(core), "longest_gap": core["block"]["longest_gap"]}
+
+    def step(self, dt: Any, position: Any) -> RatesResult:
+        """One sample: ``dt`` since the last one [s], or a duration with a unit; ``position``."""
+        (x, v, a), status, fault = self._one(dt, "position", position)
+        if self._alone:
+            return RatesResult(x, v, a, RatesStatus(status), Fault(fault))
+        return RatesResult(x, v, a, status, fault)
+
+    def run(self, dt: Any, position: Any) -> RatesResult:
+        """Many samples: (samples,) each, or (samples, lanes); ``dt`` one time or (samples,)."""
+        (x, v, a), status, fault = self._many(dt, "position", position)
+        return RatesResult(x, v, a, status, fault)
+
+
+class EdgeVelocity(Block):
+    """Velocity of a slow encoder, from the time between its counts (period measurement).
+
+    At a constant speed of f counts per second the relative error is at most f·dt/(1 − f·dt) while
+    f·dt < 1. A speed below ``count/longest_gap`` counts as a stop.
+    """
+
+    count: Any = setting(
+        kw_only=False, doc="Smallest change of the position, above zero [channel unit]."
+    )
+    time_constant: Any = setting(
+        convert=duration, kw_only=False, doc="Averages counts that come faster than this [s]."
+    )
+    longest_gap: Any = setting(
+        convert=duration, kw_only=False, doc="Without a count for this long, the axis rests [s]."
+    )
+    period: Any = setting(
+        default=None,
+        doc="Period of the positions, where they wrap around [channel unit]; None: they do not.",
+    )
+
+    def step(self, dt: Any, position: Any) -> EdgeVelocityResult:
+        """One sample: ``dt`` since the last one [s], or a duration with a unit; ``position``."""
+        (velocity, *_), status, fault = self._one(dt, "position", position)
+        if self._alone:
+            return EdgeVelocityResult(velocity, EdgeStatus(status), Fault(fault))
+        return EdgeVelocityResult(velocity, status, fault)
+
+    def run(self, dt: Any, position: Any) -> EdgeVelocityResult:
+        """Many samples: (samples,) each, or (samples, lanes); ``dt`` one time or (samples,)."""
+        (velocity, *_), status, fault = self._many(dt, "position", position)
+        return EdgeVelocityResult(velocity, status, fault)
+
+
+class _Filter(Block):
+    """A signal in, a signal out."""
+
+    def step(self, dt: Any, sample: Any) -> Any:
+        """The output after a sample that came ``dt`` later [s], or a duration with a unit.
+
+        A bad sample (NaN, a ``dt`` that is not positive) leaves the output as it was.
+        """
+        return self._one(dt, "sample", sample)[0][0]
+
+    def run(self, dt: Any, sample: Any) -> Any:
+        """Many samples: (samples,), or (samples, lanes); ``dt`` one time or (samples,)."""
+        return self._many(dt, "sample", sample)[0][0]
+
+
+class LowPass(_Filter):
+    """First-order low-pass; the first good sample starts it at rest."""
+
+    time_constant: Any = setting(
+        convert=duration, kw_only=False, doc="tau [s]: the corner is 1/(2·pi·tau) [Hz]."
+    )
+
+
+class Biquad(_Filter):
+    """Second-order low-pass or notch; the first good sample starts it at rest."""
+
+    response: Any = setting(
+        convert=one_of("low-pass", "notch"), kw_only=False, doc="low-pass or notch."
+    )
+    frequency: Any = setting(
+        kw_only=False,
+        doc="Corner of a low-pass, centre of a notch [Hz]; below half the sample rate.",
+    )
+    q: Any = setting(
+        kw_only=False,
+        doc="Quality: 1/sqrt(2) is a Butterworth low-pass; a notch is frequency/q wide [Hz].",
+    )
+    sample_time: Any = setting(
+        convert=duration, kw_only=False, doc="Sample time that it is designed for [s]."
+    )
+
+
+class Ramp(Block):
+    """A reference that a loop can follow: at most a rate, then a lag that rounds its corners."""
+
+    rate: Any = setting(kw_only=False, doc="Above zero [signal unit/s].")
+    time_constant: Any = setting(
+        default=0.0, kw_only=False, convert=duration, doc="Of the lag [s]; 0: sharp corners."
+    )
+    longest_dt: Any = setting(
+        default=None, convert=duration, doc="Longest dt that moves the reference [s]; None: any."
+    )
+    start: Any = setting(default=0.0, core=False, doc="Where the reference starts [signal unit].")
+
+    def step(self, dt: Any, wanted: Any) -> Any:
+        """The reference ``dt`` later [s], or a duration with a unit, on its way to ``wanted``."""
+        return self._one(dt, "wanted", wanted)[0][0]
+
+    def run(self, dt: Any, wanted: Any) -> Any:
+        """Many samples: (samples,), or (samples, lanes); ``dt`` one time or (samples,)."""
+        return self._many(dt, "wanted", wanted)[0][0]
+
+
+class Plausible(Block):
+    """Whether a finite number can be true: within a range, not too fast, not stuck.
+
+    Put one before each input of a controller: a sample that cannot be true becomes NaN, on which
+    the controller holds its command.
+    """
+
+    low: Any = setting(kw_only=False, doc="Least value that can be true [signal unit].")
+    high: Any = setting(kw_only=False, doc="Greatest value that can be true [signal unit].")
+    rate: Any = setting(default=None, doc="Greatest rate of change [signal unit/s]; None: any.")
+    stuck_after: Any = setting(
+        default=None,
+        convert=count(2**32 - 1),
+        doc="So many equal numbers in succession, while the machine moves, are a stuck sensor; "
+        "None: 0, never.",
+    )
+    sample_period: Any = setting(
+        default=None,
+        convert=duration,
+        doc="Longest time from one number of the sensor to the next [s], with rate; None: unknown.",
+    )
+    longest_dt: Any = setting(
+        default=None,
+        convert=duration,
+        doc="A longer dt counts as this one [s]; None: any counts as it is.",
+    )
+
+    def step(self, dt: Any, sample: Any, moves: Any = True) -> PlausibleResult:
+        """One sample; ``moves``: whether the machine moves, so that the signal has to."""
+        (value, *_), _, fault = self._one(dt, "sample", sample, moves)
+        return PlausibleResult(value, Implausible(fault) if self._alone else fault)
+
+    def run(self, dt: Any, sample: Any, moves: Any = True) -> PlausibleResult:
+        """Many samples: (samples,), or (samples, lanes); ``dt`` one time or (samples,)."""
+        (value, *_), _, fault = self._many(dt, "sample", sample, moves)
+        return PlausibleResult(value, fault)

@@ -1,0 +1,80 @@
+//! Statuses and faults as small numbers: one byte a sample, named in the Python package.
+
+use bowden::control::{Fault, Status};
+use bowden::signal::{EdgeStatus, Implausible, RatesFault, RatesStatus};
+
+/// A status and its fault; zero where there is none.
+pub type Codes = (u8, u8);
+
+/// 0 good, 1 degraded, 2 held, 3 safe: the greater, the worse.
+pub fn status(status: Status) -> Codes {
+    let code = match status {
+        Status::Good => 0,
+        Status::Degraded(_) => 1,
+        Status::Held(_) => 2,
+        Status::Safe(_) => 3,
+    };
+    (code, status.fault().map_or(0, fault))
+}
+
+/// Which input of a step could not be used.
+pub fn fault(fault: Fault) -> u8 {
+    match fault {
+        Fault::Dt => 1,
+        Fault::DtNotPositive => 2,
+        Fault::DtTooLong => 3,
+        Fault::Reference => 4,
+        Fault::Measured => 5,
+        Fault::Velocity => 6,
+        Fault::FeedForward => 7,
+        Fault::Command => 8,
+        Fault::Overflow => 9,
+        Fault::Phase => 10,
+        Fault::Regressor(index) => 16_u8.saturating_add(index),
+        // The core may learn of more; it is then a fault without a name here.
+        _ => 11,
+    }
+}
+
+/// 0 good, 1 settling, 2 resumed, 3 held.
+pub fn rates(status: RatesStatus) -> Codes {
+    match status {
+        RatesStatus::Good => (0, 0),
+        RatesStatus::Settling => (1, 0),
+        RatesStatus::Resumed => (2, 0),
+        RatesStatus::Held(fault) => (3, unused(fault)),
+    }
+}
+
+/// 0 good, 1 settling, 2 stopped, 3 held.
+pub fn edges(status: EdgeStatus) -> Codes {
+    match status {
+        EdgeStatus::Good => (0, 0),
+        EdgeStatus::Settling => (1, 0),
+        EdgeStatus::Stopped => (2, 0),
+        EdgeStatus::Held(fault) => (3, unused(fault)),
+    }
+}
+
+/// Why a position was not used.
+fn unused(fault: RatesFault) -> u8 {
+    match fault {
+        RatesFault::Dt => 1,
+        RatesFault::DtNotPositive => 2,
+        RatesFault::Position => 12,
+        RatesFault::Overflow => 9,
+        _ => 11,
+    }
+}
+
+/// Zero where a sample is plausible.
+pub fn implausible(fault: Option<Implausible>) -> u8 {
+    match fault {
+        None => 0,
+        Some(Implausible::NotFinite) => 1,
+        Some(Implausible::OutOfRange) => 2,
+        Some(Implausible::TooFast) => 3,
+        Some(Implausible::Stuck) => 4,
+        Some(_) => 5,
+    }
+}

@@ -1,0 +1,347 @@
+//! The relay experiment: measures ultimate gain and period in closed loop, for PI gains.
+//!
+//! ```text
+//! command = centre + d   from y < y_r − eps on, until y > y_r + eps
+//! command = centre − d   from y > y_r + eps on, until y < y_r − eps
+//!
+//! k_u = 4·d·sin(pi·D)/(pi·sqrt(a² − eps²))      T_u = period of the limit cycle
+//! ```
+//! A relay with hysteresis eps makes the loop oscillate near its ultimate frequency. d
+//! determines the amplitude. The amplitude a is half the distance from the lowest to the
+//! highest output of a cycle. D is the share of the period in which the command is
+//! `centre + d`. [`Ultimate::pi`] turns k_u and T_u into the gains of a [`Pid`](super::Pid).
+//!
+//! - **Describing function.** The formula uses the first harmonic of the command only. Compared
+//!   with the exact limit cycle, k_u has an error of −2 % for 1/(s + 1)³. For a first-order lag
+//!   with delay the error is −19 % (short delay) to +28 % (long delay), −11 % for a delay equal to
+//!   the time constant.
+//! - **Hysteresis** makes the cycle slower: T_u is too long and k_u too low, which is conservative. With
+//!   eps = 0.1·a, k_u of 1/(s + 1)³ is 17.5 % too low. Choose d so that a is several times eps.
+//! - **Asymmetric cycles.** A load or a bias makes the half-periods unequal. The first harmonic of
+//!   such a command is `4·d/pi·sin(pi·D)`; without the sine, k_u would be too high. The even
+//!   harmonics increase a, so k_u is too low: by 5 % for 1/(s + 1)³ and D = 0.62. With the mean
+//!   command, `centre + d·(2·D − 1)`, as the next centre the half-periods become equal.
+//! - **Sampling.** The relay switches at the sample after the crossing, up to one `dt` late. The
+//!   measured period is the true period of this sampled loop. It exceeds the period of a continuous
+//!   relay by two `dt` on average and by four at most. A sampled controller has the same average
+//!   delay of half a `dt`, so no correction is necessary.
+//! - **Sign.** The amplitude d, k_u and the gains have the sign of the plant's gain. With the wrong
+//!   sign the output leaves its range or the relay never switches back. The experiment then fails
+//!   with `OutputOutOfRange` or `NoOscillation`.
+//! - **Duration.** Every sample, good or bad, takes time from an integer budget. The experiment
+//!   therefore ends within `longest_time`. A sample without a usable `dt` takes `longest_dt`. A
+//!   failure latches the safe command until [`RelayState::acknowledge`]. After a success the
+//!   relay applies the centre.
+//!
+//! Source: K. Åström, T. Hägglund, "Automatic tuning of simple regulators with specifications on
+//! phase and amplitude margins", *Automatica* 20(5), 1984; the first harmonic of an asymmetric relay
+//! in Ya. Tsypkin, *Relay Control Systems*, 1984.
+
+mod settings;
+mod state;
+mod ultimate;
+
+pub use settings::RelaySettings;
+pub use state::RelayState;
+pub use ultimate::{PiGains, PiRule, Ultimate};
+
+use super::status::{fault_of_dt, unless_finite, Latch};
+use super::{Fault, Status};
+use crate::error::is_usable;
+use crate::{Error, Real};
+use state::{Cycle, Mean};
+
+#[cfg(kani)]
+#[path = "../../proofs/relay.rs"]
+mod proofs;
+
+/// A relay experiment for the tuning of a PI loop; checked, immutable.
+///
+/// Start with the output near the reference: at the mean command of the previous loop, or at
+/// rest. Afterwards start a [`Pid`](super::Pid) from the applied command.
+///
+/// ```
+/// use bowden::control::{Fallback, Limits, Pid, PidInput, PidSettings, PidState, PiRule};
+/// use bowden::control::{Relay, RelayPhase, RelaySettings, RelayState};
+/// let (limits, fallback) = (Limits::try_new(-20.0, 60.0)?, Fallback::try_new(20, 0.0)?);
+/// let relay = Relay::try_new(RelaySettings {
+///     reference: 5.0,      // [N·m]
+///     centre: 10.0,        // [command unit]
+///     amplitude: 8.0,      // [command unit], with the sign of the plant's gain
+///     hysteresis: 0.05,    // [N·m], at least the noise
+///     most_deviation: 8.0, // [N·m]
+///     cycles: 4,
+///     agreement: 0.05,
+///     longest_time: 20.0, // [s]
+///     longest_dt: 0.05,   // [s]
+///     limits,
+///     fallback,
+/// })?;
+///
+/// let (mut state, mut lags) = (RelayState::new(), [5.0_f64; 3]);
+/// let dt = 0.01;
+/// let ended = loop {
+///     let out = relay.step(&mut state, dt, lags[2]);
+///     if !out.phase.is_running() {
+///         break out;
+///     }
+///     // A plant of three lags of 0.1 s and gain 0.5.
+///     let input = [0.5 * out.command, lags[0], lags[1]];
+///     for (lag, input) in lags.iter_mut().zip(input) {
+///         *lag += (input - *lag) * dt / 0.1;
+///     }
+/// };
+/// let RelayPhase::Done(ultimate) = ended.phase else {
+///     panic!("{:?}", ended.phase)
+/// };
+///
+/// // A PI with these gains, which continues from the applied command.
+/// let gains = ultimate.pi(PiRule::default());
+/// let pi = Pid::try_new(PidSettings::new(gains.k_p, gains.k_i, limits, 0.05, fallback))?;
+/// let (mut loop_state, at) = (PidState::new(), PidInput::new(dt, 5.0, lags[2]));
+/// loop_state.resume_from(&pi, ended.command, &at);
+/// let next = pi.step(&mut loop_state, &at).command;
+/// assert!((next - ended.command).abs() <= gains.k_i * (5.0 - lags[2]).abs() * dt + 1e-12);
+/// # Ok::<(), bowden::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "RelaySettings<T>",
+        into = "RelaySettings<T>",
+        bound(
+            serialize = "T: Real + serde::Serialize",
+            deserialize = "T: Real + serde::Deserialize<'de>"
+        )
+    )
+)]
+pub struct Relay<T> {
+    settings: RelaySettings<T>,
+}
+
+/// Cause of a failed relay experiment; the safe command is applied.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum RelayFailure {
+    /// Too many bad samples, see [`Fallback`](super::Fallback); this is the fault of the last
+    /// one.
+    BadSamples(Fault),
+    /// The output was further from the reference than `most_deviation`.
+    ///
+    /// Choose a smaller amplitude, a centre that holds the reference, or the other sign of the
+    /// amplitude.
+    OutputOutOfRange,
+    /// `longest_time` has passed and the relay has not completed a cycle.
+    ///
+    /// The amplitude does not move the output through the reference, its sign is wrong, or the time
+    /// is too short for two periods.
+    NoOscillation,
+    /// `longest_time` has passed and the cycles did not agree with each other.
+    ///
+    /// The time is too short, the noise exceeds the hysteresis, or a cycle has fewer than
+    /// `2/agreement` samples.
+    TimeOut,
+}
+
+/// Phase of a relay experiment.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum RelayPhase<T> {
+    /// The relay switches.
+    #[default]
+    Running,
+    /// A bad sample: the last command is held and no cycle ends.
+    Held(Fault),
+    /// The experiment has succeeded: the relay applies the centre.
+    Done(Ultimate<T>),
+    /// The experiment has failed: the safe command is applied until
+    /// [`RelayState::acknowledge`].
+    Failed(RelayFailure),
+}
+
+impl<T: Real> RelayPhase<T> {
+    /// Whether the experiment is still running.
+    #[must_use]
+    pub const fn is_running(&self) -> bool {
+        matches!(self, Self::Running | Self::Held(_))
+    }
+}
+
+/// Output of a [`Relay`]'s step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct RelayOutput<T> {
+    /// Command for the drive \[command unit\]: finite and within the limits.
+    pub command: T,
+    /// Phase of the experiment.
+    pub phase: RelayPhase<T>,
+}
+
+impl<T: Real> Relay<T> {
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the setting's name, or
+    /// [`Error::Inadmissible`] with the condition that two settings violate; the fields of
+    /// [`RelaySettings`] state both.
+    pub fn try_new(settings: RelaySettings<T>) -> Result<Self, Error> {
+        settings.check()?;
+        Ok(Self { settings })
+    }
+
+    /// The settings of this relay.
+    #[inline]
+    #[must_use]
+    pub const fn settings(&self) -> &RelaySettings<T> {
+        &self.settings
+    }
+
+    /// One sample: `dt` since the last call \[s\], also after a bad sample, and the measured output
+    /// \[output unit\].
+    ///
+    /// The command is finite and within the limits for any input **and any state**. A bad sample
+    /// holds the command; its time counts. If its `dt` is not usable, `longest_dt` is taken from the
+    /// time that remains, and the cycle with this sample is not averaged.
+    pub fn step(&self, state: &mut RelayState<T>, dt: T, measured: T) -> RelayOutput<T> {
+        if state.is_active() {
+            state.phase = self.phase_after(state, dt, measured);
+        }
+        let s = &self.settings;
+        let command = match state.phase {
+            RelayPhase::Running | RelayPhase::Held(_) => state.held.command,
+            RelayPhase::Done(_) => s.centre,
+            RelayPhase::Failed(_) => s.fallback.command().unwrap_or(s.centre),
+        };
+        // The state may come from any source.
+        state.held.command = s.limits.clamp(command);
+        RelayOutput {
+            command: state.held.command,
+            phase: state.phase,
+        }
+    }
+
+    /// The step of an experiment that is still running.
+    fn phase_after(&self, state: &mut RelayState<T>, dt: T, measured: T) -> RelayPhase<T> {
+        let s = &self.settings;
+        let of_dt = fault_of_dt(dt, s.longest_dt);
+        let passed = if of_dt.is_none() { dt } else { s.longest_dt };
+        state.remaining = state.remaining.saturating_sub(self.ticks(passed));
+        if state.remaining == 0 {
+            return RelayPhase::Failed(match state.cycles {
+                0 => RelayFailure::NoOscillation,
+                _ => RelayFailure::TimeOut,
+            });
+        }
+        match (of_dt, &mut state.cycle) {
+            (Some(_), cycle) => *cycle = None,
+            (None, Some(cycle)) => cycle.time = cycle.time.plus(dt),
+            (None, None) => {}
+        }
+        if let Some(fault) = of_dt.or_else(|| unless_finite(measured, Fault::Measured)) {
+            return match state.held.bad(fault, &s.fallback) {
+                Status::Safe(fault) => RelayPhase::Failed(RelayFailure::BadSamples(fault)),
+                _ => RelayPhase::Held(fault),
+            };
+        }
+        if !state.held.may_step() {
+            state.held.good();
+        }
+        let deviation = measured - s.reference;
+        if deviation.abs() > s.most_deviation {
+            return RelayPhase::Failed(RelayFailure::OutputOutOfRange);
+        }
+        self.switched(state, deviation)
+    }
+
+    /// The part of the budget that a time above zero takes: at least one tick, so the budget
+    /// decreases at every sample.
+    fn ticks(&self, time: T) -> u32 {
+        let share = time / self.settings.longest_time;
+        let ticks = (share * T::from_f64(f64::from(u32::MAX))).to_u32();
+        ticks.map_or(u32::MAX, |ticks| ticks.saturating_add(1))
+    }
+
+    /// Switches the relay at a good sample, and ends a cycle where it switches to `centre + d`.
+    fn switched(&self, state: &mut RelayState<T>, deviation: T) -> RelayPhase<T> {
+        let s = &self.settings;
+        let upper = match state.upper {
+            Some(true) => deviation <= s.hysteresis,
+            Some(false) => deviation < -s.hysteresis,
+            None => deviation < T::ZERO,
+        };
+        if let Some(cycle) = &mut state.cycle {
+            cycle.sees(deviation);
+        }
+        let mut result = None;
+        match (state.upper, upper, &mut state.cycle) {
+            (Some(true), false, Some(cycle)) => cycle.upper_time = cycle.time.value,
+            (Some(false), true, cycle) => {
+                let ended = cycle.replace(Cycle::starting_at(deviation));
+                result = ended.and_then(|cycle| self.averaged(state, &cycle));
+            }
+            _ => {}
+        }
+        state.upper = Some(upper);
+        state.held.command = match upper {
+            true => s.centre + s.amplitude,
+            false => s.centre - s.amplitude,
+        };
+        result.map_or(RelayPhase::Running, RelayPhase::Done)
+    }
+
+    /// Adds a complete cycle to the average; returns the result after the last one.
+    fn averaged(&self, state: &mut RelayState<T>, cycle: &Cycle<T>) -> Option<Ultimate<T>> {
+        let s = &self.settings;
+        state.cycles = state.cycles.saturating_add(1);
+        // The times of two switches are known to one sample each.
+        let resolved = s.agreement * T::from_f64(f64::from(cycle.samples)) >= T::from_f64(2.0);
+        let seen = Mean::of(cycle);
+        if !(resolved && seen.amplitude > s.hysteresis) {
+            state.mean = Mean::default();
+            return None;
+        }
+        state.mean = state.mean.joined_by(&seen, s.agreement);
+        if state.mean.count < s.cycles {
+            return None;
+        }
+        let result = self.ultimate(&state.mean);
+        if !is_usable(result.gain + result.period + result.amplitude + result.duty) {
+            state.mean = Mean::default();
+            return None;
+        }
+        Some(result)
+    }
+
+    /// k_u and T_u of the averaged cycle.
+    fn ultimate(&self, mean: &Mean<T>) -> Ultimate<T> {
+        let (s, pi) = (&self.settings, T::from_f64(core::f64::consts::PI));
+        let (a, eps) = (mean.amplitude, s.hysteresis);
+        let harmonic = T::from_f64(4.0) * s.amplitude * (pi * mean.duty).sin() / pi;
+        Ultimate {
+            gain: harmonic / ((a - eps).sqrt() * (a + eps).sqrt()),
+            period: mean.period,
+            amplitude: a,
+            duty: mean.duty,
+        }
+    }
+}
+
+impl<T: Real> RelayState<T> {
+    /// Whether the experiment is still running. A latched fallback ends it, as in a stored
+    /// state.
+    fn is_active(&mut self) -> bool {
+        if let (true, Latch::Safe(fault)) = (self.phase.is_running(), self.held.latch) {
+            self.phase = RelayPhase::Failed(RelayFailure::BadSamples(fault));
+        }
+        self.phase.is_running()
+    }
+}

@@ -1,0 +1,174 @@
+//! Settings of a [`Relay`](super::Relay), before their checks.
+
+use super::Relay;
+use crate::control::status::OUTSIDE;
+use crate::control::{Fallback, Limits};
+use crate::error::{above_zero, must_be_finite, not_below_zero};
+use crate::{Error, Real};
+
+/// Settings of a [`Relay`](super::Relay), with public fields; [`Relay::try_new`] checks them.
+///
+/// ```
+/// use bowden::constant;
+/// use bowden::control::{Fallback, Limits, Relay, RelaySettings};
+/// static RELAY: Relay<f32> = constant!(Relay::<f32>::const_new(RelaySettings {
+///     reference: 5.0,      // [N·m]
+///     centre: 10.0,        // [command unit]
+///     amplitude: 8.0,      // [command unit]
+///     hysteresis: 0.05,    // [N·m]
+///     most_deviation: 8.0, // [N·m]
+///     cycles: 4,
+///     agreement: 0.05,
+///     longest_time: 20.0, // [s]
+///     longest_dt: 0.005,  // [s]
+///     limits: constant!(Limits::<f32>::const_new(-20.0, 60.0)),
+///     fallback: constant!(Fallback::<f32>::const_new(20, 0.0)),
+/// }));
+/// assert_eq!(RELAY.settings().cycles, 4);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        deny_unknown_fields,
+        bound(
+            serialize = "T: Real + serde::Serialize",
+            deserialize = "T: Real + serde::Deserialize<'de>"
+        )
+    )
+)]
+pub struct RelaySettings<T> {
+    /// y_r, the reference about which the output oscillates \[output unit\]; finite.
+    pub reference: T,
+    /// Mean of the two levels of the command \[command unit\]; finite.
+    ///
+    /// The command that holds the output at the reference gives equal half-periods.
+    pub centre: T,
+    /// d, from the centre to each level \[command unit\]: finite, not zero, with the sign of
+    /// the plant's gain. Both levels lie within `limits`.
+    pub amplitude: T,
+    /// eps, zero or above \[output unit\]: at least the peak of the noise, otherwise the relay
+    /// chatters.
+    pub hysteresis: T,
+    /// Greatest distance of the output from the reference, above `hysteresis` \[output unit\].
+    ///
+    /// One sample beyond it ends the experiment: the output must lie within this distance at
+    /// the start.
+    pub most_deviation: T,
+    /// Number of successive cycles in the average, two or more.
+    pub cycles: u32,
+    /// Largest deviation of a cycle's period and amplitude from the mean of earlier cycles, as
+    /// a share of this mean. The share lies between 0 and 1.
+    ///
+    /// A cycle with a greater difference restarts the average. A period has at least
+    /// `2/agreement` samples: a shorter period cannot be measured to this share.
+    pub agreement: T,
+    /// Maximum duration of the experiment, `longest_dt` or more \[s\].
+    ///
+    /// The budget has 2³² − 1 ticks. Each sample takes the ticks of its `dt`, rounded up. n
+    /// samples therefore end the experiment early by at most n/2³² of this duration.
+    pub longest_time: T,
+    /// Longest `dt` of a good sample, above zero \[s\]: for example five nominal steps.
+    pub longest_dt: T,
+    /// Range of the command, without a slew rate: the relay and k_u assume a step.
+    pub limits: Limits<T>,
+    /// Fallback after a failure: a safe command within `limits`.
+    ///
+    /// [`Fallback::hold_indefinitely`] has no safe command and is refused.
+    pub fallback: Fallback<T>,
+}
+
+/// Every check of the settings, for any float and for constants.
+macro_rules! checks {
+    ($settings:ident, $T:ty) => {{
+        let (s, zero, one) = ($settings, <$T as Real>::ZERO, <$T as Real>::ONE);
+        must_be_finite!(s.reference, "reference");
+        must_be_finite!(s.centre, "centre");
+        must_be_finite!(s.amplitude, "amplitude");
+        if s.amplitude == zero {
+            return Err(Error::OutOfRange("amplitude"));
+        }
+        not_below_zero!(s.hysteresis, zero, "hysteresis");
+        must_be_finite!(s.most_deviation, "most_deviation");
+        if s.most_deviation <= s.hysteresis {
+            return Err(Error::Inadmissible("hysteresis < most_deviation"));
+        }
+        if s.cycles < 2 {
+            return Err(Error::OutOfRange("cycles"));
+        }
+        above_zero!(s.agreement, zero, "agreement");
+        if s.agreement >= one {
+            return Err(Error::OutOfRange("agreement"));
+        }
+        above_zero!(s.longest_dt, zero, "longest_dt");
+        must_be_finite!(s.longest_time, "longest_time");
+        if s.longest_time < s.longest_dt {
+            return Err(Error::Inadmissible("longest_dt <= longest_time"));
+        }
+        let (low, high) = (s.limits.low(), s.limits.high());
+        let (above, below) = (s.centre + s.amplitude, s.centre - s.amplitude);
+        if above < low || above > high || below < low || below > high {
+            return Err(Error::Inadmissible(
+                "centre ± amplitude lies within the limits",
+            ));
+        }
+        if s.limits.slew().is_some() {
+            return Err(Error::Inadmissible(
+                "the limits of a relay have no slew rate",
+            ));
+        }
+        match s.fallback.command() {
+            Some(safe) if safe >= low && safe <= high => Ok(()),
+            Some(_) => Err(Error::Inadmissible(OUTSIDE)),
+            None => Err(Error::Inadmissible("a relay has a safe command")),
+        }
+    }};
+}
+
+macro_rules! constant {
+    ($float:ty) => {
+        impl RelaySettings<$float> {
+            const fn const_check(&self) -> Result<(), Error> {
+                checks!(self, $float)
+            }
+        }
+
+        impl Relay<$float> {
+            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
+            ///
+            /// # Errors
+            /// As [`try_new`](Self::try_new).
+            pub const fn const_new(settings: RelaySettings<$float>) -> Result<Self, Error> {
+                match settings.const_check() {
+                    Ok(()) => Ok(Self { settings }),
+                    Err(error) => Err(error),
+                }
+            }
+        }
+    };
+}
+constant!(f32);
+constant!(f64);
+
+impl<T: Real> RelaySettings<T> {
+    /// Every check that the documentation of the fields states.
+    pub(super) fn check(&self) -> Result<(), Error> {
+        checks!(self, T)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> TryFrom<RelaySettings<T>> for Relay<T> {
+    type Error = Error;
+    fn try_from(settings: RelaySettings<T>) -> Result<Self, Error> {
+        Self::try_new(settings)
+    }
+}
+
+impl<T: Real> From<Relay<T>> for RelaySettings<T> {
+    fn from(relay: Relay<T>) -> Self {
+        *relay.settings()
+    }
+}

@@ -1,0 +1,247 @@
+//! State of a [`Relay`](super::Relay) between samples.
+
+use super::RelayPhase;
+use crate::control::status::Held;
+use crate::signal::{clamp, Compensated};
+#[cfg(feature = "serde")]
+use crate::Error;
+use crate::Real;
+
+/// State of a [`Relay`](super::Relay): the present cycle, the average, the remaining time.
+///
+/// `Copy`. After a power-off start with [`RelayState::new`]: the limit cycle has stopped.
+///
+/// ```
+/// use bowden::control::{RelayPhase, RelayState};
+/// let state = RelayState::<f32>::new();
+/// assert_eq!((state.phase(), state.cycles()), (RelayPhase::Running, 0));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "Unchecked<T>",
+        bound(
+            serialize = "T: Real + serde::Serialize",
+            deserialize = "T: Real + serde::Deserialize<'de>"
+        )
+    )
+)]
+pub struct RelayState<T> {
+    pub(super) held: Held<T>,
+    pub(super) phase: RelayPhase<T>,
+    /// Ticks until the end of `longest_time`.
+    pub(super) remaining: u32,
+    /// Whether the command is `centre + d`; none before the first good sample.
+    pub(super) upper: Option<bool>,
+    /// None before the first switch to `centre + d`, and after an unusable `dt`.
+    pub(super) cycle: Option<Cycle<T>>,
+    pub(super) mean: Mean<T>,
+    pub(super) cycles: u32,
+}
+
+/// A cycle since its switch to `centre + d`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Cycle<T> {
+    pub(super) time: Compensated<T>,
+    /// Time of the switch to `centre − d`.
+    pub(super) upper_time: T,
+    /// Lowest and highest deviation from the reference.
+    pub(super) lowest: T,
+    pub(super) highest: T,
+    pub(super) samples: u32,
+}
+
+impl<T: Real> Cycle<T> {
+    pub(super) fn starting_at(deviation: T) -> Self {
+        Self {
+            time: Compensated::new(T::ZERO),
+            upper_time: T::ZERO,
+            lowest: deviation,
+            highest: deviation,
+            samples: 0,
+        }
+    }
+
+    /// Records a deviation.
+    pub(super) fn sees(&mut self, deviation: T) {
+        self.samples = self.samples.saturating_add(1);
+        self.lowest = clamp(self.lowest, T::LOWEST, deviation);
+        self.highest = clamp(self.highest, deviation, T::HIGHEST);
+    }
+}
+
+/// Mean over cycles that agree.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Mean<T> {
+    pub(super) count: u32,
+    pub(super) period: T,
+    pub(super) amplitude: T,
+    pub(super) duty: T,
+}
+
+impl<T: Real> Mean<T> {
+    /// The mean over one cycle.
+    pub(super) fn of(cycle: &Cycle<T>) -> Self {
+        let period = cycle.time.value;
+        let half = T::from_f64(0.5);
+        Self {
+            count: 1,
+            period,
+            amplitude: half * cycle.highest - half * cycle.lowest,
+            duty: cycle.upper_time / period,
+        }
+    }
+
+    /// The mean with one more cycle, or with this cycle alone if it does not agree.
+    pub(super) fn joined_by(&self, cycle: &Self, agreement: T) -> Self {
+        let near = |mean: T, x: T| (x - mean).abs() <= agreement * mean;
+        let agrees = near(self.period, cycle.period) && near(self.amplitude, cycle.amplitude);
+        if self.count == 0 || !agrees {
+            return *cycle;
+        }
+        let count = self.count.saturating_add(1);
+        let moved = |mean: T, x: T| mean + (x - mean) / T::from_f64(f64::from(count));
+        Self {
+            count,
+            period: moved(self.period, cycle.period),
+            amplitude: moved(self.amplitude, cycle.amplitude),
+            duty: moved(self.duty, cycle.duty),
+        }
+    }
+}
+
+impl<T: Real> RelayState<T> {
+    /// A new state, before the first sample; its command is zero.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self::starting_from(T::ZERO)
+    }
+
+    const fn starting_from(command: T) -> Self {
+        Self {
+            held: Held::new(command),
+            phase: RelayPhase::Running,
+            remaining: u32::MAX,
+            upper: None,
+            cycle: None,
+            mean: Mean {
+                count: 0,
+                period: T::ZERO,
+                amplitude: T::ZERO,
+                duty: T::ZERO,
+            },
+            cycles: 0,
+        }
+    }
+
+    /// Acknowledges the failure: the next good sample restarts the experiment with its full
+    /// duration.
+    ///
+    /// The safe command is applied until this call. Without a failure the call has no effect.
+    pub fn acknowledge(&mut self) {
+        if self.is_latched() {
+            *self = Self::starting_from(self.held.command);
+        }
+    }
+
+    /// The applied command \[command unit\].
+    #[inline]
+    #[must_use]
+    pub const fn command(&self) -> T {
+        self.held.command
+    }
+
+    /// Phase after the last sample.
+    #[inline]
+    #[must_use]
+    pub const fn phase(&self) -> RelayPhase<T> {
+        self.phase
+    }
+
+    /// Number of complete cycles, including cycles outside the average.
+    #[inline]
+    #[must_use]
+    pub const fn cycles(&self) -> u32 {
+        self.cycles
+    }
+
+    /// The remaining time, in parts of 2³² − 1 of `longest_time`; every sample of a running
+    /// experiment reduces it.
+    #[inline]
+    #[must_use]
+    pub const fn remaining(&self) -> u32 {
+        self.remaining
+    }
+
+    /// Score of the bad samples, see [`Fallback`](crate::control::Fallback).
+    #[inline]
+    #[must_use]
+    pub const fn fault_counter(&self) -> u32 {
+        self.held.score
+    }
+
+    /// Whether the safe command is latched.
+    #[inline]
+    #[must_use]
+    pub fn is_latched(&self) -> bool {
+        matches!(self.phase, RelayPhase::Failed(_)) || self.held.is_latched()
+    }
+}
+
+impl<T: Real> Default for RelayState<T> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// The stored form, before its checks.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Unchecked<T> {
+    held: Held<T>,
+    phase: RelayPhase<T>,
+    remaining: u32,
+    upper: Option<bool>,
+    cycle: Option<Cycle<T>>,
+    mean: Mean<T>,
+    cycles: u32,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> TryFrom<Unchecked<T>> for RelayState<T> {
+    type Error = Error;
+    fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
+        let finite = |numbers: &[T]| numbers.iter().all(|x| x.is_finite());
+        let cycle = raw.cycle.is_none_or(|cycle| {
+            finite(&[cycle.time.value, cycle.time.carry, cycle.upper_time])
+                && finite(&[cycle.lowest, cycle.highest])
+        });
+        let result = match raw.phase {
+            RelayPhase::Done(it) => finite(&[it.gain, it.period, it.amplitude, it.duty]),
+            _ => true,
+        };
+        let mean = finite(&[raw.mean.period, raw.mean.amplitude, raw.mean.duty]);
+        if !(cycle && result && mean && raw.held.command.is_finite()) {
+            return Err(Error::Inadmissible("a state has finite numbers"));
+        }
+        Ok(Self {
+            held: raw.held.remembering(),
+            phase: raw.phase,
+            remaining: raw.remaining,
+            upper: raw.upper,
+            cycle: raw.cycle,
+            mean: raw.mean,
+            cycles: raw.cycles,
+        })
+    }
+}

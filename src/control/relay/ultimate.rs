@@ -1,0 +1,81 @@
+//! Result of a relay experiment, and the PI gains from it.
+
+use crate::Real;
+
+/// Result of a [`Relay`](super::Relay): ultimate gain and period, and the averaged cycle.
+///
+/// ```
+/// use bowden::control::{PiRule, Ultimate};
+/// // 1/(s + 1)³: k_u = 8, T_u = 2·pi/sqrt(3).
+/// let ultimate = Ultimate { gain: 8.0_f64, period: 3.628, amplitude: 0.16, duty: 0.5 };
+/// let (cautious, fast) = (ultimate.pi(PiRule::TyreusLuyben), ultimate.pi(PiRule::ZieglerNichols));
+/// assert!((cautious.k_p - 2.5).abs() < 1e-12 && (fast.k_p - 3.6).abs() < 1e-12);
+/// assert!((cautious.k_p / cautious.k_i - 7.9816).abs() < 1e-9); // T_i = 2.2·T_u
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Ultimate<T> {
+    /// k_u \[command unit/output unit\], with the sign of the relay's amplitude.
+    pub gain: T,
+    /// T_u \[s\]
+    pub period: T,
+    /// a: half the distance from the lowest to the highest output \[output unit\].
+    pub amplitude: T,
+    /// D: share of the period in which the command is `centre + d`; 1/2 in a symmetric cycle.
+    pub duty: T,
+}
+
+/// Tuning rule: PI gains from ultimate gain and period.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum PiRule {
+    /// k_p = k_u/3.2, T_i = 2.2·T_u: the conservative rule, and the default.
+    ///
+    /// The describing function may give a k_u that is 28 % too high; the gain margin is then
+    /// still 3.2/1.28 = 2.5. For lags, and lags with delay, the gain margin is above 2.5 and
+    /// the phase margin above 45°. B. Tyreus, W. Luyben, "Tuning PI controllers for
+    /// integrator/dead time processes", *Ind. Eng. Chem. Res.* 31, 1992.
+    #[default]
+    TyreusLuyben,
+    /// k_p = 0.45·k_u, T_i = T_u/1.2: fast, with an overshoot after a reference step.
+    ///
+    /// The margins for the same plants are only above 1.5 and 15°.
+    ///
+    /// J. Ziegler, N. Nichols, "Optimum settings for automatic controllers", *Trans. ASME* 64, 1942.
+    ZieglerNichols,
+}
+
+/// Gains of a PI for [`PidSettings`](crate::control::PidSettings).
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PiGains<T> {
+    /// Proportional gain \[command unit/output unit\].
+    pub k_p: T,
+    /// Integral gain k_p/T_i \[command unit/(output unit·s)\].
+    pub k_i: T,
+}
+
+impl<T: Real> Ultimate<T> {
+    /// The gains of a PI by a rule.
+    #[must_use]
+    pub fn pi(&self, rule: PiRule) -> PiGains<T> {
+        let (k_p, t_i) = match rule {
+            PiRule::TyreusLuyben => (self.gain / T::from_f64(3.2), T::from_f64(2.2) * self.period),
+            PiRule::ZieglerNichols => (
+                T::from_f64(0.45) * self.gain,
+                self.period / T::from_f64(1.2),
+            ),
+        };
+        PiGains {
+            k_p,
+            k_i: k_p / t_i,
+        }
+    }
+}

@@ -1,0 +1,398 @@
+//! A second-order low-pass and a notch.
+
+use super::Compensated;
+use crate::error::above_zero;
+use crate::{Error, Real};
+
+mod prewarped;
+
+/// Second-order section: a low-pass or a notch, for a target, an error or a measurement.
+///
+/// With `s` in units of `2π·frequency`, `q` the quality:
+///
+/// ```text
+/// low-pass  1/(s² + s/q + 1)       q = 1/√2: Butterworth; q = 1/2: critically damped
+/// notch     (s² + 1)/(s² + s/q + 1)   −3 dB width: frequency/q
+/// ```
+/// Both have a gain of exactly 1 at zero frequency: the output reaches a constant input to the
+/// last bit.
+///
+/// **Design.** The filter uses the bilinear transform with prewarping at the given sample time
+/// `T`. At `f` \[Hz\] the filter has the response above at
+/// `s = i·tan(π·f·T)/tan(π·frequency·T)`, so `frequency` itself is exact. A `dt` may vary:
+/// each step integrates over its own `dt` with the trapezoidal rule, and prewarps as for `T`. A
+/// `dt` of `(1 + e)·T` moves the corner by less than `|e|·(π·frequency·T)²` of itself, to first
+/// order in `e`.
+///
+/// **Form.** The filter is a state-variable filter with trapezoidal integrators (A. Simper,
+/// *Solving the continuous SVF equations using trapezoidal integration*, 2013). It has the same
+/// transfer function as the direct forms. Direct forms store `1 − frequency²·…` in coefficients
+/// near 2, and in `f32` lose the corner below 1/1000 of the sample rate. Here the coefficients
+/// are proportional to `frequency`, and the integrators are [`Compensated`] sums. Test
+/// `a_low_corner_needs_this_form_in_single_precision` in `tests/signal_filters.rs` compares
+/// both forms.
+///
+/// **Bounds.** At a constant sample `c`, `band² + (low − c)²` of the two integrators never
+/// grows, for any sequence of `dt`. The output stays within `|low − c|` of the start. From
+/// rest, at a constant `dt` of the design, the output is limited to a multiple of the largest
+/// sample: `2 + 4·q/π` for a low-pass and 3 for a notch. These factors are the sum of the
+/// magnitudes of the impulse response, on a grid of `frequency` and `q` in
+/// `tests/signal_filters.rs`.
+///
+/// ```
+/// use bowden::signal::{Biquad, BiquadState};
+/// // A resonance of the joint at 35 Hz, 7 Hz wide, in a loop of 1 kHz.
+/// let notch = Biquad::notch(35.0_f32, 5.0, 0.001)?;
+/// let mut state = BiquadState::new();
+/// let mut last = 0.0_f32;
+/// for k in 0..2000_u32 {
+///     let vibration = (2.0 * core::f32::consts::PI * 0.035 * (k % 200) as f32).sin();
+///     last = notch.step(&mut state, 3.0 + vibration, 0.001);
+/// }
+/// assert!((last - 3.0).abs() < 1e-4);
+/// # Ok::<(), bowden::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "Design<T>",
+        into = "Design<T>",
+        bound(
+            serialize = "T: Real + serde::Serialize",
+            deserialize = "T: Real + serde::Deserialize<'de>"
+        )
+    )
+)]
+pub struct Biquad<T> {
+    design: Design<T>,
+    /// `tan(π·frequency·T)/T`: times dt, the gain of an integrator.
+    slope: T,
+    /// `1/q`
+    damping: T,
+}
+
+/// Design parameters of a filter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+struct Design<T> {
+    response: Response,
+    frequency: T,
+    q: T,
+    sample_time: T,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+enum Response {
+    LowPass,
+    Notch,
+}
+
+/// State of a [`Biquad`]: two integrators and the output, empty before the first good sample.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct BiquadState<T> {
+    #[cfg_attr(
+        feature = "serde",
+        serde(default, deserialize_with = "super::stored::optional")
+    )]
+    value: Option<T>,
+    /// The integrator of the band-pass: zero at rest.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::stored::number"))]
+    band: T,
+    /// The integrator of the low-pass: the input, at rest.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::stored::number"))]
+    low: T,
+    /// Rounding error of each integrator.
+    #[cfg_attr(
+        feature = "serde",
+        serde(default = "T::zero", deserialize_with = "super::stored::number")
+    )]
+    band_carry: T,
+    #[cfg_attr(
+        feature = "serde",
+        serde(default = "T::zero", deserialize_with = "super::stored::number")
+    )]
+    low_carry: T,
+}
+
+/// A checked filter, for any float and for constants.
+macro_rules! designed {
+    ($response:expr, $frequency:ident, $q:ident, $sample_time:ident,
+     $zero:expr, $one:expr, $half:expr, $slope:expr) => {{
+        above_zero!($frequency, $zero, "frequency");
+        above_zero!($q, $zero, "q");
+        above_zero!($sample_time, $zero, "sample_time");
+        if $frequency * $sample_time >= $half {
+            return Err(Error::Inadmissible("frequency < 1/(2·sample_time)"));
+        }
+        let (slope, damping) = ($slope, $one / $q);
+        if !slope.is_finite() {
+            return Err(Error::OutOfRange("frequency"));
+        }
+        if !damping.is_finite() {
+            return Err(Error::OutOfRange("q"));
+        }
+        Ok(Self {
+            design: Design {
+                response: $response,
+                frequency: $frequency,
+                q: $q,
+                sample_time: $sample_time,
+            },
+            slope,
+            damping,
+        })
+    }};
+}
+
+macro_rules! constant {
+    ($float:ty) => {
+        impl Biquad<$float> {
+            /// [`low_pass`](Self::low_pass) at compile time, see [`constant!`](crate::constant).
+            ///
+            /// # Errors
+            /// As [`low_pass`](Self::low_pass).
+            pub const fn const_low_pass(
+                frequency: $float,
+                q: $float,
+                sample_time: $float,
+            ) -> Result<Self, Error> {
+                Self::const_design(Response::LowPass, frequency, q, sample_time)
+            }
+
+            /// [`notch`](Self::notch) at compile time, see [`constant!`](crate::constant).
+            ///
+            /// # Errors
+            /// As [`notch`](Self::notch).
+            pub const fn const_notch(
+                frequency: $float,
+                q: $float,
+                sample_time: $float,
+            ) -> Result<Self, Error> {
+                Self::const_design(Response::Notch, frequency, q, sample_time)
+            }
+
+            #[allow(clippy::cast_possible_truncation, clippy::cast_lossless)]
+            const fn const_design(
+                response: Response,
+                frequency: $float,
+                q: $float,
+                sample_time: $float,
+            ) -> Result<Self, Error> {
+                designed!(
+                    response,
+                    frequency,
+                    q,
+                    sample_time,
+                    0.0,
+                    1.0,
+                    0.5,
+                    prewarped::slope(frequency as f64, sample_time as f64) as $float
+                )
+            }
+        }
+    };
+}
+constant!(f32);
+constant!(f64);
+
+impl<T: Real> Biquad<T> {
+    /// A low-pass with its corner at `frequency` \[Hz\], for samples every `sample_time` \[s\].
+    ///
+    /// All three are above zero, and `frequency` is below half the sample rate. At `frequency`
+    /// the gain is `q` and the phase −90°. `q` above `1/√2` has a resonance.
+    ///
+    /// The tangent of the prewarping is computed in `f64`. On a microcontroller without `f64`
+    /// hardware, `const_low_pass` spares that code.
+    ///
+    /// ```
+    /// use bowden::constant;
+    /// use bowden::signal::Biquad;
+    /// // Butterworth at 80 Hz in a loop of 1 kHz.
+    /// static SMOOTH: Biquad<f32> = constant!(Biquad::<f32>::const_low_pass(80.0, 0.7071, 0.001));
+    /// assert_eq!(SMOOTH, Biquad::low_pass(80.0, 0.7071, 0.001)?);
+    /// # Ok::<(), bowden::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"frequency"`, `"q"` or
+    /// `"sample_time"`; [`Error::Inadmissible`] unless `frequency < 1/(2·sample_time)`.
+    pub fn low_pass(frequency: T, q: T, sample_time: T) -> Result<Self, Error> {
+        Self::try_new(Response::LowPass, frequency, q, sample_time)
+    }
+
+    /// A notch at `frequency` \[Hz\], `frequency/q` \[Hz\] wide, for samples every `sample_time`
+    /// \[s\].
+    ///
+    /// All three are above zero, and `frequency` is below half the sample rate. The width is
+    /// the distance of the frequencies with a gain of `1/√2`.
+    ///
+    /// # Errors
+    /// As [`low_pass`](Self::low_pass).
+    pub fn notch(frequency: T, q: T, sample_time: T) -> Result<Self, Error> {
+        Self::try_new(Response::Notch, frequency, q, sample_time)
+    }
+
+    fn try_new(response: Response, frequency: T, q: T, sample_time: T) -> Result<Self, Error> {
+        designed!(
+            response,
+            frequency,
+            q,
+            sample_time,
+            T::ZERO,
+            T::ONE,
+            T::from_f64(0.5),
+            T::from_f64(prewarped::slope(frequency.as_f64(), sample_time.as_f64()))
+        )
+    }
+
+    /// Corner of a low-pass, or centre of a notch \[Hz\].
+    #[inline]
+    #[must_use]
+    pub const fn frequency(&self) -> T {
+        self.design.frequency
+    }
+
+    /// The quality.
+    #[inline]
+    #[must_use]
+    pub const fn q(&self) -> T {
+        self.design.q
+    }
+
+    /// The sample time of the design \[s\].
+    #[inline]
+    #[must_use]
+    pub const fn sample_time(&self) -> T {
+        self.design.sample_time
+    }
+
+    /// The output \[signal unit\] after a sample, `dt` \[s\] after the last one.
+    ///
+    /// The first good sample starts the filter at rest: the output is that sample. A bad sample
+    /// (not finite, or a `dt` that is not positive and finite) leaves the state unchanged. It
+    /// returns the last output, zero before the first good sample. If the next state would
+    /// overflow, the filter restarts at the sample.
+    #[inline]
+    pub fn step(&self, state: &mut BiquadState<T>, sample: T, dt: T) -> T {
+        if sample.is_finite() && dt.is_finite() && dt > T::ZERO {
+            *state = self.after(state, sample, dt);
+        }
+        state.value()
+    }
+
+    #[inline]
+    fn after(&self, state: &BiquadState<T>, sample: T, dt: T) -> BiquadState<T> {
+        if state.value.is_none() {
+            return BiquadState::at(sample);
+        }
+        let [band, low] = [(state.band, state.band_carry), (state.low, state.low_carry)]
+            .map(|(value, carry)| Compensated { value, carry });
+        let g = self.slope * dt;
+        let pull = (sample - low.value) - low.carry;
+        let pace = g + self.damping;
+        // v1 - band, v1 and v2 - low of the source; v1 and v2 are at the middle of the step.
+        let push = g * (pull - pace * band.value) / (T::ONE + g * pace);
+        let middle = band.value + (band.carry + push);
+        let rise = g * middle;
+        let value = match self.design.response {
+            Response::LowPass => low.value + (low.carry + rise),
+            Response::Notch => sample - self.damping * middle,
+        };
+        let (band, low) = (band.plus(push + push), low.plus(rise + rise));
+        let next = BiquadState {
+            value: Some(value),
+            band: band.value,
+            band_carry: band.carry,
+            low: low.value,
+            low_carry: low.carry,
+        };
+        if next.is_finite() {
+            next
+        } else {
+            BiquadState::at(sample)
+        }
+    }
+}
+
+impl<T: Real> BiquadState<T> {
+    /// A state that starts at rest at the first good sample.
+    #[inline]
+    #[must_use]
+    pub const fn new() -> Self {
+        Self {
+            value: None,
+            band: T::ZERO,
+            band_carry: T::ZERO,
+            low: T::ZERO,
+            low_carry: T::ZERO,
+        }
+    }
+
+    /// At rest at a value \[signal unit\].
+    #[inline]
+    #[must_use]
+    pub const fn at(value: T) -> Self {
+        Self {
+            value: Some(value),
+            band: T::ZERO,
+            band_carry: T::ZERO,
+            low: value,
+            low_carry: T::ZERO,
+        }
+    }
+
+    /// A state with any numbers.
+    #[cfg(kani)]
+    pub(crate) const fn of(value: Option<T>, [band, band_carry, low, low_carry]: [T; 4]) -> Self {
+        Self {
+            value,
+            band,
+            band_carry,
+            low,
+            low_carry,
+        }
+    }
+
+    /// The output \[signal unit\]; zero before the first good sample.
+    #[inline]
+    #[must_use]
+    pub fn value(&self) -> T {
+        self.value.unwrap_or(T::ZERO)
+    }
+
+    #[inline]
+    fn is_finite(&self) -> bool {
+        let integrators = self.band.is_finite() && self.low.is_finite();
+        let carries = self.band_carry.is_finite() && self.low_carry.is_finite();
+        integrators && carries && self.value().is_finite()
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> From<Biquad<T>> for Design<T> {
+    fn from(filter: Biquad<T>) -> Self {
+        filter.design
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> TryFrom<Design<T>> for Biquad<T> {
+    type Error = Error;
+    fn try_from(raw: Design<T>) -> Result<Self, Error> {
+        Self::try_new(raw.response, raw.frequency, raw.q, raw.sample_time)
+    }
+}

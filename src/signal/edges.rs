@@ -1,0 +1,382 @@
+//! Velocity of a slow encoder, from the time between its counts.
+
+use super::{clamp, RatesFault};
+use crate::error::above_zero;
+use crate::{Error, Real};
+
+/// Velocity from the time between counts: period measurement, or M/T method.
+///
+/// If a counter changes less than once per sample, its difference quotient is zero or a whole count
+/// per `dt`. Between two samples with counts, the axis has moved by M counts in a time T, which is
+/// known to one `dt`:
+///
+/// ```text
+/// v⁺ = v + (1 − e^(−T/tau))·(M·count/T − v)   at a sample with counts
+/// |v| ≤ count/(time since the last count)     at every other
+/// ```
+/// * **Error** at a constant speed of `f` counts per second: the relative error is at most
+///   `f·dt/(1 − f·dt)` while `f·dt < 1` (one sample in the time of one count). At any speed it
+///   is at most `dt/tau·min(1, 1/(f·dt))`. Reason: the linearly interpolated counter is nowhere
+///   further than `min(1, f·dt)` of a count from the axis, and the lag divides this distance by
+///   tau.
+/// * **Delay** of slow changes at a count: `T·(1/2 + q/(1 − q))` with `q = e^(−T/tau)`. This is
+///   half the time between counts if that time is longer than tau, and tau at high speed. Until
+///   the next count the velocity is held, on average for a further `T/2`.
+/// * **Stop**: the bound falls as `count/t`. After `longest_gap` without a count the velocity
+///   is zero and the status is [`EdgeStatus::Stopped`]. Speeds below `count/longest_gap` read
+///   as stopped.
+/// * **Reversal**: a count in the opposite direction passes the same encoder line as the previous
+///   count. The axis has therefore moved by one count less. Dither of one count has zero velocity.
+/// * **Start**: the first count only locates a line; the second count gives the first velocity.
+/// * **Bad samples** do not change the velocity. Their time counts. After a `dt` that is
+///   negative or not finite the time is unknown, and the next count starts a new interval.
+///
+/// Source: T. Ohmae et al., *A microprocessor-controlled high-accuracy wide-range speed
+/// regulator for motor drives*, IEEE Trans. Ind. Electron. 29 (1982) 207-211 (M/T method). Use
+/// [`Rates`](super::Rates) for positions that change in every sample.
+///
+/// ```
+/// use bowden::signal::{EdgeStatus, EdgeVelocity, EdgeVelocityState};
+/// // A 12-bit counter, averaged over 10 ms; stopped after 0.2 s: speeds above 5 counts/s.
+/// let velocity = EdgeVelocity::try_new(1.0, 0.01, 0.2)?.with_period(4096.0)?;
+/// let mut state = EdgeVelocityState::new();
+/// for k in 0..1000_u32 {
+///     let counter = (4090 + k / 50) % 4096; // 20 counts/s in a loop of 1 kHz
+///     velocity.step(&mut state, counter as f32, 0.001);
+/// }
+/// assert!((state.velocity() - 20.0).abs() < 0.001);
+/// for _ in 0..201 {
+///     velocity.step(&mut state, 13.0, 0.001);
+/// }
+/// let out = velocity.step(&mut state, 13.0, 0.001);
+/// assert_eq!((out.velocity, out.status), (0.0, EdgeStatus::Stopped));
+/// # Ok::<(), bowden::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "Unchecked<T>",
+        bound(
+            serialize = "T: Real + serde::Serialize",
+            deserialize = "T: Real + serde::Deserialize<'de>"
+        )
+    )
+)]
+pub struct EdgeVelocity<T> {
+    count: T,
+    time_constant: T,
+    longest_gap: T,
+    period: Option<T>,
+}
+
+/// Validity of a velocity of [`EdgeVelocity`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum EdgeStatus {
+    /// Two counts and the time between them are known.
+    Good,
+    /// Fewer than two counts are known: after the start, or after an unknown time.
+    Settling,
+    /// No count for longer than the longest gap: the velocity is zero.
+    Stopped,
+    /// A bad sample: the last velocity is held.
+    Held(RatesFault),
+}
+
+/// Output of an [`EdgeVelocity`]'s step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct EdgeVelocityOutput<T> {
+    /// The velocity \[channel unit/s\]; finite, zero before two counts.
+    pub velocity: T,
+    /// Validity of the velocity.
+    pub status: EdgeStatus,
+}
+
+/// State of an [`EdgeVelocity`]: the last position, its last count and the velocity.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct EdgeVelocityState<T> {
+    #[cfg_attr(
+        feature = "serde",
+        serde(default, deserialize_with = "super::stored::optional")
+    )]
+    last: Option<T>,
+    /// Whether the last count went up; none before the first one.
+    went_up: Option<bool>,
+    /// Time since the last count, as far as it is known.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::stored::number"))]
+    gap: T,
+    /// Whether an additional unknown time has passed.
+    time_unknown: bool,
+    #[cfg_attr(
+        feature = "serde",
+        serde(default, deserialize_with = "super::stored::optional")
+    )]
+    velocity: Option<T>,
+}
+
+/// The checked configuration, for any float and for constants.
+macro_rules! edge_velocity {
+    ($count:ident, $time_constant:ident, $longest_gap:ident, $zero:expr) => {{
+        above_zero!($count, $zero, "count");
+        above_zero!($time_constant, $zero, "time_constant");
+        above_zero!($longest_gap, $zero, "longest_gap");
+        Ok(Self {
+            count: $count,
+            time_constant: $time_constant,
+            longest_gap: $longest_gap,
+            period: None,
+        })
+    }};
+}
+
+/// The same with a period, likewise.
+macro_rules! wrapping {
+    ($edges:ident, $period:ident, $zero:expr) => {{
+        above_zero!($period, $zero, "period");
+        Ok(Self {
+            period: Some($period),
+            ..$edges
+        })
+    }};
+}
+
+macro_rules! constant {
+    ($float:ty) => {
+        impl EdgeVelocity<$float> {
+            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
+            ///
+            /// # Errors
+            /// As [`try_new`](Self::try_new).
+            pub const fn const_new(
+                count: $float,
+                time_constant: $float,
+                longest_gap: $float,
+            ) -> Result<Self, Error> {
+                edge_velocity!(count, time_constant, longest_gap, 0.0)
+            }
+
+            /// [`with_period`](Self::with_period) at compile time.
+            ///
+            /// # Errors
+            /// As [`with_period`](Self::with_period).
+            pub const fn const_with_period(self, period: $float) -> Result<Self, Error> {
+                wrapping!(self, period, 0.0)
+            }
+        }
+    };
+}
+constant!(f32);
+constant!(f64);
+
+impl<T: Real> EdgeVelocity<T> {
+    /// Velocity from positions that move by `count` \[channel unit\] or by multiples of it.
+    ///
+    /// `time_constant` \[s\] averages faster counts; `longest_gap` \[s\] without a count is a
+    /// stop. All three are above zero.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"count"`, `"time_constant"` or
+    /// `"longest_gap"`.
+    pub fn try_new(count: T, time_constant: T, longest_gap: T) -> Result<Self, Error> {
+        edge_velocity!(count, time_constant, longest_gap, T::ZERO)
+    }
+
+    /// The same configuration for positions modulo `period > 0` \[channel unit\], as from a
+    /// counter.
+    ///
+    /// Between two good samples the axis must move by less than half a period.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"period"`.
+    pub fn with_period(self, period: T) -> Result<Self, Error> {
+        wrapping!(self, period, T::ZERO)
+    }
+
+    /// The velocity \[channel unit/s\] after a `position`, `dt` \[s\] after the last call.
+    ///
+    /// `dt` is the time since the last call, good or bad. A position restarts the measurement
+    /// if its distance from the last one overflows.
+    #[inline]
+    pub fn step(
+        &self,
+        state: &mut EdgeVelocityState<T>,
+        position: T,
+        dt: T,
+    ) -> EdgeVelocityOutput<T> {
+        let status = self.advance(state, position, dt);
+        EdgeVelocityOutput {
+            velocity: state.velocity(),
+            status,
+        }
+    }
+
+    #[inline]
+    fn advance(&self, state: &mut EdgeVelocityState<T>, position: T, dt: T) -> EdgeStatus {
+        if !dt.is_finite() || dt <= T::ZERO {
+            state.time_unknown |= dt != T::ZERO;
+            return EdgeStatus::Held(if dt.is_finite() {
+                RatesFault::DtNotPositive
+            } else {
+                RatesFault::Dt
+            });
+        }
+        // At least dt, also where a stored gap was negative.
+        state.gap = clamp(state.gap + dt, dt, T::HIGHEST);
+        if !position.is_finite() {
+            return EdgeStatus::Held(RatesFault::Position);
+        }
+        let moved = state.last.map(|last| self.moved(position - last));
+        match moved {
+            Some(moved) if moved == T::ZERO => self.without_count(state),
+            Some(moved) if moved.is_finite() => {
+                let known = self.at_count(state, moved);
+                state.last = Some(position);
+                known
+            }
+            _ => {
+                *state = EdgeVelocityState {
+                    last: Some(position),
+                    ..EdgeVelocityState::new()
+                };
+                EdgeStatus::Settling
+            }
+        }
+    }
+
+    /// No count: the bound falls, down to a stop.
+    #[inline]
+    fn without_count(&self, state: &mut EdgeVelocityState<T>) -> EdgeStatus {
+        if state.gap > self.longest_gap {
+            state.velocity = state.velocity.map(|_| T::ZERO);
+            return EdgeStatus::Stopped;
+        }
+        let bound = self.count / state.gap;
+        state.velocity = state
+            .velocity
+            .map(|velocity| clamp(velocity, -bound, bound));
+        state.known()
+    }
+
+    /// One count or several, `moved` in all.
+    #[inline]
+    fn at_count(&self, state: &mut EdgeVelocityState<T>, moved: T) -> EdgeStatus {
+        let goes_up = moved > T::ZERO;
+        let (before, time) = (state.went_up, state.gap);
+        let is_start = before.is_none() || state.time_unknown;
+        state.went_up = Some(goes_up);
+        state.gap = T::ZERO;
+        state.time_unknown = false;
+        if is_start {
+            return EdgeStatus::Settling;
+        }
+        // Between the lines of the encoder: a reversal passes one of them twice.
+        let way = if before == Some(goes_up) {
+            moved
+        } else {
+            moved - clamp(moved, -self.count, self.count)
+        };
+        let quotient = clamp(way / time, T::LOWEST, T::HIGHEST);
+        let share = -(-time / self.time_constant).exp_m1();
+        state.velocity = Some(match state.velocity {
+            // Two products instead of share·(quotient - velocity), which could overflow.
+            Some(velocity) => clamp(
+                (T::ONE - share) * velocity + share * quotient,
+                T::LOWEST,
+                T::HIGHEST,
+            ),
+            None => quotient,
+        });
+        EdgeStatus::Good
+    }
+
+    /// A difference of two positions, reduced by whole periods to the shortest.
+    #[inline]
+    fn moved(&self, difference: T) -> T {
+        match self.period {
+            Some(period) if difference.abs() > period * T::from_f64(0.5) => {
+                difference - (difference / period).round() * period
+            }
+            _ => difference,
+        }
+    }
+}
+
+impl<T: Real> EdgeVelocityState<T> {
+    /// A new state, before the first sample.
+    #[inline]
+    #[must_use]
+    pub const fn new() -> Self {
+        Self {
+            last: None,
+            went_up: None,
+            gap: T::ZERO,
+            time_unknown: false,
+            velocity: None,
+        }
+    }
+
+    /// A state with any numbers.
+    #[cfg(kani)]
+    pub(crate) const fn of(
+        [last, velocity]: [Option<T>; 2],
+        went_up: Option<bool>,
+        (gap, time_unknown): (T, bool),
+    ) -> Self {
+        Self {
+            last,
+            went_up,
+            gap,
+            time_unknown,
+            velocity,
+        }
+    }
+
+    /// The velocity \[channel unit/s\]; zero before two counts.
+    #[inline]
+    #[must_use]
+    pub fn velocity(&self) -> T {
+        self.velocity.unwrap_or(T::ZERO)
+    }
+
+    #[inline]
+    fn known(&self) -> EdgeStatus {
+        if self.velocity.is_some() && !self.time_unknown {
+            EdgeStatus::Good
+        } else {
+            EdgeStatus::Settling
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Unchecked<T> {
+    count: T,
+    time_constant: T,
+    longest_gap: T,
+    period: Option<T>,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> TryFrom<Unchecked<T>> for EdgeVelocity<T> {
+    type Error = Error;
+    fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
+        let edges = Self::try_new(raw.count, raw.time_constant, raw.longest_gap)?;
+        let period = raw.period;
+        period.map_or(Ok(edges), |period| edges.with_period(period))
+    }
+}

@@ -1,0 +1,194 @@
+//! The first-order low-pass.
+
+use super::Compensated;
+use crate::error::not_below_zero;
+use crate::{Error, Real};
+
+/// First-order low-pass with a time constant \[s\].
+///
+/// `y⁺ = y + dt/(tau + dt)·(x − y)` is the lag `tau·y' = x − y` in its implicit (backward
+/// Euler) form. It is stable at any `dt`, which may vary, and needs no exponential. The corner
+/// is `1/(2π·tau)` \[Hz\], to `dt/tau`. The delay of slow signals is tau, their gain 1.
+///
+/// The first good sample starts the filter at rest: the output is that sample. The output
+/// leaves the range of the samples by rounding only. The output is a [`Compensated`] sum. A
+/// plain `f32` lag stops once its increment is less than half a unit in the last place. At
+/// `tau = 1000·dt` it would stop up to 3e-5 of the target away.
+///
+/// For a second order, see [`Biquad`](super::Biquad).
+///
+/// ```
+/// use bowden::signal::{LowPass, LowPassState};
+/// let low_pass = LowPass::try_new(0.01_f32)?; // corner at 15.9 Hz
+/// let mut state = LowPassState::new();
+/// assert_eq!(low_pass.step(&mut state, 2.0, 0.001), 2.0); // no transient at the start
+/// assert_eq!(low_pass.step(&mut state, f32::NAN, 0.001), 2.0); // held
+/// for _ in 0..500 {
+///     low_pass.step(&mut state, 5.0, 0.001);
+/// }
+/// assert_eq!(state.value(), 5.0);
+/// # Ok::<(), bowden::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "Unchecked<T>",
+        bound(
+            serialize = "T: Real + serde::Serialize",
+            deserialize = "T: Real + serde::Deserialize<'de>"
+        )
+    )
+)]
+pub struct LowPass<T> {
+    time_constant: T,
+}
+
+/// State of a [`LowPass`]: its output, empty before the first good sample.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LowPassState<T> {
+    #[cfg_attr(
+        feature = "serde",
+        serde(default, deserialize_with = "super::stored::optional")
+    )]
+    value: Option<T>,
+    /// Rounding error of the output.
+    #[cfg_attr(
+        feature = "serde",
+        serde(default = "T::zero", deserialize_with = "super::stored::number")
+    )]
+    carry: T,
+}
+
+/// The checked filter, for any float and for constants.
+macro_rules! low_pass {
+    ($time_constant:ident, $zero:expr) => {{
+        not_below_zero!($time_constant, $zero, "time_constant");
+        Ok(Self {
+            time_constant: $time_constant,
+        })
+    }};
+}
+
+macro_rules! constant {
+    ($float:ty) => {
+        impl LowPass<$float> {
+            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
+            ///
+            /// # Errors
+            /// As [`try_new`](Self::try_new).
+            pub const fn const_new(time_constant: $float) -> Result<Self, Error> {
+                low_pass!(time_constant, 0.0)
+            }
+        }
+    };
+}
+constant!(f32);
+constant!(f64);
+
+impl<T: Real> LowPass<T> {
+    /// A low-pass with `time_constant >= 0` \[s\]; with zero the output is the sample.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"time_constant"`.
+    pub fn try_new(time_constant: T) -> Result<Self, Error> {
+        low_pass!(time_constant, T::ZERO)
+    }
+
+    /// The time constant \[s\].
+    #[inline]
+    #[must_use]
+    pub const fn time_constant(&self) -> T {
+        self.time_constant
+    }
+
+    /// The output \[signal unit\] after a sample, `dt` \[s\] after the last one.
+    ///
+    /// A bad sample (not finite, or a `dt` that is not positive and finite) leaves the state
+    /// unchanged. It returns the last output, zero before the first good sample. If the
+    /// difference between a sample and the output overflows, the filter restarts at rest.
+    #[inline]
+    pub fn step(&self, state: &mut LowPassState<T>, sample: T, dt: T) -> T {
+        if sample.is_finite() && dt.is_finite() && dt > T::ZERO {
+            *state = self.after(state, sample, dt);
+        }
+        state.value()
+    }
+
+    #[inline]
+    fn after(&self, state: &LowPassState<T>, sample: T, dt: T) -> LowPassState<T> {
+        let Some(value) = state.value else {
+            return LowPassState::at(sample);
+        };
+        let carry = state.carry;
+        let sum = Compensated { value, carry };
+        // The share is at most 1; two times whose sum overflows have one of zero.
+        let share = dt / (self.time_constant + dt);
+        let next = sum.plus(share * ((sample - value) - carry));
+        if !(next.value.is_finite() && next.carry.is_finite()) {
+            return LowPassState::at(sample);
+        }
+        LowPassState {
+            value: Some(next.value),
+            carry: next.carry,
+        }
+    }
+}
+
+impl<T: Real> LowPassState<T> {
+    /// A state that starts at rest at the first good sample.
+    #[inline]
+    #[must_use]
+    pub const fn new() -> Self {
+        Self {
+            value: None,
+            carry: T::ZERO,
+        }
+    }
+
+    /// At rest at a value \[signal unit\].
+    #[inline]
+    #[must_use]
+    pub const fn at(value: T) -> Self {
+        Self {
+            value: Some(value),
+            carry: T::ZERO,
+        }
+    }
+
+    /// A state with any numbers.
+    #[cfg(kani)]
+    pub(crate) const fn of(value: Option<T>, carry: T) -> Self {
+        Self { value, carry }
+    }
+
+    /// The output \[signal unit\]; zero before the first good sample.
+    #[inline]
+    #[must_use]
+    pub fn value(&self) -> T {
+        self.value.unwrap_or(T::ZERO)
+    }
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Unchecked<T> {
+    time_constant: T,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> TryFrom<Unchecked<T>> for LowPass<T> {
+    type Error = Error;
+    fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
+        Self::try_new(raw.time_constant)
+    }
+}

@@ -1,0 +1,232 @@
+//! Every fault ends in the safe command, which stays until somebody has seen it.
+
+use super::plants::{Plant, Sampled};
+use super::{ended, result, usual};
+use bowden::control::{Fault, Relay, RelayFailure, RelayPhase, RelaySettings, RelayState};
+
+const SAFE: f64 = 0.25;
+
+fn relay() -> Relay<f64> {
+    Relay::try_new(usual()).unwrap()
+}
+
+/// A state in the third cycle of 1/(s + 1)³, and the plant.
+fn under_way(relay: &Relay<f64>) -> (RelayState<f64>, Plant) {
+    let (mut state, mut plant) = (RelayState::new(), Plant::third_order());
+    while state.cycles() < 2 {
+        let out = relay.step(&mut state, 0.01, plant.output());
+        assert_eq!(out.phase, RelayPhase::Running);
+        plant.run(out.command, 0.01);
+    }
+    (state, plant)
+}
+
+/// The safe command is out, whatever comes, until it is acknowledged; then the experiment starts
+/// again and succeeds.
+fn stays_and_starts_again(relay: &Relay<f64>, mut state: RelayState<f64>, reason: RelayFailure) {
+    let failed = RelayPhase::Failed(reason);
+    assert!(state.is_latched());
+    for k in 0..1000 {
+        let bad = [(0.01, f64::NAN), (f64::NAN, 0.0), (9.0, 0.0), (0.01, 1e300)];
+        let good = (0.01, f64::from(k % 7 - 3));
+        let (dt, measured) = if k % 2 == 0 {
+            good
+        } else {
+            bad[k as usize / 2 % 4]
+        };
+        let out = relay.step(&mut state, dt, measured);
+        assert_eq!((out.command, out.phase), (SAFE, failed));
+        assert_eq!(state.phase(), failed);
+    }
+    state.acknowledge();
+    assert!(!state.is_latched());
+    assert_eq!(state.command(), SAFE);
+    // A bad sample does not switch the relay on.
+    let held = relay.step(&mut state, 0.01, f64::NAN);
+    assert_eq!(held.command, SAFE);
+    assert_eq!(held.phase, RelayPhase::Held(Fault::Measured));
+    let mut plant = Plant::third_order();
+    loop {
+        let out = relay.step(&mut state, 0.01, plant.output());
+        if let RelayPhase::Done(_) = out.phase {
+            break;
+        }
+        assert_eq!(out.phase, RelayPhase::Running);
+        plant.run(out.command, 0.01);
+    }
+}
+
+#[test]
+fn a_bad_sample_holds_the_command_and_too_many_are_the_end() {
+    let relay = relay();
+    for (dt, measured, fault) in [
+        (0.01, f64::NAN, Fault::Measured),
+        (0.01, f64::INFINITY, Fault::Measured),
+        (f64::NAN, 0.0, Fault::Dt),
+        (f64::INFINITY, 0.0, Fault::Dt),
+        (0.0, 0.0, Fault::DtNotPositive),
+        (-0.01, 0.0, Fault::DtNotPositive),
+        (0.51, 0.0, Fault::DtTooLong),
+    ] {
+        let (mut state, _) = under_way(&relay);
+        let before = state.command();
+        assert_eq!(before, 1.0);
+        for _ in 0..9 {
+            let out = relay.step(&mut state, dt, measured);
+            assert_eq!((out.command, out.phase), (before, RelayPhase::Held(fault)));
+        }
+        let out = relay.step(&mut state, dt, measured);
+        let reason = RelayFailure::BadSamples(fault);
+        assert_eq!((out.command, out.phase), (SAFE, RelayPhase::Failed(reason)));
+        stays_and_starts_again(&relay, state, reason);
+    }
+}
+
+#[test]
+fn an_output_out_of_range_is_the_end_at_once() {
+    let relay = relay();
+    for measured in [10.01, -10.01, f64::MAX, f64::MIN] {
+        let (mut state, _) = under_way(&relay);
+        relay.step(&mut state, 0.01, 10.0 * measured.signum());
+        assert_eq!(state.phase(), RelayPhase::Running);
+        let out = relay.step(&mut state, 0.01, measured);
+        assert_eq!(out.command, SAFE);
+        assert_eq!(
+            out.phase,
+            RelayPhase::Failed(RelayFailure::OutputOutOfRange)
+        );
+        stays_and_starts_again(&relay, state, RelayFailure::OutputOutOfRange);
+    }
+}
+
+/// The wrong sign pushes the output away: it never comes back, or leaves its range.
+#[test]
+fn the_wrong_sign_of_the_amplitude_fails() {
+    let settings = RelaySettings {
+        amplitude: -1.0,
+        ..usual()
+    };
+    let plant = Plant::third_order();
+    let (out, state) = ended::<f64>(settings, &plant, &mut Sampled::every(0.01));
+    assert_eq!(out.phase, RelayPhase::Failed(RelayFailure::NoOscillation));
+    assert_eq!((out.command, state.cycles()), (SAFE, 0));
+    let narrow = RelaySettings {
+        most_deviation: 0.5,
+        ..settings
+    };
+    let (out, _) = ended::<f64>(narrow, &plant, &mut Sampled::every(0.01));
+    assert_eq!(
+        out.phase,
+        RelayPhase::Failed(RelayFailure::OutputOutOfRange)
+    );
+}
+
+/// A load above the amplitude, an output that does not move, a lag that follows at once.
+#[test]
+fn no_oscillation_is_told_at_the_longest_time() {
+    let loaded = Plant::third_order().with_load(-2.0);
+    let still = Plant::new(0.0, &[1.0], 0.0);
+    for plant in [loaded, still] {
+        let (out, state) = ended::<f64>(usual(), &plant, &mut Sampled::every(0.01));
+        let reason = RelayFailure::NoOscillation;
+        assert_eq!((out.command, out.phase), (SAFE, RelayPhase::Failed(reason)));
+        stays_and_starts_again(&relay(), state, reason);
+    }
+}
+
+/// A first-order lag without delay switches at every sample or two: no period that is known.
+#[test]
+fn a_cycle_of_a_few_samples_is_no_result() {
+    let plant = Plant::new(1.0, &[1.0], 0.0);
+    let (out, state) = ended::<f64>(usual(), &plant, &mut Sampled::every(0.01));
+    assert_eq!(out.phase, RelayPhase::Failed(RelayFailure::TimeOut));
+    assert!(state.cycles() > 1000);
+    stays_and_starts_again(&relay(), state, RelayFailure::TimeOut);
+}
+
+/// Noise far beyond the hysteresis: every period is another one, or too short.
+#[test]
+fn chatter_is_no_result() {
+    for seed_dt in [0.01, 0.011, 0.012] {
+        let mut sampled = Sampled::every(seed_dt).noisy(0.5);
+        let (out, _) = ended::<f64>(usual(), &Plant::third_order(), &mut sampled);
+        assert_eq!(out.phase, RelayPhase::Failed(RelayFailure::TimeOut));
+        assert_eq!(out.command, SAFE);
+    }
+}
+
+/// One bad measurement in ten, with its time: the same result as without.
+#[test]
+fn bad_measurements_whose_time_is_known_leave_the_result() {
+    let plant = Plant::third_order();
+    let expected = result::<f64>(usual(), &plant, &mut Sampled::every(0.005));
+    let relay = relay();
+    let (mut state, mut plant) = (RelayState::new(), plant);
+    for k in 0.. {
+        let measured = if k % 10 == 9 {
+            f64::NAN
+        } else {
+            plant.output()
+        };
+        let out = relay.step(&mut state, 0.005, measured);
+        plant.run(out.command, 0.005);
+        if let RelayPhase::Done(it) = out.phase {
+            // A switch is one sample later at most, and the cycle longer by four.
+            assert!(
+                (it.period - expected.period).abs() < 4.0 * 0.005,
+                "{it:?} {expected:?}"
+            );
+            assert!(
+                (it.gain / expected.gain - 1.0).abs() < 0.02,
+                "{it:?} {expected:?}"
+            );
+            return;
+        }
+        assert!(out.phase.is_running(), "{out:?}");
+    }
+}
+
+/// The cycle with an unknown time is not averaged: with one in each cycle there is no result.
+#[test]
+fn a_cycle_whose_time_is_unknown_does_not_count() {
+    // A hysteresis, so that no cycle of a few samples passes between two of the unknown times.
+    let relay = Relay::try_new(RelaySettings {
+        hysteresis: 0.05,
+        ..usual()
+    })
+    .unwrap();
+    let (mut state, mut plant) = (RelayState::new(), Plant::third_order());
+    let mut time = 0;
+    let out = loop {
+        // Less than half of any cycle.
+        let dt = if time % 50 == 49 { f64::NAN } else { 0.01 };
+        let out = relay.step(&mut state, dt, plant.output());
+        if !out.phase.is_running() {
+            break out;
+        }
+        plant.run(out.command, 0.01);
+        time += 1;
+    };
+    assert_eq!(state.cycles(), 0);
+    assert_eq!(out.phase, RelayPhase::Failed(RelayFailure::NoOscillation));
+    assert_eq!(out.command, SAFE);
+}
+
+#[test]
+fn a_result_leaves_the_centre_out_whatever_comes() {
+    let settings = RelaySettings {
+        centre: 0.1,
+        ..usual()
+    };
+    let (out, mut state) = ended::<f64>(settings, &Plant::third_order(), &mut Sampled::every(0.01));
+    let relay = Relay::try_new(settings).unwrap();
+    assert!(matches!(out.phase, RelayPhase::Done(_)));
+    for k in 0..1000 {
+        let measured = [0.0, f64::NAN, 1e9, -1.0][k % 4];
+        let after = relay.step(&mut state, [0.01, f64::NAN, 9.0][k % 3], measured);
+        assert_eq!((after.command, after.phase), (0.1, out.phase));
+    }
+    // Nothing to acknowledge.
+    state.acknowledge();
+    assert_eq!(state.phase(), out.phase);
+}
