@@ -50,10 +50,10 @@ def test_a_bar_of_tqdm_ends_full(viscous: dict[str, Any]) -> None:
 
 def test_what_progress_raises_ends_the_call(viscous: dict[str, Any]) -> None:
     def stop(share: Optional[float], message: str) -> None:
-        if message.startswith("looking"):
+        if message.startswith("searching"):
             raise KeyError(message)
 
-    with pytest.raises(KeyError, match="turn 1"):
+    with pytest.raises(KeyError, match="round 1"):
         bowden.identify(viscous, progress=stop)
     assert bowden.identify(viscous).names == ["viscous"]
 
