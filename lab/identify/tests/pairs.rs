@@ -11,6 +11,7 @@ mod pair;
 #[allow(dead_code)]
 mod shared;
 
+use bowden_lab::check::Verdict;
 use bowden_lab::ledger::Grade;
 use pair::{known, Carried, Closed, Identity, Name, Rig, Share};
 use shared::{disturbed, Row, DAMPER, DAVINCI_03, DAVINCI_23, PIEZO_FULL, PIEZO_VARYING};
@@ -88,10 +89,13 @@ const CARRIED: f64 = 2.5;
 
 /// Pairs that miss the goal, and what they reach: model of, on, ratio. Both records that these
 /// models are of show a sine of one amplitude; the other records show five times the stroke, or
-/// all strokes. No number of the names found on them meets the goal.
+/// all strokes. No number of the names found on them meets the goal, and the check says of each
+/// that the model does not hold. Of the damper 6 was reached with a lag of negative gain, a lead
+/// that no rig has; within physical stages the model of the short stroke has a stiffness of the
+/// wrong sign, which five times the stroke shows.
 const MISSED: [(&str, &str, f64); 3] = [
-    ("sine_5mm3Hz0x5A", "sine_25mm0x25Hz0x5A", 6.0),
-    ("sine_5mm3Hz0x5A", "sine_25mm0x5Hz0x5A", 6.0),
+    ("sine_5mm3Hz0x5A", "sine_25mm0x25Hz0x5A", 29.0),
+    ("sine_5mm3Hz0x5A", "sine_25mm0x5Hz0x5A", 29.0),
     ("sine_1Hz_full_range", "sine_1Hz_varying_amplitude", 9.0),
 ];
 
@@ -112,6 +116,7 @@ fn a_model_errs_on_the_other_record_at_most_2_5_times_as_much_as_held_out_at_hom
             // One that meets the goal has no place in the list.
             Some((.., reached)) => {
                 assert!(one.ratio() > CARRIED && one.ratio() <= *reached, "{one:?}");
+                assert_eq!(one.verdict, Verdict::DoesNotHold, "{one:?}");
             }
         }
     }

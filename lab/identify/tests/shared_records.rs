@@ -47,6 +47,11 @@ impl Closed {
         // What the loop ended with, and what is delivered.
         closed.assert_reached(&closed.ledger.last().rmse, row.reach);
         closed.assert_reached(&closed.done.rmse, row.reach);
+        // A model contains the one before it: one that errs more is fitted badly. A stage's range
+        // begins a little above nothing.
+        for round in &closed.ledger.rounds {
+            assert!(round.after.fit <= 1.01 * round.before.fit, "{round:?}");
+        }
         Some(closed)
     }
 

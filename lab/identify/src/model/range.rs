@@ -83,6 +83,11 @@ impl Range {
         }
     }
 
+    /// A value 5 % of the range above its lower end.
+    pub(crate) fn near_least(self) -> f64 {
+        self.decode(logit(EDGE))
+    }
+
     /// The bound that is nearer to a value, in words.
     #[must_use]
     pub fn nearest(self, value: f64) -> &'static str {

@@ -16,7 +16,7 @@ use crate::fit::Solution;
 use crate::ledger::{reject, Grade, Ledger, Round, Unknown};
 use crate::model::catalogue::Candidate;
 use crate::model::kind::is_stage;
-use crate::model::structure::{FitTerm, Free, Structure};
+use crate::model::structure::{FitTerm, Free, Role, Structure};
 use crate::model::Table;
 use crate::problem::Prepared;
 use crate::score::blocks::Regime;
@@ -190,7 +190,11 @@ impl Search<'_> {
             let value = |f: &Free| first.value(f.role).or(second.value(f.role));
             free.iter().map(|f| value(f).unwrap_or(0.5)).collect()
         };
-        let mut starts = vec![of(&self.now, last), of(last, &self.now)];
+        let mut starts = vec![
+            of(&self.now, last),
+            of(last, &self.now),
+            self.nearly(last, &free),
+        ];
         if structure.hysteresis {
             let present = starts[0].clone();
             starts.extend(other_hystereses(self.data, &free, &present));
@@ -201,6 +205,24 @@ impl Search<'_> {
         let (_, start) = search(&start, FAIR)?;
         let (_, values) = descend(self.fine, &structure, &free, &start, 30, 1e-6)?;
         settle(self.data, &structure, &free, values)
+    }
+
+    /// A model's values with the stages that it lacks near the end at which they do nothing: a
+    /// linear term with a gain of zero is a start of its own, a stage is none.
+    fn nearly(&self, last: &Solution, free: &[Free]) -> Vec<f64> {
+        let terms = &self.now.structure.terms;
+        let is_stage = |role: Role| match role {
+            Role::Stage { .. } => true,
+            Role::Shape { term, .. } => terms
+                .with_ids()
+                .any(|(id, t)| id == term && t.effect.is_input_stage()),
+            _ => false,
+        };
+        let value = |f: &Free| match last.value(f.role) {
+            None if is_stage(f.role) => f.range.near_least(),
+            known => known.or(self.now.value(f.role)).unwrap_or(0.5),
+        };
+        free.iter().map(value).collect()
     }
 
     /// For each name, the candidates that do as well in its place once refitted.
