@@ -58,15 +58,15 @@
 //!
 //! # Conventions
 //! - Configuration and state are two types.
-//! - `try_new` checks every parameter. After it nothing panics.
-//! - A bad sample leaves the state unchanged. A sample is bad if it has a NaN, an infinity, or
+//! - `try_new` checks every parameter. After that, nothing panics.
+//! - A bad sample leaves the state unchanged. A sample is bad if it contains a NaN, an infinity, or
 //!   a `dt` that is not positive.
 //! - Equation numbers refer to the paper on torque control of cable-conduit mechanisms that
 //!   [the equations](book::equations) cite.
 //!
 //! # Features
 //! All features are off by default:
-//! - `serde`: configurations deserialise through their checks. A [model](model::Model) has the
+//! - `serde`: configurations deserialise through their checks. A [model](model::Model) uses the
 //!   file format that `bowden identify --model-out` writes.
 //! - `defmt`: types implement `defmt::Format`.
 //! - `std`: the crate links the standard library.

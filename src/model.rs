@@ -78,10 +78,10 @@ pub struct Term<T, E = Effect<T>> {
     pub effect: E,
     /// The motion that the effect reads.
     pub source: Source,
-    /// Origin of its position \[channel unit\]; default in a file: 0.
+    /// Origin of the position that the effect reads \[channel unit\]; default in a file: 0.
     #[cfg_attr(feature = "serde", serde(default))]
     pub origin: T,
-    /// Its coefficient \[output unit / unit of the regressor\].
+    /// Coefficient of the regressor \[output unit / unit of the regressor\].
     pub gain: T,
 }
 
@@ -94,7 +94,7 @@ pub struct Sample<'a, T> {
     pub input: Motion<T>,
     /// The transmitted load: `tau_i` in torque mode, otherwise a load channel.
     pub load: T,
-    /// All other channels, in the order that [`Source::Channel`] counts.
+    /// All other channels, in the order of the indices in [`Source::Channel`].
     pub channels: &'a [Motion<T>],
 }
 
@@ -102,17 +102,17 @@ pub struct Sample<'a, T> {
 ///
 /// # Formats (feature `serde`)
 /// In a human-readable format (TOML, JSON) a model is a file of schema `bowden.model/1`, as
-/// `bowden identify --model-out model.toml` writes it. Reading and writing use no heap; 2 KB of
-/// stack hold the channels' names, 64 bits of each. A term names its effect, its shape
+/// `bowden identify --model-out model.toml` writes it. Reading and writing use no heap; the
+/// channels' names take 2 KB of stack, 64 bits for each name. A term names its effect, its shape
 /// parameters, and its source. The source is `input` or one of `channels`, in the order of
-/// [`Sample::channels`]. The table `about` may hold any keys; every other key is checked. A
-/// model stores only the numbers of its channels and writes them as `channel_0`, ….
+/// [`Sample::channels`]. The table `about` may hold any keys; every other key is checked. A model
+/// stores only the numbers of its channels and writes them as `channel_0`, ….
 ///
-/// Every other format (postcard) stores the parts in order, without names: 143 bytes in `f32`
-/// for eight terms with eight shape parameters. The bytes contain neither precision nor
-/// version. They identify an effect by its index in [`CATALOGUE`](crate::effect::CATALOGUE).
-/// Store them with a checksum (postcard's `to_slice_crc32`), and write them again for a new
-/// version of this crate.
+/// Every other format, such as postcard, stores the parts in order, without names: 143 bytes in
+/// `f32` for eight terms with eight shape parameters. The bytes contain neither precision nor
+/// version. They identify an effect by its index in [`CATALOGUE`](crate::effect::CATALOGUE). Store
+/// them with a checksum (postcard's `to_slice_crc32`), and write them again for a new version of
+/// this crate.
 ///
 /// ```
 /// # #[cfg(feature = "serde")] {
@@ -342,9 +342,9 @@ impl<T: Real, const N: usize> Model<T, N> {
 
     /// The same step, which also reports each term's share of the output.
     ///
-    /// The step calls `share(index, gain·regressor)` once a term, output stages last. A bad
-    /// sample makes no call. The difference between the output and the shares is the share of
-    /// the transmission. It contains the effect of the input stages, which make no call either.
+    /// The step calls `share(index, gain·regressor)` once per term, output stages last. It makes no
+    /// call on a bad sample. The difference between the output and the shares is the share of the
+    /// transmission. It contains the effect of the input stages, which make no call either.
     ///
     /// ```
     /// use bowden::effect::{Effect, Motion};

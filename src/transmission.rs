@@ -7,23 +7,23 @@
 //!
 //! # The inverse
 //! The inverse computes the input for a given output. It is unique if the output rises with the
-//! input on every branch. The slope of eta in the input lies in `[0, rho·max(1, 2·sigma)]`, and
+//! input on every branch. The slope of eta over the input lies in `[0, rho·max(1, 2·sigma)]`, and
 //! 2·sigma >= 1. In torque mode the condition is therefore `sigma <= B/(2·kappa_eta·rho)`. This
-//! bound is 0.743 for the first set of the paper, which has sigma = 98.36. Such a set serves
-//! playback and identification. As a plant in a closed loop its output would fall while its
-//! input rises.
+//! bound is 0.743 for the first parameter set of Nguyen et al. (2018), which has sigma = 98.36.
+//! Such a set is suitable for playback and identification. In a closed loop, the output of such a
+//! plant would fall while its input rises.
 //!
-//! This slope is the slope of the equation. The `f32` step satisfies it up to n = 4 (proved)
-//! and up to n = 10 (measured). From about n = 12 on the slope may be 1.39 times as steep, see
-//! [`hysteresis`](crate::hysteresis). There, choose sigma below the bound divided by 1.39.
-//! [`Transmission::greatest_invertible_sigma`] returns the bound.
+//! This is the slope of the equation. The `f32` step is no steeper up to n = 4 (proved) and up to
+//! n = 10 (measured). From about n = 12 on it may be 1.39 times as steep, see
+//! [`hysteresis`](crate::hysteresis). In that range of n, choose sigma below the bound divided by
+//! 1.39. [`Transmission::greatest_invertible_sigma`] returns the bound.
 //! [`Transmission::nearest_invertible`] returns a transmission within it.
 //!
 //! # Noise in front of the hysteresis
-//! The model takes every noise sample of its input for a reversal. Noise of 0.05 N·m rms on
-//! `tau_i` moves `kappa_eta·eta` of the first set by 3.7 N·m rms. A
-//! [`Play`](crate::signal::Play) in front of the model reduces this to 0.74 (sigma = 1/2: from
-//! 1.8 to 0.11). Its half-width is four times the noise's standard deviation. The test is
+//! The model treats every noise sample on its input as a reversal. Noise of 0.05 N·m rms on `tau_i`
+//! moves `kappa_eta·eta` of the first set by 3.7 N·m rms. A [`Play`](crate::signal::Play) in front
+//! of the model reduces this to 0.74 (sigma = 1/2: from 1.8 to 0.11). Its half-width is four times
+//! the noise's standard deviation. The numbers are from the test
 //! `noise_destroys_the_state_and_a_play_guards_it` in `tests/transmission.rs`. A play delays a
 //! reversal by its width: use it on a measured input, not on a commanded input.
 
@@ -51,7 +51,7 @@ pub enum Mode {
     Displacement,
 }
 
-/// A linear gain with a hysteresis and an offset: equations (1)-(2), (5)-(7).
+/// A linear gain with a hysteresis and an offset: equations (1)-(2) and (5)-(7).
 ///
 /// ```
 /// use bowden::hysteresis::{BoucWenState, BoucWen};
@@ -110,7 +110,7 @@ macro_rules! constant {
             /// [`torque`](Self::torque) at compile time, see [`constant!`](crate::constant).
             ///
             /// # Errors
-            /// As [`torque`](Self::torque).
+            /// The same as [`torque`](Self::torque).
             pub const fn const_torque(
                 b: $float,
                 kappa_eta: $float,
@@ -123,7 +123,7 @@ macro_rules! constant {
             /// [`displacement`](Self::displacement) at compile time.
             ///
             /// # Errors
-            /// As [`displacement`](Self::displacement).
+            /// The same as [`displacement`](Self::displacement).
             pub const fn const_displacement(
                 kappa_x: $float,
                 kappa_eta: $float,
@@ -158,7 +158,7 @@ impl<T: Real> Transmission<T> {
 
     /// Displacement to force: `F = kappa_x·x + kappa_eta·eta + offset`, (1)-(2).
     ///
-    /// The unit of `kappa_x` is [output unit/input unit], the unit of `kappa_eta` and `offset`
+    /// The unit of `kappa_x` is [output unit/input unit], and the unit of `kappa_eta` and `offset`
     /// is [output unit]. Both gains are positive for a cable or a spring. An actuator whose
     /// displacement lags its voltage has `kappa_eta < 0`.
     ///
@@ -245,10 +245,10 @@ impl<T: Real> Transmission<T> {
     /// The greatest sigma for which this transmission has an inverse.
     ///
     /// The value is `|gain|/(2·|kappa_eta|·rho)`, rounded down as [`inverse`](Self::inverse)
-    /// requires. If the hysteresis adds to the gain (a spring), the output never reverses, and
-    /// the value is the greatest sigma that a [`BoucWen`] accepts. `None` means that no sigma
-    /// is sufficient: the gain is zero, or the bound is below 1/2, which is
-    /// `rho > |gain|/|kappa_eta|`.
+    /// requires. If the hysteresis adds to the gain (a spring), the output never reverses, and the
+    /// value is the greatest sigma that a [`BoucWen`] accepts. `None` means that no sigma gives an
+    /// inverse: the gain is zero, or the bound is below 1/2, which means `rho >
+    /// |gain|/|kappa_eta|`.
     ///
     /// ```
     /// use bowden::hysteresis::BoucWen;
@@ -282,19 +282,19 @@ impl<T: Real> Transmission<T> {
             .filter(|sigma| *sigma >= T::from_f64(0.5))
     }
 
-    /// The nearest transmission with an inverse; this transmission if it has one.
+    /// The nearest transmission with an inverse; this transmission itself if it has one.
     ///
-    /// A sigma above [`greatest_invertible_sigma`](Self::greatest_invertible_sigma) is lowered
-    /// to this bound. If no sigma is sufficient, sigma becomes 1/2 and rho is lowered to
-    /// `|gain|/|kappa_eta|`. This makes the knee of the loop rounder and keeps the height of
-    /// the loop, which a feed-forward must overcome in every long motion. A lower kappa_eta
-    /// would make every saturated sample wrong. On loops of ten times 1/rho and more its rms
-    /// error is more than twice as large (test `a_rounder_knee_costs_less_than_a_lower_loop` in
+    /// A sigma above [`greatest_invertible_sigma`](Self::greatest_invertible_sigma) is lowered to
+    /// this bound. If no sigma gives an inverse, sigma becomes 1/2 and rho is lowered to
+    /// `|gain|/|kappa_eta|`. This makes the knee of the loop rounder and keeps the height of the
+    /// loop, which a feed-forward must overcome in every long motion. A lower kappa_eta would make
+    /// every saturated sample wrong. On loops of ten times 1/rho or more, its rms error is more
+    /// than twice as large (test `a_rounder_knee_costs_less_than_a_lower_loop` in
     /// `tests/transmission.rs`).
     ///
-    /// At the bound the slope of the output is zero at the reversal of a saturated loop. The
-    /// rate of the inverse's input is unbounded there, but its step is bounded; a slew limit
-    /// behind it does no harm.
+    /// At the bound the slope of the output is zero at the reversal of a saturated loop. The rate
+    /// of the inverse's input is unbounded there, but its step is bounded, so a slew-rate limit
+    /// after the inverse does no harm.
     ///
     /// # Errors
     /// [`Error::Inadmissible`] if the gain is zero; [`Error::OutOfRange`] with `"rho"` if no

@@ -74,7 +74,7 @@ impl<T: Real> Tightest<T> {
     /// The best bound of a law on a plant.
     ///
     /// # Errors
-    /// As [`Theorem1::try_new`](super::Theorem1::try_new).
+    /// The same as [`Theorem1::try_new`](super::Theorem1::try_new).
     pub fn try_new<const N: usize>(
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,

@@ -20,7 +20,7 @@ pub struct Output<T> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoopSample<'a, T> {
-    /// Time since the last call \[s\], after a bad sample too.
+    /// Time since the last call \[s\], also after a bad sample.
     pub dt: T,
     /// Reference y_r \[output unit\], such as \[N·m\].
     pub reference: T,

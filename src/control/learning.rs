@@ -134,7 +134,7 @@ macro_rules! constant {
             /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
             ///
             /// # Errors
-            /// As [`try_new`](Self::try_new).
+            /// The same as [`try_new`](Self::try_new).
             pub const fn const_new(
                 gain: $float,
                 limit: $float,
@@ -147,7 +147,7 @@ macro_rules! constant {
             /// [`with_forgetting`](Self::with_forgetting) at compile time.
             ///
             /// # Errors
-            /// As [`with_forgetting`](Self::with_forgetting).
+            /// The same as [`with_forgetting`](Self::with_forgetting).
             pub const fn const_with_forgetting(self, share: $float) -> Result<Self, Error> {
                 forgetting!(self, share, 0.0, 1.0)
             }
@@ -302,7 +302,7 @@ impl<T: Real> IterativeLearning<T> {
     /// limit, and NaN becomes zero.
     ///
     /// # Errors
-    /// As [`start`](Self::start).
+    /// The same as [`start`](Self::start).
     pub fn resume<M: AsRef<[T]> + AsMut<[T]>>(
         &self,
         mut learned: M,

@@ -65,7 +65,7 @@ macro_rules! constant {
             /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
             ///
             /// # Errors
-            /// As [`try_new`](Self::try_new).
+            /// The same as [`try_new`](Self::try_new).
             pub const fn const_new(low: $float, high: $float) -> Result<Self, Error> {
                 range!(low, high)
             }
@@ -73,7 +73,7 @@ macro_rules! constant {
             /// [`with_slew`](Self::with_slew) at compile time.
             ///
             /// # Errors
-            /// As [`with_slew`](Self::with_slew).
+            /// The same as [`with_slew`](Self::with_slew).
             pub const fn const_with_slew(self, slew: $float) -> Result<Self, Error> {
                 slewed!(self, slew, 0.0)
             }

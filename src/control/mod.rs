@@ -1,8 +1,8 @@
 //! Torque controllers that reject bad samples.
 //!
 //! Configuration and state are separate types. `try_new` checks a configuration once; it never
-//! changes afterwards and can be stored in flash. A state is `Copy` and can be saved and
-//! restored. Call `step` once a sample with the time since the last call; this time may vary.
+//! changes afterwards and can be stored in flash. A state is `Copy` and can be saved and restored.
+//! Call `step` once per sample with the time since the last call; this time may vary.
 //!
 //! **Bad samples.** A sample is bad if
 //! - a measurement, the reference or `dt` is NaN or infinite, or

@@ -140,7 +140,7 @@ macro_rules! constant {
             /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
             ///
             /// # Errors
-            /// As [`try_new`](Self::try_new).
+            /// The same as [`try_new`](Self::try_new).
             pub const fn const_new(
                 plant: NominalPlant<$float>,
                 time_constant: $float,
@@ -153,7 +153,7 @@ macro_rules! constant {
             /// [`with_latency`](Self::with_latency) at compile time.
             ///
             /// # Errors
-            /// As [`with_latency`](Self::with_latency).
+            /// The same as [`with_latency`](Self::with_latency).
             pub const fn const_with_latency(self, latency: $float) -> Result<Self, Error> {
                 latency!(self, latency, 0.0)
             }
@@ -167,7 +167,7 @@ constant!(f64);
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ObserverInput<T> {
-    /// Time since the last call \[s\], after a bad sample too.
+    /// Time since the last call \[s\], also after a bad sample.
     pub dt: T,
     /// The applied command of the last call \[command unit\]: after all limits, including a
     /// held or a safe command.

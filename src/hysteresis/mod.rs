@@ -1,6 +1,6 @@
 //! The normalised Bouc-Wen hysteresis, advanced along the path of its input.
 //!
-//! The state `eta` in `[-1, 1]` follows (2) and (7) of the paper:
+//! The state `eta` in `[-1, 1]` follows (2) and (7) of Nguyen et al. (2018):
 //!
 //! ```text
 //! eta' = rho·(x' - sigma·|x'|·|eta|^(n-1)·eta + (sigma - 1)·x'·|eta|^n)
@@ -42,14 +42,14 @@
 //!
 //! Where `n·(1 - zeta) <= 0.03` the rest of the path is a logistic equation with a closed-form
 //! solution. The local error determines where a long increment is split. The cost of a jump
-//! therefore grows with `ln(sigma)` only. From full saturation to full saturation a jump takes
-//! at most 30 powers for `sigma = 0.6`, 55 for 98, 100 for 1e6 (test in `garbage.rs`). A
-//! sampled signal takes one power.
+//! therefore grows with `ln(sigma)` only. From full saturation to full saturation a jump evaluates
+//! at most 30 powers for `sigma = 0.6`, 55 for 98, and 100 for 1e6 (test in `garbage.rs`). A
+//! sampled signal needs one power per sample.
 //!
 //! # The bounded-time step
-//! The step takes one power `a^(n-1)` and no function of libm, for any increment. The power
-//! uses a base-2 logarithm and exponential with an error of 4e-7 (`src/real/short.rs`). The
-//! bounds hold for any power function.
+//! For any increment, the step evaluates one power `a^(n-1)` and calls no libm function. The power
+//! uses a base-2 logarithm and exponential with an error of 4e-7 (`src/real/short.rs`). The bounds
+//! hold for any power function.
 //!
 //! - **Loading.** With `w = 1 - zeta`, `r = p·f/w`, `g = w·|f'|/f` the step is
 //!   `dzeta = w·(1 - 1/(1 + m)²)`, `m = r/2 + (3/8 - g/4)·r² + (5/16 - 3g/8 + g²/12)·r³`. This
@@ -79,10 +79,10 @@
 //! | `f32` as shipped | 2.5e-4 |
 //! | `f32` as shipped, on the paper's walk | 3.4e-4; the rounding of the input alone gives the same error |
 //!
-//! On random jumps within ±16 N·m the splitting step has an error of at most 8e-4 of eta for
-//! every tested shape (mean 1.6e-4). The next table has the errors of the bounded-time step:
-//! the greatest error of eta in one step, and the mean in brackets. The jumps lie within ±0.3,
-//! ±3 and ±16 N·m at `rho = 0.09582`, which are paths up to 0.06, 0.6 and 3:
+//! On random jumps within ±16 N·m the splitting step has an error of at most 8e-4 of eta for every
+//! tested shape (mean 1.6e-4). The next table lists the errors of the bounded-time step: the
+//! greatest error of eta in one step, and the mean in brackets. The jumps lie within ±0.3, ±3 and
+//! ±16 N·m at `rho = 0.09582`, which are paths up to 0.06, 0.6 and 3:
 //!
 //! | n | ±0.3 N·m | ±3 N·m | ±16 N·m |
 //! |---|---|---|---|
@@ -98,10 +98,10 @@
 //! `cargo bench --bench step` prints all of these numbers; the tests are in `tests/hysteresis`.
 //!
 //! # Slope
-//! In bounded time eta rises by at most `2·sigma` times the path up to `n = 4`
-//! (`theorems/Slope.v`, over the reals), and up to 10 as measured. From about `n = 12` on the
-//! slope while unloading is up to 1.39 times this value. An inverse near its greatest sigma may
-//! then have more than one answer.
+//! In the bounded-time step, eta rises by at most `2·sigma` times the path. This is proved up to
+//! `n = 4` (`theorems/Slope.v`, over the reals) and measured up to `n = 10`. From about `n = 12`
+//! on, the slope while unloading is up to 1.39 times this value. An inverse near its greatest sigma
+//! may then have more than one solution.
 //!
 //! Source: Bouc 1967, Wen 1976; equations (2), (7); Ikhouane & Rodellar,
 //! *Systems with Hysteresis*, Wiley 2007, chapters 2 and 4.

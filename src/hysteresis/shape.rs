@@ -8,7 +8,7 @@ use crate::error::{above_zero, must_be_finite};
 use crate::{Error, Real};
 use core::fmt;
 
-/// Parameters of a Bouc-Wen loop, equations (2), (7).
+/// Parameters of a Bouc-Wen loop, equations (2) and (7).
 ///
 /// - rho: initial slope of eta [1/input unit].
 /// - sigma ≥ 1/2: the slope after a reversal is 2·sigma·rho.
@@ -92,7 +92,7 @@ macro_rules! constant {
             /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
             ///
             /// # Errors
-            /// As [`try_new`](Self::try_new).
+            /// The same as [`try_new`](Self::try_new).
             pub const fn const_new(rho: $float, sigma: $float, n: $float) -> Result<Self, Error> {
                 shape!(
                     rho,
@@ -113,7 +113,7 @@ impl<T: Real> BoucWen<T> {
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the parameter's name. `sigma` and `n`
-    /// above 1e9 are out of range, because no loop can show them.
+    /// above 1e9 are out of range, because no loop can show such values.
     pub fn try_new(rho: T, sigma: T, n: T) -> Result<Self, Error> {
         shape!(
             rho,
@@ -227,11 +227,11 @@ impl<T: Real> BoucWen<T> {
         direction * crate::signal::clamp(next, zeta, one)
     }
 
-    /// The increment and the exact derivative of this discrete step.
+    /// The state after one increment, with the exact derivatives of this discrete step.
     ///
-    /// The state is the state of the general step for every `n`. It differs from the closed
-    /// forms of [`advance`](Self::advance) at `n = 1` and `n = 2` by the error of the general
-    /// step. All derivatives of a saturated state are zero.
+    /// For every `n` this is the state of the general step. It differs from the closed forms of
+    /// [`advance`](Self::advance) at `n = 1` and `n = 2` by the error of the general step. All
+    /// derivatives of a saturated state are zero.
     #[inline]
     #[must_use]
     pub fn advance_with_sensitivity(
@@ -281,9 +281,10 @@ impl<T: Real> BoucWen<T> {
         }
     }
 
-    /// Slope of eta in the input [1/input unit], for the sign of `direction`.
+    /// Slope of eta over the input [1/input unit], for the sign of `direction`.
     ///
-    /// In `[0, rho·max(1, 2·sigma)]`. The right side of (2) and (7) divided by `x'`.
+    /// The slope lies in `[0, rho·max(1, 2·sigma)]`. It is the right-hand side of (2) and (7)
+    /// divided by `x'`.
     #[inline]
     #[must_use]
     pub fn slope(&self, eta: T, direction: T) -> T {

@@ -6,7 +6,7 @@ use crate::{Error, Real};
 /// State of the hysteresis: eta in [-1, 1], and the corresponding input.
 ///
 /// The configuration is [`BoucWen`](super::BoucWen); [`BoucWen::step`](super::BoucWen::step)
-/// advances the state. `Copy`, so it can be saved, compared and restored.
+/// advances the state. The state is `Copy`, so it can be saved, compared and restored.
 ///
 /// ```
 /// use bowden::hysteresis::BoucWenState;
@@ -36,7 +36,7 @@ pub struct BoucWenState<T> {
 }
 
 impl<T: Real> BoucWenState<T> {
-    /// The virgin state: eta is zero, the first sample only sets the input.
+    /// The virgin state: eta is zero, and the first sample only sets the input.
     #[inline]
     #[must_use]
     pub fn new() -> Self {

@@ -94,7 +94,7 @@ pub struct Actuator<T> {
     pub stiffness: T,
     /// Ratio of the stiffness after yield to that before yield, in [0, 1).
     pub post_yield_ratio: T,
-    /// Sharpness n of the knee, at least 1; above 20 nearly bilinear.
+    /// Sharpness n of the knee, at least 1; above 20 the loop is nearly bilinear.
     pub knee: T,
 }
 

@@ -12,8 +12,8 @@ use crate::{Error, Real};
 
 /// A transmission plus the effects of a tuple of terms, each with its own type.
 ///
-/// `N` is the number of terms, 1 to 16. Its state is the [`ModelState`] of a [`Model`] with the
-/// same number of terms. It treats bad samples as a `Model` does.
+/// `N` is the number of terms, from 1 to 16. The state of a `FixedModel` is the [`ModelState`] of a
+/// [`Model`] with the same number of terms. A `FixedModel` treats bad samples as a `Model` does.
 ///
 /// ```
 /// use bowden::effect::{Coulomb, Motion, Viscous};
@@ -150,7 +150,7 @@ pub struct Sum<'a, 's, T, const N: usize> {
 
 /// The terms of a [`FixedModel`]: a tuple of [`Term`], each with the type of its effect.
 ///
-/// For tuples of 1 to 16 terms.
+/// The trait is implemented for tuples of 1 to 16 terms.
 pub trait Terms<T, const N: usize>: sealed::Sealed {
     #[doc(hidden)]
     fn check(&self) -> Result<(), Error>;

@@ -34,7 +34,7 @@ impl<T: Real, const N: usize> ModelState<T, N> {
     /// A new state with an identified initial hysteresis state.
     ///
     /// # Errors
-    /// As [`BoucWenState::with_eta`], if `eta` is not finite or beyond ±1.
+    /// The same as [`BoucWenState::with_eta`]: `eta` is not finite, or it lies beyond ±1.
     pub fn with_eta(eta: T) -> Result<Self, Error> {
         BoucWenState::with_eta(eta).map(Self::from_hysteresis)
     }
@@ -55,7 +55,7 @@ impl<T: Real, const N: usize> ModelState<T, N> {
         self.hysteresis.eta()
     }
 
-    /// Time since the first good sample \[s\]; bad ones do not count.
+    /// Time since the first good sample \[s\]; bad samples do not count.
     #[must_use]
     pub fn time(&self) -> T {
         self.time.value

@@ -8,7 +8,7 @@ mod prewarped;
 
 /// Second-order section: a low-pass or a notch, for a target, an error or a measurement.
 ///
-/// With `s` in units of `2π·frequency`, `q` the quality:
+/// With `s` in units of `2π·frequency`, and with `q` as the quality factor:
 ///
 /// ```text
 /// low-pass  1/(s² + s/q + 1)       q = 1/√2: Butterworth; q = 1/2: critically damped
@@ -17,12 +17,11 @@ mod prewarped;
 /// Both have a gain of exactly 1 at zero frequency: the output reaches a constant input to the
 /// last bit.
 ///
-/// **Design.** The filter uses the bilinear transform with prewarping at the given sample time
-/// `T`. At `f` \[Hz\] the filter has the response above at
-/// `s = i·tan(π·f·T)/tan(π·frequency·T)`, so `frequency` itself is exact. A `dt` may vary:
-/// each step integrates over its own `dt` with the trapezoidal rule, and prewarps as for `T`. A
-/// `dt` of `(1 + e)·T` moves the corner by less than `|e|·(π·frequency·T)²` of itself, to first
-/// order in `e`.
+/// **Design.** The filter uses the bilinear transform with prewarping at the given sample time `T`.
+/// At `f` \[Hz\] the filter has the response above at `s = i·tan(π·f·T)/tan(π·frequency·T)`, so
+/// `frequency` itself is exact. `dt` may vary: each step integrates over its own `dt` with the
+/// trapezoidal rule, and prewarps as for `T`. A `dt` of `(1 + e)·T` moves the corner by less than
+/// `|e|·(π·frequency·T)²` of itself, to first order in `e`.
 ///
 /// **Form.** The filter is a state-variable filter with trapezoidal integrators (A. Simper,
 /// *Solving the continuous SVF equations using trapezoidal integration*, 2013). It has the same
@@ -32,12 +31,11 @@ mod prewarped;
 /// `a_low_corner_needs_this_form_in_single_precision` in `tests/signal_filters.rs` compares
 /// both forms.
 ///
-/// **Bounds.** At a constant sample `c`, `band² + (low − c)²` of the two integrators never
-/// grows, for any sequence of `dt`. The output stays within `|low − c|` of the start. From
-/// rest, at a constant `dt` of the design, the output is limited to a multiple of the largest
-/// sample: `2 + 4·q/π` for a low-pass and 3 for a notch. These factors are the sum of the
-/// magnitudes of the impulse response, on a grid of `frequency` and `q` in
-/// `tests/signal_filters.rs`.
+/// **Bounds.** At a constant sample `c`, the sum `band² + (low − c)²` of the two integrators never
+/// grows, for any sequence of `dt`. The output stays within `|low − c|` of the start. From rest, at
+/// a constant `dt` of the design, the output is limited to a multiple of the largest sample:
+/// `2 + 4·q/π` for a low-pass and 3 for a notch. These factors are the sum of the magnitudes of the
+/// impulse response, on a grid of `frequency` and `q` in `tests/signal_filters.rs`.
 ///
 /// ```
 /// use bowden::signal::{Biquad, BiquadState};
@@ -164,7 +162,7 @@ macro_rules! constant {
             /// [`low_pass`](Self::low_pass) at compile time, see [`constant!`](crate::constant).
             ///
             /// # Errors
-            /// As [`low_pass`](Self::low_pass).
+            /// The same as [`low_pass`](Self::low_pass).
             pub const fn const_low_pass(
                 frequency: $float,
                 q: $float,
@@ -176,7 +174,7 @@ macro_rules! constant {
             /// [`notch`](Self::notch) at compile time, see [`constant!`](crate::constant).
             ///
             /// # Errors
-            /// As [`notch`](Self::notch).
+            /// The same as [`notch`](Self::notch).
             pub const fn const_notch(
                 frequency: $float,
                 q: $float,
@@ -212,11 +210,11 @@ constant!(f64);
 impl<T: Real> Biquad<T> {
     /// A low-pass with its corner at `frequency` \[Hz\], for samples every `sample_time` \[s\].
     ///
-    /// All three are above zero, and `frequency` is below half the sample rate. At `frequency`
-    /// the gain is `q` and the phase −90°. `q` above `1/√2` has a resonance.
+    /// All three must be above zero, and `frequency` must be below half the sample rate. At
+    /// `frequency` the gain is `q` and the phase is −90°. A `q` above `1/√2` gives a resonance.
     ///
     /// The tangent of the prewarping is computed in `f64`. On a microcontroller without `f64`
-    /// hardware, `const_low_pass` spares that code.
+    /// hardware, `const_low_pass` avoids that code.
     ///
     /// ```
     /// use bowden::constant;
@@ -237,11 +235,11 @@ impl<T: Real> Biquad<T> {
     /// A notch at `frequency` \[Hz\], `frequency/q` \[Hz\] wide, for samples every `sample_time`
     /// \[s\].
     ///
-    /// All three are above zero, and `frequency` is below half the sample rate. The width is
-    /// the distance of the frequencies with a gain of `1/√2`.
+    /// All three must be above zero, and `frequency` must be below half the sample rate. The width
+    /// is the distance between the two frequencies with a gain of `1/√2`.
     ///
     /// # Errors
-    /// As [`low_pass`](Self::low_pass).
+    /// The same as [`low_pass`](Self::low_pass).
     pub fn notch(frequency: T, q: T, sample_time: T) -> Result<Self, Error> {
         Self::try_new(Response::Notch, frequency, q, sample_time)
     }
@@ -266,7 +264,7 @@ impl<T: Real> Biquad<T> {
         self.design.frequency
     }
 
-    /// The quality.
+    /// The quality factor.
     #[inline]
     #[must_use]
     pub const fn q(&self) -> T {
@@ -342,7 +340,7 @@ impl<T: Real> BiquadState<T> {
         }
     }
 
-    /// At rest at a value \[signal unit\].
+    /// A state at rest at a value \[signal unit\].
     #[inline]
     #[must_use]
     pub const fn at(value: T) -> Self {

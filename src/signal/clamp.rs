@@ -4,8 +4,8 @@ use crate::Real;
 
 /// `x` within `[low, high]`; NaN stays NaN.
 ///
-/// `x.max(low).min(high)` turns NaN into a limit, a command that looks valid. If `low > high`,
-/// `x` below `low` gives `low`; otherwise `x` above `high` gives `high`.
+/// `x.max(low).min(high)` turns NaN into a limit, which looks like a valid command. If
+/// `low > high`, `x` below `low` gives `low`; otherwise `x` above `high` gives `high`.
 ///
 /// ```
 /// use bowden::signal::clamp;

@@ -6,9 +6,9 @@ use crate::Real;
 
 /// A running sum with the rounding error of its last addition.
 ///
-/// Integrals and estimates move by a small increment each sample. In `f32` an increment below
-/// half an ulp of the sum would have no effect. Example: a leakage of 0.001/s at 20 kHz moves
-/// an estimate by 5e-8 of itself, and the resolution of `f32` is 6e-8.
+/// Integrals and estimates move by a small increment each sample. In `f32` an increment below half
+/// an ulp of the sum would have no effect. Example: a leakage of 0.001/s at 20 kHz moves an
+/// estimate by 5e-8 of itself, but the resolution of `f32` is 6e-8.
 ///
 /// ```
 /// use bowden::signal::Compensated;

@@ -5,7 +5,7 @@ use crate::{Error, Real};
 
 /// First-order filtered derivative with a time constant \[s\].
 ///
-/// `v⁺ = (tau·v + x - x_last)/(tau + dt)` is the difference quotient through the first-order
+/// `v⁺ = (tau·v + x - x_last)/(tau + dt)` is the difference quotient, filtered by the first-order
 /// lag in its implicit (backward Euler) form. This form is stable for any `dt` and needs no
 /// exponential. `dt` may vary. The rate starts at zero with the first sample, without a kick.
 ///
@@ -72,7 +72,7 @@ macro_rules! constant {
             /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
             ///
             /// # Errors
-            /// As [`try_new`](Self::try_new).
+            /// The same as [`try_new`](Self::try_new).
             pub const fn const_new(time_constant: $float) -> Result<Self, Error> {
                 derivative!(time_constant, 0.0)
             }
@@ -106,10 +106,11 @@ impl<T: Real> Derivative<T> {
 
     /// The filtered rate [signal unit/s] after a sample, `dt` \[s\] after the last one.
     ///
-    /// A bad sample leaves the state unchanged and returns the last rate: a sample that is not
-    /// finite, a `dt` that is not positive and finite, or an overflow. The state does not store the
-    /// time of a bad sample: add this time to the `dt` of the next good one. Otherwise the computed
-    /// rate of a moving signal is too high. [`Rates`](crate::signal::Rates) does this.
+    /// A sample is bad if it is not finite, if `dt` is not positive and finite, or if the result
+    /// overflows. A bad sample leaves the state unchanged and returns the last rate. The state does
+    /// not store the time of a bad sample: add this time to the `dt` of the next good one.
+    /// Otherwise the computed rate of a moving signal is too high. [`Rates`](crate::signal::Rates)
+    /// does this.
     #[inline]
     pub fn step(&self, state: &mut DerivativeState<T>, sample: T, dt: T) -> T {
         if sample.is_finite() {

@@ -26,7 +26,8 @@ use crate::{Error, Real};
 ///   is zero and the status is [`EdgeStatus::Stopped`]. Speeds below `count/longest_gap` read
 ///   as stopped.
 /// * **Reversal**: a count in the opposite direction passes the same encoder line as the previous
-///   count. The axis has therefore moved by one count less. Dither of one count has zero velocity.
+///   count. The axis has therefore moved by one count less. Dither of one count gives zero
+///   velocity.
 /// * **Start**: the first count only locates a line; the second count gives the first velocity.
 /// * **Bad samples** do not change the velocity. Their time counts. After a `dt` that is
 ///   negative or not finite the time is unknown, and the next count starts a new interval.
@@ -72,7 +73,7 @@ pub struct EdgeVelocity<T> {
     period: Option<T>,
 }
 
-/// Validity of a velocity of [`EdgeVelocity`].
+/// Validity of a velocity from [`EdgeVelocity`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
@@ -93,7 +94,7 @@ pub enum EdgeStatus {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct EdgeVelocityOutput<T> {
-    /// The velocity \[channel unit/s\]; finite, zero before two counts.
+    /// The velocity \[channel unit/s\]: finite, and zero until two counts are known.
     pub velocity: T,
     /// Validity of the velocity.
     pub status: EdgeStatus,
@@ -159,7 +160,7 @@ macro_rules! constant {
             /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
             ///
             /// # Errors
-            /// As [`try_new`](Self::try_new).
+            /// The same as [`try_new`](Self::try_new).
             pub const fn const_new(
                 count: $float,
                 time_constant: $float,
@@ -171,7 +172,7 @@ macro_rules! constant {
             /// [`with_period`](Self::with_period) at compile time.
             ///
             /// # Errors
-            /// As [`with_period`](Self::with_period).
+            /// The same as [`with_period`](Self::with_period).
             pub const fn const_with_period(self, period: $float) -> Result<Self, Error> {
                 wrapping!(self, period, 0.0)
             }
@@ -184,8 +185,8 @@ constant!(f64);
 impl<T: Real> EdgeVelocity<T> {
     /// Velocity from positions that move by `count` \[channel unit\] or by multiples of it.
     ///
-    /// `time_constant` \[s\] averages faster counts; `longest_gap` \[s\] without a count is a
-    /// stop. All three are above zero.
+    /// Counts that come faster than `time_constant` \[s\] are averaged. A time of `longest_gap`
+    /// \[s\] without a count means a stop. All three must be above zero.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"count"`, `"time_constant"` or
@@ -207,8 +208,8 @@ impl<T: Real> EdgeVelocity<T> {
 
     /// The velocity \[channel unit/s\] after a `position`, `dt` \[s\] after the last call.
     ///
-    /// `dt` is the time since the last call, good or bad. A position restarts the measurement
-    /// if its distance from the last one overflows.
+    /// `dt` is the time since the last call, whether that sample was good or bad. A position
+    /// restarts the measurement if its distance from the last one overflows.
     #[inline]
     pub fn step(
         &self,
@@ -344,7 +345,7 @@ impl<T: Real> EdgeVelocityState<T> {
         }
     }
 
-    /// The velocity \[channel unit/s\]; zero before two counts.
+    /// The velocity \[channel unit/s\]; zero until two counts are known.
     #[inline]
     #[must_use]
     pub fn velocity(&self) -> T {

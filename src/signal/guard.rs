@@ -65,7 +65,7 @@ macro_rules! constant {
             /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
             ///
             /// # Errors
-            /// As [`try_new`](Self::try_new).
+            /// The same as [`try_new`](Self::try_new).
             pub const fn const_new(limit: $float) -> Result<Self, Error> {
                 guard!(limit, 0.0)
             }

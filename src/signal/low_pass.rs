@@ -6,16 +6,16 @@ use crate::{Error, Real};
 
 /// First-order low-pass with a time constant \[s\].
 ///
-/// `y⁺ = y + dt/(tau + dt)·(x − y)` is the lag `tau·y' = x − y` in its implicit (backward
-/// Euler) form. It is stable at any `dt`, which may vary, and needs no exponential. The corner
-/// is `1/(2π·tau)` \[Hz\], to `dt/tau`. The delay of slow signals is tau, their gain 1.
+/// `y⁺ = y + dt/(tau + dt)·(x − y)` is the lag `tau·y' = x − y` in its implicit (backward Euler)
+/// form. It is stable at any `dt`, which may vary, and needs no exponential. The corner is
+/// `1/(2π·tau)` \[Hz\], to `dt/tau`. Slow signals have a delay of tau and a gain of 1.
 ///
-/// The first good sample starts the filter at rest: the output is that sample. The output
-/// leaves the range of the samples by rounding only. The output is a [`Compensated`] sum. A
-/// plain `f32` lag stops once its increment is less than half a unit in the last place. At
-/// `tau = 1000·dt` it would stop up to 3e-5 of the target away.
+/// The first good sample starts the filter at rest: the output is that sample. The output leaves
+/// the range of the samples by rounding only. The output is a [`Compensated`] sum. A plain `f32`
+/// lag stops once its increment is less than half a unit in the last place. At `tau = 1000·dt` it
+/// would stop as far as 3e-5 of the target away from it.
 ///
-/// For a second order, see [`Biquad`](super::Biquad).
+/// For a second-order filter, see [`Biquad`](super::Biquad).
 ///
 /// ```
 /// use bowden::signal::{LowPass, LowPassState};
@@ -84,7 +84,7 @@ macro_rules! constant {
             /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
             ///
             /// # Errors
-            /// As [`try_new`](Self::try_new).
+            /// The same as [`try_new`](Self::try_new).
             pub const fn const_new(time_constant: $float) -> Result<Self, Error> {
                 low_pass!(time_constant, 0.0)
             }
@@ -154,7 +154,7 @@ impl<T: Real> LowPassState<T> {
         }
     }
 
-    /// At rest at a value \[signal unit\].
+    /// A state at rest at a value \[signal unit\].
     #[inline]
     #[must_use]
     pub const fn at(value: T) -> Self {

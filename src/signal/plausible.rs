@@ -6,10 +6,10 @@ use crate::{Error, Real};
 
 /// Plausibility check of a sensor: range, rate limit and stuck value.
 ///
-/// A controller rejects NaN by itself. It cannot detect a finite but wrong number: an encoder
-/// that was reset, a shorted bridge, a bus that repeats its last frame. Use a `Plausible`
-/// before each input. It turns an implausible sample into NaN; the controller then holds its
-/// command and counts the sample.
+/// A controller rejects NaN by itself. It cannot detect a finite but wrong number: an encoder that
+/// was reset, a shorted bridge, or a bus that repeats its last frame. Use a `Plausible` before each
+/// input. It turns an implausible sample into NaN; the controller then holds its command and counts
+/// the sample.
 ///
 /// ```
 /// use bowden::signal::{Implausible, Plausible, PlausibleState};
@@ -147,7 +147,7 @@ macro_rules! constant {
             /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
             ///
             /// # Errors
-            /// As [`try_new`](Self::try_new).
+            /// The same as [`try_new`](Self::try_new).
             pub const fn const_new(low: $float, high: $float) -> Result<Self, Error> {
                 range!(low, high, <$float>::MAX)
             }
@@ -155,7 +155,7 @@ macro_rules! constant {
             /// [`with_rate`](Self::with_rate) at compile time.
             ///
             /// # Errors
-            /// As [`with_rate`](Self::with_rate).
+            /// The same as [`with_rate`](Self::with_rate).
             pub const fn const_with_rate(self, rate: $float) -> Result<Self, Error> {
                 rated!(self, rate, 0.0)
             }
@@ -163,7 +163,7 @@ macro_rules! constant {
             /// [`with_sample_period`](Self::with_sample_period) at compile time.
             ///
             /// # Errors
-            /// As [`with_sample_period`](Self::with_sample_period).
+            /// The same as [`with_sample_period`](Self::with_sample_period).
             pub const fn const_with_sample_period(
                 self,
                 sample_period: $float,
@@ -174,7 +174,7 @@ macro_rules! constant {
             /// [`with_longest_dt`](Self::with_longest_dt) at compile time.
             ///
             /// # Errors
-            /// As [`with_longest_dt`](Self::with_longest_dt).
+            /// The same as [`with_longest_dt`](Self::with_longest_dt).
             pub const fn const_with_longest_dt(self, longest_dt: $float) -> Result<Self, Error> {
                 longest!(self, longest_dt, 0.0)
             }
@@ -197,24 +197,24 @@ impl<T: Real> Plausible<T> {
     /// The same check with a rate limit: the signal moves by at most `rate` \[signal unit/s\],
     /// above zero.
     ///
-    /// Do not use a rate limit for an angle that wraps: each wrap is too fast. Instead, check
-    /// the range of the velocity behind [`Rates`](crate::signal::Rates), which knows the
-    /// period.
+    /// Do not use a rate limit for an angle that wraps: each wrap is too fast. Instead, check the
+    /// range of the velocity from [`Rates`](crate::signal::Rates), which knows the period.
     ///
     /// A sensor may be slower than the loop. A repeated number counts as the same measurement,
     /// whose age grows. The next number may lie `rate` times the time since the last *change* away.
     /// A correct sensor never exceeds the rate, even if it repeats each number several times. After
-    /// `t` seconds of one number, the check accepts a spike of up to `rate·(t + dt)`. It then
-    /// rejects the true number for `distance/rate`, as after any gap.
+    /// a number has repeated for `t` seconds, the check accepts a spike of up to `rate·(t + dt)`.
+    /// It then rejects the true number for `distance/rate`, as after any gap.
     /// [`with_sample_period`](Self::with_sample_period) bounds both. Set it for a sensor whose
     /// numbers repeat while the signal rests (an encoder), and for a sensor that is not synchronous
     /// with the loop.
     ///
     /// During a gap the permitted distance grows with time. The check accepts a signal that has
     /// really moved after `distance/rate`, rounded up to the next sample. The same is true of an
-    /// encoder that was reset: [`Rates`](crate::signal::Rates) behind it then shows a velocity of
-    /// up to `rate`. [`Compensator::with_ranges`](crate::control::Compensator::with_ranges) keeps
-    /// this velocity from a feed-forward.
+    /// encoder that was reset: [`Rates`](crate::signal::Rates) after this check then shows a
+    /// velocity of up to `rate`.
+    /// [`Compensator::with_ranges`](crate::control::Compensator::with_ranges) keeps this velocity
+    /// out of a feed-forward.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"rate"`.
@@ -249,8 +249,8 @@ impl<T: Real> Plausible<T> {
         sampled!(self, sample_period, T::ZERO)
     }
 
-    /// The same check with a stuck limit: `samples` equal numbers in succession are a stuck
-    /// sensor; 0: never.
+    /// The same check with a stuck limit: `samples` equal numbers in succession mean that the
+    /// sensor is stuck; with 0 this is never reported.
     ///
     /// A stuck sensor stays stuck until its number changes, at rest too. If the machine cannot
     /// move for this reason, use a new [`PlausibleState`], which treats the sensor as sound.
@@ -279,8 +279,8 @@ impl<T: Real> Plausible<T> {
 
     /// Checks a sample, `dt` \[s\] after the one before.
     ///
-    /// `moves`: whether the machine moves, so the signal must change. Examples are a
-    /// command or another sensor that changes.
+    /// `moves` states whether the machine moves, so that the signal must change. A change of the
+    /// command or of another sensor shows this, for example.
     ///
     /// A `dt` of zero adds no time: with a rate limit, the sample right after a change must be
     /// the same number. A `dt` that is negative, NaN or infinite counts as

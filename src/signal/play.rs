@@ -6,8 +6,8 @@ use crate::{Error, Real};
 
 /// Play of half-width r [input unit]: follows the input at a distance of at most r.
 ///
-/// `y⁺ = clamp(y, x - r, x + r)`, so `|y - x| <= r`. An oscillation of the input within 2r
-/// moves nothing. In front of a hysteresis a play prevents reversals from sensor noise. A
+/// `y⁺ = clamp(y, x - r, x + r)`, so `|y - x| <= r`. An oscillation of the input within 2r does not
+/// move the output. In front of a hysteresis a play prevents reversals from sensor noise. A
 /// half-width of four times the noise's standard deviation is sufficient (see
 /// [`Transmission`](crate::transmission::Transmission)). Source: Krasnosel'skii & Pokrovskii,
 /// *Systems with Hysteresis*, 1989.
@@ -72,7 +72,7 @@ macro_rules! constant {
             /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
             ///
             /// # Errors
-            /// As [`try_new`](Self::try_new).
+            /// The same as [`try_new`](Self::try_new).
             pub const fn const_new(half_width: $float) -> Result<Self, Error> {
                 play!(half_width, 0.0)
             }

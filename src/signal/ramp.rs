@@ -7,8 +7,8 @@ use crate::{Error, Real};
 /// A reference ramp: a rate limit, then a first-order lag.
 ///
 /// `r⁺ = r + clamp(wanted − r, ±rate·dt)`, `y⁺ = y + dt/(tau + dt)·(r⁺ − y)`. A step of the
-/// reference exceeds the drive's capability. The anti-windup then determines the response, not the
-/// gains.
+/// reference exceeds the drive's capability. The anti-windup, not the gains, then determines the
+/// response.
 ///
 /// ```
 /// use bowden::signal::{Ramp, RampState};
@@ -95,7 +95,7 @@ macro_rules! constant {
             /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
             ///
             /// # Errors
-            /// As [`try_new`](Self::try_new).
+            /// The same as [`try_new`](Self::try_new).
             pub const fn const_new(rate: $float, time_constant: $float) -> Result<Self, Error> {
                 ramp!(rate, time_constant, 0.0, <$float>::MAX)
             }
@@ -103,7 +103,7 @@ macro_rules! constant {
             /// [`with_longest_dt`](Self::with_longest_dt) at compile time.
             ///
             /// # Errors
-            /// As [`with_longest_dt`](Self::with_longest_dt).
+            /// The same as [`with_longest_dt`](Self::with_longest_dt).
             pub const fn const_with_longest_dt(self, longest_dt: $float) -> Result<Self, Error> {
                 longest!(self, longest_dt, 0.0)
             }
@@ -185,7 +185,7 @@ fn towards<T: Real>(from: Compensated<T>, way: T, target: T) -> Compensated<T> {
 }
 
 impl<T: Real> RampState<T> {
-    /// At rest at a value \[signal unit\].
+    /// A state at rest at a value \[signal unit\].
     #[must_use]
     pub const fn at(value: T) -> Self {
         Self {

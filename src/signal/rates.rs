@@ -24,12 +24,12 @@ const CORNER: f64 = 2.0 * core::f64::consts::PI * 2.5;
 /// a⁺ = a + s·((v⁺ − v)/h − a)
 /// ```
 /// Two [`Derivative`](super::Derivative)s in cascade with one time constant tau. Well below the
-/// sample rate `V/X = s/(tau·s + 1)` and `A/X = s²/(tau·s + 1)²`. The position is not delayed,
-/// the velocity has a delay of tau, and the acceleration a delay of 2·tau. At `f` \[Hz\] with
+/// sample rate `V/X = s/(tau·s + 1)` and `A/X = s²/(tau·s + 1)²`. The position is not delayed, the
+/// velocity has a delay of tau, and the acceleration a delay of 2·tau. At `f` \[Hz\] with
 /// `w = 2π·f·tau` the velocity has the gain `1/√(1 + w²)` and the phase lag `atan(w)`. The
-/// acceleration has the square of this gain and twice this lag. At any rate, with
+/// acceleration has the square of this gain and twice this lag. At any sample rate, with
 /// `q = e^(−h/tau)`, `V/X = (1 − q)/(1 − q·z⁻¹)·(1 − z⁻¹)/h`: a ramp gives its exact slope. The
-/// delay at low frequencies is `h·(1/2 + q/(1 − q))`, which is tau to `h²/(12·tau)`.
+/// delay at low frequencies is `h·(1/2 + q/(1 − q))`, which is tau to within `h²/(12·tau)`.
 ///
 /// White noise of standard deviation `s_x` on the position gives about `s_x/tau` on the
 /// velocity and `s_x/tau²` on the acceleration. Both are smaller if tau is not far above h.
@@ -37,13 +37,13 @@ const CORNER: f64 = 2.0 * core::f64::consts::PI * 2.5;
 /// * **First sample**: the rates start at zero, without a kick. On a moving axis the velocity
 ///   approaches the true velocity V as `V·(1 − e^(−t/tau))`. The acceleration has a pulse of
 ///   `V/(e·tau)`. The status is [`RatesStatus::Settling`] for five time constants.
-/// * **Bad samples** (a position that is not finite, a `dt` that is not positive and finite):
+/// * **Bad samples** (a position that is not finite, or a `dt` that is not positive and finite):
 ///   the last good motion is held. The status states the fault.
-/// * **Gaps**: the difference spans the time since the last good sample, missing and bad
-///   samples included. After more than [`longest_gap`](Self::longest_gap) the rates restart at
-///   zero. After a `dt` that was negative or not finite the time is unknown. The next good
-///   sample then only sets the position, and the rates are held.
-/// * **Wrap-around** of a counter: [`with_period`](Self::with_period).
+/// * **Gaps**: the difference spans the time since the last good sample, including missing and bad
+///   samples. After more than [`longest_gap`](Self::longest_gap) the rates restart at zero. After a
+///   `dt` that was negative or not finite the time is unknown. The next good sample then only sets
+///   the position, and the rates are held.
+/// * **Wrap-around** of a counter: see [`with_period`](Self::with_period).
 /// * **Long runs**: a position in `f32` has a spacing of up to `2⁻²³·|x|`, which appears as
 ///   noise in the rates. At 1000 rad the spacing is 6e-5 rad, so with tau = 10 ms the noise is
 ///   up to 0.006 rad/s and 0.6 rad/s². For an axis that turns continuously, use the position
@@ -102,7 +102,7 @@ pub enum RatesFault {
     Overflow,
 }
 
-/// Validity of the motion of a [`RatesOutput`].
+/// Validity of the motion in a [`RatesOutput`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
@@ -202,7 +202,7 @@ macro_rules! constant {
             /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
             ///
             /// # Errors
-            /// As [`try_new`](Self::try_new).
+            /// The same as [`try_new`](Self::try_new).
             pub const fn const_new(time_constant: $float) -> Result<Self, Error> {
                 rates!(time_constant, 0.0, LONGEST_GAP as $float)
             }
@@ -210,7 +210,7 @@ macro_rules! constant {
             /// [`for_cutoff`](Self::for_cutoff) at compile time.
             ///
             /// # Errors
-            /// As [`for_cutoff`](Self::for_cutoff).
+            /// The same as [`for_cutoff`](Self::for_cutoff).
             pub const fn const_for_cutoff(cutoff: $float) -> Result<Self, Error> {
                 cutoff!(cutoff, 0.0, 1.0, CORNER as $float, Self::const_new)
             }
@@ -218,7 +218,7 @@ macro_rules! constant {
             /// [`with_period`](Self::with_period) at compile time.
             ///
             /// # Errors
-            /// As [`with_period`](Self::with_period).
+            /// The same as [`with_period`](Self::with_period).
             pub const fn const_with_period(self, period: $float) -> Result<Self, Error> {
                 wrapping!(self, period, 0.0)
             }
@@ -226,7 +226,7 @@ macro_rules! constant {
             /// [`with_longest_gap`](Self::with_longest_gap) at compile time.
             ///
             /// # Errors
-            /// As [`with_longest_gap`](Self::with_longest_gap).
+            /// The same as [`with_longest_gap`](Self::with_longest_gap).
             pub const fn const_with_longest_gap(self, longest_gap: $float) -> Result<Self, Error> {
                 bridging!(self, longest_gap, 0.0)
             }
@@ -251,12 +251,11 @@ impl<T: Real> Rates<T> {
 
     /// Rates for a model that was fitted with the cut-off `cutoff` \[Hz\].
     ///
-    /// The fit smooths its derivatives with a corner at 2.5 times its cut-off f_c. These rates
-    /// have the same corner: `tau = 1/(2π·2.5·f_c)`. At f_c the velocity has 93 % of its
-    /// amplitude and lags by 22°, the acceleration 86 % and 44°. The delays are `0.064/f_c` and
-    /// `0.127/f_c`. The smoother of the fit reads future samples and has zero phase. With
-    /// causal rates the model's error is therefore larger, and a shorter tau trades delay for
-    /// noise.
+    /// The fit smooths its derivatives with a corner at 2.5 times its cut-off f_c. These rates have
+    /// the same corner: `tau = 1/(2π·2.5·f_c)`. At f_c the velocity has 93 % of its amplitude and
+    /// lags by 22°; the acceleration has 86 % and lags by 44°. The delays are `0.064/f_c` and
+    /// `0.127/f_c`. The smoother of the fit reads future samples and has zero phase. With causal
+    /// rates the model's error is therefore larger, and a shorter tau trades delay for noise.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"cutoff"`, also if the time constant
@@ -280,7 +279,7 @@ impl<T: Real> Rates<T> {
 
     /// The same rates with another longest gap \[s\], above zero.
     ///
-    /// It must be longer than the longest `dt` of a good loop.
+    /// The gap must be longer than the longest `dt` of a good loop.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"longest_gap"`.
@@ -312,8 +311,9 @@ impl<T: Real> Rates<T> {
 
     /// The motion after a `position` \[channel unit\], `dt` \[s\] after the last call.
     ///
-    /// `dt` is the time since the last call, good or bad, and above zero also at the first
-    /// call. A bad sample leaves the state unchanged except for the elapsed time.
+    /// `dt` is the time since the last call, whether that sample was good or bad. It must be above
+    /// zero at the first call too. A bad sample leaves the state unchanged except for the elapsed
+    /// time.
     #[inline]
     pub fn step(&self, state: &mut RatesState<T>, position: T, dt: T) -> RatesOutput<T> {
         let status = match self.advance(state, position, dt) {

@@ -231,7 +231,7 @@ macro_rules! constant {
             /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
             ///
             /// # Errors
-            /// As [`try_new`](Self::try_new).
+            /// The same as [`try_new`](Self::try_new).
             pub const fn const_new(settings: AdaptiveSettings<$float, N>) -> Result<Self, Error> {
                 if let Err(error) = settings.const_check() {
                     return Err(error);

@@ -10,7 +10,7 @@ use crate::signal::{Compensated, Derivative, DerivativeState};
 use crate::Real;
 
 impl<T: Real, const N: usize> Adaptive<T, N> {
-    /// The command \[command unit\] for one sample; call this method once a sample.
+    /// The command \[command unit\] for one sample; call this method once per sample.
     ///
     /// The order of a step is:
     /// 1. `e = y - y_r`, and `s = e + lambda·z` with z from the previous sample;

@@ -15,7 +15,7 @@ use crate::Real;
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PidInput<T> {
-    /// Time since the last call \[s\], after a bad sample too.
+    /// Time since the last call \[s\], also after a bad sample.
     pub dt: T,
     /// y_r \[output unit\], such as \[N·m\]
     pub reference: T,
