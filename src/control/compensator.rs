@@ -4,13 +4,14 @@
 //! tau_i = inverse transmission(desired − Σ gain·regressor, eta)
 //! ```
 //!
-//! The feed-forward serves a PI or an adaptive law. It allows a comparison of identification on the
-//! bench with online adaptation. The inverse is exact along the path of the hysteresis, from
-//! equations (5)-(7). The effects are evaluated at the given motions and subtracted first.
+//! The feed-forward supplements a PI or an adaptive law. It allows a comparison between
+//! identification on the bench and online adaptation. The inverse is exact along the path of the
+//! hysteresis, from equations (5)-(7). The effects are evaluated at the given motions and
+//! subtracted first.
 //!
-//! The model runs in open loop: it drifts from the plant by the model error. Use the reference
-//! as its input, not the measured output: a noisy desired output destroys the hysteresis state
-//! ([`transmission`](crate::transmission)).
+//! The model runs in open loop, so it drifts away from the plant by the model error. Use the
+//! reference as its input, not the measured output: a noisy desired output destroys the hysteresis
+//! state ([`transmission`](crate::transmission)).
 
 use super::status::{fault_of_dt, unless_finite};
 use super::{Fault, Status};
@@ -34,7 +35,7 @@ mod proofs;
 /// One sample for a [`Compensator`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CompensatorInput<'a, T> {
-    /// Since the previous sample \[s\]; above zero.
+    /// Time since the previous sample \[s\]; above zero.
     pub dt: T,
     /// Desired output \[output unit\], such as tau_o \[N·m\].
     pub desired: T,
@@ -42,7 +43,7 @@ pub struct CompensatorInput<'a, T> {
     pub input: Motion<T>,
     /// The transmitted load: `tau_i` in torque mode, otherwise a load channel.
     pub load: T,
-    /// All other channels, in the order that [`Source::Channel`] counts.
+    /// All other channels, in the order of the indices in [`Source::Channel`].
     pub channels: &'a [Motion<T>],
 }
 
@@ -140,7 +141,7 @@ impl<T: Real> BenchRange<T> {
 ///   values is below the cable's gain.
 /// - An effect that reads eta uses eta of the previous sample.
 ///
-/// Without such effects the model's output after `command` is `desired`, to rounding.
+/// Without such effects the model's output after `command` is `desired`, except for rounding.
 ///
 /// ```
 /// use bowden::control::{Compensator, CompensatorInput, CompensatorState};
@@ -184,11 +185,12 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     /// [`Error::Inadmissible`] in these cases:
     /// - the model has no transmission;
     /// - the transmission has no inverse ([`Transmission::inverse`]);
-    /// - a term is an output stage (delay, lag), which reads the sum and cannot be subtracted
-    ///   from it;
+    /// - a term is an output stage (delay, lag), which reads the sum and cannot be subtracted from
+    ///   it; or
     /// - a term is an input stage (a play in series), whose inverse jumps.
     ///
-    /// [`try_nearest`](Self::try_nearest) accepts such a model and returns its changes.
+    /// [`try_nearest`](Self::try_nearest) accepts such a model and returns the changes that it
+    /// makes.
     pub fn try_new(model: &Model<T, N>) -> Result<Self, Error> {
         let transmission = *model
             .transmission()
@@ -219,8 +221,8 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         })
     }
 
-    /// The same compensator, for which a `dt` longer than this is a bad sample \[s\]; default:
-    /// no limit.
+    /// The same compensator with a longest `dt` \[s\]: a longer `dt` is a bad sample; default: no
+    /// limit.
     ///
     /// Without a limit, a wrapped counter would advance every memory of the model (creep,
     /// temperature) by an hour.
@@ -241,11 +243,11 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     /// of [`Transmission::inverse`](crate::transmission::Transmission::inverse). For a model that
     /// was fitted *at* this bound (`bowden identify --invertible`) the steepness has no limit.
     ///
-    /// A term that reads a velocity from encoder counts reverses the desired torque from sample
-    /// to sample, and the command chatters. A play removes these reversals. Choose its
-    /// half-width a little above half of one count's effect on the output:
-    /// `|gain|·count/(2·time constant)` behind [`Rates`](crate::signal::Rates). The model's
-    /// output is then `desired` within the half-width.
+    /// A term that reads a velocity from encoder counts reverses the desired torque from sample to
+    /// sample, and the command chatters. A play removes these reversals. Choose its half-width a
+    /// little above half of one count's effect on the output: `|gain|·count/(2·time constant)` with
+    /// velocities from [`Rates`](crate::signal::Rates). The model's output then equals `desired` to
+    /// within the half-width.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"half_width"`.
@@ -256,8 +258,8 @@ impl<T: Real, const N: usize> Compensator<T, N> {
 
     /// The same compensator with motions clamped to the bench range of each source.
     ///
-    /// The clamp prevents extrapolation of a fitted curve. Sources without a range are not
-    /// clamped. Of two ranges for one source the later one applies.
+    /// The clamp prevents extrapolation of a fitted curve. Sources without a range are not clamped.
+    /// If one source has two ranges, the later one applies.
     ///
     /// # Errors
     /// [`Error::NonFinite`]; [`Error::Inadmissible`] if `low > high` or if no term reads the
@@ -422,7 +424,7 @@ impl<T: Real, const N: usize> CompensatorState<T, N> {
     /// A new state with the hysteresis state of the cable.
     ///
     /// # Errors
-    /// As [`BoucWenState::with_eta`], if `eta` is not finite or beyond ±1.
+    /// The same as [`BoucWenState::with_eta`]: `eta` is not finite, or it lies beyond ±1.
     pub fn with_eta(eta: T) -> Result<Self, Error> {
         BoucWenState::with_eta(eta).map(Self::from_hysteresis)
     }

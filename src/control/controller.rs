@@ -24,22 +24,22 @@ pub struct LoopSample<'a, T> {
     pub dt: T,
     /// Reference y_r \[output unit\], such as \[N·m\].
     pub reference: T,
-    /// Reference at the next sample \[output unit\]; the first-order form of the adaptive law
+    /// Reference at the next sample \[output unit\]; only the first-order form of the adaptive law
     /// reads it.
     pub next_reference: T,
     /// Measured output y \[output unit\].
     pub measured: T,
-    /// Measured distal velocity \[rad/s\]; PIV reads it.
+    /// Measured distal velocity \[rad/s\]; only PIV reads it.
     pub velocity: T,
     /// Regressors of an adaptive law; a missing regressor makes the sample bad.
     pub regressors: &'a [T],
-    /// Added to the command before the limits \[command unit\].
+    /// Feed-forward, added to the command before the limits \[command unit\].
     pub feed_forward: T,
 }
 
 impl<T: Real> LoopSample<'_, T> {
-    /// A sample with a constant reference: `dt` \[s\], the torques \[N·m\]; all other fields
-    /// are empty.
+    /// A sample with a constant reference, from `dt` \[s\] and the torques \[N·m\]; all other
+    /// fields are zero or empty.
     #[must_use]
     pub const fn new(dt: T, reference: T, measured: T) -> Self {
         Self {
@@ -82,16 +82,16 @@ pub trait Controller<T: Real> {
     /// One sample: the command \[command unit\], finite and within the limits for any state.
     fn step(&self, state: &mut Self::State, at: &LoopSample<'_, T>) -> Output<T>;
 
-    /// Prepares a stored state for a start after a power-off: the command becomes the one
-    /// nearest to zero. The estimates of an adaptive law stay, and so does a fault that is not
-    /// acknowledged.
+    /// Prepares a stored state for a start after a power-off: the command becomes the permitted
+    /// command nearest to zero. The estimates of an adaptive law are kept, and so is a fault that
+    /// is not acknowledged.
     fn restore(&self, state: &mut Self::State);
 
     /// Starts so that the command continues from `output` \[command unit\] without a jump.
     ///
-    /// If the safe command is latched, this call does nothing. A state of
-    /// [`start`](Self::start) has no fault. To switch from one law to another, check
-    /// [`is_latched`](Self::is_latched) of the old law, and switch only if it is not latched.
+    /// If the safe command is latched, this call does nothing. A state from [`start`](Self::start)
+    /// has no fault. To switch from one law to another, check [`is_latched`](Self::is_latched) of
+    /// the old law, and switch only if it is not latched.
     fn resume_from(&self, state: &mut Self::State, output: T, at: &LoopSample<'_, T>) -> Status;
 
     /// Reports the drive's response to the last command, if the drive did not apply it.
@@ -107,7 +107,7 @@ pub trait Controller<T: Real> {
     /// The applied command \[command unit\].
     fn command(&self, state: &Self::State) -> T;
 
-    /// Range and slew rate of the command.
+    /// Range and slew-rate limit of the command.
     fn limits(&self) -> &Limits<T>;
 }
 

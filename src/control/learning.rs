@@ -167,10 +167,10 @@ pub struct IterativeLearningInput<T> {
     pub reference: T,
     /// Measured output y \[output unit\].
     pub measured: T,
-    /// Whether the law learns from this sample. Set `false` if a limit cut the command, the
-    /// safe command is applied, or the task differs (standing, a held joint). If this holds for
-    /// more than half of a cell's samples, the law also ignores the errors of the next `lead`
-    /// cells.
+    /// Whether the law learns from this sample. Set it to `false` if a limit has cut the command,
+    /// the safe command is applied, or the task is different (standing, or a held joint). If it is
+    /// `false` for more than half of a cell's samples, the law also ignores the errors of the next
+    /// `lead` cells.
     pub learns: bool,
 }
 
@@ -192,7 +192,7 @@ impl<T: Real> IterativeLearningInput<T> {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct IterativeLearningOutput<T> {
-    /// Value to be added to the command \[command unit\]: always finite and within ±limit.
+    /// Value to add to the command \[command unit\]: always finite and within ±limit.
     pub feed_forward: T,
     /// Good: a good sample. [`Status::Degraded`]: the feed-forward belongs to this phase, but
     /// the error was unusable or the phase has jumped. [`Status::Held`]: the phase is invalid,
@@ -204,10 +204,10 @@ impl<T: Real> IterativeLearning<T> {
     /// Most cells of a cycle.
     pub const MOST_CELLS: usize = u16::MAX as usize;
 
-    /// Learning without forgetting: `gain` of the error \[command unit/output unit\], not zero
-    /// and with the sign of the plant's gain; `limit > 0` of the learned values \[command
-    /// unit\]; `lead` \[cells\] from a command to its effect; `half_width` of the triangle
-    /// \[cells\].
+    /// Learning without forgetting. `gain` multiplies the error \[command unit/output unit\]; it is
+    /// not zero and has the sign of the plant's gain. `limit > 0` bounds the learned values
+    /// \[command unit\]. `lead` is the number of cells from a command to its effect, and
+    /// `half_width` is that of the triangle \[cells\].
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"gain"` or `"limit"`.
@@ -218,7 +218,7 @@ impl<T: Real> IterativeLearning<T> {
     /// The same learning with a share from 0 to 1 of each learned value that is forgotten per
     /// cycle.
     ///
-    /// An error then remains, and values that do not recur decay.
+    /// An error then remains, and values that do not repeat decay.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"forgetting"`.
@@ -324,15 +324,15 @@ impl<T: Real> IterativeLearning<T> {
         self.check_cells(learned.len())
     }
 
-    /// One sample: returns the value to be added to the command at this phase.
+    /// One sample: returns the value to add to the command at this phase.
     ///
     /// Call this method at every sample, before the controller, with the state of this learning.
     /// For any state and buffers the feed-forward is finite and within ±limit. A jump of the phase
-    /// causes a jump of the feed-forward. A slew rate in the controller's
-    /// [`Limits`](crate::control::Limits) limits the sum.
+    /// causes a jump of the feed-forward. A slew-rate limit in the controller's
+    /// [`Limits`](crate::control::Limits) bounds the rate of the sum.
     ///
-    /// - A phase outside 0 to 1 changes nothing and holds the feed-forward. For the controller such
-    ///   samples are good, so the fallback does not act. If the phase signal can fail, omit the
+    /// - A phase outside 0 to 1 changes nothing and holds the feed-forward. The controller counts
+    ///   such samples as good, so the fallback does not act. If the phase signal can fail, omit the
     ///   feed-forward after a few such samples.
     /// - If the reference or the measured output is not finite, the feed-forward follows the
     ///   phase, and the law does not learn from the sample.
@@ -343,7 +343,7 @@ impl<T: Real> IterativeLearning<T> {
     /// - While the phase is up to four cells behind (jitter), the law does not learn. With larger
     ///   jitter the phase passes cells several times, and the law learns each time: filter the
     ///   phase, or set `learns` to `false`.
-    /// - The longest step passes four cells; each cell at its end takes a sum over
+    /// - The longest step passes four cells. At the end of each cell the law sums over
     ///   `2·half_width + 1` cells.
     #[inline]
     pub fn step<M: AsRef<[T]> + AsMut<[T]>>(

@@ -1,14 +1,13 @@
-//! Limits of a command: a range and an optional slew rate.
+//! Limits of a command: a range and an optional slew-rate limit.
 
 use crate::error::{above_zero, ordered};
 use crate::signal::{clamp, confined};
 use crate::{Error, Real};
 
-/// Range \[command unit\] and slew rate \[command unit/s\] of a command.
+/// Range \[command unit\] and slew-rate limit \[command unit/s\] of a command.
 ///
-/// In a stored form a missing `slew` means no slew rate. The range may be asymmetric.
-/// [`Limits::unlimited`] is the range of the float itself, so a command is finite in any
-/// case.
+/// In a stored form a missing `slew` means no slew-rate limit. The range may be asymmetric.
+/// [`Limits::unlimited`] is the range of the float itself, so a command is always finite.
 ///
 /// ```
 /// use bowden::control::Limits;
@@ -84,7 +83,7 @@ constant!(f32);
 constant!(f64);
 
 impl<T: Real> Limits<T> {
-    /// The range `low..=high` \[command unit\], without a slew rate.
+    /// The range `low..=high` \[command unit\], without a slew-rate limit.
     ///
     /// # Errors
     /// [`Error::NonFinite`] with `"low"` or `"high"`; [`Error::Inadmissible`] unless
@@ -103,15 +102,15 @@ impl<T: Real> Limits<T> {
         }
     }
 
-    /// The same range with a slew rate above zero \[command unit/s\].
+    /// The same range with a slew-rate limit above zero \[command unit/s\].
     ///
-    /// A slew rate below `2·k_p·noise·rate` limits the response to noise, and the loop may
-    /// oscillate. Here noise is the largest change of the measured output between samples, and
-    /// rate is the number of samples per second. Choose a greater slew rate or a smaller gain.
+    /// A slew-rate limit below `2·k_p·noise·rate` also acts on the response to noise, and the loop
+    /// may oscillate. Here noise is the largest change of the measured output between samples, and
+    /// rate is the number of samples per second. Choose a higher slew-rate limit or a smaller gain.
     ///
-    /// The command is a float. The distance of two floats is about 1.2e-7 of the command in
-    /// `f32`. If `slew·dt` is below it, a sample moves the command by one distance or not at
-    /// all.
+    /// The command is a float. In `f32` the distance between neighbouring floats is about 1.2e-7 of
+    /// the command. If `slew·dt` is below this distance, a sample moves the command by one such
+    /// distance or not at all.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"slew"`.
@@ -131,7 +130,7 @@ impl<T: Real> Limits<T> {
         self.high
     }
 
-    /// Slew rate \[command unit/s\], if there is one.
+    /// Slew-rate limit \[command unit/s\], if there is one.
     #[must_use]
     pub const fn slew(&self) -> Option<T> {
         self.slew

@@ -18,7 +18,7 @@
 //! compiler checks (see [`constant!`](crate::constant)):
 //! - every configuration of the table except the [`Compensator`],
 //! - [`Limits`], [`Fallback`], [`NominalPlant`],
-//! - every configuration of [`signal`](crate::signal),
+//! - every configuration of [`signal`](crate::signal), and
 //! - [`BoucWen`](crate::hysteresis::BoucWen) and
 //!   [`Transmission`](crate::transmission::Transmission).
 //!

@@ -6,10 +6,10 @@
 //! d_hat = Q·u_sent − Q·P⁻¹·y                    added to the next command
 //! ```
 //!
-//! The observer compares the command that the nominal plant needs for the measured output with
-//! the applied command. It filters the difference through Q and adds it to the next command.
-//! Below `1/tau` the loop then sees the nominal plant instead of the plant with friction, as
-//! long as no limit acts.
+//! The observer compares the command that the nominal plant needs for the measured output with the
+//! applied command. It filters the difference through Q and adds it to the next command. Below
+//! `1/tau` the loop then sees the nominal plant instead of the plant with friction, as long as no
+//! limit is active.
 //!
 //! The observer needs no friction model. It needs alpha, wn and zeta, from the drive's
 //! specification or from a bench record. The adaptive law needs none of these three.
@@ -49,9 +49,9 @@ mod proofs;
 ///                                         z1⁺ = z1 + s·(y − z1)      z2⁺ = z2 + s·(z1⁺ − z2)
 /// d_hat = w2⁺ − (z2⁺ + 2·zeta/(wn·tau)·(z1⁺ − z2⁺) + (y − 2·z1⁺ + z2⁺)/(wn·tau)²)/alpha
 /// ```
-/// The lags are stable at any `dt`, which may vary. The loop around them requires a `dt` well
-/// below tau. Without a latency the command still affects the output one sample later. White
-/// noise of y reaches the command with a factor of about `1/(alpha·(wn·tau)²)`, above `1/tau`.
+/// The lags are stable at any `dt`, which may vary. The loop around them requires a `dt` well below
+/// tau. Without a latency the command still affects the output one sample later. Above `1/tau`,
+/// white noise on y reaches the command with a factor of about `1/(alpha·(wn·tau)²)`.
 ///
 /// ```
 /// use bowden::control::{
@@ -181,20 +181,20 @@ pub struct ObserverInput<T> {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ObserverOutput<T> {
-    /// d_hat \[command unit\], to be added to the command: always finite and within ±limit.
+    /// d_hat \[command unit\], the value to add to the command: always finite and within ±limit.
     pub estimate: T,
     /// A good sample, or the fault; a fault holds the estimate.
     pub status: Status,
 }
 
 impl<T: Real> DisturbanceObserver<T> {
-    /// An observer without latency: `time_constant > 0`, tau of Q \[s\]; `limit > 0` of the
-    /// estimate \[command unit\]; `longest_dt > 0` \[s\], above which a sample is bad.
+    /// An observer without latency. `time_constant > 0` is tau of Q \[s\], `limit > 0` bounds the
+    /// estimate \[command unit\], and a `dt` above `longest_dt > 0` \[s\] is a bad sample.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"time_constant"`, also if
-    /// `1/(alpha·(wn·tau)²)` or `2·zeta/(alpha·wn·tau)` is not finite, `"limit"` or
-    /// `"longest_dt"`.
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"time_constant"`, `"limit"` or
+    /// `"longest_dt"`. The name is also `"time_constant"` if `1/(alpha·(wn·tau)²)` or
+    /// `2·zeta/(alpha·wn·tau)` is not finite.
     pub fn try_new(
         plant: NominalPlant<T>,
         time_constant: T,
@@ -251,13 +251,13 @@ impl<T: Real> DisturbanceObserver<T> {
         self.latency
     }
 
-    /// One sample: returns the estimate to be added to the next command.
+    /// One sample: returns the estimate to add to the next command.
     ///
-    /// Call this method at every sample, before the controller. A bad sample holds the
-    /// estimate, and the next good sample includes its time. A sample is bad if `dt` is not
-    /// positive or too long, or if the command or the output is not finite. If the time is
-    /// unknown because `dt` was bad, it counts as one more of the next `dt`. For any state the
-    /// estimate is finite and within ±limit.
+    /// Call this method at every sample, before the controller. A bad sample holds the estimate,
+    /// and the next good sample includes its time. A sample is bad if `dt` is not positive or too
+    /// long, or if the command or the output is not finite. If a bad `dt` makes the time unknown,
+    /// that time counts as equal to the next `dt`. For any state the estimate is finite and within
+    /// ±limit.
     #[inline]
     pub fn step(&self, state: &mut ObserverState<T>, at: &ObserverInput<T>) -> ObserverOutput<T> {
         let status = if self.advance(state, at) {

@@ -12,12 +12,12 @@
 //! - The integral is stored as a command, so a change of `k_i` does not move the command.
 //!   It is a compensated sum: in `f32` a plain sum stops once its increments are below half an
 //!   ulp.
-//! - The anti-windup distinguishes the slew rate from the range, see [`AntiWindup`].
+//! - The anti-windup treats the slew-rate limit and the range differently, see [`AntiWindup`].
 //! - A bad sample leaves the state unchanged and holds the command, see [`Status`]. The
 //!   derivative bridges the gap, and the integral does not count the time of the gap. After too
 //!   many bad samples the safe command is applied until [`PidState::acknowledge`].
 //!
-//! Source: the paper's section 3.1; Åström & Hägglund, *Advanced PID Control*, 2006.
+//! Source: section 3.1 of Nguyen et al. (2018); Åström & Hägglund, *Advanced PID Control*, 2006.
 
 mod settings;
 mod signals;
@@ -98,13 +98,13 @@ impl<T: Real> Pid<T> {
         }
     }
 
-    /// The paper's PI (15), Table 1: `k_p` = 30, `k_i` = 18. No limits.
+    /// The PI (15) of Nguyen et al. (2018), Table 1: `k_p` = 30, `k_i` = 18. It has no limits.
     #[must_use]
     pub fn paper_pi() -> Self {
         Self::checked(PidSettings::unlimited(T::from_f64(30.0), T::from_f64(18.0)))
     }
 
-    /// The paper's PID (14), Table 1: `k_d` = 2; filtered over 0.1 s. No limits.
+    /// The paper's PID (14), Table 1: `k_d` = 2, filtered over 0.1 s. It has no limits.
     ///
     /// The paper does not specify the derivative filter. On the reference rig the loop diverges
     /// with a filter time constant below 20 ms.
@@ -118,7 +118,7 @@ impl<T: Real> Pid<T> {
         })
     }
 
-    /// The paper's PIV (16), Table 1: `k_d` = 10 on the distal velocity. No limits.
+    /// The paper's PIV (16), Table 1: `k_d` = 10 on the distal velocity. It has no limits.
     #[must_use]
     pub fn paper_piv() -> Self {
         Self::checked(PidSettings {
@@ -128,10 +128,10 @@ impl<T: Real> Pid<T> {
         })
     }
 
-    /// A PI as the reference for an adaptive law: `k_p` = 30, `k_i` = 320. No limits.
+    /// A PI as the reference for an adaptive law: `k_p` = 30, `k_i` = 320. It has no limits.
     ///
     /// 320 is the effective integral gain of the paper's adaptive law. A comparison without this PI
-    /// attributes the effect of a higher gain to adaptation.
+    /// would attribute the effect of a higher gain to adaptation.
     #[must_use]
     pub fn matched_pi() -> Self {
         Self::checked(PidSettings::unlimited(
@@ -182,7 +182,7 @@ impl<T: Real> Pid<T> {
         }
     }
 
-    /// Every term of the last good sample; all zero before the first one.
+    /// Every term of the last good sample; all terms are zero before the first one.
     #[must_use]
     pub fn terms(&self, state: &PidState<T>) -> PidTerms<T> {
         let Some(last) = &state.last else {
@@ -201,12 +201,12 @@ impl<T: Real> Pid<T> {
         }
     }
 
-    /// The limit of the command, range or slew rate: for an outer loop.
+    /// The limit that acts on the command (range or slew-rate limit), for an outer loop.
     ///
     /// If the gains of this law are positive, a command at its upper limit means that the outer
-    /// loop cannot get more. Pass this result to the [`applied`](Self::applied) of the outer
-    /// loop. The result is the same if the range cuts the command off and if the integral just
-    /// fills the range.
+    /// loop cannot get more. Pass this result to the [`applied`](Self::applied) of the outer loop.
+    /// The result is the same whether the range cuts the command off or the integral just fills the
+    /// range.
     #[must_use]
     pub fn saturation(&self, state: &PidState<T>) -> Applied<T> {
         let (command, limits) = (state.command(), &self.settings.limits);
@@ -223,12 +223,11 @@ impl<T: Real> Pid<T> {
 
     /// Reports the drive's response to the last command, if the drive did not apply it.
     ///
-    /// Call this method between two steps. Slew rate, back-calculation and a bumpless start
-    /// then continue from the applied command. The integral reverses the part of its last
-    /// change that exceeds the drive's limit; [`AntiWindup::None`] keeps this part. With
-    /// back-calculation, the part that the drive cut off returns to the integral. The next
-    /// command still contains the full demand, so a recovered drive is used at once. See
-    /// [`Applied`].
+    /// Call this method between two steps. The slew-rate limit, back-calculation and a bumpless
+    /// start then continue from the applied command. The integral reverses the part of its last
+    /// change that exceeds the drive's limit; With [`AntiWindup::None`] it keeps this part. With
+    /// back-calculation, the part that the drive cut off returns to the integral. The next command
+    /// still contains the full demand, so a recovered drive is used at once. See [`Applied`].
     pub fn applied(&self, state: &mut PidState<T>, applied: Applied<T>) {
         let out = state.command();
         let (less, sent) = match applied {
@@ -269,9 +268,9 @@ impl<T: Real> Pid<T> {
     /// is one step of the integral at the next sample. Limits that exclude the command take
     /// priority.
     ///
-    /// A law without `k_i` returns the integral to zero: see [`PidSettings::k_i`]. A change to
-    /// PIV requires earlier samples with a velocity. Without a good sample nothing changes. If
-    /// the sum overflows, the integral stays.
+    /// A law without `k_i` returns the integral to zero: see [`PidSettings::k_i`]. A change to PIV
+    /// requires earlier samples with a velocity. Without a good sample nothing changes. If the sum
+    /// overflows, the integral stays unchanged.
     ///
     /// ```
     /// use bowden::control::{Pid, PidInput, PidSettings, PidState};

@@ -5,8 +5,8 @@
 //! In series the same play acts on the transmission's input: hysteresis and gain then see
 //! `play(x; r)` instead of x.
 //!
-//! `play(x; r) − x` is `−stop(x; r)`. With the opposite sign, and r times as large, it is
-//! [`presliding`](super::presliding). No record can distinguish the two.
+//! `play(x; r) − x` is `−stop(x; r)`: it is [`presliding`](super::presliding) with the opposite
+//! sign and r times as large. No record can distinguish the two.
 //!
 //! Source: M. Nordin, P.-O. Gutman, "Controlling mechanical systems with backlash
 //! — a survey", *Automatica* 38(10), 2002; for the play, M. A. Krasnosel'skii,
@@ -58,8 +58,8 @@ impl<T: Real> Regressor<T> for Backlash<T> {
 shaped! {
     /// A play in series: slack between the measured input and the transmission.
     ///
-    /// An input stage (see [`Effect::is_input_stage`](super::Effect::is_input_stage)). With a
-    /// gain of one the transmission sees `play(x; r)`; with a lower gain a part of the gap is
+    /// This is an input stage (see [`Effect::is_input_stage`](super::Effect::is_input_stage)). With
+    /// a gain of one the transmission sees `play(x; r)`; with a lower gain, part of the gap is
     /// bridged. It starts in mid-gap.
     ///
     /// ```

@@ -2,12 +2,12 @@
 //!
 //! Formula: `eta·(1 − exp(−W/w_c))`, `W = ∫|eta|·|dx|` along the transmission's input (trapezoids,
 //! from the first sample on), for any channel. For W ≪ w_c it is the linear `eta·W/w_c`. The limit
-//! is `eta`: after running-in the loop stays bounded. The sum is compensated, so small steps
-//! count in `f32` too.
+//! is `eta`: after running-in the loop stays bounded. The sum is compensated, so small steps count
+//! even in `f32`.
 //!
-//! Source: T. T. Baber, Y.-K. Wen, "Random vibration of hysteretic, degrading
-//! systems", *Journal of the Engineering Mechanics Division* 107(6), 1981, linear in the
-//! work; the exponential bounds it.
+//! Source: T. T. Baber, Y.-K. Wen, "Random vibration of hysteretic, degrading systems", *Journal of
+//! the Engineering Mechanics Division* 107(6), 1981, where the change is linear in the work; here
+//! the exponential bounds it.
 
 use super::bounds::saturate;
 use super::info::{Info, Regressor};

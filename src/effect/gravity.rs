@@ -1,4 +1,4 @@
-//! Gravity on a lever: periodic in the angle, once a turn.
+//! Gravity on a lever: periodic in the angle, once per turn.
 //!
 //! Formula: `sin(x + psi)`. The channel must be an angle in radians.
 //!

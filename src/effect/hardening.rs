@@ -9,14 +9,14 @@
 //! [`BoucWen`](crate::hysteresis::BoucWen), which starts where b + c passes zero.
 //!
 //! # Bounds
-//! - For b + c > 0, `|z| ≤ (A/(b + c))^(1/n)` for any motion. This case is a `BoucWen`, and not
-//!   an effect of this kind.
+//! - For b + c > 0, `|z| ≤ (A/(b + c))^(1/n)` for any motion. This case is a `BoucWen`, not an
+//!   effect of this kind.
 //! - For b + c ≤ 0 no such bound exists: a longer stroke reaches a larger w. With `beta > 0`, which
-//!   the constructor requires, the stroke bounds w. Over a motion within a range of length R, `|w|
-//!   ≤ (exp(g·R) − 1)/g`, for any distance travelled. Proof: the curve `U(x) = (exp(g·(x − x_min))
-//!   − 1)/g` has `U' = 1 + g·U`. At w = U, the state rises with the same slope, and falls with `1 +
-//!   (g + 2·beta)·w`, which is steeper; so it never exceeds U. The same holds for negative w. With
-//!   `beta < 0` small reversals would increase w without limit.
+//!   the constructor requires, the stroke bounds w. Over a motion within a range of length R,
+//!   `|w| ≤ (exp(g·R) − 1)/g`, for any distance travelled. Proof: the curve
+//!   `U(x) = (exp(g·(x − x_min)) − 1)/g` has `U' = 1 + g·U`. At w = U, the state rises with the
+//!   same slope, and falls with `1 + (g + 2·beta)·w`, which is steeper; so w never exceeds U. The
+//!   same holds for negative w. With `beta < 0` small reversals would increase w without limit.
 //! - Cycles dissipate energy: the area of a loop is never negative, as the return branch lies
 //!   below.
 //!

@@ -93,9 +93,9 @@ pub enum Parity {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Symmetry {
     /// Under (x, v) → (−x, −v): all signed signals change sign along the whole path, that is
-    /// motion, input, load, eta and output. Times do not.
+    /// motion, input, load, eta and output. Times do not change sign.
     pub mirror: Parity,
-    /// Under v → −v alone, at one instant: x, a, load and eta stay. An effect with memory
+    /// Under v → −v alone, at one instant: x, a, load and eta stay the same. An effect with memory
     /// returns [`Parity::Neither`]: its path has no such mirror image.
     pub reversal: Parity,
 }
@@ -171,7 +171,7 @@ pub struct ShapeInfo {
 pub struct Info {
     /// The effect's own name.
     pub name: &'static str,
-    /// The family that it belongs to.
+    /// The family that the effect belongs to.
     pub family: Family,
     /// The regressor as a formula.
     pub formula: &'static str,
@@ -179,9 +179,9 @@ pub struct Info {
     pub dimension: Dimension,
     /// The regressor's symmetries.
     pub parity: Symmetry,
-    /// The quantities that it reads; if one of them is not finite it returns 0.
+    /// The quantities that the effect reads; if one of them is not finite, the regressor returns 0.
     pub reads: &'static [Quantity],
-    /// Whether it has a memory of earlier samples.
+    /// Whether the effect has a memory of earlier samples.
     pub memory: bool,
 }
 
@@ -212,8 +212,8 @@ impl Info {
 
 /// One effect as a separate type: its properties and its regressor.
 ///
-/// For a [`FixedModel`](crate::model::FixedModel); [`Effect`](super::Effect) holds any effect.
-/// Only the effects of this crate implement the trait.
+/// It is for a [`FixedModel`](crate::model::FixedModel); [`Effect`](super::Effect) holds any
+/// effect. Only the effects of this crate implement the trait.
 pub trait Regressor<T>: sealed::Sealed {
     /// Properties of the effect, shape parameters excluded.
     const INFO: &'static Info;

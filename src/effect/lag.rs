@@ -1,10 +1,10 @@
 //! A first-order lag of the output.
 //!
-//! Formula: `lowpass(output; tau) − output`; a gain of 1 is the full lag. The low-pass holds
-//! each sample over its dt: exact for steps, at any dt. Rounding limits the increment of a
-//! step: the memory stops short of its target by up to tau/dt times half an epsilon. In `f32`
-//! this is 0.06 % at tau/dt of 10^4 and 6 % at 10^6. An output stage: it reads the sum of all
-//! terms before it.
+//! Formula: `lowpass(output; tau) − output`; a gain of 1 is the full lag. The low-pass holds each
+//! sample over its dt, so it is exact for steps at any dt. Rounding limits the increment of a step,
+//! so the memory stops short of its target by up to tau/dt times half an epsilon. In `f32` this
+//! distance is 0.06 % at tau/dt of 10^4 and 6 % at 10^6. The lag is an output stage: it reads the
+//! sum of all terms before it.
 //!
 //! Source: K. J. Åström, R. M. Murray, *Feedback Systems*, 2008, chapter 8.
 

@@ -176,7 +176,7 @@ macro_rules! effects {
                 }
             }
 
-            /// The names of its shape parameters; empty if it has none.
+            /// The names of the shape parameters; empty if the effect has none.
             #[must_use]
             pub fn shape_names(&self) -> &'static [&'static str] {
                 match self {
@@ -187,7 +187,7 @@ macro_rules! effects {
                 }
             }
 
-            /// Name, range and unit of its shape parameters; empty if it has none.
+            /// Name, range and unit of the shape parameters; empty if the effect has none.
             #[must_use]
             pub fn shape_info(&self) -> &'static [ShapeInfo] {
                 match self {
@@ -264,8 +264,9 @@ macro_rules! effects {
 
             /// The regressor at one sample; the caller multiplies by the gain.
             ///
-            /// Finite for finite input. If a number that the effect reads is not finite, or a
-            /// `dt` that it reads is negative: 0, and `state` is unchanged.
+            /// The result is finite for finite input. If a number that the effect reads is not
+            /// finite, or a `dt` that it reads is negative, the result is 0 and `state` is
+            /// unchanged.
             #[inline]
             pub fn regressor(&self, state: &mut EffectState<T>, at: &Inputs<T>) -> T {
                 match self {
@@ -358,13 +359,13 @@ fn along<T: Real, R: Regressor<T>>(
 }
 
 impl<T: Real> Effect<T> {
-    /// The family that it belongs to.
+    /// The family that the effect belongs to.
     #[must_use]
     pub fn family(&self) -> Family {
         self.info().family
     }
 
-    /// Its own name, such as "drag-quadratic".
+    /// The effect's own name, such as "drag-quadratic".
     #[must_use]
     pub fn name(&self) -> &'static str {
         self.info().name
@@ -391,10 +392,10 @@ impl<T: Real> Effect<T> {
     /// The contribution of a term with this gain to the output: gain times regressor, except for a
     /// delay.
     ///
-    /// The gain of a [`delay`] is a time, and its output is not linear in this time; the
-    /// regressor is the slope at zero delay. Finite for finite input. If a number that the
-    /// effect reads is not finite, or a `dt` that it reads is negative: 0, and `state` is
-    /// unchanged.
+    /// The gain of a [`delay`] is a time, and the output is not linear in this time; the regressor
+    /// is the slope at zero delay. The result is finite for finite input. If a number that the
+    /// effect reads is not finite, or a `dt` that it reads is negative, the result is 0 and `state`
+    /// is unchanged.
     ///
     /// ```
     /// use bowden::effect::{Effect, EffectState, Inputs};
@@ -429,28 +430,28 @@ impl<T: Real> Effect<T> {
         }
     }
 
-    /// Whether it needs the hysteresis state.
+    /// Whether the effect reads the hysteresis state.
     #[must_use]
     pub fn reads_eta(&self) -> bool {
         self.info().reads.contains(&Quantity::Eta)
     }
 
-    /// Whether it reads the sum of all terms before it.
+    /// Whether the effect reads the sum of all terms before it.
     #[must_use]
     pub fn is_output_stage(&self) -> bool {
         self.stage() == Stage::Output
     }
 
-    /// Whether it acts on the transmission's input instead of adding to the output.
+    /// Whether the effect acts on the transmission's input instead of adding to the output.
     ///
-    /// The regressor then has the unit of the input, and its gain is a number. Without a
-    /// transmission it has no effect.
+    /// The regressor then has the unit of the input, and the gain is dimensionless. Without a
+    /// transmission the term has no influence.
     #[must_use]
     pub fn is_input_stage(&self) -> bool {
         self.stage() == Stage::Input
     }
 
-    /// Whether it has a memory of earlier samples.
+    /// Whether the effect has a memory of earlier samples.
     #[must_use]
     pub fn has_memory(&self) -> bool {
         self.info().memory

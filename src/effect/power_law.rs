@@ -1,11 +1,11 @@
 //! Power-law drag: odd in the velocity, with less than linear growth (shear thinning).
 //!
-//! Formula: `sgn(v)·|v/v_1|^a` with `v_1` = 1 channel unit/s. The regressor is a number, and
-//! the gain is the force at 1 channel unit/s, in the output's unit. A record in mm has another
-//! gain than the same record in m, and the same exponent. For `0 < a < 1` the force rises
-//! steeply from standstill and flattens. This range lies between [`Viscous`](super::Viscous) (a
-//! = 1) and Coulomb friction (a towards 0). The function is continuous at v = 0, where its
-//! slope is infinite.
+//! Formula: `sgn(v)·|v/v_1|^a` with `v_1` = 1 channel unit/s. The regressor is dimensionless, and
+//! the gain is the force at 1 channel unit/s, in the output's unit. A record in mm gives a
+//! different gain from the same record in m, but the same exponent. For `0 < a < 1` the force rises
+//! steeply from standstill and flattens. This range lies between [`Viscous`](super::Viscous)
+//! (a = 1) and Coulomb friction (a towards 0). The function is continuous at v = 0, where its slope
+//! is infinite.
 //!
 //! Oils with additives, greases, and the fluids of magnetorheological dampers past yield thin
 //! with the shear rate. The constructor accepts any a > 0; above 1 the fluid thickens, and the

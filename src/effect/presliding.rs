@@ -1,14 +1,15 @@
 //! Presliding: a spring that slips, with a memory in addition to eta.
 //!
 //! Formula: `s/r` with `s ← clamp(s + dx, −r, r)`, Prandtl's stop (elastic, perfectly plastic).
-//! Each cycle wider than 2·r dissipates. The loop's area is `4·(X − r)` for a cycle of
-//! amplitude X > r, and 0 below. It starts at s = 0. With the opposite sign it is the
-//! [`backlash`](super::backlash) of the same r.
+//! Each cycle wider than 2·r dissipates energy. The loop's area is `4·(X − r)` for a cycle of
+//! amplitude X > r, and 0 for a smaller cycle. The state starts at s = 0. With the opposite sign
+//! this is the [`backlash`](super::backlash) with the same r, except for a factor of r.
 //!
-//! The second, `dahl(x; r)`, bends instead of slipping: `dz/dx = (1 − z·sgn dx)/r`, Dahl's
+//! The second formula, `dahl(x; r)`, bends instead of slipping: `dz/dx = (1 − z·sgn dx)/r`, Dahl's
 //! equation with exponent 1. Between two samples x is monotone, and the step
-//! `z ← sgn dx + (z − sgn dx)·exp(−|dx|/r)` is exact for any dx. Every cycle dissipates: the
-//! loop's area is `4·(X − r·tanh(X/r))`, its height ±tanh(X/r). It starts at z = 0.
+//! `z ← sgn dx + (z − sgn dx)·exp(−|dx|/r)` is exact for any dx. Every cycle dissipates energy: the
+//! loop's area is `4·(X − r·tanh(X/r))`, and z swings between ±tanh(X/r). The state starts at z =
+//! 0.
 //!
 //! Source: L. Prandtl, 1928; P. R. Dahl, *A Solid Friction Model*, 1968; stops in
 //! parallel, F. Al-Bender, V. Lampaert, J. Swevers, "The generalized Maxwell-slip
@@ -23,7 +24,7 @@ use crate::signal::clamp;
 use crate::Real;
 
 shaped! {
-    /// The stop operator of half-width `r`, of unit height.
+    /// The stop operator with half-width `r` and unit height.
     ///
     /// ```
     /// use bowden::{effect::presliding::Presliding, Error};
@@ -59,7 +60,7 @@ impl<T: Real> Regressor<T> for Presliding<T> {
 }
 
 shaped! {
-    /// Dahl's curve of length `r`, of unit height.
+    /// Dahl's curve with length `r` and unit height.
     ///
     /// ```
     /// use bowden::{effect::presliding::PreslidingDahl, Error};

@@ -1,4 +1,4 @@
-//! Ripple: periodic in the angle, k times a turn.
+//! Ripple: periodic in the angle, k times per turn.
 //!
 //! Formula: `sin(k·x + psi)`, with k from the teeth, the lobes or a gear ratio.
 //!
@@ -12,7 +12,7 @@ use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 shaped! {
-    /// A ripple of `k` periods a turn.
+    /// A ripple with `k` periods per turn.
     ///
     /// ```
     /// use bowden::{effect::ripple::Ripple, Error};

@@ -28,7 +28,7 @@ pub struct Inputs<T> {
     pub input: Motion<T>,
     /// The transmitted load: `tau_i` in torque mode, otherwise a load channel.
     pub load: T,
-    /// The hysteresis state, 0 without hysteresis.
+    /// The hysteresis state; 0 without hysteresis.
     pub eta: T,
     /// The sum of all terms before this effect; only output stages read it.
     pub output: T,
@@ -65,7 +65,7 @@ impl<T: Real> Inputs<T> {
 
 /// The memory of one effect: a few numbers, or none before the first sample.
 ///
-/// The numbers are specific to the effect; a state belongs to one effect.
+/// The meaning of the numbers depends on the effect, so a state belongs to one effect.
 /// `EffectState::default()` is a new state.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]

@@ -70,9 +70,9 @@ impl<T: Real> NominalPlant<T> {
         plant!(gain, natural_frequency, damping_ratio, T::ZERO, T::ONE)
     }
 
-    /// A plant from the drive's specification: torque of one command unit at rest, inertia > 0
-    /// \[kg·m²\], viscous damping ≥ 0 \[N·m·s/rad\] and stiffness > 0 \[N·m/rad\]. The
-    /// stiffness is that of cable and load in series.
+    /// A plant from the drive's specification: the torque of one command unit at rest, inertia > 0
+    /// \[kg·m²\], viscous damping ≥ 0 \[N·m·s/rad\] and stiffness > 0 \[N·m/rad\]. The stiffness is
+    /// that of cable and load in series.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the name of the parameter, or of the
@@ -118,8 +118,8 @@ impl<T: Real> NominalPlant<T> {
     /// The command for which the nominal plant follows the desired output: `P⁻¹` of the output
     /// and its rates \[output unit, /s, /s²\].
     ///
-    /// Use the reference ahead of time by the latency of a command. The result is not checked:
-    /// it is not finite if the motion is not, and a controller rejects it.
+    /// Pass the reference ahead of time, by the latency of a command. The result is not checked: if
+    /// the motion is not finite, neither is the result, and a controller rejects it.
     #[inline]
     #[must_use]
     pub fn feed_forward(&self, wanted: &Motion<T>) -> T {

@@ -44,7 +44,8 @@ impl<T: Real> DerivativeSource<T> {
 
 /// Anti-windup: limits the integral while the command is limited.
 ///
-/// The command is limited by the range or by the slew rate, unless a variant states otherwise.
+/// The command is limited by the range or by the slew-rate limit, unless a variant states
+/// otherwise.
 ///
 /// ```
 /// use bowden::control::{AntiWindup, Limits, Pid, PidInput, PidSettings, PidState};
@@ -71,14 +72,14 @@ impl<T: Real> DerivativeSource<T> {
 pub enum AntiWindup<T> {
     /// No anti-windup: the integral winds up.
     None,
-    /// The integral term stays within the range of the command. This range is widened to
-    /// contain zero and the value that, with the other terms, fills the range.
+    /// The integral term stays within the range of the command. This range is widened to include
+    /// zero and the value that, with the other terms, fills the range.
     Clamp,
     /// The part that the limits cut off returns to the integral. Without `k_i` nothing returns.
     ///
-    /// The part that is cut off at one sample enters at the next one, times `dt/(T_t + dt)`.
-    /// With the other terms at rest it decays by `T_t/(T_t + dt)` a sample, as `e^(−t/T_t)` for
-    /// a short dt, and never overshoots.
+    /// The part that is cut off at one sample enters at the next one, times `dt/(T_t + dt)`. With
+    /// the other terms at rest it decays by `T_t/(T_t + dt)` per sample, like `e^(−t/T_t)` for a
+    /// short dt, and never overshoots.
     BackCalculation {
         /// T_t, above zero \[s\]; `k_p/k_i` is a usual choice.
         tracking_time: T,
@@ -86,9 +87,9 @@ pub enum AntiWindup<T> {
     /// A change that would take the command beyond its range is cut to the value that fills the
     /// range.
     ///
-    /// A change away from that limit acts in full, so the integral unwinds. The part that
-    /// the slew rate cuts off is back-calculated with T_t = `k_p/k_i`. If the slew rate counted
-    /// as a range, the integral would stop while the command moves.
+    /// A change away from that limit acts in full, so the integral unwinds. The part that the
+    /// slew-rate limit cuts off is back-calculated with T_t = `k_p/k_i`. If the slew-rate limit
+    /// counted as a range, the integral would stop while the command moves.
     Conditional,
 }
 
@@ -130,16 +131,16 @@ pub enum AntiWindup<T> {
 pub struct PidSettings<T> {
     /// Proportional gain \[command unit/output unit\]; finite.
     pub k_p: T,
-    /// Integral gain \[command unit/(output unit·s)\]; finite, of the sign of `k_p`.
+    /// Integral gain \[command unit/(output unit·s)\]; finite, with the sign of `k_p`.
     ///
     /// **With 0 there is no integral.** An existing integral (from another law, or from a start
     /// at a given command) returns to zero with a time constant of 1 s. The command moves to
     /// the other terms without a jump.
     pub k_i: T,
-    /// Gain of the damping; finite, with [`DerivativeSource::Rate`] of the sign of `k_p`.
+    /// Gain of the damping; finite. With [`DerivativeSource::Rate`] it has the sign of `k_p`.
     ///
-    /// \[command unit·s/output unit\], for PIV \[command unit·s/rad\]. With 0 nothing is
-    /// filtered.
+    /// The unit is \[command unit·s/output unit\], for PIV \[command unit·s/rad\]. With 0 nothing
+    /// is filtered.
     #[cfg_attr(feature = "serde", serde(default = "T::zero"))]
     pub k_d: T,
     /// The signal that `k_d` multiplies.
@@ -165,12 +166,11 @@ pub struct PidSettings<T> {
     pub deadband: T,
     /// Period of an output that wraps, above zero \[output unit\], such as 360°.
     ///
-    /// The error and the changes of the output are then taken along the shorter direction,
-    /// within half a period. A period requires the full set-point weight b = 1, and c of 0 or
-    /// 1.
+    /// The error and the changes of the output are then measured along the shorter direction,
+    /// within half a period. A period requires the full set-point weight b = 1, and a c of 0 or 1.
     #[cfg_attr(feature = "serde", serde(default = "none"))]
     pub period: Option<T>,
-    /// Range and slew rate of the command.
+    /// Range and slew-rate limit of the command.
     pub limits: Limits<T>,
     /// Longest `dt` of a good sample, above zero \[s\]: for example five nominal steps.
     ///
@@ -292,8 +292,8 @@ constant!(f64);
 impl<T: Real> PidSettings<T> {
     /// A plain PI (15) for a machine, with limits and a fallback.
     ///
-    /// Full set-point weight, conditional anti-windup. A derivative, if `k_d` is set, acts on
-    /// the measurement. `longest_dt` in \[s\].
+    /// It has full set-point weight and conditional anti-windup. A derivative, if `k_d` is set,
+    /// acts on the measurement. `longest_dt` is in \[s\].
     #[must_use]
     pub const fn new(
         k_p: T,
@@ -310,7 +310,7 @@ impl<T: Real> PidSettings<T> {
         }
     }
 
-    /// Settings for a simulation: no limits, any `dt`, the last command indefinitely.
+    /// Settings for a simulation: no limits, any `dt`, and the last command held indefinitely.
     #[must_use]
     pub const fn unlimited(k_p: T, k_i: T) -> Self {
         Self {

@@ -17,18 +17,18 @@ use crate::Real;
 pub struct PidInput<T> {
     /// Time since the last call \[s\], also after a bad sample.
     pub dt: T,
-    /// y_r \[output unit\], such as \[N·m\]
+    /// Reference y_r \[output unit\], such as \[N·m\].
     pub reference: T,
-    /// y \[output unit\], such as \[N·m\]
+    /// Measured output y \[output unit\], such as \[N·m\].
     pub measured: T,
     /// Measured distal velocity \[rad/s\]; only PIV (16) reads it.
     pub velocity: T,
-    /// Added to the command before the limits \[command unit\]; 0 for none.
+    /// Feed-forward, added to the command before the limits \[command unit\]; 0 for none.
     pub feed_forward: T,
 }
 
 impl<T: Real> PidInput<T> {
-    /// A sample without velocity and feed-forward: `dt` \[s\], the torques \[N·m\].
+    /// A sample without velocity or feed-forward, from `dt` \[s\] and the torques \[N·m\].
     #[inline]
     #[must_use]
     pub fn new(dt: T, reference: T, measured: T) -> Self {
@@ -51,7 +51,7 @@ pub struct PidOutput<T> {
     pub command: T,
     /// Result of the sample: good, or the fault and the substitute command.
     pub status: Status,
-    /// Telemetry; on a bad sample, the terms of the last good sample.
+    /// Telemetry. On a bad sample these are the terms of the last good sample.
     pub terms: PidTerms<T>,
 }
 
@@ -80,8 +80,8 @@ pub struct PidTerms<T> {
     pub velocity: T,
     /// The feed-forward of the sample \[command unit\].
     pub feed_forward: T,
-    /// The sum before range and slew rate \[command unit\].
+    /// The sum before range and slew-rate limit \[command unit\].
     pub unlimited: T,
-    /// Whether range or slew rate changed the command.
+    /// Whether the range or the slew-rate limit changed the command.
     pub saturated: bool,
 }

@@ -9,8 +9,8 @@ use crate::Real;
 
 /// State of a [`Pid`]: the integral, the filtered rate, the last good sample.
 ///
-/// `Copy`: it can be saved and restored. Any state works with any [`Pid`]. To change the gains
-/// of a running controller without a jump see [`Pid::bumpless_transfer`].
+/// The state is `Copy`, so it can be saved and restored. Any state works with any [`Pid`]. To
+/// change the gains of a running controller without a jump, see [`Pid::bumpless_transfer`].
 ///
 /// ```
 /// use bowden::control::{Pid, PidInput, PidState};
@@ -91,7 +91,7 @@ impl<T: Real> Last<T> {
 impl<T: Real> PidState<T> {
     /// A new state, before the first sample; its command is zero.
     ///
-    /// A slew rate starts from this zero. Use [`PidState::resume_from`] if another command is
+    /// A slew-rate limit starts from this zero. Use [`PidState::resume_from`] if another command is
     /// applied.
     #[must_use]
     pub const fn new() -> Self {
@@ -112,12 +112,12 @@ impl<T: Real> PidState<T> {
     /// next step at the same sample adds one step of the integral and nothing else. `at.dt` is
     /// ignored. [`AntiWindup::Clamp`](super::AntiWindup::Clamp) limits this integral.
     ///
-    /// A number that is not finite, or an overflow, leaves the state unchanged except for the
-    /// count of bad samples, and returns a fault. A latched safe command stays latched. The
-    /// score of the bad samples stays too, so a restart after each bad sample does not
-    /// prevent the safe command.
+    /// A number that is not finite, or an overflow, leaves the state unchanged except for the count
+    /// of bad samples, and returns a fault. A latched safe command stays latched. The score of the
+    /// bad samples is kept too, so a restart after each bad sample does not prevent the safe
+    /// command.
     ///
-    /// The integral takes the difference between `output` and the other terms at `at`. A law
+    /// The integral absorbs the difference between `output` and the other terms at `at`. A law
     /// without `k_i` returns this difference to zero: see
     /// [`PidSettings::k_i`](super::PidSettings::k_i).
     ///
@@ -155,18 +155,17 @@ impl<T: Real> PidState<T> {
 
     /// Acknowledges the fault: the next good sample closes the loop again.
     ///
-    /// While the safe command is latched ([`Status::Safe`]) only this call ends it. The next
-    /// good sample then starts from the safe command, without a jump, as after
-    /// [`resume_from`](Self::resume_from).
+    /// Only this call ends a latched safe command ([`Status::Safe`]). The next good sample then
+    /// starts from the safe command, without a jump, as after [`resume_from`](Self::resume_from).
     pub fn acknowledge(&mut self) {
         self.held.acknowledge();
     }
 
-    /// Clears integral, rate and samples; the applied command is kept.
+    /// Clears the integral, the rate and the samples; keeps the applied command.
     ///
-    /// A slew rate continues from the applied command, and a latched safe command stays
-    /// latched. The score of the bad samples stays too, so a reset at each bad sample does
-    /// not prevent the safe command. For a state without a command, assign [`PidState::new`].
+    /// A slew-rate limit continues from the applied command, and a latched safe command stays
+    /// latched. The score of the bad samples is kept too, so a reset at each bad sample does not
+    /// prevent the safe command. For a state without a command, assign [`PidState::new`].
     pub fn reset(&mut self) {
         *self = Self {
             held: self.held,
@@ -176,9 +175,9 @@ impl<T: Real> PidState<T> {
 
     /// Prepares a stored state for a start after a power-off: no command is applied.
     ///
-    /// Integral, rate and samples are cleared. The command becomes the one nearest to zero
-    /// within the limits. A latched safe command stays latched, and the score of the bad
-    /// samples is kept. The first good sample starts from this command without a jump, as after
+    /// Integral, rate and samples are cleared. The command becomes the value nearest to zero within
+    /// the limits. A latched safe command stays latched, and the score of the bad samples is kept.
+    /// The first good sample starts from this command without a jump, as after
     /// [`acknowledge`](Self::acknowledge). Without this call a step on a stored state continues
     /// with the stored command.
     ///
