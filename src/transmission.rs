@@ -297,8 +297,8 @@ impl<T: Real> Transmission<T> {
     /// after the inverse does no harm.
     ///
     /// # Errors
-    /// [`Error::Inadmissible`] if the gain is zero; [`Error::OutOfRange`] with `"rho"` if no
-    /// float is small enough for it.
+    /// [`Error::Inadmissible`] if the gain is zero; [`Error::OutOfRange`] with `"rho"` if no float
+    /// is small enough for rho.
     pub fn nearest_invertible(&self) -> Result<Self, Error> {
         if self.gain == T::zero() || self.inverse().is_ok() {
             return self.inverse().map(|_| *self);

@@ -7,7 +7,7 @@
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Kind {
-    /// [`Theorem1`](super::Theorem1), as in the paper.
+    /// [`Theorem1`](super::Theorem1), as in Nguyen et al. (2018).
     Theorem1,
     /// [`Tightest`](super::Tightest): Theorem 1 with the best choice of its free constants.
     Tightest,
@@ -25,7 +25,7 @@ pub enum Kind {
     PerStep,
 }
 
-/// A bound of the tracking error \[N·m\] with its assumptions.
+/// A bound on the tracking error \[N·m\], with its assumptions.
 ///
 /// ```
 /// use bowden::bound::{Plant, Theorem1};
@@ -66,7 +66,7 @@ impl<T> Certificate<T> {
         "N·m"
     }
 
-    /// Assumptions that the user must check; assumptions that the types check are not repeated.
+    /// Assumptions that the user must check; the list omits assumptions that the types check.
     #[must_use]
     pub fn assumptions(&self) -> &'static [&'static str] {
         match self.kind {

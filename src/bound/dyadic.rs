@@ -20,7 +20,7 @@ enum Towards {
 
 /// `mantissa·2^exponent`, with at most 62 bits of mantissa.
 ///
-/// Every finite float is exactly such a number. Written as `13*2^-4`, which is exact too.
+/// Every finite float is exactly such a number. It is written as `13*2^-4`, which is exact too.
 ///
 /// ```
 /// use bowden::bound::Dyadic;
@@ -236,7 +236,7 @@ impl Enclosure {
         Self::exactly(Dyadic::of(x))
     }
 
-    /// One number.
+    /// The interval of one number.
     #[must_use]
     pub const fn exactly(x: Dyadic) -> Self {
         Self { low: x, high: x }
@@ -259,7 +259,7 @@ impl Enclosure {
         self.high
     }
 
-    /// Whether this number is certainly no greater than the other.
+    /// Whether this number is certainly not greater than the other.
     #[must_use]
     pub fn is_at_most(&self, other: Self) -> bool {
         self.high <= other.low

@@ -20,7 +20,7 @@ const MOST_BOXES: u32 = 500_000;
 /// Most halvings of a region.
 const MOST_HALVINGS: u32 = 80;
 
-/// Iterative learning in addition to a P or PI that converges on every plant of a range.
+/// Convergence of iterative learning, in addition to a P or PI, on every plant of a range.
 ///
 /// Let `C = k_p + k_i/s`, let P~ be the plant of a [`PlantRange`], and let `G = P~/(1 + C·P~)`
 /// be the transfer function from feed-forward to measured output. The factor of a tone of the
@@ -30,9 +30,9 @@ const MOST_HALVINGS: u32 = 80;
 /// H = Q·(1 − forgetting − gain·e^(jw·lead·T)·Σ S(w·T/2 + pi·k)³·G(j(w + 2·pi·k/T)))
 /// ```
 /// T is the time of a cell. `S(x) = sin(x)/x` describes the mean over a cell and, squared, the
-/// linear interpolation between two cells. The sum over all whole numbers k contains their
-/// images, and Q is that of [`IterativeLearning`]. The certificate proves for every plant and
-/// every cycle time of the range:
+/// linear interpolation between two cells. The sum over all whole numbers k contains their images,
+/// and Q is the filter of [`IterativeLearning`]. The certificate proves for every plant and every
+/// cycle time of the range:
 /// - The loop without learning is stable, by zero exclusion as in
 ///   [`ObserverStability`](super::ObserverStability).
 /// - `|H| <= factor` at every frequency from the cycle's own frequency to the Nyquist frequency
@@ -60,12 +60,12 @@ const MOST_HALVINGS: u32 = 80;
 /// - one constant cycle time, and a phase that is uniform in time;
 /// - a plant of this form;
 /// - many samples per cell;
-/// - friction and load repeat, or are bounded disturbances (learning cannot remove them, and a
-///   part of them returns one cycle later);
+/// - friction and load repeat, or they are bounded disturbances (learning cannot remove these, and
+///   a part of them returns one cycle later);
 /// - no limit is active, neither of the command nor of the learned values, and no sample is
 ///   bad.
 ///
-/// **The range of the slope f covers each slope of a hysteresis separately.** This does not cover a
+/// **The range of the slope f covers each slope of a hysteresis separately.** It does not cover a
 /// slope that changes along the path.
 ///
 /// If no proof was found, the number of regions may have been too small rather than the range

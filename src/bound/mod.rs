@@ -2,7 +2,7 @@
 //!
 //! | certificate | law and time | bounds |
 //! |---|---|---|
-//! | [`Theorem1`] | as published, continuous time | limsup of \|e\|, as in the paper |
+//! | [`Theorem1`] | as published, continuous time | limsup of \|e\|, as in Nguyen et al. (2018) |
 //! | [`Tightest`] | as published, continuous time | limsup of \|e\|, with the best choice of the free constants |
 //! | [`Rms`] | as published, continuous time | root mean square of e |
 //! | [`PeakContinuous`] | as published, continuous time, bounded estimates | limsup of \|e\| |
@@ -22,19 +22,18 @@
 //! check. [`Certificate::assumptions`] lists the assumptions that the user must check. The
 //! documentation of each type states them in full.
 //!
-//! **The bound of Theorem 1 is correct and vacuous.** With Table 2, alpha = 0.5 and Delta = 7
-//! N·m the bound is 1138 N·m. The measured error is 0.3 N·m RMS. The other certificates are
-//! useful.
+//! **The bound of Theorem 1 is correct but vacuous.** With Table 2, alpha = 0.5 and Delta = 7 N·m
+//! the bound is 1138 N·m. The measured error is 0.3 N·m RMS. The other certificates are useful.
 //!
 //! # Corrections to the paper
-//! - (35)-(38) hold as limits superior, or for all time if V starts below phi/theta.
+//! - (35)-(38) hold only as limits superior, or for all time if V starts below phi/theta.
 //!   `|e| <= sqrt(1 + lambda²)·delta`, which is less than `(1 + lambda)·delta`.
 //! - Delta = 7 N·m is kappa_eta, not the bound of `D_h = kappa_eta·eta + d + T0`. With
 //!   `|eta| <= 1` the bound is `kappa_eta + |T0| + |d|`, 7.056 N·m for the first set without d.
-//! - The constant 0.2785 is W(1/e) = 0.27846, for `tanh`; the clamped sign has 1/4.
+//! - The constant 0.2785 is W(1/e) = 0.27846, for `tanh`; for the clamped sign it is 1/4.
 //! - Remark 1 (less leakage, less error) is false for delta, which grows without bound as the
 //!   leakage goes to zero. The remark is true for the RMS certificate.
-//! - "control laws (26), (30)" are (19), (23).
+//! - The "control laws (26), (30)" in the text are (19) and (23).
 
 mod certificate;
 mod dyadic;

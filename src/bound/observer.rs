@@ -39,7 +39,7 @@ use crate::{Error, Real};
 /// - friction and load are bounded disturbances;
 /// - libm's sine and cosine have an error of less than 1e-12.
 ///
-/// The range of f covers each slope of a hysteresis separately. This does not cover a slope that
+/// The range of f covers each slope of a hysteresis separately. It does not cover a slope that
 /// changes along the path. No range can contain a cable whose output falls while its input rises (f
 /// below zero). With such a cable the loop oscillates.
 ///

@@ -26,8 +26,7 @@ use crate::{Error, Real};
 /// - the bounds of the estimates contain the true values;
 /// - `h·rate <= 1`.
 ///
-/// As with Theorem 1, the inequality bounds all errors, and the bound of the tracking error is
-/// loose.
+/// As in Theorem 1, the inequality bounds all errors, so the bound on the tracking error is loose.
 ///
 /// ```
 /// use bowden::bound::{PerStep, Plant};
@@ -45,7 +44,7 @@ use crate::{Error, Real};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PerStep<T> {
-    /// The box of the errors in which it holds.
+    /// The box of the errors in which the inequality holds.
     pub within: PeakSampled<T>,
     /// h \[s\].
     pub step: T,
@@ -62,7 +61,8 @@ impl<T: Real> PerStep<T> {
     /// The inequality of a law on a plant.
     ///
     /// # Errors
-    /// As [`PeakSampled::try_new`]; [`Error::Inadmissible`] with the violated assumption.
+    /// The same as [`PeakSampled::try_new`], and [`Error::Inadmissible`] with the violated
+    /// assumption.
     pub fn try_new<const N: usize>(
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,

@@ -96,8 +96,9 @@ pub struct Plant<T, const N: usize> {
     ///
     /// For the hysteresis this rate is `kappa_eta·f/(B - kappa_eta·f)·|y'|` with f = rho·max(1,
     /// 2·sigma). Here f is the steepest slope of eta in tau_i, since
-    /// `tau_i' = y'/(B - kappa_eta·f)` at worst. For the paper's first set with sigma = 1/2 and
-    /// its reference, `|y_r'| <= 22.24 N·m/s`, the rate is 45.7 N·m/s if y follows y_r.
+    /// `tau_i' = y'/(B - kappa_eta·f)` at worst. For the first set of Nguyen et al. (2018) with
+    /// sigma = 1/2, and for the paper's reference, `|y_r'| <= 22.24 N·m/s`, the rate is 45.7 N·m/s
+    /// if y follows y_r.
     pub delta_rate: T,
     /// Coefficients and regressors.
     pub regressors: [Known<T>; N],
@@ -108,8 +109,8 @@ pub struct Plant<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> Plant<T, N> {
-    /// A plant with a known alpha \[N·m/command unit\] and `|D| <= delta` \[N·m\]; all else is
-    /// zero.
+    /// A plant with a known alpha \[N·m/command unit\] and `|D| <= delta` \[N·m\]; all other fields
+    /// are zero.
     #[must_use]
     pub fn new(alpha: T, delta: T) -> Self {
         Self {

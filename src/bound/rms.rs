@@ -40,7 +40,7 @@ const NARROWINGS: u32 = 90;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Rms<T> {
-    /// The bound of rms(e) over a long time \[N·m\].
+    /// The bound on rms(e) over a long time \[N·m\].
     pub bound: T,
     /// The same bound with the target Delta, or the nearest value within the bounds of
     /// delta_hat \[N·m\].
@@ -64,7 +64,7 @@ impl<T: Real> Rms<T> {
     /// The certificate of a law on a plant.
     ///
     /// # Errors
-    /// [`Error::NonFinite`], [`Error::OutOfRange`] with the invalid part of the plant;
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant;
     /// [`Error::Inadmissible`] with the violated assumption.
     pub fn try_new<const N: usize>(
         law: &Adaptive<T, N>,

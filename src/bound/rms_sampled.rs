@@ -8,7 +8,7 @@ use crate::{Error, Real};
 
 /// Root mean square of the error of the first-order form over a long time, in sampled time.
 ///
-/// The derivation is that of [`Rms`](super::Rms), from the step of V that
+/// The derivation is the same as for [`Rms`](super::Rms), but from the step of V that
 /// [`PerStep`](super::PerStep) bounds. Without the leakage,
 /// `V⁺ <= V - h·k·lambda·s² + h·(lambda·c + Xi)·|s| + h·phi`, where
 ///
@@ -39,11 +39,11 @@ use crate::{Error, Real};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RmsSampled<T> {
-    /// The bound of rms(e) over a long time \[N·m\].
+    /// The bound on rms(e) over a long time \[N·m\].
     pub bound: T,
     /// The best reference value of delta_hat \[N·m\].
     pub target: T,
-    /// The box of the errors in which it holds.
+    /// The box of the errors in which the bound holds.
     pub within: PeakSampled<T>,
     /// phi without the part of delta_hat.
     phi: T,
@@ -65,7 +65,8 @@ impl<T: Real> RmsSampled<T> {
     /// The certificate of a law on a plant.
     ///
     /// # Errors
-    /// As [`PeakSampled::try_new`]; [`Error::Inadmissible`] with the violated assumption.
+    /// The same as [`PeakSampled::try_new`], and [`Error::Inadmissible`] with the violated
+    /// assumption.
     pub fn try_new<const N: usize>(
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,

@@ -73,9 +73,9 @@ impl<T: Real> PeakSampled<T> {
     /// The certificate of a law on a plant.
     ///
     /// # Errors
-    /// [`Error::NonFinite`], [`Error::OutOfRange`] with the invalid part of the plant;
-    /// [`Error::Inadmissible`] with the violated assumption, or if the bounds of the estimates
-    /// are too wide for a bound.
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant;
+    /// [`Error::Inadmissible`] with the violated assumption, or if the bounds of the estimates are
+    /// too wide for a bound.
     pub fn try_new<const N: usize>(
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,

@@ -1,4 +1,4 @@
-//! Theorem 1 of the paper, with the paper's constants.
+//! Theorem 1 of Nguyen et al. (2018), with the paper's constants.
 
 use super::truth::{adapting, bounded, literal, stays, sum};
 use super::{Certificate, Interval, Kind, Plant};
@@ -20,8 +20,8 @@ use crate::{Error, Real};
 /// - bounds of the estimates, if any, that contain the true values;
 /// - no active limit.
 ///
-/// The algebra (27)-(34) is right. The bound is vacuous: leakage is by far the slowest rate, so
-/// theta is very small and delta very large.
+/// The algebra (27)-(34) is correct, but the bound is vacuous: leakage is by far the slowest rate,
+/// so theta is very small and delta very large.
 ///
 /// ```
 /// use bowden::bound::{Plant, Theorem1};
@@ -49,7 +49,7 @@ impl<T: Real> Theorem1<T> {
     /// The constants of a law on a plant.
     ///
     /// # Errors
-    /// [`Error::NonFinite`], [`Error::OutOfRange`] with the invalid part of the plant;
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant;
     /// [`Error::Inadmissible`] with the violated assumption.
     pub fn try_new<const N: usize>(
         law: &Adaptive<T, N>,

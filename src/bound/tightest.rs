@@ -8,9 +8,8 @@ use crate::{Error, Real};
 /// Theorem 1's bound of limsup `|e|` with the best choice of its free constants.
 ///
 /// The proof of [`Theorem1`](super::Theorem1) leaves some constants free. Let
-/// `V = s²/2 + c·z²/2 + ...` with any weight c. Measure delta_hat against any target T up to
-/// Delta. Let theta be any rate below twice the slowest leakage. Then `V' <= -theta·V + phi`
-/// with
+/// `V = s²/2 + c·z²/2 + ...` with any weight c. Measure delta_hat from any target T up to Delta.
+/// Let theta be any rate below twice the slowest leakage. Then `V' <= -theta·V + phi` with
 ///
 /// - `sum w_p·sigma_p²·(p* - p0)²/(4·m_p·(sigma_p - theta/2))` of the leakages, delta's with
 ///   T for p*;

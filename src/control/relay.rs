@@ -6,27 +6,27 @@
 //!
 //! k_u = 4·d·sin(pi·D)/(pi·sqrt(a² − eps²))      T_u = period of the limit cycle
 //! ```
-//! A relay with hysteresis eps makes the loop oscillate near its ultimate frequency. d
-//! determines the amplitude. The amplitude a is half the distance from the lowest to the
-//! highest output of a cycle. D is the share of the period in which the command is
-//! `centre + d`. [`Ultimate::pi`] turns k_u and T_u into the gains of a [`Pid`](super::Pid).
+//! A relay with hysteresis eps makes the loop oscillate near its ultimate frequency. The level d
+//! determines the amplitude. The amplitude a is half the distance from the lowest to the highest
+//! output of a cycle. D is the share of the period in which the command is `centre + d`.
+//! [`Ultimate::pi`] turns k_u and T_u into the gains of a [`Pid`](super::Pid).
 //!
 //! - **Describing function.** The formula uses the first harmonic of the command only. Compared
 //!   with the exact limit cycle, k_u has an error of −2 % for 1/(s + 1)³. For a first-order lag
-//!   with delay the error is −19 % (short delay) to +28 % (long delay), −11 % for a delay equal to
-//!   the time constant.
+//!   with delay the error is −19 % (short delay) to +28 % (long delay), and −11 % for a delay equal
+//!   to the time constant.
 //! - **Hysteresis** makes the cycle slower: T_u is too long and k_u too low, which is conservative. With
 //!   eps = 0.1·a, k_u of 1/(s + 1)³ is 17.5 % too low. Choose d so that a is several times eps.
 //! - **Asymmetric cycles.** A load or a bias makes the half-periods unequal. The first harmonic of
 //!   such a command is `4·d/pi·sin(pi·D)`; without the sine, k_u would be too high. The even
-//!   harmonics increase a, so k_u is too low: by 5 % for 1/(s + 1)³ and D = 0.62. With the mean
-//!   command, `centre + d·(2·D − 1)`, as the next centre the half-periods become equal.
+//!   harmonics increase a, so k_u is too low: by 5 % for 1/(s + 1)³ and D = 0.62. If the mean
+//!   command `centre + d·(2·D − 1)` is used as the next centre, the half-periods become equal.
 //! - **Sampling.** The relay switches at the sample after the crossing, up to one `dt` late. The
 //!   measured period is the true period of this sampled loop. It exceeds the period of a continuous
 //!   relay by two `dt` on average and by four at most. A sampled controller has the same average
 //!   delay of half a `dt`, so no correction is necessary.
 //! - **Sign.** The amplitude d, k_u and the gains have the sign of the plant's gain. With the wrong
-//!   sign the output leaves its range or the relay never switches back. The experiment then fails
+//!   sign, the output leaves its range or the relay never switches back. The experiment then fails
 //!   with `OutputOutOfRange` or `NoOscillation`.
 //! - **Duration.** Every sample, good or bad, takes time from an integer budget. The experiment
 //!   therefore ends within `longest_time`. A sample without a usable `dt` takes `longest_dt`. A
@@ -129,7 +129,7 @@ pub struct Relay<T> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum RelayFailure {
-    /// Too many bad samples, see [`Fallback`](super::Fallback); this is the fault of the last
+    /// Too many bad samples, see [`Fallback`](super::Fallback). The value is the fault of the last
     /// one.
     BadSamples(Fault),
     /// The output was further from the reference than `most_deviation`.
@@ -205,12 +205,12 @@ impl<T: Real> Relay<T> {
         &self.settings
     }
 
-    /// One sample: `dt` since the last call \[s\], also after a bad sample, and the measured output
-    /// \[output unit\].
+    /// One sample: `dt` is the time since the last call \[s\], also after a bad sample; `measured`
+    /// is the measured output \[output unit\].
     ///
     /// The command is finite and within the limits for any input **and any state**. A bad sample
-    /// holds the command; its time counts. If its `dt` is not usable, `longest_dt` is taken from the
-    /// time that remains, and the cycle with this sample is not averaged.
+    /// holds the command, and its time counts. If its `dt` is not usable, the remaining time
+    /// decreases by `longest_dt`, and the cycle with this sample is not averaged.
     pub fn step(&self, state: &mut RelayState<T>, dt: T, measured: T) -> RelayOutput<T> {
         if state.is_active() {
             state.phase = self.phase_after(state, dt, measured);

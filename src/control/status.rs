@@ -50,14 +50,14 @@ pub enum Fault {
 pub enum Status {
     /// All inputs were good; the state has advanced.
     Good,
-    /// A regressor was bad and its term was dropped; the loop is closed, the estimates do not
+    /// A regressor was bad and its term was dropped; the loop is closed, and the estimates do not
     /// change. For [`IterativeLearning`](crate::control::IterativeLearning): the error was
     /// unusable, or the phase has jumped.
     Degraded(Fault),
-    /// A bad sample: the state is unchanged, the last good command is held.
+    /// A bad sample: the state is unchanged, and the last good command is held.
     Held(Fault),
     /// Too many bad samples: the safe command is applied until
-    /// [`acknowledge`](crate::control::Controller::acknowledge), even if samples are good.
+    /// [`acknowledge`](crate::control::Controller::acknowledge), even if later samples are good.
     ///
     /// The fault is the fault of the sample that exceeded the limit.
     Safe(Fault),
@@ -83,8 +83,8 @@ impl Status {
 
 /// The safe command after repeated bad samples.
 ///
-/// A score counts: a bad sample adds the weight, a good sample subtracts 1. At `after·weight`
-/// the safe command is applied and latched. The safe command is therefore applied
+/// A score counts the bad samples: a bad sample adds the weight, and a good sample subtracts 1. At
+/// `after·weight` the safe command is applied and latched. The safe command is therefore applied
 /// - at the `after`-th bad sample in a row, and
 /// - at the latest after any n samples with B bad ones if `(weight + 1)·B − n ≥ after·weight`.
 ///
@@ -159,19 +159,19 @@ constant!(f64);
 impl<T: Real> Fallback<T> {
     /// Applies the safe command \[command unit\] from the `after`-th bad sample in a row on.
     ///
-    /// The safe command ignores the slew rate, because the machine needs it at once. It is
+    /// The safe command ignores the slew-rate limit, because the machine needs it at once. It is
     /// applied until it is acknowledged; the first good sample after that starts from it.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] with `"safe command"`, [`Error::OutOfRange`] with `"after"` if that
-    /// is zero.
+    /// [`Error::NonFinite`] with `"safe command"`; [`Error::OutOfRange`] with `"after"` if that is
+    /// zero.
     pub fn try_new(after: u32, command: T) -> Result<Self, Error> {
         fallback!(after, command)
     }
 
     /// The same fallback with `weight` good samples to cancel a bad one; default: 4.
     ///
-    /// With 1, every second sample may be bad. 0 is refused: the score would never rise.
+    /// With 1, every second sample may be bad. 0 is refused, because the score would never rise.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] with `"weight"`.
@@ -252,10 +252,10 @@ pub(crate) enum Latch {
 
 /// The drive's response to the last command.
 ///
-/// A controller assumes that the drive applies its command. Report any other response between
-/// two steps. Examples are a safety relay that is open, a current limit of the drive, and an
-/// inner loop at its limit. Slew rate, anti-windup and a bumpless start then continue from the
-/// applied command.
+/// A controller assumes that the drive applies its command. Report any other response between two
+/// steps. Examples are an open safety relay, a current limit in the drive, and an inner loop at its
+/// limit. The slew-rate limit, anti-windup and a bumpless start then continue from the applied
+/// command.
 ///
 /// ```
 /// use bowden::control::{Applied, Fallback, Limits, Pid, PidInput, PidSettings, PidState};
@@ -271,15 +271,16 @@ pub(crate) enum Latch {
 /// # Ok::<(), bowden::Error>(())
 /// ```
 ///
-/// These methods take the response: [`Pid::applied`](super::Pid::applied),
+/// These methods accept the response: [`Pid::applied`](super::Pid::applied),
 /// [`AdaptiveState::applied`](super::AdaptiveState::applied),
 /// [`Controller::applied`](super::Controller::applied) and
 /// [`Compensator::applied`](super::Compensator::applied), which moves the hysteresis. A
 /// [`DisturbanceObserver`](super::DisturbanceObserver) reads the command from `sent`.
 /// [`IterativeLearning`](super::IterativeLearning) reads `learns`.
 ///
-/// Use `AsCommanded` if the drive differs a little from the command without a limit (an offset, a
-/// measured current). Otherwise the integral would stop until the difference is zero.
+/// Use `AsCommanded` if the drive deviates slightly from the command for a reason other than a
+/// limit (an offset, a measured current). Otherwise the integral would stop until the difference is
+/// zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]

@@ -37,10 +37,9 @@ pub enum Named {
     Waiting,
     /// `lambda²·Z <= lambda·S + 2·g⁻·Z`: the margin of Z for rounding, while z is frozen.
     Slack,
-    /// The change of the command in a step `<=` the change that the slew rate allows: it is not
-    /// active.
-    /// `h·(lambda·(W + g⁺·(k·S + delta_hat)) + g⁺·Z + r' + lambda·(S + lambda·Z))/alpha⁻` and
-    /// `E_c`, the roundings of the command, `<= h·slew`.
+    /// The change of the command in a step `<=` the change that the slew-rate limit allows: the
+    /// limit is not active. `h·(lambda·(W + g⁺·(k·S + delta_hat)) + g⁺·Z + r' + lambda·(S +
+    /// lambda·Z))/alpha⁻` and `E_c`, the roundings of the command, `<= h·slew`.
     Slew,
 }
 

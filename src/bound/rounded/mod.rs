@@ -22,9 +22,9 @@ use gains::Gains;
 /// [`inequalities`](Self::inequalities) hold, these conditions hold after every step too, and
 /// `|e| <= S + lambda·Z` at every sample, for `f32` and `f64`.
 ///
-/// Each inequality is computed in integers, rounded outwards: the proof does not rely on a
-/// float. The computation needs no heap, so a controller can check its own gains at
-/// start-up. Its time on a microcontroller is not measured.
+/// Each inequality is computed in integers, rounded outwards: the proof does not rely on a float.
+/// The computation needs no heap, so a controller can check its own gains at start-up. Its time on
+/// a microcontroller has not been measured.
 ///
 /// *Proof.* The exact step stays in the box with a margin, as in
 /// [`PeakSampled`](super::PeakSampled); the [`Roundings`] are less than the margin. The theorem
@@ -35,8 +35,8 @@ use gains::Gains;
 /// sufficient. If a limit that can hold the reference against the load cuts a command, z is frozen,
 /// and the box is the same (`theorems/Limit.v`).
 ///
-/// **A slew rate must not be active.** [`slew`](Self::slew) states that every step from the box
-/// changes the command by less than the slew rate allows (`theorems/Slew.v`).
+/// **A slew-rate limit must not be active.** [`slew`](Self::slew) states that every step from the
+/// box changes the command by less than the slew-rate limit allows (`theorems/Slew.v`).
 ///
 /// Further assumptions:
 /// - the plant is `y = alpha·u - theta'x - D` without dynamics, with y as the controller reads
@@ -68,7 +68,8 @@ use gains::Gains;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PeakRounded {
-    /// S \[N·m\]: the bound of `|s|`. The least value that is proved, to 2^-14 of itself.
+    /// S \[N·m\]: the bound of `|s|`. It is the least value for which the proof succeeds, to a
+    /// relative accuracy of 2^-14.
     pub s: Enclosure,
     /// Z \[N·m·s\]: the bound of `|z|`.
     pub z: Enclosure,
@@ -86,7 +87,7 @@ pub struct PeakRounded {
     pub inequalities: [Inequality; 9],
     /// The inequalities that replace [`Named::Command`] if it fails.
     pub at_the_limit: [Inequality; 3],
-    /// The inequality of the slew rate; `None` if the law has no slew rate.
+    /// The slew-rate inequality; `None` if the law has no slew-rate limit.
     pub slew: Option<Inequality>,
 }
 
@@ -98,7 +99,7 @@ impl PeakRounded {
     /// The certificate of a law on a plant.
     ///
     /// # Errors
-    /// As [`examine`](Self::examine), and [`Error::Inadmissible`] with the first violated
+    /// The same as [`examine`](Self::examine), and [`Error::Inadmissible`] with the first violated
     /// inequality.
     pub fn try_new<T: Real, const N: usize>(
         law: &Adaptive<T, N>,
@@ -150,7 +151,7 @@ impl PeakRounded {
         Ok(Self::at(&gains, high))
     }
 
-    /// Whether all inequalities hold, including that of a slew rate; [`Named::Command`] may be
+    /// Whether all inequalities hold, including the slew-rate inequality; [`Named::Command`] may be
     /// replaced by its three substitutes.
     #[must_use]
     pub fn is_proved(&self) -> bool {
@@ -164,7 +165,7 @@ impl PeakRounded {
         fails.any(|it| it.name == Named::Command)
     }
 
-    /// The first violated inequality; for a limit that may be active [`Named::Reserve`], if
+    /// The first violated inequality. For a limit that may be active it is [`Named::Reserve`], if
     /// that one fails.
     #[must_use]
     pub fn refused(&self) -> Option<&Inequality> {
@@ -177,7 +178,7 @@ impl PeakRounded {
         Some(if is_reserve { reserve } else { first })
     }
 
-    /// S + lambda·Z \[N·m\]: `|e|` at every sample; not below it as a real number.
+    /// S + lambda·Z \[N·m\]: the bound of `|e|` at every sample, never rounded down.
     #[must_use]
     pub fn bound(&self) -> f64 {
         let nearest = self.error.high().as_f64();

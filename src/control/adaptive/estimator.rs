@@ -25,7 +25,7 @@ pub enum Leakage<T> {
     /// sigma-modification of P. Ioannou, J. Sun, *Robust Adaptive Control*, 8.4.1. It leaves no
     /// bias if the true value lies within the bound.
     Switching {
-        /// Leakage from twice the bound on \[1/s\], not negative.
+        /// Leakage beyond twice the bound \[1/s\], not negative.
         rate: T,
         /// Distance from the prior without leakage \[unit of the estimate\], above zero.
         bound: T,
@@ -115,7 +115,7 @@ pub struct Estimator<T> {
     pub gain: T,
     /// Leakage to the prior.
     pub leakage: Leakage<T>,
-    /// Prior, the target of the leakage \[unit of the estimate\]; zero in the paper.
+    /// Prior, the target of the leakage \[unit of the estimate\]; zero in Nguyen et al. (2018).
     pub prior: T,
 }
 

@@ -1,13 +1,13 @@
 //! Robust adaptive torque control, (17)-(26), with any number of regressors.
 //!
 //! The plant is `y = alpha·u - theta'x - D` (11). The errors are `e = y - y_r`, `z = ∫e` and
-//! `s = e + lambda·z`. The virtual command (23) is
-//! `ubar = -k·s + y_r - (z + e')/lambda + theta_hat'x - delta_hat·T(s/eps)`. The law multiplies
-//! ubar by beta_hat, the estimate of 1/alpha (19). The estimates follow (24)-(26). The paper's
-//! regressors are velocity and acceleration; **each effect that the bench identifies is a
-//! further regressor**, with its bench value as prior.
+//! `s = e + lambda·z`. The virtual command (23) is `ubar = -k·s + y_r - (z + e')/lambda +
+//! theta_hat'x - delta_hat·T(s/eps)`. The law multiplies ubar by beta_hat, the estimate of 1/alpha
+//! (19). The estimates follow (24)-(26). The regressors of Nguyen et al. (2018) are velocity and
+//! acceleration; **each effect that the bench identifies is a further regressor**, with its value
+//! from the bench as prior.
 //!
-//! **Two forms for two plants.** In sampled time e' makes an algebraic loop:
+//! **Two forms for two plants.** In sampled time e' creates an algebraic loop:
 //! - The form [as published](Form::AsPublished) closes the loop through a filtered difference.
 //!   It is for plants with inertia.
 //! - The [first-order](Form::FirstOrder) form solves the loop. It is for plants that respond
@@ -17,8 +17,8 @@
 //!
 //! **Bounds of the estimates.** The law clamps each estimate to its bounds (projection). If the
 //! true value lies within the bounds, the clamp cannot raise the Lyapunov function, and every
-//! invariant holds for any measurement. The paper has no bounds: [`AdaptiveSettings::paper`]
-//! has bounds as wide as the float. The first-order form requires bounds above zero for
+//! invariant holds for any measurement. The paper has no bounds: [`AdaptiveSettings::paper`] has
+//! bounds as wide as the range of the float. The first-order form requires bounds above zero for
 //! beta_hat, and bounds not below zero for delta_hat.
 
 mod estimator;
@@ -116,8 +116,8 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         self.settings.largest_step()
     }
 
-    /// Whether this law can produce the state: finite numbers, every estimate within its
-    /// bounds.
+    /// Whether this law can produce the state, that is, whether its numbers are finite and every
+    /// estimate is within its bounds.
     ///
     /// Check a stored state before its first use. A step maps a valid state to a valid state,
     /// for any input.
@@ -146,7 +146,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
 }
 
 impl<T: Real> Adaptive<T, 2> {
-    /// Table 2 of the paper: [`AdaptiveSettings::paper`].
+    /// The law with Table 2 of Nguyen et al. (2018): [`AdaptiveSettings::paper`].
     #[must_use]
     pub fn paper() -> Self {
         Self::checked(AdaptiveSettings::paper())

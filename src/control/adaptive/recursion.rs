@@ -24,7 +24,8 @@ pub struct Disturbance<T> {
     pub delta_hat: T,
     /// `w = (g-1)·(r + (r⁺-r)/(h·lambda)) + (g·theta_hat - theta)'x - D` \[N·m\].
     pub w: T,
-    /// `xi = (D⁺ - D) + theta'(x⁺ - x)` \[N·m\]: the motion of the plant without a command.
+    /// `xi = (D⁺ - D) + theta'(x⁺ - x)` \[N·m\]: the change of the plant's output without a
+    /// command.
     pub xi: T,
 }
 

@@ -12,10 +12,10 @@ const HALVINGS: (u32, u32) = (26, 56);
 impl<T: Real, const N: usize> AdaptiveState<T, N> {
     /// A state whose first step on `input` commands `output` \[command unit\].
     ///
-    /// The estimates are initial. The accumulated error is chosen so that the law gives
-    /// `output`, feed-forward included. This is impossible if beta_hat is zero, z would leave
-    /// its bounds, the limits exclude `output`, or the sample is bad. Then only the slew rate
-    /// or the lag softens the jump.
+    /// The estimates are the initial ones. The accumulated error is chosen so that the law gives
+    /// `output`, feed-forward included. This is impossible if beta_hat is zero, z would leave its
+    /// bounds, the limits exclude `output`, or the sample is bad. In these cases only the slew-rate
+    /// limit or the lag softens the jump.
     ///
     /// The state is new: it has no fault and no bad samples. For a running state use
     /// [`Adaptive::resume`].
@@ -48,9 +48,8 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
 impl<T: Real, const N: usize> Adaptive<T, N> {
     /// Continues a running state with other settings without a jump of the command.
     ///
-    /// The estimates stay, each within its new bounds. The accumulated error is chosen so that
-    /// the next step on `input` gives the applied command, as in
-    /// [`AdaptiveState::resume_from`].
+    /// The estimates are kept, each within its new bounds. The accumulated error is chosen so that
+    /// the next step on `input` gives the applied command, as in [`AdaptiveState::resume_from`].
     ///
     /// ```
     /// use bowden::control::{Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState};
@@ -80,10 +79,9 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
 
     /// Starts so that the next step on `input` commands `output` \[command unit\].
     ///
-    /// As [`AdaptiveState::resume_from`], for a running state. An unusable sample counts as a
-    /// bad one, and a latched safe command stays latched. The score of the bad samples stays
-    /// too, so a restart after each bad sample does not prevent the safe command.
-    /// `input.dt` is ignored.
+    /// Like [`AdaptiveState::resume_from`], but for a running state. An unusable sample counts as a
+    /// bad one, and a latched safe command stays latched. The score of the bad samples is kept too,
+    /// so a restart after each bad sample does not prevent the safe command. `input.dt` is ignored.
     pub fn resume(
         &self,
         state: &mut AdaptiveState<T, N>,

@@ -38,7 +38,7 @@ pub enum Form<T> {
     },
 }
 
-/// Response to a regressor that is not finite: a NaN encoder need not open the torque loop.
+/// Response to a regressor that is not finite: a NaN from an encoder need not open the torque loop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
@@ -47,8 +47,8 @@ pub enum OnMissing {
     /// A bad sample: the command is held.
     #[default]
     Hold,
-    /// The command of this sample omits its term, all estimates stay unchanged, and the torque
-    /// loop stays closed: [`Status::Degraded`](crate::control::Status::Degraded).
+    /// The command of this sample omits the regressor's term, all estimates stay unchanged, and the
+    /// torque loop stays closed: [`Status::Degraded`](crate::control::Status::Degraded).
     DropRegressor,
 }
 
@@ -120,7 +120,7 @@ pub struct AdaptiveSettings<T, const N: usize> {
         serde(with = "super::list", default = "all_hold::<N>")
     )]
     pub missing: [OnMissing; N],
-    /// Range and slew rate of the command.
+    /// Range and slew-rate limit of the command.
     pub limits: Limits<T>,
     /// Longest `dt` of a good sample, above zero \[s\]: for example five nominal steps.
     ///
@@ -250,7 +250,7 @@ impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
     /// Settings for a machine with fixed estimates, from k, lambda \[1/s\] and epsilon \[N·m\]:
     /// the base of a struct update.
     ///
-    /// beta_hat is one, delta_hat and theta_hat are zero; `longest_dt` in \[s\].
+    /// beta_hat is one; delta_hat and theta_hat are zero. `longest_dt` is in \[s\].
     #[must_use]
     pub const fn new(
         form: Form<T>,
@@ -269,8 +269,8 @@ impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
         }
     }
 
-    /// Settings for a simulation: no limits, any `dt` that the form admits, the last command
-    /// indefinitely.
+    /// Settings for a simulation: no limits, any `dt` that the form admits, and the last command
+    /// held indefinitely.
     #[must_use]
     pub const fn unlimited(form: Form<T>, gain: T, lambda: T, epsilon: T) -> Self {
         Self {
@@ -295,9 +295,9 @@ impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
     /// published.
     ///
     /// `1/(lambda·max(1, g⁺·(k + delta_max/epsilon)))`, where g⁺ is the plant's gain times the
-    /// greatest beta_hat. Up to this step the map of the error does not fall in s, and the box
-    /// theorem ([`PeakSampled`](crate::bound::PeakSampled)) holds. The method also serves
-    /// settings that [`Adaptive::try_new`](super::Adaptive::try_new) refuses. Its gains must be
+    /// greatest beta_hat. Up to this step the map of the error does not decrease in s, and the box
+    /// theorem ([`PeakSampled`](crate::bound::PeakSampled)) holds. The method also accepts settings
+    /// that [`Adaptive::try_new`](super::Adaptive::try_new) refuses, but their gains must be
     /// positive and finite.
     #[must_use]
     pub fn largest_step(&self) -> Option<T> {
@@ -319,7 +319,7 @@ impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
 }
 
 impl<T: Real> AdaptiveSettings<T, 2> {
-    /// Table 2, with the paper's initial estimates and no projection.
+    /// Table 2 of Nguyen et al. (2018), with the paper's initial estimates and no projection.
     ///
     /// The form is as published. The filter of the error's rate, 5 ms, is not in the paper. The
     /// regressors are velocity \[rad/s\] and acceleration \[rad/s²\] of the proximal pulley.

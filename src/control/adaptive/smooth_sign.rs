@@ -1,12 +1,12 @@
-//! The smooth sign of the law: `tanh`, as in the paper, or a clamped line.
+//! The smooth sign of the law: `tanh`, as in Nguyen et al. (2018), or a clamped line.
 
 use crate::signal::clamp;
 use crate::Real;
 
 /// The smooth sign `T(x)` of (23) and (25), with `x = s/epsilon`.
 ///
-/// Both functions are odd, do not fall, have a slope of at most one and stay within `[-1, 1]`;
-/// the theorems need no more. The clamped line costs two comparisons and has a smaller
+/// Both functions are odd and non-decreasing, have a slope of at most one and stay within
+/// `[-1, 1]`; the theorems need no more. The clamped line costs two comparisons and has a smaller
 /// residual: the maximum of `x·(1 - T(x))` is 1/4 instead of 0.2785.
 ///
 /// ```
@@ -43,8 +43,8 @@ impl SmoothSign {
 
     /// Largest `|x|·(1 - |T(x)|)`: the contribution of the smooth sign to the bounds.
     ///
-    /// W(1/e) = 0.27846 for `tanh` (Lemma 1 of the paper's reference 50), 1/4 for the
-    /// clamped line.
+    /// W(1/e) = 0.27846 for `tanh` (Lemma 1 of reference 50 in Nguyen et al., 2018), and 1/4 for
+    /// the clamped line.
     ///
     /// ```
     /// use bowden::control::SmoothSign;

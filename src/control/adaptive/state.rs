@@ -20,9 +20,9 @@ pub struct AdaptiveInput<T, const N: usize> {
     pub next_reference: T,
     /// Measured output torque y \[N·m\].
     pub measured: T,
-    /// Regressors x_i \[their own units\]: velocity and acceleration in the paper.
+    /// Regressors x_i \[their own units\]: velocity and acceleration in Nguyen et al. (2018).
     pub regressors: [T; N],
-    /// Added to the law's command \[command unit\].
+    /// Feed-forward, added to the law's command \[command unit\].
     pub feed_forward: T,
 }
 
@@ -152,7 +152,8 @@ impl End {
 }
 
 impl<T: Real, const N: usize> AdaptiveState<T, N> {
-    /// A new state: initial estimates, no accumulated error, the command nearest to zero.
+    /// A new state: the initial estimates, no accumulated error, and the permitted command nearest
+    /// to zero.
     #[must_use]
     pub fn new(law: &Adaptive<T, N>) -> Self {
         let settings = law.settings();
@@ -170,12 +171,12 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
         }
     }
 
-    /// Resets to the start, as [`new`](Self::new), but keeps the applied command, the score of
-    /// the bad samples and the latch of the safe command.
+    /// Resets to the start like [`new`](Self::new), but keeps the applied command, the score of the
+    /// bad samples and the latch of the safe command.
     ///
-    /// A slew rate and the first-order form continue from the applied command, and a bad sample
-    /// holds it. The next good sample after an acknowledged fault starts from it. For a state
-    /// without a command, assign [`AdaptiveState::new`].
+    /// A slew-rate limit and the first-order form continue from the applied command, and a bad
+    /// sample holds it. The next good sample after an acknowledged fault starts from it. For a
+    /// state without a command, assign [`AdaptiveState::new`].
     pub fn reset(&mut self, law: &Adaptive<T, N>) {
         *self = Self {
             held: self.held,
@@ -186,9 +187,9 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
 
     /// Prepares a stored state for a start after a power-off: no command is applied.
     ///
-    /// As [`reset`](Self::reset), but the estimates stay, and the command becomes the one
-    /// nearest to zero within the limits. A latched safe command stays latched, and the score
-    /// of the bad samples is kept. The first good sample starts from this command, as after
+    /// Like [`reset`](Self::reset), but the estimates are kept, and the command becomes the value
+    /// nearest to zero within the limits. A latched safe command stays latched, and the score of
+    /// the bad samples is kept. The first good sample starts from this command, as after
     /// [`acknowledge`](Self::acknowledge). Without this call a step on a stored state continues
     /// with the stored command.
     pub fn restore(&mut self, law: &Adaptive<T, N>) {
@@ -204,17 +205,18 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
 
     /// Acknowledges the fault: the next good sample closes the loop again.
     ///
-    /// While the safe command is latched ([`Status::Safe`]) only this call ends it. The next
-    /// good sample then continues from the safe command, with unchanged estimates.
+    /// Only this call ends a latched safe command ([`Status::Safe`]). The next good sample then
+    /// continues from the safe command, with unchanged estimates.
     pub fn acknowledge(&mut self) {
         self.held.acknowledge();
     }
 
     /// Reports the drive's response to the last command, if the drive did not apply it.
     ///
-    /// Call this method between two steps. The slew rate and the first-order form then continue
-    /// from the applied command. At the next good sample z moves no further towards this limit of
-    /// the drive. The estimates do not change, as at a limit of the law itself. See [`Applied`].
+    /// Call this method between two steps. The slew-rate limit and the first-order form then
+    /// continue from the applied command. At the next good sample z moves no further towards this
+    /// limit of the drive. The estimates do not change, as at a limit of the law itself. See
+    /// [`Applied`].
     pub fn applied(&mut self, applied: Applied<T>) {
         let out = self.held.command;
         self.drive = match applied {

@@ -17,7 +17,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// 2. the command, from the estimates of the previous sample;
     /// 3. `z⁺ = z + dt·e`, and the estimates from (s, ubar, x), each clamped to its bounds.
     ///
-    /// With z updated before s, the exact recursion of the first-order form and the box theorem
+    /// If z were updated before s, the exact recursion of the first-order form and the box theorem
     /// would not hold.
     ///
     /// If a limit cuts the command, or the drive is at a limit (see [`AdaptiveState::applied`]), z

@@ -7,14 +7,14 @@ use crate::Real;
 impl<T: Real, const N: usize> Compensator<T, N> {
     /// Reports the actual input of the transmission, if it differs from the command.
     ///
-    /// Examples are a drive that was off, a limit, or another law that has added to the
-    /// command. Call this method between two steps. The hysteresis then follows the cable's
-    /// input: it moves to the reported input from its state before the last sample. The next
-    /// step continues from there.
+    /// Examples are a drive that was off, a limit, and another law that has added to the command.
+    /// Call this method between two steps. The hysteresis then follows the cable's input: it moves
+    /// to the reported input from its state before the last sample. The next step continues from
+    /// there.
     ///
-    /// The size of [`Applied::AtUpperLimit`] is unknown: the model's input does not rise. With
-    /// [`Applied::AtLowerLimit`] it does not fall. Of two calls after one step the second one
-    /// applies.
+    /// With [`Applied::AtUpperLimit`] the amount is unknown, so the model's input does not rise.
+    /// With [`Applied::AtLowerLimit`] it does not fall. If the method is called twice after one
+    /// step, the second call applies.
     ///
     /// ```
     /// use bowden::control::{Applied, Compensator, CompensatorInput, CompensatorState};

@@ -9,9 +9,9 @@ use crate::{Error, Real};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Lowered<T> {
-    /// As identified.
+    /// The value as identified.
     pub from: T,
-    /// As inverted.
+    /// The value as inverted.
     pub to: T,
 }
 
@@ -27,7 +27,8 @@ pub struct Changed<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> Changed<T, N> {
-    /// Whether the compensator is the model's own, as from [`Compensator::try_new`].
+    /// Whether nothing was changed, so that the compensator equals that from
+    /// [`Compensator::try_new`].
     #[must_use]
     pub fn is_nothing(&self) -> bool {
         self.sigma.is_none() && self.rho.is_none() && self.left_out().next().is_none()
@@ -53,14 +54,14 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     /// - sigma is lowered to `|gain|/(2·|kappa_eta|·rho)`;
     /// - if this value is below 1/2, sigma becomes 1/2 and rho becomes `|gain|/|kappa_eta|`.
     ///
-    /// Output stages (delay, lag) and input stages (a play in series) are excluded. The other
-    /// terms keep their indices, so a
-    /// [`Fault::Regressor`](crate::control::Fault::Regressor) still counts as in the model.
+    /// Output stages (delay, lag) and input stages (a play in series) are excluded. The other terms
+    /// keep their indices, so a [`Fault::Regressor`](crate::control::Fault::Regressor) still refers
+    /// to the model's indices.
     ///
-    /// The cost is the error of the true model behind the command. To measure it, run the
-    /// feed-forward and the true model in series, as `examples/nearest.rs` does. A model that
-    /// was fitted within the bound has a smaller error than one that was lowered to the bound
-    /// afterwards.
+    /// The cost is an error: with this command, the true model does not give exactly the desired
+    /// output. To measure the error, run the feed-forward and the true model in series, as
+    /// `examples/nearest.rs` does. A model that was fitted within the bound has a smaller error
+    /// than one that was lowered to the bound afterwards.
     ///
     /// ```
     /// use bowden::control::Compensator;
@@ -83,7 +84,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     ///
     /// # Errors
     /// [`Error::Inadmissible`] if the model has no transmission or its gain is zero;
-    /// [`Error::OutOfRange`] with `"rho"` if no float is small enough for it.
+    /// [`Error::OutOfRange`] with `"rho"` if no float is small enough for rho.
     pub fn try_nearest(model: &Model<T, N>) -> Result<(Self, Changed<T, N>), Error> {
         let identified = *model
             .transmission()

@@ -40,43 +40,43 @@ use crate::{Error, Real};
     )
 )]
 pub struct RelaySettings<T> {
-    /// y_r, the reference about which the output oscillates \[output unit\]; finite.
+    /// Reference y_r, about which the output oscillates \[output unit\]; finite.
     pub reference: T,
     /// Mean of the two levels of the command \[command unit\]; finite.
     ///
     /// The command that holds the output at the reference gives equal half-periods.
     pub centre: T,
-    /// d, from the centre to each level \[command unit\]: finite, not zero, with the sign of
-    /// the plant's gain. Both levels lie within `limits`.
+    /// d, the distance from the centre to each level \[command unit\]: finite, not zero, and with
+    /// the sign of the plant's gain. Both levels must lie within `limits`.
     pub amplitude: T,
-    /// eps, zero or above \[output unit\]: at least the peak of the noise, otherwise the relay
-    /// chatters.
+    /// Hysteresis eps, zero or above \[output unit\]. It must be at least the peak of the noise,
+    /// otherwise the relay chatters.
     pub hysteresis: T,
     /// Greatest distance of the output from the reference, above `hysteresis` \[output unit\].
     ///
     /// One sample beyond it ends the experiment: the output must lie within this distance at
     /// the start.
     pub most_deviation: T,
-    /// Number of successive cycles in the average, two or more.
+    /// Number of successive cycles in the average, at least two.
     pub cycles: u32,
     /// Largest deviation of a cycle's period and amplitude from the mean of earlier cycles, as
     /// a share of this mean. The share lies between 0 and 1.
     ///
-    /// A cycle with a greater difference restarts the average. A period has at least
-    /// `2/agreement` samples: a shorter period cannot be measured to this share.
+    /// A cycle with a greater difference restarts the average. A period must have at least
+    /// `2/agreement` samples, because a shorter period cannot be measured to this share.
     pub agreement: T,
-    /// Maximum duration of the experiment, `longest_dt` or more \[s\].
+    /// Maximum duration of the experiment, at least `longest_dt` \[s\].
     ///
     /// The budget has 2³² − 1 ticks. Each sample takes the ticks of its `dt`, rounded up. n
     /// samples therefore end the experiment early by at most n/2³² of this duration.
     pub longest_time: T,
     /// Longest `dt` of a good sample, above zero \[s\]: for example five nominal steps.
     pub longest_dt: T,
-    /// Range of the command, without a slew rate: the relay and k_u assume a step.
+    /// Range of the command, without a slew-rate limit, because the relay and k_u assume a step.
     pub limits: Limits<T>,
     /// Fallback after a failure: a safe command within `limits`.
     ///
-    /// [`Fallback::hold_indefinitely`] has no safe command and is refused.
+    /// [`Fallback::hold_indefinitely`] is refused, because it has no safe command.
     pub fallback: Fallback<T>,
 }
 

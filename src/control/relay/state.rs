@@ -9,7 +9,8 @@ use crate::Real;
 
 /// State of a [`Relay`](super::Relay): the present cycle, the average, the remaining time.
 ///
-/// `Copy`. After a power-off start with [`RelayState::new`]: the limit cycle has stopped.
+/// The state is `Copy`. After a power-off, start with [`RelayState::new`], because the limit cycle
+/// has stopped.
 ///
 /// ```
 /// use bowden::control::{RelayPhase, RelayState};
@@ -174,7 +175,7 @@ impl<T: Real> RelayState<T> {
         self.cycles
     }
 
-    /// The remaining time, in parts of 2³² − 1 of `longest_time`; every sample of a running
+    /// The remaining time in units of `longest_time`/(2³² − 1); every sample of a running
     /// experiment reduces it.
     #[inline]
     #[must_use]
