@@ -27,7 +27,7 @@ macro_rules! adaptive {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_adaptive_sample_ $f>] {
-                /// Time since the last call [s], after a bad sample too.
+                /// Time since the last call [s], also after a bad sample.
                 pub dt: $f,
                 /// Reference y_r [N*m].
                 pub reference: $f,
@@ -36,9 +36,9 @@ macro_rules! adaptive {
                 /// Measured output torque y [N*m].
                 pub measured: $f,
                 /// Regressors x_i [their own units]: velocity and acceleration in the paper. The
-                /// law ignores regressors beyond its number.
+                /// law ignores regressors beyond the number in its settings.
                 pub regressors: [$f; BOWDEN_REGRESSORS],
-                /// Added to the law's command [command unit]; 0 for none.
+                /// Feed-forward, added to the law's command [command unit]; 0 for none.
                 pub feed_forward: $f,
             }
 
@@ -74,11 +74,11 @@ macro_rules! adaptive {
                 pub theta: [$f; BOWDEN_REGRESSORS],
             }
 
-            /// An adaptive law with its state, in the caller's memory; made by
+            /// An adaptive law with its state, in the caller's memory; initialised by
             /// bowden_adaptive_init.
             #[repr(C)]
             pub struct [<bowden_adaptive_ $f>] {
-                /// Not for use.
+                /// Private; do not use.
                 pub opaque: [u64; [<BOWDEN_ADAPTIVE_ $f:upper _WORDS>]],
             }
 
@@ -90,8 +90,8 @@ macro_rules! adaptive {
 
             /// Checks the settings and starts with the initial estimates.
             ///
-            /// `about` may be null; otherwise it gets the name of the refused setting. On an error
-            /// the object does not change.
+            /// `about` may be null; otherwise it receives the name of the refused setting. On an
+            /// error the object does not change.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_init_ $f>](
                 law: *mut [<bowden_adaptive_ $f>],
@@ -110,7 +110,7 @@ macro_rules! adaptive {
                 }
             }
 
-            /// One sample: the command and its status, as bowden_pid_step.
+            /// One sample: the command and its status, as from bowden_pid_step.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_step_ $f>](
                 law: *mut [<bowden_adaptive_ $f>],
@@ -150,8 +150,8 @@ macro_rules! adaptive {
             }
 
             /// Reports the command [command unit] that the drive applied after the last step, as
-            /// bowden_pid_applied. z then moves no further towards this limit of the drive, and the
-            /// estimates do not change.
+            /// bowden_pid_applied does. z then moves no further towards this limit of the drive,
+            /// and the estimates do not change.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_applied_ $f>](
                 law: *mut [<bowden_adaptive_ $f>],
@@ -164,7 +164,8 @@ macro_rules! adaptive {
                 })())
             }
 
-            /// Reports at which limit the drive was after the last step, as bowden_pid_at_limit.
+            /// Reports at which limit the drive was after the last step, as bowden_pid_at_limit
+            /// does.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_at_limit_ $f>](
                 law: *mut [<bowden_adaptive_ $f>],
@@ -178,7 +179,7 @@ macro_rules! adaptive {
                 })())
             }
 
-            /// Acknowledges the fault, as bowden_pid_acknowledge.
+            /// Acknowledges the fault, as bowden_pid_acknowledge does.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_acknowledge_ $f>](
                 law: *mut [<bowden_adaptive_ $f>],
@@ -204,7 +205,8 @@ macro_rules! adaptive {
                 })())
             }
 
-            /// Prepares a stored object for a start, as bowden_pid_restore; the estimates are kept.
+            /// Prepares a stored object for a start, as bowden_pid_restore does; the estimates are
+            /// kept.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_restore_ $f>](
                 law: *mut [<bowden_adaptive_ $f>],
@@ -218,7 +220,7 @@ macro_rules! adaptive {
             }
 
             /// Changes the settings of a running loop without a jump of the command on this sample,
-            /// as bowden_pid_change. The estimates are kept, each within its new bounds, and a
+            /// as bowden_pid_change does. The estimates are kept, each within its new bounds, and a
             /// latched safe command stays latched.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_change_ $f>](
@@ -240,8 +242,8 @@ macro_rules! adaptive {
                 unsafe { told(tried(), about) }
             }
 
-            /// Starts with the initial estimates; the next step on this sample then commands
-            /// `command` [command unit], as bowden_pid_resume.
+            /// Starts with the initial estimates so that the next step on this sample commands
+            /// `command` [command unit], as bowden_pid_resume does.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_resume_ $f>](
                 law: *mut [<bowden_adaptive_ $f>],

@@ -12,14 +12,14 @@ use core_bowden::control::{
 macro_rules! settings {
     ($f:ident) => {
         pastey::paste! {
-            /// How one estimate adapts, (24)-(26), with a box.
+            /// How one estimate adapts, (24)-(26), with its bounds.
             ///
             /// Start from NAME_INIT, as the estimates in the settings of the law do. By default the
-            /// estimate is fixed at 0: the gain is 0 and nothing leaks.
+            /// estimate is fixed at 0, with a gain of 0 and no leakage.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_estimator_ $f>] {
-                /// Set by the macro NAME_INIT; settings without it are refused.
+                /// The mark that the macro NAME_INIT sets; settings without it are refused.
                 pub init_mark: u32,
                 /// Initial value of the estimate [unit of the estimate], within its bounds.
                 pub initial: $f,
@@ -35,7 +35,8 @@ macro_rules! settings {
                 pub leakage: u32,
                 /// Greatest leakage, not negative [1/s].
                 pub leakage_rate: $f,
-                /// For BOWDEN_LEAKAGE_SWITCHING only, above zero [unit of the estimate].
+                /// Distance from the prior without leakage, for BOWDEN_LEAKAGE_SWITCHING only;
+                /// above zero [unit of the estimate].
                 pub leakage_bound: $f,
             }
 
@@ -85,19 +86,20 @@ macro_rules! settings {
 
             /// Settings of the adaptive law, (17)-(26).
             ///
-            /// Start from NAME_INIT. By default: no regressors, k, lambda and epsilon of the paper,
-            /// 5 ms for the form as published, beta_hat fixed at 1, delta_hat and theta_hat at 0,
-            /// tanh, no limit of z, no slew rate, 4 good samples to cancel a bad one, safe command
-            /// 0. The form (for the first-order form also step and plant_gain), limits, longest_dt
-            ///    and `after` must be set.
+            /// Start from NAME_INIT. By default: no regressors; k, lambda and epsilon of the paper;
+            /// 5 ms for the form as published; beta_hat fixed at 1, delta_hat and theta_hat at 0;
+            /// tanh; no limit of z; no slew-rate limit; 4 good samples to cancel a bad one; and a
+            /// safe command of 0. These fields must be set: the form (for the first-order form also
+            /// step and plant_gain), limits, longest_dt and `after`.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_adaptive_settings_ $f>] {
-                /// Set by the macro NAME_INIT; settings without it are refused.
+                /// The mark that the macro NAME_INIT sets; settings without it are refused.
                 pub init_mark: u32,
                 /// One of bowden_form.
                 pub form: u32,
-                /// Form as published: time constant of the error rate's filter, 2 to 20 ms [s].
+                /// Form as published: time constant of the filter of the error's rate, 2 to 20 ms
+                /// [s].
                 pub time_constant: $f,
                 /// First-order form, required: longest intended sample time [s].
                 pub step: $f,
@@ -124,11 +126,11 @@ macro_rules! settings {
                 pub missing: [u32; BOWDEN_REGRESSORS],
                 /// Greatest magnitude of the accumulated error z, above zero [N*m*s].
                 pub z_limit: $f,
-                /// 0; any other value freezes the estimates.
+                /// Normally 0; any other value freezes the estimates.
                 pub frozen: u32,
-                /// Range and slew rate of the command.
+                /// Range and slew-rate limit of the command.
                 pub limits: [<bowden_limits_ $f>],
-                /// Longest dt that is a sample, above zero [s]; the first-order form also rejects a
+                /// Longest dt of a good sample, above zero [s]; the first-order form also rejects a
                 /// dt longer than 1/(lambda*max(1, g*(k + delta.high/epsilon))).
                 pub longest_dt: $f,
                 /// Fallback after repeated bad samples.

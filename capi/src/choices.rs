@@ -14,7 +14,7 @@ pub enum bowden_form {
 #[repr(u32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_smooth_sign {
-    /// tanh(x), as the paper has it.
+    /// tanh(x), as in the paper.
     Tanh = 0,
     /// x within [-1, 1]: cheaper, with a smaller residual.
     Clamp = 1,

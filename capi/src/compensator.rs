@@ -45,7 +45,7 @@ macro_rules! compensator {
             #[repr(C)]
             #[derive(Debug, Clone, Copy)]
             pub struct [<bowden_compensator_sample_ $f>] {
-                /// Since the previous sample, above zero [s].
+                /// Time since the previous sample, above zero [s].
                 pub dt: $f,
                 /// Desired output [output unit], such as tau_o [N*m]: the reference, not the
                 /// measured output.
@@ -54,7 +54,7 @@ macro_rules! compensator {
                 pub input: [<bowden_motion_ $f>],
                 /// The transmitted load: tau_i in torque mode, otherwise a load channel.
                 pub load: $f,
-                /// All other channels, in the order of the model's file; may be null if there are
+                /// All other channels, in the order in the model's file; may be null if there are
                 /// none.
                 pub channels: *const [<bowden_motion_ $f>],
                 /// Number of channels, at most BOWDEN_CHANNELS.
@@ -73,17 +73,17 @@ macro_rules! compensator {
                 pub eta: $f,
                 /// Status of the step, equal to its return value.
                 pub result: bowden_result,
-                /// What was wrong.
+                /// The bad input, if there is one.
                 pub fault: bowden_fault,
                 /// Index of the term, from 0, if the fault is BOWDEN_FAULT_REGRESSOR.
                 pub regressor: u32,
             }
 
-            /// An inverted model with its state, in the caller's memory; made by
+            /// An inverted model with its state, in the caller's memory; initialised by
             /// bowden_compensator_init.
             #[repr(C)]
             pub struct [<bowden_compensator_ $f>] {
-                /// Not for use.
+                /// Private; do not use.
                 pub opaque: [u64; [<BOWDEN_COMPENSATOR_ $f:upper _WORDS>]],
             }
 
@@ -97,11 +97,11 @@ macro_rules! compensator {
             ///
             ///     tau_i = inverse transmission(desired - sum of gain*regressor, eta)
             ///
-            /// `longest_dt` [s]: a longer dt is a bad sample. `ranges`: motions are clamped to
-            /// them, each read by a term of the model; null if `range_count` is 0.
-            /// BOWDEN_RESULT_ERROR_INADMISSIBLE if the model has no inverse. The compensator does
-            /// not use the model afterwards. On an error the object does not change. `about` may be
-            /// null.
+            /// A dt longer than `longest_dt` [s] is a bad sample. Motions are clamped to `ranges`,
+            /// which may be null if `range_count` is 0; a term of the model must read the source of
+            /// each range. The result is BOWDEN_RESULT_ERROR_INADMISSIBLE if the model has no
+            /// inverse. The compensator does not use the model afterwards. On an error the object
+            /// does not change. `about` may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_compensator_init_ $f>](
                 compensator: *mut [<bowden_compensator_ $f>],
@@ -130,8 +130,8 @@ macro_rules! compensator {
                 unsafe { told(parts(), about) }
             }
 
-            /// Puts a play of this half-width [output unit], zero or more, on the desired torque of
-            /// the cable; zero, the default of init, means no play.
+            /// Puts a play with this half-width [output unit], zero or more, on the desired torque
+            /// of the cable. Zero, the default after init, means no play.
             ///
             /// A term that reads a velocity from encoder counts reverses the torque at each count.
             /// After a reversal the inverse is steep, so the command chatters. A half-width a
@@ -156,8 +156,7 @@ macro_rules! compensator {
             /// One sample: the input for which the model's output is `desired`.
             ///
             /// A bad sample leaves the state unchanged and holds the last good command, zero before
-            /// the first one: BOWDEN_RESULT_HELD. `out` is written with every result that is not
-            /// negative.
+            /// the first one: BOWDEN_RESULT_HELD. `out` is written if the result is not negative.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_compensator_step_ $f>](
                 compensator: *mut [<bowden_compensator_ $f>],
@@ -194,11 +193,12 @@ macro_rules! compensator {
             }
 
             /// Reports the actual input of the transmission [input unit] after the last step if it
-            /// differs from the step's command: the drive is off, or another law adds a command.
+            /// differs from the step's command, for example because the drive is off or another law
+            /// adds a command.
             ///
-            /// Call it between two steps. The hysteresis then follows this input, and the next step
-            /// continues from there. Of two reports after one step the second one applies. A number
-            /// that is not finite changes nothing: BOWDEN_RESULT_HELD.
+            /// Call this function between two steps. The hysteresis then follows this input, and
+            /// the next step continues from there. If there are two reports after one step, the
+            /// second one applies. A number that is not finite changes nothing: BOWDEN_RESULT_HELD.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_compensator_applied_ $f>](
                 compensator: *mut [<bowden_compensator_ $f>],
@@ -216,8 +216,9 @@ macro_rules! compensator {
             /// bowden_saturation. Use it for a drive that does not report its command; otherwise
             /// use bowden_compensator_applied.
             ///
-            /// Call it between two steps. At the upper limit the input of the model does not rise, at
-            /// the lower one it does not fall. Another number gives BOWDEN_RESULT_ERROR_CHOICE.
+            /// Call this function between two steps. At the upper limit the input of the model does
+            /// not rise; at the lower limit it does not fall. Any other number returns
+            /// BOWDEN_RESULT_ERROR_CHOICE.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_compensator_at_limit_ $f>](
                 compensator: *mut [<bowden_compensator_ $f>],

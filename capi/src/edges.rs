@@ -23,10 +23,10 @@ fn of_edges(status: EdgeStatus) -> (bowden_result, bowden_fault) {
 macro_rules! edges {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// A velocity from counts with its state; made by bowden_edge_velocity_init.
+            /// A velocity from counts with its state; initialised by bowden_edge_velocity_init.
             #[repr(C)]
             pub struct [<bowden_edge_velocity_ $f>] {
-                /// Not for use.
+                /// Private; do not use.
                 pub opaque: [u64; [<BOWDEN_EDGE_VELOCITY_ $f:upper _WORDS>]],
             }
 
@@ -43,18 +43,18 @@ macro_rules! edges {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_edge_velocity_settings_ $f>] {
-                /// Set by the macro NAME_INIT; settings without it are refused.
+                /// The mark that the macro NAME_INIT sets; settings without it are refused.
                 pub init_mark: u32,
                 /// Size of one count, above zero [channel unit]: positions change by multiples of
                 /// it.
                 pub count: $f,
-                /// Averages counts that come faster than this, above zero [s].
+                /// Counts that come faster than this time are averaged, above zero [s].
                 pub time_constant: $f,
                 /// After this time without a count the velocity is zero, above zero [s]. A speed
                 /// below count/longest_gap reads as zero.
                 pub longest_gap: $f,
-                /// Period of a position that wraps, such as that of a counter, above zero
-                /// [channel unit]; 0 for none.
+                /// Period of a position that wraps, such as a counter's, above zero [channel unit];
+                /// 0 for none.
                 pub period: $f,
             }
 
@@ -77,11 +77,11 @@ macro_rules! edges {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_edge_velocity_output_ $f>] {
-                /// [channel unit/s]; finite, zero before two counts.
+                /// Velocity [channel unit/s]: finite, and zero until two counts are known.
                 pub velocity: $f,
                 /// Status of the step, equal to its return value.
                 pub result: bowden_result,
-                /// What was wrong.
+                /// The bad input, if there is one.
                 pub fault: bowden_fault,
             }
 
@@ -105,15 +105,16 @@ macro_rules! edges {
                 unsafe { told(parts().and_then(|inner| Ok(start(edges, inner)?)), about) }
             }
 
-            /// The velocity at a position [channel unit], `dt` [s] after the last call, good or
-            /// bad. With M counts in a time T since the sample with the last count:
+            /// The velocity at a position [channel unit], `dt` [s] after the last call, whether
+            /// that sample was good or bad. With M counts in a time T since the sample with the
+            /// last count:
             ///
             ///     v+ = v + (1 - exp(-T/time_constant))*(M*count/T - v)   at a sample with counts
-            ///     |v| <= count/(time since the last count)               at every other
+            ///     |v| <= count/(time since the last count)               at every other sample
             ///
-            /// BOWDEN_RESULT_SETTLING before two counts; BOWDEN_RESULT_STOPPED after `longest_gap`
-            /// without one. A bad sample holds the velocity: BOWDEN_RESULT_HELD. `out` is written
-            /// with every result that is not negative.
+            /// The result is BOWDEN_RESULT_SETTLING until two counts are known, and
+            /// BOWDEN_RESULT_STOPPED after `longest_gap` without a count. A bad sample holds the
+            /// velocity: BOWDEN_RESULT_HELD. `out` is written if the result is not negative.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_edge_velocity_step_ $f>](
                 edges: *mut [<bowden_edge_velocity_ $f>],

@@ -27,10 +27,10 @@ fn stepped<T: Real>(sample: T, dt: T) -> bowden_result {
 macro_rules! filters {
     ($f:ident, $low_pass:literal, $biquad:literal) => {
         pastey::paste! {
-            /// A first-order low-pass with its state; made by bowden_low_pass_init.
+            /// A first-order low-pass with its state; initialised by bowden_low_pass_init.
             #[repr(C)]
             pub struct [<bowden_low_pass_ $f>] {
-                /// Not for use.
+                /// Private; do not use.
                 pub opaque: [u64; [<BOWDEN_LOW_PASS_ $f:upper _WORDS>]],
             }
 
@@ -40,8 +40,8 @@ macro_rules! filters {
                 const MAGIC: u64 = $low_pass;
             }
 
-            /// Starts a low-pass with `time_constant` at least zero [s], see bowden_low_pass_step; at
-            /// zero the output is the sample. `about` may be null.
+            /// Starts a low-pass with a `time_constant` of at least zero [s], see
+            /// bowden_low_pass_step. At zero the output is the sample. `about` may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_low_pass_init_ $f>](
                 filter: *mut [<bowden_low_pass_ $f>],
@@ -55,7 +55,7 @@ macro_rules! filters {
                 unsafe { told(parts().and_then(|inner| Ok(start(filter, inner)?)), about) }
             }
 
-            /// One sample, `dt` [s] after the last call: `output` gets
+            /// One sample, `dt` [s] after the last call: `output` receives
             ///
             ///     y+ = y + dt/(time_constant + dt)*(x - y)
             ///
@@ -88,13 +88,13 @@ macro_rules! filters {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_biquad_settings_ $f>] {
-                /// Set by the macro NAME_INIT; settings without it are refused.
+                /// The mark that the macro NAME_INIT sets; settings without it are refused.
                 pub init_mark: u32,
                 /// Corner of the low-pass or centre of the notch, above zero and below
                 /// 1/(2*sample_time) [Hz].
                 pub frequency: $f,
-                /// Quality, above zero. Low-pass: 0.7071 for Butterworth, 0.5 for critical damping.
-                /// Notch: its width at -3 dB is frequency/q [Hz].
+                /// Quality factor, above zero. Low-pass: 0.7071 for Butterworth, 0.5 for critical
+                /// damping. Notch: its width at -3 dB is frequency/q [Hz].
                 pub q: $f,
                 /// Nominal sample time, above zero [s].
                 pub sample_time: $f,
@@ -122,11 +122,11 @@ macro_rules! filters {
                 }
             }
 
-            /// A second-order filter with its state; made by bowden_biquad_init_low_pass or
+            /// A second-order filter with its state; initialised by bowden_biquad_init_low_pass or
             /// bowden_biquad_init_notch.
             #[repr(C)]
             pub struct [<bowden_biquad_ $f>] {
-                /// Not for use.
+                /// Private; do not use.
                 pub opaque: [u64; [<BOWDEN_BIQUAD_ $f:upper _WORDS>]],
             }
 
@@ -168,7 +168,7 @@ macro_rules! filters {
                 }
             }
 
-            /// One sample, `dt` [s] after the last call: `output` gets the filtered value.
+            /// One sample, `dt` [s] after the last call: `output` receives the filtered value.
             ///
             /// The first good sample starts the filter at rest. If the sample is not finite, or dt
             /// is not positive and finite, the last output is held (zero before the first sample):

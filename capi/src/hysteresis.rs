@@ -6,7 +6,7 @@ use crate::settings::{marked, Marked, UNSET};
 use core_bowden::hysteresis::{BoucWen, BoucWenState};
 use core_bowden::transmission::{Inverse, Transmission};
 
-/// What is transmitted.
+/// Input and output quantities.
 #[repr(u32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_mode {
@@ -41,13 +41,13 @@ fn good(is_good: bool) -> bowden_result {
 macro_rules! hysteresis {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// Parameters of the transmission, (1), (2), (5), (7).
+            /// Parameters of the transmission, (1), (2), (5) and (7).
             ///
             /// Start from NAME_INIT. By default offset and eta are 0; all other fields must be set.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_cable_settings_ $f>] {
-                /// Set by the macro NAME_INIT; settings without it are refused.
+                /// The mark that the macro NAME_INIT sets; settings without it are refused.
                 pub init_mark: u32,
                 /// One of bowden_mode.
                 pub mode: u32,
@@ -57,11 +57,11 @@ macro_rules! hysteresis {
                 pub kappa_eta: $f,
                 /// T0 of (5) or the offset of (1) [output unit]; 0 by default.
                 pub offset: $f,
-                /// Above zero [1/input unit].
+                /// rho, the initial slope of eta; above zero [1/input unit].
                 pub rho: $f,
-                /// At least 1/2.
+                /// sigma, at least 1/2: the slope after a reversal is 2*sigma*rho.
                 pub sigma: $f,
-                /// At least 1.
+                /// n, the sharpness of the knee; at least 1.
                 pub n: $f,
                 /// The hysteresis state at the start, within -1 and 1; 0 if unknown.
                 pub eta: $f,
@@ -110,13 +110,13 @@ macro_rules! hysteresis {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_hysteresis_settings_ $f>] {
-                /// Set by the macro NAME_INIT; settings without it are refused.
+                /// The mark that the macro NAME_INIT sets; settings without it are refused.
                 pub init_mark: u32,
-                /// Initial slope of eta, above zero [1/input unit].
+                /// rho, the initial slope of eta; above zero [1/input unit].
                 pub rho: $f,
-                /// At least 1/2: the slope after a reversal is 2*sigma*rho.
+                /// sigma, at least 1/2: the slope after a reversal is 2*sigma*rho.
                 pub sigma: $f,
-                /// Sharpness of the knee, at least 1.
+                /// n, the sharpness of the knee; at least 1.
                 pub n: $f,
                 /// The hysteresis state at the start, within -1 and 1; 0 if unknown.
                 pub eta: $f,
@@ -137,10 +137,10 @@ macro_rules! hysteresis {
                 }
             }
 
-            /// The hysteresis (2), (7) with its state; made by bowden_hysteresis_init.
+            /// The hysteresis (2), (7) with its state; initialised by bowden_hysteresis_init.
             #[repr(C)]
             pub struct [<bowden_hysteresis_ $f>] {
-                /// Not for use.
+                /// Private; do not use.
                 pub opaque: [u64; [<BOWDEN_HYSTERESIS_ $f:upper _WORDS>]],
             }
 
@@ -150,10 +150,10 @@ macro_rules! hysteresis {
                 const MAGIC: u64 = $magic;
             }
 
-            /// A transmission (1), (5) with its state; made by bowden_cable_init.
+            /// A transmission (1), (5) with its state; initialised by bowden_cable_init.
             #[repr(C)]
             pub struct [<bowden_cable_ $f>] {
-                /// Not for use.
+                /// Private; do not use.
                 pub opaque: [u64; [<BOWDEN_CABLE_ $f:upper _WORDS>]],
             }
 
@@ -163,10 +163,11 @@ macro_rules! hysteresis {
                 const MAGIC: u64 = $magic + 1;
             }
 
-            /// The inverse (6) of a transmission, with its state; made by bowden_inverse_init.
+            /// The inverse (6) of a transmission, with its state; initialised by
+            /// bowden_inverse_init.
             #[repr(C)]
             pub struct [<bowden_inverse_ $f>] {
-                /// Not for use.
+                /// Private; do not use.
                 pub opaque: [u64; [<BOWDEN_INVERSE_ $f:upper _WORDS>]],
             }
 
@@ -192,8 +193,9 @@ macro_rules! hysteresis {
                 unsafe { told(parts().and_then(|inner| Ok(start(hysteresis, inner)?)), about) }
             }
 
-            /// One input [input unit]: `eta` gets the state, within -1 and 1. The first sample only
-            /// sets the input. A value that is not finite is held: BOWDEN_RESULT_HELD.
+            /// One input [input unit]: `eta` receives the state, within -1 and 1. The first sample
+            /// only sets the input. If the value is not finite, the last result is held:
+            /// BOWDEN_RESULT_HELD.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_hysteresis_step_ $f>](
                 hysteresis: *mut [<bowden_hysteresis_ $f>],
@@ -226,8 +228,9 @@ macro_rules! hysteresis {
                 }
             }
 
-            /// One input [input unit]: `output` gets the output [output unit]. If the input is not
-            /// finite, the last output is held (zero before the first sample): BOWDEN_RESULT_HELD.
+            /// One input [input unit]: `output` receives the output [output unit]. If the input is
+            /// not finite, the last output is held (zero before the first sample):
+            /// BOWDEN_RESULT_HELD.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_cable_step_ $f>](
                 cable: *mut [<bowden_cable_ $f>],
@@ -244,8 +247,9 @@ macro_rules! hysteresis {
                 })())
             }
 
-            /// Starts the inverse of the same transmission; BOWDEN_RESULT_ERROR_INADMISSIBLE if it
-            /// has no inverse (sigma above gain/(2*kappa_eta*rho)).
+            /// Starts the inverse of the transmission with these settings. The result is
+            /// BOWDEN_RESULT_ERROR_INADMISSIBLE if the transmission has no inverse (sigma above
+            /// gain/(2*kappa_eta*rho)).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_inverse_init_ $f>](
                 inverse: *mut [<bowden_inverse_ $f>],
@@ -263,8 +267,9 @@ macro_rules! hysteresis {
                 }
             }
 
-            /// One desired output [output unit]: `input` gets the input [input unit] that produces
-            /// it. A value that is not finite is held: BOWDEN_RESULT_HELD.
+            /// One desired output [output unit]: `input` receives the input [input unit] that
+            /// produces it. If the value is not finite, the last result is held:
+            /// BOWDEN_RESULT_HELD.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_inverse_step_ $f>](
                 inverse: *mut [<bowden_inverse_ $f>],

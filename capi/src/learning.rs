@@ -58,11 +58,11 @@ unsafe fn begin<
 macro_rules! learning {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// Iterative learning with its state, except for two arrays of the caller; made by
-            /// bowden_iterative_learning_init or bowden_iterative_learning_resume.
+            /// Iterative learning with its state, except for two arrays that the caller owns;
+            /// initialised by bowden_iterative_learning_init or bowden_iterative_learning_resume.
             #[repr(C)]
             pub struct [<bowden_iterative_learning_ $f>] {
-                /// Not for use.
+                /// Private; do not use.
                 pub opaque: [u64; [<BOWDEN_ITERATIVE_LEARNING_ $f:upper _WORDS>]],
             }
 
@@ -82,7 +82,7 @@ macro_rules! learning {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_iterative_learning_settings_ $f>] {
-                /// Set by the macro NAME_INIT; settings without it are refused.
+                /// The mark that the macro NAME_INIT sets; settings without it are refused.
                 pub init_mark: u32,
                 /// Gain of the error, not zero, with the sign of the plant's gain [command
                 /// unit/output unit].
@@ -131,22 +131,22 @@ macro_rules! learning {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_iterative_learning_output_ $f>] {
-                /// Value to be added to the command, as feed_forward of a controller [command
-                /// unit]; always finite and within the limit.
+                /// Value to add to the command through the feed_forward of a controller [command
+                /// unit]: always finite and within the limit.
                 pub feed_forward: $f,
                 /// Status of the step, equal to its return value.
                 pub result: bowden_result,
-                /// What was wrong.
+                /// The bad input, if there is one.
                 pub fault: bowden_fault,
             }
 
             /// Starts iterative learning over two arrays of `cells` numbers, which it sets to zero.
             /// `cells` is at least lead + 2*half_width + 9 and at most BOWDEN_CELLS.
             ///
-            /// The caller owns the arrays. They must exist, and nobody may write to them, as long
-            /// as the object is used. A local array is wrong if the object outlives the function.
-            /// Between two calls the caller may read `learned`, to plot or to store it. The
-            /// arrays must not overlap each other or the object
+            /// The caller owns the arrays. They must exist, and nothing else may write to them, for
+            /// as long as the object is used. Do not use a local array if the object outlives the
+            /// function. Between two calls the caller may read `learned`, to plot or to store it.
+            /// The arrays must not overlap each other or the object
             /// (BOWDEN_RESULT_ERROR_INADMISSIBLE), and they serve one object at a time. A copy of
             /// the object uses the same arrays, so use only one of the two.
             ///
@@ -167,9 +167,9 @@ macro_rules! learning {
                 }
             }
 
-            /// The same with earlier values in `learned`: a copy from before a reset, or the array
-            /// of an object that is no longer used. Values are clamped to the limit, and NaN
-            /// becomes zero. `unfiltered` may have any contents.
+            /// The same as bowden_iterative_learning_init, but with earlier values in `learned`: a
+            /// copy from before a reset, or the array of an object that is no longer used. Values
+            /// are clamped to the limit, and NaN becomes zero. `unfiltered` may have any contents.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_iterative_learning_resume_ $f>](
                 learning: *mut [<bowden_iterative_learning_ $f>],
@@ -186,19 +186,19 @@ macro_rules! learning {
                 }
             }
 
-            /// One sample, before the controller's step: the phase of the cycle, from 0 to 1, the
-            /// reference and the measured output [output unit]. Set `learns` to 0 if a limit cut
-            /// the command, the safe command is applied, or the task is different. If more than
-            /// half of a cell's samples have `learns` = 0, the errors of the next `lead` cells are
-            /// ignored too.
+            /// One sample, before the controller's step: the phase of the cycle, from 0 to 1, and
+            /// the reference and the measured output [output unit]. Set `learns` to 0 if a limit
+            /// has cut the command, the safe command is applied, or the task is different. If more
+            /// than half of a cell's samples have `learns` = 0, the errors of the next `lead` cells
+            /// are ignored too.
             ///
             /// A phase outside 0 to 1 changes nothing and holds the feed-forward:
-            /// BOWDEN_RESULT_HELD. For the controller such samples are good. BOWDEN_RESULT_DEGRADED
-            /// has two causes. The reference or the measured output is not finite: the feed-forward
-            /// follows the phase, and nothing is learned. Or the phase has jumped by more than four
-            /// cells: the cell before the jump does not learn, and the feed-forward jumps with the
-            /// phase. Give the controller a slew rate. `out` is written with every result that is
-            /// not negative.
+            /// BOWDEN_RESULT_HELD. The controller counts such samples as good.
+            /// BOWDEN_RESULT_DEGRADED has two causes. If the reference or the measured output is
+            /// not finite, the feed-forward follows the phase, and nothing is learned. If the phase
+            /// has jumped by more than four cells, the cell before the jump does not learn, and the
+            /// feed-forward jumps with the phase. Therefore give the controller a slew-rate limit.
+            /// `out` is written if the result is not negative.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_iterative_learning_step_ $f>](
                 learning: *mut [<bowden_iterative_learning_ $f>],

@@ -11,7 +11,7 @@ use core_bowden::signal::Motion;
 pub const BOWDEN_TERMS: usize = 16;
 /// Maximum number of channels of a sample.
 pub const BOWDEN_CHANNELS: usize = 16;
-/// Maximum number of bytes of a model, more than any model with BOWDEN_TERMS terms has.
+/// Maximum number of bytes of a model, which is more than any model with BOWDEN_TERMS terms needs.
 pub const BOWDEN_MODEL_BYTES: usize = 2048;
 /// Size of a bowden_model_f32 in 64-bit words.
 pub const BOWDEN_MODEL_F32_WORDS: usize = 112;
@@ -32,11 +32,11 @@ fn reads_what_there_is<T: core_bowden::Real>(model: &Model<T, BOWDEN_TERMS>) -> 
 macro_rules! model {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// An identified model with its state, in the caller's memory; made by
+            /// An identified model with its state, in the caller's memory; initialised by
             /// bowden_model_load.
             #[repr(C)]
             pub struct [<bowden_model_ $f>] {
-                /// Not for use.
+                /// Private; do not use.
                 pub opaque: [u64; [<BOWDEN_MODEL_ $f:upper _WORDS>]],
             }
 
@@ -50,13 +50,13 @@ macro_rules! model {
             #[repr(C)]
             #[derive(Debug, Clone, Copy)]
             pub struct [<bowden_model_sample_ $f>] {
-                /// Since the previous sample, above zero, also at the first one [s].
+                /// Time since the previous sample, above zero also at the first sample [s].
                 pub dt: $f,
                 /// The transmission's input, x or tau_i, with its rates.
                 pub input: [<bowden_motion_ $f>],
                 /// The transmitted load: tau_i in torque mode, otherwise a load channel.
                 pub load: $f,
-                /// All other channels, in the order of the model's file; may be null if there are
+                /// All other channels, in the order in the model's file; may be null if there are
                 /// none.
                 pub channels: *const [<bowden_motion_ $f>],
                 /// Number of channels, at most BOWDEN_CHANNELS.
@@ -88,12 +88,12 @@ macro_rules! model {
             /// Loads a model from the bytes that `bowden identify --model-out FILE.postcard` or
             /// `bowden export --c` writes, with four bytes of CRC-32 at the end, and starts it.
             ///
-            /// `length` is the length of the model, not of a larger array or sector: bytes behind
+            /// `length` is the length of the model, not of a larger array or sector: bytes after
             /// the CRC-32 are refused like damaged bytes. `eta` is the hysteresis state at the
             /// start, within -1 and 1; 0 if unknown. BOWDEN_RESULT_ERROR_MODEL: the bytes are
-            /// damaged, too many, of the other precision or of another version, or have more than
-            /// BOWDEN_TERMS terms. `about`, which may be null, is "checksum" for the first two.
-            /// BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel with a number of
+            /// damaged, are too many, have the other precision or another version, or contain more
+            /// than BOWDEN_TERMS terms. `about`, which may be null, is "checksum" for the first
+            /// two. BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel with a number of
             /// BOWDEN_CHANNELS or more, or there are more than BOWDEN_MODEL_BYTES bytes. The object
             /// does not use the bytes afterwards. On an error the object does not change.
             #[no_mangle]
@@ -124,7 +124,7 @@ macro_rules! model {
                 }
             }
 
-            /// One sample: `output` gets the predicted output [output unit]:
+            /// One sample: `output` receives the predicted output [output unit]:
             ///
             ///     y = transmission(input, eta) + sum of gain*regressor
             ///

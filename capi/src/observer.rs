@@ -14,10 +14,10 @@ pub const BOWDEN_OBSERVER_F64_WORDS: usize = 25;
 macro_rules! observer {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// An observer with its state; made by bowden_observer_init.
+            /// An observer with its state; initialised by bowden_observer_init.
             #[repr(C)]
             pub struct [<bowden_observer_ $f>] {
-                /// Not for use.
+                /// Private; do not use.
                 pub opaque: [u64; [<BOWDEN_OBSERVER_ $f:upper _WORDS>]],
             }
 
@@ -38,7 +38,7 @@ macro_rules! observer {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_observer_settings_ $f>] {
-                /// Set by the macro NAME_INIT; settings without it are refused.
+                /// The mark that the macro NAME_INIT sets; settings without it are refused.
                 pub init_mark: u32,
                 /// Gain of the nominal plant, not zero [output unit/command unit].
                 pub gain: $f,
@@ -79,12 +79,12 @@ macro_rules! observer {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_observer_output_ $f>] {
-                /// Value to be added to the command, as feed_forward of a controller [command
-                /// unit]; always finite and within the limit.
+                /// Value to add to the command through the feed_forward of a controller [command
+                /// unit]: always finite and within the limit.
                 pub estimate: $f,
                 /// Status of the step, equal to its return value.
                 pub result: bowden_result,
-                /// What was wrong.
+                /// The bad input, if there is one.
                 pub fault: bowden_fault,
             }
 
@@ -110,11 +110,11 @@ macro_rules! observer {
             }
 
             /// One sample, before the controller's step: `dt` since the last call [s], the applied
-            /// command of the last call after all limits [command unit], the measured output
+            /// command of the last call after all limits [command unit], and the measured output
             /// [output unit].
             ///
-            /// A bad sample holds the estimate: BOWDEN_RESULT_HELD. `out` is written with every
-            /// result that is not negative.
+            /// A bad sample holds the estimate: BOWDEN_RESULT_HELD. `out` is written if the result
+            /// is not negative.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_observer_step_ $f>](
                 observer: *mut [<bowden_observer_ $f>],
@@ -152,8 +152,8 @@ macro_rules! observer {
                 })())
             }
 
-            /// Resets the state to the start. Call it after the drive was off: a command that did
-            /// not reach the motor does not count.
+            /// Resets the state to the start. Call this function after the drive was off, because a
+            /// command that did not reach the motor must not count.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_observer_reset_ $f>](
                 observer: *mut [<bowden_observer_ $f>],

@@ -4,8 +4,8 @@ use crate::result::{bowden_fault, bowden_result, of_status, Refused};
 use core_bowden::control::{Applied, Fallback, Limits, Output};
 use core_bowden::signal::Motion;
 
-/// For `after` of a fallback: holds the last good command indefinitely; for a simulation, not for a
-/// machine.
+/// For `after` of a fallback: holds the last good command indefinitely. This is for a simulation,
+/// not for a machine.
 pub const BOWDEN_HOLD_FOR_EVER: u32 = 0xffff_ffff;
 
 /// The active limit of a command or a drive.
@@ -33,7 +33,7 @@ pub(crate) fn limit_of_drive<T>(saturation: u32) -> Result<Applied<T>, Refused> 
 macro_rules! parts {
     ($f:ident) => {
         pastey::paste! {
-            /// Range and slew rate of a command.
+            /// Range and slew-rate limit of a command.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_limits_ $f>] {
@@ -41,7 +41,7 @@ macro_rules! parts {
                 pub low: $f,
                 /// Greatest command [command unit]; above `low`.
                 pub high: $f,
-                /// Slew rate, above zero [command unit/s]; 0 for none.
+                /// Slew-rate limit, above zero [command unit/s]; 0 for none.
                 pub slew: $f,
             }
 
@@ -57,13 +57,13 @@ macro_rules! parts {
 
             /// The safe command after repeated bad samples.
             ///
-            /// A score counts: a bad sample adds the weight, a good sample subtracts 1. At
-            /// after*weight the safe command is applied until it is acknowledged.
+            /// A score counts the bad samples: a bad sample adds the weight, and a good sample
+            /// subtracts 1. At after*weight the safe command is applied until it is acknowledged.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_fallback_ $f>] {
-                /// Number of bad samples in a row that applies the safe command, at least 1;
-                /// BOWDEN_HOLD_FOR_EVER for never.
+                /// Number of bad samples in a row after which the safe command is applied, at least
+                /// 1; BOWDEN_HOLD_FOR_EVER for never.
                 pub after: u32,
                 /// Number of good samples that cancel a bad one, at least 1; 4 is usual.
                 pub weight: u32,
@@ -84,11 +84,11 @@ macro_rules! parts {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq, Default)]
             pub struct [<bowden_motion_ $f>] {
-                /// [channel unit]
+                /// Position [channel unit].
                 pub position: $f,
-                /// [channel unit/s]
+                /// Velocity [channel unit/s].
                 pub velocity: $f,
-                /// [channel unit/s^2]
+                /// Acceleration [channel unit/s^2].
                 pub acceleration: $f,
             }
 
@@ -118,7 +118,7 @@ macro_rules! parts {
                 pub command: $f,
                 /// Status of the step, equal to its return value.
                 pub result: bowden_result,
-                /// What was wrong.
+                /// The bad input, if there is one.
                 pub fault: bowden_fault,
                 /// Index of the regressor or term, from 0, if the fault is BOWDEN_FAULT_REGRESSOR.
                 pub regressor: u32,

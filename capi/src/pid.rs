@@ -21,15 +21,15 @@ macro_rules! pid {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_pid_sample_ $f>] {
-                /// Time since the last call [s], after a bad sample too.
+                /// Time since the last call [s], also after a bad sample.
                 pub dt: $f,
-                /// y_r [output unit], such as [N*m].
+                /// Reference y_r [output unit], such as [N*m].
                 pub reference: $f,
-                /// y [output unit], such as [N*m].
+                /// Measured output y [output unit], such as [N*m].
                 pub measured: $f,
                 /// Measured distal velocity [rad/s]; only PIV (16) reads it.
                 pub velocity: $f,
-                /// Added to the command before the limits [command unit]; 0 for none.
+                /// Feed-forward, added to the command before the limits [command unit]; 0 for none.
                 pub feed_forward: $f,
             }
 
@@ -61,9 +61,9 @@ macro_rules! pid {
                 pub velocity: $f,
                 /// Feed-forward of the sample [command unit].
                 pub feed_forward: $f,
-                /// The sum before range and slew rate [command unit].
+                /// The sum before range and slew-rate limit [command unit].
                 pub unlimited: $f,
-                /// 1 if range or slew rate changed the command, otherwise 0.
+                /// 1 if the range or the slew-rate limit changed the command, otherwise 0.
                 pub saturated: u32,
             }
 
@@ -82,11 +82,11 @@ macro_rules! pid {
                 }
             }
 
-            /// A PI, PID or PIV with its state, in the caller's memory; made by bowden_pid_init.
-            /// The object may be copied and moved as a whole.
+            /// A PI, PID or PIV with its state, in the caller's memory; initialised by
+            /// bowden_pid_init. The object may be copied and moved as a whole.
             #[repr(C)]
             pub struct [<bowden_pid_ $f>] {
-                /// Not for use.
+                /// Private; do not use.
                 pub opaque: [u64; [<BOWDEN_PID_ $f:upper _WORDS>]],
             }
 
@@ -96,8 +96,8 @@ macro_rules! pid {
                 const MAGIC: u64 = $magic;
             }
 
-            /// Settings of a plain PI (15): full set-point weight, conditional anti-windup, no slew
-            /// rate; 4 good samples cancel a bad one.
+            /// Settings of a plain PI (15): full set-point weight, conditional anti-windup, and no
+            /// slew-rate limit; 4 good samples cancel a bad one.
             ///
             /// `low` and `high` [command unit] are the limits of the drive, `longest_dt` [s] is the
             /// longest sample time, and `safe` [command unit] is the safe command from the
@@ -127,8 +127,8 @@ macro_rules! pid {
 
             /// Checks the settings and starts with a new state.
             ///
-            /// `about` may be null; otherwise it gets the name of the refused setting. On an error
-            /// the object does not change.
+            /// `about` may be null; otherwise it receives the name of the refused setting. On an
+            /// error the object does not change.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_init_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -148,8 +148,8 @@ macro_rules! pid {
             ///
             /// A bad sample (NaN, an infinity, a dt that is not positive or too long) leaves the
             /// state unchanged and holds the last good command: BOWDEN_RESULT_HELD. After too many
-            /// bad samples the safe command is applied until bowden_pid_acknowledge, even if
-            /// samples are good: BOWDEN_RESULT_SAFE. `out` is written with every result that is not
+            /// bad samples the safe command is applied until bowden_pid_acknowledge, even if later
+            /// samples are good: BOWDEN_RESULT_SAFE. `out` is written if the result is not
             /// negative.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_step_ $f>](
@@ -168,7 +168,8 @@ macro_rules! pid {
                 })())
             }
 
-            /// Every term of the last good sample, for telemetry; all zero before the first one.
+            /// Every term of the last good sample, for telemetry; all terms are zero before the
+            /// first one.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_get_terms_ $f>](
                 pid: *const [<bowden_pid_ $f>],
@@ -185,8 +186,9 @@ macro_rules! pid {
             /// Reports the command [command unit] that the drive applied after the last step, if it
             /// differs from the step's command: a drive that is off applies 0.
             ///
-            /// Call it between two steps. Slew rate, anti-windup and a bumpless start then count
-            /// from this command. A number that is not finite changes nothing: BOWDEN_RESULT_HELD.
+            /// Call this function between two steps. The slew-rate limit, anti-windup and a
+            /// bumpless start then continue from this command. A number that is not finite changes
+            /// nothing: BOWDEN_RESULT_HELD.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_applied_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -204,8 +206,8 @@ macro_rules! pid {
             /// bowden_saturation. Use it for a drive that does not report its command, such as the
             /// inner loop of a cascade; otherwise use bowden_pid_applied.
             ///
-            /// Call it between two steps. The integral then does not move further towards that
-            /// limit. Another number gives BOWDEN_RESULT_ERROR_CHOICE.
+            /// Call this function between two steps. The integral then does not move further
+            /// towards that limit. Any other number returns BOWDEN_RESULT_ERROR_CHOICE.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_at_limit_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -223,8 +225,8 @@ macro_rules! pid {
             /// Sets `saturation` to the active limit of the command at the last good sample, one of
             /// bowden_saturation.
             ///
-            /// In a cascade whose inner gains are positive, pass it on to bowden_pid_at_limit of
-            /// the outer loop.
+            /// In a cascade whose inner gains are positive, pass it to bowden_pid_at_limit of the
+            /// outer loop.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_get_saturation_ $f>](
                 pid: *const [<bowden_pid_ $f>],
@@ -256,8 +258,8 @@ macro_rules! pid {
                 })())
             }
 
-            /// Clears integral, rate and samples; the applied command is kept, and a latched safe
-            /// command stays latched.
+            /// Clears the integral, the rate and the samples. The applied command is kept, and a
+            /// latched safe command stays latched.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_reset_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -270,10 +272,10 @@ macro_rules! pid {
             }
 
             /// Prepares a stored object for a start after a power-off, before its first step: the
-            /// command becomes the one nearest to zero within the limits. Integral, rate and
-            /// samples are cleared; a latched safe command stays latched. The first good sample
-            /// starts from this command without a jump. Without this call a step continues with the
-            /// stored command.
+            /// command becomes the value nearest to zero within the limits. The integral, the rate
+            /// and the samples are cleared; a latched safe command stays latched. The first good
+            /// sample starts from this command without a jump. Without this call a step continues
+            /// with the stored command.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_restore_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -287,8 +289,8 @@ macro_rules! pid {
             }
 
             /// Restarts so that the command continues from `command` [command unit] without a jump.
-            /// A number that is not finite counts as a bad sample; a latched safe command stays.
-            /// `out` gets the applied command, and may be null.
+            /// A number that is not finite counts as a bad sample; a latched safe command stays
+            /// latched. `out` receives the applied command, and may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_resume_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -315,8 +317,8 @@ macro_rules! pid {
 
             /// Changes the settings of a running loop without a jump of the command. If the new
             /// range excludes the applied command, the next command is the nearest one in the range
-            /// and ignores the slew rate: narrow a range step by step. On an error the loop
-            /// continues with the old settings.
+            /// and ignores the slew-rate limit, so narrow a range step by step. On an error the
+            /// loop continues with the old settings.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_change_ $f>](
                 pid: *mut [<bowden_pid_ $f>],

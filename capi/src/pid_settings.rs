@@ -24,7 +24,7 @@ pub enum bowden_anti_windup {
     Conditional = 0,
     /// No anti-windup: the integral winds up.
     None = 1,
-    /// The integral term stays within the range of the command, widened to contain zero.
+    /// The integral term stays within the range of the command, widened to include zero.
     Clamp = 2,
     /// The part that the limits cut off returns to the integral with the time constant
     /// `tracking_time`.
@@ -38,15 +38,16 @@ macro_rules! settings {
             ///
             ///     u = -k_p*(y - b*y_r) - k_i*integral(e) - k_d*d/dt(y - c*y_r) + u_ff
             ///     u = -k_p*(y - b*y_r) - k_i*integral(e) - k_d*v_d             + u_ff    (PIV)
-            ///     command = u within the range and the slew rate;  e = y - y_r
+            ///     command = u within the range and the slew-rate limit;  e = y - y_r
             ///
             /// Start from NAME_INIT. By default: full set-point weight, derivative on the
-            /// measurement, conditional anti-windup, no slew rate, 4 good samples to cancel a bad
-            /// one, gains and safe command 0. Limits, longest_dt and `after` must be set.
+            /// measurement, conditional anti-windup, no slew-rate limit, 4 good samples to cancel a
+            /// bad one, and gains and a safe command of 0. Limits, longest_dt and `after` must be
+            /// set.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_pid_settings_ $f>] {
-                /// Set by the macro NAME_INIT; settings without it are refused.
+                /// The mark that the macro NAME_INIT sets; settings without it are refused.
                 pub init_mark: u32,
                 /// Proportional gain [command unit/output unit].
                 pub k_p: $f,
@@ -57,8 +58,9 @@ macro_rules! settings {
                 pub k_d: $f,
                 /// One of bowden_derivative_source: the signal that k_d multiplies.
                 pub damping: u32,
-                /// Set-point weight c of the derivative, 0 to 1: 0, the default, on the
-                /// measurement; 1 on the error, with a derivative kick at a step of the reference.
+                /// Set-point weight c of the derivative, 0 to 1: with 0, the default, it acts on
+                /// the measurement; with 1 it acts on the error, and a step of the reference causes
+                /// a derivative kick.
                 pub derivative_weight: $f,
                 /// Time constant of the derivative filter, zero (no filter) or above [s].
                 pub derivative_time: $f,
@@ -66,20 +68,20 @@ macro_rules! settings {
                 pub setpoint_weight: $f,
                 /// One of bowden_anti_windup.
                 pub anti_windup: u32,
-                /// Of BOWDEN_ANTI_WINDUP_BACK_CALCULATION alone, above zero [s].
+                /// Tracking time, for BOWDEN_ANTI_WINDUP_BACK_CALCULATION only; above zero [s].
                 pub tracking_time: $f,
-                /// Greatest magnitude that the integral term integrates to, above zero
-                /// [command unit]; 0 for none.
+                /// Greatest magnitude of the integral term, above zero [command unit]; 0 for none.
                 pub integral_limit: $f,
-                /// The integral waits while |e| is at most this, from 0 (none) up [output unit].
-                /// Against the limit cycle of static friction: wider than the jump.
+                /// The integral is frozen while |e| is at most this value, zero (no deadband) or
+                /// above [output unit]. To prevent the limit cycle of static friction, make it
+                /// wider than the jump.
                 pub deadband: $f,
-                /// Period of an output that wraps, above zero [output unit], such as 360 degrees;
-                /// 0 for none. Errors and changes are then taken the short way round.
+                /// Period of an output that wraps, above zero [output unit], such as 360 degrees; 0
+                /// for none. Errors and changes are then measured along the shorter direction.
                 pub period: $f,
-                /// Range and slew rate of the command.
+                /// Range and slew-rate limit of the command.
                 pub limits: [<bowden_limits_ $f>],
-                /// Longest dt that is a sample, above zero [s]: five nominal steps, say.
+                /// Longest dt of a good sample, above zero [s]: for example five nominal steps.
                 pub longest_dt: $f,
                 /// Fallback after repeated bad samples.
                 pub fallback: [<bowden_fallback_ $f>],

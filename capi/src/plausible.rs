@@ -24,7 +24,7 @@ pub enum bowden_implausible {
     TooFast = 3,
     /// It has kept the same value for too long while the machine moved.
     Stuck = 4,
-    /// A reason of a later version.
+    /// A reason from a later version.
     Other = 5,
 }
 
@@ -43,10 +43,10 @@ impl From<Implausible> for bowden_implausible {
 macro_rules! plausible {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// A check of samples with its state; made by bowden_plausible_init.
+            /// A check of samples with its state; initialised by bowden_plausible_init.
             #[repr(C)]
             pub struct [<bowden_plausible_ $f>] {
-                /// Not for use.
+                /// Private; do not use.
                 pub opaque: [u64; [<BOWDEN_PLAUSIBLE_ $f:upper _WORDS>]],
             }
 
@@ -63,7 +63,7 @@ macro_rules! plausible {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_plausible_settings_ $f>] {
-                /// Set by the macro NAME_INIT; settings without it are refused.
+                /// The mark that the macro NAME_INIT sets; settings without it are refused.
                 pub init_mark: u32,
                 /// Least plausible sample [signal unit].
                 pub low: $f,
@@ -72,14 +72,14 @@ macro_rules! plausible {
                 /// Greatest rate of the signal, above zero [signal unit/s]; 0 for none. Do not use
                 /// it for an angle that wraps.
                 pub rate: $f,
-                /// Longest time of the sensor from one number to the next, jitter included, above
+                /// Longest time of the sensor from one number to the next, including jitter, above
                 /// zero [s]; 0 if unknown. A repeated number is then at most this old. Without a
-                /// rate it has no effect.
+                /// rate this setting has no effect.
                 pub sample_period: $f,
                 /// Number of equal samples in a row that mean a stuck sensor, counted while the
                 /// machine moves; 0 for never.
                 pub stuck_after: u32,
-                /// A longer or unusable dt counts as this dt, above zero [s]; 0 if the time is then
+                /// A longer or unusable dt counts as this dt, above zero [s]. With 0 such a time is
                 /// unknown.
                 pub longest_dt: $f,
             }
@@ -105,7 +105,8 @@ macro_rules! plausible {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_plausible_output_ $f>] {
-                /// The sample, or NaN if it is not plausible: for a controller, a bad sample.
+                /// The sample, or NaN if it is not plausible; for a controller, NaN is a bad
+                /// sample.
                 pub value: $f,
                 /// Status of the step, equal to its return value.
                 pub result: bowden_result,
@@ -140,10 +141,10 @@ macro_rules! plausible {
             }
 
             /// Checks a sample [signal unit], `dt` [s] after the last call. Set `moves` to 1 while
-            /// the machine moves, so the signal must change.
+            /// the machine moves, so that the signal must change.
             ///
             /// BOWDEN_RESULT_IMPLAUSIBLE: the sample is implausible, and the value is NaN. `out` is
-            /// written with every result that is not negative.
+            /// written if the result is not negative.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_plausible_step_ $f>](
                 plausible: *mut [<bowden_plausible_ $f>],

@@ -1,4 +1,4 @@
-//! A play in front of a hysteresis, so input noise does not drive it.
+//! A play in front of a hysteresis, so that input noise does not drive the hysteresis.
 
 use crate::object::{kept, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_result, code, told, Refused};
@@ -12,10 +12,10 @@ pub const BOWDEN_PLAY_F64_WORDS: usize = 6;
 macro_rules! play {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// A play with its state; made by bowden_play_init.
+            /// A play with its state; initialised by bowden_play_init.
             #[repr(C)]
             pub struct [<bowden_play_ $f>] {
-                /// Not for use.
+                /// Private; do not use.
                 pub opaque: [u64; [<BOWDEN_PLAY_ $f:upper _WORDS>]],
             }
 
@@ -25,8 +25,8 @@ macro_rules! play {
                 const MAGIC: u64 = $magic;
             }
 
-            /// Starts a play of `half_width` at least zero [input unit], see bowden_play_step; at
-            /// zero the output is the input. `about` may be null.
+            /// Starts a play with a `half_width` of at least zero [input unit], see
+            /// bowden_play_step. At zero the output is the input. `about` may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_play_init_ $f>](
                 play: *mut [<bowden_play_ $f>],
@@ -40,15 +40,15 @@ macro_rules! play {
                 unsafe { told(parts().and_then(|inner| Ok(start(play, inner)?)), about) }
             }
 
-            /// One input [input unit]: `output` gets the last output, moved by the least amount
+            /// One input [input unit]: `output` receives the last output, moved by the least amount
             /// that keeps it within the half-width r of the input:
             ///
             ///     y+ = clamp(y, x - r, x + r)
             ///
-            /// An oscillation of the input within 2*r moves nothing. In front of a hysteresis a
-            /// play prevents reversals from sensor noise. The first good sample is passed on
-            /// unchanged. If the input is not finite, the last output is held (zero before the
-            /// first sample): BOWDEN_RESULT_HELD.
+            /// An oscillation of the input within 2*r does not move the output. In front of a
+            /// hysteresis a play prevents reversals from sensor noise. The first good sample is
+            /// passed on unchanged. If the input is not finite, the last output is held (zero
+            /// before the first sample): BOWDEN_RESULT_HELD.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_play_step_ $f>](
                 play: *mut [<bowden_play_ $f>],

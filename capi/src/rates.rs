@@ -14,10 +14,10 @@ pub const BOWDEN_RATES_F64_WORDS: usize = 16;
 macro_rules! rates {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// Rates with their state; made by bowden_rates_init.
+            /// Rates with their state; initialised by bowden_rates_init.
             #[repr(C)]
             pub struct [<bowden_rates_ $f>] {
-                /// Not for use.
+                /// Private; do not use.
                 pub opaque: [u64; [<BOWDEN_RATES_ $f:upper _WORDS>]],
             }
 
@@ -34,12 +34,12 @@ macro_rules! rates {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_rates_settings_ $f>] {
-                /// Set by the macro NAME_INIT; settings without it are refused.
+                /// The mark that the macro NAME_INIT sets; settings without it are refused.
                 pub init_mark: u32,
                 /// Time constant of both lags, above zero [s].
                 pub time_constant: $f,
-                /// Period of a position that wraps, such as that of a counter, above zero
-                /// [channel unit]; 0 for none.
+                /// Period of a position that wraps, such as a counter's, above zero [channel unit];
+                /// 0 for none.
                 pub period: $f,
                 /// Longest gap between two good samples that the rates bridge, above zero [s]; 0
                 /// for ten time constants.
@@ -69,7 +69,7 @@ macro_rules! rates {
                 pub motion: [<bowden_motion_ $f>],
                 /// Status of the step, equal to its return value.
                 pub result: bowden_result,
-                /// What was wrong.
+                /// The bad input, if there is one.
                 pub fault: bowden_fault,
             }
 
@@ -96,14 +96,15 @@ macro_rules! rates {
                 unsafe { told(parts().and_then(|inner| Ok(start(rates, inner)?)), about) }
             }
 
-            /// The motion at a position [channel unit], `dt` [s] after the last call, good or bad:
+            /// The motion at a position [channel unit], `dt` [s] after the last call, whether that
+            /// sample was good or bad:
             ///
             ///     s  = 1 - exp(-h/tau),  h = time since the last good sample
             ///     v+ = v + s*((x - x_last)/h - v)
             ///     a+ = a + s*((v+ - v)/h - a)
             ///
-            /// A bad sample holds the last good motion: BOWDEN_RESULT_HELD. `out` is written with
-            /// every result that is not negative.
+            /// A bad sample holds the last good motion: BOWDEN_RESULT_HELD. `out` is written if the
+            /// result is not negative.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_rates_step_ $f>](
                 rates: *mut [<bowden_rates_ $f>],

@@ -29,9 +29,9 @@ pub enum bowden_relay_phase {
 #[repr(i32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_relay_failure {
-    /// It did not.
+    /// The experiment has not failed.
     None = 0,
-    /// Too many bad samples; the fault is the fault of the last one.
+    /// Too many bad samples; the fault is that of the last one.
     BadSamples = 1,
     /// The output was further from the reference than `most_deviation`: choose a smaller
     /// amplitude, a centre that holds the reference, or the other sign of the amplitude.
@@ -42,7 +42,7 @@ pub enum bowden_relay_failure {
     /// `longest_time` has passed and the cycles did not agree: the time is too short, the noise
     /// exceeds the hysteresis, or a cycle has fewer than 2/agreement samples.
     TimeOut = 4,
-    /// A reason of a later version.
+    /// A reason from a later version.
     Other = 5,
 }
 
@@ -94,14 +94,14 @@ macro_rules! relay {
             ///     command = centre + amplitude   from y < reference - hysteresis on
             ///     command = centre - amplitude   from y > reference + hysteresis on
             ///
-            /// Start from NAME_INIT. By default 4 good samples cancel a bad one and the safe
+            /// Start from NAME_INIT. By default 4 good samples cancel a bad one, and the safe
             /// command is 0; all other fields must be set.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_relay_settings_ $f>] {
-                /// Set by the macro NAME_INIT; settings without it are refused.
+                /// The mark that the macro NAME_INIT sets; settings without it are refused.
                 pub init_mark: u32,
-                /// y_r, about which the output oscillates [output unit].
+                /// Reference y_r, about which the output oscillates [output unit].
                 pub reference: $f,
                 /// Mean of the two levels of the command [command unit]. The command that holds the
                 /// output at the reference gives equal half-periods.
@@ -124,7 +124,7 @@ macro_rules! relay {
                 pub longest_time: $f,
                 /// Longest dt of a good sample, above zero [s].
                 pub longest_dt: $f,
-                /// Range of the command, without a slew rate.
+                /// Range of the command, without a slew-rate limit.
                 pub limits: [<bowden_limits_ $f>],
                 /// Fallback after a failure; BOWDEN_HOLD_FOR_EVER is refused.
                 pub fallback: [<bowden_fallback_ $f>],
@@ -235,11 +235,11 @@ macro_rules! relay {
                 }
             }
 
-            /// A relay experiment with its state, in the caller's memory; made by
+            /// A relay experiment with its state, in the caller's memory; initialised by
             /// bowden_relay_init.
             #[repr(C)]
             pub struct [<bowden_relay_ $f>] {
-                /// Not for use.
+                /// Private; do not use.
                 pub opaque: [u64; [<BOWDEN_RELAY_ $f:upper _WORDS>]],
             }
 
@@ -251,8 +251,8 @@ macro_rules! relay {
 
             /// Checks the settings and starts an experiment. `about` may be null.
             ///
-            /// Start with the output near the reference: at the mean command of the loop that ran
-            /// before, or at rest.
+            /// Start with the output near the reference: at the mean command of the previous loop,
+            /// or at rest.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_relay_init_ $f>](
                 relay: *mut [<bowden_relay_ $f>],
@@ -268,13 +268,14 @@ macro_rules! relay {
                 }
             }
 
-            /// One sample: `dt` since the last call, good or bad [s], and the measured output
-            /// [output unit]. Call it while the phase is BOWDEN_RELAY_PHASE_RUNNING.
+            /// One sample: `dt` since the last call [s], also after a bad sample, and the measured
+            /// output [output unit]. Call this function while the phase is
+            /// BOWDEN_RELAY_PHASE_RUNNING.
             ///
             /// A bad sample holds the command: BOWDEN_RESULT_HELD. After a failure the safe command
             /// is applied until bowden_relay_acknowledge: BOWDEN_RESULT_SAFE. Every sample takes
-            /// time from `longest_time`, so the experiment ends. `out` is written with every
-            /// result that is not negative.
+            /// time from `longest_time`, so the experiment ends. `out` is written if the result is
+            /// not negative.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_relay_step_ $f>](
                 relay: *mut [<bowden_relay_ $f>],

@@ -6,8 +6,8 @@ use core_bowden::control::{Fault, Status};
 use core_bowden::signal::{RatesFault, RatesStatus};
 use core_bowden::Error;
 
-/// Result of a function: 0 for success; above zero if a sample was not good and the output was
-/// written anyway; below zero if nothing was written.
+/// Result of a function: 0 for success; above zero if a sample was not good but the output was
+/// written; below zero if nothing was written.
 #[repr(i32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_result {
@@ -17,11 +17,11 @@ pub enum bowden_result {
     Settling = 1,
     /// Rates: a good position after an unknown time; the rates are held.
     Resumed = 2,
-    /// A regressor was bad and its term was omitted; the loop is closed, the estimates do not
+    /// A regressor was bad and its term was omitted; the loop is closed, and the estimates do not
     /// change. For iterative learning: the feed-forward belongs to this phase, but the error of the
     /// sample or of the cell before a jump was ignored.
     Degraded = 3,
-    /// A bad sample: the state is unchanged, the last good command or value is held.
+    /// A bad sample: the state is unchanged, and the last good command or value is held.
     Held = 4,
     /// Too many bad samples: the safe command is applied until it is acknowledged.
     Safe = 5,
@@ -41,12 +41,12 @@ pub enum bowden_result {
     ErrorOutOfRange = -5,
     /// Two settings together violate a condition.
     ErrorInadmissible = -6,
-    /// More items than the capacity.
+    /// There are more items than the capacity allows.
     ErrorCapacity = -7,
-    /// A setting has a value that its enum does not have.
+    /// A setting has a value that its enum does not contain.
     ErrorChoice = -8,
-    /// The bytes of a model are damaged, too many, of the other precision or version, or have too
-    /// many terms.
+    /// The bytes of a model are damaged, are too many, have the other precision or another version,
+    /// or contain too many terms.
     ErrorModel = -9,
     /// The settings were not initialised with their macro NAME_INIT.
     ErrorSettings = -10,
@@ -80,7 +80,7 @@ pub enum bowden_fault {
     Overflow = 10,
     /// The position.
     Position = 11,
-    /// A fault of a later version.
+    /// A fault from a later version.
     Other = 12,
     /// The phase of a cycle is outside 0 to 1, or has jumped.
     Phase = 13,
@@ -262,7 +262,7 @@ pub(crate) fn of_rates(status: RatesStatus) -> (bowden_result, bowden_fault) {
     }
 }
 
-/// A sentence on a result, for a log: ASCII, static, never null, also for an unknown number.
+/// A sentence about a result, for a log: ASCII, static, and never null, even for an unknown number.
 #[no_mangle]
 pub extern "C" fn bowden_result_text(result: i32) -> *const c_char {
     let text: &CStr = match result {
@@ -289,7 +289,7 @@ pub extern "C" fn bowden_result_text(result: i32) -> *const c_char {
     text.as_ptr()
 }
 
-/// The bad input of a sample, for a log: ASCII, static, never null.
+/// The bad input of a sample, for a log: ASCII, static, and never null.
 #[no_mangle]
 pub extern "C" fn bowden_fault_text(fault: i32) -> *const c_char {
     let text: &CStr = match fault {
@@ -311,7 +311,7 @@ pub extern "C" fn bowden_fault_text(fault: i32) -> *const c_char {
     text.as_ptr()
 }
 
-/// The version of the library, such as "0.2.0": static, never null.
+/// The version of the library, such as "0.2.0": static, and never null.
 #[no_mangle]
 pub extern "C" fn bowden_version() -> *const c_char {
     read_text(concat!(env!("CARGO_PKG_VERSION"), "\0")).as_ptr()

@@ -1,7 +1,7 @@
 //! The mark at the start of each settings struct, which its macro in the header sets.
 //!
 //! C sets fields that a designated initialiser does not name to zero. For some settings zero is
-//! valid but not the default. Therefore a struct without the mark is refused, and the macro gives
+//! valid but not the default. A struct without the mark is therefore refused, and the macro gives
 //! each setting without a default an invalid value.
 
 use crate::result::Refused;

@@ -4,7 +4,7 @@
 //! e = y − y_r
 //! u = −k_p·(y − b·y_r) − k_i·∫e − k_d·d/dt(y − c·y_r) + u_ff      PI (15), PID (14)
 //! u = −k_p·(y − b·y_r) − k_i·∫e − k_d·v_d             + u_ff      PIV (16)
-//! command = u within the range and the slew rate
+//! command = u within the range and the slew-rate limit
 //! ```
 //!
 //! - `dt` may vary from call to call, up to the longest `dt`. The derivative uses the implicit

@@ -12,7 +12,7 @@ use crate::{Error, Real};
 ///
 /// ```text
 /// v⁺ = v + (1 − e^(−T/tau))·(M·count/T − v)   at a sample with counts
-/// |v| ≤ count/(time since the last count)     at every other
+/// |v| ≤ count/(time since the last count)     at every other sample
 /// ```
 /// * **Error** at a constant speed of `f` counts per second: the relative error is at most
 ///   `f·dt/(1 − f·dt)` while `f·dt < 1` (one sample in the time of one count). At any speed it
