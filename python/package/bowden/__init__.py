@@ -1,4 +1,4 @@
-"""Hysteretic cable transmissions: closes the loop between a model and measured data.
+"""Hysteretic cable transmissions: identifies models from records, and simulates and controls rigs.
 
 >>> import bowden
 >>> report = bowden.identify("record.csv")               # doctest: +SKIP

@@ -1,4 +1,4 @@
-"""What is added to a controller's command: a disturbance observer, and learning over a cycle."""
+"""Additions to a controller's command: a disturbance observer and iterative learning."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ def _count(name: str, value: Any) -> int:
 
 
 class NominalPlant(Settings):
-    """alpha/(s²/wn² + 2·zeta·s/wn + 1) from command to output.
+    """The nominal plant alpha/(s²/wn² + 2·zeta·s/wn + 1) from command to output.
 
-    Where gain and natural frequency are uncertain, err low.
+    If the gain and the natural frequency are uncertain, choose low values.
     """
 
     gain: float = setting(convert=_real, kw_only=False, doc="alpha [N·m/command unit].")
@@ -44,7 +44,7 @@ class NominalPlant(Settings):
 
     @classmethod
     def of_mechanics(cls, gain: Any, inertia: Any, damping: Any, stiffness: Any) -> NominalPlant:
-        """A motor with inertia [kg·m²] and damping [N·m·s/rad] against a stiffness [N·m/rad]."""
+        """A motor, with inertia [kg·m²] and damping [N·m·s/rad], and a stiffness [N·m/rad]."""
         inertia, stiffness = _real("inertia", inertia), _real("stiffness", stiffness)
         damping = _real("damping", damping)
         if not (inertia > 0.0 and stiffness > 0.0):
@@ -54,9 +54,9 @@ class NominalPlant(Settings):
         return cls(gain=gain, natural_frequency=frequency, damping_ratio=ratio)
 
     def feed_forward(self, output: Any, velocity: Any = 0.0, acceleration: Any = 0.0) -> Any:
-        """The command [command unit] at which the plant's output moves so [N·m, N·m/s, N·m/s²].
+        """The command [command unit] for this motion of the plant's output [N·m, N·m/s, N·m/s²].
 
-        Numbers, or arrays of one shape.
+        The arguments are numbers, or arrays of one shape.
         """
         named = {"output": output, "velocity": velocity, "acceleration": acceleration}
         given = [_numbers.numbers(name, own) for name, own in named.items()]
@@ -74,10 +74,10 @@ class NominalPlant(Settings):
 
 
 class DisturbanceObserver(Settings):
-    """Compares what a command does with what the plant would do, and takes the rest out.
+    """Estimates friction and load by comparison with the nominal plant, and compensates them.
 
-    Given to a controller (``PI(observer=…)``), which adds the estimate to its command. Whether the
-    loop is stable, ``bowden certify`` says for the rig's own numbers.
+    Pass it to a controller (``PI(observer=…)``), which adds the estimate to its command.
+    ``bowden certify`` shows whether the loop is stable for plants near the reference rig.
     """
 
     plant: NominalPlant = setting(
@@ -92,10 +92,11 @@ class DisturbanceObserver(Settings):
     latency: float = setting(
         default=0.0,
         convert=_time,
-        doc="Time after which a command shows in the measurement, the plant's own apart [s].",
+        doc="Time from a command to its effect in the measured output, without the response of the "
+        "nominal plant [s].",
     )
     longest_dt: Any = setting(
-        default=None, convert=_time, doc="Longest dt that is a good sample [s]; None: any."
+        default=None, convert=_time, doc="Longest dt of a good sample [s]; None: any."
     )
 
     def _made(self, given: Mapping[str, Any]) -> dict[str, Any]:
@@ -112,29 +113,29 @@ class DisturbanceObserver(Settings):
 
 
 class IterativeLearning(Settings):
-    """Learns from cycle to cycle what a task that repeats has lacked so far, and feeds it forward.
+    """Learns a feed-forward from the error of earlier cycles of a repeating task.
 
-    Given to a controller (``PI(learning=…)``), whose samples then have a ``phase``.
+    Pass it to a controller (``PI(learning=…)``). Each sample then needs a ``phase``.
     """
 
     gain: float = setting(
         convert=_real, kw_only=False, doc="Gain of the error [command unit/(N·m)]."
     )
     limit: float = setting(
-        convert=_real, kw_only=False, doc="Greatest magnitude of what is learned [command unit]."
+        convert=_real, kw_only=False, doc="Greatest magnitude of the learned values [command unit]."
     )
-    cells: int = setting(convert=_count, doc="Cells that a cycle is divided into.")
+    cells: int = setting(convert=_count, doc="Number of cells of a cycle.")
     lead: int = setting(
-        default=0, convert=_count, doc="How many cells a command comes before its effect."
+        default=0, convert=_count, doc="Number of cells from a command to its effect."
     )
     half_width: int = setting(default=0, convert=_count, doc="Half width of the filter [cells].")
     forgetting: float = setting(
-        default=0.0, convert=_real, doc="Share that is forgotten each time, from 0 to 1."
+        default=0.0, convert=_real, doc="Share that is forgotten per cycle, from 0 to 1."
     )
     learned: Any = setting(
         default=None,
         convert=_numbers.numbers,
-        doc="What another controller's `learned` was, to continue from it; None: nothing.",
+        doc="The `learned` values of another controller, to continue from them; None: zeros.",
     )
 
     def _made(self, given: Mapping[str, Any]) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""The native half; what is public is documented in the package."""
+"""The native half; the package documents its public part."""
 
 from typing import Any, Callable, Optional, TypeVar
 

@@ -39,10 +39,10 @@ def validate(
     label: Optional[str] = None,
     threads: Optional[int] = None,
 ) -> CheckReport:
-    """Tries a model on another record of the same rig: nothing is fitted but gain and offset.
+    """Tests a model on another record of the same rig, fitting only a gain and an offset.
 
-    ``model`` is a :class:`Model` or the path of a ``.toml``; the record comes as in
-    :func:`bowden.identify`, whose options of reading mean the same here.
+    ``model`` is a :class:`Model` or the path of a ``.toml``. The record and the reading options are
+    as in :func:`bowden.identify`.
 
     Raises :class:`bowden.Error`.
     """

@@ -1,4 +1,4 @@
-"""The main question."""
+"""The identification of a record."""
 
 from __future__ import annotations
 
@@ -43,43 +43,43 @@ def identify(
     threads: Optional[int] = None,
     progress: Any = None,
 ) -> Report:
-    """Fits the baseline model, finds the effect that it lacks, adds it, compares.
+    """Fits the baseline model, finds the effects that it lacks, adds them, and compares the models.
 
     The record is one of
 
     * arrays: ``identify(t, tau_i=…, tau_o=…)`` in torque mode, ``identify(t, x=…, f=…)`` in
-      displacement mode, one-dimensional, of one length, of any numeric type; ``t`` in seconds,
-      or ``None`` with ``rate``;
-    * a record: a path (CSV, .mat v5 and v7.3, Parquet, each also in gzip), a frame of pandas or polars, a
-      table of pyarrow, a mapping of names to arrays, or a :class:`bowden.Record`;
-    * a list of such records of one rig, for one joint model; of three or more the last is held
-      out as a whole.
+      displacement mode; they are one-dimensional, have the same length and any numeric type;
+      ``t`` is in seconds, or ``None`` with ``rate``;
+    * a record: a path (CSV, .mat v5 and v7.3, or Parquet, each also in gzip), a frame of pandas or
+      polars, a table of pyarrow, a mapping of names to arrays, or a :class:`bowden.Record`;
+    * a list of such records of one rig, for one joint model; with three or more, the last one is
+      held out as a whole.
 
     Options of the program `bowden identify`, under the same names:
 
     channels
-        Further channels by name (``phi_p``, ``phi_d``, ``temperature``, ``load``, or any other):
-        an array, or the name of a column, ``"A-B"`` or ``"A+B"`` of two.
+        Further channels by name (``phi_p``, ``phi_d``, ``temperature``, ``load``, or any other).
+        Each is an array, the name of a column, or ``"A-B"`` or ``"A+B"`` of two columns.
     baseline
         The baseline model: ``bouc-wen`` and any effects; ``"NAME@CHANNEL"`` reads a channel.
-        A list, or one text with commas as for the program.
+        Either a list, or one text with commas as for the program.
     mode
-        ``"torque"`` or ``"displacement"``; from the columns where it is not given.
+        ``"torque"`` or ``"displacement"``; default: from the columns.
     time, input, output
-        Names of columns; ``t``, ``tau_i`` or ``x``, ``tau_o`` or ``f`` where not given.
+        Names of columns; default: ``t``, ``tau_i`` or ``x``, and ``tau_o`` or ``f``.
     start, end
         Seconds after the first time stamp at which the record is cut.
     cutoff
-        Cut-off of the one filter [Hz]; from the input's spectrum where it is not given.
+        Cut-off of the low-pass filter [Hz]; default: from the spectrum of the input.
     rate
-        Sampling rate [Hz]; time is then taken from the row number.
+        Sampling rate [Hz]; time is then computed from the row number.
     header_line
         Line of the column names of a CSV, from 1.
     names
-        Names of the columns of a text without names, each with its unit where it has one
-        (``["t", "x [mm]", "f"]``); an empty one is that of a column which is not read.
+        Names of the columns of a text file without names, each with its unit if it has one
+        (``["t", "x [mm]", "f"]``). A column with an empty name is not read.
     drop_bad
-        Leave out rows with an empty cell, a NaN or a time stamp that repeats.
+        Leave out rows with an empty cell, a NaN or a repeated time stamp.
     max_terms, time_limit
         Highest number of added terms (0 to 8); time after which the search ends [s].
     per_file
@@ -87,22 +87,21 @@ def identify(
     invertible
         Fit the exported model within what a feed-forward can invert.
 
-    And of Python:
+    Further options in Python:
 
     units
         Unit of each column by name, as in the header of a CSV (``{"tau_i": "N·m"}``); for arrays
         and frames.
     label
-        What stands for the file's name in messages and in the JSON; for arrays and frames.
+        Replaces the file's name in messages and in the JSON, for arrays and frames.
     figures
-        ``False``: no figures, page, trace or model are kept, for many records.
+        ``False`` keeps no figures, page, trace or model; for many records.
     threads
-        Number of threads; all of the machine's where it is not given. The numbers do not depend
-        on it.
+        Number of threads; default: all threads of the machine. The results do not depend on it.
     progress
-        ``True`` for a bar of tqdm, a bar of tqdm, or a function that is called with the share
-        that is done (``None`` where unknown) and what is done now. Where it raises, the call
-        ends. Ctrl-C ends it too.
+        ``True`` for a new tqdm bar, an existing tqdm bar, or a function. The function is called
+        with the share that is done (``None`` if unknown) and the current task. If it raises, the
+        call ends. Ctrl-C ends the call too.
 
     Raises :class:`bowden.Error`.
     """
@@ -182,7 +181,7 @@ def threads_of(threads: Optional[int]) -> Optional[int]:
 
 
 def command_of(function: str, paths: list[str], given: Mapping[str, Any]) -> str:
-    """The call as it may be typed, for the page."""
+    """The call as a user could type it, for the page."""
     record = repr(paths[0]) if len(paths) == 1 else repr(paths)
     options = [f"{name}={value!r}" for name, value in given.items() if value is not None]
     return f"bowden.{function}({', '.join([record, *options])})"

@@ -15,7 +15,7 @@ Column = tuple[str, Optional[str], "np.ndarray[Any, np.dtype[np.float64]]"]
 
 
 def list_of_names(names: Any) -> list[str]:
-    """The names of the columns of a text without them; a list of texts."""
+    """The names of the columns of a text file without names: a list of texts."""
     if names is None:
         return []
     allowed = "a list of names is allowed"
@@ -28,7 +28,7 @@ def list_of_names(names: Any) -> list[str]:
 
 
 def unmasked(values: Any) -> Any:
-    """The values of a masked array with NaN, or no point in time, where it is masked."""
+    """The values of a masked array, with NaN or NaT at masked entries."""
     if not isinstance(values, np.ma.MaskedArray):
         return values
     kind = values.dtype.kind
@@ -45,14 +45,14 @@ def is_path(source: object) -> bool:
 
 
 def is_frame(source: object) -> bool:
-    """Whether columns have names in it: a frame, a table of pyarrow, a mapping, a structured array."""
+    """Whether it has named columns: a frame, a pyarrow table, a mapping or a structured array."""
     if isinstance(source, np.ndarray):
         return source.dtype.names is not None
     return isinstance(source, Mapping) or hasattr(source, "columns") or hasattr(source, "column_names")
 
 
 def check_units(units: Mapping[str, str], names: Iterable[object]) -> None:
-    """Refuses a unit of a column that there is not."""
+    """Refuses a unit for a column that does not exist."""
     known = [str(name) for name in names]
     for name, unit in units.items():
         if name not in known:
@@ -91,7 +91,7 @@ def is_timed(column: Any) -> bool:
 
 
 def refuse_times(name: str, column: Any) -> None:
-    """Refuses durations and points in time where a signal is meant."""
+    """Refuses durations and points in time for a signal."""
     if is_timed(column):
         raise Error(
             f"column `{name}`: values of {getattr(column, 'dtype', type(column).__name__)}; "
@@ -101,7 +101,7 @@ def refuse_times(name: str, column: Any) -> None:
 
 
 def column_of_array(name: str, array: Any, units: Mapping[str, str]) -> Column:
-    """A column that was given by itself, which has to be one."""
+    """A column from one array, which must be a column."""
     found = values_of(array)
     numbers = None if found is None else _numbers(found)
     if found is None or numbers is None:
@@ -116,7 +116,7 @@ def column_of_array(name: str, array: Any, units: Mapping[str, str]) -> Column:
 
 
 def values_of(column: Any) -> Optional[np.ndarray[Any, Any]]:
-    """The values of a column of any library."""
+    """The values of a column from any library."""
     dtype = getattr(column, "dtype", None)
     if hasattr(column, "to_numpy"):
         # Of pandas' own types: those with a mask have no array of their own.
@@ -137,10 +137,10 @@ def values_of(column: Any) -> Optional[np.ndarray[Any, Any]]:
 def _numbers(
     values: np.ndarray[Any, Any],
 ) -> Optional[tuple[np.ndarray[Any, np.dtype[np.float64]], Optional[str]]]:
-    """As doubles, without a copy where they are.
+    """The values as doubles, without a copy if they are doubles already.
 
-    Points in time count from the first, and so do durations and whole numbers (time stamps in
-    nanoseconds) beyond what a double counts.
+    Points in time count from the first. So do durations and whole numbers (time stamps in
+    nanoseconds) that are too large for a double.
     """
     if values.dtype.kind in "iu" and values.ndim == 1 and _is_beyond(values):
         # Differences of 64 bits are right, whatever the sign of the first.
@@ -165,5 +165,5 @@ def _is_long(durations: np.ndarray[Any, Any]) -> bool:
 
 
 def _is_beyond(numbers: np.ndarray[Any, Any]) -> bool:
-    """Whether a double does not count every one of these whole numbers."""
+    """Whether a double cannot represent every one of these whole numbers."""
     return bool(numbers.size) and (int(numbers.max()) > 2**53 or int(numbers.min()) < -(2**53))

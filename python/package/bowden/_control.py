@@ -1,4 +1,4 @@
-"""Controllers, one or many side by side: what all laws have in common."""
+"""Controllers, one or many side by side: the common part of all laws."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from ._lanes import Changing, merged
 from ._settings import GREATEST, count, duration, instance, pair, setting
 from ._status import RunResult, StepResult, step_result
 
-#: Without a safe command, in the core's form.
+#: No safe command, in the core's form.
 _HOLD = {"after": 2**32 - 1, "weight": 4, "command": None}
-#: Without limits, likewise.
+#: No limits, in the core's form.
 _UNLIMITED = {"low": -GREATEST, "high": GREATEST, "slew": None}
 _MOST_COUNT = 2**32 - 1
 
@@ -45,22 +45,24 @@ def _applied(what: Any) -> str:
 
 
 class Controller(Changing):
-    """A torque controller with its state: :class:`PI`, :class:`PID`, :class:`PIV`, :class:`Adaptive`.
+    """A torque controller with its state: :class:`PI`, :class:`PID`, :class:`PIV` or
+    :class:`Adaptive`.
 
-    A setting that is an array makes one controller of each value, side by side; with ``lanes``
-    there are as many of the same settings. Times are in seconds, or durations with a unit.
+    If a setting is an array, there is one controller for each value, side by side. With ``lanes``
+    there are that many controllers with the same settings. Times are in seconds, or durations with
+    a unit.
 
-    Each setting is also an attribute. It cannot be assigned: :meth:`bumpless_transfer` changes settings of a
-    running controller without a jump of the command.
+    Each setting is also an attribute, which cannot be assigned. :meth:`bumpless_transfer` changes
+    the settings of a running controller without a jump of the command.
 
-    As in a simulation, no limit holds that was not given: without ``limits`` any command goes
-    out, without ``longest_dt`` any positive ``dt`` is a good one, and without ``fallback`` the
-    last good command is held for ever. A machine needs all three.
+    As in a simulation, there are no limits by default: without ``limits`` any command is applied,
+    without ``longest_dt`` any positive ``dt`` is good, and without ``fallback`` the last good
+    command is held indefinitely. A machine needs all three.
 
-    The estimate of an ``observer`` and what ``learning`` knows of a phase are added to the command
-    before its limits, for each lane by itself.
+    The estimate of the ``observer`` and the feed-forward of ``learning`` are added to the command
+    before its limits, separately for each lane.
 
-    Copies are independent: ``copy.copy``, ``copy.deepcopy`` and ``pickle`` take settings and state along.
+    Copies are independent: ``copy.copy``, ``copy.deepcopy`` and ``pickle`` copy settings and state.
     A second thread waits while the first one steps.
     """
 
@@ -73,26 +75,26 @@ class Controller(Changing):
     slew: Any = setting(
         default=None,
         core=False,
-        doc="Most change of the command [command unit/s], with limits; None: any.",
+        doc="Slew-rate limit of the command [command unit/s], with limits; None: none.",
     )
     longest_dt: Any = setting(
         default=None,
         convert=duration,
         core=False,
-        doc="Longest dt that is a good sample [s]; None: any.",
+        doc="Longest dt of a good sample [s]; None: any.",
     )
     fallback: Any = setting(
         default=None,
         convert=pair("after", "command", count(_MOST_COUNT)),
         core=False,
         doc="(bad samples in a row, safe command [command unit]); None: the last good command is "
-        "held for ever.",
+        "held indefinitely.",
     )
     fallback_weight: Any = setting(
         default=None,
         convert=count(_MOST_COUNT),
         core=False,
-        doc="How many good samples make up for a bad one, with fallback; None: 4.",
+        doc="Number of good samples that cancel a bad one, with fallback; None: 4.",
     )
     observer: Any = setting(
         default=None,
@@ -108,7 +110,7 @@ class Controller(Changing):
 
     @classmethod
     def _regressors(cls, documents: list[str]) -> Any:
-        """How many the law has; None of one that has no such list."""
+        """The number of regressors; None for a law without such a list."""
         return None
 
     @classmethod
@@ -165,14 +167,14 @@ class Controller(Changing):
     ) -> StepResult:
         """One sample: command, status and fault.
 
-        ``dt`` since the last sample [s], or a duration with a unit; ``reference``, ``measured``
-        [N·m]; ``velocity`` [rad/s] for PIV; ``regressors`` one number (or one for each lane) each, for
-        the adaptive law; ``phase`` where in its cycle a sample is, from 0 to 1, for learning, and
-        ``learns`` whether it is learned from (not where a limit cut the command, nor during
-        another task).
+        ``dt`` is the time since the last sample [s], or a duration with a unit. ``reference`` and
+        ``measured`` are in [N·m]. PIV reads ``velocity`` [rad/s]. The adaptive law reads
+        ``regressors``: for each one number, or one for each lane. Learning reads ``phase``, the
+        position in the cycle from 0 to 1, and ``learns``, whether it learns from the sample (set it
+        to False if a limit cut the command, or during another task).
 
-        A bad sample (NaN, a ``dt`` that is not positive) raises nothing: the command is held, the
-        status says so and the fault which input it was. What is no number raises
+        A bad sample (NaN, or a ``dt`` that is not positive) does not raise: the command is held,
+        and status and fault report the bad input. A value that is not a number raises
         :class:`bowden.Error`.
         """
         following = reference if next_reference is None else next_reference
@@ -201,11 +203,11 @@ class Controller(Changing):
         phase: Any = None,
         learns: Any = True,
     ) -> RunResult:
-        """Many samples: commands, statuses and faults, each of shape (samples,) or (samples, lanes).
+        """Many samples: commands, statuses and faults, each (samples,) or (samples, lanes).
 
-        ``dt`` is one time or (samples,): seconds, or durations with a unit. Each signal is a number,
-        (samples,) for all lanes, or (samples, lanes). The reference at the next sample is the next
-        row of the reference unless it is given. The rest is as in :meth:`step`.
+        ``dt`` is one time or (samples,), in seconds or as durations with a unit. Each signal is a
+        number, (samples,) for all lanes, or (samples, lanes). By default, the reference at the next
+        sample is the next row of the reference. Everything else is as in :meth:`step`.
         """
         samples = _numbers.samples_of(dt, reference, measured)
         more = (velocity, feed_forward, phase, learns, regressors)
@@ -287,8 +289,9 @@ class Controller(Changing):
     def terms(self) -> Fields:
         """Every term of the last step, by name: ``terms().integral``, or ``terms()["integral"]``.
 
-        Of several lanes each is an array. PI, PID and PIV: after a bad sample those of the last good
-        one. The adaptive law: the estimates that the step used.
+        With several lanes each term is an array. For PI, PID and PIV, the terms after a bad sample
+        are those of the last good one. For the adaptive law, the estimates are those that the
+        step used.
         """
         return Fields(merged([json.loads(text) for text in self._native.terms()]))
 
@@ -303,10 +306,10 @@ class Controller(Changing):
         feed_forward: Any = 0.0,
         regressors: Sequence[Any] = (),
     ) -> StepResult:
-        """Starts so that the command goes on from ``output`` [command unit] without a jump.
+        """Starts so that the command continues from ``output`` [command unit] without a jump.
 
-        For the hand-over from another controller or from a person: the rest is the sample at
-        which this happens. Does nothing while the safe command is latched.
+        Use this method for a transfer from another controller or from manual control. The other
+        arguments are the sample at the transfer. It does nothing while the safe command is latched.
         """
         lanes = len(self._native)
 
@@ -335,14 +338,15 @@ class Controller(Changing):
         return StepResult(*(np.array(own) for own in zip(*lanes)))
 
     def applied(self, what: Any) -> None:
-        """Tells what the drive did with the last command; call it between two steps.
+        """Reports the drive's response to the last command; call this method between two steps.
 
-        ``what`` is the command that went out [command unit], ``"at-upper-limit"`` (less went out
-        than was commanded, how much is unknown), ``"at-lower-limit"``, or ``"as-commanded"``, as
-        without this call. Of several lanes: one for all, or a sequence with one for each. A number
-        that is not finite says nothing.
+        ``what`` is the applied command [command unit], ``"at-upper-limit"`` (the drive applied less
+        than the command, by an unknown amount), ``"at-lower-limit"``, or ``"as-commanded"``, which
+        is the same as no call. With several lanes it is one value for all, or a sequence with one
+        for each. A number that is not finite is ignored.
 
-        Slew rate, anti-windup and a bumpless start then count from what went out.
+        The slew-rate limit, anti-windup and a bumpless start then continue from the applied
+        command.
         """
         lanes = len(self._native)
         one = isinstance(what, str) or not np.ndim(what)
@@ -354,33 +358,33 @@ class Controller(Changing):
         self._native.applied([_applied(own) for own in each])
 
     def acknowledge(self) -> None:
-        """Somebody has seen the fault: the next good sample closes the loop again."""
+        """Acknowledges the fault: the next good sample closes the loop again."""
         self._native.acknowledge()
 
     def reset(self) -> None:
-        """Forgets all but the command that is out, bad samples, and a latched safe command."""
+        """Resets all but the applied command, the bad samples and a latched safe command."""
         self._native.reset()
 
     def restore(self) -> None:
-        """Makes a restored state fit for a start: the power was off, nothing is out.
+        """Prepares a stored state for a start after a power-off: no command is applied.
 
-        The estimates of an adaptive law stay, and so does a latched safe command.
+        The estimates of an adaptive law are kept, and so is a latched safe command.
         """
         self._native.restore()
 
     @property
     def is_latched(self) -> Any:
-        """Whether the safe command is out until :meth:`acknowledge`."""
+        """Whether the safe command is applied until :meth:`acknowledge`."""
         return self._single(self._native.are_latched())
 
     @property
     def last(self) -> StepResult:
-        """The command that is out, with status and fault of the last sample."""
+        """The applied command, with the status and the fault of the last sample."""
         return self._told(self._native.last())
 
     @property
     def command(self) -> Any:
-        """The command that is out [command unit]."""
+        """The applied command [command unit]."""
         return self.last.command
 
     @property
@@ -395,19 +399,20 @@ class Controller(Changing):
 
     @property
     def estimates(self) -> Any:
-        """beta_hat, delta_hat and each theta_hat of an adaptive law; the integral of another."""
+        """beta_hat, delta_hat and each theta_hat of an adaptive law; the integral of other laws."""
         all = self._native.estimates()
         return np.asarray(all[0] if self._alone else all)
 
     @property
     def disturbance(self) -> Any:
-        """d_hat of the observer, which is added to the command [command unit]; ``None`` without one."""
+        """d_hat of the observer, added to the command [command unit]; ``None`` without one."""
         all = self._native.disturbances()
         return all if all is None else all[0] if self._alone else np.asarray(all)
 
     @property
     def learned(self) -> Any:
-        """What each cell of a cycle has learned [command unit], (cells,) or (lanes, cells); ``None``
-        without learning. ``IterativeLearning(…, learned=…)`` continues from it."""
+        """The learned value of each cell [command unit], (cells,) or (lanes, cells).
+
+        ``None`` without learning. ``IterativeLearning(…, learned=…)`` continues from it."""
         all = self._native.learned()
         return all if all is None else np.asarray(all[0] if self._alone else all)

@@ -1,4 +1,4 @@
-"""What a bad record, a bad option or a bad model gives."""
+"""The errors of a bad record, a bad option or a bad model."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from typing import Optional
 
 
 class Error(ValueError):
-    """One line that says what was wrong, with the place where there is one.
+    """One line that states what is wrong, and where if the place is known.
 
-    ``file``, ``line`` (from 1; of arrays and of files without lines the row) and
-    ``column`` are ``None`` where the fault has none.
+    ``file``, ``line`` (from 1; the row for arrays and for files without lines) and
+    ``column`` are ``None`` if they do not apply.
     """
 
     def __init__(
@@ -34,10 +34,10 @@ class FrozenError(Error, AttributeError):
 
 
 class CallError(Error, TypeError):
-    """A call with a keyword that there is not."""
+    """A call with an unknown keyword."""
 
 
-#: The program's options that are written otherwise here.
+#: The program's options that have other names here.
 _OTHER = {
     "--channel NAME=COL": "channels",
     "--drop-bad": "drop_bad=True",

@@ -1,4 +1,4 @@
-"""Objects of a JSON with its keys as attributes."""
+"""JSON objects with their keys as attributes."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any, Iterator
 
 
 class Fields:
-    """A JSON object: each key is an attribute, ``from`` as ``from_``; also a mapping to read."""
+    """A JSON object: each key is an attribute (``from`` is ``from_``); also a read-only mapping."""
 
     __slots__ = ("_all",)
 
@@ -40,7 +40,7 @@ class Fields:
         return self._all.keys()
 
     def to_dict(self) -> dict[str, Any]:
-        """As plain dictionaries and lists."""
+        """The object as plain dictionaries and lists."""
         return self._all
 
     def __dir__(self) -> list[str]:
@@ -62,7 +62,7 @@ class Fields:
 
 
 def wrapped(value: Any) -> Any:
-    """A value of a JSON, objects as :class:`Fields`."""
+    """A JSON value, with objects as :class:`Fields`."""
     if isinstance(value, dict):
         return Fields(value)
     if isinstance(value, list):

@@ -1,4 +1,4 @@
-"""What runs: one or many side by side, with a state that can be copied, stored and restored."""
+"""Objects that run, one or many side by side, with a state that can be copied and stored."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from . import _numbers
 from ._error import Error
 from ._settings import Settings, setting
 
-#: Of the stored form of a state.
+#: Schema of the stored form of a state.
 SCHEMA = "bowden.state/1"
 
-#: Of settings from when they are read to when they are written again.
+#: Guards settings from their reading to their writing.
 _CHANGES = threading.Lock()
 
 _L = TypeVar("_L", bound="Lanes")
@@ -27,14 +27,14 @@ def _number_of_lanes(name: str, value: Any) -> int:
 
 
 class Lanes(Settings):
-    """Lanes that run side by side; safe to use from several threads, which take turns."""
+    """Lanes that run side by side; several threads may use them, and take turns."""
 
     lanes: Any = setting(
         default=None,
         convert=_number_of_lanes,
         core=False,
-        doc="How many run side by side; None: one, or one for each value of a setting that is an "
-        "array. Then each argument and each result has one value for each lane.",
+        doc="Number of lanes side by side; None: one, or one for each value of a setting that is "
+        "an array. With several lanes, each argument and each result has one value for each lane.",
     )
 
     if TYPE_CHECKING:
@@ -60,12 +60,12 @@ class Lanes(Settings):
 
     @classmethod
     def _kept(cls, values: Mapping[str, Any]) -> dict[str, Any]:
-        """The settings of which the native half does not know."""
+        """The settings that the native half does not know."""
         return {}
 
     @classmethod
     def _start(cls, documents: list[str], kept: Mapping[str, Any]) -> Any:
-        """The native half, of the settings of each lane."""
+        """The native half, from the settings of each lane."""
         raise NotImplementedError
 
     @classmethod
@@ -81,9 +81,9 @@ class Lanes(Settings):
 
     @property
     def settings(self) -> dict[str, Any]:
-        """Every setting by name, as the constructor takes it: ``type(it)(**it.settings)``.
+        """Every setting by name, as the constructor accepts it: ``type(it)(**it.settings)``.
 
-        Of several lanes: one value that all share, or an array with one for each.
+        With several lanes it is one value that all share, or an array with one for each.
         """
         lanes = [self._from_core(json.loads(text)) for text in self._native.settings()]
         found = {**merged(lanes), **self._rest}
@@ -91,15 +91,16 @@ class Lanes(Settings):
 
     @property
     def state(self) -> dict[str, Any]:
-        """All that it remembers, of plain numbers, lists and mappings: JSON can store it."""
+        """The whole state as plain numbers, lists and mappings, which JSON can store."""
         lanes = [json.loads(text) for text in self._native.states()]
         return {"schema": SCHEMA, "of": type(self).__name__, "lanes": lanes}
 
     def load_state(self, state: Mapping[str, Any]) -> None:
         """Continues from a :attr:`state` of an object with the same settings.
 
-        Raises :class:`bowden.Error`, and changes nothing, if the state is of another class, of
-        another number of lanes or regressors, or holds numbers that these settings do not allow.
+        Raises :class:`bowden.Error`, and changes nothing, if the state belongs to another class or
+        to another number of lanes or regressors, or contains numbers that these settings do not
+        allow.
         """
         own = type(self).__name__
         if not isinstance(state, Mapping) or state.get("schema") != SCHEMA:
@@ -115,7 +116,7 @@ class Lanes(Settings):
             raise Error(f"state: {error}") from None
 
     def restart(self) -> None:
-        """Back to a state that has seen no sample."""
+        """Returns to the initial state, before the first sample."""
         self._native.restart()
 
     def _single(self, values: Any) -> Any:
@@ -123,7 +124,7 @@ class Lanes(Settings):
         return values[0] if self._alone else np.asarray(values)
 
     def _rows(self, values: Any) -> Any:
-        """Rows of one lane, or of all."""
+        """Rows of one lane, or of all lanes."""
         return values[:, 0] if self._alone else values
 
     def __copy__(self: _L) -> _L:
@@ -147,8 +148,9 @@ class Changing(Lanes):
     def bumpless_transfer(self, **settings: Any) -> None:
         """Continues with other settings, without a jump of the command (bumpless transfer).
 
-        Any setting may change but ``lanes``, ``observer``, ``learning`` and the number of regressors.
-        The others stay as they are. If the new settings are refused, nothing has changed.
+        Any setting may change except ``lanes``, ``observer``, ``learning`` and the number of
+        regressors. Settings that are not given stay as they are. If the new settings are refused,
+        nothing changes.
         """
         self._check_names(settings)
         for name in self._rest.keys() & settings.keys():
@@ -176,7 +178,7 @@ def _restored(
 
 
 def each_lane(settings: Mapping[str, Any], lanes: Optional[int]) -> tuple[list[str], bool]:
-    """The settings of each lane as JSON, and whether there is one alone: arrays give one lane each."""
+    """The settings of each lane as JSON (arrays give one lane per value), and whether it is one."""
     lengths = {name: length for name, length in _lengths("", settings)}
     counts = set(lengths.values()) | ({lanes} if lanes is not None else set())
     if len(counts) > 1:

@@ -28,8 +28,8 @@ class Linear(Controller):
         default=None,
         convert=one_of("none", "clamp", "back-calculation", "conditional"),
         core=False,
-        doc="What the integral does while the command is limited: none, clamp, back-calculation "
-        "(with tracking_time) or conditional; None: conditional.",
+        doc="Anti-windup method: none, clamp, back-calculation (with tracking_time) or "
+        "conditional; None: conditional.",
     )
     tracking_time: Any = setting(
         default=None,
@@ -39,16 +39,16 @@ class Linear(Controller):
     )
     integral_limit: Any = setting(
         default=None,
-        doc="Greatest magnitude that the integral term integrates to [command unit]; None: any.",
+        doc="Greatest magnitude of the integral term [command unit]; None: any.",
     )
     deadband: Any = setting(
         default=None,
-        doc="The integral waits while the error is at most this [output unit]; None: 0.",
+        doc="The integral is frozen while |error| is at most this [output unit]; None: 0.",
     )
     period: Any = setting(
         default=None,
-        doc="Period of an output that wraps [output unit], such as 360: the error is taken the "
-        "short way round; None: it does not wrap.",
+        doc="Period of an output that wraps [output unit], such as 360: the error is measured "
+        "along the shorter direction; None: the output does not wrap.",
     )
 
     @classmethod
@@ -72,9 +72,9 @@ class Linear(Controller):
 
 
 class PI(Linear):
-    """PI (15); gains as in Table 1.
+    """PI (15); the default gains are those of Table 1 in Nguyen et al. (2018).
 
-    No limits, longest ``dt`` or fallback unless they are given: see :class:`Controller`.
+    Limits, longest ``dt`` and fallback apply only if they are given: see :class:`Controller`.
     """
 
 
@@ -93,7 +93,7 @@ class PID(Linear):
     derivative_weight: Any = setting(
         default=None,
         core=False,
-        doc="Set-point weight c of the derivative: 0 on the measurement, 1 on the error; None: 0.",
+        doc="Set-point weight c of the derivative: 0 is the measurement, 1 the error; None: 0.",
     )
 
     @classmethod
@@ -108,7 +108,7 @@ class PID(Linear):
 
 
 class PIV(Linear):
-    """PIV (16): ``k_d`` on the measured distal velocity."""
+    """PIV (16): ``k_d`` multiplies the measured distal velocity."""
 
     k_d: Any = setting(
         default=10.0, kw_only=False, doc="Gain of the velocity [command unit·s/rad]."
@@ -192,10 +192,11 @@ def _missing(name: str, value: Any) -> Any:
 
 
 class Adaptive(Controller):
-    """The robust adaptive law (17)-(26), by default with the numbers of Table 2.
+    """The robust adaptive law (17)-(26); the defaults are Table 2 of Nguyen et al. (2018).
 
-    An estimate is a mapping of ``initial``, ``low``, ``high`` (None: no bound), ``gain``,
-    ``leakage`` and ``prior``. The leakage is a rate [1/s], ``("switching", rate, bound)``, or None.
+    An estimate is a mapping with the keys ``initial``, ``low``, ``high`` (None: no bound),
+    ``gain``, ``leakage`` and ``prior``. The leakage is a rate [1/s],
+    ``("switching", rate, bound)``, or None.
     """
 
     gain: Any = setting(default=24.0, kw_only=False, doc="Control gain k.")
@@ -224,7 +225,7 @@ class Adaptive(Controller):
         default={"initial": 7.0, "gain": 0.05 / 8.0, "leakage": 0.01},
         convert=_estimator,
         core=False,
-        doc="Estimate of the disturbance's bound [N·m].",
+        doc="Estimate of the bound of the disturbance [N·m].",
     )
     theta: Any = setting(
         default=({"initial": 0.0, "gain": 0.004 / 8.0, "leakage": 0.01},) * 2,
@@ -240,14 +241,14 @@ class Adaptive(Controller):
     frozen: Any = setting(
         default=None,
         convert=_numbers.flag,
-        doc="True: the estimates stay as they are; None: False.",
+        doc="True freezes the estimates; None: False.",
     )
     missing: Any = setting(
         default=None,
         convert=_missing,
         core=False,
-        doc="What a regressor that is not finite does: hold the command, or drop its term; one "
-        "word for all or one for each; None: hold.",
+        doc="Response to a regressor that is not finite: hold the command, or drop its term. One "
+        "word for all regressors, or one for each; None: hold.",
     )
 
     @classmethod

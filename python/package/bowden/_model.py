@@ -1,4 +1,4 @@
-"""Models for firmware: load, save, run sample by sample."""
+"""Models for firmware: load, save, and run sample by sample."""
 
 from __future__ import annotations
 
@@ -60,12 +60,12 @@ class Model:
 
     @property
     def toml(self) -> str:
-        """The text of its ``.toml``."""
+        """The text of the model's ``.toml``."""
         return self._native.toml
 
     @property
     def name(self) -> str:
-        """Its file, or its name."""
+        """The model's file, or its name."""
         return self._name
 
     @property
@@ -75,11 +75,11 @@ class Model:
 
     @property
     def channels(self) -> list[str]:
-        """Names of the channels that it reads besides the input."""
+        """Names of the channels that the model reads besides the input."""
         return self._native.channels
 
     def to_dict(self) -> dict[str, Any]:
-        """Everything in its file."""
+        """The whole content of the model's file."""
         found: dict[str, Any] = json.loads(self._native.json)
         return found
 
@@ -104,14 +104,14 @@ class Model:
         time_constant: Any = None,
         dtype: Any = np.float64,
     ) -> np.ndarray[Any, Any]:
-        """The output sample by sample, as firmware computes it, from a fresh state on.
+        """The output sample by sample, as firmware computes it, starting from a new state.
 
-        ``input`` and each channel are arrays of shape (samples,), whose velocities and
-        accelerations then come from the causal filter of the core's `Rates` with
-        ``time_constant`` [s] (of the model's file where not given); or of shape (samples, 3):
-        position, velocity, acceleration. ``t`` are seconds, or points in time as in
-        :func:`bowden.identify`; or ``dt`` is one step [s], or a duration with a unit.
-        ``dtype`` is ``numpy.float64`` or ``numpy.float32``: the model runs in it.
+        ``input`` and each channel are arrays with shape (samples,) or (samples, 3). With (samples,)
+        the velocities and accelerations come from the core's causal filter `Rates` with
+        ``time_constant`` [s] (default: from the model's file). The three columns of (samples, 3)
+        are position, velocity and acceleration. Give either ``t`` in seconds, or as points in time
+        as in :func:`bowden.identify`, or ``dt``, which is one step [s] or a duration with a unit.
+        ``dtype`` is ``numpy.float64`` or ``numpy.float32``, the type in which the model runs.
         """
         given = dict(channels or {})
         missing = [name for name in self.channels if name not in given]

@@ -1,4 +1,4 @@
-"""Numbers, and times with a unit, whatever they come in; what is neither is refused by name."""
+"""Numbers, and times with a unit, in any type; anything else is refused by its name."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ._error import Error
 
 Floats = np.ndarray[Any, np.dtype[np.float64]]
 
-#: What may be given where seconds are meant.
+#: The values that are allowed for a time in seconds.
 DURATIONS = "seconds (numbers) or durations with a unit (timedelta) are allowed"
 _SECOND = np.timedelta64(1, "s")
 
@@ -29,8 +29,8 @@ def numbers(name: str, value: Any, allowed: str = "numbers are allowed") -> Floa
 def seconds(name: str, value: Any) -> Floats:
     """An array of seconds: numbers are seconds, and durations have their own unit.
 
-    The one place that knows units of time in arguments; columns of a record have
-    ``_columns``. A missing duration (``NaT``) is NaN. A point in time is no duration.
+    Only this function knows units of time in arguments; for columns of a record it is
+    ``_columns``. A missing duration (``NaT``) becomes NaN. A point in time is not a duration.
     """
     array = _array(value)
     if array is not None and array.dtype.kind == "O" and array.size:
@@ -99,7 +99,7 @@ def whole(name: str, value: Any, least: int, most: int, allowed: str) -> int:
 
 
 def spread(name: str, values: Floats, samples: int, lanes: int) -> Floats:
-    """A signal as (samples, lanes): of one number, of (samples,), or of (samples, lanes)."""
+    """A signal as (samples, lanes), from one number, (samples,) or (samples, lanes)."""
     shape = (samples, lanes)
     if values.ndim == 1 and values.shape[0] == samples and samples > 1:
         values = values[:, None]
@@ -111,7 +111,7 @@ def spread(name: str, values: Floats, samples: int, lanes: int) -> Floats:
 
 
 def samples_of(*signals: Any) -> int:
-    """How many samples the longest of these has; one if none is an array."""
+    """The number of samples of the longest of these; one if none is an array."""
     arrays = [own for own in map(_array, signals) if own is not None and own.ndim]
     return max((own.shape[0] for own in arrays), default=1)
 
@@ -138,7 +138,7 @@ def _array(value: Any) -> Optional[np.ndarray[Any, Any]]:
 
 
 def _of_objects(array: np.ndarray[Any, Any]) -> Optional[np.ndarray[Any, Any]]:
-    """Durations of a list of `datetime.timedelta` or of pandas."""
+    """Durations from a list of `datetime.timedelta` or from pandas."""
     flat = [_array(one) for one in array.ravel()]
     if any(one is None or one.dtype.kind != "m" for one in flat):
         return None
@@ -146,7 +146,7 @@ def _of_objects(array: np.ndarray[Any, Any]) -> Optional[np.ndarray[Any, Any]]:
 
 
 def _described(value: Any, array: Optional[np.ndarray[Any, Any]]) -> str:
-    """What was given, in a few words."""
+    """The given value, in a few words."""
     if value is None:
         return "None"
     if array is None or array.dtype.kind in "OSU" or isinstance(value, bool):

@@ -1,4 +1,4 @@
-"""Progress of a long call: a bar of tqdm, or a function of the caller's."""
+"""Progress of a long call: a tqdm bar, or a function of the caller."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ import importlib.util
 import sys
 from typing import Any, Callable, Optional
 
-#: Called with the share that is done (0 to 1, ``None`` where unknown) and what is done now.
+#: Called with the share that is done (0 to 1, ``None`` if unknown) and the current task.
 Told = Callable[[Optional[float], str], object]
 
 
 class _Bar:
-    """A bar of tqdm or alike, moved to shares of its total."""
+    """A tqdm bar or a similar one, moved to shares of its total."""
 
     def __init__(self, bar: Any, own: bool) -> None:
         self.bar, self.own = bar, own
@@ -42,7 +42,7 @@ class _Bar:
 
 
 class Progress:
-    """What ``progress=`` means, for the length of one call."""
+    """The meaning of ``progress=``, for the duration of one call."""
 
     def __init__(self, wanted: Any) -> None:
         self.bar: Optional[_Bar] = None

@@ -1,4 +1,4 @@
-"""Whatever a record comes in, as a record."""
+"""Reads a record from any source."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from ._numbers import duration, number, whole
 #: Columns that are signals by their names alone.
 SIGNALS = frozenset({"tau_i", "tau_o", "x", "f", "phi_p", "phi_d", "temperature", "load"})
 
-#: What a frequency may be.
+#: The values that are allowed for a frequency.
 HERTZ = "a number of Hz is allowed"
 
 #: A channel is the name of a column, ``A-B`` or ``A+B`` of two, or an array.
@@ -75,7 +75,7 @@ class Reading:
         }
 
     def of_ends(self, ends: Mapping[str, Any]) -> _bowden.Record:
-        """Of arrays that were given by name."""
+        """A record from arrays that were given by name."""
         arrays = [(name, array) for name, array in ends.items() if array is not None]
         arrays += [(n, a) for n, a in self.channels.items() if not isinstance(a, str)]
         check_units(self.units, [name for name, _ in arrays])
@@ -86,7 +86,7 @@ class Reading:
         return _bowden.record_of_columns(columns, self.label or "(arrays)", self.options)
 
     def of(self, source: Any, number: Optional[int] = None) -> _bowden.Record:
-        """Of one source; of several ``number`` counts from 1."""
+        """A record from one source; ``number`` counts several sources from 1."""
         if isinstance(source, _bowden.Record):
             self._no_names("a bowden.Record", "it has its own")
             return source
@@ -117,13 +117,13 @@ class Reading:
         )
 
     def _signals(self) -> frozenset[str]:
-        """Names of columns that are signals, whichever of them there are."""
+        """Names of the columns that are signals, if they exist."""
         ends = {own for own in (self.options["input"], self.options["output"]) if own}
         columns = {column for _, column in self.options["channels"]}
         return (SIGNALS | ends | columns) - {self.options["time"] or "t"}
 
     def all_of(self, sources: Union[Any, Sequence[Any]]) -> list[_bowden.Record]:
-        """Of one source or of a list of them, in the units of the first one."""
+        """Records from one source or a list of sources, in the units of the first one."""
         if not isinstance(sources, (list, tuple)):
             return [self.of(sources)]
         if not sources:
@@ -137,7 +137,7 @@ class Reading:
         return _bowden.agree([self.of(s, k + 1) for k, s in enumerate(sources)])
 
     def _no_names(self, source: str, why: str) -> None:
-        """Neither label nor units are for this source."""
+        """Refuses a label or units for this source."""
         for option, given in (("label", self.label), ("units", self.units or None)):
             if given is not None:
                 raise Error(

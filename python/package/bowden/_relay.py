@@ -22,28 +22,28 @@ _RESULT = ("gain", "period", "amplitude", "duty")
 
 
 class RelayPhase(Code):
-    """What a :class:`Relay` is doing; a number above ``DONE`` is a failure."""
+    """The phase of a :class:`Relay`; a number above ``DONE`` is a failure."""
 
     RUNNING = 0
     #: A bad sample: the last command is held.
     HELD = 1
-    #: The experiment has succeeded: the centre is out.
+    #: The experiment has succeeded: the relay applies the centre.
     DONE = 2
-    #: Too many bad samples. After a failure the safe command is out.
+    #: Too many bad samples. After a failure the safe command is applied.
     BAD_SAMPLES = 3
     #: The output was further from the reference than ``most_deviation``.
     OUTPUT_OUT_OF_RANGE = 4
-    #: ``longest_time`` is over without a complete cycle.
+    #: ``longest_time`` has passed without a complete cycle.
     NO_OSCILLATION = 5
-    #: ``longest_time`` is over, and the cycles did not agree with each other.
+    #: ``longest_time`` has passed, and the cycles did not agree with each other.
     TIME_OUT = 6
     OTHER = 7
 
 
 class RelayResult(NamedTuple):
-    """A command; of many samples or lanes each is an array."""
+    """A command; for many samples or lanes each field is an array."""
 
-    #: What goes to the drive [command unit].
+    #: The command for the drive [command unit].
     command: Any
     #: A :class:`RelayPhase`, or an array of its numbers.
     phase: Any
@@ -54,31 +54,36 @@ class RelayResult(NamedTuple):
 class Relay(Block):
     """A relay experiment: it makes the loop oscillate and measures ultimate gain and period.
 
-    Start with the output near the reference. Step it instead of the controller until its phase is
-    ``DONE`` or a failure; then :meth:`pi` gives the gains. A failure keeps the safe command out until
-    :meth:`acknowledge`.
+    Start with the output near the reference. Step the relay instead of the controller until its
+    phase is ``DONE`` or a failure. After ``DONE``, :meth:`pi` returns the gains. After a failure,
+    the safe command is applied until :meth:`acknowledge`.
     """
 
-    reference: Any = setting(doc="About which the output oscillates [output unit].")
+    reference: Any = setting(doc="Reference about which the output oscillates [output unit].")
     centre: Any = setting(doc="Mean of the two levels of the command [command unit].")
     amplitude: Any = setting(
-        doc="From the centre to each level [command unit]: of the sign of the plant's gain."
+        doc="Distance from the centre to each level [command unit], with the sign of the plant's "
+        "gain."
     )
-    hysteresis: Any = setting(doc="At least the peak of the noise, zero or above [output unit].")
+    hysteresis: Any = setting(
+        doc="Hysteresis, zero or above: at least the peak of the noise [output unit]."
+    )
     most_deviation: Any = setting(
         doc="Greatest distance of the output from the reference, above hysteresis [output unit]."
     )
     cycles: Any = setting(
-        default=4, convert=count(_MOST_COUNT), doc="Successive cycles that are averaged, 2 or more."
+        default=4,
+        convert=count(_MOST_COUNT),
+        doc="Number of successive cycles in the average, at least 2.",
     )
     agreement: Any = setting(
         default=0.05,
-        doc="Largest difference between these cycles, as a share, above 0 and below 1.",
+        doc="Largest difference between these cycles, as a share between 0 and 1.",
     )
     longest_time: Any = setting(
-        convert=duration, doc="Time after which the experiment has ended [s]."
+        convert=duration, doc="Maximum duration of the experiment [s]."
     )
-    longest_dt: Any = setting(convert=duration, doc="Longest dt that is a good sample [s].")
+    longest_dt: Any = setting(convert=duration, doc="Longest dt of a good sample [s].")
     limits: Any = setting(
         convert=limits_of, core=False, doc="(low, high) of the command [command unit]."
     )
@@ -106,7 +111,7 @@ class Relay(Block):
         }
 
     def step(self, dt: Any, measured: Any) -> RelayResult:
-        """One sample: ``dt`` since the last one [s], or a duration with a unit; the output."""
+        """One sample: ``dt`` since the last one [s] (or a duration), and the measured output."""
         (command, *_), phase, fault = self._one(dt, "measured", measured)
         if self._alone:
             return RelayResult(command, RelayPhase(phase), Fault(fault))
@@ -118,14 +123,14 @@ class Relay(Block):
         return RelayResult(command, phase, fault)
 
     def acknowledge(self) -> None:
-        """After a failure: the next good sample starts the experiment again."""
+        """Acknowledges a failure: the next good sample restarts the experiment."""
         self._native.acknowledge()
 
     @property
     def ultimate(self) -> Optional[Fields]:
         """Gain, period [s], amplitude [output unit] and duty of the cycles; None before the result.
 
-        Of several lanes each is an array, NaN for a lane without a result.
+        With several lanes each field is an array, with NaN for a lane without a result.
         """
         found = self._results()
         if self._alone:
@@ -136,8 +141,8 @@ class Relay(Block):
     def pi(self, rule: str = "tyreus-luyben") -> Fields:
         """k_p and k_i of a PI: ``bowden.PI(**relay.pi())``.
 
-        The rule is "tyreus-luyben", the cautious one, or "ziegler-nichols". Raises
-        :class:`bowden.Error` without a result.
+        The rule is "tyreus-luyben", which is conservative, or "ziegler-nichols", which is fast. The
+        method raises :class:`bowden.Error` if there is no result.
         """
         if rule not in _RULES:
             words = ", ".join(f'"{own}"' for own in _RULES)

@@ -1,4 +1,4 @@
-"""What a call has found: the JSON's fields, figures, models, the trace."""
+"""The result of a call: the fields of the JSON, figures, models and the trace."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _HEX = {"good": "#15803d", "mid": "#a16207", "bad": "#b91c1c"}
 
 
 class _Found(Fields):
-    """What both reports have in common."""
+    """The common part of both reports."""
 
     __slots__ = ("_json", "_native", "_command")
 
@@ -40,7 +40,7 @@ class _Found(Fields):
 
     @property
     def json(self) -> str:
-        """The program's ``--json`` of the same record, byte by byte."""
+        """The program's ``--json`` output for the same record, byte for byte."""
         return self._json
 
     def _drawn(self) -> Any:
@@ -49,10 +49,10 @@ class _Found(Fields):
         return self._native
 
     def trace(self, frame: Optional[str] = None) -> Any:
-        """The signals over time, as the fit sees them.
+        """The signals over time, as the fit uses them.
 
-        ``frame`` is ``"pandas"``, ``"polars"`` or ``"dict"`` (of arrays); without it the first
-        of these that is installed.
+        ``frame`` is ``"pandas"``, ``"polars"`` or ``"dict"`` (of arrays); default: the first of
+        these that is installed.
         """
         columns: dict[str, Any] = dict(self._drawn().trace())
         if frame in (None, "pandas"):
@@ -89,7 +89,8 @@ class _Found(Fields):
     def page(self) -> str:
         """The whole report as one HTML page that loads nothing.
 
-        The SHA-256 of each file is of what was read; the files need not be there any more.
+        The SHA-256 of each file is that of the data that was read. The files may have been deleted
+        since.
         """
         page: str = self._drawn().page(self._command)
         return page
@@ -107,7 +108,7 @@ class _Found(Fields):
         return ""
 
     def _repr_html_(self) -> str:
-        """Verdict, errors and two figures; the whole page folded below them."""
+        """Verdict, errors and two figures, with the whole page folded below them."""
         verdict = str(self["verdict"])
         colour = _HEX[_COLOURS.get(verdict, "mid")]
         head = (
@@ -137,7 +138,7 @@ class _Found(Fields):
 
 
 class Report(_Found):
-    """What :func:`bowden.identify` has found; fields as in schema ``bowden.identify/1``.
+    """The result of :func:`bowden.identify`; fields as in schema ``bowden.identify/1``.
 
     Each key of the JSON is an attribute (``report.final.nrmse.held_out``); the text itself is
     :attr:`json`.
@@ -199,7 +200,7 @@ class Report(_Found):
 
     @property
     def names(self) -> list[str]:
-        """The effects that were found and delivered, in the order in which they were."""
+        """The effects that were found and delivered, in the order in which they were found."""
         return [str(found.effect) for found in self.terms]
 
     def _numbers(self) -> str:
@@ -219,7 +220,7 @@ class Report(_Found):
 
 
 class CheckReport(_Found):
-    """What :func:`bowden.validate` has found; fields as in schema ``bowden.validate/1``."""
+    """The result of :func:`bowden.validate`; fields as in schema ``bowden.validate/1``."""
 
     __slots__ = ()
 

@@ -55,32 +55,36 @@ def _drift(name: str, value: Any) -> dict[str, Any]:
 
 
 class Rig(Lanes):
-    """The simulated rig: motor, cable, joint against its spring, sensors; one or many.
+    """The simulated rig: motor, cable, joint with a spring, and sensors; one or many.
 
-    A setting that is an array makes one rig of each value, side by side. A setting that is not
-    given is that of the reference rig.
+    If a setting is an array, there is one rig for each value, side by side. The defaults are the
+    settings of the reference rig.
     """
 
     _INSTEAD = "make another Rig with {}=…"
 
     drive_gain: Any = setting(
-        default=None, doc="Torque of the motor for one unit of command [N·m/command unit]."
+        default=None, doc="Torque of the motor per command unit [N·m/command unit]."
     )
     drive_lag: Any = setting(
         default=None, convert=duration, doc="Time constant of the current loop [s]."
     )
-    motor_inertia: Any = setting(default=None, doc="Motor, gear and proximal pulley [kg·m²].")
-    motor_damping: Any = setting(default=None, doc="Viscous friction of the same [N·m·s/rad].")
-    cable_stiffness: Any = setting(default=None, doc="[N·m/rad].")
-    cable_damping: Any = setting(default=None, doc="[N·m·s/rad].")
-    joint_inertia: Any = setting(default=None, doc="Distal pulley [kg·m²].")
-    joint_damping: Any = setting(default=None, doc="[N·m·s/rad].")
+    motor_inertia: Any = setting(
+        default=None, doc="Inertia of motor, gear and proximal pulley [kg·m²]."
+    )
+    motor_damping: Any = setting(
+        default=None, doc="Viscous friction of motor, gear and proximal pulley [N·m·s/rad]."
+    )
+    cable_stiffness: Any = setting(default=None, doc="Stiffness of the cable [N·m/rad].")
+    cable_damping: Any = setting(default=None, doc="Damping of the cable [N·m·s/rad].")
+    joint_inertia: Any = setting(default=None, doc="Inertia of the distal pulley [kg·m²].")
+    joint_damping: Any = setting(default=None, doc="Damping of the joint [N·m·s/rad].")
     load_stiffness: Any = setting(
-        default=None, doc="Springs that the joint works against [N·m/rad]."
+        default=None, doc="Stiffness of the springs that the joint works against [N·m/rad]."
     )
     b: Any = setting(default=None, doc="Torque ratio B.")
     kappa_eta: Any = setting(default=None, doc="Torque of the hysteresis at saturation [N·m].")
-    t0: Any = setting(default=None, doc="Pretension T0 [N·m].")
+    t0: Any = setting(default=None, doc="Preload T0 [N·m].")
     rho: Any = setting(default=None, doc="Bouc-Wen rho [1/(N·m)].")
     sigma: Any = setting(default=None, doc="Bouc-Wen sigma.")
     n: Any = setting(default=None, doc="Bouc-Wen n.")
@@ -96,14 +100,14 @@ class Rig(Lanes):
         default=None, doc="Range of the proximal converter, plus and minus [N·m]."
     )
     converter_counts: Any = setting(default=None, doc="Counts of a converter over its whole range.")
-    encoder_counts: Any = setting(default=None, doc="Counts of an encoder in one turn.")
+    encoder_counts: Any = setting(default=None, doc="Counts of an encoder per turn.")
     velocity_lag: Any = setting(
         default=None,
         convert=duration,
-        doc="Time constant of the filter behind encoder differences [s].",
+        doc="Time constant of the filter of the encoder differences [s].",
     )
     delay: Any = setting(
-        default=None, convert=count(255), doc="Samples between a command and the drive."
+        default=None, convert=count(255), doc="Delay from a command to the drive [samples]."
     )
     sub_step: Any = setting(
         default=None, convert=duration, doc="Longest sub-step of the integration [s]."
@@ -111,20 +115,20 @@ class Rig(Lanes):
     drift: Any = setting(
         default=None,
         convert=_drift,
-        doc="How the conduit moves: time [s], b, kappa_eta, t0; None: it lies still.",
+        doc="Motion of the conduit: time [s], b, kappa_eta, t0; None: no motion.",
     )
     undeclared: Any = setting(
         default=(),
         convert=_undeclared,
         core=False,
-        doc="Effects that no controller knows of: mappings of effect, source (input, proximal or "
-        "distal), gain and, where the effect has them, shapes.",
+        doc="Effects unknown to every controller: mappings of effect, source (input, proximal or "
+        "distal), gain and, if the effect has them, shapes.",
     )
     seed: Any = setting(
         default=7,
         convert=_seeds,
         core=False,
-        doc="Of the noise: one, from which each lane has its own, or a list with one for each lane.",
+        doc="Seed of the noise: one, from which each lane gets its own, or a list of one per lane.",
     )
 
     def _made(self, given: Mapping[str, Any]) -> dict[str, Any]:
@@ -155,7 +159,7 @@ class Rig(Lanes):
 
     @property
     def settings(self) -> dict[str, Any]:
-        """Every setting by name, as the constructor takes it: ``Rig(**rig.settings)``."""
+        """Every setting by name, as the constructor accepts it: ``Rig(**rig.settings)``."""
         found = super().settings
         terms = found["undeclared"] or ()
         shown = [
@@ -178,22 +182,22 @@ class Rig(Lanes):
         return found
 
     def sample(self) -> dict[str, Any]:
-        """The present sample: the truth (``tau_o``) and what the sensor measures (``measured``)."""
+        """The present sample: the true torque (``tau_o``) and the sensor reading (``measured``)."""
         return self._named(self._native.sample(), 0)
 
     def step(self, command: Command, dt: Any = 0.001, load: Any = 0.0) -> dict[str, Any]:
-        """One step of ``dt`` [s], or of a duration with a unit; the sample after it.
+        """One step of ``dt`` [s], or of a duration with a unit; returns the sample after the step.
 
-        ``command`` [command unit], or the result of a controller's step; ``load`` [N·m]. Of several
-        lanes each has one value for each.
+        ``command`` is in [command unit], or it is the result of a controller's step; ``load`` is in
+        [N·m]. With several lanes each argument has one value for each lane.
         """
         time = np.array([_numbers.duration("dt", dt)])
         return self._named(self._native.run(*self._signals(command, load, 1), time), 0)
 
     def run(self, commands: Command, dt: Any = 0.001, load: Any = 0.0) -> dict[str, Any]:
-        """Many steps: signals of shape (samples,), or (samples, lanes) of several lanes.
+        """Many steps: signals with shape (samples,), or (samples, lanes) for several lanes.
 
-        ``dt`` is one time or (samples,): seconds, or durations with a unit.
+        ``dt`` is one time or (samples,), in seconds or as durations with a unit.
         """
         samples = _numbers.samples_of(command_of(commands), dt, load)
         times = _numbers.along("dt", _numbers.seconds("dt", dt), samples)
@@ -216,15 +220,15 @@ class Rig(Lanes):
         feed_forward: Any = 0.0,
         phase: Any = None,
     ) -> dict[str, Any]:
-        """The closed loop: each controller on its rig, all on one reference [N·m].
+        """The closed loop: each controller on its rig, all with one reference [N·m].
 
-        ``dt`` as in :meth:`run`. ``feed_forward`` [command unit] is added to each command;
-        ``phase``, from 0 to 1, is where in its cycle a sample is, for learning. Each is a number
-        or (samples,).
+        ``dt`` is as in :meth:`run`. ``feed_forward`` [command unit] is added to each command.
+        ``phase``, from 0 to 1, is the position of a sample in its cycle, for learning. Each of
+        these is a number or (samples,).
 
-        Gives what was read off before each command, ``command``, ``status`` and ``fault`` (numbers
-        of :class:`Status` and :class:`Fault`) and ``error`` = tau_o - reference. The adaptive law's
-        regressors are velocity and acceleration of the proximal pulley.
+        Returns the rig's signals before each command, ``command``, ``status`` and ``fault``
+        (numbers of :class:`Status` and :class:`Fault`), and ``error`` = tau_o - reference. The
+        regressors of the adaptive law are velocity and acceleration of the proximal pulley.
         """
         if not isinstance(controller, Controller):
             kind = type(controller).__name__
@@ -244,7 +248,10 @@ class Rig(Lanes):
 
 
 def paper_reference(t: Any, ramp: Any = 0.0) -> _numbers.Floats:
-    """The paper's reference [N·m] (section 4.2) at times [s], rising smoothly in ``ramp`` [s]."""
+    """The reference [N·m] of Nguyen et al. (2018), section 4.2, at times [s].
+
+    It rises smoothly within ``ramp`` [s].
+    """
     rise = _numbers.finite("ramp", _numbers.duration("ramp", ramp))
     times = np.ascontiguousarray(_numbers.seconds("t", t))
     if times.ndim != 1:

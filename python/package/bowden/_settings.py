@@ -1,8 +1,8 @@
-"""Settings: one line each is a keyword, an attribute, its documentation and its checks.
+"""Settings: one line defines a keyword, an attribute, its documentation and its checks.
 
-A class lists its settings as ``name: Any = setting(…)``. The values live in the native half, in
-the core's own form; what is read is what the core holds. A setting cannot be assigned: the law
-would not know of it.
+A class lists its settings as ``name: Any = setting(…)``. The native half stores the values in
+the core's own form, and a read returns the core's value. A setting cannot be assigned, because
+the law would not notice the change.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ else:
         return lambda cls: cls
 
 
-#: Without a limit: every float.
+#: No limit: every float.
 GREATEST = float(np.finfo(np.float64).max)
 
 Convert = Callable[[str, Any], Any]
@@ -74,7 +74,7 @@ def one_of(*names: str) -> Convert:
 
 
 def pair(low: str, high: str, first: Convert = real) -> Convert:
-    """Two numbers of these names."""
+    """Two numbers with these names."""
 
     def convert(name: str, value: Any) -> dict[str, Any]:
         if isinstance(value, (str, Mapping)) or not isinstance(value, Sequence) or len(value) != 2:
@@ -118,8 +118,8 @@ def setting(
     kw_only: bool = True,
     core: bool = True,
 ) -> Any:
-    """A setting. Its default ``None`` means: as the core has it; without a default it is needed.
-    ``core=False`` is for one that the core has in another form."""
+    """A setting. A default of ``None`` means the core's default; without a default it is required.
+    ``core=False`` is for a setting that the core stores in another form."""
     return Setting(default, doc, convert, kw_only, core)
 
 
@@ -128,7 +128,7 @@ _S = TypeVar("_S", bound="Settings")
 
 @dataclass_transform(kw_only_default=True, frozen_default=True, field_specifiers=(setting,))
 class Settings:
-    """Anything that is made of settings and does not change afterwards."""
+    """An object made of settings, which does not change afterwards."""
 
     _SETTINGS: ClassVar[dict[str, Setting]] = {}
     #: What to do instead of an assignment, with the setting's name.
@@ -155,7 +155,7 @@ class Settings:
             self._hold(self._made(self._given(args, given)))
 
     def _hold(self, parts: Mapping[str, Any]) -> None:
-        """Sets attributes of this object's own."""
+        """Sets attributes of this object itself."""
         self.__dict__.update(parts)
 
     @classmethod
@@ -194,12 +194,12 @@ class Settings:
         }
 
     def _made(self, given: Mapping[str, Any]) -> dict[str, Any]:
-        """The parts of this object, of its settings."""
+        """The parts of this object, made from its settings."""
         return {"_settings": self._converted(given)}
 
     @property
     def settings(self) -> dict[str, Any]:
-        """Every setting by name, as the constructor takes it: ``type(it)(**it.settings)``."""
+        """Every setting by name, as the constructor accepts it: ``type(it)(**it.settings)``."""
         return dict(self.__dict__["_settings"])
 
     if not TYPE_CHECKING:  # Without it a type checker refuses an assignment by itself.

@@ -1,4 +1,4 @@
-"""Signal conditioning, one signal or many side by side: what a bad sample cannot poison."""
+"""Signal conditioning that rejects bad samples, for one signal or many side by side."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ._status import Code, Fault
 
 
 class RatesStatus(Code):
-    """How far the motion of a :class:`Rates` can be trusted."""
+    """Validity of the motion from :class:`Rates`."""
 
     GOOD = 0
     #: A good sample, but the rates started from zero less than five time constants ago.
@@ -27,7 +27,7 @@ class RatesStatus(Code):
 
 
 class EdgeStatus(Code):
-    """How far a velocity of :class:`EdgeVelocity` can be trusted."""
+    """Validity of a velocity from :class:`EdgeVelocity`."""
 
     GOOD = 0
     #: Two counts and the time between them are not yet known.
@@ -39,7 +39,7 @@ class EdgeStatus(Code):
 
 
 class Implausible(Code):
-    """Why a sample cannot be true; ``NONE`` is false."""
+    """Why a sample is implausible; ``NONE`` is false."""
 
     NONE = 0
     NOT_FINITE = 1
@@ -50,7 +50,7 @@ class Implausible(Code):
 
 
 class RatesResult(NamedTuple):
-    """A motion; of many samples or lanes each is an array."""
+    """A motion; for many samples or lanes each field is an array."""
 
     position: Any
     velocity: Any
@@ -62,9 +62,9 @@ class RatesResult(NamedTuple):
 
 
 class EdgeVelocityResult(NamedTuple):
-    """A velocity; of many samples or lanes each is an array."""
+    """A velocity; for many samples or lanes each field is an array."""
 
-    #: [channel unit/s]; zero before two counts were seen.
+    #: Velocity [channel unit/s]; zero until two counts are known.
     velocity: Any
     #: An :class:`EdgeStatus`, or an array of its numbers.
     status: Any
@@ -73,16 +73,16 @@ class EdgeVelocityResult(NamedTuple):
 
 
 class PlausibleResult(NamedTuple):
-    """A sample after the check; of many samples or lanes each is an array."""
+    """A sample after the check; for many samples or lanes each field is an array."""
 
-    #: The sample where it is plausible, else NaN.
+    #: The sample if it is plausible, otherwise NaN.
     value: Any
     #: An :class:`Implausible`, or an array of its numbers.
     fault: Any
 
 
 class Block(Lanes):
-    """What all blocks have in common."""
+    """The common part of all blocks."""
 
     @classmethod
     def _start(cls, documents: list[str], kept: Mapping[str, Any]) -> _bowden.Blocks:
@@ -105,7 +105,7 @@ class Block(Lanes):
     def _one(
         self, dt: Any, name: str, sample: Any, moves: Any = True
     ) -> tuple[list[Any], Any, Any]:
-        """The signals of one sample, and codes of status and fault."""
+        """The signals of one sample, and the codes of status and fault."""
         _numbers.duration("dt", dt)
         signals, status, fault = self._many(dt, name, sample, moves, 1)
         first = [float(own[0]) if self._alone else own[0] for own in signals]
@@ -114,7 +114,7 @@ class Block(Lanes):
     def _many(
         self, dt: Any, name: str, samples: Any, moves: Any = True, count: int = 0
     ) -> tuple[list[Any], Any, Any]:
-        """The signals of many samples, and codes of status and fault."""
+        """The signals of many samples, and the codes of status and fault."""
         if not count:
             count = _numbers.samples_of(dt, samples)
         lanes = len(self._native)
@@ -128,25 +128,25 @@ class Block(Lanes):
 
 
 class Rates(Block):
-    """Velocity and acceleration from position samples, causally: gaps and wrap-around included.
+    """Causal velocity and acceleration from position samples, with gaps and wrap-around.
 
-    Below the sampling rate ``V/X = s/(tau·s + 1)`` and ``A/X = s²/(tau·s + 1)²``.
+    Well below the sampling rate ``V/X = s/(tau·s + 1)`` and ``A/X = s²/(tau·s + 1)²``.
     """
 
     time_constant: Any = setting(
         convert=duration,
         kw_only=False,
-        doc="tau [s]: delay of the velocity, half of that of the acceleration.",
+        doc="tau [s]: the delay of the velocity, and half the delay of the acceleration.",
     )
     longest_gap: Any = setting(
         default=None,
         convert=duration,
         core=False,
-        doc="Longest time between two good samples that is bridged [s]; None: 10 time constants.",
+        doc="Longest gap between two good samples that is bridged [s]; None: 10 time constants.",
     )
     period: Any = setting(
         default=None,
-        doc="Period of the positions, where they wrap around [channel unit]; None: they do not.",
+        doc="Period of positions that wrap around [channel unit]; None: they do not wrap.",
     )
 
     @classmethod
@@ -192,14 +192,14 @@ class EdgeVelocity(Block):
         kw_only=False, doc="Smallest change of the position, above zero [channel unit]."
     )
     time_constant: Any = setting(
-        convert=duration, kw_only=False, doc="Averages counts that come faster than this [s]."
+        convert=duration, kw_only=False, doc="Counts that come faster than this are averaged [s]."
     )
     longest_gap: Any = setting(
-        convert=duration, kw_only=False, doc="Without a count for this long, the axis rests [s]."
+        convert=duration, kw_only=False, doc="After this time without a count, the axis rests [s]."
     )
     period: Any = setting(
         default=None,
-        doc="Period of the positions, where they wrap around [channel unit]; None: they do not.",
+        doc="Period of positions that wrap around [channel unit]; None: they do not wrap.",
     )
 
     def step(self, dt: Any, position: Any) -> EdgeVelocityResult:
@@ -219,9 +219,9 @@ class _Filter(Block):
     """A signal in, a signal out."""
 
     def step(self, dt: Any, sample: Any) -> Any:
-        """The output after a sample that came ``dt`` later [s], or a duration with a unit.
+        """The output after a sample, ``dt`` [s] (or a duration with a unit) after the last one.
 
-        A bad sample (NaN, a ``dt`` that is not positive) leaves the output as it was.
+        A bad sample (NaN, or a ``dt`` that is not positive) leaves the output unchanged.
         """
         return self._one(dt, "sample", sample)[0][0]
 
@@ -250,27 +250,27 @@ class Biquad(_Filter):
     )
     q: Any = setting(
         kw_only=False,
-        doc="Quality: 1/sqrt(2) is a Butterworth low-pass; a notch is frequency/q wide [Hz].",
+        doc="Quality factor: 1/sqrt(2) is Butterworth low-pass; a notch is frequency/q [Hz] wide.",
     )
     sample_time: Any = setting(
-        convert=duration, kw_only=False, doc="Sample time that it is designed for [s]."
+        convert=duration, kw_only=False, doc="Sample time of the design [s]."
     )
 
 
 class Ramp(Block):
-    """A reference that a loop can follow: at most a rate, then a lag that rounds its corners."""
+    """A reference that a loop can follow: a rate limit, then a lag that rounds the corners."""
 
-    rate: Any = setting(kw_only=False, doc="Above zero [signal unit/s].")
+    rate: Any = setting(kw_only=False, doc="Rate limit, above zero [signal unit/s].")
     time_constant: Any = setting(
-        default=0.0, kw_only=False, convert=duration, doc="Of the lag [s]; 0: sharp corners."
+        default=0.0, kw_only=False, convert=duration, doc="Time constant of the lag [s]; 0: none."
     )
     longest_dt: Any = setting(
         default=None, convert=duration, doc="Longest dt that moves the reference [s]; None: any."
     )
-    start: Any = setting(default=0.0, core=False, doc="Where the reference starts [signal unit].")
+    start: Any = setting(default=0.0, core=False, doc="Start of the reference [signal unit].")
 
     def step(self, dt: Any, wanted: Any) -> Any:
-        """The reference ``dt`` later [s], or a duration with a unit, on its way to ``wanted``."""
+        """The reference on its path to ``wanted``, ``dt`` [s] (or a duration with a unit) later."""
         return self._one(dt, "wanted", wanted)[0][0]
 
     def run(self, dt: Any, wanted: Any) -> Any:
@@ -279,19 +279,19 @@ class Ramp(Block):
 
 
 class Plausible(Block):
-    """Whether a finite number can be true: within a range, not too fast, not stuck.
+    """Plausibility check of a finite number: its range, its rate, and whether it is stuck.
 
-    Put one before each input of a controller: a sample that cannot be true becomes NaN, on which
-    the controller holds its command.
+    Use one before each input of a controller. An implausible sample becomes NaN, and the controller
+    then holds its command.
     """
 
-    low: Any = setting(kw_only=False, doc="Least value that can be true [signal unit].")
-    high: Any = setting(kw_only=False, doc="Greatest value that can be true [signal unit].")
+    low: Any = setting(kw_only=False, doc="Least plausible value [signal unit].")
+    high: Any = setting(kw_only=False, doc="Greatest plausible value [signal unit].")
     rate: Any = setting(default=None, doc="Greatest rate of change [signal unit/s]; None: any.")
     stuck_after: Any = setting(
         default=None,
         convert=count(2**32 - 1),
-        doc="So many equal numbers in succession, while the machine moves, are a stuck sensor; "
+        doc="Number of equal values in a row, while the machine moves, that mean a stuck sensor; "
         "None: 0, never.",
     )
     sample_period: Any = setting(
@@ -302,11 +302,11 @@ class Plausible(Block):
     longest_dt: Any = setting(
         default=None,
         convert=duration,
-        doc="A longer dt counts as this one [s]; None: any counts as it is.",
+        doc="A longer dt counts as this one [s]; None: no limit.",
     )
 
     def step(self, dt: Any, sample: Any, moves: Any = True) -> PlausibleResult:
-        """One sample; ``moves``: whether the machine moves, so that the signal has to."""
+        """One sample; ``moves``: whether the machine moves, so that the signal must change."""
         (value, *_), _, fault = self._one(dt, "sample", sample, moves)
         return PlausibleResult(value, Implausible(fault) if self._alone else fault)
 

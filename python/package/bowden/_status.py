@@ -1,4 +1,4 @@
-"""What a step tells: its command, whether the sample was good, and what was wrong with it."""
+"""The result of a step: the command, whether the sample was good, and its fault."""
 
 from __future__ import annotations
 
@@ -19,26 +19,26 @@ class Code(enum.IntEnum):
 
 
 class Status(Code):
-    """What a step did: the greater, the worse."""
+    """The result of a step: the greater the number, the worse the result."""
 
     GOOD = 0
-    #: The command is of this sample, but the term of a regressor was dropped, or the observer or
-    #: learning could not use the sample.
+    #: The command comes from this sample, but the term of a regressor was dropped, or the
+    #: observer or learning could not use the sample.
     DEGRADED = 1
     #: A bad sample: the last good command is held.
     HELD = 2
-    #: Too many bad samples: the safe command is out until :meth:`Controller.acknowledge`.
+    #: Too many bad samples: the safe command is applied until :meth:`Controller.acknowledge`.
     SAFE = 3
 
 
 class Fault(Code):
-    """Which input of a step could not be used; ``NONE`` is false."""
+    """The bad input of a step; ``NONE`` is false."""
 
     NONE = 0
     #: ``dt`` is not finite.
     DT = 1
     DT_NOT_POSITIVE = 2
-    #: ``dt`` is beyond ``longest_dt``, or beyond what the law is stable for.
+    #: ``dt`` exceeds ``longest_dt``, or the stability limit of the law.
     DT_TOO_LONG = 3
     REFERENCE = 4
     MEASURED = 5
@@ -46,9 +46,9 @@ class Fault(Code):
     FEED_FORWARD = 7
     #: The command to resume from.
     COMMAND = 8
-    #: Every input is finite, but the command is not.
+    #: Every input is finite, but the command is not finite.
     OVERFLOW = 9
-    #: The phase of a cycle is not from 0 to 1, or has jumped.
+    #: The phase of a cycle lies outside 0 to 1, or has jumped.
     PHASE = 10
     OTHER = 11
     POSITION = 12
@@ -59,20 +59,20 @@ class Fault(Code):
 
 
 class StepResult(NamedTuple):
-    """One sample; of several lanes each is an array with one value for each lane."""
+    """One sample; for several lanes each field is an array with one value for each lane."""
 
-    #: What goes to the drive [command unit].
+    #: The command for the drive [command unit].
     command: Any
-    #: A :class:`Status`; of several lanes an array of its numbers.
+    #: A :class:`Status`; for several lanes an array of its numbers.
     status: Any
-    #: A :class:`Fault`, likewise.
+    #: A :class:`Fault`; for several lanes an array of its numbers.
     fault: Any
 
 
 class RunResult(NamedTuple):
-    """Many samples: arrays of shape (samples,), or (samples, lanes) of several lanes."""
+    """Many samples: arrays with shape (samples,), or (samples, lanes) for several lanes."""
 
-    #: What goes to the drive [command unit].
+    #: The command for the drive [command unit].
     command: Any
     #: Numbers of :class:`Status`: ``result.status == bowden.Status.HELD``.
     status: Any
@@ -85,14 +85,14 @@ _FAULTS = {int(fault): fault for fault in Fault}
 
 
 def step_result(command: float, status: int, fault: int) -> StepResult:
-    """Of the numbers of the native half."""
+    """The result from the numbers of the native half."""
     return StepResult(command, _STATUSES[status], _FAULTS.get(fault, Fault.OTHER))
 
 
 def command_of(given: Any) -> Any:
-    """The command of a result, or what was given itself."""
+    """The command of a result, or the given value itself."""
     return given.command if isinstance(given, (StepResult, RunResult)) else given
 
 
-#: For type checkers: what a controller's command may come in.
+#: For type checkers: the types in which a controller's command may be given.
 Command = Union[float, StepResult, RunResult, np.ndarray[Any, Any]]
