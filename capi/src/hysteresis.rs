@@ -29,7 +29,7 @@ pub const BOWDEN_INVERSE_F32_WORDS: usize = 10;
 /// Size of a bowden_inverse_f64 in 64-bit words.
 pub const BOWDEN_INVERSE_F64_WORDS: usize = 20;
 
-/// Of a step that is fed one number: a good sample or a held one.
+/// The result of a step with one number: a good sample or a held one.
 fn good(is_good: bool) -> bowden_result {
     if is_good {
         bowden_result::Ok

@@ -14,12 +14,12 @@ pub const BOWDEN_ITERATIVE_LEARNING_F32_WORDS: usize = 14;
 /// Size of a bowden_iterative_learning_f64 in 64-bit words.
 pub const BOWDEN_ITERATIVE_LEARNING_F64_WORDS: usize = 18;
 
-/// Starts over both arrays, of which the second is set to zero, and the first one where nothing is
-/// kept: after all that can be refused.
+/// Starts with both arrays, after all checks. It sets the second array to zero, and the first one
+/// if its values are not kept.
 ///
 /// # Safety
-/// The caller's rule of pointers; of the arrays as [`Lent::new`], and where the first one is kept
-/// numbers stand in it.
+/// The caller's rule of pointers. The arrays satisfy the conditions of [`Lent::new`]; if the values
+/// of the first one are kept, it contains numbers.
 unsafe fn begin<
     T: Real,
     O: Object<Inner = (IterativeLearning<T>, IterativeLearningState<T, Lent<T>>)>,

@@ -58,7 +58,7 @@ pub use rates::*;
 pub use relay::*;
 pub use result::*;
 
-/// Nothing in the library panics; the linker wants a handler in any case.
+/// Nothing in the library panics, but the linker needs a handler.
 #[cfg(all(target_os = "none", not(test)))]
 #[panic_handler]
 fn stop(_: &core::panic::PanicInfo) -> ! {

@@ -18,10 +18,10 @@ pub const BOWDEN_MODEL_F32_WORDS: usize = 112;
 /// Size of a bowden_model_f64 in 64-bit words.
 pub const BOWDEN_MODEL_F64_WORDS: usize = 216;
 
-/// As `bowden identify --model-out` writes it behind the model.
+/// The checksum that `bowden identify --model-out` writes after the model.
 const CHECKSUM: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
 
-/// Whether a model reads no more channels than a sample holds.
+/// Whether a model reads at most as many channels as a sample can hold.
 fn reads_what_there_is<T: core_bowden::Real>(model: &Model<T, BOWDEN_TERMS>) -> bool {
     model.terms().iter().all(|term| match term.source {
         Source::Input => true,
@@ -186,7 +186,7 @@ macro_rules! model {
     };
 }
 
-/// The bytes of a caller.
+/// The bytes from the caller.
 ///
 /// # Safety
 /// `bytes` is null or leads to `length` bytes that nobody writes meanwhile.
@@ -201,7 +201,7 @@ unsafe fn readable<'a>(bytes: *const u8, length: usize) -> Result<&'a [u8], Refu
     Ok(unsafe { slice::from_raw_parts(bytes, length) })
 }
 
-/// Whether the checksum behind the bytes is theirs.
+/// Whether the checksum after the bytes is correct.
 fn is_whole(bytes: &[u8]) -> bool {
     let Some((model, checksum)) = bytes.split_last_chunk::<4>() else {
         return false;

@@ -12,16 +12,16 @@ use core::ops::Range;
 use core::ptr;
 use core::slice;
 
-/// Memory of a caller with something of Rust's inside.
+/// Memory that the caller owns and that contains Rust data.
 ///
 /// # Safety
 /// `Self` is `repr(C)` of an array of `u64` and nothing else.
 pub(crate) unsafe trait Object: Sized {
-    /// What is kept.
+    /// The type of the data.
     type Inner: Copy;
-    /// Another one for every type.
+    /// The magic word, different for every type.
     const MAGIC: u64;
-    /// That there is room for it between two words, and that it is aligned there.
+    /// Checks that the data fits between two words and is aligned there.
     const FITS: () = assert!(
         size_of::<Self::Inner>() + 2 * size_of::<u64>() <= size_of::<Self>()
             && align_of::<Self::Inner>() <= align_of::<Self>()
@@ -29,7 +29,7 @@ pub(crate) unsafe trait Object: Sized {
     );
 }
 
-/// The place of the inner one, behind the first word.
+/// The address of the data, after the first word.
 fn inner_of<O: Object>(object: *mut O) -> *mut O::Inner {
     let () = O::FITS;
     object.cast::<u64>().wrapping_add(1).cast()
@@ -51,7 +51,7 @@ fn is_placed<X>(at: *const X) -> Result<(), bowden_result> {
     }
 }
 
-/// Puts `inner` into an object, whatever was there.
+/// Puts `inner` into an object, whatever it contained.
 ///
 /// # Safety
 /// `object` is null or leads to writable memory of its type.
@@ -92,7 +92,7 @@ unsafe fn is_started<O: Object>(object: *const O) -> Result<(), bowden_result> {
     }
 }
 
-/// What is kept in an object that was initialised.
+/// The data of an object that was initialised.
 ///
 /// # Safety
 /// `object` is null or leads to memory of its type that nobody else uses meanwhile.
@@ -107,7 +107,7 @@ pub(crate) unsafe fn kept<'a, O: Object>(
     }
 }
 
-/// The same of an object that is only read.
+/// The same for an object that is only read.
 ///
 /// # Safety
 /// `object` is null or leads to memory of its type that nobody writes meanwhile.
@@ -119,7 +119,7 @@ pub(crate) unsafe fn seen<'a, O: Object>(object: *const O) -> Result<&'a O::Inne
     }
 }
 
-/// A value of a caller: numbers, for which every bit pattern is one.
+/// A value from the caller, made of numbers, for which every bit pattern is valid.
 ///
 /// # Safety
 /// `from` is null or leads to a value of its type, which is made of numbers and pointers.
@@ -129,8 +129,8 @@ pub(crate) unsafe fn read<X: Copy>(from: *const X) -> Result<X, bowden_result> {
     Ok(unsafe { ptr::read(from) })
 }
 
-/// Settings of a caller. The mark is read before the other fields, so of memory that is not
-/// this struct no more is read.
+/// Settings from the caller. The mark is read before the other fields, so nothing else is read from
+/// memory that is not this struct.
 ///
 /// # Safety
 /// `from` is null or leads to a `u32`; where that is the mark, to a value of its type.
@@ -142,8 +142,7 @@ pub(crate) unsafe fn read_settings<S: Marked>(from: *const S) -> Result<S, Refus
     Ok(unsafe { ptr::read(from) })
 }
 
-/// The values of an array, as many as there are places; of an array of none the pointer may
-/// be null.
+/// The values of an array, as many as there are places; for an empty array the pointer may be null.
 ///
 /// # Safety
 /// `from` is null or leads to so many values, made of numbers.
@@ -167,7 +166,7 @@ pub(crate) unsafe fn read_all<X: Copy, Y>(
     Ok(())
 }
 
-/// Writes a value where a caller wants it; whatever was there is only overwritten.
+/// Writes a value to the caller's memory and overwrites whatever was there.
 ///
 /// # Safety
 /// `to` is null or leads to writable memory of its type.
@@ -178,12 +177,12 @@ pub(crate) unsafe fn write<X: Copy>(to: *mut X, value: X) -> Result<(), bowden_r
     Ok(())
 }
 
-/// Whether something can be written there, asked before a step moves its state.
+/// Checks that a value can be written there, before a step changes its state.
 pub(crate) fn writable<X>(to: *const X) -> Result<(), bowden_result> {
     is_placed(to)
 }
 
-/// An array of numbers that a caller lends an object for as long as that is used.
+/// An array of numbers that the caller lends to an object while the object is used.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub(crate) struct Lent<X> {
@@ -214,18 +213,18 @@ impl<X: Copy> Lent<X> {
         self.first.addr()..self.first.wrapping_add(self.count).addr()
     }
 
-    /// Whether a byte of it is one of the other's too.
+    /// Whether the array shares a byte with the other one.
     pub(crate) fn overlaps(&self, other: &Self) -> bool {
         meet(&self.bytes(), &other.bytes())
     }
 
-    /// Whether a byte of it is one of the object's too.
+    /// Whether the array shares a byte with the object.
     pub(crate) fn overlaps_object<O: Object>(&self, object: *const O) -> bool {
         let end = object.wrapping_add(1);
         meet(&self.bytes(), &(object.addr()..end.addr()))
     }
 
-    /// Writes the same number everywhere, whatever was there.
+    /// Writes the same number to every place, whatever was there.
     pub(crate) fn fill(&mut self, value: X) {
         for index in 0..self.count {
             // SAFETY: writable memory for so many, as of `new`.
@@ -234,7 +233,7 @@ impl<X: Copy> Lent<X> {
     }
 }
 
-/// Whether two ranges have something in common.
+/// Whether two ranges overlap.
 fn meet(one: &Range<usize>, other: &Range<usize>) -> bool {
     one.start < other.end && other.start < one.end
 }
@@ -254,7 +253,7 @@ impl<X> AsMut<[X]> for Lent<X> {
     }
 }
 
-/// A literal with a NUL behind it.
+/// A literal with a NUL at its end.
 pub(crate) fn read_text(text: &'static str) -> &'static CStr {
     CStr::from_bytes_with_nul(text.as_bytes()).unwrap_or(c"")
 }

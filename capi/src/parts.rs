@@ -20,7 +20,7 @@ pub enum bowden_saturation {
     Lower = 2,
 }
 
-/// What a drive at this limit did with the command; how far it cut is unknown.
+/// The response of a drive at this limit, which cut the command by an unknown amount.
 pub(crate) fn limit_of_drive<T>(saturation: u32) -> Result<Applied<T>, Refused> {
     match saturation {
         s if s == bowden_saturation::None as u32 => Ok(Applied::AsCommanded),
@@ -46,7 +46,7 @@ macro_rules! parts {
             }
 
             impl [<bowden_limits_ $f>] {
-                /// An empty range, which is refused: until both ends are set.
+                /// An empty range, which is refused until both ends are set.
                 pub(crate) const UNSET: Self = Self { low: $f::MAX, high: $f::MIN, slew: 0.0 };
 
                 pub(crate) fn limits(&self) -> Result<Limits<$f>, Refused> {

@@ -56,7 +56,7 @@ pub enum bowden_pi_rule {
     ZieglerNichols = 1,
 }
 
-/// The code of a phase, what was wrong, the phase in C, and why the experiment failed.
+/// The code of a phase, the bad input, the phase in C, and why the experiment failed.
 fn of_phase<T>(
     phase: &RelayPhase<T>,
 ) -> (

@@ -110,7 +110,7 @@ impl bowden_about {
     }
 }
 
-/// Why nothing was done: a code, and for a setting what it is about.
+/// Why nothing was done: a code, and for a setting its name.
 pub(crate) struct Refused {
     code: bowden_result,
     about: &'static str,
@@ -139,7 +139,7 @@ impl From<Error> for Refused {
 }
 
 impl Refused {
-    /// Of settings without the mark of their macro.
+    /// The refusal of settings without the mark of their macro.
     pub(crate) fn unmarked(about: &'static str) -> Self {
         Self {
             code: bowden_result::ErrorSettings,
@@ -147,7 +147,7 @@ impl Refused {
         }
     }
 
-    /// Of a setting without a default that has the value of its macro.
+    /// The refusal of a setting without a default that still has the value from its macro.
     pub(crate) fn unset(about: &'static str) -> Self {
         Self {
             code: bowden_result::ErrorOutOfRange,
@@ -162,7 +162,7 @@ impl Refused {
         }
     }
 
-    /// Of a model whose checksum is right, or not.
+    /// The refusal of a model whose checksum is correct, or not.
     pub(crate) fn model(is_whole: bool) -> Self {
         let about = if is_whole {
             "precision, version or number of terms"
@@ -183,12 +183,12 @@ impl Refused {
     }
 }
 
-/// The code of what was tried.
+/// The code of an attempt.
 pub(crate) fn code(tried: Result<bowden_result, Refused>) -> bowden_result {
     tried.unwrap_or_else(|refused| refused.code)
 }
 
-/// The same, and the text of a refusal where somebody wants it.
+/// The same, and the text of a refusal if the caller wants it.
 ///
 /// # Safety
 /// `about` is null or leads to memory of its type.

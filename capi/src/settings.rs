@@ -6,10 +6,10 @@
 
 use crate::result::Refused;
 
-/// Of a choice or a count that must be set: no enum and no count has this value.
+/// The value of a choice or a count that must be set: no enum and no count uses it.
 pub(crate) const UNSET: u32 = 0xffff_ffff;
 
-/// CRC-32 of the struct's name: another one for every type.
+/// CRC-32 of the struct's name, different for every type.
 pub(crate) const fn mark(name: &str) -> u32 {
     crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC).checksum(name.as_bytes())
 }
@@ -21,7 +21,7 @@ pub(crate) const fn mark(name: &str) -> u32 {
 pub(crate) unsafe trait Marked: Copy {
     /// The first field of a struct that started from its macro.
     const MARK: u32;
-    /// The text of the refusal of one that did not.
+    /// The text of the refusal of a struct that did not.
     const UNMARKED: &'static str;
 
     /// The refusal, unless this first field is the mark.
@@ -33,7 +33,7 @@ pub(crate) unsafe trait Marked: Copy {
     }
 }
 
-/// Makes a struct one that starts from its macro.
+/// Declares that a struct starts from its macro.
 macro_rules! marked {
     ($settings:ident) => {
         pastey::paste! {

@@ -1,4 +1,4 @@
-//! What is added to a controller's command: a disturbance observer, and learning over a cycle.
+//! Additions to a controller's command: a disturbance observer, and learning over a cycle.
 
 use crate::code;
 use crate::code::Codes;
@@ -13,7 +13,7 @@ use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// Both, where they are wanted, with their states.
+/// Both, if they are used, with their states.
 #[derive(Clone)]
 pub struct Beside {
     observer: Option<DisturbanceObserver<f64>>,
@@ -24,11 +24,11 @@ pub struct Beside {
 #[derive(Clone)]
 struct Learns {
     learning: IterativeLearning<f64>,
-    /// What was known before the first sample.
+    /// The learned values before the first sample.
     first: Vec<f64>,
 }
 
-/// What both remember.
+/// The states of both.
 #[derive(Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Memory {
@@ -36,7 +36,7 @@ struct Memory {
     learning: Option<IterativeLearningState<f64, Vec<f64>>>,
 }
 
-/// Where in its cycle a sample is, and whether it is learned from.
+/// The position of a sample in its cycle, and whether the law learns from it.
 #[derive(Clone, Copy)]
 pub struct Cycle {
     pub phase: f64,
@@ -44,7 +44,7 @@ pub struct Cycle {
 }
 
 impl Beside {
-    /// Of settings as JSON, and of what each cell has learned before.
+    /// From settings as JSON, and from the values that each cell has learned before.
     pub fn new(observer: Option<&str>, learning: Option<&(String, Vec<f64>)>) -> PyResult<Self> {
         let observer = observer.map(read::<DisturbanceObserver<f64>>).transpose()?;
         let learns = |(text, first): &(String, Vec<f64>)| -> PyResult<Learns> {
@@ -65,8 +65,8 @@ impl Beside {
         })
     }
 
-    /// What is to be added to the next command, and the worst of both statuses; `sent` is the
-    /// command that is out.
+    /// The value to add to the next command, and the worse of the two statuses; `sent` is the
+    /// applied command.
     pub fn step(&mut self, sent: f64, at: &LoopSample<'_, f64>, cycle: Cycle) -> (f64, Codes) {
         let observed = self.observer.zip(self.memory.observer.as_mut());
         let observed = observed.map(|(observer, state)| {
@@ -90,14 +90,14 @@ impl Beside {
         (added, worst.unwrap_or_default())
     }
 
-    /// What both have added last.
+    /// The last value that both have added.
     pub fn added(&self) -> f64 {
         let observed = self.disturbance().unwrap_or_default();
         let learned = self.memory.learning.as_ref();
         observed + learned.map_or(0.0, IterativeLearningState::feed_forward)
     }
 
-    /// Back to what was known before the first sample.
+    /// Returns to the state before the first sample.
     pub fn restart(&mut self) -> PyResult<()> {
         let fresh = self.learning.as_ref().map(Learns::start).transpose()?;
         self.memory = Memory {
@@ -145,13 +145,14 @@ impl Learns {
     }
 }
 
-/// Refuses settings that make no sense.
+/// Refuses invalid settings.
 #[pyfunction]
 pub fn check_beside(observer: Option<&str>, learning: Option<(String, Vec<f64>)>) -> PyResult<()> {
     Beside::new(observer, learning.as_ref()).map(|_| ())
 }
 
-/// The command by which a nominal plant (as JSON) follows an output with its first two derivatives.
+/// The command for which a nominal plant (as JSON) follows an output with its first two
+/// derivatives.
 #[pyfunction]
 pub fn nominal_feed_forward<'py>(
     py: Python<'py>,

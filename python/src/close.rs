@@ -1,4 +1,4 @@
-//! The main question, and what is drawn of its answer.
+//! Identification, and the figures of its result.
 
 use crate::failure;
 use crate::record::Record;
@@ -14,7 +14,7 @@ use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-/// What is asked of records that have been read.
+/// The options for records that have been read.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct Wanted {
@@ -27,7 +27,7 @@ pub struct Wanted {
     figures: bool,
 }
 
-/// The cut-off \[Hz\] as it was given.
+/// The given cut-off \[Hz\].
 pub fn cutoff(given: Option<f64>) -> PyResult<Option<f64>> {
     match given {
         Some(hz) if !(hz.is_finite() && hz > 0.0) => Err(failure::plain(format!(
@@ -74,7 +74,7 @@ impl Wanted {
     }
 }
 
-/// The answer; Python's `Report` is made of it.
+/// The result, from which Python's `Report` is made.
 #[pyclass(frozen, module = "bowden._bowden")]
 pub struct Closed {
     answer: Answer,
@@ -82,7 +82,7 @@ pub struct Closed {
     sources: Vec<Source>,
 }
 
-/// Closes the loop between a baseline model and records that agree with each other.
+/// Identifies the terms that a baseline model lacks, from records that agree with each other.
 #[pyfunction]
 pub fn close(
     py: Python<'_>,
@@ -116,13 +116,13 @@ impl Closed {
         &self.json
     }
 
-    /// Number of models that can be handed over.
+    /// Number of models that can be exported.
     #[getter]
     fn models(&self) -> usize {
         self.answer.models.len()
     }
 
-    /// Why nothing can be handed over.
+    /// Why no model can be exported.
     #[getter]
     fn no_model(&self) -> Option<String> {
         self.answer.facts.hand_over.as_ref().err().cloned()
@@ -143,7 +143,7 @@ impl Closed {
         model.vector().map_err(failure::plain)
     }
 
-    /// The trace: of each column its name and its values, texts or numbers.
+    /// The trace: the name of each column, and its values as texts or numbers.
     fn trace<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
         columns_of(py, self.answer.trace.as_deref().ok_or_else(no_figures)?)
     }
@@ -174,7 +174,7 @@ pub fn no_figures() -> PyErr {
     failure::plain("figures=False: nothing was kept to draw")
 }
 
-/// How a page was obtained.
+/// The provenance of a page.
 pub fn provenance(command: String, sources: &[Source]) -> Provenance {
     Provenance {
         command,
@@ -199,7 +199,7 @@ pub fn drawn(figures: &Figures, name: &str) -> PyResult<String> {
     Ok(figure(figures, which))
 }
 
-/// The columns of a CSV of ours: names, and numbers where all cells are ones.
+/// The columns of a CSV from this program: names, and numbers if all cells of a column are numbers.
 pub fn columns_of<'py>(py: Python<'py>, csv: &str) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
     let mut reader = csv::Reader::from_reader(csv.as_bytes());
     let names = reader.headers().map_err(failure::plain)?.clone();

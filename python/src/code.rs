@@ -1,12 +1,12 @@
-//! Statuses and faults as small numbers: one byte a sample, named in the Python package.
+//! Statuses and faults as small numbers: one byte per sample, named in the Python package.
 
 use bowden::control::{Fault, Status};
 use bowden::signal::{EdgeStatus, Implausible, RatesFault, RatesStatus};
 
-/// A status and its fault; zero where there is none.
+/// A status and its fault; zero if there is none.
 pub type Codes = (u8, u8);
 
-/// 0 good, 1 degraded, 2 held, 3 safe: the greater, the worse.
+/// 0 good, 1 degraded, 2 held, 3 safe: the greater the number, the worse the status.
 pub fn status(status: Status) -> Codes {
     let code = match status {
         Status::Good => 0,
@@ -17,7 +17,7 @@ pub fn status(status: Status) -> Codes {
     (code, status.fault().map_or(0, fault))
 }
 
-/// Which input of a step could not be used.
+/// The input of a step that could not be used.
 pub fn fault(fault: Fault) -> u8 {
     match fault {
         Fault::Dt => 1,
@@ -67,7 +67,7 @@ fn unused(fault: RatesFault) -> u8 {
     }
 }
 
-/// Zero where a sample is plausible.
+/// Zero if a sample is plausible.
 pub fn implausible(fault: Option<Implausible>) -> u8 {
     match fault {
         None => 0,

@@ -1,4 +1,4 @@
-//! Controllers, as many side by side as a caller has lanes.
+//! Controllers side by side, one for each lane.
 
 use crate::beside::{Beside, Cycle};
 use crate::code::Codes;
@@ -10,7 +10,7 @@ use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
-/// A controller and what is added to its command.
+/// A controller and the additions to its command.
 #[derive(Clone)]
 pub struct Helped {
     law: Box<dyn AnyLaw>,
@@ -18,11 +18,12 @@ pub struct Helped {
     codes: Codes,
 }
 
-/// What a step gives: the command, and the codes of its status and fault.
+/// The result of a step: the command, and the codes of its status and fault.
 pub type Stepped = (f64, u8, u8);
 
 impl Helped {
-    /// Degraded where the law had a good sample that the observer or learning could not use.
+    /// One step. The status is degraded if the sample was good for the law, but the observer or
+    /// learning could not use it.
     pub fn step(&mut self, at: &LoopSample<'_, f64>, cycle: Cycle) -> Stepped {
         let (added, unused) = self.beside.step(self.law.command(), at, cycle);
         let command = self.law.step(&LoopSample {
@@ -58,7 +59,7 @@ impl Lane for Helped {
         self.law.settings()
     }
 
-    /// `{"law": …, "beside": …}`, of texts that are JSON themselves.
+    /// `{"law": …, "beside": …}`, from texts that are JSON themselves.
     fn state(&self) -> PyResult<String> {
         let (law, beside) = (self.law.state()?, self.beside.state()?);
         Ok(format!(r#"{{"law":{law},"beside":{beside}}}"#))
@@ -99,7 +100,7 @@ type Codes2<'py> = Bound<'py, PyArray2<u8>>;
 type Answer<'py> = (Bound<'py, PyArray2<f64>>, Codes2<'py>, Codes2<'py>);
 
 /// Numbers of one sample in the order of Python's call: reference, next reference, measured,
-/// velocity, feed-forward, phase, and zero where the sample is not learned from.
+/// velocity, feed-forward, phase, and zero if the law does not learn from the sample.
 type Numbers = [f64; 7];
 
 fn sample<'a>(dt: f64, numbers: &Numbers, regressors: &'a [f64]) -> (LoopSample<'a, f64>, Cycle) {
@@ -177,8 +178,8 @@ impl Controllers {
         lanes.first_mut().map(|lane| lane.step(&at, cycle))
     }
 
-    /// Samples by lanes: commands, and status and fault of each. `signals` are those of
-    /// [`Numbers`], `regressors` one array each.
+    /// Samples by lanes: the commands, and the status and fault of each. `signals` are those of
+    /// [`Numbers`]; `regressors` has one array for each regressor.
     fn run<'py>(
         &self,
         py: Python<'py>,
@@ -218,7 +219,7 @@ impl Controllers {
         ))
     }
 
-    /// Other settings for each lane, without a jump of the command.
+    /// Changes the settings of each lane without a jump of the command.
     fn bumpless_transfer(&self, py: Python<'_>, settings: Vec<String>) -> PyResult<()> {
         self.lanes.replace(py, &settings, |lane, text| {
             Ok(Helped {
@@ -228,7 +229,7 @@ impl Controllers {
         })
     }
 
-    /// Each lane from its own output and sample on.
+    /// Starts each lane from its own output and sample.
     fn resume_from(
         &self,
         py: Python<'_>,
@@ -248,7 +249,7 @@ impl Controllers {
             .collect()
     }
 
-    /// What the drive of each lane did with the last command, as JSON.
+    /// Reports the response of each lane's drive to the last command, as JSON.
     fn applied(&self, py: Python<'_>, applied: Vec<String>) -> PyResult<()> {
         let given: Vec<Applied<f64>> = applied
             .iter()
@@ -280,7 +281,7 @@ impl Controllers {
         lanes.iter().map(|lane| lane.law.is_latched()).collect()
     }
 
-    /// The command that is out, and status and fault of the last sample.
+    /// The applied command, and the status and fault of the last sample.
     fn last(&self, py: Python<'_>) -> Vec<Stepped> {
         let lanes = self.lanes.now(py);
         let last = |lane: &Helped| (lane.law.command(), lane.codes.0, lane.codes.1);
@@ -305,7 +306,7 @@ impl Controllers {
         all.collect()
     }
 
-    /// What each cell of each controller has learned; `None` without learning.
+    /// The learned value of each cell of each controller; `None` without learning.
     fn learned(&self, py: Python<'_>) -> Option<Vec<Vec<f64>>> {
         let lanes = self.lanes.now(py);
         let all = lanes.iter().map(|lane| lane.beside.learned());

@@ -1,16 +1,16 @@
-//! What went wrong, as Python's `bowden.Error`.
+//! Errors as Python's `bowden.Error`.
 
 use bowden_lab::record::RecordError;
 use pyo3::prelude::*;
 
 pyo3::import_exception!(bowden._error, Error);
 
-/// One line that begins with a file's name, or with none.
+/// One line that may begin with a file's name.
 pub fn plain(message: impl std::fmt::Display) -> PyErr {
     of(message.to_string(), None, None, None)
 }
 
-/// One line about one of these files: that which it begins with.
+/// One line about one of these files: the file whose name begins the line.
 pub fn in_one_of<'a>(files: impl IntoIterator<Item = &'a str>, message: String) -> PyErr {
     let named = files.into_iter().find(|file| {
         let rest = message.strip_prefix(*file);

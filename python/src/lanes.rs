@@ -1,8 +1,8 @@
 //! Lanes that run side by side behind one Python object: settings, states, copies, and a lock.
 //!
-//! A second thread waits for the lock, without the interpreter's: two threads that step one
-//! object take turns. Settings and states go to Python as JSON, each in the core's own form, so
-//! that the core names the fields and checks what comes back.
+//! A second thread waits for the lock without holding the interpreter's lock, so two threads that
+//! step one object take turns. Settings and states go to Python as JSON, each in the core's own
+//! form, so that the core names the fields and checks the values that come back.
 
 use crate::failure;
 use pyo3::prelude::*;
@@ -11,7 +11,7 @@ use serde::de::DeserializeOwned;
 use serde::Serialize;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// One of several that run side by side.
+/// One of several objects that run side by side.
 pub trait Lane: Clone + Send {
     /// The settings as JSON.
     fn settings(&self) -> PyResult<String>;
@@ -19,13 +19,13 @@ pub trait Lane: Clone + Send {
     /// The state as JSON.
     fn state(&self) -> PyResult<String>;
 
-    /// The same with a state that was stored.
+    /// The same object with a stored state.
     ///
     /// # Errors
-    /// A state that is not of these settings.
+    /// If the state does not belong to these settings.
     fn restored(&self, state: &str) -> PyResult<Self>;
 
-    /// Back to a state that has seen no sample.
+    /// Returns to the initial state, before the first sample.
     fn restart(&mut self) -> PyResult<()>;
 }
 
@@ -47,13 +47,13 @@ impl<L: Lane> Lanes<L> {
         self.count
     }
 
-    /// The lanes once no other thread has them; for short work that calls nothing of Python.
+    /// The lanes, as soon as no other thread uses them; for short work that does not call Python.
     pub fn now(&self, py: Python<'_>) -> MutexGuard<'_, Vec<L>> {
         let locked = self.all.lock_py_attached(py);
         locked.unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The same for a thread that has let the interpreter go: for long work.
+    /// The same for a thread that has released the interpreter; for long work.
     pub fn detached(&self) -> MutexGuard<'_, Vec<L>> {
         self.all.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -66,7 +66,7 @@ impl<L: Lane> Lanes<L> {
         self.now(py).iter().map(Lane::state).collect()
     }
 
-    /// Every lane with its own stored state; after an error nothing has changed.
+    /// Loads the stored state of every lane; an error changes nothing.
     pub fn load_state(&self, py: Python<'_>, states: &[String]) -> PyResult<()> {
         self.replace(py, states, |lane, state| lane.restored(state))
     }
@@ -79,7 +79,7 @@ impl<L: Lane> Lanes<L> {
         Self::new(self.now(py).clone())
     }
 
-    /// Every lane made again of its own text; after an error nothing has changed.
+    /// Makes every lane again from its own text; an error changes nothing.
     pub fn replace(
         &self,
         py: Python<'_>,
@@ -106,7 +106,7 @@ pub fn written<T: Serialize>(value: &T) -> PyResult<String> {
     serde_json::to_string(value).map_err(failure::plain)
 }
 
-/// A value of JSON; the error does not name a place in a text that nobody has written.
+/// A value from JSON; the error names no position, because no user has written this text.
 pub fn read<T: DeserializeOwned>(text: &str) -> PyResult<T> {
     let value: serde_json::Value = serde_json::from_str(text).map_err(failure::plain)?;
     serde_json::from_value(value).map_err(failure::plain)

@@ -1,4 +1,4 @@
-//! The laws of control, each with its state: one piece of code for all of them.
+//! The control laws, each with its state: one implementation for all of them.
 
 use crate::code;
 use crate::code::Codes;
@@ -15,7 +15,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 /// Most regressors of an adaptive law here.
 const MOST: usize = 4;
 
-/// What this package needs of a law besides [`Controller`].
+/// The functions that this package needs from a law in addition to [`Controller`].
 trait Law:
     Controller<f64, State: Serialize + DeserializeOwned + Send + Sync>
     + Copy
@@ -28,14 +28,14 @@ trait Law:
     const REGRESSORS: usize;
     type Terms: Serialize;
 
-    /// beta_hat, delta_hat and each theta_hat of an adaptive law; the integral of another.
+    /// beta_hat, delta_hat and each theta_hat of an adaptive law; the integral of other laws.
     fn estimates(state: &Self::State) -> Vec<f64>;
-    /// The terms of a step, which this makes.
+    /// Makes a step and returns its terms.
     fn terms(&self, state: &mut Self::State, at: &LoopSample<'_, f64>) -> Self::Terms;
-    /// Takes a running state over; `at` is the last good sample.
+    /// Continues a running state with this law; `at` is the last good sample.
     fn bumpless_transfer(&self, state: &mut Self::State, at: &LoopSample<'_, f64>);
     fn reset(&self, state: &mut Self::State);
-    /// Whether a stored state can be one of this law.
+    /// Whether this law can have the stored state.
     fn admits(&self, state: &Self::State) -> bool;
 }
 
@@ -100,7 +100,7 @@ impl<const N: usize> Law for Adaptive<f64, N> {
     }
 }
 
-/// A sample as it is kept; a number that is not finite is written as `null`.
+/// A stored sample; a number that is not finite is written as `null`.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Seen {
@@ -159,7 +159,7 @@ impl Seen {
     }
 }
 
-/// What a law remembers, and of its last step what tells its terms.
+/// The memory of a law, and the data of its last step that its terms require.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Memory<S> {
@@ -188,7 +188,7 @@ struct Running<C: Law> {
     memory: Memory<C::State>,
 }
 
-/// A law with its state, whichever it is.
+/// Any law with its state.
 pub trait AnyLaw: Send + Sync {
     fn copied(&self) -> Box<dyn AnyLaw>;
     fn settings(&self) -> PyResult<String>;
@@ -219,7 +219,7 @@ impl<C: Law> Running<C> {
         Box::new(Self { law, memory })
     }
 
-    /// Forgets the last step, whose terms are of other settings or another state now.
+    /// Forgets the last step, whose terms now belong to other settings or another state.
     fn forget_terms(&mut self) {
         self.memory.before = None;
     }
@@ -344,7 +344,8 @@ impl Clone for Box<dyn AnyLaw> {
     }
 }
 
-/// A law of its settings; `None` for PI, PID and PIV, else the number of regressors.
+/// A law from its settings. `regressors` is `None` for PI, PID and PIV, otherwise the number of
+/// regressors.
 pub fn law(settings: &str, regressors: Option<usize>) -> PyResult<Box<dyn AnyLaw>> {
     fn started<C: Law>(settings: &str) -> PyResult<Box<dyn AnyLaw>> {
         read::<C>(settings).map(Running::start)

@@ -1,7 +1,7 @@
-//! The native half of the Python package `bowden`. The other half, which documents what a user
-//! sees, is the folder `package/bowden`.
+//! The native half of the Python package `bowden`. The other half, which documents the public
+//! interface, is the folder `package/bowden`.
 //!
-//! Nothing is fitted or computed here: records go to [`bowden_lab::facts`], JSON comes from
+//! This crate fits and computes nothing: records go to [`bowden_lab::facts`], JSON comes from
 //! [`bowden_cli::view`] and pages from [`bowden_page`], so that Python and the program give the
 //! same bytes.
 

@@ -1,4 +1,4 @@
-//! Models: as files, and sample by sample as firmware runs them.
+//! Models as files, and sample by sample as firmware runs them.
 
 use crate::failure;
 use bowden::effect::Motion;
@@ -70,8 +70,9 @@ impl Model {
         Ok(PyBytes::new(py, &bytes))
     }
 
-    /// The answers to samples, from a fresh state on. `sources` are the input and the channels,
-    /// each (samples, 1) or (samples, 3): position, or position, velocity and acceleration.
+    /// The outputs for samples, starting from a new state. `sources` are the input and the
+    /// channels, each (samples, 1) or (samples, 3): position, or position, velocity and
+    /// acceleration.
     fn answers<'py>(
         &self,
         py: Python<'py>,
@@ -101,7 +102,7 @@ impl Model {
     }
 }
 
-/// A source sample by sample; whether rates were given with it.
+/// A source sample by sample, and whether it includes rates.
 struct Source(Vec<Motion<f64>>, bool);
 
 impl Source {

@@ -1,4 +1,4 @@
-//! Records: from files, and from arrays.
+//! Records from files and from arrays.
 
 use crate::failure;
 use bowden_lab::facts::{read_with_source, Mode, Options, Source};
@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
 
-/// How columns are read: the program's options.
+/// The program's options for reading columns.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct Columns {
@@ -53,7 +53,7 @@ fn mode(name: &str) -> PyResult<Mode> {
     }
 }
 
-/// A checked record, and the file that it was read from.
+/// A checked record, and the file from which it was read.
 #[pyclass(frozen, module = "bowden")]
 pub struct Record(pub lab::Record, pub Option<Source>);
 
@@ -93,7 +93,7 @@ impl Record {
         Ok(all)
     }
 
-    /// The unit of each column by its name, where the record states one.
+    /// The unit of each column by its name, if the record states one.
     #[getter]
     fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let all = PyDict::new(py);
@@ -108,7 +108,7 @@ impl Record {
         Ok(all)
     }
 
-    /// Names of the input's and of the output's column.
+    /// Names of the columns of the input and of the output.
     #[getter]
     fn names(&self) -> (&str, &str) {
         (&self.0.input.name, &self.0.output.name)

@@ -24,7 +24,7 @@ impl Block for Relay<f64> {
     }
 }
 
-/// 0 running, 1 held, 2 done, the others are failures; and the fault of a bad sample.
+/// 0 running, 1 held, 2 done, the others failures; and the fault of a bad sample.
 fn phase(phase: &RelayPhase<f64>) -> code::Codes {
     match phase {
         RelayPhase::Running => (0, 0),
@@ -39,7 +39,7 @@ fn phase(phase: &RelayPhase<f64>) -> code::Codes {
     }
 }
 
-/// k_p and k_i of a PI by a rule, of a result and a rule as JSON.
+/// k_p and k_i of a PI, from a result and a rule as JSON.
 #[pyfunction]
 pub fn pi_gains(ultimate: &str, rule: &str) -> PyResult<(f64, f64)> {
     let (ultimate, rule): (Ultimate<f64>, PiRule) = (read(ultimate)?, read(rule)?);

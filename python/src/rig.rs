@@ -1,4 +1,4 @@
-//! Simulated rigs side by side, alone or in a loop with controllers.
+//! Simulated rigs side by side, alone or in a closed loop with controllers.
 
 use crate::beside::Cycle;
 use crate::control::Controllers;
@@ -16,7 +16,7 @@ const MOST: usize = 8;
 
 type Reading = fn(&RigSample<f64>) -> f64;
 
-/// What is read off a rig, by name.
+/// The signals that are read from a rig, by name.
 const READ: [(&str, Reading); 17] = [
     ("time", |s| s.time),
     ("tau_o", |s| s.tau_o),
@@ -107,8 +107,8 @@ type Tracked<'py> = (
 
 #[pymethods]
 impl Rigs {
-    /// `undeclared` is a model whose channels are the proximal and the distal pulley: its terms
-    /// are what the controller does not know of.
+    /// `undeclared` is a model whose channels are the proximal and the distal pulley; the
+    /// controller does not know its terms.
     #[new]
     fn new(configs: Vec<String>, undeclared: Option<&str>, seeds: Vec<u64>) -> PyResult<Self> {
         let model: Option<Model<f64, MOST>> = undeclared.map(read).transpose()?;
@@ -152,7 +152,7 @@ impl Rigs {
         self.lanes.restart(py)
     }
 
-    /// The last sample of each.
+    /// The last sample of each rig.
     fn sample<'py>(&self, py: Python<'py>) -> Named<'py> {
         let mut taken = Taken::new((1, self.lanes.count()));
         for (column, own) in self.lanes.now(py).iter().enumerate() {
@@ -162,7 +162,7 @@ impl Rigs {
         taken.named(py)
     }
 
-    /// Commands and loads of samples by lanes; what is read off after each.
+    /// Runs the commands and loads of samples by lanes; returns the signals after each sample.
     fn run<'py>(
         &self,
         py: Python<'py>,
@@ -195,8 +195,8 @@ impl Rigs {
         Ok(taken.named(py))
     }
 
-    /// The loop: each controller on its rig, all on one reference, feed-forward and phase. What is read
-    /// off before each command, the commands, and status and fault of each.
+    /// The closed loop: each controller on its rig, all with one reference, feed-forward and phase.
+    /// Returns the signals before each command, the commands, and the status and fault of each.
     fn track<'py>(
         &self,
         py: Python<'py>,
@@ -258,7 +258,7 @@ impl Rigs {
     }
 }
 
-/// The paper's reference \[N·m\] at these times \[s\].
+/// The reference of Nguyen et al. (2018) \[N·m\] at these times \[s\].
 #[pyfunction]
 pub fn paper_reference<'py>(
     py: Python<'py>,

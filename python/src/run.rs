@@ -1,8 +1,8 @@
-//! Long work beside the interpreter: on threads of its own, stopped by Ctrl-C.
+//! Long work outside the interpreter, on its own threads; Ctrl-C stops it.
 //!
-//! The calling thread only waits. It hands what the work tells to Python and looks for signals
-//! twenty times a second; where a signal or the caller's own function raises, it returns at once
-//! and the work ends at its next message.
+//! The calling thread only waits. It passes the messages of the work to Python and checks for
+//! signals twenty times per second. If a signal or the caller's own function raises, it returns at
+//! once, and the work ends at its next message.
 
 use crate::failure;
 use pyo3::exceptions::PyRuntimeError;
@@ -14,7 +14,7 @@ use std::sync::mpsc::{channel, Receiver, RecvTimeoutError};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Longest time between two looks for signals.
+/// Longest time between two checks for signals.
 const LOOK: Duration = Duration::from_millis(50);
 
 enum Message<T> {
@@ -22,10 +22,10 @@ enum Message<T> {
     Done(std::thread::Result<T>),
 }
 
-/// The payload with which stopped work unwinds.
+/// The panic payload with which stopped work unwinds.
 struct Stopped;
 
-/// The threads of this process. A process that was forked has none of its parent's.
+/// The threads of this process. A forked process has none of its parent's threads.
 static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
 
 fn pool(threads: Option<usize>) -> PyResult<Arc<ThreadPool>> {
@@ -50,8 +50,8 @@ fn pool(threads: Option<usize>) -> PyResult<Arc<ThreadPool>> {
     Ok(fresh)
 }
 
-/// Runs `work` on `threads` threads, all of the machine's where `None`. `progress` is called with
-/// the share of the work that is done (0 to 1, `None` if unknown) and what is done now.
+/// Runs `work` on `threads` threads; `None` means all threads of the machine. `progress` is called
+/// with the share of the work that is done (0 to 1, `None` if unknown) and the current task.
 pub fn run<T: Send + 'static>(
     py: Python<'_>,
     threads: Option<usize>,

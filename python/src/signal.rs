@@ -1,4 +1,4 @@
-//! Signal conditioning and the relay experiment, as many lanes side by side as a caller has signals.
+//! Signal conditioning and the relay experiment, with one lane for each signal of the caller.
 
 use crate::code;
 use crate::failure;
@@ -14,20 +14,21 @@ use pyo3::prelude::*;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-/// Most signals that come out of one.
+/// Most output signals of one block.
 const MOST: usize = 3;
 
-/// What came out of one sample: signals, and the codes of status and fault.
+/// The output for one sample: signals, and the codes of status and fault.
 pub type Out = ([f64; MOST], u8, u8);
 
-/// What this package needs of a block: a new one is one `impl` and one line in [`block`].
+/// The functions that this package needs from a block. A new block needs one `impl` and one line in
+/// [`block`].
 pub trait Block: Copy + Serialize + DeserializeOwned + Send + Sync + 'static {
     type State: Copy + Serialize + DeserializeOwned + Send + Sync;
 
     fn start(&self, first: f64) -> Self::State;
     fn step(&self, state: &mut Self::State, sample: f64, dt: f64, moves: bool) -> Out;
 
-    /// Takes note that somebody has seen a failure; most blocks have none.
+    /// Acknowledges a failure; most blocks have none.
     fn acknowledge(&self, _: &mut Self::State) {}
 }
 
@@ -113,7 +114,7 @@ impl Block for Biquad<f64> {
     }
 }
 
-/// The block's own settings, and the value that it starts at.
+/// The block's own settings, and its start value.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Given<B> {
@@ -127,7 +128,7 @@ struct Running<B: Block> {
     state: B::State,
 }
 
-/// A block with its state, whichever it is.
+/// Any block with its state.
 trait AnyBlock: Send + Sync {
     fn copied(&self) -> Box<dyn AnyBlock>;
     fn settings(&self) -> PyResult<String>;
@@ -263,7 +264,7 @@ impl Blocks {
         lanes.iter_mut().for_each(|lane| lane.0.acknowledge());
     }
 
-    /// Samples by lanes: the signals, and status and fault of each; `moves` is zero where the
+    /// Samples by lanes: the signals, and the status and fault of each; `moves` is zero while the
     /// machine does not move.
     fn run<'py>(
         &self,
