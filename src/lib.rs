@@ -1,11 +1,11 @@
 //! Bouc-Wen models of cable transmissions, and torque controllers, for firmware.
 //!
-//! A pair of Bowden cables transmits a torque with hysteretic friction. The output torque
-//! depends on the present input and on the inputs before it. This crate models the friction
-//! with a **Bouc-Wen** hysteresis whose input is a torque or a displacement. A catalogue of
-//! further **effects** covers viscous friction, backlash, creep and others. The crate is
-//! `no_std`, allocates nothing, has no unsafe code, and is generic over `f32` and `f64`. Its
-//! run-time dependencies are `num-traits` and `libm`.
+//! A pair of Bowden cables transmits a torque with hysteretic friction. The output torque depends
+//! on the present input and on earlier inputs. This crate models the friction with a **Bouc-Wen**
+//! hysteresis whose input is a torque or a displacement. A catalogue of further **effects** covers
+//! viscous friction, backlash, creep and others. The crate is `no_std`, allocates nothing, contains
+//! no unsafe code, and is generic over `f32` and `f64`. Its run-time dependencies are `num-traits`
+//! and `libm`.
 //!
 //! ```
 //! use bowden::control::{Fallback, Limits, Pid, PidInput, PidSettings, PidState};
@@ -37,8 +37,8 @@
 //!
 //! # The book
 //! 1. [The idea](book::idea): hysteresis in a cable, and its effect on a torque controller.
-//! 2. [The equations](book::equations): the model, its conventions, and corrections to the
-//!    paper.
+//! 2. [The equations](book::equations): the model, its conventions, and corrections to Nguyen et
+//!    al. (2018).
 //! 3. [Reading a verdict](book::verdict): the results of `bowden identify`, and the next step
 //!    after each.
 //! 4. [Choosing a controller](book::controller): controllers, gains, and cost in instructions.
@@ -61,8 +61,7 @@
 //! - `try_new` checks every parameter. After that, nothing panics.
 //! - A bad sample leaves the state unchanged. A sample is bad if it contains a NaN, an infinity, or
 //!   a `dt` that is not positive.
-//! - Equation numbers refer to the paper on torque control of cable-conduit mechanisms that
-//!   [the equations](book::equations) cite.
+//! - Equation numbers refer to Nguyen et al. (2018), see [the equations](book::equations).
 //!
 //! # Features
 //! All features are off by default:

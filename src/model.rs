@@ -9,9 +9,9 @@
 //!
 //! A regressor's x is the position minus the origin of the term, see [`Term`].
 //!
-//! The bench fits this struct, and the firmware runs it. It uses no heap, has a fixed capacity
-//! of `N` terms, and separates configuration and state. A model may have no transmission
-//! (effects alone) or no terms.
+//! The bench fits a [`Model`], and the firmware runs it. It uses no heap, has a fixed capacity of
+//! `N` terms, and separates configuration and state. A model may have no transmission (effects
+//! alone) or no terms.
 //!
 //! A bad sample leaves the state unchanged, and the step returns the last good output. A sample
 //! is bad if `dt` is not positive, a channel is missing, or a number that the model reads is

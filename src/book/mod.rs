@@ -1,7 +1,8 @@
 //! The crate as a short book: from the idea to a motor.
 //!
 //! 1. [The idea](idea): hysteresis in a cable, and its effect on a torque controller.
-//! 2. [The equations](equations): the model, its conventions, and corrections to the paper.
+//! 2. [The equations](equations): the model, its conventions, and corrections to Nguyen et al.
+//!    (2018).
 //! 3. [Reading a verdict](verdict): the results of `bowden identify`, and the next step after
 //!    each.
 //! 4. [Choosing a controller](controller): controllers, gains, and cost in instructions.

@@ -47,7 +47,7 @@ macro_rules! range {
     }};
 }
 
-/// A range with its slew rate after the checks, likewise.
+/// A range with its slew-rate limit after the checks, likewise.
 macro_rules! slewed {
     ($range:ident, $slew:ident, $zero:expr) => {{
         above_zero!($slew, $zero, "slew");

@@ -1,6 +1,6 @@
 //! Crosstalk: proportional to another channel.
 //!
-//! Formula: `x` of that channel.
+//! Formula: `x` of the other channel.
 //!
 //! Source: L. Ljung, *System Identification*, 1999 (several inputs).
 

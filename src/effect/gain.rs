@@ -1,4 +1,4 @@
-//! A gain error: proportional to the load.
+//! A gain error, proportional to the load.
 //!
 //! Formula: `load`.
 //!

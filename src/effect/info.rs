@@ -215,7 +215,7 @@ impl Info {
 /// It is for a [`FixedModel`](crate::model::FixedModel); [`Effect`](super::Effect) holds any
 /// effect. Only the effects of this crate implement the trait.
 pub trait Regressor<T>: sealed::Sealed {
-    /// Properties of the effect, shape parameters excluded.
+    /// Properties of the effect, without its shape parameters.
     const INFO: &'static Info;
 
     #[doc(hidden)]

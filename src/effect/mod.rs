@@ -155,7 +155,7 @@ macro_rules! effects {
         ];
 
         impl<T: Real> Effect<T> {
-            /// Properties of the effect, shape parameters excluded.
+            /// Properties of the effect, without its shape parameters.
             #[must_use]
             pub fn info(&self) -> &'static Info {
                 match self {
@@ -334,7 +334,7 @@ fn evaluate<T: Real, R: Regressor<T>>(effect: &R, state: &mut EffectState<T>, at
     }
 }
 
-/// As [`evaluate`] at each sample.
+/// The same as [`evaluate`], at each sample.
 #[inline]
 fn along<T: Real, R: Regressor<T>>(
     effect: &R,

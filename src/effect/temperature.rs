@@ -1,4 +1,4 @@
-//! Temperature: proportional to T. The channel is the temperature.
+//! Temperature: proportional to the temperature. The channel must be a temperature.
 //!
 //! Formula: `x − t_ref`.
 //!

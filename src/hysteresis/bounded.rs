@@ -23,7 +23,7 @@ pub(super) struct Constants<N> {
     root: N,
     /// `0.6·n·(n + 1)`.
     size: N,
-    /// Of the path from zero.
+    /// Coefficients of the path from zero.
     series: Series<N>,
     /// The state after the path 1 from zero.
     after_1: N,
@@ -97,7 +97,7 @@ impl<N: Number> Series<N> {
     }
 }
 
-/// `zeta` after the path `p >= 0`, for `zeta` in `[-1, 1]`, in one go.
+/// `zeta` after the path `p >= 0`, for `zeta` in `[-1, 1]`, in one step.
 ///
 /// Any `p`, infinite included, ends in `[zeta, 1]`.
 #[inline]

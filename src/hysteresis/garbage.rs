@@ -11,7 +11,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 extern crate std;
 
 std::thread_local! {
-    /// Powers taken by honest numbers, in each test by itself.
+    /// Number of powers of honest numbers, counted separately for each test.
     static POWERS: Cell<u32> = const { Cell::new(0) };
 }
 
@@ -106,7 +106,7 @@ impl<const LIES: bool> Number for Fake<LIES> {
     }
 }
 
-/// The step in bounded time, with the parameters as those of the other.
+/// The bounded-time step, with the same parameters as the other step.
 fn in_one_go<N: Number>(zeta: N, p: N, c: N, n: N) -> N {
     bounded::follow(zeta, p, &Constants::of(c, n))
 }
@@ -137,7 +137,7 @@ fn a_lying_power_function_cannot_push_the_state_out_or_back() {
 /// The step on numbers that count.
 type Step = fn(Fake<false>, Fake<false>, Fake<false>, Fake<false>) -> Fake<false>;
 
-/// Powers that the path from `zeta` takes.
+/// Number of powers that the path from `zeta` needs.
 fn powers(follow: Step, zeta: f32, p: f32, sigma: f32, n: f32) -> u32 {
     POWERS.set(0);
     let _ = follow(Fake(zeta), Fake(p), Fake(2.0 * sigma - 1.0), Fake(n));

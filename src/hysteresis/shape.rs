@@ -43,7 +43,7 @@ use core::fmt;
 pub struct BoucWen<T> {
     rho: T,
     sigma: T,
-    /// n among them.
+    /// Constants that include n.
     constants: Constants<T>,
 }
 

@@ -64,8 +64,8 @@ impl<T: Real> BoucWenState<T> {
         self.eta
     }
 
-    /// Moves to an input and eta of the model, unless the path overflows; the model takes such
-    /// a path for the longest one. Returns the known input.
+    /// Moves to an input and eta of the model, unless the path overflows; the model treats such a
+    /// path as the longest one. Returns the known input.
     #[inline]
     pub(crate) fn arrive(&mut self, input: T, eta: T) -> T {
         if (input - self.input).is_finite() {

@@ -270,7 +270,7 @@ fn saturated_with<T: Real>(output: T, gain: T, value: &mut T) -> T {
     saturated(saturated(output) + *value)
 }
 
-/// [`saturate`] where it is rare: one copy in an image, not three a term.
+/// [`saturate`] for rare cases: one copy in an image, not three per term.
 #[cold]
 #[inline(never)]
 fn saturated<T: Real>(value: T) -> T {

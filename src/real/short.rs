@@ -1,8 +1,8 @@
 //! Base-2 logarithm and exponential for `f32`, short enough for a control loop.
 //!
 //! Each takes about 20 instructions on a Cortex-M4F, with one division and no table. The hysteresis
-//! uses them for its powers: its bound |eta| <= 1 holds for any power function, and their error is
-//! a few roundings.
+//! uses them for its powers: its bound |eta| <= 1 holds for any power function, and the error of
+//! these functions is a few roundings.
 //!
 //! | function | arguments | greatest error |
 //! |---|---|---|

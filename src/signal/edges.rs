@@ -208,8 +208,8 @@ impl<T: Real> EdgeVelocity<T> {
 
     /// The velocity \[channel unit/s\] after a `position`, `dt` \[s\] after the last call.
     ///
-    /// `dt` is the time since the last call, whether that sample was good or bad. A position
-    /// restarts the measurement if its distance from the last one overflows.
+    /// `dt` is the time since the last call, whether that sample was good or bad. If the distance
+    /// of a position from the last one overflows, the measurement restarts.
     #[inline]
     pub fn step(
         &self,

@@ -13,7 +13,7 @@
 //! | [`Rates`] | [`Motion`] (position, velocity, acceleration) from the positions of a sensor |
 //! | [`EdgeVelocity`] | velocity from an encoder with few counts per sample |
 //!
-//! Configuration and state are separate types. After construction nothing returns an error and
+//! Configuration and state are separate types. After construction, nothing returns an error and
 //! nothing panics. Every configuration has `const` constructors for `f32` and `f64`.
 
 mod biquad;

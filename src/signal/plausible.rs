@@ -222,8 +222,8 @@ impl<T: Real> Plausible<T> {
         rated!(self, rate, T::ZERO)
     }
 
-    /// The same check for a sensor that takes at most `sample_period` \[s\] from one number to
-    /// the next.
+    /// The same check for a sensor that needs at most `sample_period` \[s\] from one number to the
+    /// next.
     ///
     /// Include the jitter of the sensor and of its bus. Every number is then at most this old
     /// when it is read, and the next number may lie `rate·(sample_period + dt)` away. This
@@ -256,7 +256,7 @@ impl<T: Real> Plausible<T> {
     /// move for this reason, use a new [`PlausibleState`], which treats the sensor as sound.
     ///
     /// Numbers count only while the machine moves. A coarse encoder repeats its number at low
-    /// speed: choose more samples than one of its counts takes at that speed.
+    /// speed: choose more samples than one of its counts lasts at that speed.
     #[must_use]
     pub const fn with_stuck_after(self, samples: u32) -> Self {
         Self {

@@ -46,7 +46,7 @@ pub(super) struct Gains {
     pub(super) slope: Enclosure,
     pub(super) z_limit: Enclosure,
     pub(super) command: Enclosure,
-    /// Slew rate, where there is one.
+    /// Slew-rate limit, if there is one.
     pub(super) slew: Option<Enclosure>,
     pub(super) reference: Enclosure,
     pub(super) reference_rate: Enclosure,

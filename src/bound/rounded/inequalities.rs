@@ -199,7 +199,7 @@ fn at_the_limit(gains: &Gains, s: Enclosure, z: Enclosure) -> [Inequality; 3] {
     ]
 }
 
-/// No step changes the command by as much as the slew rate allows: `theorems/Slew.v`.
+/// No step changes the command by as much as the slew-rate limit allows: `theorems/Slew.v`.
 ///
 /// The plant gives the applied command, `alpha·u = y + theta'x + D`, for any limit.
 fn not_met(

@@ -17,7 +17,7 @@
 //!
 //! **Bounds of the estimates.** The law clamps each estimate to its bounds (projection). If the
 //! true value lies within the bounds, the clamp cannot raise the Lyapunov function, and every
-//! invariant holds for any measurement. The paper has no bounds: [`AdaptiveSettings::paper`] has
+//! invariant holds for any measurement. The paper uses no bounds: [`AdaptiveSettings::paper`] has
 //! bounds as wide as the range of the float. The first-order form requires bounds above zero for
 //! beta_hat, and bounds not below zero for delta_hat.
 

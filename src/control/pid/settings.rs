@@ -330,8 +330,8 @@ impl<T: Real> PidSettings<T> {
         }
     }
 
-    /// Whether a step needs none of the rarer settings: no slew rate, an anti-windup that
-    /// depends on the range alone, an integral gain.
+    /// Whether a step needs none of the rarer settings: no slew-rate limit, an anti-windup that
+    /// depends on the range alone, and an integral gain.
     pub(super) fn is_plain(&self) -> bool {
         plain!(self, T::ZERO)
     }
