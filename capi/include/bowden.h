@@ -3,11 +3,11 @@
  *
  * Every function exists for float and for double: NAME_f32 and NAME_f64.
  *
- * Memory. Nothing is allocated. An object (bowden_pid_f32, ...) is a struct of the caller: static,
- * on the stack, in another struct. NAME_init checks the settings and initialises the object. It may
- * be copied and moved as a whole, and needs no destructor. Every other function on an uninitialised
- * object returns BOWDEN_RESULT_ERROR_UNINITIALISED. The caller also owns the arrays of a
- * bowden_iterative_learning_f32, which must not move while the object is used.
+ * Memory. Nothing is allocated. An object (bowden_pid_f32, ...) is a struct that the caller owns:
+ * static, on the stack, or in another struct. NAME_init checks the settings and initialises the
+ * object. It may be copied and moved as a whole, and needs no destructor. Every other function on an
+ * uninitialised object returns BOWDEN_RESULT_ERROR_UNINITIALISED. The caller also owns the arrays of
+ * a bowden_iterative_learning_f32, which must not move while the object is used.
  *
  * Settings. Start a settings struct from its macro, then set its fields:
  *
@@ -15,28 +15,29 @@
  *     settings.k_p = 30.0f;
  *
  * The macro sets the defaults and a mark. NAME_init refuses settings without the mark, because C
- * sets fields that an initialiser does not name to zero. For a field that must be set, the macro has
- * an invalid value, which NAME_init refuses by name. An estimate of the adaptive law has its own
- * macro:
+ * sets fields that an initialiser does not name to zero. For a field that must be set, the macro
+ * contains an invalid value, which NAME_init refuses by name. An estimate of the adaptive law has
+ * its own macro:
  *
  *     settings.theta[0] = (bowden_estimator_f32)BOWDEN_ESTIMATOR_F32_INIT;
  *
  * Limits and fallback are parts of settings and have no macro.
  *
  * Pointers. A pointer is null or points to memory of its type. Null and misaligned pointers are
- * reported; other invalid pointers cannot be detected. Do not use an object from two threads, or from
- * a task and its interrupt, at once.
+ * reported; other invalid pointers cannot be detected. Do not use an object from two threads, or
+ * from a task and its interrupt, at the same time.
  *
- * Results. 0: success. Above 0: a sample was not good; the output is written anyway. Below 0: nothing
+ * Results. 0: success. Above 0: a sample was not good, but the output is written. Below 0: nothing
  * was done and nothing was written. Test for `< 0`, then read the value.
  *
  * Bad samples. A NaN or an infinity in a measurement, in the reference or in dt, or a dt that is
  * not positive or too long, leaves the state unchanged and holds the last good command. After too
- * many bad samples the safe command is applied until it is acknowledged, even if samples are good.
- * The command is always finite and within the limits.
+ * many bad samples the safe command is applied until it is acknowledged, even if later samples are
+ * good. The command is always finite and within the limits.
  *
- * Numbers in brackets, such as (14), are the equations of the paper on torque control of
- * cable-conduit mechanisms that the project started from. Units are in square brackets. */
+ * Numbers in brackets, such as (14), are the equations of the paper: T. L. Nguyen, S. Allen and
+ * S. J. Phee, "Direct torque control for cable conduit mechanisms for the robotic foot for footwear
+ * testing" (2018). Units are in square brackets. */
 
 
 #ifndef BOWDEN_H
@@ -117,7 +118,7 @@
 // Maximum number of channels of a sample.
 #define BOWDEN_CHANNELS 16
 
-// Maximum number of bytes of a model, more than any model with BOWDEN_TERMS terms has.
+// Maximum number of bytes of a model, which is more than any model with BOWDEN_TERMS terms needs.
 #define BOWDEN_MODEL_BYTES 2048
 
 // Size of a bowden_model_f32 in 64-bit words.
@@ -132,8 +133,8 @@
 // Size of a bowden_observer_f64 in 64-bit words.
 #define BOWDEN_OBSERVER_F64_WORDS 25
 
-// For `after` of a fallback: holds the last good command indefinitely; for a simulation, not for a
-// machine.
+// For `after` of a fallback: holds the last good command indefinitely. This is for a simulation,
+// not for a machine.
 #define BOWDEN_HOLD_FOR_EVER 4294967295
 
 // Size of a bowden_pid_f32 in 64-bit words.
@@ -166,8 +167,8 @@
 // Size of a bowden_relay_f64 in 64-bit words.
 #define BOWDEN_RELAY_F64_WORDS 44
 
-// Result of a function: 0 for success; above zero if a sample was not good and the output was
-// written anyway; below zero if nothing was written.
+// Result of a function: 0 for success; above zero if a sample was not good but the output was
+// written; below zero if nothing was written.
 enum bowden_result
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
@@ -179,11 +180,11 @@ enum bowden_result
     BOWDEN_RESULT_SETTLING = 1,
     // Rates: a good position after an unknown time; the rates are held.
     BOWDEN_RESULT_RESUMED = 2,
-    // A regressor was bad and its term was omitted; the loop is closed, the estimates do not
+    // A regressor was bad and its term was omitted; the loop is closed, and the estimates do not
     // change. For iterative learning: the feed-forward belongs to this phase, but the error of the
     // sample or of the cell before a jump was ignored.
     BOWDEN_RESULT_DEGRADED = 3,
-    // A bad sample: the state is unchanged, the last good command or value is held.
+    // A bad sample: the state is unchanged, and the last good command or value is held.
     BOWDEN_RESULT_HELD = 4,
     // Too many bad samples: the safe command is applied until it is acknowledged.
     BOWDEN_RESULT_SAFE = 5,
@@ -203,12 +204,12 @@ enum bowden_result
     BOWDEN_RESULT_ERROR_OUT_OF_RANGE = -5,
     // Two settings together violate a condition.
     BOWDEN_RESULT_ERROR_INADMISSIBLE = -6,
-    // More items than the capacity.
+    // There are more items than the capacity allows.
     BOWDEN_RESULT_ERROR_CAPACITY = -7,
-    // A setting has a value that its enum does not have.
+    // A setting has a value that its enum does not contain.
     BOWDEN_RESULT_ERROR_CHOICE = -8,
-    // The bytes of a model are damaged, too many, of the other precision or version, or have too
-    // many terms.
+    // The bytes of a model are damaged, are too many, have the other precision or another version,
+    // or contain too many terms.
     BOWDEN_RESULT_ERROR_MODEL = -9,
     // The settings were not initialised with their macro NAME_INIT.
     BOWDEN_RESULT_ERROR_SETTINGS = -10,
@@ -251,7 +252,7 @@ enum bowden_fault
     BOWDEN_FAULT_OVERFLOW = 10,
     // The position.
     BOWDEN_FAULT_POSITION = 11,
-    // A fault of a later version.
+    // A fault from a later version.
     BOWDEN_FAULT_OTHER = 12,
     // The phase of a cycle is outside 0 to 1, or has jumped.
     BOWDEN_FAULT_PHASE = 13,
@@ -280,7 +281,7 @@ enum bowden_implausible
     BOWDEN_IMPLAUSIBLE_TOO_FAST = 3,
     // It has kept the same value for too long while the machine moved.
     BOWDEN_IMPLAUSIBLE_STUCK = 4,
-    // A reason of a later version.
+    // A reason from a later version.
     BOWDEN_IMPLAUSIBLE_OTHER = 5,
 };
 #ifndef __cplusplus
@@ -318,9 +319,9 @@ enum bowden_relay_failure
   : int32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // It did not.
+    // The experiment has not failed.
     BOWDEN_RELAY_FAILURE_NONE = 0,
-    // Too many bad samples; the fault is the fault of the last one.
+    // Too many bad samples; the fault is that of the last one.
     BOWDEN_RELAY_FAILURE_BAD_SAMPLES = 1,
     // The output was further from the reference than `most_deviation`: choose a smaller
     // amplitude, a centre that holds the reference, or the other sign of the amplitude.
@@ -331,7 +332,7 @@ enum bowden_relay_failure
     // `longest_time` has passed and the cycles did not agree: the time is too short, the noise
     // exceeds the hysteresis, or a cycle has fewer than 2/agreement samples.
     BOWDEN_RELAY_FAILURE_TIME_OUT = 4,
-    // A reason of a later version.
+    // A reason from a later version.
     BOWDEN_RELAY_FAILURE_OTHER = 5,
 };
 #ifndef __cplusplus
@@ -372,7 +373,7 @@ enum bowden_anti_windup
     BOWDEN_ANTI_WINDUP_CONDITIONAL = 0,
     // No anti-windup: the integral winds up.
     BOWDEN_ANTI_WINDUP_NONE = 1,
-    // The integral term stays within the range of the command, widened to contain zero.
+    // The integral term stays within the range of the command, widened to include zero.
     BOWDEN_ANTI_WINDUP_CLAMP = 2,
     // The part that the limits cut off returns to the integral with the time constant
     // `tracking_time`.
@@ -386,7 +387,7 @@ typedef uint32_t bowden_anti_windup;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// What is transmitted.
+// Input and output quantities.
 enum bowden_mode
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -430,7 +431,7 @@ enum bowden_smooth_sign
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // tanh(x), as the paper has it.
+    // tanh(x), as in the paper.
     BOWDEN_SMOOTH_SIGN_TANH = 0,
     // x within [-1, 1]: cheaper, with a smaller residual.
     BOWDEN_SMOOTH_SIGN_CLAMP = 1,
@@ -525,19 +526,19 @@ typedef uint32_t bowden_pi_rule;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// An adaptive law with its state, in the caller's memory; made by
+// An adaptive law with its state, in the caller's memory; initialised by
 // bowden_adaptive_init.
 typedef struct bowden_adaptive_f32 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_ADAPTIVE_F32_WORDS];
 } bowden_adaptive_f32;
 
-// How one estimate adapts, (24)-(26), with a box.
+// How one estimate adapts, (24)-(26), with its bounds.
 //
 // Start from NAME_INIT, as the estimates in the settings of the law do. By default the
-// estimate is fixed at 0: the gain is 0 and nothing leaks.
+// estimate is fixed at 0, with a gain of 0 and no leakage.
 typedef struct bowden_estimator_f32 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
     // Initial value of the estimate [unit of the estimate], within its bounds.
     float initial;
@@ -553,7 +554,8 @@ typedef struct bowden_estimator_f32 {
     uint32_t leakage;
     // Greatest leakage, not negative [1/s].
     float leakage_rate;
-    // For BOWDEN_LEAKAGE_SWITCHING only, above zero [unit of the estimate].
+    // Distance from the prior without leakage, for BOWDEN_LEAKAGE_SWITCHING only;
+    // above zero [unit of the estimate].
     float leakage_bound;
 } bowden_estimator_f32;
 
@@ -572,23 +574,23 @@ typedef struct bowden_estimator_f32 {
     0.0f /* leakage_bound */ \
 }
 
-// Range and slew rate of a command.
+// Range and slew-rate limit of a command.
 typedef struct bowden_limits_f32 {
     // Least command [command unit].
     float low;
     // Greatest command [command unit]; above `low`.
     float high;
-    // Slew rate, above zero [command unit/s]; 0 for none.
+    // Slew-rate limit, above zero [command unit/s]; 0 for none.
     float slew;
 } bowden_limits_f32;
 
 // The safe command after repeated bad samples.
 //
-// A score counts: a bad sample adds the weight, a good sample subtracts 1. At
-// after*weight the safe command is applied until it is acknowledged.
+// A score counts the bad samples: a bad sample adds the weight, and a good sample
+// subtracts 1. At after*weight the safe command is applied until it is acknowledged.
 typedef struct bowden_fallback_f32 {
-    // Number of bad samples in a row that applies the safe command, at least 1;
-    // BOWDEN_HOLD_FOR_EVER for never.
+    // Number of bad samples in a row after which the safe command is applied, at least
+    // 1; BOWDEN_HOLD_FOR_EVER for never.
     uint32_t after;
     // Number of good samples that cancel a bad one, at least 1; 4 is usual.
     uint32_t weight;
@@ -598,17 +600,18 @@ typedef struct bowden_fallback_f32 {
 
 // Settings of the adaptive law, (17)-(26).
 //
-// Start from NAME_INIT. By default: no regressors, k, lambda and epsilon of the paper,
-// 5 ms for the form as published, beta_hat fixed at 1, delta_hat and theta_hat at 0,
-// tanh, no limit of z, no slew rate, 4 good samples to cancel a bad one, safe command
-// 0. The form (for the first-order form also step and plant_gain), limits, longest_dt
-//    and `after` must be set.
+// Start from NAME_INIT. By default: no regressors; k, lambda and epsilon of the paper;
+// 5 ms for the form as published; beta_hat fixed at 1, delta_hat and theta_hat at 0;
+// tanh; no limit of z; no slew-rate limit; 4 good samples to cancel a bad one; and a
+// safe command of 0. These fields must be set: the form (for the first-order form also
+// step and plant_gain), limits, longest_dt and `after`.
 typedef struct bowden_adaptive_settings_f32 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
     // One of bowden_form.
     uint32_t form;
-    // Form as published: time constant of the error rate's filter, 2 to 20 ms [s].
+    // Form as published: time constant of the filter of the error's rate, 2 to 20 ms
+    // [s].
     float time_constant;
     // First-order form, required: longest intended sample time [s].
     float step;
@@ -635,11 +638,11 @@ typedef struct bowden_adaptive_settings_f32 {
     uint32_t missing[BOWDEN_REGRESSORS];
     // Greatest magnitude of the accumulated error z, above zero [N*m*s].
     float z_limit;
-    // 0; any other value freezes the estimates.
+    // Normally 0; any other value freezes the estimates.
     uint32_t frozen;
-    // Range and slew rate of the command.
+    // Range and slew-rate limit of the command.
     struct bowden_limits_f32 limits;
-    // Longest dt that is a sample, above zero [s]; the first-order form also rejects a
+    // Longest dt of a good sample, above zero [s]; the first-order form also rejects a
     // dt longer than 1/(lambda*max(1, g*(k + delta.high/epsilon))).
     float longest_dt;
     // Fallback after repeated bad samples.
@@ -679,7 +682,7 @@ typedef struct bowden_about {
 
 // One sample for the adaptive law.
 typedef struct bowden_adaptive_sample_f32 {
-    // Time since the last call [s], after a bad sample too.
+    // Time since the last call [s], also after a bad sample.
     float dt;
     // Reference y_r [N*m].
     float reference;
@@ -688,9 +691,9 @@ typedef struct bowden_adaptive_sample_f32 {
     // Measured output torque y [N*m].
     float measured;
     // Regressors x_i [their own units]: velocity and acceleration in the paper. The
-    // law ignores regressors beyond its number.
+    // law ignores regressors beyond the number in its settings.
     float regressors[BOWDEN_REGRESSORS];
-    // Added to the law's command [command unit]; 0 for none.
+    // Feed-forward, added to the law's command [command unit]; 0 for none.
     float feed_forward;
 } bowden_adaptive_sample_f32;
 
@@ -700,7 +703,7 @@ typedef struct bowden_output_f32 {
     float command;
     // Status of the step, equal to its return value.
     bowden_result result;
-    // What was wrong.
+    // The bad input, if there is one.
     bowden_fault fault;
     // Index of the regressor or term, from 0, if the fault is BOWDEN_FAULT_REGRESSOR.
     uint32_t regressor;
@@ -718,19 +721,19 @@ typedef struct bowden_estimates_f32 {
     float theta[BOWDEN_REGRESSORS];
 } bowden_estimates_f32;
 
-// An adaptive law with its state, in the caller's memory; made by
+// An adaptive law with its state, in the caller's memory; initialised by
 // bowden_adaptive_init.
 typedef struct bowden_adaptive_f64 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_ADAPTIVE_F64_WORDS];
 } bowden_adaptive_f64;
 
-// How one estimate adapts, (24)-(26), with a box.
+// How one estimate adapts, (24)-(26), with its bounds.
 //
 // Start from NAME_INIT, as the estimates in the settings of the law do. By default the
-// estimate is fixed at 0: the gain is 0 and nothing leaks.
+// estimate is fixed at 0, with a gain of 0 and no leakage.
 typedef struct bowden_estimator_f64 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
     // Initial value of the estimate [unit of the estimate], within its bounds.
     double initial;
@@ -746,7 +749,8 @@ typedef struct bowden_estimator_f64 {
     uint32_t leakage;
     // Greatest leakage, not negative [1/s].
     double leakage_rate;
-    // For BOWDEN_LEAKAGE_SWITCHING only, above zero [unit of the estimate].
+    // Distance from the prior without leakage, for BOWDEN_LEAKAGE_SWITCHING only;
+    // above zero [unit of the estimate].
     double leakage_bound;
 } bowden_estimator_f64;
 
@@ -765,23 +769,23 @@ typedef struct bowden_estimator_f64 {
     0.0 /* leakage_bound */ \
 }
 
-// Range and slew rate of a command.
+// Range and slew-rate limit of a command.
 typedef struct bowden_limits_f64 {
     // Least command [command unit].
     double low;
     // Greatest command [command unit]; above `low`.
     double high;
-    // Slew rate, above zero [command unit/s]; 0 for none.
+    // Slew-rate limit, above zero [command unit/s]; 0 for none.
     double slew;
 } bowden_limits_f64;
 
 // The safe command after repeated bad samples.
 //
-// A score counts: a bad sample adds the weight, a good sample subtracts 1. At
-// after*weight the safe command is applied until it is acknowledged.
+// A score counts the bad samples: a bad sample adds the weight, and a good sample
+// subtracts 1. At after*weight the safe command is applied until it is acknowledged.
 typedef struct bowden_fallback_f64 {
-    // Number of bad samples in a row that applies the safe command, at least 1;
-    // BOWDEN_HOLD_FOR_EVER for never.
+    // Number of bad samples in a row after which the safe command is applied, at least
+    // 1; BOWDEN_HOLD_FOR_EVER for never.
     uint32_t after;
     // Number of good samples that cancel a bad one, at least 1; 4 is usual.
     uint32_t weight;
@@ -791,17 +795,18 @@ typedef struct bowden_fallback_f64 {
 
 // Settings of the adaptive law, (17)-(26).
 //
-// Start from NAME_INIT. By default: no regressors, k, lambda and epsilon of the paper,
-// 5 ms for the form as published, beta_hat fixed at 1, delta_hat and theta_hat at 0,
-// tanh, no limit of z, no slew rate, 4 good samples to cancel a bad one, safe command
-// 0. The form (for the first-order form also step and plant_gain), limits, longest_dt
-//    and `after` must be set.
+// Start from NAME_INIT. By default: no regressors; k, lambda and epsilon of the paper;
+// 5 ms for the form as published; beta_hat fixed at 1, delta_hat and theta_hat at 0;
+// tanh; no limit of z; no slew-rate limit; 4 good samples to cancel a bad one; and a
+// safe command of 0. These fields must be set: the form (for the first-order form also
+// step and plant_gain), limits, longest_dt and `after`.
 typedef struct bowden_adaptive_settings_f64 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
     // One of bowden_form.
     uint32_t form;
-    // Form as published: time constant of the error rate's filter, 2 to 20 ms [s].
+    // Form as published: time constant of the filter of the error's rate, 2 to 20 ms
+    // [s].
     double time_constant;
     // First-order form, required: longest intended sample time [s].
     double step;
@@ -828,11 +833,11 @@ typedef struct bowden_adaptive_settings_f64 {
     uint32_t missing[BOWDEN_REGRESSORS];
     // Greatest magnitude of the accumulated error z, above zero [N*m*s].
     double z_limit;
-    // 0; any other value freezes the estimates.
+    // Normally 0; any other value freezes the estimates.
     uint32_t frozen;
-    // Range and slew rate of the command.
+    // Range and slew-rate limit of the command.
     struct bowden_limits_f64 limits;
-    // Longest dt that is a sample, above zero [s]; the first-order form also rejects a
+    // Longest dt of a good sample, above zero [s]; the first-order form also rejects a
     // dt longer than 1/(lambda*max(1, g*(k + delta.high/epsilon))).
     double longest_dt;
     // Fallback after repeated bad samples.
@@ -866,7 +871,7 @@ typedef struct bowden_adaptive_settings_f64 {
 
 // One sample for the adaptive law.
 typedef struct bowden_adaptive_sample_f64 {
-    // Time since the last call [s], after a bad sample too.
+    // Time since the last call [s], also after a bad sample.
     double dt;
     // Reference y_r [N*m].
     double reference;
@@ -875,9 +880,9 @@ typedef struct bowden_adaptive_sample_f64 {
     // Measured output torque y [N*m].
     double measured;
     // Regressors x_i [their own units]: velocity and acceleration in the paper. The
-    // law ignores regressors beyond its number.
+    // law ignores regressors beyond the number in its settings.
     double regressors[BOWDEN_REGRESSORS];
-    // Added to the law's command [command unit]; 0 for none.
+    // Feed-forward, added to the law's command [command unit]; 0 for none.
     double feed_forward;
 } bowden_adaptive_sample_f64;
 
@@ -887,7 +892,7 @@ typedef struct bowden_output_f64 {
     double command;
     // Status of the step, equal to its return value.
     bowden_result result;
-    // What was wrong.
+    // The bad input, if there is one.
     bowden_fault fault;
     // Index of the regressor or term, from 0, if the fault is BOWDEN_FAULT_REGRESSOR.
     uint32_t regressor;
@@ -905,27 +910,27 @@ typedef struct bowden_estimates_f64 {
     double theta[BOWDEN_REGRESSORS];
 } bowden_estimates_f64;
 
-// An inverted model with its state, in the caller's memory; made by
+// An inverted model with its state, in the caller's memory; initialised by
 // bowden_compensator_init.
 typedef struct bowden_compensator_f32 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_COMPENSATOR_F32_WORDS];
 } bowden_compensator_f32;
 
-// An identified model with its state, in the caller's memory; made by
+// An identified model with its state, in the caller's memory; initialised by
 // bowden_model_load.
 typedef struct bowden_model_f32 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_MODEL_F32_WORDS];
 } bowden_model_f32;
 
 // Position, velocity and acceleration of one channel, in its own units and seconds.
 typedef struct bowden_motion_f32 {
-    // [channel unit]
+    // Position [channel unit].
     float position;
-    // [channel unit/s]
+    // Velocity [channel unit/s].
     float velocity;
-    // [channel unit/s^2]
+    // Acceleration [channel unit/s^2].
     float acceleration;
 } bowden_motion_f32;
 
@@ -941,7 +946,7 @@ typedef struct bowden_range_f32 {
 
 // One sample for a compensator.
 typedef struct bowden_compensator_sample_f32 {
-    // Since the previous sample, above zero [s].
+    // Time since the previous sample, above zero [s].
     float dt;
     // Desired output [output unit], such as tau_o [N*m]: the reference, not the
     // measured output.
@@ -950,7 +955,7 @@ typedef struct bowden_compensator_sample_f32 {
     struct bowden_motion_f32 input;
     // The transmitted load: tau_i in torque mode, otherwise a load channel.
     float load;
-    // All other channels, in the order of the model's file; may be null if there are
+    // All other channels, in the order in the model's file; may be null if there are
     // none.
     const struct bowden_motion_f32 *channels;
     // Number of channels, at most BOWDEN_CHANNELS.
@@ -967,33 +972,33 @@ typedef struct bowden_compensator_output_f32 {
     float eta;
     // Status of the step, equal to its return value.
     bowden_result result;
-    // What was wrong.
+    // The bad input, if there is one.
     bowden_fault fault;
     // Index of the term, from 0, if the fault is BOWDEN_FAULT_REGRESSOR.
     uint32_t regressor;
 } bowden_compensator_output_f32;
 
-// An inverted model with its state, in the caller's memory; made by
+// An inverted model with its state, in the caller's memory; initialised by
 // bowden_compensator_init.
 typedef struct bowden_compensator_f64 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_COMPENSATOR_F64_WORDS];
 } bowden_compensator_f64;
 
-// An identified model with its state, in the caller's memory; made by
+// An identified model with its state, in the caller's memory; initialised by
 // bowden_model_load.
 typedef struct bowden_model_f64 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_MODEL_F64_WORDS];
 } bowden_model_f64;
 
 // Position, velocity and acceleration of one channel, in its own units and seconds.
 typedef struct bowden_motion_f64 {
-    // [channel unit]
+    // Position [channel unit].
     double position;
-    // [channel unit/s]
+    // Velocity [channel unit/s].
     double velocity;
-    // [channel unit/s^2]
+    // Acceleration [channel unit/s^2].
     double acceleration;
 } bowden_motion_f64;
 
@@ -1009,7 +1014,7 @@ typedef struct bowden_range_f64 {
 
 // One sample for a compensator.
 typedef struct bowden_compensator_sample_f64 {
-    // Since the previous sample, above zero [s].
+    // Time since the previous sample, above zero [s].
     double dt;
     // Desired output [output unit], such as tau_o [N*m]: the reference, not the
     // measured output.
@@ -1018,7 +1023,7 @@ typedef struct bowden_compensator_sample_f64 {
     struct bowden_motion_f64 input;
     // The transmitted load: tau_i in torque mode, otherwise a load channel.
     double load;
-    // All other channels, in the order of the model's file; may be null if there are
+    // All other channels, in the order in the model's file; may be null if there are
     // none.
     const struct bowden_motion_f64 *channels;
     // Number of channels, at most BOWDEN_CHANNELS.
@@ -1035,15 +1040,15 @@ typedef struct bowden_compensator_output_f64 {
     double eta;
     // Status of the step, equal to its return value.
     bowden_result result;
-    // What was wrong.
+    // The bad input, if there is one.
     bowden_fault fault;
     // Index of the term, from 0, if the fault is BOWDEN_FAULT_REGRESSOR.
     uint32_t regressor;
 } bowden_compensator_output_f64;
 
-// A velocity from counts with its state; made by bowden_edge_velocity_init.
+// A velocity from counts with its state; initialised by bowden_edge_velocity_init.
 typedef struct bowden_edge_velocity_f32 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_EDGE_VELOCITY_F32_WORDS];
 } bowden_edge_velocity_f32;
 
@@ -1052,18 +1057,18 @@ typedef struct bowden_edge_velocity_f32 {
 // Start from NAME_INIT. By default the position does not wrap; all other fields must be
 // set.
 typedef struct bowden_edge_velocity_settings_f32 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
     // Size of one count, above zero [channel unit]: positions change by multiples of
     // it.
     float count;
-    // Averages counts that come faster than this, above zero [s].
+    // Counts that come faster than this time are averaged, above zero [s].
     float time_constant;
     // After this time without a count the velocity is zero, above zero [s]. A speed
     // below count/longest_gap reads as zero.
     float longest_gap;
-    // Period of a position that wraps, such as that of a counter, above zero
-    // [channel unit]; 0 for none.
+    // Period of a position that wraps, such as a counter's, above zero [channel unit];
+    // 0 for none.
     float period;
 } bowden_edge_velocity_settings_f32;
 
@@ -1080,17 +1085,17 @@ typedef struct bowden_edge_velocity_settings_f32 {
 
 // Output of a step of a velocity from counts.
 typedef struct bowden_edge_velocity_output_f32 {
-    // [channel unit/s]; finite, zero before two counts.
+    // Velocity [channel unit/s]: finite, and zero until two counts are known.
     float velocity;
     // Status of the step, equal to its return value.
     bowden_result result;
-    // What was wrong.
+    // The bad input, if there is one.
     bowden_fault fault;
 } bowden_edge_velocity_output_f32;
 
-// A velocity from counts with its state; made by bowden_edge_velocity_init.
+// A velocity from counts with its state; initialised by bowden_edge_velocity_init.
 typedef struct bowden_edge_velocity_f64 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_EDGE_VELOCITY_F64_WORDS];
 } bowden_edge_velocity_f64;
 
@@ -1099,18 +1104,18 @@ typedef struct bowden_edge_velocity_f64 {
 // Start from NAME_INIT. By default the position does not wrap; all other fields must be
 // set.
 typedef struct bowden_edge_velocity_settings_f64 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
     // Size of one count, above zero [channel unit]: positions change by multiples of
     // it.
     double count;
-    // Averages counts that come faster than this, above zero [s].
+    // Counts that come faster than this time are averaged, above zero [s].
     double time_constant;
     // After this time without a count the velocity is zero, above zero [s]. A speed
     // below count/longest_gap reads as zero.
     double longest_gap;
-    // Period of a position that wraps, such as that of a counter, above zero
-    // [channel unit]; 0 for none.
+    // Period of a position that wraps, such as a counter's, above zero [channel unit];
+    // 0 for none.
     double period;
 } bowden_edge_velocity_settings_f64;
 
@@ -1127,24 +1132,24 @@ typedef struct bowden_edge_velocity_settings_f64 {
 
 // Output of a step of a velocity from counts.
 typedef struct bowden_edge_velocity_output_f64 {
-    // [channel unit/s]; finite, zero before two counts.
+    // Velocity [channel unit/s]: finite, and zero until two counts are known.
     double velocity;
     // Status of the step, equal to its return value.
     bowden_result result;
-    // What was wrong.
+    // The bad input, if there is one.
     bowden_fault fault;
 } bowden_edge_velocity_output_f64;
 
-// A first-order low-pass with its state; made by bowden_low_pass_init.
+// A first-order low-pass with its state; initialised by bowden_low_pass_init.
 typedef struct bowden_low_pass_f32 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_LOW_PASS_F32_WORDS];
 } bowden_low_pass_f32;
 
-// A second-order filter with its state; made by bowden_biquad_init_low_pass or
+// A second-order filter with its state; initialised by bowden_biquad_init_low_pass or
 // bowden_biquad_init_notch.
 typedef struct bowden_biquad_f32 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_BIQUAD_F32_WORDS];
 } bowden_biquad_f32;
 
@@ -1155,13 +1160,13 @@ typedef struct bowden_biquad_f32 {
 //
 // Start from NAME_INIT; all fields must be set.
 typedef struct bowden_biquad_settings_f32 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
     // Corner of the low-pass or centre of the notch, above zero and below
     // 1/(2*sample_time) [Hz].
     float frequency;
-    // Quality, above zero. Low-pass: 0.7071 for Butterworth, 0.5 for critical damping.
-    // Notch: its width at -3 dB is frequency/q [Hz].
+    // Quality factor, above zero. Low-pass: 0.7071 for Butterworth, 0.5 for critical
+    // damping. Notch: its width at -3 dB is frequency/q [Hz].
     float q;
     // Nominal sample time, above zero [s].
     float sample_time;
@@ -1177,16 +1182,16 @@ typedef struct bowden_biquad_settings_f32 {
     0.0f /* sample_time */ \
 }
 
-// A first-order low-pass with its state; made by bowden_low_pass_init.
+// A first-order low-pass with its state; initialised by bowden_low_pass_init.
 typedef struct bowden_low_pass_f64 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_LOW_PASS_F64_WORDS];
 } bowden_low_pass_f64;
 
-// A second-order filter with its state; made by bowden_biquad_init_low_pass or
+// A second-order filter with its state; initialised by bowden_biquad_init_low_pass or
 // bowden_biquad_init_notch.
 typedef struct bowden_biquad_f64 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_BIQUAD_F64_WORDS];
 } bowden_biquad_f64;
 
@@ -1197,13 +1202,13 @@ typedef struct bowden_biquad_f64 {
 //
 // Start from NAME_INIT; all fields must be set.
 typedef struct bowden_biquad_settings_f64 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
     // Corner of the low-pass or centre of the notch, above zero and below
     // 1/(2*sample_time) [Hz].
     double frequency;
-    // Quality, above zero. Low-pass: 0.7071 for Butterworth, 0.5 for critical damping.
-    // Notch: its width at -3 dB is frequency/q [Hz].
+    // Quality factor, above zero. Low-pass: 0.7071 for Butterworth, 0.5 for critical
+    // damping. Notch: its width at -3 dB is frequency/q [Hz].
     double q;
     // Nominal sample time, above zero [s].
     double sample_time;
@@ -1219,9 +1224,9 @@ typedef struct bowden_biquad_settings_f64 {
     0.0 /* sample_time */ \
 }
 
-// The hysteresis (2), (7) with its state; made by bowden_hysteresis_init.
+// The hysteresis (2), (7) with its state; initialised by bowden_hysteresis_init.
 typedef struct bowden_hysteresis_f32 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_HYSTERESIS_F32_WORDS];
 } bowden_hysteresis_f32;
 
@@ -1229,13 +1234,13 @@ typedef struct bowden_hysteresis_f32 {
 //
 // Start from NAME_INIT. By default eta is 0; all other fields must be set.
 typedef struct bowden_hysteresis_settings_f32 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
-    // Initial slope of eta, above zero [1/input unit].
+    // rho, the initial slope of eta; above zero [1/input unit].
     float rho;
-    // At least 1/2: the slope after a reversal is 2*sigma*rho.
+    // sigma, at least 1/2: the slope after a reversal is 2*sigma*rho.
     float sigma;
-    // Sharpness of the knee, at least 1.
+    // n, the sharpness of the knee; at least 1.
     float n;
     // The hysteresis state at the start, within -1 and 1; 0 if unknown.
     float eta;
@@ -1252,17 +1257,17 @@ typedef struct bowden_hysteresis_settings_f32 {
     0.0f /* eta */ \
 }
 
-// A transmission (1), (5) with its state; made by bowden_cable_init.
+// A transmission (1), (5) with its state; initialised by bowden_cable_init.
 typedef struct bowden_cable_f32 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_CABLE_F32_WORDS];
 } bowden_cable_f32;
 
-// Parameters of the transmission, (1), (2), (5), (7).
+// Parameters of the transmission, (1), (2), (5) and (7).
 //
 // Start from NAME_INIT. By default offset and eta are 0; all other fields must be set.
 typedef struct bowden_cable_settings_f32 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
     // One of bowden_mode.
     uint32_t mode;
@@ -1272,11 +1277,11 @@ typedef struct bowden_cable_settings_f32 {
     float kappa_eta;
     // T0 of (5) or the offset of (1) [output unit]; 0 by default.
     float offset;
-    // Above zero [1/input unit].
+    // rho, the initial slope of eta; above zero [1/input unit].
     float rho;
-    // At least 1/2.
+    // sigma, at least 1/2: the slope after a reversal is 2*sigma*rho.
     float sigma;
-    // At least 1.
+    // n, the sharpness of the knee; at least 1.
     float n;
     // The hysteresis state at the start, within -1 and 1; 0 if unknown.
     float eta;
@@ -1297,15 +1302,16 @@ typedef struct bowden_cable_settings_f32 {
     0.0f /* eta */ \
 }
 
-// The inverse (6) of a transmission, with its state; made by bowden_inverse_init.
+// The inverse (6) of a transmission, with its state; initialised by
+// bowden_inverse_init.
 typedef struct bowden_inverse_f32 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_INVERSE_F32_WORDS];
 } bowden_inverse_f32;
 
-// The hysteresis (2), (7) with its state; made by bowden_hysteresis_init.
+// The hysteresis (2), (7) with its state; initialised by bowden_hysteresis_init.
 typedef struct bowden_hysteresis_f64 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_HYSTERESIS_F64_WORDS];
 } bowden_hysteresis_f64;
 
@@ -1313,13 +1319,13 @@ typedef struct bowden_hysteresis_f64 {
 //
 // Start from NAME_INIT. By default eta is 0; all other fields must be set.
 typedef struct bowden_hysteresis_settings_f64 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
-    // Initial slope of eta, above zero [1/input unit].
+    // rho, the initial slope of eta; above zero [1/input unit].
     double rho;
-    // At least 1/2: the slope after a reversal is 2*sigma*rho.
+    // sigma, at least 1/2: the slope after a reversal is 2*sigma*rho.
     double sigma;
-    // Sharpness of the knee, at least 1.
+    // n, the sharpness of the knee; at least 1.
     double n;
     // The hysteresis state at the start, within -1 and 1; 0 if unknown.
     double eta;
@@ -1336,17 +1342,17 @@ typedef struct bowden_hysteresis_settings_f64 {
     0.0 /* eta */ \
 }
 
-// A transmission (1), (5) with its state; made by bowden_cable_init.
+// A transmission (1), (5) with its state; initialised by bowden_cable_init.
 typedef struct bowden_cable_f64 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_CABLE_F64_WORDS];
 } bowden_cable_f64;
 
-// Parameters of the transmission, (1), (2), (5), (7).
+// Parameters of the transmission, (1), (2), (5) and (7).
 //
 // Start from NAME_INIT. By default offset and eta are 0; all other fields must be set.
 typedef struct bowden_cable_settings_f64 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
     // One of bowden_mode.
     uint32_t mode;
@@ -1356,11 +1362,11 @@ typedef struct bowden_cable_settings_f64 {
     double kappa_eta;
     // T0 of (5) or the offset of (1) [output unit]; 0 by default.
     double offset;
-    // Above zero [1/input unit].
+    // rho, the initial slope of eta; above zero [1/input unit].
     double rho;
-    // At least 1/2.
+    // sigma, at least 1/2: the slope after a reversal is 2*sigma*rho.
     double sigma;
-    // At least 1.
+    // n, the sharpness of the knee; at least 1.
     double n;
     // The hysteresis state at the start, within -1 and 1; 0 if unknown.
     double eta;
@@ -1381,16 +1387,17 @@ typedef struct bowden_cable_settings_f64 {
     0.0 /* eta */ \
 }
 
-// The inverse (6) of a transmission, with its state; made by bowden_inverse_init.
+// The inverse (6) of a transmission, with its state; initialised by
+// bowden_inverse_init.
 typedef struct bowden_inverse_f64 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_INVERSE_F64_WORDS];
 } bowden_inverse_f64;
 
-// Iterative learning with its state, except for two arrays of the caller; made by
-// bowden_iterative_learning_init or bowden_iterative_learning_resume.
+// Iterative learning with its state, except for two arrays that the caller owns;
+// initialised by bowden_iterative_learning_init or bowden_iterative_learning_resume.
 typedef struct bowden_iterative_learning_f32 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_ITERATIVE_LEARNING_F32_WORDS];
 } bowden_iterative_learning_f32;
 
@@ -1402,7 +1409,7 @@ typedef struct bowden_iterative_learning_f32 {
 //
 // Start from NAME_INIT. By default nothing is forgotten; all other fields must be set.
 typedef struct bowden_iterative_learning_settings_f32 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
     // Gain of the error, not zero, with the sign of the plant's gain [command
     // unit/output unit].
@@ -1431,19 +1438,19 @@ typedef struct bowden_iterative_learning_settings_f32 {
 
 // Output of a step of iterative learning.
 typedef struct bowden_iterative_learning_output_f32 {
-    // Value to be added to the command, as feed_forward of a controller [command
-    // unit]; always finite and within the limit.
+    // Value to add to the command through the feed_forward of a controller [command
+    // unit]: always finite and within the limit.
     float feed_forward;
     // Status of the step, equal to its return value.
     bowden_result result;
-    // What was wrong.
+    // The bad input, if there is one.
     bowden_fault fault;
 } bowden_iterative_learning_output_f32;
 
-// Iterative learning with its state, except for two arrays of the caller; made by
-// bowden_iterative_learning_init or bowden_iterative_learning_resume.
+// Iterative learning with its state, except for two arrays that the caller owns;
+// initialised by bowden_iterative_learning_init or bowden_iterative_learning_resume.
 typedef struct bowden_iterative_learning_f64 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_ITERATIVE_LEARNING_F64_WORDS];
 } bowden_iterative_learning_f64;
 
@@ -1455,7 +1462,7 @@ typedef struct bowden_iterative_learning_f64 {
 //
 // Start from NAME_INIT. By default nothing is forgotten; all other fields must be set.
 typedef struct bowden_iterative_learning_settings_f64 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
     // Gain of the error, not zero, with the sign of the plant's gain [command
     // unit/output unit].
@@ -1484,24 +1491,24 @@ typedef struct bowden_iterative_learning_settings_f64 {
 
 // Output of a step of iterative learning.
 typedef struct bowden_iterative_learning_output_f64 {
-    // Value to be added to the command, as feed_forward of a controller [command
-    // unit]; always finite and within the limit.
+    // Value to add to the command through the feed_forward of a controller [command
+    // unit]: always finite and within the limit.
     double feed_forward;
     // Status of the step, equal to its return value.
     bowden_result result;
-    // What was wrong.
+    // The bad input, if there is one.
     bowden_fault fault;
 } bowden_iterative_learning_output_f64;
 
 // One sample for a model.
 typedef struct bowden_model_sample_f32 {
-    // Since the previous sample, above zero, also at the first one [s].
+    // Time since the previous sample, above zero also at the first sample [s].
     float dt;
     // The transmission's input, x or tau_i, with its rates.
     struct bowden_motion_f32 input;
     // The transmitted load: tau_i in torque mode, otherwise a load channel.
     float load;
-    // All other channels, in the order of the model's file; may be null if there are
+    // All other channels, in the order in the model's file; may be null if there are
     // none.
     const struct bowden_motion_f32 *channels;
     // Number of channels, at most BOWDEN_CHANNELS.
@@ -1510,22 +1517,22 @@ typedef struct bowden_model_sample_f32 {
 
 // One sample for a model.
 typedef struct bowden_model_sample_f64 {
-    // Since the previous sample, above zero, also at the first one [s].
+    // Time since the previous sample, above zero also at the first sample [s].
     double dt;
     // The transmission's input, x or tau_i, with its rates.
     struct bowden_motion_f64 input;
     // The transmitted load: tau_i in torque mode, otherwise a load channel.
     double load;
-    // All other channels, in the order of the model's file; may be null if there are
+    // All other channels, in the order in the model's file; may be null if there are
     // none.
     const struct bowden_motion_f64 *channels;
     // Number of channels, at most BOWDEN_CHANNELS.
     size_t channel_count;
 } bowden_model_sample_f64;
 
-// An observer with its state; made by bowden_observer_init.
+// An observer with its state; initialised by bowden_observer_init.
 typedef struct bowden_observer_f32 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_OBSERVER_F32_WORDS];
 } bowden_observer_f32;
 
@@ -1538,7 +1545,7 @@ typedef struct bowden_observer_f32 {
 //
 // Start from NAME_INIT. By default the latency is 0; all other fields must be set.
 typedef struct bowden_observer_settings_f32 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
     // Gain of the nominal plant, not zero [output unit/command unit].
     float gain;
@@ -1573,18 +1580,18 @@ typedef struct bowden_observer_settings_f32 {
 
 // Output of a step of an observer.
 typedef struct bowden_observer_output_f32 {
-    // Value to be added to the command, as feed_forward of a controller [command
-    // unit]; always finite and within the limit.
+    // Value to add to the command through the feed_forward of a controller [command
+    // unit]: always finite and within the limit.
     float estimate;
     // Status of the step, equal to its return value.
     bowden_result result;
-    // What was wrong.
+    // The bad input, if there is one.
     bowden_fault fault;
 } bowden_observer_output_f32;
 
-// An observer with its state; made by bowden_observer_init.
+// An observer with its state; initialised by bowden_observer_init.
 typedef struct bowden_observer_f64 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_OBSERVER_F64_WORDS];
 } bowden_observer_f64;
 
@@ -1597,7 +1604,7 @@ typedef struct bowden_observer_f64 {
 //
 // Start from NAME_INIT. By default the latency is 0; all other fields must be set.
 typedef struct bowden_observer_settings_f64 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
     // Gain of the nominal plant, not zero [output unit/command unit].
     double gain;
@@ -1632,12 +1639,12 @@ typedef struct bowden_observer_settings_f64 {
 
 // Output of a step of an observer.
 typedef struct bowden_observer_output_f64 {
-    // Value to be added to the command, as feed_forward of a controller [command
-    // unit]; always finite and within the limit.
+    // Value to add to the command through the feed_forward of a controller [command
+    // unit]: always finite and within the limit.
     double estimate;
     // Status of the step, equal to its return value.
     bowden_result result;
-    // What was wrong.
+    // The bad input, if there is one.
     bowden_fault fault;
 } bowden_observer_output_f64;
 
@@ -1645,13 +1652,14 @@ typedef struct bowden_observer_output_f64 {
 //
 //     u = -k_p*(y - b*y_r) - k_i*integral(e) - k_d*d/dt(y - c*y_r) + u_ff
 //     u = -k_p*(y - b*y_r) - k_i*integral(e) - k_d*v_d             + u_ff    (PIV)
-//     command = u within the range and the slew rate;  e = y - y_r
+//     command = u within the range and the slew-rate limit;  e = y - y_r
 //
 // Start from NAME_INIT. By default: full set-point weight, derivative on the
-// measurement, conditional anti-windup, no slew rate, 4 good samples to cancel a bad
-// one, gains and safe command 0. Limits, longest_dt and `after` must be set.
+// measurement, conditional anti-windup, no slew-rate limit, 4 good samples to cancel a
+// bad one, and gains and a safe command of 0. Limits, longest_dt and `after` must be
+// set.
 typedef struct bowden_pid_settings_f32 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
     // Proportional gain [command unit/output unit].
     float k_p;
@@ -1662,8 +1670,9 @@ typedef struct bowden_pid_settings_f32 {
     float k_d;
     // One of bowden_derivative_source: the signal that k_d multiplies.
     uint32_t damping;
-    // Set-point weight c of the derivative, 0 to 1: 0, the default, on the
-    // measurement; 1 on the error, with a derivative kick at a step of the reference.
+    // Set-point weight c of the derivative, 0 to 1: with 0, the default, it acts on
+    // the measurement; with 1 it acts on the error, and a step of the reference causes
+    // a derivative kick.
     float derivative_weight;
     // Time constant of the derivative filter, zero (no filter) or above [s].
     float derivative_time;
@@ -1671,20 +1680,20 @@ typedef struct bowden_pid_settings_f32 {
     float setpoint_weight;
     // One of bowden_anti_windup.
     uint32_t anti_windup;
-    // Of BOWDEN_ANTI_WINDUP_BACK_CALCULATION alone, above zero [s].
+    // Tracking time, for BOWDEN_ANTI_WINDUP_BACK_CALCULATION only; above zero [s].
     float tracking_time;
-    // Greatest magnitude that the integral term integrates to, above zero
-    // [command unit]; 0 for none.
+    // Greatest magnitude of the integral term, above zero [command unit]; 0 for none.
     float integral_limit;
-    // The integral waits while |e| is at most this, from 0 (none) up [output unit].
-    // Against the limit cycle of static friction: wider than the jump.
+    // The integral is frozen while |e| is at most this value, zero (no deadband) or
+    // above [output unit]. To prevent the limit cycle of static friction, make it
+    // wider than the jump.
     float deadband;
-    // Period of an output that wraps, above zero [output unit], such as 360 degrees;
-    // 0 for none. Errors and changes are then taken the short way round.
+    // Period of an output that wraps, above zero [output unit], such as 360 degrees; 0
+    // for none. Errors and changes are then measured along the shorter direction.
     float period;
-    // Range and slew rate of the command.
+    // Range and slew-rate limit of the command.
     struct bowden_limits_f32 limits;
-    // Longest dt that is a sample, above zero [s]: five nominal steps, say.
+    // Longest dt of a good sample, above zero [s]: for example five nominal steps.
     float longest_dt;
     // Fallback after repeated bad samples.
     struct bowden_fallback_f32 fallback;
@@ -1712,24 +1721,24 @@ typedef struct bowden_pid_settings_f32 {
     {0u, 4u, 0.0f} /* fallback */ \
 }
 
-// A PI, PID or PIV with its state, in the caller's memory; made by bowden_pid_init.
-// The object may be copied and moved as a whole.
+// A PI, PID or PIV with its state, in the caller's memory; initialised by
+// bowden_pid_init. The object may be copied and moved as a whole.
 typedef struct bowden_pid_f32 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_PID_F32_WORDS];
 } bowden_pid_f32;
 
 // One sample for a PI, PID or PIV.
 typedef struct bowden_pid_sample_f32 {
-    // Time since the last call [s], after a bad sample too.
+    // Time since the last call [s], also after a bad sample.
     float dt;
-    // y_r [output unit], such as [N*m].
+    // Reference y_r [output unit], such as [N*m].
     float reference;
-    // y [output unit], such as [N*m].
+    // Measured output y [output unit], such as [N*m].
     float measured;
     // Measured distal velocity [rad/s]; only PIV (16) reads it.
     float velocity;
-    // Added to the command before the limits [command unit]; 0 for none.
+    // Feed-forward, added to the command before the limits [command unit]; 0 for none.
     float feed_forward;
 } bowden_pid_sample_f32;
 
@@ -1747,9 +1756,9 @@ typedef struct bowden_pid_terms_f32 {
     float velocity;
     // Feed-forward of the sample [command unit].
     float feed_forward;
-    // The sum before range and slew rate [command unit].
+    // The sum before range and slew-rate limit [command unit].
     float unlimited;
-    // 1 if range or slew rate changed the command, otherwise 0.
+    // 1 if the range or the slew-rate limit changed the command, otherwise 0.
     uint32_t saturated;
 } bowden_pid_terms_f32;
 
@@ -1757,13 +1766,14 @@ typedef struct bowden_pid_terms_f32 {
 //
 //     u = -k_p*(y - b*y_r) - k_i*integral(e) - k_d*d/dt(y - c*y_r) + u_ff
 //     u = -k_p*(y - b*y_r) - k_i*integral(e) - k_d*v_d             + u_ff    (PIV)
-//     command = u within the range and the slew rate;  e = y - y_r
+//     command = u within the range and the slew-rate limit;  e = y - y_r
 //
 // Start from NAME_INIT. By default: full set-point weight, derivative on the
-// measurement, conditional anti-windup, no slew rate, 4 good samples to cancel a bad
-// one, gains and safe command 0. Limits, longest_dt and `after` must be set.
+// measurement, conditional anti-windup, no slew-rate limit, 4 good samples to cancel a
+// bad one, and gains and a safe command of 0. Limits, longest_dt and `after` must be
+// set.
 typedef struct bowden_pid_settings_f64 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
     // Proportional gain [command unit/output unit].
     double k_p;
@@ -1774,8 +1784,9 @@ typedef struct bowden_pid_settings_f64 {
     double k_d;
     // One of bowden_derivative_source: the signal that k_d multiplies.
     uint32_t damping;
-    // Set-point weight c of the derivative, 0 to 1: 0, the default, on the
-    // measurement; 1 on the error, with a derivative kick at a step of the reference.
+    // Set-point weight c of the derivative, 0 to 1: with 0, the default, it acts on
+    // the measurement; with 1 it acts on the error, and a step of the reference causes
+    // a derivative kick.
     double derivative_weight;
     // Time constant of the derivative filter, zero (no filter) or above [s].
     double derivative_time;
@@ -1783,20 +1794,20 @@ typedef struct bowden_pid_settings_f64 {
     double setpoint_weight;
     // One of bowden_anti_windup.
     uint32_t anti_windup;
-    // Of BOWDEN_ANTI_WINDUP_BACK_CALCULATION alone, above zero [s].
+    // Tracking time, for BOWDEN_ANTI_WINDUP_BACK_CALCULATION only; above zero [s].
     double tracking_time;
-    // Greatest magnitude that the integral term integrates to, above zero
-    // [command unit]; 0 for none.
+    // Greatest magnitude of the integral term, above zero [command unit]; 0 for none.
     double integral_limit;
-    // The integral waits while |e| is at most this, from 0 (none) up [output unit].
-    // Against the limit cycle of static friction: wider than the jump.
+    // The integral is frozen while |e| is at most this value, zero (no deadband) or
+    // above [output unit]. To prevent the limit cycle of static friction, make it
+    // wider than the jump.
     double deadband;
-    // Period of an output that wraps, above zero [output unit], such as 360 degrees;
-    // 0 for none. Errors and changes are then taken the short way round.
+    // Period of an output that wraps, above zero [output unit], such as 360 degrees; 0
+    // for none. Errors and changes are then measured along the shorter direction.
     double period;
-    // Range and slew rate of the command.
+    // Range and slew-rate limit of the command.
     struct bowden_limits_f64 limits;
-    // Longest dt that is a sample, above zero [s]: five nominal steps, say.
+    // Longest dt of a good sample, above zero [s]: for example five nominal steps.
     double longest_dt;
     // Fallback after repeated bad samples.
     struct bowden_fallback_f64 fallback;
@@ -1824,24 +1835,24 @@ typedef struct bowden_pid_settings_f64 {
     {0u, 4u, 0.0} /* fallback */ \
 }
 
-// A PI, PID or PIV with its state, in the caller's memory; made by bowden_pid_init.
-// The object may be copied and moved as a whole.
+// A PI, PID or PIV with its state, in the caller's memory; initialised by
+// bowden_pid_init. The object may be copied and moved as a whole.
 typedef struct bowden_pid_f64 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_PID_F64_WORDS];
 } bowden_pid_f64;
 
 // One sample for a PI, PID or PIV.
 typedef struct bowden_pid_sample_f64 {
-    // Time since the last call [s], after a bad sample too.
+    // Time since the last call [s], also after a bad sample.
     double dt;
-    // y_r [output unit], such as [N*m].
+    // Reference y_r [output unit], such as [N*m].
     double reference;
-    // y [output unit], such as [N*m].
+    // Measured output y [output unit], such as [N*m].
     double measured;
     // Measured distal velocity [rad/s]; only PIV (16) reads it.
     double velocity;
-    // Added to the command before the limits [command unit]; 0 for none.
+    // Feed-forward, added to the command before the limits [command unit]; 0 for none.
     double feed_forward;
 } bowden_pid_sample_f64;
 
@@ -1859,15 +1870,15 @@ typedef struct bowden_pid_terms_f64 {
     double velocity;
     // Feed-forward of the sample [command unit].
     double feed_forward;
-    // The sum before range and slew rate [command unit].
+    // The sum before range and slew-rate limit [command unit].
     double unlimited;
-    // 1 if range or slew rate changed the command, otherwise 0.
+    // 1 if the range or the slew-rate limit changed the command, otherwise 0.
     uint32_t saturated;
 } bowden_pid_terms_f64;
 
-// A check of samples with its state; made by bowden_plausible_init.
+// A check of samples with its state; initialised by bowden_plausible_init.
 typedef struct bowden_plausible_f32 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_PLAUSIBLE_F32_WORDS];
 } bowden_plausible_f32;
 
@@ -1876,7 +1887,7 @@ typedef struct bowden_plausible_f32 {
 // Start from NAME_INIT. By default only the range is checked; low and high must be
 // set.
 typedef struct bowden_plausible_settings_f32 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
     // Least plausible sample [signal unit].
     float low;
@@ -1885,14 +1896,14 @@ typedef struct bowden_plausible_settings_f32 {
     // Greatest rate of the signal, above zero [signal unit/s]; 0 for none. Do not use
     // it for an angle that wraps.
     float rate;
-    // Longest time of the sensor from one number to the next, jitter included, above
+    // Longest time of the sensor from one number to the next, including jitter, above
     // zero [s]; 0 if unknown. A repeated number is then at most this old. Without a
-    // rate it has no effect.
+    // rate this setting has no effect.
     float sample_period;
     // Number of equal samples in a row that mean a stuck sensor, counted while the
     // machine moves; 0 for never.
     uint32_t stuck_after;
-    // A longer or unusable dt counts as this dt, above zero [s]; 0 if the time is then
+    // A longer or unusable dt counts as this dt, above zero [s]. With 0 such a time is
     // unknown.
     float longest_dt;
 } bowden_plausible_settings_f32;
@@ -1912,7 +1923,8 @@ typedef struct bowden_plausible_settings_f32 {
 
 // Output of a check of a sample.
 typedef struct bowden_plausible_output_f32 {
-    // The sample, or NaN if it is not plausible: for a controller, a bad sample.
+    // The sample, or NaN if it is not plausible; for a controller, NaN is a bad
+    // sample.
     float value;
     // Status of the step, equal to its return value.
     bowden_result result;
@@ -1920,9 +1932,9 @@ typedef struct bowden_plausible_output_f32 {
     bowden_implausible reason;
 } bowden_plausible_output_f32;
 
-// A check of samples with its state; made by bowden_plausible_init.
+// A check of samples with its state; initialised by bowden_plausible_init.
 typedef struct bowden_plausible_f64 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_PLAUSIBLE_F64_WORDS];
 } bowden_plausible_f64;
 
@@ -1931,7 +1943,7 @@ typedef struct bowden_plausible_f64 {
 // Start from NAME_INIT. By default only the range is checked; low and high must be
 // set.
 typedef struct bowden_plausible_settings_f64 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
     // Least plausible sample [signal unit].
     double low;
@@ -1940,14 +1952,14 @@ typedef struct bowden_plausible_settings_f64 {
     // Greatest rate of the signal, above zero [signal unit/s]; 0 for none. Do not use
     // it for an angle that wraps.
     double rate;
-    // Longest time of the sensor from one number to the next, jitter included, above
+    // Longest time of the sensor from one number to the next, including jitter, above
     // zero [s]; 0 if unknown. A repeated number is then at most this old. Without a
-    // rate it has no effect.
+    // rate this setting has no effect.
     double sample_period;
     // Number of equal samples in a row that mean a stuck sensor, counted while the
     // machine moves; 0 for never.
     uint32_t stuck_after;
-    // A longer or unusable dt counts as this dt, above zero [s]; 0 if the time is then
+    // A longer or unusable dt counts as this dt, above zero [s]. With 0 such a time is
     // unknown.
     double longest_dt;
 } bowden_plausible_settings_f64;
@@ -1967,7 +1979,8 @@ typedef struct bowden_plausible_settings_f64 {
 
 // Output of a check of a sample.
 typedef struct bowden_plausible_output_f64 {
-    // The sample, or NaN if it is not plausible: for a controller, a bad sample.
+    // The sample, or NaN if it is not plausible; for a controller, NaN is a bad
+    // sample.
     double value;
     // Status of the step, equal to its return value.
     bowden_result result;
@@ -1975,21 +1988,21 @@ typedef struct bowden_plausible_output_f64 {
     bowden_implausible reason;
 } bowden_plausible_output_f64;
 
-// A play with its state; made by bowden_play_init.
+// A play with its state; initialised by bowden_play_init.
 typedef struct bowden_play_f32 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_PLAY_F32_WORDS];
 } bowden_play_f32;
 
-// A play with its state; made by bowden_play_init.
+// A play with its state; initialised by bowden_play_init.
 typedef struct bowden_play_f64 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_PLAY_F64_WORDS];
 } bowden_play_f64;
 
-// Rates with their state; made by bowden_rates_init.
+// Rates with their state; initialised by bowden_rates_init.
 typedef struct bowden_rates_f32 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_RATES_F32_WORDS];
 } bowden_rates_f32;
 
@@ -1998,12 +2011,12 @@ typedef struct bowden_rates_f32 {
 // Start from NAME_INIT. By default the position does not wrap and longest_gap is ten
 // time constants; time_constant must be set.
 typedef struct bowden_rates_settings_f32 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
     // Time constant of both lags, above zero [s].
     float time_constant;
-    // Period of a position that wraps, such as that of a counter, above zero
-    // [channel unit]; 0 for none.
+    // Period of a position that wraps, such as a counter's, above zero [channel unit];
+    // 0 for none.
     float period;
     // Longest gap between two good samples that the rates bridge, above zero [s]; 0
     // for ten time constants.
@@ -2027,13 +2040,13 @@ typedef struct bowden_rates_output_f32 {
     struct bowden_motion_f32 motion;
     // Status of the step, equal to its return value.
     bowden_result result;
-    // What was wrong.
+    // The bad input, if there is one.
     bowden_fault fault;
 } bowden_rates_output_f32;
 
-// Rates with their state; made by bowden_rates_init.
+// Rates with their state; initialised by bowden_rates_init.
 typedef struct bowden_rates_f64 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_RATES_F64_WORDS];
 } bowden_rates_f64;
 
@@ -2042,12 +2055,12 @@ typedef struct bowden_rates_f64 {
 // Start from NAME_INIT. By default the position does not wrap and longest_gap is ten
 // time constants; time_constant must be set.
 typedef struct bowden_rates_settings_f64 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
     // Time constant of both lags, above zero [s].
     double time_constant;
-    // Period of a position that wraps, such as that of a counter, above zero
-    // [channel unit]; 0 for none.
+    // Period of a position that wraps, such as a counter's, above zero [channel unit];
+    // 0 for none.
     double period;
     // Longest gap between two good samples that the rates bridge, above zero [s]; 0
     // for ten time constants.
@@ -2071,14 +2084,14 @@ typedef struct bowden_rates_output_f64 {
     struct bowden_motion_f64 motion;
     // Status of the step, equal to its return value.
     bowden_result result;
-    // What was wrong.
+    // The bad input, if there is one.
     bowden_fault fault;
 } bowden_rates_output_f64;
 
-// A relay experiment with its state, in the caller's memory; made by
+// A relay experiment with its state, in the caller's memory; initialised by
 // bowden_relay_init.
 typedef struct bowden_relay_f32 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_RELAY_F32_WORDS];
 } bowden_relay_f32;
 
@@ -2087,12 +2100,12 @@ typedef struct bowden_relay_f32 {
 //     command = centre + amplitude   from y < reference - hysteresis on
 //     command = centre - amplitude   from y > reference + hysteresis on
 //
-// Start from NAME_INIT. By default 4 good samples cancel a bad one and the safe
+// Start from NAME_INIT. By default 4 good samples cancel a bad one, and the safe
 // command is 0; all other fields must be set.
 typedef struct bowden_relay_settings_f32 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
-    // y_r, about which the output oscillates [output unit].
+    // Reference y_r, about which the output oscillates [output unit].
     float reference;
     // Mean of the two levels of the command [command unit]. The command that holds the
     // output at the reference gives equal half-periods.
@@ -2115,7 +2128,7 @@ typedef struct bowden_relay_settings_f32 {
     float longest_time;
     // Longest dt of a good sample, above zero [s].
     float longest_dt;
-    // Range of the command, without a slew rate.
+    // Range of the command, without a slew-rate limit.
     struct bowden_limits_f32 limits;
     // Fallback after a failure; BOWDEN_HOLD_FOR_EVER is refused.
     struct bowden_fallback_f32 fallback;
@@ -2178,10 +2191,10 @@ typedef struct bowden_pi_gains_f32 {
     float k_i;
 } bowden_pi_gains_f32;
 
-// A relay experiment with its state, in the caller's memory; made by
+// A relay experiment with its state, in the caller's memory; initialised by
 // bowden_relay_init.
 typedef struct bowden_relay_f64 {
-    // Not for use.
+    // Private; do not use.
     uint64_t opaque[BOWDEN_RELAY_F64_WORDS];
 } bowden_relay_f64;
 
@@ -2190,12 +2203,12 @@ typedef struct bowden_relay_f64 {
 //     command = centre + amplitude   from y < reference - hysteresis on
 //     command = centre - amplitude   from y > reference + hysteresis on
 //
-// Start from NAME_INIT. By default 4 good samples cancel a bad one and the safe
+// Start from NAME_INIT. By default 4 good samples cancel a bad one, and the safe
 // command is 0; all other fields must be set.
 typedef struct bowden_relay_settings_f64 {
-    // Set by the macro NAME_INIT; settings without it are refused.
+    // The mark that the macro NAME_INIT sets; settings without it are refused.
     uint32_t init_mark;
-    // y_r, about which the output oscillates [output unit].
+    // Reference y_r, about which the output oscillates [output unit].
     double reference;
     // Mean of the two levels of the command [command unit]. The command that holds the
     // output at the reference gives equal half-periods.
@@ -2218,7 +2231,7 @@ typedef struct bowden_relay_settings_f64 {
     double longest_time;
     // Longest dt of a good sample, above zero [s].
     double longest_dt;
-    // Range of the command, without a slew rate.
+    // Range of the command, without a slew-rate limit.
     struct bowden_limits_f64 limits;
     // Fallback after a failure; BOWDEN_HOLD_FOR_EVER is refused.
     struct bowden_fallback_f64 fallback;
@@ -2287,13 +2300,13 @@ extern "C" {
 
 // Checks the settings and starts with the initial estimates.
 //
-// `about` may be null; otherwise it gets the name of the refused setting. On an error
-// the object does not change.
+// `about` may be null; otherwise it receives the name of the refused setting. On an
+// error the object does not change.
 bowden_result bowden_adaptive_init_f32(struct bowden_adaptive_f32 *law,
                                        const struct bowden_adaptive_settings_f32 *settings,
                                        struct bowden_about *about);
 
-// One sample: the command and its status, as bowden_pid_step.
+// One sample: the command and its status, as from bowden_pid_step.
 bowden_result bowden_adaptive_step_f32(struct bowden_adaptive_f32 *law,
                                        const struct bowden_adaptive_sample_f32 *sample,
                                        struct bowden_output_f32 *out);
@@ -2303,33 +2316,35 @@ bowden_result bowden_adaptive_get_estimates_f32(const struct bowden_adaptive_f32
                                                 struct bowden_estimates_f32 *out);
 
 // Reports the command [command unit] that the drive applied after the last step, as
-// bowden_pid_applied. z then moves no further towards this limit of the drive, and the
-// estimates do not change.
+// bowden_pid_applied does. z then moves no further towards this limit of the drive,
+// and the estimates do not change.
 bowden_result bowden_adaptive_applied_f32(struct bowden_adaptive_f32 *law, float command);
 
-// Reports at which limit the drive was after the last step, as bowden_pid_at_limit.
+// Reports at which limit the drive was after the last step, as bowden_pid_at_limit
+// does.
 bowden_result bowden_adaptive_at_limit_f32(struct bowden_adaptive_f32 *law, uint32_t saturation);
 
-// Acknowledges the fault, as bowden_pid_acknowledge.
+// Acknowledges the fault, as bowden_pid_acknowledge does.
 bowden_result bowden_adaptive_acknowledge_f32(struct bowden_adaptive_f32 *law);
 
 // Resets the accumulated error and the estimates; the applied command is kept, and a
 // latched safe command stays latched.
 bowden_result bowden_adaptive_reset_f32(struct bowden_adaptive_f32 *law);
 
-// Prepares a stored object for a start, as bowden_pid_restore; the estimates are kept.
+// Prepares a stored object for a start, as bowden_pid_restore does; the estimates are
+// kept.
 bowden_result bowden_adaptive_restore_f32(struct bowden_adaptive_f32 *law);
 
 // Changes the settings of a running loop without a jump of the command on this sample,
-// as bowden_pid_change. The estimates are kept, each within its new bounds, and a
+// as bowden_pid_change does. The estimates are kept, each within its new bounds, and a
 // latched safe command stays latched.
 bowden_result bowden_adaptive_change_f32(struct bowden_adaptive_f32 *law,
                                          const struct bowden_adaptive_settings_f32 *settings,
                                          const struct bowden_adaptive_sample_f32 *sample,
                                          struct bowden_about *about);
 
-// Starts with the initial estimates; the next step on this sample then commands
-// `command` [command unit], as bowden_pid_resume.
+// Starts with the initial estimates so that the next step on this sample commands
+// `command` [command unit], as bowden_pid_resume does.
 bowden_result bowden_adaptive_resume_f32(struct bowden_adaptive_f32 *law,
                                          float command,
                                          const struct bowden_adaptive_sample_f32 *sample,
@@ -2341,13 +2356,13 @@ bowden_result bowden_adaptive_is_latched_f32(const struct bowden_adaptive_f32 *l
 
 // Checks the settings and starts with the initial estimates.
 //
-// `about` may be null; otherwise it gets the name of the refused setting. On an error
-// the object does not change.
+// `about` may be null; otherwise it receives the name of the refused setting. On an
+// error the object does not change.
 bowden_result bowden_adaptive_init_f64(struct bowden_adaptive_f64 *law,
                                        const struct bowden_adaptive_settings_f64 *settings,
                                        struct bowden_about *about);
 
-// One sample: the command and its status, as bowden_pid_step.
+// One sample: the command and its status, as from bowden_pid_step.
 bowden_result bowden_adaptive_step_f64(struct bowden_adaptive_f64 *law,
                                        const struct bowden_adaptive_sample_f64 *sample,
                                        struct bowden_output_f64 *out);
@@ -2357,33 +2372,35 @@ bowden_result bowden_adaptive_get_estimates_f64(const struct bowden_adaptive_f64
                                                 struct bowden_estimates_f64 *out);
 
 // Reports the command [command unit] that the drive applied after the last step, as
-// bowden_pid_applied. z then moves no further towards this limit of the drive, and the
-// estimates do not change.
+// bowden_pid_applied does. z then moves no further towards this limit of the drive,
+// and the estimates do not change.
 bowden_result bowden_adaptive_applied_f64(struct bowden_adaptive_f64 *law, double command);
 
-// Reports at which limit the drive was after the last step, as bowden_pid_at_limit.
+// Reports at which limit the drive was after the last step, as bowden_pid_at_limit
+// does.
 bowden_result bowden_adaptive_at_limit_f64(struct bowden_adaptive_f64 *law, uint32_t saturation);
 
-// Acknowledges the fault, as bowden_pid_acknowledge.
+// Acknowledges the fault, as bowden_pid_acknowledge does.
 bowden_result bowden_adaptive_acknowledge_f64(struct bowden_adaptive_f64 *law);
 
 // Resets the accumulated error and the estimates; the applied command is kept, and a
 // latched safe command stays latched.
 bowden_result bowden_adaptive_reset_f64(struct bowden_adaptive_f64 *law);
 
-// Prepares a stored object for a start, as bowden_pid_restore; the estimates are kept.
+// Prepares a stored object for a start, as bowden_pid_restore does; the estimates are
+// kept.
 bowden_result bowden_adaptive_restore_f64(struct bowden_adaptive_f64 *law);
 
 // Changes the settings of a running loop without a jump of the command on this sample,
-// as bowden_pid_change. The estimates are kept, each within its new bounds, and a
+// as bowden_pid_change does. The estimates are kept, each within its new bounds, and a
 // latched safe command stays latched.
 bowden_result bowden_adaptive_change_f64(struct bowden_adaptive_f64 *law,
                                          const struct bowden_adaptive_settings_f64 *settings,
                                          const struct bowden_adaptive_sample_f64 *sample,
                                          struct bowden_about *about);
 
-// Starts with the initial estimates; the next step on this sample then commands
-// `command` [command unit], as bowden_pid_resume.
+// Starts with the initial estimates so that the next step on this sample commands
+// `command` [command unit], as bowden_pid_resume does.
 bowden_result bowden_adaptive_resume_f64(struct bowden_adaptive_f64 *law,
                                          double command,
                                          const struct bowden_adaptive_sample_f64 *sample,
@@ -2397,11 +2414,11 @@ bowden_result bowden_adaptive_is_latched_f64(const struct bowden_adaptive_f64 *l
 //
 //     tau_i = inverse transmission(desired - sum of gain*regressor, eta)
 //
-// `longest_dt` [s]: a longer dt is a bad sample. `ranges`: motions are clamped to
-// them, each read by a term of the model; null if `range_count` is 0.
-// BOWDEN_RESULT_ERROR_INADMISSIBLE if the model has no inverse. The compensator does
-// not use the model afterwards. On an error the object does not change. `about` may be
-// null.
+// A dt longer than `longest_dt` [s] is a bad sample. Motions are clamped to `ranges`,
+// which may be null if `range_count` is 0; a term of the model must read the source of
+// each range. The result is BOWDEN_RESULT_ERROR_INADMISSIBLE if the model has no
+// inverse. The compensator does not use the model afterwards. On an error the object
+// does not change. `about` may be null.
 bowden_result bowden_compensator_init_f32(struct bowden_compensator_f32 *compensator,
                                           const struct bowden_model_f32 *model,
                                           float longest_dt,
@@ -2409,8 +2426,8 @@ bowden_result bowden_compensator_init_f32(struct bowden_compensator_f32 *compens
                                           size_t range_count,
                                           struct bowden_about *about);
 
-// Puts a play of this half-width [output unit], zero or more, on the desired torque of
-// the cable; zero, the default of init, means no play.
+// Puts a play with this half-width [output unit], zero or more, on the desired torque
+// of the cable. Zero, the default after init, means no play.
 //
 // A term that reads a velocity from encoder counts reverses the torque at each count.
 // After a reversal the inverse is steep, so the command chatters. A half-width a
@@ -2423,18 +2440,18 @@ bowden_result bowden_compensator_set_play_f32(struct bowden_compensator_f32 *com
 // One sample: the input for which the model's output is `desired`.
 //
 // A bad sample leaves the state unchanged and holds the last good command, zero before
-// the first one: BOWDEN_RESULT_HELD. `out` is written with every result that is not
-// negative.
+// the first one: BOWDEN_RESULT_HELD. `out` is written if the result is not negative.
 bowden_result bowden_compensator_step_f32(struct bowden_compensator_f32 *compensator,
                                           const struct bowden_compensator_sample_f32 *sample,
                                           struct bowden_compensator_output_f32 *out);
 
 // Reports the actual input of the transmission [input unit] after the last step if it
-// differs from the step's command: the drive is off, or another law adds a command.
+// differs from the step's command, for example because the drive is off or another law
+// adds a command.
 //
-// Call it between two steps. The hysteresis then follows this input, and the next step
-// continues from there. Of two reports after one step the second one applies. A number
-// that is not finite changes nothing: BOWDEN_RESULT_HELD.
+// Call this function between two steps. The hysteresis then follows this input, and
+// the next step continues from there. If there are two reports after one step, the
+// second one applies. A number that is not finite changes nothing: BOWDEN_RESULT_HELD.
 bowden_result bowden_compensator_applied_f32(struct bowden_compensator_f32 *compensator,
                                              float command);
 
@@ -2442,8 +2459,9 @@ bowden_result bowden_compensator_applied_f32(struct bowden_compensator_f32 *comp
 // bowden_saturation. Use it for a drive that does not report its command; otherwise
 // use bowden_compensator_applied.
 //
-// Call it between two steps. At the upper limit the input of the model does not rise, at
-// the lower one it does not fall. Another number gives BOWDEN_RESULT_ERROR_CHOICE.
+// Call this function between two steps. At the upper limit the input of the model does
+// not rise; at the lower limit it does not fall. Any other number returns
+// BOWDEN_RESULT_ERROR_CHOICE.
 bowden_result bowden_compensator_at_limit_f32(struct bowden_compensator_f32 *compensator,
                                               uint32_t saturation);
 
@@ -2454,11 +2472,11 @@ bowden_result bowden_compensator_reset_f32(struct bowden_compensator_f32 *compen
 //
 //     tau_i = inverse transmission(desired - sum of gain*regressor, eta)
 //
-// `longest_dt` [s]: a longer dt is a bad sample. `ranges`: motions are clamped to
-// them, each read by a term of the model; null if `range_count` is 0.
-// BOWDEN_RESULT_ERROR_INADMISSIBLE if the model has no inverse. The compensator does
-// not use the model afterwards. On an error the object does not change. `about` may be
-// null.
+// A dt longer than `longest_dt` [s] is a bad sample. Motions are clamped to `ranges`,
+// which may be null if `range_count` is 0; a term of the model must read the source of
+// each range. The result is BOWDEN_RESULT_ERROR_INADMISSIBLE if the model has no
+// inverse. The compensator does not use the model afterwards. On an error the object
+// does not change. `about` may be null.
 bowden_result bowden_compensator_init_f64(struct bowden_compensator_f64 *compensator,
                                           const struct bowden_model_f64 *model,
                                           double longest_dt,
@@ -2466,8 +2484,8 @@ bowden_result bowden_compensator_init_f64(struct bowden_compensator_f64 *compens
                                           size_t range_count,
                                           struct bowden_about *about);
 
-// Puts a play of this half-width [output unit], zero or more, on the desired torque of
-// the cable; zero, the default of init, means no play.
+// Puts a play with this half-width [output unit], zero or more, on the desired torque
+// of the cable. Zero, the default after init, means no play.
 //
 // A term that reads a velocity from encoder counts reverses the torque at each count.
 // After a reversal the inverse is steep, so the command chatters. A half-width a
@@ -2480,18 +2498,18 @@ bowden_result bowden_compensator_set_play_f64(struct bowden_compensator_f64 *com
 // One sample: the input for which the model's output is `desired`.
 //
 // A bad sample leaves the state unchanged and holds the last good command, zero before
-// the first one: BOWDEN_RESULT_HELD. `out` is written with every result that is not
-// negative.
+// the first one: BOWDEN_RESULT_HELD. `out` is written if the result is not negative.
 bowden_result bowden_compensator_step_f64(struct bowden_compensator_f64 *compensator,
                                           const struct bowden_compensator_sample_f64 *sample,
                                           struct bowden_compensator_output_f64 *out);
 
 // Reports the actual input of the transmission [input unit] after the last step if it
-// differs from the step's command: the drive is off, or another law adds a command.
+// differs from the step's command, for example because the drive is off or another law
+// adds a command.
 //
-// Call it between two steps. The hysteresis then follows this input, and the next step
-// continues from there. Of two reports after one step the second one applies. A number
-// that is not finite changes nothing: BOWDEN_RESULT_HELD.
+// Call this function between two steps. The hysteresis then follows this input, and
+// the next step continues from there. If there are two reports after one step, the
+// second one applies. A number that is not finite changes nothing: BOWDEN_RESULT_HELD.
 bowden_result bowden_compensator_applied_f64(struct bowden_compensator_f64 *compensator,
                                              double command);
 
@@ -2499,8 +2517,9 @@ bowden_result bowden_compensator_applied_f64(struct bowden_compensator_f64 *comp
 // bowden_saturation. Use it for a drive that does not report its command; otherwise
 // use bowden_compensator_applied.
 //
-// Call it between two steps. At the upper limit the input of the model does not rise, at
-// the lower one it does not fall. Another number gives BOWDEN_RESULT_ERROR_CHOICE.
+// Call this function between two steps. At the upper limit the input of the model does
+// not rise; at the lower limit it does not fall. Any other number returns
+// BOWDEN_RESULT_ERROR_CHOICE.
 bowden_result bowden_compensator_at_limit_f64(struct bowden_compensator_f64 *compensator,
                                               uint32_t saturation);
 
@@ -2512,15 +2531,16 @@ bowden_result bowden_edge_velocity_init_f32(struct bowden_edge_velocity_f32 *edg
                                             const struct bowden_edge_velocity_settings_f32 *settings,
                                             struct bowden_about *about);
 
-// The velocity at a position [channel unit], `dt` [s] after the last call, good or
-// bad. With M counts in a time T since the sample with the last count:
+// The velocity at a position [channel unit], `dt` [s] after the last call, whether
+// that sample was good or bad. With M counts in a time T since the sample with the
+// last count:
 //
 //     v+ = v + (1 - exp(-T/time_constant))*(M*count/T - v)   at a sample with counts
-//     |v| <= count/(time since the last count)               at every other
+//     |v| <= count/(time since the last count)               at every other sample
 //
-// BOWDEN_RESULT_SETTLING before two counts; BOWDEN_RESULT_STOPPED after `longest_gap`
-// without one. A bad sample holds the velocity: BOWDEN_RESULT_HELD. `out` is written
-// with every result that is not negative.
+// The result is BOWDEN_RESULT_SETTLING until two counts are known, and
+// BOWDEN_RESULT_STOPPED after `longest_gap` without a count. A bad sample holds the
+// velocity: BOWDEN_RESULT_HELD. `out` is written if the result is not negative.
 bowden_result bowden_edge_velocity_step_f32(struct bowden_edge_velocity_f32 *edges,
                                             float position,
                                             float dt,
@@ -2531,27 +2551,28 @@ bowden_result bowden_edge_velocity_init_f64(struct bowden_edge_velocity_f64 *edg
                                             const struct bowden_edge_velocity_settings_f64 *settings,
                                             struct bowden_about *about);
 
-// The velocity at a position [channel unit], `dt` [s] after the last call, good or
-// bad. With M counts in a time T since the sample with the last count:
+// The velocity at a position [channel unit], `dt` [s] after the last call, whether
+// that sample was good or bad. With M counts in a time T since the sample with the
+// last count:
 //
 //     v+ = v + (1 - exp(-T/time_constant))*(M*count/T - v)   at a sample with counts
-//     |v| <= count/(time since the last count)               at every other
+//     |v| <= count/(time since the last count)               at every other sample
 //
-// BOWDEN_RESULT_SETTLING before two counts; BOWDEN_RESULT_STOPPED after `longest_gap`
-// without one. A bad sample holds the velocity: BOWDEN_RESULT_HELD. `out` is written
-// with every result that is not negative.
+// The result is BOWDEN_RESULT_SETTLING until two counts are known, and
+// BOWDEN_RESULT_STOPPED after `longest_gap` without a count. A bad sample holds the
+// velocity: BOWDEN_RESULT_HELD. `out` is written if the result is not negative.
 bowden_result bowden_edge_velocity_step_f64(struct bowden_edge_velocity_f64 *edges,
                                             double position,
                                             double dt,
                                             struct bowden_edge_velocity_output_f64 *out);
 
-// Starts a low-pass with `time_constant` at least zero [s], see bowden_low_pass_step; at
-// zero the output is the sample. `about` may be null.
+// Starts a low-pass with a `time_constant` of at least zero [s], see
+// bowden_low_pass_step. At zero the output is the sample. `about` may be null.
 bowden_result bowden_low_pass_init_f32(struct bowden_low_pass_f32 *filter,
                                        float time_constant,
                                        struct bowden_about *about);
 
-// One sample, `dt` [s] after the last call: `output` gets
+// One sample, `dt` [s] after the last call: `output` receives
 //
 //     y+ = y + dt/(time_constant + dt)*(x - y)
 //
@@ -2573,7 +2594,7 @@ bowden_result bowden_biquad_init_notch_f32(struct bowden_biquad_f32 *filter,
                                            const struct bowden_biquad_settings_f32 *settings,
                                            struct bowden_about *about);
 
-// One sample, `dt` [s] after the last call: `output` gets the filtered value.
+// One sample, `dt` [s] after the last call: `output` receives the filtered value.
 //
 // The first good sample starts the filter at rest. If the sample is not finite, or dt
 // is not positive and finite, the last output is held (zero before the first sample):
@@ -2583,13 +2604,13 @@ bowden_result bowden_biquad_step_f32(struct bowden_biquad_f32 *filter,
                                      float dt,
                                      float *output);
 
-// Starts a low-pass with `time_constant` at least zero [s], see bowden_low_pass_step; at
-// zero the output is the sample. `about` may be null.
+// Starts a low-pass with a `time_constant` of at least zero [s], see
+// bowden_low_pass_step. At zero the output is the sample. `about` may be null.
 bowden_result bowden_low_pass_init_f64(struct bowden_low_pass_f64 *filter,
                                        double time_constant,
                                        struct bowden_about *about);
 
-// One sample, `dt` [s] after the last call: `output` gets
+// One sample, `dt` [s] after the last call: `output` receives
 //
 //     y+ = y + dt/(time_constant + dt)*(x - y)
 //
@@ -2611,7 +2632,7 @@ bowden_result bowden_biquad_init_notch_f64(struct bowden_biquad_f64 *filter,
                                            const struct bowden_biquad_settings_f64 *settings,
                                            struct bowden_about *about);
 
-// One sample, `dt` [s] after the last call: `output` gets the filtered value.
+// One sample, `dt` [s] after the last call: `output` receives the filtered value.
 //
 // The first good sample starts the filter at rest. If the sample is not finite, or dt
 // is not positive and finite, the last output is held (zero before the first sample):
@@ -2626,8 +2647,9 @@ bowden_result bowden_hysteresis_init_f32(struct bowden_hysteresis_f32 *hysteresi
                                          const struct bowden_hysteresis_settings_f32 *settings,
                                          struct bowden_about *about);
 
-// One input [input unit]: `eta` gets the state, within -1 and 1. The first sample only
-// sets the input. A value that is not finite is held: BOWDEN_RESULT_HELD.
+// One input [input unit]: `eta` receives the state, within -1 and 1. The first sample
+// only sets the input. If the value is not finite, the last result is held:
+// BOWDEN_RESULT_HELD.
 bowden_result bowden_hysteresis_step_f32(struct bowden_hysteresis_f32 *hysteresis,
                                          float input,
                                          float *eta);
@@ -2637,18 +2659,21 @@ bowden_result bowden_cable_init_f32(struct bowden_cable_f32 *cable,
                                     const struct bowden_cable_settings_f32 *settings,
                                     struct bowden_about *about);
 
-// One input [input unit]: `output` gets the output [output unit]. If the input is not
-// finite, the last output is held (zero before the first sample): BOWDEN_RESULT_HELD.
+// One input [input unit]: `output` receives the output [output unit]. If the input is
+// not finite, the last output is held (zero before the first sample):
+// BOWDEN_RESULT_HELD.
 bowden_result bowden_cable_step_f32(struct bowden_cable_f32 *cable, float input, float *output);
 
-// Starts the inverse of the same transmission; BOWDEN_RESULT_ERROR_INADMISSIBLE if it
-// has no inverse (sigma above gain/(2*kappa_eta*rho)).
+// Starts the inverse of the transmission with these settings. The result is
+// BOWDEN_RESULT_ERROR_INADMISSIBLE if the transmission has no inverse (sigma above
+// gain/(2*kappa_eta*rho)).
 bowden_result bowden_inverse_init_f32(struct bowden_inverse_f32 *inverse,
                                       const struct bowden_cable_settings_f32 *settings,
                                       struct bowden_about *about);
 
-// One desired output [output unit]: `input` gets the input [input unit] that produces
-// it. A value that is not finite is held: BOWDEN_RESULT_HELD.
+// One desired output [output unit]: `input` receives the input [input unit] that
+// produces it. If the value is not finite, the last result is held:
+// BOWDEN_RESULT_HELD.
 bowden_result bowden_inverse_step_f32(struct bowden_inverse_f32 *inverse,
                                       float desired,
                                       float *input);
@@ -2658,8 +2683,9 @@ bowden_result bowden_hysteresis_init_f64(struct bowden_hysteresis_f64 *hysteresi
                                          const struct bowden_hysteresis_settings_f64 *settings,
                                          struct bowden_about *about);
 
-// One input [input unit]: `eta` gets the state, within -1 and 1. The first sample only
-// sets the input. A value that is not finite is held: BOWDEN_RESULT_HELD.
+// One input [input unit]: `eta` receives the state, within -1 and 1. The first sample
+// only sets the input. If the value is not finite, the last result is held:
+// BOWDEN_RESULT_HELD.
 bowden_result bowden_hysteresis_step_f64(struct bowden_hysteresis_f64 *hysteresis,
                                          double input,
                                          double *eta);
@@ -2669,18 +2695,21 @@ bowden_result bowden_cable_init_f64(struct bowden_cable_f64 *cable,
                                     const struct bowden_cable_settings_f64 *settings,
                                     struct bowden_about *about);
 
-// One input [input unit]: `output` gets the output [output unit]. If the input is not
-// finite, the last output is held (zero before the first sample): BOWDEN_RESULT_HELD.
+// One input [input unit]: `output` receives the output [output unit]. If the input is
+// not finite, the last output is held (zero before the first sample):
+// BOWDEN_RESULT_HELD.
 bowden_result bowden_cable_step_f64(struct bowden_cable_f64 *cable, double input, double *output);
 
-// Starts the inverse of the same transmission; BOWDEN_RESULT_ERROR_INADMISSIBLE if it
-// has no inverse (sigma above gain/(2*kappa_eta*rho)).
+// Starts the inverse of the transmission with these settings. The result is
+// BOWDEN_RESULT_ERROR_INADMISSIBLE if the transmission has no inverse (sigma above
+// gain/(2*kappa_eta*rho)).
 bowden_result bowden_inverse_init_f64(struct bowden_inverse_f64 *inverse,
                                       const struct bowden_cable_settings_f64 *settings,
                                       struct bowden_about *about);
 
-// One desired output [output unit]: `input` gets the input [input unit] that produces
-// it. A value that is not finite is held: BOWDEN_RESULT_HELD.
+// One desired output [output unit]: `input` receives the input [input unit] that
+// produces it. If the value is not finite, the last result is held:
+// BOWDEN_RESULT_HELD.
 bowden_result bowden_inverse_step_f64(struct bowden_inverse_f64 *inverse,
                                       double desired,
                                       double *input);
@@ -2688,10 +2717,10 @@ bowden_result bowden_inverse_step_f64(struct bowden_inverse_f64 *inverse,
 // Starts iterative learning over two arrays of `cells` numbers, which it sets to zero.
 // `cells` is at least lead + 2*half_width + 9 and at most BOWDEN_CELLS.
 //
-// The caller owns the arrays. They must exist, and nobody may write to them, as long
-// as the object is used. A local array is wrong if the object outlives the function.
-// Between two calls the caller may read `learned`, to plot or to store it. The
-// arrays must not overlap each other or the object
+// The caller owns the arrays. They must exist, and nothing else may write to them, for
+// as long as the object is used. Do not use a local array if the object outlives the
+// function. Between two calls the caller may read `learned`, to plot or to store it.
+// The arrays must not overlap each other or the object
 // (BOWDEN_RESULT_ERROR_INADMISSIBLE), and they serve one object at a time. A copy of
 // the object uses the same arrays, so use only one of the two.
 //
@@ -2703,9 +2732,9 @@ bowden_result bowden_iterative_learning_init_f32(struct bowden_iterative_learnin
                                                  size_t cells,
                                                  struct bowden_about *about);
 
-// The same with earlier values in `learned`: a copy from before a reset, or the array
-// of an object that is no longer used. Values are clamped to the limit, and NaN
-// becomes zero. `unfiltered` may have any contents.
+// The same as bowden_iterative_learning_init, but with earlier values in `learned`: a
+// copy from before a reset, or the array of an object that is no longer used. Values
+// are clamped to the limit, and NaN becomes zero. `unfiltered` may have any contents.
 bowden_result bowden_iterative_learning_resume_f32(struct bowden_iterative_learning_f32 *learning,
                                                    const struct bowden_iterative_learning_settings_f32 *settings,
                                                    float *learned,
@@ -2713,19 +2742,19 @@ bowden_result bowden_iterative_learning_resume_f32(struct bowden_iterative_learn
                                                    size_t cells,
                                                    struct bowden_about *about);
 
-// One sample, before the controller's step: the phase of the cycle, from 0 to 1, the
-// reference and the measured output [output unit]. Set `learns` to 0 if a limit cut
-// the command, the safe command is applied, or the task is different. If more than
-// half of a cell's samples have `learns` = 0, the errors of the next `lead` cells are
-// ignored too.
+// One sample, before the controller's step: the phase of the cycle, from 0 to 1, and
+// the reference and the measured output [output unit]. Set `learns` to 0 if a limit
+// has cut the command, the safe command is applied, or the task is different. If more
+// than half of a cell's samples have `learns` = 0, the errors of the next `lead` cells
+// are ignored too.
 //
 // A phase outside 0 to 1 changes nothing and holds the feed-forward:
-// BOWDEN_RESULT_HELD. For the controller such samples are good. BOWDEN_RESULT_DEGRADED
-// has two causes. The reference or the measured output is not finite: the feed-forward
-// follows the phase, and nothing is learned. Or the phase has jumped by more than four
-// cells: the cell before the jump does not learn, and the feed-forward jumps with the
-// phase. Give the controller a slew rate. `out` is written with every result that is
-// not negative.
+// BOWDEN_RESULT_HELD. The controller counts such samples as good.
+// BOWDEN_RESULT_DEGRADED has two causes. If the reference or the measured output is
+// not finite, the feed-forward follows the phase, and nothing is learned. If the phase
+// has jumped by more than four cells, the cell before the jump does not learn, and the
+// feed-forward jumps with the phase. Therefore give the controller a slew-rate limit.
+// `out` is written if the result is not negative.
 bowden_result bowden_iterative_learning_step_f32(struct bowden_iterative_learning_f32 *learning,
                                                  float phase,
                                                  float reference,
@@ -2736,10 +2765,10 @@ bowden_result bowden_iterative_learning_step_f32(struct bowden_iterative_learnin
 // Starts iterative learning over two arrays of `cells` numbers, which it sets to zero.
 // `cells` is at least lead + 2*half_width + 9 and at most BOWDEN_CELLS.
 //
-// The caller owns the arrays. They must exist, and nobody may write to them, as long
-// as the object is used. A local array is wrong if the object outlives the function.
-// Between two calls the caller may read `learned`, to plot or to store it. The
-// arrays must not overlap each other or the object
+// The caller owns the arrays. They must exist, and nothing else may write to them, for
+// as long as the object is used. Do not use a local array if the object outlives the
+// function. Between two calls the caller may read `learned`, to plot or to store it.
+// The arrays must not overlap each other or the object
 // (BOWDEN_RESULT_ERROR_INADMISSIBLE), and they serve one object at a time. A copy of
 // the object uses the same arrays, so use only one of the two.
 //
@@ -2751,9 +2780,9 @@ bowden_result bowden_iterative_learning_init_f64(struct bowden_iterative_learnin
                                                  size_t cells,
                                                  struct bowden_about *about);
 
-// The same with earlier values in `learned`: a copy from before a reset, or the array
-// of an object that is no longer used. Values are clamped to the limit, and NaN
-// becomes zero. `unfiltered` may have any contents.
+// The same as bowden_iterative_learning_init, but with earlier values in `learned`: a
+// copy from before a reset, or the array of an object that is no longer used. Values
+// are clamped to the limit, and NaN becomes zero. `unfiltered` may have any contents.
 bowden_result bowden_iterative_learning_resume_f64(struct bowden_iterative_learning_f64 *learning,
                                                    const struct bowden_iterative_learning_settings_f64 *settings,
                                                    double *learned,
@@ -2761,19 +2790,19 @@ bowden_result bowden_iterative_learning_resume_f64(struct bowden_iterative_learn
                                                    size_t cells,
                                                    struct bowden_about *about);
 
-// One sample, before the controller's step: the phase of the cycle, from 0 to 1, the
-// reference and the measured output [output unit]. Set `learns` to 0 if a limit cut
-// the command, the safe command is applied, or the task is different. If more than
-// half of a cell's samples have `learns` = 0, the errors of the next `lead` cells are
-// ignored too.
+// One sample, before the controller's step: the phase of the cycle, from 0 to 1, and
+// the reference and the measured output [output unit]. Set `learns` to 0 if a limit
+// has cut the command, the safe command is applied, or the task is different. If more
+// than half of a cell's samples have `learns` = 0, the errors of the next `lead` cells
+// are ignored too.
 //
 // A phase outside 0 to 1 changes nothing and holds the feed-forward:
-// BOWDEN_RESULT_HELD. For the controller such samples are good. BOWDEN_RESULT_DEGRADED
-// has two causes. The reference or the measured output is not finite: the feed-forward
-// follows the phase, and nothing is learned. Or the phase has jumped by more than four
-// cells: the cell before the jump does not learn, and the feed-forward jumps with the
-// phase. Give the controller a slew rate. `out` is written with every result that is
-// not negative.
+// BOWDEN_RESULT_HELD. The controller counts such samples as good.
+// BOWDEN_RESULT_DEGRADED has two causes. If the reference or the measured output is
+// not finite, the feed-forward follows the phase, and nothing is learned. If the phase
+// has jumped by more than four cells, the cell before the jump does not learn, and the
+// feed-forward jumps with the phase. Therefore give the controller a slew-rate limit.
+// `out` is written if the result is not negative.
 bowden_result bowden_iterative_learning_step_f64(struct bowden_iterative_learning_f64 *learning,
                                                  double phase,
                                                  double reference,
@@ -2784,12 +2813,12 @@ bowden_result bowden_iterative_learning_step_f64(struct bowden_iterative_learnin
 // Loads a model from the bytes that `bowden identify --model-out FILE.postcard` or
 // `bowden export --c` writes, with four bytes of CRC-32 at the end, and starts it.
 //
-// `length` is the length of the model, not of a larger array or sector: bytes behind
+// `length` is the length of the model, not of a larger array or sector: bytes after
 // the CRC-32 are refused like damaged bytes. `eta` is the hysteresis state at the
 // start, within -1 and 1; 0 if unknown. BOWDEN_RESULT_ERROR_MODEL: the bytes are
-// damaged, too many, of the other precision or of another version, or have more than
-// BOWDEN_TERMS terms. `about`, which may be null, is "checksum" for the first two.
-// BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel with a number of
+// damaged, are too many, have the other precision or another version, or contain more
+// than BOWDEN_TERMS terms. `about`, which may be null, is "checksum" for the first
+// two. BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel with a number of
 // BOWDEN_CHANNELS or more, or there are more than BOWDEN_MODEL_BYTES bytes. The object
 // does not use the bytes afterwards. On an error the object does not change.
 bowden_result bowden_model_load_f32(struct bowden_model_f32 *model,
@@ -2798,7 +2827,7 @@ bowden_result bowden_model_load_f32(struct bowden_model_f32 *model,
                                     float eta,
                                     struct bowden_about *about);
 
-// One sample: `output` gets the predicted output [output unit]:
+// One sample: `output` receives the predicted output [output unit]:
 //
 //     y = transmission(input, eta) + sum of gain*regressor
 //
@@ -2818,12 +2847,12 @@ bowden_result bowden_model_reset_f32(struct bowden_model_f32 *model, float eta);
 // Loads a model from the bytes that `bowden identify --model-out FILE.postcard` or
 // `bowden export --c` writes, with four bytes of CRC-32 at the end, and starts it.
 //
-// `length` is the length of the model, not of a larger array or sector: bytes behind
+// `length` is the length of the model, not of a larger array or sector: bytes after
 // the CRC-32 are refused like damaged bytes. `eta` is the hysteresis state at the
 // start, within -1 and 1; 0 if unknown. BOWDEN_RESULT_ERROR_MODEL: the bytes are
-// damaged, too many, of the other precision or of another version, or have more than
-// BOWDEN_TERMS terms. `about`, which may be null, is "checksum" for the first two.
-// BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel with a number of
+// damaged, are too many, have the other precision or another version, or contain more
+// than BOWDEN_TERMS terms. `about`, which may be null, is "checksum" for the first
+// two. BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel with a number of
 // BOWDEN_CHANNELS or more, or there are more than BOWDEN_MODEL_BYTES bytes. The object
 // does not use the bytes afterwards. On an error the object does not change.
 bowden_result bowden_model_load_f64(struct bowden_model_f64 *model,
@@ -2832,7 +2861,7 @@ bowden_result bowden_model_load_f64(struct bowden_model_f64 *model,
                                     double eta,
                                     struct bowden_about *about);
 
-// One sample: `output` gets the predicted output [output unit]:
+// One sample: `output` receives the predicted output [output unit]:
 //
 //     y = transmission(input, eta) + sum of gain*regressor
 //
@@ -2855,11 +2884,11 @@ bowden_result bowden_observer_init_f32(struct bowden_observer_f32 *observer,
                                        struct bowden_about *about);
 
 // One sample, before the controller's step: `dt` since the last call [s], the applied
-// command of the last call after all limits [command unit], the measured output
+// command of the last call after all limits [command unit], and the measured output
 // [output unit].
 //
-// A bad sample holds the estimate: BOWDEN_RESULT_HELD. `out` is written with every
-// result that is not negative.
+// A bad sample holds the estimate: BOWDEN_RESULT_HELD. `out` is written if the result
+// is not negative.
 bowden_result bowden_observer_step_f32(struct bowden_observer_f32 *observer,
                                        float dt,
                                        float sent,
@@ -2872,8 +2901,8 @@ bowden_result bowden_observer_feed_forward_f32(const struct bowden_observer_f32 
                                                const struct bowden_motion_f32 *wanted,
                                                float *command);
 
-// Resets the state to the start. Call it after the drive was off: a command that did
-// not reach the motor does not count.
+// Resets the state to the start. Call this function after the drive was off, because a
+// command that did not reach the motor must not count.
 bowden_result bowden_observer_reset_f32(struct bowden_observer_f32 *observer);
 
 // Starts an observer. `about` may be null.
@@ -2882,11 +2911,11 @@ bowden_result bowden_observer_init_f64(struct bowden_observer_f64 *observer,
                                        struct bowden_about *about);
 
 // One sample, before the controller's step: `dt` since the last call [s], the applied
-// command of the last call after all limits [command unit], the measured output
+// command of the last call after all limits [command unit], and the measured output
 // [output unit].
 //
-// A bad sample holds the estimate: BOWDEN_RESULT_HELD. `out` is written with every
-// result that is not negative.
+// A bad sample holds the estimate: BOWDEN_RESULT_HELD. `out` is written if the result
+// is not negative.
 bowden_result bowden_observer_step_f64(struct bowden_observer_f64 *observer,
                                        double dt,
                                        double sent,
@@ -2899,12 +2928,12 @@ bowden_result bowden_observer_feed_forward_f64(const struct bowden_observer_f64 
                                                const struct bowden_motion_f64 *wanted,
                                                double *command);
 
-// Resets the state to the start. Call it after the drive was off: a command that did
-// not reach the motor does not count.
+// Resets the state to the start. Call this function after the drive was off, because a
+// command that did not reach the motor must not count.
 bowden_result bowden_observer_reset_f64(struct bowden_observer_f64 *observer);
 
-// Settings of a plain PI (15): full set-point weight, conditional anti-windup, no slew
-// rate; 4 good samples cancel a bad one.
+// Settings of a plain PI (15): full set-point weight, conditional anti-windup, and no
+// slew-rate limit; 4 good samples cancel a bad one.
 //
 // `low` and `high` [command unit] are the limits of the drive, `longest_dt` [s] is the
 // longest sample time, and `safe` [command unit] is the safe command from the
@@ -2920,8 +2949,8 @@ bowden_result bowden_pid_settings_pi_f32(struct bowden_pid_settings_f32 *setting
 
 // Checks the settings and starts with a new state.
 //
-// `about` may be null; otherwise it gets the name of the refused setting. On an error
-// the object does not change.
+// `about` may be null; otherwise it receives the name of the refused setting. On an
+// error the object does not change.
 bowden_result bowden_pid_init_f32(struct bowden_pid_f32 *pid,
                                   const struct bowden_pid_settings_f32 *settings,
                                   struct bowden_about *about);
@@ -2930,57 +2959,59 @@ bowden_result bowden_pid_init_f32(struct bowden_pid_f32 *pid,
 //
 // A bad sample (NaN, an infinity, a dt that is not positive or too long) leaves the
 // state unchanged and holds the last good command: BOWDEN_RESULT_HELD. After too many
-// bad samples the safe command is applied until bowden_pid_acknowledge, even if
-// samples are good: BOWDEN_RESULT_SAFE. `out` is written with every result that is not
+// bad samples the safe command is applied until bowden_pid_acknowledge, even if later
+// samples are good: BOWDEN_RESULT_SAFE. `out` is written if the result is not
 // negative.
 bowden_result bowden_pid_step_f32(struct bowden_pid_f32 *pid,
                                   const struct bowden_pid_sample_f32 *sample,
                                   struct bowden_output_f32 *out);
 
-// Every term of the last good sample, for telemetry; all zero before the first one.
+// Every term of the last good sample, for telemetry; all terms are zero before the
+// first one.
 bowden_result bowden_pid_get_terms_f32(const struct bowden_pid_f32 *pid,
                                        struct bowden_pid_terms_f32 *out);
 
 // Reports the command [command unit] that the drive applied after the last step, if it
 // differs from the step's command: a drive that is off applies 0.
 //
-// Call it between two steps. Slew rate, anti-windup and a bumpless start then count
-// from this command. A number that is not finite changes nothing: BOWDEN_RESULT_HELD.
+// Call this function between two steps. The slew-rate limit, anti-windup and a
+// bumpless start then continue from this command. A number that is not finite changes
+// nothing: BOWDEN_RESULT_HELD.
 bowden_result bowden_pid_applied_f32(struct bowden_pid_f32 *pid, float command);
 
 // Reports that the drive was at this limit after the last step: one of
 // bowden_saturation. Use it for a drive that does not report its command, such as the
 // inner loop of a cascade; otherwise use bowden_pid_applied.
 //
-// Call it between two steps. The integral then does not move further towards that
-// limit. Another number gives BOWDEN_RESULT_ERROR_CHOICE.
+// Call this function between two steps. The integral then does not move further
+// towards that limit. Any other number returns BOWDEN_RESULT_ERROR_CHOICE.
 bowden_result bowden_pid_at_limit_f32(struct bowden_pid_f32 *pid, uint32_t saturation);
 
 // Sets `saturation` to the active limit of the command at the last good sample, one of
 // bowden_saturation.
 //
-// In a cascade whose inner gains are positive, pass it on to bowden_pid_at_limit of
-// the outer loop.
+// In a cascade whose inner gains are positive, pass it to bowden_pid_at_limit of the
+// outer loop.
 bowden_result bowden_pid_get_saturation_f32(const struct bowden_pid_f32 *pid, uint32_t *saturation);
 
 // Acknowledges the fault: the next good sample closes the loop again and starts from
 // the safe command. Without a latched safe command the call has no effect.
 bowden_result bowden_pid_acknowledge_f32(struct bowden_pid_f32 *pid);
 
-// Clears integral, rate and samples; the applied command is kept, and a latched safe
-// command stays latched.
+// Clears the integral, the rate and the samples. The applied command is kept, and a
+// latched safe command stays latched.
 bowden_result bowden_pid_reset_f32(struct bowden_pid_f32 *pid);
 
 // Prepares a stored object for a start after a power-off, before its first step: the
-// command becomes the one nearest to zero within the limits. Integral, rate and
-// samples are cleared; a latched safe command stays latched. The first good sample
-// starts from this command without a jump. Without this call a step continues with the
-// stored command.
+// command becomes the value nearest to zero within the limits. The integral, the rate
+// and the samples are cleared; a latched safe command stays latched. The first good
+// sample starts from this command without a jump. Without this call a step continues
+// with the stored command.
 bowden_result bowden_pid_restore_f32(struct bowden_pid_f32 *pid);
 
 // Restarts so that the command continues from `command` [command unit] without a jump.
-// A number that is not finite counts as a bad sample; a latched safe command stays.
-// `out` gets the applied command, and may be null.
+// A number that is not finite counts as a bad sample; a latched safe command stays
+// latched. `out` receives the applied command, and may be null.
 bowden_result bowden_pid_resume_f32(struct bowden_pid_f32 *pid,
                                     float command,
                                     const struct bowden_pid_sample_f32 *sample,
@@ -2988,8 +3019,8 @@ bowden_result bowden_pid_resume_f32(struct bowden_pid_f32 *pid,
 
 // Changes the settings of a running loop without a jump of the command. If the new
 // range excludes the applied command, the next command is the nearest one in the range
-// and ignores the slew rate: narrow a range step by step. On an error the loop
-// continues with the old settings.
+// and ignores the slew-rate limit, so narrow a range step by step. On an error the
+// loop continues with the old settings.
 bowden_result bowden_pid_change_f32(struct bowden_pid_f32 *pid,
                                     const struct bowden_pid_settings_f32 *settings,
                                     struct bowden_about *about);
@@ -2997,8 +3028,8 @@ bowden_result bowden_pid_change_f32(struct bowden_pid_f32 *pid,
 // Sets `latched` to 1 while the safe command is latched, otherwise to 0.
 bowden_result bowden_pid_is_latched_f32(const struct bowden_pid_f32 *pid, uint32_t *latched);
 
-// Settings of a plain PI (15): full set-point weight, conditional anti-windup, no slew
-// rate; 4 good samples cancel a bad one.
+// Settings of a plain PI (15): full set-point weight, conditional anti-windup, and no
+// slew-rate limit; 4 good samples cancel a bad one.
 //
 // `low` and `high` [command unit] are the limits of the drive, `longest_dt` [s] is the
 // longest sample time, and `safe` [command unit] is the safe command from the
@@ -3014,8 +3045,8 @@ bowden_result bowden_pid_settings_pi_f64(struct bowden_pid_settings_f64 *setting
 
 // Checks the settings and starts with a new state.
 //
-// `about` may be null; otherwise it gets the name of the refused setting. On an error
-// the object does not change.
+// `about` may be null; otherwise it receives the name of the refused setting. On an
+// error the object does not change.
 bowden_result bowden_pid_init_f64(struct bowden_pid_f64 *pid,
                                   const struct bowden_pid_settings_f64 *settings,
                                   struct bowden_about *about);
@@ -3024,57 +3055,59 @@ bowden_result bowden_pid_init_f64(struct bowden_pid_f64 *pid,
 //
 // A bad sample (NaN, an infinity, a dt that is not positive or too long) leaves the
 // state unchanged and holds the last good command: BOWDEN_RESULT_HELD. After too many
-// bad samples the safe command is applied until bowden_pid_acknowledge, even if
-// samples are good: BOWDEN_RESULT_SAFE. `out` is written with every result that is not
+// bad samples the safe command is applied until bowden_pid_acknowledge, even if later
+// samples are good: BOWDEN_RESULT_SAFE. `out` is written if the result is not
 // negative.
 bowden_result bowden_pid_step_f64(struct bowden_pid_f64 *pid,
                                   const struct bowden_pid_sample_f64 *sample,
                                   struct bowden_output_f64 *out);
 
-// Every term of the last good sample, for telemetry; all zero before the first one.
+// Every term of the last good sample, for telemetry; all terms are zero before the
+// first one.
 bowden_result bowden_pid_get_terms_f64(const struct bowden_pid_f64 *pid,
                                        struct bowden_pid_terms_f64 *out);
 
 // Reports the command [command unit] that the drive applied after the last step, if it
 // differs from the step's command: a drive that is off applies 0.
 //
-// Call it between two steps. Slew rate, anti-windup and a bumpless start then count
-// from this command. A number that is not finite changes nothing: BOWDEN_RESULT_HELD.
+// Call this function between two steps. The slew-rate limit, anti-windup and a
+// bumpless start then continue from this command. A number that is not finite changes
+// nothing: BOWDEN_RESULT_HELD.
 bowden_result bowden_pid_applied_f64(struct bowden_pid_f64 *pid, double command);
 
 // Reports that the drive was at this limit after the last step: one of
 // bowden_saturation. Use it for a drive that does not report its command, such as the
 // inner loop of a cascade; otherwise use bowden_pid_applied.
 //
-// Call it between two steps. The integral then does not move further towards that
-// limit. Another number gives BOWDEN_RESULT_ERROR_CHOICE.
+// Call this function between two steps. The integral then does not move further
+// towards that limit. Any other number returns BOWDEN_RESULT_ERROR_CHOICE.
 bowden_result bowden_pid_at_limit_f64(struct bowden_pid_f64 *pid, uint32_t saturation);
 
 // Sets `saturation` to the active limit of the command at the last good sample, one of
 // bowden_saturation.
 //
-// In a cascade whose inner gains are positive, pass it on to bowden_pid_at_limit of
-// the outer loop.
+// In a cascade whose inner gains are positive, pass it to bowden_pid_at_limit of the
+// outer loop.
 bowden_result bowden_pid_get_saturation_f64(const struct bowden_pid_f64 *pid, uint32_t *saturation);
 
 // Acknowledges the fault: the next good sample closes the loop again and starts from
 // the safe command. Without a latched safe command the call has no effect.
 bowden_result bowden_pid_acknowledge_f64(struct bowden_pid_f64 *pid);
 
-// Clears integral, rate and samples; the applied command is kept, and a latched safe
-// command stays latched.
+// Clears the integral, the rate and the samples. The applied command is kept, and a
+// latched safe command stays latched.
 bowden_result bowden_pid_reset_f64(struct bowden_pid_f64 *pid);
 
 // Prepares a stored object for a start after a power-off, before its first step: the
-// command becomes the one nearest to zero within the limits. Integral, rate and
-// samples are cleared; a latched safe command stays latched. The first good sample
-// starts from this command without a jump. Without this call a step continues with the
-// stored command.
+// command becomes the value nearest to zero within the limits. The integral, the rate
+// and the samples are cleared; a latched safe command stays latched. The first good
+// sample starts from this command without a jump. Without this call a step continues
+// with the stored command.
 bowden_result bowden_pid_restore_f64(struct bowden_pid_f64 *pid);
 
 // Restarts so that the command continues from `command` [command unit] without a jump.
-// A number that is not finite counts as a bad sample; a latched safe command stays.
-// `out` gets the applied command, and may be null.
+// A number that is not finite counts as a bad sample; a latched safe command stays
+// latched. `out` receives the applied command, and may be null.
 bowden_result bowden_pid_resume_f64(struct bowden_pid_f64 *pid,
                                     double command,
                                     const struct bowden_pid_sample_f64 *sample,
@@ -3082,8 +3115,8 @@ bowden_result bowden_pid_resume_f64(struct bowden_pid_f64 *pid,
 
 // Changes the settings of a running loop without a jump of the command. If the new
 // range excludes the applied command, the next command is the nearest one in the range
-// and ignores the slew rate: narrow a range step by step. On an error the loop
-// continues with the old settings.
+// and ignores the slew-rate limit, so narrow a range step by step. On an error the
+// loop continues with the old settings.
 bowden_result bowden_pid_change_f64(struct bowden_pid_f64 *pid,
                                     const struct bowden_pid_settings_f64 *settings,
                                     struct bowden_about *about);
@@ -3097,10 +3130,10 @@ bowden_result bowden_plausible_init_f32(struct bowden_plausible_f32 *plausible,
                                         struct bowden_about *about);
 
 // Checks a sample [signal unit], `dt` [s] after the last call. Set `moves` to 1 while
-// the machine moves, so the signal must change.
+// the machine moves, so that the signal must change.
 //
 // BOWDEN_RESULT_IMPLAUSIBLE: the sample is implausible, and the value is NaN. `out` is
-// written with every result that is not negative.
+// written if the result is not negative.
 bowden_result bowden_plausible_step_f32(struct bowden_plausible_f32 *plausible,
                                         float sample,
                                         float dt,
@@ -3113,48 +3146,48 @@ bowden_result bowden_plausible_init_f64(struct bowden_plausible_f64 *plausible,
                                         struct bowden_about *about);
 
 // Checks a sample [signal unit], `dt` [s] after the last call. Set `moves` to 1 while
-// the machine moves, so the signal must change.
+// the machine moves, so that the signal must change.
 //
 // BOWDEN_RESULT_IMPLAUSIBLE: the sample is implausible, and the value is NaN. `out` is
-// written with every result that is not negative.
+// written if the result is not negative.
 bowden_result bowden_plausible_step_f64(struct bowden_plausible_f64 *plausible,
                                         double sample,
                                         double dt,
                                         uint32_t moves,
                                         struct bowden_plausible_output_f64 *out);
 
-// Starts a play of `half_width` at least zero [input unit], see bowden_play_step; at
-// zero the output is the input. `about` may be null.
+// Starts a play with a `half_width` of at least zero [input unit], see
+// bowden_play_step. At zero the output is the input. `about` may be null.
 bowden_result bowden_play_init_f32(struct bowden_play_f32 *play,
                                    float half_width,
                                    struct bowden_about *about);
 
-// One input [input unit]: `output` gets the last output, moved by the least amount
+// One input [input unit]: `output` receives the last output, moved by the least amount
 // that keeps it within the half-width r of the input:
 //
 //     y+ = clamp(y, x - r, x + r)
 //
-// An oscillation of the input within 2*r moves nothing. In front of a hysteresis a
-// play prevents reversals from sensor noise. The first good sample is passed on
-// unchanged. If the input is not finite, the last output is held (zero before the
-// first sample): BOWDEN_RESULT_HELD.
+// An oscillation of the input within 2*r does not move the output. In front of a
+// hysteresis a play prevents reversals from sensor noise. The first good sample is
+// passed on unchanged. If the input is not finite, the last output is held (zero
+// before the first sample): BOWDEN_RESULT_HELD.
 bowden_result bowden_play_step_f32(struct bowden_play_f32 *play, float input, float *output);
 
-// Starts a play of `half_width` at least zero [input unit], see bowden_play_step; at
-// zero the output is the input. `about` may be null.
+// Starts a play with a `half_width` of at least zero [input unit], see
+// bowden_play_step. At zero the output is the input. `about` may be null.
 bowden_result bowden_play_init_f64(struct bowden_play_f64 *play,
                                    double half_width,
                                    struct bowden_about *about);
 
-// One input [input unit]: `output` gets the last output, moved by the least amount
+// One input [input unit]: `output` receives the last output, moved by the least amount
 // that keeps it within the half-width r of the input:
 //
 //     y+ = clamp(y, x - r, x + r)
 //
-// An oscillation of the input within 2*r moves nothing. In front of a hysteresis a
-// play prevents reversals from sensor noise. The first good sample is passed on
-// unchanged. If the input is not finite, the last output is held (zero before the
-// first sample): BOWDEN_RESULT_HELD.
+// An oscillation of the input within 2*r does not move the output. In front of a
+// hysteresis a play prevents reversals from sensor noise. The first good sample is
+// passed on unchanged. If the input is not finite, the last output is held (zero
+// before the first sample): BOWDEN_RESULT_HELD.
 bowden_result bowden_play_step_f64(struct bowden_play_f64 *play, double input, double *output);
 
 // Checks the settings and starts rates. `about` may be null.
@@ -3162,14 +3195,15 @@ bowden_result bowden_rates_init_f32(struct bowden_rates_f32 *rates,
                                     const struct bowden_rates_settings_f32 *settings,
                                     struct bowden_about *about);
 
-// The motion at a position [channel unit], `dt` [s] after the last call, good or bad:
+// The motion at a position [channel unit], `dt` [s] after the last call, whether that
+// sample was good or bad:
 //
 //     s  = 1 - exp(-h/tau),  h = time since the last good sample
 //     v+ = v + s*((x - x_last)/h - v)
 //     a+ = a + s*((v+ - v)/h - a)
 //
-// A bad sample holds the last good motion: BOWDEN_RESULT_HELD. `out` is written with
-// every result that is not negative.
+// A bad sample holds the last good motion: BOWDEN_RESULT_HELD. `out` is written if the
+// result is not negative.
 bowden_result bowden_rates_step_f32(struct bowden_rates_f32 *rates,
                                     float position,
                                     float dt,
@@ -3180,14 +3214,15 @@ bowden_result bowden_rates_init_f64(struct bowden_rates_f64 *rates,
                                     const struct bowden_rates_settings_f64 *settings,
                                     struct bowden_about *about);
 
-// The motion at a position [channel unit], `dt` [s] after the last call, good or bad:
+// The motion at a position [channel unit], `dt` [s] after the last call, whether that
+// sample was good or bad:
 //
 //     s  = 1 - exp(-h/tau),  h = time since the last good sample
 //     v+ = v + s*((x - x_last)/h - v)
 //     a+ = a + s*((v+ - v)/h - a)
 //
-// A bad sample holds the last good motion: BOWDEN_RESULT_HELD. `out` is written with
-// every result that is not negative.
+// A bad sample holds the last good motion: BOWDEN_RESULT_HELD. `out` is written if the
+// result is not negative.
 bowden_result bowden_rates_step_f64(struct bowden_rates_f64 *rates,
                                     double position,
                                     double dt,
@@ -3195,19 +3230,20 @@ bowden_result bowden_rates_step_f64(struct bowden_rates_f64 *rates,
 
 // Checks the settings and starts an experiment. `about` may be null.
 //
-// Start with the output near the reference: at the mean command of the loop that ran
-// before, or at rest.
+// Start with the output near the reference: at the mean command of the previous loop,
+// or at rest.
 bowden_result bowden_relay_init_f32(struct bowden_relay_f32 *relay,
                                     const struct bowden_relay_settings_f32 *settings,
                                     struct bowden_about *about);
 
-// One sample: `dt` since the last call, good or bad [s], and the measured output
-// [output unit]. Call it while the phase is BOWDEN_RELAY_PHASE_RUNNING.
+// One sample: `dt` since the last call [s], also after a bad sample, and the measured
+// output [output unit]. Call this function while the phase is
+// BOWDEN_RELAY_PHASE_RUNNING.
 //
 // A bad sample holds the command: BOWDEN_RESULT_HELD. After a failure the safe command
 // is applied until bowden_relay_acknowledge: BOWDEN_RESULT_SAFE. Every sample takes
-// time from `longest_time`, so the experiment ends. `out` is written with every
-// result that is not negative.
+// time from `longest_time`, so the experiment ends. `out` is written if the result is
+// not negative.
 bowden_result bowden_relay_step_f32(struct bowden_relay_f32 *relay,
                                     float dt,
                                     float measured,
@@ -3231,19 +3267,20 @@ bowden_result bowden_relay_gains_f32(const struct bowden_ultimate_f32 *ultimate,
 
 // Checks the settings and starts an experiment. `about` may be null.
 //
-// Start with the output near the reference: at the mean command of the loop that ran
-// before, or at rest.
+// Start with the output near the reference: at the mean command of the previous loop,
+// or at rest.
 bowden_result bowden_relay_init_f64(struct bowden_relay_f64 *relay,
                                     const struct bowden_relay_settings_f64 *settings,
                                     struct bowden_about *about);
 
-// One sample: `dt` since the last call, good or bad [s], and the measured output
-// [output unit]. Call it while the phase is BOWDEN_RELAY_PHASE_RUNNING.
+// One sample: `dt` since the last call [s], also after a bad sample, and the measured
+// output [output unit]. Call this function while the phase is
+// BOWDEN_RELAY_PHASE_RUNNING.
 //
 // A bad sample holds the command: BOWDEN_RESULT_HELD. After a failure the safe command
 // is applied until bowden_relay_acknowledge: BOWDEN_RESULT_SAFE. Every sample takes
-// time from `longest_time`, so the experiment ends. `out` is written with every
-// result that is not negative.
+// time from `longest_time`, so the experiment ends. `out` is written if the result is
+// not negative.
 bowden_result bowden_relay_step_f64(struct bowden_relay_f64 *relay,
                                     double dt,
                                     double measured,
@@ -3265,13 +3302,13 @@ bowden_result bowden_relay_gains_f64(const struct bowden_ultimate_f64 *ultimate,
                                      uint32_t rule,
                                      struct bowden_pi_gains_f64 *gains);
 
-// A sentence on a result, for a log: ASCII, static, never null, also for an unknown number.
+// A sentence about a result, for a log: ASCII, static, and never null, even for an unknown number.
 const char *bowden_result_text(int32_t result);
 
-// The bad input of a sample, for a log: ASCII, static, never null.
+// The bad input of a sample, for a log: ASCII, static, and never null.
 const char *bowden_fault_text(int32_t fault);
 
-// The version of the library, such as "0.2.0": static, never null.
+// The version of the library, such as "0.2.0": static, and never null.
 const char *bowden_version(void);
 
 #ifdef __cplusplus
