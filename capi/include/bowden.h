@@ -5,9 +5,9 @@
  *
  * Memory. Nothing is allocated. An object (bowden_pid_f32, ...) is a struct that the caller owns:
  * static, on the stack, or in another struct. NAME_init checks the settings and initialises the
- * object. It may be copied and moved as a whole, and needs no destructor. Every other function on an
- * uninitialised object returns BOWDEN_RESULT_ERROR_UNINITIALISED. The caller also owns the arrays of
- * a bowden_iterative_learning_f32, which must not move while the object is used.
+ * object. It may be copied and moved as a whole, and needs no destructor. Every other function
+ * returns BOWDEN_RESULT_ERROR_UNINITIALISED for an uninitialised object. The caller also owns the
+ * arrays of a bowden_iterative_learning_f32, which must not move while the object is used.
  *
  * Settings. Start a settings struct from its macro, then set its fields:
  *
