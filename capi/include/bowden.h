@@ -615,7 +615,7 @@ typedef struct bowden_adaptive_settings_f32 {
     float time_constant;
     // First-order form, required: longest intended sample time [s].
     float step;
-    // First-order form: upper bound of the plant's gain alpha [N*m/command unit].
+    // First-order form: upper bound on the plant's gain alpha [N*m/command unit].
     float plant_gain;
     // Control gain k, above zero.
     float gain;
@@ -627,7 +627,7 @@ typedef struct bowden_adaptive_settings_f32 {
     uint32_t smooth_sign;
     // Estimate of 1/alpha [command unit/(N*m)], (24).
     struct bowden_estimator_f32 beta;
-    // Estimate of the bound of the disturbance [N*m], (25).
+    // Estimate of the bound on the disturbance [N*m], (25).
     struct bowden_estimator_f32 delta;
     // Number of regressors, at most BOWDEN_REGRESSORS.
     uint32_t regressors;
@@ -810,7 +810,7 @@ typedef struct bowden_adaptive_settings_f64 {
     double time_constant;
     // First-order form, required: longest intended sample time [s].
     double step;
-    // First-order form: upper bound of the plant's gain alpha [N*m/command unit].
+    // First-order form: upper bound on the plant's gain alpha [N*m/command unit].
     double plant_gain;
     // Control gain k, above zero.
     double gain;
@@ -822,7 +822,7 @@ typedef struct bowden_adaptive_settings_f64 {
     uint32_t smooth_sign;
     // Estimate of 1/alpha [command unit/(N*m)], (24).
     struct bowden_estimator_f64 beta;
-    // Estimate of the bound of the disturbance [N*m], (25).
+    // Estimate of the bound on the disturbance [N*m], (25).
     struct bowden_estimator_f64 delta;
     // Number of regressors, at most BOWDEN_REGRESSORS.
     uint32_t regressors;

@@ -103,7 +103,7 @@ macro_rules! settings {
                 pub time_constant: $f,
                 /// First-order form, required: longest intended sample time [s].
                 pub step: $f,
-                /// First-order form: upper bound of the plant's gain alpha [N*m/command unit].
+                /// First-order form: upper bound on the plant's gain alpha [N*m/command unit].
                 pub plant_gain: $f,
                 /// Control gain k, above zero.
                 pub gain: $f,
@@ -115,7 +115,7 @@ macro_rules! settings {
                 pub smooth_sign: u32,
                 /// Estimate of 1/alpha [command unit/(N*m)], (24).
                 pub beta: [<bowden_estimator_ $f>],
-                /// Estimate of the bound of the disturbance [N*m], (25).
+                /// Estimate of the bound on the disturbance [N*m], (25).
                 pub delta: [<bowden_estimator_ $f>],
                 /// Number of regressors, at most BOWDEN_REGRESSORS.
                 pub regressors: u32,

@@ -66,7 +66,7 @@ macro_rules! model {
             /// The channels of a sample, in the crate's own form.
             ///
             /// # Safety
-            /// `from` is null or leads to `count` motions.
+            /// `from` is null or points to `count` motions.
             pub(crate) unsafe fn [<channels_ $f>](
                 from: *const [<bowden_motion_ $f>],
                 count: usize,
@@ -189,7 +189,7 @@ macro_rules! model {
 /// The bytes from the caller.
 ///
 /// # Safety
-/// `bytes` is null or leads to `length` bytes that nobody writes meanwhile.
+/// `bytes` is null or points to `length` bytes that nobody writes meanwhile.
 unsafe fn readable<'a>(bytes: *const u8, length: usize) -> Result<&'a [u8], Refused> {
     if bytes.is_null() {
         return Err(bowden_result::ErrorNull.into());

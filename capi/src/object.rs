@@ -54,7 +54,7 @@ fn is_placed<X>(at: *const X) -> Result<(), bowden_result> {
 /// Puts `inner` into an object, whatever it contained.
 ///
 /// # Safety
-/// `object` is null or leads to writable memory of its type.
+/// `object` is null or points to writable memory of its type.
 pub(crate) unsafe fn start<O: Object>(
     object: *mut O,
     inner: O::Inner,
@@ -74,7 +74,7 @@ pub(crate) unsafe fn start<O: Object>(
 /// Whether an object was initialised.
 ///
 /// # Safety
-/// `object` is null or leads to memory of its type.
+/// `object` is null or points to memory of its type.
 unsafe fn is_started<O: Object>(object: *const O) -> Result<(), bowden_result> {
     is_placed(object)?;
     let last = last_of(object.cast_mut());
@@ -95,7 +95,7 @@ unsafe fn is_started<O: Object>(object: *const O) -> Result<(), bowden_result> {
 /// The data of an object that was initialised.
 ///
 /// # Safety
-/// `object` is null or leads to memory of its type that nobody else uses meanwhile.
+/// `object` is null or points to memory of its type that nobody else uses meanwhile.
 pub(crate) unsafe fn kept<'a, O: Object>(
     object: *mut O,
 ) -> Result<&'a mut O::Inner, bowden_result> {
@@ -110,7 +110,7 @@ pub(crate) unsafe fn kept<'a, O: Object>(
 /// The same for an object that is only read.
 ///
 /// # Safety
-/// `object` is null or leads to memory of its type that nobody writes meanwhile.
+/// `object` is null or points to memory of its type that nobody writes meanwhile.
 pub(crate) unsafe fn seen<'a, O: Object>(object: *const O) -> Result<&'a O::Inner, bowden_result> {
     // SAFETY: as of `kept`; nobody writes to it.
     unsafe {
@@ -122,7 +122,7 @@ pub(crate) unsafe fn seen<'a, O: Object>(object: *const O) -> Result<&'a O::Inne
 /// A value from the caller, made of numbers, for which every bit pattern is valid.
 ///
 /// # Safety
-/// `from` is null or leads to a value of its type, which is made of numbers and pointers.
+/// `from` is null or points to a value of its type, which is made of numbers and pointers.
 pub(crate) unsafe fn read<X: Copy>(from: *const X) -> Result<X, bowden_result> {
     is_placed(from)?;
     // SAFETY: placed, and of numbers and pointers only.
@@ -133,7 +133,7 @@ pub(crate) unsafe fn read<X: Copy>(from: *const X) -> Result<X, bowden_result> {
 /// memory that is not this struct.
 ///
 /// # Safety
-/// `from` is null or leads to a `u32`; where that is the mark, to a value of its type.
+/// `from` is null or points to a `u32`; where that is the mark, to a value of its type.
 pub(crate) unsafe fn read_settings<S: Marked>(from: *const S) -> Result<S, Refused> {
     is_placed(from)?;
     // SAFETY: placed, and a `u32` is first.
@@ -145,7 +145,7 @@ pub(crate) unsafe fn read_settings<S: Marked>(from: *const S) -> Result<S, Refus
 /// The values of an array, as many as there are places; for an empty array the pointer may be null.
 ///
 /// # Safety
-/// `from` is null or leads to so many values, made of numbers.
+/// `from` is null or points to so many values, made of numbers.
 pub(crate) unsafe fn read_all<X: Copy, Y>(
     from: *const X,
     count: usize,
@@ -169,7 +169,7 @@ pub(crate) unsafe fn read_all<X: Copy, Y>(
 /// Writes a value to the caller's memory and overwrites whatever was there.
 ///
 /// # Safety
-/// `to` is null or leads to writable memory of its type.
+/// `to` is null or points to writable memory of its type.
 pub(crate) unsafe fn write<X: Copy>(to: *mut X, value: X) -> Result<(), bowden_result> {
     is_placed(to)?;
     // SAFETY: placed, and memory of its type.
@@ -194,7 +194,7 @@ impl<X: Copy> Lent<X> {
     /// An array that is placed and lies within the memory that a pointer can reach.
     ///
     /// # Safety
-    /// `first` is null or leads to writable memory for so many numbers, which stays so, and is used
+    /// `first` is null or points to writable memory for so many numbers, which stays so, and is used
     /// by nobody else during a call, for as long as this or a copy of it is used.
     pub(crate) unsafe fn new(first: *mut X, count: usize) -> Result<Self, bowden_result> {
         is_placed(first)?;

@@ -191,7 +191,7 @@ pub(crate) fn code(tried: Result<bowden_result, Refused>) -> bowden_result {
 /// The same, and the text of a refusal if the caller wants it.
 ///
 /// # Safety
-/// `about` is null or leads to memory of its type.
+/// `about` is null or points to memory of its type.
 pub(crate) unsafe fn told(tried: Result<(), Refused>, about: *mut bowden_about) -> bowden_result {
     let (code, text) = match tried {
         Ok(()) => (bowden_result::Ok, ""),

@@ -1,4 +1,4 @@
-//! A certificate: a bound with its number, its unit, and its assumptions.
+//! A certificate: a bound with its value, its unit, and its assumptions.
 
 /// The theorem behind a certificate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

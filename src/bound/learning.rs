@@ -104,7 +104,7 @@ pub struct IterativeLearningConvergence {
     pub plants: PlantRange,
     /// The cycle times of the certificate \[s\].
     pub cycle: Interval<f64>,
-    /// Upper bound of |H| from the cycle's own frequency on, with a P from zero on; below that
+    /// Upper bound on |H| from the cycle's own frequency on, with a P from zero on; below that
     /// frequency |H| is less than one.
     pub factor: f64,
     /// Number of regions of plants, cycle times and frequencies in the proof.

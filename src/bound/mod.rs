@@ -28,7 +28,7 @@
 //! # Corrections to the paper
 //! - (35)-(38) hold only as limits superior, or for all time if V starts below phi/theta.
 //!   `|e| <= sqrt(1 + lambda²)·delta`, which is less than `(1 + lambda)·delta`.
-//! - Delta = 7 N·m is kappa_eta, not the bound of `D_h = kappa_eta·eta + d + T0`. With
+//! - Delta = 7 N·m is kappa_eta, not the bound on `D_h = kappa_eta·eta + d + T0`. With
 //!   `|eta| <= 1` the bound is `kappa_eta + |T0| + |d|`, 7.056 N·m for the first set without d.
 //! - The constant 0.2785 is W(1/e) = 0.27846, for `tanh`; for the clamped sign it is 1/4.
 //! - Remark 1 (less leakage, less error) is false for delta, which grows without bound as the

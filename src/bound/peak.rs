@@ -5,7 +5,7 @@ use super::{Certificate, Interval, Kind, Plant};
 use crate::control::Adaptive;
 use crate::{Error, Real};
 
-/// Peak of the error in continuous time, with bounds of the estimates.
+/// Peak of the error in continuous time, with bounds on the estimates.
 ///
 /// Let `g = alpha·beta_hat` and `w = (g-1)·y_r + (g·theta_hat - theta)'x - D`. The law as
 /// published is
@@ -24,7 +24,7 @@ use crate::{Error, Real};
 /// - the law as published in continuous time with e' known;
 /// - the plant (11) with alpha and theta in the given intervals, and `|D| <= Delta`;
 /// - `|y_r|` and `|x_i|` within the given limits;
-/// - the bounds of beta_hat above zero, the bounds of delta_hat not below zero;
+/// - the bounds on beta_hat above zero, the bounds on delta_hat not below zero;
 /// - no active limit.
 ///
 /// The true values need not lie within the bounds, and the estimates may move freely within
@@ -57,7 +57,7 @@ impl<T: Real> PeakContinuous<T> {
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant;
-    /// [`Error::Inadmissible`] with the violated assumption, or if the bounds of the estimates are
+    /// [`Error::Inadmissible`] with the violated assumption, or if the bounds on the estimates are
     /// too wide or k is too small for a bound.
     pub fn try_new<const N: usize>(
         law: &Adaptive<T, N>,

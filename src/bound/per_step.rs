@@ -23,7 +23,7 @@ use crate::{Error, Real};
 /// - the errors lie in its box;
 /// - every sample takes the step h of the form;
 /// - leakage is constant;
-/// - the bounds of the estimates contain the true values;
+/// - the bounds on the estimates contain the true values;
 /// - `h·rate <= 1`.
 ///
 /// As in Theorem 1, the inequality bounds all errors, so the bound on the tracking error is loose.
@@ -126,7 +126,7 @@ impl<T: Real> PerStep<T> {
         })
     }
 
-    /// The resulting bound of limsup `|e|`: `(1 + lambda)·sqrt(2·input/rate)` \[N·m\].
+    /// The resulting bound on limsup `|e|`: `(1 + lambda)·sqrt(2·input/rate)` \[N·m\].
     #[must_use]
     pub fn certificate(&self) -> Certificate<T> {
         let v = self.input / self.rate;

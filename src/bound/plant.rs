@@ -92,7 +92,7 @@ pub struct Plant<T, const N: usize> {
     pub alpha: Interval<T>,
     /// Bound Delta of `|D|` \[N·m\]: `kappa_eta + |T0| + |d|`, (12).
     pub delta: T,
-    /// Bound of the rate of D \[N·m/s\]; only sampled certificates read it.
+    /// Bound on the rate of D \[N·m/s\]; only sampled certificates read it.
     ///
     /// For the hysteresis this rate is `kappa_eta·f/(B - kappa_eta·f)·|y'|` with f = rho·max(1,
     /// 2·sigma). Here f is the steepest slope of eta in tau_i, since

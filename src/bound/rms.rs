@@ -1,11 +1,11 @@
-//! The RMS certificate: a bound of the mean square from the algebra of Theorem 1.
+//! The RMS certificate: a bound on the mean square from the algebra of Theorem 1.
 
 use super::truth::{adapting, bounded, literal, range, sum, Adapting};
 use super::{Certificate, Interval, Kind, Plant};
 use crate::control::Adaptive;
 use crate::{Error, Real};
 
-/// Halvings of the search for the target: more than an f64 can tell apart.
+/// Halvings of the search for the target: more than an f64 can distinguish.
 const NARROWINGS: u32 = 90;
 
 /// Root mean square of the error over a long time.
@@ -26,7 +26,7 @@ const NARROWINGS: u32 = 90;
 /// - the plant (11) with constant alpha, theta in the given intervals and `|D| <= Delta` at
 ///   every time;
 /// - z(0) = 0;
-/// - bounds of the estimates, if any, that contain the true values;
+/// - bounds on the estimates, if any, that contain the true values;
 /// - no active limit.
 ///
 /// ```
@@ -110,7 +110,7 @@ impl<T: Real> Rms<T> {
         Ok(certificate)
     }
 
-    /// Bound of rms(e) over the first `duration` \[s\] \[N·m\], from an initial error `start`
+    /// Bound on rms(e) over the first `duration` \[s\] \[N·m\], from an initial error `start`
     /// \[N·m\].
     ///
     /// V(0) contributes: with beta_hat starting at zero it dominates for minutes.

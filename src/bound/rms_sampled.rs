@@ -125,7 +125,7 @@ impl<T: Real> RmsSampled<T> {
         Ok(found)
     }
 
-    /// Bound of rms(e) over the first `duration` \[s\] \[N·m\], from an initial error `start`
+    /// Bound on rms(e) over the first `duration` \[s\] \[N·m\], from an initial error `start`
     /// \[N·m\].
     #[must_use]
     pub fn over(&self, duration: T, start: T) -> T {

@@ -32,7 +32,7 @@ use crate::{Error, Real};
 /// - the next reference is the true one;
 /// - no limit is active.
 ///
-/// The true values need not lie within the bounds of the estimates.
+/// The true values need not lie within the bounds on the estimates.
 ///
 /// ```
 /// use bowden::bound::{Interval, PeakSampled, Plant};
@@ -74,7 +74,7 @@ impl<T: Real> PeakSampled<T> {
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant;
-    /// [`Error::Inadmissible`] with the violated assumption, or if the bounds of the estimates are
+    /// [`Error::Inadmissible`] with the violated assumption, or if the bounds on the estimates are
     /// too wide for a bound.
     pub fn try_new<const N: usize>(
         law: &Adaptive<T, N>,

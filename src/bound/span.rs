@@ -9,7 +9,7 @@ pub(super) struct Span {
     pub(super) high: f64,
 }
 
-/// Upper bound of the relative error of an operation of two floats.
+/// Upper bound on the relative error of an operation of two floats.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 impl Span {

@@ -17,7 +17,7 @@ use crate::{Error, Real};
 /// - the plant (11) with constant alpha, theta in the given intervals and `|D| <= Delta` at
 ///   every time;
 /// - constant leakage above zero and a gain above zero in every estimate;
-/// - bounds of the estimates, if any, that contain the true values;
+/// - bounds on the estimates, if any, that contain the true values;
 /// - no active limit.
 ///
 /// The algebra (27)-(34) is correct, but the bound is vacuous: leakage is by far the slowest rate,

@@ -5,16 +5,16 @@ use super::{Certificate, Interval, Kind, Plant};
 use crate::control::{Adaptive, Leakage};
 use crate::{Error, Real};
 
-/// Theorem 1's bound of limsup `|e|` with the best choice of its free constants.
+/// Theorem 1's bound on limsup `|e|` with the best choice of its free constants.
 ///
 /// The proof of [`Theorem1`](super::Theorem1) leaves some constants free. Let
 /// `V = s²/2 + c·z²/2 + ...` with any weight c. Measure delta_hat from any target T up to Delta.
 /// Let theta be any rate below twice the slowest leakage. Then `V' <= -theta·V + phi` with
 ///
-/// - `sum w_p·sigma_p²·(p* - p0)²/(4·m_p·(sigma_p - theta/2))` of the leakages, delta's with
-///   T for p*;
-/// - `W·epsilon·lambda·T` of the smooth sign;
-/// - `lambda²·(Delta - T)²/(4·a)` of the disturbance beyond the target, where
+/// - `sum w_p·sigma_p²·(p* - p0)²/(4·m_p·(sigma_p - theta/2))` from the leakages, where that of
+///   delta has T instead of p*;
+/// - `W·epsilon·lambda·T` from the smooth sign; and
+/// - `lambda²·(Delta - T)²/(4·a)` from the disturbance beyond the target, where
 ///   `a = k·lambda - theta/2 - (c - 1)²/(4·c·(lambda - theta/2))` is above zero;
 ///
 /// and `|e| <= sqrt((1 + lambda²/c)·2·phi/theta)`, since `e = s - lambda·z`. With c = 1, T =

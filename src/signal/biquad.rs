@@ -18,7 +18,7 @@ mod prewarped;
 /// last bit.
 ///
 /// **Design.** The filter uses the bilinear transform with prewarping at the given sample time `T`.
-/// At `f` \[Hz\] the filter has the response above at `s = i·tan(π·f·T)/tan(π·frequency·T)`, so
+/// At `f` \[Hz\] the filter has the above response at `s = i·tan(π·f·T)/tan(π·frequency·T)`, so
 /// `frequency` itself is exact. `dt` may vary: each step integrates over its own `dt` with the
 /// trapezoidal rule, and prewarps as for `T`. A `dt` of `(1 + e)·T` moves the corner by less than
 /// `|e|·(π·frequency·T)²` of itself, to first order in `e`.

@@ -225,7 +225,7 @@ class Adaptive(Controller):
         default={"initial": 7.0, "gain": 0.05 / 8.0, "leakage": 0.01},
         convert=_estimator,
         core=False,
-        doc="Estimate of the bound of the disturbance [N·m].",
+        doc="Estimate of the bound on the disturbance [N·m].",
     )
     theta: Any = setting(
         default=({"initial": 0.0, "gain": 0.004 / 8.0, "leakage": 0.01},) * 2,

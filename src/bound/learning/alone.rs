@@ -62,7 +62,7 @@ impl Loop {
         Span::at(self.k_p.abs()) + Span::at(self.k_i.abs()) * x
     }
 
-    /// Upper bound of |G| above the cells' Nyquist frequency; `None` if there is no bound.
+    /// Upper bound on |G| above the cells' Nyquist frequency; `None` if there is no bound.
     pub(super) fn beyond(&self, all: &Plants, cell: Span) -> Option<f64> {
         let x = Span::at(cell.high) * Span::at(core::f64::consts::PI).recip();
         let (least, most) = self.shares(all, Span::at(x.high))?;

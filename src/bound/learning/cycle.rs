@@ -32,10 +32,9 @@ pub(super) struct Boxed {
 
 impl Cycle<'_> {
     /// Whether `|H| <= factor`, without a division by a number that may be small. Let
-    /// `W = e^(−jw·lead·T)/G`, `a = gain·S³`, and let s be the part of the factor that Q and
-    /// the images do not use. The inequality holds if `|kept·W − a|² − s²·|W|²` is not above
-    /// zero. (A region around H itself needs many more regions: in a version outside the
-    /// repository 1 % about the reference rig was not shown.)
+    /// `W = e^(−jw·lead·T)/G`, `a = gain·S³`, and let s be the part of the factor that Q and the
+    /// images do not use. The inequality holds if `|kept·W − a|² − s²·|W|²` is not above zero.
+    /// (With a region around H itself, the proof needs many more regions.)
     pub(super) fn is_small(&self, all: &Boxed) -> bool {
         let w = all.frequency;
         let Some(x) = (Span::at(0.5) * w * all.cell).meets(self.half_phases) else {

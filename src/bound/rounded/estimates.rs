@@ -1,4 +1,4 @@
-//! Upper bounds of the numbers in an estimate's update, (24)-(26).
+//! Upper bounds on the numbers in an estimate's update, (24)-(26).
 
 use crate::bound::dyadic::Enclosure;
 use crate::bound::truth::range;
@@ -6,7 +6,7 @@ use crate::control::{Estimator, Leakage};
 use crate::error::finite;
 use crate::{Error, Real};
 
-/// Upper bounds of the adaptation of an estimate.
+/// Upper bounds on the adaptation of an estimate.
 #[derive(Clone, Copy)]
 pub(super) struct Adapts {
     gain: Enclosure,

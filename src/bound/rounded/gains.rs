@@ -151,7 +151,7 @@ fn usable<T: Real, const N: usize>(settings: &AdaptiveSettings<T, N>) -> Result<
     Ok(step)
 }
 
-/// The bounds of beta_hat, above zero, and of delta_hat, not below zero.
+/// The bounds on beta_hat, above zero, and on delta_hat, not below zero.
 fn boxes<T: Real, const N: usize>(
     settings: &AdaptiveSettings<T, N>,
 ) -> Result<([Enclosure; 2], [Enclosure; 2]), Error> {

@@ -73,9 +73,9 @@ impl Named {
 pub struct Inequality {
     /// Its name.
     pub name: Named,
-    /// Upper bound of the left side.
+    /// Upper bound on the left side.
     pub left: Dyadic,
-    /// Lower bound of the right side.
+    /// Lower bound on the right side.
     pub right: Dyadic,
 }
 

@@ -47,7 +47,7 @@ use gains::Gains;
 /// - no sample is bad;
 /// - the errors start in the box.
 ///
-/// The true values need not lie within the bounds of the estimates, and the estimates may move
+/// The true values need not lie within the bounds on the estimates, and the estimates may move
 /// freely within their bounds.
 ///
 /// ```
@@ -68,10 +68,10 @@ use gains::Gains;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PeakRounded {
-    /// S \[N·m\]: the bound of `|s|`. It is the least value for which the proof succeeds, to a
+    /// S \[N·m\]: the bound on `|s|`. It is the least value for which the proof succeeds, to a
     /// relative accuracy of 2^-14.
     pub s: Enclosure,
-    /// Z \[N·m·s\]: the bound of `|z|`.
+    /// Z \[N·m·s\]: the bound on `|z|`.
     pub z: Enclosure,
     /// W \[N·m\]: greatest `|(g-1)·(r + r'/lambda) + (g·theta_hat - theta)'x - D|`.
     pub w: Enclosure,
@@ -178,7 +178,7 @@ impl PeakRounded {
         Some(if is_reserve { reserve } else { first })
     }
 
-    /// S + lambda·Z \[N·m\]: the bound of `|e|` at every sample, never rounded down.
+    /// S + lambda·Z \[N·m\]: the bound on `|e|` at every sample, never rounded down.
     #[must_use]
     pub fn bound(&self) -> f64 {
         let nearest = self.error.high().as_f64();

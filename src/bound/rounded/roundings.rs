@@ -96,7 +96,7 @@ pub struct Roundings {
     pub owed_after: Enclosure,
     /// The part of `T(s/epsilon)` that is not proportional to s: underflow.
     pub smooth_sign: Enclosure,
-    /// Upper bound of every number of the step, the updates of the estimates included: twice
+    /// Upper bound on every number of the step, the updates of the estimates included: twice
     /// the sum of all numbers that it adds and multiplies. Half of this bound covers rounding.
     pub largest: Enclosure,
 }

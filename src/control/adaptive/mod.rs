@@ -15,7 +15,7 @@
 //!
 //! Each form diverges on the plant of the other form (tests `control_adaptive`).
 //!
-//! **Bounds of the estimates.** The law clamps each estimate to its bounds (projection). If the
+//! **Bounds on the estimates.** The law clamps each estimate to its bounds (projection). If the
 //! true value lies within the bounds, the clamp cannot raise the Lyapunov function, and every
 //! invariant holds for any measurement. The paper uses no bounds: [`AdaptiveSettings::paper`] has
 //! bounds as wide as the range of the float. The first-order form requires bounds above zero for

@@ -33,7 +33,7 @@ pub enum Form<T> {
     FirstOrder {
         /// Longest intended sample time \[s\].
         step: T,
-        /// Upper bound of the plant's gain alpha \[N·m/command unit\].
+        /// Upper bound on the plant's gain alpha \[N·m/command unit\].
         plant_gain: T,
     },
 }
@@ -103,7 +103,7 @@ pub struct AdaptiveSettings<T, const N: usize> {
     pub smooth_sign: SmoothSign,
     /// Estimate of 1/alpha \[command unit/(N·m)\], (24).
     pub beta: Estimator<T>,
-    /// Estimate of the bound of the disturbance \[N·m\], (25).
+    /// Estimate of the bound on the disturbance \[N·m\], (25).
     pub delta: Estimator<T>,
     /// Estimates of theta_i \[N·m/unit of the regressor\], (26).
     #[cfg_attr(feature = "serde", serde(with = "super::list"))]
