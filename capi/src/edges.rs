@@ -10,7 +10,7 @@ pub const BOWDEN_EDGE_VELOCITY_F32_WORDS: usize = 8;
 /// Size of a bowden_edge_velocity_f64 in 64-bit words.
 pub const BOWDEN_EDGE_VELOCITY_F64_WORDS: usize = 13;
 
-/// The code of a step, and what was wrong.
+/// The code of a step, and the bad input.
 fn of_edges(status: EdgeStatus) -> (bowden_result, bowden_fault) {
     match status {
         EdgeStatus::Good => (bowden_result::Ok, bowden_fault::None),

@@ -225,7 +225,7 @@ impl From<Fault> for bowden_fault {
     }
 }
 
-/// The code of a controller's step, what was wrong, and which regressor it was.
+/// The code of a controller's step, the bad input, and the index of a bad regressor.
 pub(crate) fn of_status(status: Status) -> (bowden_result, bowden_fault, u32) {
     let code = match status {
         Status::Good => bowden_result::Ok,

@@ -130,8 +130,8 @@ impl<T: Real> Pid<T> {
 
     /// A PI as the reference for an adaptive law: `k_p` = 30, `k_i` = 320. It has no limits.
     ///
-    /// 320 is the effective integral gain of the paper's adaptive law. A comparison without this PI
-    /// would attribute the effect of a higher gain to adaptation.
+    /// The value 320 is the effective integral gain of the paper's adaptive law. A comparison
+    /// without this PI would attribute the effect of a higher gain to adaptation.
     #[must_use]
     pub fn matched_pi() -> Self {
         Self::checked(PidSettings::unlimited(
