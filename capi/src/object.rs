@@ -194,8 +194,8 @@ impl<X: Copy> Lent<X> {
     /// An array that is placed and lies within the memory that a pointer can reach.
     ///
     /// # Safety
-    /// `first` is null or points to writable memory for so many numbers, which stays so, and is used
-    /// by nobody else during a call, for as long as this or a copy of it is used.
+    /// `first` is null or points to writable memory for so many numbers, which stays so, and is
+    /// used by nobody else during a call, for as long as this or a copy of it is used.
     pub(crate) unsafe fn new(first: *mut X, count: usize) -> Result<Self, bowden_result> {
         is_placed(first)?;
         let end = count
