@@ -23,7 +23,6 @@ mod given;
 mod line;
 mod otherwise;
 mod play;
-mod ranges;
 
 use crate::conclude::trace::{csv, input, parts, Column};
 use crate::export::invertible::three_digits;
@@ -31,11 +30,12 @@ use crate::fit::Solution;
 use crate::problem::{Prepared, Stretch};
 use crate::record::{to_unit, Defect, Record};
 use crate::score::dependences::{dependences, Dependence};
+pub use crate::score::ranges::Outside;
+use crate::score::ranges::{beyond, ACCELERATION, POSITION, VELOCITY};
 pub use given::{one_line, About, Errors, Given, Seen};
 pub use line::{Fitted, Line};
 pub use otherwise::{Otherwise, Way};
 use play::{Before, Played};
-pub use ranges::Outside;
 
 /// A model holds up to this many times the held-out error that it came with. That error is
 /// of a quarter of a record, and has the luck of a short stretch: over pairs of generated
@@ -190,7 +190,7 @@ impl Check {
             mean,
             allowed: allowed(&data, &given.about, deviation),
             about: given.about.clone(),
-            outside: ranges::outside(&data, given),
+            outside: outside(&data, given),
             depends_on: Vec::new(),
             otherwise: None,
             made_of_input: play::made_of_input(&data, given, &model.prediction),
@@ -427,4 +427,27 @@ fn remarks(given: &Given, cutoff: Option<f64>) -> Vec<String> {
         ));
     }
     notes
+}
+
+/// Where the record goes beyond what the model that reads it has seen, the input first.
+fn outside(data: &Prepared, given: &Given) -> Vec<Outside> {
+    let channels = data.channels.iter().map(|c| (c.name.as_str(), c));
+    let all = std::iter::once(("input", &data.input)).chain(channels);
+    let mut found = Vec::new();
+    for (name, channel) in all {
+        let Some(seen) = given.about.ranges.get(name) else {
+            continue;
+        };
+        let reads = given.reads_of(name);
+        let quantities = [
+            (reads.position, POSITION, seen.position),
+            (reads.velocity, VELOCITY, seen.velocity),
+            (reads.acceleration, ACCELERATION, seen.acceleration),
+        ];
+        for (is_read, of, seen) in quantities {
+            let seen = seen.filter(|_| is_read);
+            found.extend(seen.and_then(|seen| beyond(data, channel, &data.split.fit, of, seen)));
+        }
+    }
+    found
 }

@@ -1,12 +1,15 @@
 //! What a held-out part shows that the fit could not see: a rig that changed, or clocks that
 //! are apart.
 
+use super::errors::RISES;
+use super::files_apart::four_digits;
 use super::final_fit::FinalFit;
 use crate::algebra::line;
 use crate::fit::{Segments, Solution};
 use crate::model::structure::{FitTerm, Role};
 use crate::problem::Prepared;
 use crate::record::{is_velocity, DefectKind, Mode};
+use crate::score::ranges::{beyond, range, Outside, POSITION};
 use bowden::effect::Family;
 use bowden::model::Source;
 
@@ -18,6 +21,40 @@ const OTHER_RIG: (f64, f64) = (0.1, 4.0);
 const BEFORE: f64 = 0.01;
 /// ... and is told if that is later than this share of the held-out part.
 const LATE: f64 = 0.05;
+
+/// What is to be said of a held-out part that goes beyond the positions of the fit segment, where the
+/// model errs more than there.
+pub(super) fn extrapolates(data: &Prepared, done: &FinalFit) -> Option<String> {
+    if done.rmse.held_out <= RISES * done.rmse.fit {
+        return None;
+    }
+    let split = &data.split;
+    let structure = &done.solution.structure;
+    let reads = |source: Source| {
+        let is_input = structure.hysteresis && source == Source::Input;
+        is_input || structure.terms.iter().any(|term| term.source == source)
+    };
+    let channels = 0..data.channels.len();
+    let channels = channels.map(|index| Source::Channel(index as u8));
+    let sources = std::iter::once(Source::Input).chain(channels);
+    let outside = |source: Source| {
+        let channel = data.channel(source).filter(|_| reads(source))?;
+        let seen = range(data, channel, &split.fit, POSITION);
+        beyond(data, channel, &split.held_out, POSITION, seen)
+    };
+    let words = |one: Outside| {
+        let unit = one.unit.map(|unit| format!(" {unit}")).unwrap_or_default();
+        let ends = |[low, high]: [f64; 2]| format!("{} to {}", four_digits(low), four_digits(high));
+        format!(
+            "The fit saw `{}` from {}{unit}, and the held-out segment goes from {}{unit}: the held-out error is that of an extrapolation.",
+            one.channel,
+            ends(one.seen),
+            ends(one.here)
+        )
+    };
+    let all: Vec<String> = sources.filter_map(outside).map(words).collect();
+    (!all.is_empty()).then(|| all.join(" "))
+}
 
 /// The terms of a channel stand for the output where their sum has this share of its standard
 /// deviation, although the baseline model errs by less than the other one. Both are a choice: a

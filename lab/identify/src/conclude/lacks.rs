@@ -2,8 +2,7 @@
 
 use super::changes::{begins, other_rig};
 use super::errors::{
-    falls_up_to, floors, from_to, held_out_ratio, is_noise, is_worse, missed, names, percent,
-    worse_than_a_constant, RISES,
+    falls_up_to, floors, from_to, held_out_ratio, is_noise, is_worse, missed, names, percent, RISES,
 };
 use super::final_fit::FinalFit;
 use super::mechanisms::{lacking, mechanisms, Complete};
@@ -84,17 +83,14 @@ fn nothing_found(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
 /// Why the model must not be used on other data.
 pub(super) fn rises(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     let ratio = held_out_ratio(ledger, done);
-    if let (true, false, Some((fit, held_out))) = (
-        !is_worse(ledger, done),
-        worse_than_a_constant(data, done),
-        other_rig(data, done),
-    ) {
+    if let (false, Some((fit, held_out))) = (is_worse(ledger, done), other_rig(data, done)) {
         let since = begins(data, done).map(|t| format!(", from {t:.3} s on"));
         return format!(
-            "The model does not transfer: its error is {} of the output's standard deviation on the fit segment and {} held out{}. The held-out segment differs from the fit segment: do not use this model on other data.{}",
+            "The model does not transfer: its error is {} of the output's standard deviation on the fit segment and {} held out{}. The held-out segment differs from the fit segment: has the rig changed, or the sensor of `{}`? Do not use this model on other data.{}",
             percent(fit),
             percent(held_out),
             since.unwrap_or_default(),
+            data.output_name,
             so_far(ledger, done)
         );
     }

@@ -8,7 +8,7 @@ use crate::fit::Solution;
 use crate::ledger::Ledger;
 use crate::problem::Prepared;
 use crate::record::Mode;
-use crate::score::explains::{explained, Explained};
+use crate::score::explains::{explained, explained_on, Explained};
 use bowden::effect::Family;
 use bowden::model::Source;
 
@@ -62,6 +62,13 @@ fn stood_in_for(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Option<f64
     (is && alone >= LEAST_EXPLAINED).then_some(alone)
 }
 
+/// Whether the baseline model explains the selection segment, which it was not fitted to: then it is
+/// a model, and the held-out part is of another rig, or of another motion.
+fn explains_before(data: &Prepared, declared: &Solution) -> bool {
+    let shares = explained_on(data, declared, &data.split.selection);
+    !data.split.selection.is_empty() && judged(shares, declared, declared) >= LEAST_EXPLAINED
+}
+
 /// Whether there is no model of the input, or none of all files.
 pub(super) fn is_no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> bool {
     let share = judged(
@@ -69,7 +76,9 @@ pub(super) fn is_no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> 
         &ledger.declared,
         &done.solution,
     );
-    let little = share < LEAST_EXPLAINED && !is_other_file(data, done);
+    let little = share < LEAST_EXPLAINED
+        && !is_other_file(data, done)
+        && !explains_before(data, &ledger.declared);
     ledger.integrates || !ledger.apart.is_empty() || ledger.channel_apart.is_some() || little
 }
 

@@ -5,8 +5,10 @@
 
 use super::ballast::Part;
 use super::by_file::worse;
+use super::changes::{
+    extrapolates, other_line, other_rig, starts_apart, unseen_motion, velocity_words,
+};
 use super::changes::{made_without_input, stands_for_output};
-use super::changes::{other_line, other_rig, starts_apart, unseen_motion, velocity_words};
 use super::channel_apart::channel_words;
 pub use super::errors::{falls_up_to, held_out_ratio, percent, raises, POOR, RISES};
 use super::errors::{
@@ -255,6 +257,7 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
     if found != Verdict::NotTransferable {
         all.extend(poor_words(data, done));
     }
+    all.extend(extrapolates(data, done));
     all.extend(unseen_motion(data, done));
     all.extend(rigs_words(ledger).or_else(|| another_zero(data, &done.solution)));
     all.extend(one_function(data, done));

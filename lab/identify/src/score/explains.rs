@@ -121,6 +121,12 @@ pub fn explained(data: &Prepared, solution: &Solution) -> Explained {
     if fit > UNLIKE * held_out {
         rows.extend(&data.split.fit);
     }
+    explained_on(data, solution, &rows)
+}
+
+/// The shares on some rows.
+#[must_use]
+pub fn explained_on(data: &Prepared, solution: &Solution, rows: &[usize]) -> Explained {
     let reads = reads(solution);
     let mut timeless = data.target.clone();
     for ((column, gain), _) in solution
@@ -132,10 +138,10 @@ pub fn explained(data: &Prepared, solution: &Solution) -> Explained {
     {
         column.add_to(&mut timeless, -gain);
     }
-    let whole = spread(&rows, &data.target).max(f64::MIN_POSITIVE);
-    let rest = spread(&rows, &timeless);
+    let whole = spread(rows, &data.target).max(f64::MIN_POSITIVE);
+    let rest = spread(rows, &timeless);
     let share = |left: f64| ((rest - left) / whole).clamp(0.0, 1.0);
-    let total = share(squares(&rows, &solution.residual));
+    let total = share(squares(rows, &solution.residual));
     let columns = solution.columns.iter().zip(&reads);
     let input: Vec<_> = columns
         .filter(|(_, reads)| **reads == Reads::Input)
@@ -143,7 +149,7 @@ pub fn explained(data: &Prepared, solution: &Solution) -> Explained {
         .collect();
     let input: Vec<&[f64]> = input.iter().map(AsRef::as_ref).collect();
     let (left, _) = regression(&data.split.fit, &input, &timeless);
-    let input = share(squares(&rows, &left)).min(total);
+    let input = share(squares(rows, &left)).min(total);
     Explained {
         input,
         channels: total - input,

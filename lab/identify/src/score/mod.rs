@@ -8,5 +8,6 @@ pub mod dependences;
 pub mod explains;
 pub(crate) mod hats;
 pub(crate) mod left_out;
+pub mod ranges;
 pub(crate) mod tones;
 pub(crate) mod whiteness;

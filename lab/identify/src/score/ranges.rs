@@ -1,0 +1,76 @@
+//! Where a motion goes beyond what a model has seen.
+
+use crate::problem::{Channel, Prepared};
+use bowden::effect::Motion;
+
+/// Ranges further than this share of what the model has seen beyond its ends are listed: two
+/// records of one motion differ by less.
+const BEYOND: f64 = 0.05;
+
+/// A range of what the model reads that goes beyond what it has seen.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct Outside {
+    /// The input's name, or the channel's.
+    pub channel: String,
+    /// `position`, `velocity` or `acceleration`.
+    pub quantity: &'static str,
+    /// The unit, where the record states one.
+    pub unit: Option<String>,
+    /// What the model has seen.
+    pub seen: [f64; 2],
+    /// What this record covers.
+    pub here: [f64; 2],
+    /// Share of this record's samples that lie outside.
+    pub share: f64,
+}
+
+/// A quantity of a motion: its name, its value, and how often time divides its unit.
+pub(crate) type Of = (&'static str, fn(&Motion<f64>) -> f64, i32);
+
+pub(crate) const POSITION: Of = ("position", |m| m.position, 0);
+pub(crate) const VELOCITY: Of = ("velocity", |m| m.velocity, 1);
+pub(crate) const ACCELERATION: Of = ("acceleration", |m| m.acceleration, 2);
+
+fn values<'a>(
+    data: &'a Prepared,
+    channel: &'a Channel,
+    rows: &'a [usize],
+    of: Of,
+) -> impl Iterator<Item = f64> + 'a {
+    let motion = move |&row: &usize| of.1(&channel.motion[row * data.stride]);
+    rows.iter().map(motion)
+}
+
+/// The range of a quantity over some rows.
+pub(crate) fn range(data: &Prepared, channel: &Channel, rows: &[usize], of: Of) -> [f64; 2] {
+    let none = [f64::INFINITY, f64::NEG_INFINITY];
+    values(data, channel, rows, of).fold(none, |[low, high], v| [low.min(v), high.max(v)])
+}
+
+/// Where a quantity goes beyond what was seen of it, over some rows.
+pub(crate) fn beyond(
+    data: &Prepared,
+    channel: &Channel,
+    rows: &[usize],
+    of: Of,
+    seen: [f64; 2],
+) -> Option<Outside> {
+    let [low, high] = seen;
+    let here = range(data, channel, rows, of);
+    let margin = BEYOND * (high - low);
+    if here[0] >= low - margin && here[1] <= high + margin {
+        return None;
+    }
+    let out = values(data, channel, rows, of).filter(|v| *v < low || *v > high);
+    Some(Outside {
+        channel: channel.name.clone(),
+        quantity: of.0,
+        unit: crate::model::units::Unit::one()
+            .times(channel.unit.as_deref(), 1)
+            .times(Some("s"), -of.2)
+            .text(),
+        seen,
+        here,
+        share: out.count() as f64 / rows.len().max(1) as f64,
+    })
+}
