@@ -131,6 +131,9 @@ pub struct Ledger {
     pub channel_apart: Option<ChannelApart>,
     /// Lead \[s\] of the output before the input, as a delay fitted to the last model says.
     pub lead: Option<f64>,
+    /// Errors of the delivered model, and of the baseline model with input and output in each other's
+    /// place, as shares of the output's standard deviation on the fit segment.
+    pub exchanged: Option<[f64; 2]>,
     /// Channels whose steps matter to the final model.
     pub coarse: Vec<CoarseChannel>,
     /// The requested number of effects if it ended the search: further effects may be missing.
@@ -157,6 +160,7 @@ impl Ledger {
             rigs_apart: None,
             channel_apart: None,
             lead: None,
+            exchanged: None,
             coarse: Vec::new(),
             stopped_by_request: None,
             stopped_by_budget: None,

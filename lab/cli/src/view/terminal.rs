@@ -128,7 +128,9 @@ fn headline(facts: &Facts) -> String {
             "DO NOT USE THIS MODEL: it fits one stretch of the record only".to_owned()
         }
         (Verdict::DefectiveRecord, _) => "DEFECTIVE RECORD: repeat the measurement".to_owned(),
-        (Verdict::UnderExcited, 0) => "UNDER-EXCITED RECORD: too short for a test".to_owned(),
+        (Verdict::UnderExcited, 0) => {
+            "UNDER-EXCITED RECORD: too little motion for an answer".to_owned()
+        }
         (Verdict::UnderExcited, _) => format!("UNDER-EXCITED RECORD: perhaps {main}"),
         (Verdict::UnmodelledDependence, _) => {
             let words = facts

@@ -10,6 +10,7 @@ use crate::model::structure::{FitTerm, Role};
 use crate::problem::Prepared;
 use crate::record::{is_velocity, DefectKind, Mode};
 use crate::score::ranges::{beyond, range, Outside, POSITION};
+use crate::search::policy::AT_FLOOR;
 use bowden::effect::Family;
 use bowden::model::Source;
 
@@ -25,7 +26,7 @@ const LATE: f64 = 0.05;
 /// What is to be said of a held-out part that goes beyond the positions of the fit segment, where the
 /// model errs more than there.
 pub(super) fn extrapolates(data: &Prepared, done: &FinalFit) -> Option<String> {
-    if done.rmse.held_out <= RISES * done.rmse.fit {
+    if done.rmse.held_out <= f64::max(RISES * done.rmse.fit, AT_FLOOR * data.noise_floor) {
         return None;
     }
     let split = &data.split;

@@ -3,6 +3,46 @@
 use crate::fit::Solution;
 use crate::model::effects::shown_by;
 use crate::model::structure::{Role, TermId};
+use crate::problem::{Piece, Prepared};
+use crate::score::ranges::BEYOND;
+
+use super::by_file::rows_of;
+
+/// How often the input turns back on the fit segment, by more than a twentieth of its range.
+fn reversals(data: &Prepared) -> usize {
+    let least = BEYOND * 2.0 * data.input.reach;
+    let of = |piece: &Piece| {
+        let rows = rows_of(piece, &data.split.fit).iter();
+        let mut positions = rows.map(|&row| data.input.motion[row * data.stride].position);
+        let mut extreme = positions.next().unwrap_or(0.0);
+        let (mut way, mut count) = (0.0, 0);
+        for x in positions {
+            let moved: f64 = x - extreme;
+            let is_far = moved.abs() > least;
+            if way == 0.0 && is_far {
+                (extreme, way) = (x, moved.signum());
+            } else if way != 0.0 && moved * way >= 0.0 {
+                extreme = x;
+            } else if way != 0.0 && is_far {
+                count += 1;
+                (extreme, way) = (x, -way);
+            }
+        }
+        count
+    };
+    data.pieces.iter().map(of).sum()
+}
+
+/// Why a record of fewer than two reversals shows neither sigma nor n: in one stroke a sharper knee is
+/// another rho, and the branch of unloading is not there. `None` where there are more.
+pub(super) fn without_reversals(data: &Prepared) -> Option<String> {
+    (reversals(data) < 2).then(|| {
+        format!(
+            "fewer than two reversals of {} on the fit segment",
+            data.input.name
+        )
+    })
+}
 
 /// What would show a linear gain of the transmission.
 pub(crate) const TRANSMISSION: &str = "full strokes past the knee, in both directions";

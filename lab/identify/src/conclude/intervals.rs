@@ -65,8 +65,9 @@ struct Entry<'a> {
     value: f64,
     column: &'a Stretch,
     shape: bool,
-    /// "lower" or "upper", where it lies on one.
-    bound: Option<&'static str>,
+    /// Why it is not identified whatever its interval is: it lies on a bound, or the record cannot show
+    /// it.
+    refused: Option<String>,
     excitation: &'static str,
     /// The reported value is this factor times the fitted one.
     sign: f64,
@@ -187,7 +188,7 @@ fn linear(
         value: solution.gains[k],
         column: &solution.columns[k],
         shape: false,
-        bound: None,
+        refused: None,
         excitation: match term {
             None => excitation::TRANSMISSION,
             Some(index) => {
@@ -238,7 +239,14 @@ fn free<'a>(data: &Prepared, solution: &'a Solution, j: usize) -> Entry<'a> {
         value: solution.values[j],
         column: &solution.tangents[j],
         shape,
-        bound: solution.on_bound[j].then(|| free.range.nearest(solution.values[j])),
+        refused: match free.role {
+            Role::Sigma | Role::N => excitation::without_reversals(data),
+            _ => None,
+        }
+        .or_else(|| {
+            let end = free.range.nearest(solution.values[j]);
+            solution.on_bound[j].then(|| format!("at its {end} bound"))
+        }),
         excitation: excitation::of_role(solution, free.role),
         sign: 1.0,
         term,
@@ -402,8 +410,8 @@ fn refusal(entry: &Entry<'_>, wide: bool, partner: Option<(&str, f64)>) -> Refus
     let with = partner
         .filter(|(_, correlation)| *correlation >= WITH)
         .map(|(name, _)| format!("moves with {name}"));
-    let reason = match (entry.bound, with) {
-        (Some(end), _) => format!("at its {end} bound"),
+    let reason = match (entry.refused.clone(), with) {
+        (Some(reason), _) => reason,
         (None, Some(with)) if wide => format!("interval wider than half its value, {with}"),
         (None, Some(with)) => with,
         (None, None) if wide => "interval wider than half its value".to_owned(),
@@ -419,9 +427,9 @@ fn refusal(entry: &Entry<'_>, wide: bool, partner: Option<(&str, f64)>) -> Refus
 #[must_use]
 pub fn parameters(data: &Prepared, solution: &Solution) -> Vec<Parameter> {
     let entries = entries(data, solution);
-    // A parameter on its bound does not move: the others are conditional on it.
+    // A parameter that is refused does not move: the others are conditional on it.
     let moving: Vec<usize> = (0..entries.len())
-        .filter(|&j| entries[j].bound.is_none())
+        .filter(|&j| entries[j].refused.is_none())
         .collect();
     let mut columns: Vec<&Stretch> = moving.iter().map(|&j| entries[j].column).collect();
     let partners = Design::new(data, &columns).partners();

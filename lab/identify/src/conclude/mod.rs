@@ -17,7 +17,7 @@ pub mod resolution;
 pub mod rivals;
 mod shares;
 pub mod signals;
-mod signs;
+pub(crate) mod signs;
 pub mod trace;
 pub mod unneeded;
 pub mod verdict;

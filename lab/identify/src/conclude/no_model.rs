@@ -126,6 +126,11 @@ pub(super) fn no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Str
     if let Some(apart) = &ledger.channel_apart {
         return channel_words(apart);
     }
+    if data.is_shuffled() {
+        return format!(
+            "This record gives no model: neighbouring rows of the input `{input}` have nothing in common, but `{output}` follows it row by row. Are the rows in time order?"
+        );
+    }
     if data.is_at_rest() {
         return format!(
             "This record gives no model: the input `{input}` is at rest and shows only its sensor's noise. Record a motion."

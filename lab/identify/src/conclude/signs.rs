@@ -1,9 +1,11 @@
 //! Gains that need a word: those whose sign misleads, and that of the tension.
 
+use super::errors::percent;
 use super::final_fit::FinalFit;
 use super::intervals::{parameters, term_title};
 use crate::algebra::line;
 use crate::fit::{Segments, Solution};
+use crate::ledger::Ledger;
 use crate::model::kind::{kind, Kind};
 use crate::model::structure::FitTerm;
 use crate::problem::Prepared;
@@ -135,6 +137,25 @@ pub(super) fn turns_against(done: &FinalFit) -> Option<String> {
             others.join(", ")
         )
     })
+}
+
+/// Whether the output of a cable comes before its input: its loop turns the other way.
+pub(crate) fn comes_before(data: &Prepared) -> bool {
+    let rows = data.split.fit.iter();
+    let position = |row: usize| data.input.motion[row * data.stride].position;
+    let (slope, _) = line(rows.map(|&i| (position(i), data.target[i])));
+    data.mode == Mode::Torque && slope * area(data, &data.target) > 0.0
+}
+
+/// What is to be asked where input and output may stand in each other's place.
+pub(super) fn exchanged_words(data: &Prepared, ledger: &Ledger) -> Option<String> {
+    let [before, after] = ledger.exchanged?;
+    let (input, output) = (&data.input.name, &data.output_name);
+    Some(format!(
+        "Are `{input}` and `{output}` swapped? `{output}` comes before `{input}`. With both columns exchanged the baseline model has an error of {} of the output's standard deviation instead of {}.",
+        percent(after),
+        percent(before)
+    ))
 }
 
 /// Area of the loop of a signal over the input: the integral of it times the input's rate.

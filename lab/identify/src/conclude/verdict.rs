@@ -14,6 +14,7 @@ pub use super::errors::{falls_up_to, held_out_ratio, percent, raises, POOR, RISE
 use super::errors::{
     floors, is_noise, is_worse, multiples, names, poor_words, worse_than_a_constant,
 };
+use super::excitation::without_reversals;
 use super::files_apart::{another_zero, apart_words, rigs_words};
 use super::final_fit::FinalFit;
 use super::intervals::term_title;
@@ -21,7 +22,9 @@ use super::lacks::{lacks, rises};
 use super::no_model::{is_no_model, no_model};
 use super::resolution::coarse_words;
 use super::rivals::each_pair_once;
-use super::signs::{falls, of_temperature, of_tension, of_the_motion, turns_against};
+use super::signs::{
+    exchanged_words, falls, of_temperature, of_tension, of_the_motion, turns_against,
+};
 use crate::fit::Solution;
 use crate::ledger::Ledger;
 use crate::model::catalogue::Candidate;
@@ -116,7 +119,10 @@ pub fn verdict(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Verdict {
         Verdict::NotTransferable
     } else if ledger.unknown.is_some() && !untested {
         Verdict::UnmodelledDependence
-    } else if untested || (ledger.regime == Regime::Effect && !only_fitted) {
+    } else if untested
+        || (ledger.regime == Regime::Effect && !only_fitted)
+        || is_one_stroke(data, done)
+    {
         Verdict::UnderExcited
     } else if ledger.rounds.iter().any(|r| !r.rivals.is_empty()) {
         Verdict::Ambiguous
@@ -127,6 +133,11 @@ pub fn verdict(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Verdict {
     } else {
         Verdict::StructuredResidual
     }
+}
+
+/// Whether a hysteresis was fitted to a record without its reversals.
+fn is_one_stroke(data: &Prepared, done: &FinalFit) -> bool {
+    done.solution.structure.hysteresis && without_reversals(data).is_some()
 }
 
 /// What the residual depends on without a name.
@@ -216,6 +227,10 @@ fn rest(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -> St
         Verdict::StructuredResidual => coloured(data, ledger, done),
         Verdict::UnmodelledDependence => unknown_words(data, ledger).unwrap_or_default(),
         Verdict::Ambiguous => confounded(data, ledger, done),
+        Verdict::UnderExcited if is_one_stroke(data, done) => format!(
+            "`{}` reverses less than twice on the fit segment: sigma and n are not identified, and the model holds for this stroke only. Record strokes in both directions.",
+            data.input.name
+        ),
         Verdict::UnderExcited => {
             let names = match ledger.rounds.is_empty() {
                 true => "only a large effect would be found",
@@ -257,6 +272,7 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
     if found != Verdict::NotTransferable {
         all.extend(poor_words(data, done));
     }
+    all.extend(exchanged_words(data, ledger));
     all.extend(extrapolates(data, done));
     all.extend(unseen_motion(data, done));
     all.extend(rigs_words(ledger).or_else(|| another_zero(data, &done.solution)));

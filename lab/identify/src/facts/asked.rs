@@ -111,6 +111,12 @@ impl Asked {
     /// As [`prepare`](Self::prepare), of a record that shows a motion.
     pub(super) fn prepare_moving(&self, record: &Record) -> Result<(Prepared, Structure), String> {
         let (data, structure) = self.prepare(record)?;
+        if data.is_shuffled() {
+            return Err(format!(
+                "{}: neighbouring rows of `{}` have nothing in common, but the output follows it row by row: the rows must be in time order",
+                record.path, data.input.name
+            ));
+        }
         match data.is_at_rest() {
             true => Err(format!(
                 "{}: the input `{}` is at rest and shows only its sensor's noise: a record of a motion is needed",
@@ -146,7 +152,7 @@ impl Asked {
         close_within(data, structure, limits, tell)
     }
 
-    fn declared(&self, data: &Prepared) -> Result<Structure, String> {
+    pub(super) fn declared(&self, data: &Prepared) -> Result<Structure, String> {
         match self.declare.is_empty() {
             true => structure(&["bouc-wen".to_owned()], data),
             false => structure(&self.declare, data),

@@ -8,14 +8,16 @@ use crate::conclude::channel_apart::channel_apart;
 use crate::conclude::files_apart::{judge_files, with_own_gains, OTHER_CONFIGURATION};
 use crate::conclude::final_fit::FinalFit;
 use crate::conclude::resolution::{coarse_channels, told};
+use crate::conclude::signs::comes_before;
 use crate::conclude::trace::trace;
 use crate::export::hand_over::HandOver;
 use crate::export::{postcard, vector, ModelFile};
-use crate::fit::Solution;
+use crate::fit::{fit, Segments, Solution};
 use crate::ledger::Ledger;
 use crate::model::structure::Structure;
 use crate::problem::{HeldOut, Prepared};
 use crate::record::Record;
+use crate::search::policy::AT_FLOOR;
 use std::cell::Cell;
 
 /// A question to one or several records.
@@ -116,7 +118,30 @@ impl Close {
         let on_grids = |finer: &[Record]| self.on_grids(finer, data.cutoff);
         let coarse = coarse_channels(records, &done, on_grids);
         told(data, ledger, coarse);
+        ledger.exchanged = self.exchanged(records, &done);
         done
+    }
+
+    /// The error of the delivered model, and that of the baseline model with input and output in each
+    /// other's place, where the output comes before the input and the second is half of the first.
+    fn exchanged(&self, records: &[Record], done: &FinalFit) -> Option<[f64; 2]> {
+        let data = &done.data;
+        let is_much = done.rmse.fit > AT_FLOOR * data.noise_floor;
+        if !is_much || !comes_before(data) {
+            return None;
+        }
+        let exchange = |record: &Record| {
+            let mut record = record.clone();
+            std::mem::swap(&mut record.input.values, &mut record.output.values);
+            record
+        };
+        let records: Vec<Record> = records.iter().map(exchange).collect();
+        let other = self.on_grids(&records, data.cutoff)?;
+        let structure = self.asked.declared(&other).ok()?;
+        let share = |data: &Prepared, rmse: Segments| rmse.normalised(data, &data.target).fit;
+        let after = share(&other, fit(&other, &structure, None, 0.0)?.rmse);
+        let before = share(data, done.rmse);
+        (after < OTHER_CONFIGURATION * before).then_some([before, after])
     }
 
     /// Records on the grids of that cut-off.

@@ -311,7 +311,8 @@ pub fn candidates(data: &Prepared, structure: &Structure, residual: &[f64]) -> V
     };
     all.whole();
     all.channel(Source::Input, &data.input);
-    for (index, channel) in data.channels.iter().enumerate() {
+    let channels = data.channels.iter().enumerate();
+    for (index, channel) in channels.filter(|(_, channel)| !channel.rests) {
         all.channel(Source::Channel(index as u8), channel);
     }
     all.found

@@ -41,6 +41,7 @@ impl Variable {
         let mut all = Vec::new();
         let loaded = data.mode == Mode::Torque || data.load.is_some();
         let others = data.channels.iter().enumerate();
+        let others = others.filter(|(_, channel)| !channel.rests);
         let channels = std::iter::once((Source::Input, &data.input))
             .chain(others.map(|(i, c)| (Source::Channel(i as u8), c)));
         for (source, channel) in channels {

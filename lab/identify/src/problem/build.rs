@@ -53,6 +53,9 @@ struct Placed {
     rest: Option<String>,
     /// Whether the input is nothing but noise.
     rests: bool,
+    shuffled: bool,
+    /// Of each channel, whether it is nothing but noise.
+    still: Vec<bool>,
 }
 
 impl Prepared {
@@ -219,12 +222,9 @@ fn place(
     };
     let (smoothed_input, rested) = still::smoothed(&smooth, input, rate / cutoff);
     let mut motion = vec![moving(&smoothed_input)];
-    motion.extend(
-        record
-            .channels
-            .iter()
-            .map(|c| moving(&smooth.apply(&uniform.signal(&bridged(record, c))))),
-    );
+    let channels = record.channels.iter().map(|c| bridged(record, c));
+    let channels: Vec<Vec<f64>> = channels.map(|c| uniform.signal(&c)).collect();
+    motion.extend(channels.iter().map(|c| moving(&smooth.apply(c))));
     let thinned = |values: &[f64], by: usize, most: usize| -> Vec<f64> {
         values.iter().step_by(by).take(most).copied().collect()
     };
@@ -265,6 +265,8 @@ fn place(
             rested as f64 * uniform.dt,
         ),
         rests: still::is_at_rest(input),
+        shuffled: still::is_shuffled(input, &output),
+        still: channels.iter().map(|c| still::is_at_rest(c)).collect(),
         motion,
         output: on_work,
         raw,
@@ -297,6 +299,8 @@ struct Collected {
     pieces: Vec<Piece>,
     /// The input first, then the channels.
     motion: Vec<Vec<Motion<f64>>>,
+    /// Of each channel, whether it is nothing but noise in all of them.
+    still: Vec<bool>,
     output: Vec<f64>,
     raw: Vec<f64>,
     split: Split,
@@ -347,10 +351,15 @@ impl Collected {
             since: work as f64 * grid.dt,
             fitted: !placed.fit.is_empty(),
             rests: placed.rests,
+            shuffled: placed.shuffled,
         });
         self.motion.resize(placed.motion.len(), Vec::new());
         for (all, own) in self.motion.iter_mut().zip(placed.motion) {
             all.extend(own);
+        }
+        self.still.resize(placed.still.len(), true);
+        for (all, own) in self.still.iter_mut().zip(placed.still) {
+            *all &= own;
         }
         self.output.extend(placed.output);
         self.raw.extend(placed.raw);
@@ -376,7 +385,12 @@ impl Collected {
         };
         let mut all = self.motion.into_iter().zip(columns).map(named);
         let input = all.next().ok_or("no record was given")?;
-        let channels: Vec<_> = all.collect();
+        let mut channels: Vec<_> = all.collect();
+        for (channel, still) in channels.iter_mut().zip(&self.still) {
+            channel.rests = *still;
+            self.notes
+                .extend(still.then(|| still::note(&channel.name, self.pieces.len())));
+        }
         let load = channels.iter().position(|c| c.name == "load");
         let path = path(&input, &self.pieces, grid.stride);
         for piece in self.pieces.iter().filter(|p| !p.fitted) {

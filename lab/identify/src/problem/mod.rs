@@ -81,6 +81,9 @@ pub struct Channel {
     pub reach: f64,
     /// Root mean square of the velocity.
     pub speed: f64,
+    /// Whether it is nothing but its sensor's noise within each record: it then tells at most which
+    /// record it is, and no term of the catalogue reads it.
+    pub rests: bool,
 }
 
 impl Channel {
@@ -95,6 +98,7 @@ impl Channel {
             middle: 0.0,
             reach: 0.0,
             speed: 0.0,
+            rests: false,
         };
         channel.measure(used.iter().cloned().flatten());
         channel
@@ -167,6 +171,8 @@ pub struct Piece {
     pub fitted: bool,
     /// Whether its input is nothing but noise.
     pub rests: bool,
+    /// Whether the output follows it row by row all the same.
+    pub shuffled: bool,
 }
 
 /// The segments: fit and select, stop-check, held out. Trailing, but for a record that is
@@ -244,6 +250,12 @@ impl Prepared {
     #[must_use]
     pub fn is_at_rest(&self) -> bool {
         self.pieces.iter().all(|piece| piece.rests)
+    }
+
+    /// Whether that noise is a motion whose rows are not in the order of time.
+    #[must_use]
+    pub fn is_shuffled(&self) -> bool {
+        self.pieces.iter().any(|piece| piece.shuffled)
     }
 
     /// Takes back the note that the output counts against the motion.

@@ -5,6 +5,7 @@
 //! smoothed input stays within its own noise for long, a straight line stands in for it.
 
 use super::ZeroPhase;
+use crate::algebra::line;
 
 /// A rest stays within this many standard deviations of the smoothed noise, to either side ...
 const NOISE: f64 = 4.0;
@@ -40,6 +41,25 @@ fn spread(values: &[f64]) -> f64 {
 /// Whether a column is nothing but noise.
 pub(super) fn is_at_rest(column: &[f64]) -> bool {
     spread(column) <= ALONE * noise(column)
+}
+
+/// What is to be said of a channel that is nothing but noise in each of some records.
+pub(super) fn note(channel: &str, records: usize) -> String {
+    match records {
+        1 => format!("`{channel}` shows only its sensor's noise: no term reads it"),
+        _ => format!(
+            "within each file `{channel}` shows only its sensor's noise: it has one value a file, and no term reads it"
+        ),
+    }
+}
+
+/// Whether an output follows row by row an input that is nothing but noise: half of its variance or
+/// more. Sensors do not share their noise, so the rows are not in the order of time.
+pub(super) fn is_shuffled(input: &[f64], output: &[f64]) -> bool {
+    let pairs = || input.iter().copied().zip(output.iter().copied());
+    let (gain, offset) = line(pairs());
+    let left: Vec<f64> = pairs().map(|(x, y)| y - gain * x - offset).collect();
+    is_at_rest(input) && 2.0 * spread(&left).powi(2) <= spread(output).powi(2)
 }
 
 /// Whether a stretch is noise of that standard deviation, and so is each quarter of it.

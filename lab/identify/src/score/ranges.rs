@@ -5,7 +5,7 @@ use bowden::effect::Motion;
 
 /// Ranges further than this share of what the model has seen beyond its ends are listed: two
 /// records of one motion differ by less.
-const BEYOND: f64 = 0.05;
+pub(crate) const BEYOND: f64 = 0.05;
 
 /// A range of what the model reads that goes beyond what it has seen.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
