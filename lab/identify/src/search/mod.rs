@@ -17,8 +17,6 @@ mod coarse;
 mod exchange;
 mod forward;
 pub mod gram;
-mod hidden;
-mod instead;
 mod kept;
 mod linear;
 mod moves;

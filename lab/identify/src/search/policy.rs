@@ -97,19 +97,6 @@ pub const MOST_NAMES: usize = 8;
 /// that only a refit of several decides.
 pub const REFITTED: usize = 3;
 
-/// Number of names over its variable that are refitted one at a time before a curve is taken.
-///
-/// A dead zone whose gap lies between trial shapes promises less than a curve and less than seven
-/// names that imitate it. The number is a choice.
-pub const INSTEAD: usize = 4;
-
-/// Of the moves that reduce the number of names by this many or more the best one is refitted
-/// too, once no further name is found, whatever it promises.
-///
-/// In a planted record (torque, 60 s, seed 30006) three names imitated a dead zone; it came in
-/// later, and no removal of one or two of them was better. One removal of all three is.
-pub const MANY: usize = 3;
-
 /// Number of successive rounds without an accepted move that ends a phase of the search.
 ///
 /// A choice: a second round refits the moves after the best three.
