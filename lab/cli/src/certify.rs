@@ -9,12 +9,12 @@ use std::process::ExitCode;
 
 #[derive(Args)]
 pub struct Certify {
-    /// Your gains of the first-order form and the known ranges of the plant: proves a bound of the
-    /// error for the controller in its floats, including every rounding. Exit status 1 if the proof
+    /// Your gains of the first-order form and the known ranges of the plant. Proves an error bound
+    /// for the controller in its float type, including every rounding. Exit status 1 if the proof
     /// fails.
     #[arg(value_name = "GAINS.toml", conflicts_with = "gains")]
     own: Option<PathBuf>,
-    /// Gains and rig [default: the paper's gains and the reference rig].
+    /// Gains and rig [default: the gains of Nguyen et al. (2018) and the reference rig].
     #[arg(long, alias = "model", value_name = "FILE.toml")]
     gains: Option<PathBuf>,
     /// Also print the assumptions, what has no bound and why, and each inequality of a proof.

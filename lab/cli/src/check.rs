@@ -14,10 +14,10 @@ const LARGEST: u64 = 1 << 20;
 
 #[derive(Args)]
 pub struct Check {
-    /// The model, a file of `identify --model-out`.
+    /// The model: a file written by `identify --model-out`.
     #[arg(value_name = "MODEL.toml")]
     model: PathBuf,
-    /// Another record of the same rig: CSV, .mat (v5, v7.3) or Parquet.
+    /// Another record from the same rig: CSV, .mat (v5, v7.3) or Parquet.
     #[arg(value_name = "RECORD")]
     record: PathBuf,
     #[command(flatten)]
@@ -94,10 +94,10 @@ pub fn load(path: &Path) -> Result<String, Failure> {
     let size = std::fs::metadata(path).map_err(|e| failed(&e))?.len();
     if size > LARGEST {
         return Err(failed(
-            &"is larger than any model; a file of `identify --model-out` is needed",
+            &"is larger than any model file; give a file written by `identify --model-out`",
         ));
     }
     let bytes = std::fs::read(path).map_err(|e| failed(&e))?;
     String::from_utf8(bytes)
-        .map_err(|_| failed(&"is not text; a TOML file of `identify --model-out` is needed"))
+        .map_err(|_| failed(&"is not text; give a TOML file written by `identify --model-out`"))
 }

@@ -30,9 +30,9 @@ enum PerFile {
 
 #[derive(Args, Default)]
 pub struct Close {
-    /// Records: CSV, .mat (v5, v7.3), Parquet, each also in gzip; several of one rig for one joint
-    /// model, or a pattern such as 'runs/*.csv' [default: the built-in record]. Of three or more
-    /// records the last is held out as a whole.
+    /// Records: CSV, .mat (v5, v7.3) or Parquet, each also compressed with gzip; several from one
+    /// rig for one joint model, or a pattern such as 'runs/*.csv' [default: the built-in record].
+    /// With three or more records, the whole last record is held out.
     #[arg(value_name = "RECORD")]
     records: Vec<PathBuf>,
     #[command(flatten)]
@@ -47,9 +47,9 @@ pub struct Close {
     /// Also print the tests of each term, the rejected terms and the planned experiments.
     #[arg(long, short)]
     verbose: bool,
-    /// Write the model: .toml for tools, .rs or .postcard for firmware. NAME.vector.csv has samples
-    /// and the outputs that the model must reproduce. With --per-file gains there is one model for
-    /// each file: NAME-1.toml, NAME-2.toml, …
+    /// Write the model: .toml for tools, .rs or .postcard for firmware. NAME.vector.csv contains
+    /// samples and the outputs that the model must reproduce. With --per-file gains there is one
+    /// model for each file: NAME-1.toml, NAME-2.toml, …
     #[arg(long, value_name = "FILE.toml")]
     model_out: Option<PathBuf>,
     /// Write the filtered signals over time as CSV: measured, baseline, final, residual, and each
@@ -59,8 +59,8 @@ pub struct Close {
     #[command(flatten)]
     drawing: Drawing,
     /// Fit the exported model so that a feed-forward can invert it: sigma up to
-    /// B/(2·kappa_eta·rho), no delay, no lag, no play in series. The report describes this
-    /// model. The terms and the verdict do not change.
+    /// B/(2·kappa_eta·rho), and no delay, lag or play in series. The report describes this model.
+    /// The terms and the verdict do not change.
     #[arg(long)]
     invertible: bool,
     #[command(flatten)]
@@ -78,7 +78,7 @@ impl Close {
         self.records = found.paths;
         let asked = self.reading.asked()?;
         if self.per_file.is_some() && self.records.len() < 2 {
-            return Err("--per-file gains: more than one file is needed".to_owned());
+            return Err("--per-file gains needs more than one file".to_owned());
         }
         self.check_files()?;
         let meter = Meter::start();
@@ -187,8 +187,8 @@ impl Close {
     }
 }
 
-/// The model and its test vector, each with its file; where each record has gains of its own, one of
-/// both for each.
+/// The model and its test vector, each with its file; where each record has gains of its own, one
+/// of both for each.
 fn model_files(path: &Path, models: &[Handed]) -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
     let form = model_form(path)?;
     let mut all = Vec::new();
@@ -233,7 +233,7 @@ fn model_form(path: &Path) -> Result<Form, Failure> {
         Some("rs") => Ok(Form::Rust),
         Some("postcard") => Ok(Form::Postcard),
         _ => Err(format!(
-            "--model-out {}: a name that ends in .toml, .rs or .postcard is needed",
+            "--model-out {}: the file name must end in .toml, .rs or .postcard",
             path.display()
         )),
     }

@@ -13,15 +13,15 @@ use std::path::{Path, PathBuf};
 #[derive(Args)]
 pub struct Compare {
     /// White noise of the torque sensors [N·m rms] [default: the noise that --gains were designed
-    /// for, or the experiment's 0.28, or 0.02 with --effect]. At 0.28 the noise through the paper's
-    /// gains hides the improvement by a found effect.
+    /// for, or the experiment's 0.28, or 0.02 with --effect]. At 0.28 the noise, amplified by the
+    /// gains of Nguyen et al. (2018), hides what a found effect improves.
     #[arg(long, value_name = "N·m")]
     noise: Option<f64>,
     /// The conduit is moved during the trials: B, kappa_eta and T0 drift.
     #[arg(long)]
     varying: bool,
-    /// Follow a gait, an ankle's push-off once a second, instead of the paper's reference. A
-    /// controller that learns from step to step runs next to the others.
+    /// Follow a gait, with an ankle's push-off once per second, instead of the reference of Nguyen
+    /// et al. (2018). This also runs a controller that learns from step to step.
     #[arg(long, conflicts_with = "effect")]
     gait: bool,
     /// Length of a trial [s].
@@ -34,25 +34,25 @@ pub struct Compare {
     /// NAME, NAME:STRENGTH or NAME@CHANNEL:STRENGTH, strength in N·m rms.
     #[arg(long, value_name = "NAME[@CHANNEL][:STRENGTH]")]
     effect: Option<String>,
-    /// A file of `identify --model-out`, which is fed forward. With --gains or an option of the
-    /// rig, the rig has this model's transmission and effects, and the reference stays within the
-    /// range of its record. Or gains, rig and model in one file.
+    /// A file written by `identify --model-out`; its model is fed forward. With --gains or an
+    /// option of the rig, the rig has this model's transmission and effects, and the reference
+    /// X
     #[arg(long, value_name = "MODEL.toml")]
     model: Option<PathBuf>,
-    /// Gains of `bowden design`, with the model that they were designed for in --model; or
-    /// gains, rig and model in one file.
+    /// Gains from `bowden design`, with the model that they were designed for in --model; or one
+    /// file with gains, rig and model.
     #[arg(long, value_name = "GAINS.toml")]
     gains: Option<PathBuf>,
     #[command(flatten)]
     rig: RigOptions,
-    /// Reference, torques, command and estimates over time of the first trial, as CSV.
+    /// Write reference, torques, command and estimates of the first trial over time as CSV.
     #[arg(long, value_name = "FILE.csv")]
     trace: Option<PathBuf>,
     /// Write the comparison as one self-contained HTML page: tables, and reference, torques, errors
     /// and estimates over time, with the conduit at rest and moved.
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
-    /// Also print deviations over trials, the transient, and what each controller is.
+    /// Also print the standard deviations over trials, the transient, and what each controller is.
     #[arg(long, short)]
     verbose: bool,
     /// Print one JSON object on stdout instead of text.

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub struct Design {
-    /// The model, a file of `identify --model-out` in torque mode.
+    /// The model: a file written by `identify --model-out` in torque mode.
     #[arg(value_name = "MODEL.toml")]
     model: PathBuf,
     /// Sampling rate of the controller [Hz].
@@ -19,7 +19,7 @@ pub struct Design {
     /// constants of drive, sensor and joint; half a sample of hold is added.
     #[arg(long, value_name = "SECONDS")]
     delay: f64,
-    /// Noise of the measured torque [N·m rms], from which the least slew rate follows.
+    /// Noise of the measured torque [N·m rms], which sets the least slew-rate limit.
     #[arg(
         long,
         value_name = "N·m",
@@ -40,7 +40,8 @@ pub struct Design {
     /// firmware.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Also print the required margins, admissible gains, and how limits and bounds follow.
+    /// Also print the required margins, the admissible gains, and where the limits and bounds come
+    /// from.
     #[arg(long, short)]
     verbose: bool,
     /// Print one JSON object on stdout instead of text.
@@ -84,7 +85,7 @@ fn is_rust(path: &Path) -> Result<bool, Failure> {
         Some("rs") => Ok(true),
         Some("toml") => Ok(false),
         _ => Err(format!(
-            "--out {}: a name that ends in .toml or .rs is needed",
+            "--out {}: the file name must end in .toml or .rs",
             path.display()
         )),
     }

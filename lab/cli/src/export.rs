@@ -7,14 +7,14 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub struct Export {
-    /// The model, a file of `identify --model-out`.
+    /// The model: a file written by `identify --model-out`.
     #[arg(value_name = "MODEL.toml")]
     model: PathBuf,
     /// Write a C header that needs only the library of capi/.
     #[arg(long, required = true)]
     c: bool,
-    /// Write a file instead of stdout; its name, with a letter from a to z or a Greek letter, is
-    /// the prefix of all names in it.
+    /// Write to this file instead of stdout. Its name is the prefix of all names in it, and must
+    /// contain a letter from a to z or a Greek letter.
     #[arg(long, value_name = "FILE.h")]
     out: Option<PathBuf>,
 }
@@ -24,7 +24,7 @@ impl Export {
         if let Some(path) = &self.out {
             if path.extension().is_none_or(|e| e != "h") {
                 return Err(format!(
-                    "--out {}: a name that ends in .h is needed",
+                    "--out {}: the file name must end in .h",
                     path.display()
                 ));
             }

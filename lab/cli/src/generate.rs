@@ -29,7 +29,7 @@ pub struct Generate {
     /// Sampling rate [Hz].
     #[arg(long, default_value_t = 1000.0)]
     rate: f64,
-    /// Noise of the output, rms, in its unit.
+    /// Noise of the output, rms, in the unit of the output.
     #[arg(long, default_value_t = 0.05)]
     noise: f64,
     /// Correlation of the noise from sample to sample; 0 is white.
@@ -50,7 +50,7 @@ fn planted(text: &str) -> Result<Planted, Failure> {
         None => (text, 3.0),
         Some((what, strength)) => {
             let value: f64 = strength.parse().map_err(|_| {
-                format!("--effect {text}: {strength:?} is not a number; NAME:STRENGTH is needed")
+                format!("--effect {text}: {strength:?} is not a number; write NAME:STRENGTH")
             })?;
             (what, value)
         }

@@ -26,7 +26,7 @@ impl Help {
             None => {
                 let names: Vec<&str> = all.get_subcommands().map(clap::Command::get_name).collect();
                 Err(format!(
-                    "help {topic}: terms or one of {} is needed",
+                    "help {topic}: the topic must be terms or one of {}",
                     names.join(", ")
                 ))
             }

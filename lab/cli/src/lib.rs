@@ -1,7 +1,8 @@
 //! The program `bowden`: its subcommands, one file each, and its views.
 //!
-//! A subcommand asks one question of [`bowden_lab::facts`] or [`bowden_trials::facts`] and
-//! hands the answer to a [`view`] or to `bowden_page`. No fit runs and no figure is computed in this package.
+//! A subcommand asks one question of [`bowden_lab::facts`] or [`bowden_trials::facts`] and hands
+//! the answer to a [`view`] or to `bowden_page`. No fit runs and no figure is computed in this
+//! package.
 
 mod certify;
 mod check;
@@ -38,7 +39,7 @@ pub type Failure = String;
     version,
     about = "Identification and control of hysteretic cable transmissions (Bowden cables)",
     disable_help_subcommand = true,
-    after_help = "Without a subcommand: `bowden identify` on the built-in record.\nIts terms: `bowden help terms`.\nExit status: 0 with any verdict, 1 if certify does not prove your gains or plan has no motion to write to --out, 2 for bad use or a bad record."
+    after_help = "Without a subcommand, bowden runs `bowden identify` on the built-in record.\n`bowden help terms` explains the terms of the output.\nExit status: 0 for any verdict; 1 if certify does not prove your gains, or if plan has no motion to write to --out; 2 for wrong usage or a bad record."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -47,21 +48,21 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Fit the baseline model, find the terms that it lacks, add them, compare.
+    /// Fit the baseline model, find and add the terms that it lacks, and compare the errors.
     // `identify` and `validate` were the names up to 0.1 and remain for scripts; the help does not show
     // them.
     #[command(alias = "close")]
     Identify(close::Close),
-    /// Test a model on another record of the same rig.
+    /// Test a model on another record from the same rig.
     #[command(alias = "check")]
     Validate(check::Check),
-    /// Derive gains, limits and slew rate from an identified model.
+    /// Derive gains and limits, including the slew-rate limit, from an identified model.
     Design(design::Design),
     /// Compare controllers on the simulated rig: errors, effort, and error bounds.
     Compare(compare::Compare),
     /// Print the proved bounds of the tracking error and their assumptions.
     Certify(certify::Certify),
-    /// Print how small an effect the search would have found on a record.
+    /// Print how small an effect the search would have found in a record.
     Power(power::Power),
     /// Plan the experiment that separates ambiguous terms: its motion, as CSV.
     Plan(plan::Plan),
@@ -73,7 +74,7 @@ enum Command {
     Generate(generate::Generate),
     /// Print completions for a shell.
     Completions(completions::Completions),
-    /// Print the manual, or a subcommand's page.
+    /// Print the manual page of the program or of a subcommand.
     Man(man::Man),
     /// Explain a subcommand, or the terms of the output: `bowden help terms`.
     Help(help::Help),

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub struct Man {
-    /// A subcommand; without it, the page of the program.
+    /// A subcommand [default: the program].
     topic: Option<String>,
     /// Write all pages into an existing folder instead of one page to stdout.
     #[arg(long, value_name = "FOLDER", conflicts_with = "topic")]
@@ -27,7 +27,7 @@ impl Man {
         let one = pages(all)
             .into_iter()
             .find(|one| one.get_name().strip_prefix("bowden-") == Some(&topic))
-            .ok_or_else(|| format!("man {topic}: there is no such subcommand"))?;
+            .ok_or_else(|| format!("man {topic}: no such subcommand"))?;
         super::pour(&page(one)?)
     }
 }

@@ -43,7 +43,7 @@ fn named(option: &str, path: &Path) -> Result<(), Failure> {
         return Ok(());
     }
     Err(format!(
-        "{option} {}: a name that ends in .{} is needed",
+        "{option} {}: the file name must end in .{}",
         path.display(),
         endings.join(" or .")
     ))
@@ -52,7 +52,7 @@ fn named(option: &str, path: &Path) -> Result<(), Failure> {
 fn writable(option: &str, path: &Path, read: &[&Path]) -> Result<(), Failure> {
     let refuse = |message: String| Err(format!("{option} {}: {message}", path.display()));
     if path.is_dir() {
-        return refuse("is a folder; the name of a file is needed".to_owned());
+        return refuse("is a folder; give the name of a file".to_owned());
     }
     if let Some(other) = read.iter().find(|other| same(path, other)) {
         return refuse(format!(

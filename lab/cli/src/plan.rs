@@ -15,8 +15,8 @@ pub struct Plan {
     record: PathBuf,
     #[command(flatten)]
     reading: Reading,
-    /// File for the trajectory [default: stdout]. Exit status 1 if there is no trajectory: no file
-    /// is written then.
+    /// File for the trajectory [default: stdout]. If there is no trajectory, the exit status is 1
+    /// and no file is written.
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
 }

@@ -14,7 +14,7 @@ pub struct Power {
     record: PathBuf,
     #[command(flatten)]
     reading: Reading,
-    /// Only these effects or families; NAME@CHANNEL for one channel.
+    /// Test only these effects or families; NAME@CHANNEL for one channel.
     #[arg(long, value_delimiter = ',', value_name = "NAME,…")]
     effects: Vec<String>,
     /// Trials of each amplitude, 5 to 200.

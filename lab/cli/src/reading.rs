@@ -26,14 +26,14 @@ pub struct Columns {
     /// Column of the output [default: `tau_o` or `f`].
     #[arg(long, value_name = "COL")]
     pub output: Option<String>,
-    /// A further channel: phi_p, phi_d (angles), temperature, load, or any other name; COL may
-    /// be A-B or A+B of two columns.
+    /// A further channel: phi_p, phi_d (angles), temperature, load, or any other name; COL may be
+    /// the difference A-B or the sum A+B of two columns.
     #[arg(long, value_name = "NAME=COL")]
     pub channel: Vec<String>,
-    /// Seconds after the first time stamp at which the record is cut on the left [default: 0].
+    /// Discard the samples before this time, in seconds after the first time stamp [default: 0].
     #[arg(long, alias = "skip", value_name = "SECONDS")]
     pub start: Option<f64>,
-    /// Seconds after the first time stamp at which the record is cut on the right [default: its
+    /// Discard the samples after this time, in seconds after the first time stamp [default: the
     /// last sample].
     #[arg(long, alias = "until", value_name = "SECONDS")]
     pub end: Option<f64>,
@@ -68,7 +68,7 @@ pub struct Reading {
     #[arg(long, alias = "rounds", value_name = "N")]
     pub max_terms: Option<usize>,
     /// Stop the search after this time and print the best model so far. The result then depends on
-    /// the speed of the machine.
+    /// the speed of the computer.
     #[arg(long, alias = "budget", value_name = "SECONDS")]
     pub time_limit: Option<f64>,
 }
@@ -181,7 +181,7 @@ pub fn files(arguments: &[PathBuf]) -> Result<Files, Failure> {
                 0 => String::new(),
                 count => format!(" but {}", vectors(count)),
             };
-            return Err(format!("{text}: no file has such a name{but}"));
+            return Err(format!("{text}: no file matches this pattern{but}"));
         }
         files.vectors += left_out.len();
         files.paths.extend(found);
@@ -195,7 +195,7 @@ pub fn file(argument: &Path) -> Result<PathBuf, Failure> {
     match <[PathBuf; 1]>::try_from(files) {
         Ok([one]) => Ok(one),
         Err(several) => Err(format!(
-            "{}: {} files have such a name; one is needed",
+            "{}: {} files match this pattern; exactly one must match",
             argument.display(),
             several.len()
         )),

@@ -48,8 +48,8 @@ impl Rows {
         self.glob.is_some() || self.row.is_some()
     }
 
-    /// Whether nothing here is given that `--glob` alone reads. The parser does not ask for an option
-    /// that another argument excludes, as a record excludes `--glob`.
+    /// Whether nothing here is given that `--glob` alone reads. The parser does not ask for an
+    /// option that another argument excludes, as a record excludes `--glob`.
     pub fn check_unused(&self) -> Result<(), Failure> {
         if let Some(out) = &self.out {
             return Err(format!(
@@ -71,7 +71,7 @@ impl Rows {
             return crate::say(&one(file, asked).json()?);
         }
         let (Some(pattern), Some(out)) = (&self.glob, &self.out) else {
-            return Err("--glob and --out need each other".to_owned());
+            return Err("--glob and --out must be given together".to_owned());
         };
         let found = reading::files(std::slice::from_ref(pattern))?;
         let left_out = found
@@ -121,7 +121,7 @@ fn one(file: &Path, asked: &Asked) -> Row {
 
 /// The rows of all records, in their order.
 fn all(files: &[PathBuf], workers: Option<NonZeroUsize>) -> Result<Vec<Row>, Failure> {
-    let program = std::env::current_exe().map_err(|e| format!("this program: {e}"))?;
+    let program = std::env::current_exe().map_err(|e| format!("cannot find the program's own file: {e}"))?;
     let processors = || thread::available_parallelism().map_or(1, NonZeroUsize::get);
     let workers = workers.map_or_else(processors, NonZeroUsize::get);
     let bar = progress(files.len());
@@ -150,7 +150,7 @@ fn all(files: &[PathBuf], workers: Option<NonZeroUsize>) -> Result<Vec<Row>, Fai
     bar.finish_and_clear();
     rows.sort_by_key(|(index, _)| *index);
     if rows.len() < files.len() {
-        return Err("a record has no row".to_owned());
+        return Err("a worker failed, and at least one record has no row".to_owned());
     }
     Ok(rows.into_iter().map(|(_, row)| row).collect())
 }
@@ -177,7 +177,7 @@ fn in_a_process(program: &Path, file: &Path) -> Row {
             let last = words.trim().lines().last().unwrap_or_default();
             Row::failed(&name, format!("{name}: {}: {last}", output.status))
         }
-        Err(error) => Row::failed(&name, format!("{name}: no process: {error}")),
+        Err(error) => Row::failed(&name, format!("{name}: cannot start a process: {error}")),
     }
 }
 

@@ -34,7 +34,7 @@ pub fn text(all: &Certified, label: Option<&str>, width: Width, verbose: bool) -
     let place = |line: &Promise| ORDER.iter().position(|kind| *kind == line.kind);
     useful.sort_by_key(|line| place(line).unwrap_or(ORDER.len()));
     let mut out = String::new();
-    let subject = label.unwrap_or("the paper's gains on the reference rig");
+    let subject = label.unwrap_or("the gains of Nguyen et al. (2018) on the reference rig");
     let (colour, answer) = match useful.first() {
         Some(first) => (
             AnsiColor::Green,
@@ -52,7 +52,7 @@ pub fn text(all: &Certified, label: Option<&str>, width: Width, verbose: bool) -
     let peaks: Vec<f64> = peaks.filter_map(|line| line.value).collect();
     if let (Some(least), Some(greatest)) = (peaks.first(), peaks.last()) {
         let words = format!(
-            "The sampled law has peak bounds from {least:.4} to {greatest:.4} N·m, one for each plant."
+            "The peak bounds of the sampled law range from {least:.4} to {greatest:.4} N·m, depending on the plant and on the bounds of beta_hat."
         );
         prose(&mut out, width, &words);
     }
@@ -73,7 +73,7 @@ pub fn text(all: &Certified, label: Option<&str>, width: Width, verbose: bool) -
     let vacuous = lines.iter().filter(|line| line.vacuous);
     let vacuous = vacuous.map(|line| match (&line.mostly, verbose) {
         (Some(mostly), true) => format!(
-            "{}; {:.0} % of it is the {}, with the best free constants",
+            "{}; with the best free constants, {:.0} % of this bound comes from the {}",
             beyond(line),
             100.0 * mostly.share,
             mostly.term
@@ -102,7 +102,8 @@ pub fn text(all: &Certified, label: Option<&str>, width: Width, verbose: bool) -
     out
 }
 
-/// What a theorem bounds: the rms over a long time, the error at every sample, or its limit superior.
+/// What a theorem bounds: the rms over a long time, the error at every sample, or its limit
+/// superior.
 fn quantity(kind: &str) -> &'static str {
     match kind {
         "rms" | "rms-sampled" => "rms",
@@ -123,9 +124,9 @@ fn beyond(line: &Promise) -> String {
 }
 
 const NOTES: [&str; 3] = [
-    "range: alpha, zeta, c/K and latency of the plant are within the first share of the rig's, and wn is within the second, all at once",
-    "beta within p %: bounds of beta_hat around 1/alpha, where alpha = N_A·B of the rig",
-    "the proofs cover the row at rest in f32, rounding included: |s| <= 0.43 N·m and |e| <= 0.86 N·m with Table 2's gains, if |w| <= 8 N·m and s, z start within their bounds (proofs/README.md)",
+    "range: the plant's alpha, zeta, c/K and latency all lie within the first percentage of the rig's values, and its wn lies within the second",
+    "beta within p %: beta_hat is bounded to p % around 1/alpha, where alpha is N_A·B of the rig",
+    "the proofs cover the row `at rest` in f32, including rounding: with the gains of Table 2 of the paper, |s| <= 0.43 N·m and |e| <= 0.86 N·m, if |w| <= 8 N·m, and if s and z start within their bounds (proofs/README.md)",
 ];
 
 /// The assumptions of each kind of bound.
@@ -156,7 +157,7 @@ fn assumptions(out: &mut String, all: &Certified, width: Width) {
 fn within(tolerance: &Tolerance, what: &str) -> String {
     let told = match (tolerance.share, &tolerance.refused) {
         (Some(share), _) if share <= 0.0 => {
-            format!("{what} with the rig's own plant; nothing is shown of others")
+            format!("{what} with the rig's own plant; nothing is shown for other plants")
         }
         (Some(share), _) => format!(
             "{what} with every plant within {:.1} %, wn within {:.2} %",

@@ -138,7 +138,7 @@ pub fn check_text(model: &str, path: &str, check: &CheckFacts, width: Width) -> 
     let (colour, headline) = match check.verdict {
         Verdict::Holds => (AnsiColor::Green, "THE MODEL HOLDS"),
         Verdict::GainOrOffsetMoved => (AnsiColor::Yellow, "GAIN OR OFFSET HAS MOVED"),
-        Verdict::CannotTell => (AnsiColor::Yellow, "THIS RECORD CANNOT TELL"),
+        Verdict::CannotTell => (AnsiColor::Yellow, "INCONCLUSIVE RECORD"),
         Verdict::DoesNotHold => (AnsiColor::Red, "THE MODEL DOES NOT HOLD"),
         Verdict::DefectiveRecord => (AnsiColor::Red, "DEFECTIVE RECORD: repeat the measurement"),
     };
@@ -149,7 +149,7 @@ pub fn check_text(model: &str, path: &str, check: &CheckFacts, width: Width) -> 
     out.push('\n');
     let start = match check.left_out > 0.0 {
         true => format!(
-            " · the first {:.1} s do not count: the input before them is unknown",
+            " · the first {:.1} s are ignored: the input before them is unknown",
             check.left_out
         ),
         false => String::new(),
@@ -185,7 +185,7 @@ pub fn check_text(model: &str, path: &str, check: &CheckFacts, width: Width) -> 
             |p| format!("p {p:.1e}"),
         );
         format!(
-            "the residual depends on {}: a curve removes {:.0} % of the squared error ({tested})",
+            "the residual depends on {}: a curve over it removes {:.0} % of the squared error ({tested})",
             one.words,
             100.0 * one.share
         )

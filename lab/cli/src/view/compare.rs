@@ -103,10 +103,10 @@ fn answer(out: &mut String, heading: &Heading, lines: &[Line], width: Width) {
             prose(
                 out,
                 width,
-                &format!("{name} computes with no plant model; {origin}."),
+                &format!("{name} uses no plant model; {origin}."),
             );
         }
-        None => prose(out, width, &format!("{name} computes with no plant model.")),
+        None => prose(out, width, &format!("{name} uses no plant model.")),
     }
     let other = smallest_error(lines, |name| knows(name).is_none());
     if let Some(other) = other.filter(|_| known.is_some()) {
@@ -120,8 +120,8 @@ fn answer(out: &mut String, heading: &Heading, lines: &[Line], width: Width) {
     out.push('\n');
 }
 
-/// Where the width is too small, the share of the reference is dropped first, then the reversals, the
-/// deviations, the paper, the bound, the measured error, the effort, and the peak.
+/// Where the width is too small, the share of the reference is dropped first, then the reversals,
+/// the deviations, the paper, the bound, the measured error, the effort, and the peak.
 const DROPPED: &[usize] = &[5, 10, 7, 4, 2, 6, 11, 3, 9, 8];
 
 fn steady(heading: &Heading, lineup: &Lineup, verbose: bool) -> Columns {
@@ -214,7 +214,7 @@ fn notes(heading: &Heading, lineup: &Lineup, verbose: bool) -> Vec<String> {
     let changed = heading.fed_with.as_ref();
     notes.extend(
         changed.map(|changed| {
-            format!("The model has no inverse; the feed-forward inverts {changed}.")
+            format!("The model has no inverse. The feed-forward inverts {changed} instead.")
         }),
     );
     let rig = match (heading.is_paper, &heading.model, heading.gait) {
@@ -241,34 +241,34 @@ fn notes(heading: &Heading, lineup: &Lineup, verbose: bool) -> Vec<String> {
     notes
 }
 
-const CALIBRATED: &str = "Drive gain and noise of the rig are chosen so that PI and the adaptive law match Table 3 of the paper. The rows pi and adaptive are calibration, not validation.";
+const CALIBRATED: &str = "The rig's drive gain and noise are chosen so that PI and the adaptive law match Table 3 of Nguyen et al. (2018). The rows pi and adaptive are therefore calibration, not validation.";
 
-const NOT_REPRODUCED: &str = "Not reproduced: PIV below PI, and the paper's scatter of trials.";
+const NOT_REPRODUCED: &str = "Not reproduced from the paper: an error of PIV below that of PI, and the scatter between trials.";
 
 const OF_THE_REFERENCE_RIG: &str =
-    "Numbers of the rig that you do not set are those of the reference rig.";
+    "Rig parameters that you do not set are those of the reference rig.";
 
-const RINGING: &str = "Gains of `bowden design` can ring on a heavy joint that swings.";
+const RINGING: &str = "Gains from `bowden design` can cause ringing on a heavy joint that swings.";
 
 const CHANGED: &str =
-    "Rig or gains are not the paper's: its Table 3 is no reference for this comparison.";
+    "The rig or the gains differ from those of Nguyen et al. (2018): their Table 3 is no reference for this comparison.";
 
-const NOT_OF_A_GAIT: &str = "No bounds: they hold for the paper's reference only.";
+const NOT_OF_A_GAIT: &str = "No bounds: they hold only for the reference signal of Nguyen et al. (2018).";
 
-const NOT_OF_THESE_GAINS: &str = "No bounds here: `bowden certify GAINS.toml` says what is proved.";
+const NOT_OF_THESE_GAINS: &str = "No bounds here: `bowden certify GAINS.toml` prints what is proved.";
 
-const NOT_OF_THIS_RIG: &str = "No bounds: they hold for the reference rig only. `bowden design` derives gains from a model, and a bound for them.";
+const NOT_OF_THIS_RIG: &str = "No bounds: they hold only for the reference rig. `bowden design` derives gains from a model, and a bound for these gains.";
 
 const OF_CONTROLLERS: [(&str, &str); 5] = [
-    ("matched-pi", "a PI with the integral gain that the paper's adaptive law has in effect (320). Its error shows what gain achieves without adaptation."),
+    ("matched-pi", "a PI with the effective integral gain of the paper's adaptive law (320). Its error shows what the gain achieves without adaptation."),
     ("pi-observer", "a softer PI with a disturbance observer. It has no model of the friction. `bowden certify` prints for which plants its loop is stable."),
-    ("adaptive-frozen", "beta_hat is 1/alpha, delta_hat is as given, and neither adapts."),
+    ("adaptive-frozen", "beta_hat is 1/alpha, delta_hat is the given value, and neither adapts."),
     ("adaptive-feed-forward", "the adaptive law, plus the inverse of the rig's own transmission or of the given model."),
-    ("pi-learning", "the paper's PI, plus a correction for each cell of the cycle and the inverse of the nominal plant. It needs the phase of the cycle, and five to twenty cycles."),
+    ("pi-learning", "the paper's PI, plus a correction for each cell of the cycle and the inverse of the nominal plant. It needs the phase of the cycle, and five to twenty cycles to learn."),
 ];
 
 const OF_COLUMNS: [&str; 3] = [
-    "Columns: `measured` is the rms of the measured error, which the paper's Table 3 has; `% max` is its share of the greatest reference.",
+    "Columns: `measured` is the rms of the measured error, which the paper's Table 3 lists; `% max` is this rms as a share of the greatest reference.",
     "Columns: `effort` is the total variation of the command [units/s].",
     "Columns: `bound` is the proved bound of the rms error of an idealised plant without sensor noise. `bowden certify` lists its assumptions.",
 ];

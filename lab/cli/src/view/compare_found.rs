@@ -97,7 +97,7 @@ fn on_the_bench(outcome: &Outcome) -> String {
         out += &format!("; not fed forward: {}", found.left_out.join(", "));
     }
     if let Some(changed) = &outcome.fed_with {
-        out += &format!("; no inverse as fitted, fed forward with {changed}");
+        out += &format!("; no inverse as fitted; fed forward with {changed}");
     }
     out
 }
@@ -136,7 +136,7 @@ fn seed(outcome: &Outcome) -> Columns {
 const NOTES: [&str; 4] = [
     "Baseline: the feed-forward is Bouc-Wen alone, fitted to the bench record.",
     "With found: the terms that `identify` adds are refitted together with Bouc-Wen and fed forward.",
-    "Third regressor: the found terms enter the adaptive law with their bench value as prior. Its baseline is the law without them.",
+    "Third regressor: the found terms enter the adaptive law with their bench values as priors. Its baseline is the law without them.",
     "Quiet: the loop has a fifth of the paper's gains. It shows what a full gain hides.",
 ];
 

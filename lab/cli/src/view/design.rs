@@ -62,7 +62,7 @@ fn answer(out: &mut String, designed: &Designed, width: Width) {
     let percent = 100.0 * (derivative.integral_gain - 1.0);
     let words = match derivative.helps {
         true => format!(
-            "A derivative helps: k_i grows by {percent:.0} %. PID: {}. {}",
+            "A derivative helps: it raises k_i by {percent:.0} %. PID: {}. {}",
             gains(&derivative.pid),
             margins(&derivative.pid)
         ),
@@ -84,7 +84,7 @@ fn certifies(designed: &Designed) -> String {
             "`bowden certify GAINS.toml` names the gain or limit that prevents a proof.".to_owned()
         }
         Certifies::Refuses(why) => {
-            format!("`bowden certify` refuses a file of these gains: {why}.")
+            format!("`bowden certify` refuses a file with these gains: {why}.")
         }
     }
 }
@@ -122,11 +122,11 @@ fn plant(designed: &Designed) -> [String; 3] {
     let b = &designed.bounds;
     let rate = match b.reference_rate {
         Some(rate) => format!("up to {} N·m/s", short(rate)),
-        None => "no rate is certain".to_owned(),
+        None => "no rate is guaranteed".to_owned(),
     };
     let range = match b.output {
         Some([low, high]) => format!("within {} to {} N·m", short(low), short(high)),
-        None => "the record covers none in both directions".to_owned(),
+        None => "the record covers no torque in both directions".to_owned(),
     };
     [
         format!(
@@ -221,7 +221,7 @@ fn details(designed: &Designed) -> Vec<String> {
             asked.least_real
         ),
         format!(
-            "Re L {:.2}: least real part of the open loop. Above -1 no sequence of slopes between zero and the designed one makes the loop unstable (circle criterion)",
+            "Re L {:.2}: least real part of the open loop. Above -1, no sequence of slopes between zero and the design slope makes the loop unstable (circle criterion)",
             designed.pi.margins.least_real
         ),
         format!(
@@ -230,12 +230,12 @@ fn details(designed: &Designed) -> Vec<String> {
             short(admissible.k_i),
             short(admissible.k_i_alone)
         ),
-        "the plant is the transmission and the delay: inertia and spring of a joint are not in it".to_owned(),
-        "reference: no rate is certain if the least slope is near zero or below".to_owned(),
+        "the plant consists of the transmission and the delay; it does not include the inertia or the spring of a joint".to_owned(),
+        "reference: no rate is guaranteed if the least slope is near or below zero".to_owned(),
         "slope: between B and B - kappa_eta·rho·max(1, 2·sigma), from the Bouc-Wen equation".to_owned(),
-        "limits of the command: the range of the record; a faster reference needs inputs that move faster than in the record".to_owned(),
+        "limits of the command: the range of the record; a faster reference needs inputs that move faster than those in the record".to_owned(),
         format!(
-            "slew rate: {} units/s for the noise, {} for the fastest input of the record",
+            "slew-rate limit: {} units/s for the noise, {} units/s for the fastest input of the record",
             short(b.slew_of_noise),
             short(b.slew_of_record)
         ),
@@ -246,14 +246,14 @@ fn details(designed: &Designed) -> Vec<String> {
     }
     if let Some(law) = &own.settings {
         all.push(format!(
-            "adaptive law: h·lambda·g·(k + delta/epsilon) = {:.2}, at most 1; adaptation gain and leakage of beta_hat {} and {} 1/s, of delta_hat {} and {} 1/s",
+            "adaptive law: h·lambda·g·(k + delta/epsilon) = {:.2}, which must be at most 1; adaptation gain and leakage: {} and {} 1/s for beta_hat, {} and {} 1/s for delta_hat",
             own.loop_gain,
             short(law.beta.gain),
             short(law.beta.leakage.rate()),
             short(law.delta.gain),
             short(law.delta.leakage.rate())
         ));
-        all.push("a certificate is of a plant that responds within the step".to_owned());
+        all.push("a certificate holds for a plant that responds within one step".to_owned());
     }
     all
 }

@@ -12,7 +12,7 @@ pub fn plan_text(record: &str, plan: &Plan, width: Width) -> String {
     heading(&mut out, width, ("bowden plan", record), (colour, &answer));
     if let Some(Planned { experiment, .. }) = &plan.planned {
         let words = format!(
-            "It takes {:.1} s. Its greatest speed is {:.2} times the recorded one.",
+            "It takes {:.1} s. Its greatest speed is {:.2} times that of the record.",
             experiment.seconds, experiment.speed
         );
         prose(&mut out, width, &words);
@@ -29,7 +29,7 @@ pub fn plan_text(record: &str, plan: &Plan, width: Width) -> String {
     block(&mut out, width, "Record", &plan.undescribed);
     let next = match (&plan.planned, &plan.undescribed) {
         (Some(_), _) => "record the motion · bowden identify RECORD NEW_RECORD",
-        (None, Some(_)) => "mend what the verdict names, record again · bowden identify RECORD",
+        (None, Some(_)) => "correct what the verdict names, record again · bowden identify RECORD",
         (None, None) if is_settled(plan) => "bowden validate MODEL.toml NEW_RECORD",
         (None, None) => "bowden identify -v RECORD (alternatives and their tests)",
     };
@@ -68,7 +68,7 @@ fn ambiguous(plan: &Plan) -> Option<String> {
     let pairs: Vec<String> = pairs.map(|[a, b]| format!("`{a}` without `{b}`")).collect();
     let motion = match pairs.is_empty() {
         true => String::new(),
-        false => format!(" A motion of {} does.", pairs.join(", or of ")),
+        false => format!(" A motion of {} would.", pairs.join(", or of ")),
     };
     let is_for_them = plan
         .planned

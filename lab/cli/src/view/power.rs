@@ -8,7 +8,7 @@ use serde::Serialize;
 use std::cmp::Ordering;
 
 /// The method, in one sentence.
-const SIMULATED: &str = "each effect at the middle one of its trial shapes, added to the last model's prediction and its residual under circular shifts and changes of sign; every trial closed as a whole: the search with its refits and tests; found: its family named or among the rivals";
+const SIMULATED: &str = "each effect, with the middle one of its trial shapes, is added to the last model's prediction and to the residual under circular shifts and changes of sign; each trial is a whole identification, with the search, its refits and its tests; an effect is found if its family is named or among the alternatives";
 
 #[derive(Serialize)]
 struct Whole<'a> {
@@ -201,7 +201,7 @@ fn answer(out: &mut String, power: &PowerFacts, width: Width) {
         (colour, &headline),
     );
     let words = format!(
-        "The table has the smallest amplitude that at least {:.0} % of {} trials find.",
+        "The table lists the smallest amplitude that at least {:.0} % of {} trials find.",
         100.0 * SHARE,
         power.trials
     );
@@ -224,7 +224,8 @@ fn answer(out: &mut String, power: &PowerFacts, width: Width) {
     out.push('\n');
 }
 
-/// Where the width is too small, the family is dropped first, then the trials, the noise, and the gain.
+/// Where the width is too small, the family is dropped first, then the trials, the noise, and the
+/// gain.
 const DROPPED: &[usize] = &[1, 5, 3, 4];
 
 fn table(power: &PowerFacts, rows: &[&PowerRow]) -> Columns {

@@ -5,7 +5,7 @@ use anstyle::AnsiColor;
 use bowden_trials::facts::{above, fixed, scientific, Named, Proof, Sides, Towards};
 
 /// Of a proof in which the limit of the command may be met.
-const AT_THE_LIMIT: &str = "The box needs commands beyond the limit: the limit may be met. The bound holds, since the limit holds the reference against the load (theorems/Limit.v).";
+const AT_THE_LIMIT: &str = "Within the bounds of the proof the law may ask for commands beyond the limit, so the limit may become active. The error bound still holds, because the command at its limit can hold the reference against the load (theorems/Limit.v).";
 
 /// Schema `bowden.certificate/1`.
 ///
@@ -97,7 +97,7 @@ pub fn text(proof: &Proof, label: &str, width: Width, verbose: bool) -> String {
 fn rounding(proof: &Proof) -> String {
     let rounded = &proof.roundings;
     format!(
-        "rounding a step: s {} N·m, command {}, z {} N·m·s, of which owed from the step before {} and {}",
+        "rounding per step: s {} N·m, command {}, z {} N·m·s; the last two include {} and {} carried over from the previous step",
         short(rounded.s.high),
         short(rounded.command.high),
         short(rounded.z.high),

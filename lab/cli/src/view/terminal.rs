@@ -26,7 +26,7 @@ fn defect_line(defect: &Defect) -> String {
         lines.push(format!("{} more", defect.ranges.len() - LISTED));
     }
     let out = if defect.left_out {
-        "; left out of the fit"
+        "; excluded from the fit"
     } else {
         ""
     };
@@ -125,13 +125,13 @@ fn headline(facts: &Facts) -> String {
             "DO NOT USE THIS MODEL: the output does not follow the input".to_owned()
         }
         (Verdict::NotTransferable, _) => {
-            "DO NOT USE THIS MODEL: it fits one stretch of the record only".to_owned()
+            "DO NOT USE THIS MODEL: it fits only one stretch of the record".to_owned()
         }
         (Verdict::DefectiveRecord, _) => "DEFECTIVE RECORD: repeat the measurement".to_owned(),
         (Verdict::UnderExcited, 0) => {
             "UNDER-EXCITED RECORD: too little motion for an answer".to_owned()
         }
-        (Verdict::UnderExcited, _) => format!("UNDER-EXCITED RECORD: perhaps {main}"),
+        (Verdict::UnderExcited, _) => format!("UNDER-EXCITED RECORD: perhaps missing {main}"),
         (Verdict::UnmodelledDependence, _) => {
             let words = facts
                 .unknown
@@ -264,20 +264,20 @@ fn errors(facts: &Facts, report: Report) -> String {
     }
     let mut out = rows.text(width);
     if !facts.beyond.is_empty() {
-        block(&mut out, width, "Note", ["not delivered: on half-records that the term was not fitted to, the model is as good without it"]);
+        block(&mut out, width, "Note", ["not delivered: on half-records that were excluded from the fit, the model is as good without the term"]);
     }
     let fell = facts.falls_up_to;
     if fell < facts.rounds.len() {
         let until = match fell {
-            0 => "the first term raises it already".to_owned(),
-            n => format!("the error fell up to term {n}"),
+            0 => "the first term already raises it".to_owned(),
+            n => format!("the error falls up to term {n}"),
         };
         block(
             &mut out,
             width,
             "Note",
             [format!(
-                "↑ raises the held-out error, which selects nothing: {until}"
+                "↑: the term raises the held-out error, which the search does not use; {until}"
             )],
         );
     }

@@ -144,7 +144,7 @@ fn a_name_of_another_form_is_refused_before_anything_is_read() {
             for command in commands {
                 assert_eq!(
                     refused(&command),
-                    format!("bowden: {option} {path}: a name that ends in {expected} is needed")
+                    format!("bowden: {option} {path}: the file name must end in {expected}")
                 );
             }
             assert_eq!(folder.read(name), "before");

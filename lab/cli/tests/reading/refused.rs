@@ -192,7 +192,7 @@ fn a_pattern_without_files_or_with_several_is_refused() {
     folder.file("b.csv", csv());
     let line = refused(&["plan", &none]);
     assert!(
-        line.ends_with("2 files have such a name; one is needed"),
+        line.ends_with("2 files match this pattern; exactly one must match"),
         "{line}"
     );
 }
