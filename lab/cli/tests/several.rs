@@ -67,7 +67,7 @@ fn files_that_do_not_go_together_give_one_line_with_file_and_column() {
     let other = folder.renamed(&a, "unit.csv", |h| h.replacen("N·m", "V", 1));
     let line = refused(&["identify", &a, &other]);
     assert!(
-        line.contains("unit.csv: column `tau_i`: has unit V; unit N·m is needed"),
+        line.contains("unit.csv: column `tau_i`: has unit V; it must have unit N·m"),
         "{line}"
     );
     let line = refused(&["identify", &a, &folder.path("none.csv")]);

@@ -118,7 +118,7 @@ fn quoted_cells_hold_separators_quotes_and_line_ends() {
         );
         assert_eq!(
             error.unwrap_err().to_string(),
-            "r.csv:26: column `t`: `0,20` has a decimal comma; a decimal point is needed"
+            "r.csv:26: column `t`: `0,20` has a decimal comma; write a decimal point"
         );
     }
 }

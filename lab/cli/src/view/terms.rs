@@ -5,7 +5,8 @@ pub const TERMS: &str = "\
 The terms of `bowden identify`
 
 baseline      The model that --baseline names (default: bouc-wen).
-term          An effect that the search adds to the baseline model. effect@channel reads that channel.
+term          An effect that the search adds to the baseline model. The effect in `effect@channel`
+              reads that channel.
 noise floor   RMS of the sensor's noise after the filter, in the output's unit. It is estimated
               from the highest frequencies of the output and assumed to be white.
 vs noise      Held-out RMSE in multiples of the noise floor. At 1.0 to 1.2 the residual is noise;
@@ -16,16 +17,16 @@ held-out      The last 25 %. Neither the fit nor the selection uses it: this is 
               expect on the next record of the same motion. `↑` marks a term that raises
               it. The search does not read this segment, so the mark is a warning, not a rule.
 removes       The share of the squared error on the fit segment that a term removes.
-confidence    Of a mechanism: high if it removes at least half of the error that all mechanisms
-              together remove, and no alternative to its terms belongs to another mechanism.
+confidence    Of a mechanism: high if it removes at least half of the squared error that all
+              mechanisms together remove, and no alternative to its terms belongs to another one.
               Of a term: high if the final model's error is noise, the term has no alternative,
               and none of its parameters is at a bound. A term of low confidence is a candidate:
               it describes the mechanism on this record.
 mechanism     What the missing output depends on: friction (a velocity), elasticity (a position or
-              a load), inertia (an acceleration), contact memory (the travel since the last reversal),
-              the shape of the hysteresis, or time.
+              a load), inertia (an acceleration), contact memory (the travel since the last
+              reversal), the shape of the hysteresis, or time.
 not delivered On blocks that were excluded from its fit, the model is as good without the term.
-              The model with the term is in --json, under undelivered.
+              --json lists it under undelivered.
 coefficient   Gain of the term in the final model with its 95 % interval (jackknife over sixteen
               blocks). \"acts, size unknown\": the interval contains zero, because other terms can
               replace this one.
@@ -34,8 +35,8 @@ p             Probability that chance alone explains as much, from the exact sig
 blocks improved
               The number of the sixteen stretches of equal path on which the term lowers the error
               when its coefficients are fitted on the other fifteen.
-alternatives  Effects that explain this record equally well: each removes at least 90 % of what the
-              term removes, and its error is at most twice as large. The simplest one is named.
+alternatives  Effects that explain this record equally well: each removes at least 90 % of what
+              the term removes, and its error is at most twice as large. The simplest one is named.
 redundant     A part of the baseline model whose removal raises the held-out error by less than a
               tenth.
 rejected      Terms that were tried, with the reason: not significant (p is too large), not on
@@ -47,7 +48,7 @@ verdict       explained              the fit and held-out errors are within the 
               ambiguous              the record cannot separate a term from its alternatives
               unmodelled-dependence  the residual depends on a measured quantity, and no effect in
                                      the catalogue matches it
-              under-excited          too few independent stretches for a test: the terms are proposals
+              under-excited          too few independent stretches for a test: terms are proposals
               not-transferable       the held-out error rises: the model fits this stretch only
               no-input-dependence    the input explains less than half of the output, or the files
                                      contradict each other

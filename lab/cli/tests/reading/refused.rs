@@ -111,12 +111,11 @@ fn what_a_foreign_file_lacks_is_said_with_the_column() {
         |name: &str, options: &[&str]| line(&foreign(name).display().to_string(), options);
     assert_eq!(
         foreign("words.mat", &[]),
-        ": no vector of real numbers among the variables `who`, `rate`; one vector for each \
-         column is needed, alone or as the fields of a structure"
+        ": no vector of real numbers among the variables `who`, `rate`; each column must be one vector, alone or as a field of a structure"
     );
     assert_eq!(
         foreign("lengths.mat", &[]),
-        ": column `f`: has 239 values; 240 are needed, as `t` has"
+        ": column `f`: has 239 values; it must have 240, as `t` has"
     );
     for name in ["complex.mat", "complex_7_3.mat"] {
         let line = foreign(name, &[]);
@@ -131,7 +130,7 @@ fn what_a_foreign_file_lacks_is_said_with_the_column() {
     );
     assert_eq!(
         foreign("words.parquet", &[]),
-        ": no numeric column; one for each quantity is needed"
+        ": no numeric column; each quantity must have one"
     );
     for codec in ["zstd", "brotli"] {
         assert_eq!(
@@ -143,7 +142,7 @@ fn what_a_foreign_file_lacks_is_said_with_the_column() {
     }
     assert_eq!(
         foreign("null.parquet", &[]),
-        ":100: column `x`: the cell is empty; a number is needed; --drop-bad drops such rows"
+        ":100: column `x`: the cell is empty, but must be a number; --drop-bad drops such rows"
     );
 }
 
@@ -157,7 +156,7 @@ fn text_that_could_be_read_in_two_ways_is_refused_with_line_and_column() {
     refuses(
         comma.replacen("\n1,5;", "\n1.5;", 1),
         &[],
-        ":386: column `t`: `1.5` has a decimal point; a decimal comma is needed as in line 2",
+        ":386: column `t`: `1.5` has a decimal point; write a decimal comma, as in line 2",
     );
     refuses(
         csv().replacen("\n1.5,", "\n1,5,", 1),
@@ -172,7 +171,7 @@ fn text_that_could_be_read_in_two_ways_is_refused_with_line_and_column() {
     refuses(
         csv(),
         &["--channel", "stretch=x_mm-load_N"],
-        ":1: column `load_N`: has unit N; unit mm is needed, as `x_mm` has, to add or subtract them",
+        ":1: column `load_N`: has unit N; it must have unit mm, as `x_mm` has, so that the two can be added or subtracted",
     );
     refuses(
         csv()

@@ -226,7 +226,7 @@ fn files_of_two_rigs_are_said_to_be_that_and_no_zero_is_blamed() {
     ];
     let closed = Closed::of(&[&paths[0], &paths[1]]);
     closed.says(&[
-        "These files do not seem to be from one rig",
+        "These files do not seem to come from one rig",
         "`--per-file gains`",
     ]);
     assert!(!closed.sentence().contains("zero of a sensor"));

@@ -53,7 +53,7 @@ fn a_velocity_in_place_of_the_displacement_is_asked_about() {
     ] {
         rows.header = header.to_owned();
         let closed = rows.close(&[&ends[..], &[input]].concat());
-        let asked = format!("Is `{input}` a velocity? A displacement is needed");
+        let asked = format!("Is `{input}` a velocity? The input must be a displacement");
         assert_eq!(closed.sentence().contains(&asked), is_velocity);
     }
 }

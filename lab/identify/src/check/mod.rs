@@ -143,7 +143,7 @@ impl Check {
     pub fn new(mut record: Record, given: &Given, cutoff: Option<f64>) -> Result<Self, String> {
         if record.mode != given.mode()? {
             return Err(format!(
-                "the model is in {} mode, the record is not",
+                "the model is in {} mode; the record is not",
                 given.file.mode
             ));
         }
@@ -416,7 +416,7 @@ fn remarks(given: &Given, cutoff: Option<f64>) -> Vec<String> {
             "the model was fitted at a cut-off of {own} Hz: its own error is not exactly comparable"
         )),
         (None, None) => notes.push(
-            "the model's file states no cut-off: it is taken from this record's input; --cutoff sets it".to_owned(),
+            "the model's file states no cut-off: it is derived from this record's input; --cutoff sets it".to_owned(),
         ),
         _ => {}
     }

@@ -33,7 +33,7 @@ impl Played {
             (None, Some(own)) => message
                 .replace(
                     "a higher --cutoff",
-                    "--cutoff with a higher one than the model's",
+                    "a --cutoff above the model's",
                 )
                 .replace(
                     &format!("--cutoff {own} Hz is too high"),

@@ -105,7 +105,7 @@ pub(super) fn starts_apart(data: &Prepared, solution: &Solution) -> Option<Strin
     let creeps = starts.any(|term| term.effect.family() == Family::Creep);
     creeps.then(|| {
         format!(
-            "The creep starts outside the range of the input: is it a drift of `{}`, for example of a sensor that warms up? A record after a longer run shows which.",
+            "The creep starts outside the range of the input: is it a drift of `{}`, for example of a sensor that warms up? A record made after a longer run would show which of the two it is.",
             data.output_name
         )
     })
@@ -135,7 +135,7 @@ pub(super) fn other_line(data: &Prepared, done: &FinalFit) -> Option<String> {
     }
     let unit = data.output_unit.as_ref().map(|unit| format!(" {unit}"));
     Some(format!(
-        " With a gain of {gain:.4} and an offset of {offset:.4}{} the error is {:.2} % on {}: does its unit, its sign or its zero differ? `--per-file gains` fits both for each file.",
+        " With a gain of {gain:.4} and an offset of {offset:.4}{} the error is {:.2} % on {}: does a unit, a sign or a zero differ in that file? `--per-file gains` fits both for each file.",
         unit.unwrap_or_default(),
         100.0 * error,
         file.path
@@ -201,7 +201,7 @@ pub(super) fn velocity_words(data: &Prepared) -> Option<String> {
     let is = data.mode == Mode::Displacement && is_velocity(&input.name, input.unit.as_deref());
     is.then(|| {
         format!(
-            "Is `{}` a velocity? A displacement is needed: use the position as the input, or integrate this column.",
+            "Is `{}` a velocity? The input must be a displacement: use the position as the input, or integrate this column.",
             input.name
         )
     })
@@ -214,7 +214,7 @@ pub(super) fn unseen_motion(data: &Prepared, done: &FinalFit) -> Option<String> 
     let is = is_left && done.solution.structure.hysteresis && has_unseen_motion(data);
     is.then(|| {
         format!(
-            "The motion of `{}` where it was not measured is unknown, and its effect persists in the hysteresis.",
+            "How `{}` moved while it was not measured is unknown, and the effect of that motion persists in the hysteresis.",
             data.input.name
         )
     })

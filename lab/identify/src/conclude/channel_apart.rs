@@ -115,7 +115,7 @@ pub(super) fn channel_words(apart: &ChannelApart) -> String {
         names => format!("the search finds {}", names.join(", then ")),
     };
     format!(
-        "{asked} With {mended}, {what}, and the error of the fit is {:.2} % of the output's standard deviation instead of {:.2} %: the terms named here only compensate this error. Correct the file first.",
+        "{asked} With {mended}, {what}, and the error of the fit is {:.2} % of the output's standard deviation instead of {:.2} %: the terms named here only compensate for this mistake. Correct the file first.",
         100.0 * after,
         100.0 * before
     )

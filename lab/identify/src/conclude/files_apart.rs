@@ -100,7 +100,7 @@ fn far_apart(data: &Prepared, own: &Solution, done: &FinalFit) -> Vec<FileApart>
 pub(super) fn rigs_words(ledger: &Ledger) -> Option<String> {
     let rigs = ledger.rigs_apart.as_ref()?;
     Some(format!(
-        "These files do not seem to be from one rig: on the fit segments one model for all files has an error of {:.1} % of the output's standard deviation; with separate gains for each file the error is {:.1} %. `--per-file gains` fits separate gains.",
+        "These files do not seem to come from one rig: on the fit segments one model for all files has an error of {:.1} % of the output's standard deviation; with separate gains for each file the error is {:.1} %. `--per-file gains` fits separate gains.",
         100.0 * rigs.together,
         100.0 * rigs.own
     ))
@@ -236,7 +236,7 @@ pub(super) fn apart_words(data: &Prepared, apart: &[FileApart]) -> Option<String
         more => format!(" {} more files have a different gain.", more.len()),
     };
     Some(format!(
-        "No single model describes these files: in `{}` the output is {} times the output with the gains of `{}`, with an offset of {}{}. An error of {:.1} % of its standard deviation remains with this correction, {:.0} % without.{also} {asked} Correct the file, or fit the gains of each file with `--per-file gains`.",
+        "No single model describes these files: in `{}` the output is {} times the output with the gains of `{}`, with an offset of {}{}. An error of {:.1} % of its standard deviation remains with this correction, and {:.0} % without it.{also} {asked} Correct the file, or fit the gains of each file with `--per-file gains`.",
         first.path,
         four_digits(first.gain),
         first.than,

@@ -46,7 +46,7 @@ pub struct Parameter {
 /// Why a record does not determine a parameter.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Refusal {
-    /// "at its upper bound", "moves with kappa_eta", …
+    /// "at its upper bound", "correlated with kappa_eta", …
     pub reason: String,
     /// The motion that would show it.
     pub excitation: String,
@@ -409,10 +409,10 @@ fn half_widths(data: &Prepared, solution: &Solution, columns: &[&Stretch]) -> Ve
 fn refusal(entry: &Entry<'_>, wide: bool, partner: Option<(&str, f64)>) -> Refusal {
     let with = partner
         .filter(|(_, correlation)| *correlation >= WITH)
-        .map(|(name, _)| format!("moves with {name}"));
+        .map(|(name, _)| format!("correlated with {name}"));
     let reason = match (entry.refused.clone(), with) {
         (Some(reason), _) => reason,
-        (None, Some(with)) if wide => format!("interval wider than half its value, {with}"),
+        (None, Some(with)) if wide => format!("interval wider than half its value, and {with}"),
         (None, Some(with)) => with,
         (None, None) if wide => "interval wider than half its value".to_owned(),
         (None, None) => "no part of the record depends on it alone".to_owned(),

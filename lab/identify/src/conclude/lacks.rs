@@ -44,8 +44,8 @@ pub(super) fn lacks(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String
 fn candidates(data: &Prepared, ledger: &Ledger) -> &'static str {
     match (Complete::new(data, ledger).at_floor, ledger.rounds.len()) {
         (true, _) | (_, 0) => "",
-        (false, 1) => " The term is a candidate: which formula describes the mechanism, this record does not tell.",
-        (false, _) => " The terms are candidates: which formulas describe the mechanisms, this record does not tell.",
+        (false, 1) => " The term is a candidate: this record does not show which formula describes the mechanism.",
+        (false, _) => " The terms are candidates: this record does not show which formulas describe the mechanisms.",
     }
 }
 
@@ -73,7 +73,7 @@ fn nothing_found(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     // What is left is more than noise: the model lacks something all the same.
     match floors(data, done).is_some_and(|errors| !is_noise(data, errors)) {
         true => format!(
-            "No effect of the catalogue explains the residual of the baseline model, {} of the output's standard deviation held out.",
+            "No effect of the catalogue explains the residual of the baseline model, which is {} of the output's standard deviation on the held-out segment.",
             percent(missed(data, done))
         ),
         false => "This record shows no effect that the baseline model lacks.".to_owned(),
@@ -86,7 +86,7 @@ pub(super) fn rises(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String
     if let (false, Some((fit, held_out))) = (is_worse(ledger, done), other_rig(data, done)) {
         let since = begins(data, done).map(|t| format!(", from {t:.3} s on"));
         return format!(
-            "The model does not transfer: its error is {} of the output's standard deviation on the fit segment and {} held out{}. The held-out segment differs from the fit segment: has the rig changed, or the sensor of `{}`? Do not use this model on other data.{}",
+            "The model does not transfer: its error is {} of the output's standard deviation on the fit segment and {} on the held-out segment{}. The two segments differ: has the rig changed, or the sensor of `{}`? Do not use this model on other data.{}",
             percent(fit),
             percent(held_out),
             since.unwrap_or_default(),
@@ -107,7 +107,7 @@ pub(super) fn rises(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String
     let added = names(ledger, done);
     if !added.is_empty() {
         let fell = falls_up_to(ledger);
-        text += &format!(" Added were {}", added.join(", then "));
+        text += &format!(" The search added {}", added.join(", then "));
         text += &match fell {
             0 => "; the first one already raises the error.".to_owned(),
             n if n < added.len() => format!("; the error falls up to {}.", added[n - 1]),
@@ -122,6 +122,6 @@ fn so_far(ledger: &Ledger, done: &FinalFit) -> String {
     let added = names(ledger, done);
     match added.is_empty() {
         true => String::new(),
-        false => format!(" Added were {}.", added.join(", then ")),
+        false => format!(" The search added {}.", added.join(", then ")),
     }
 }

@@ -159,7 +159,7 @@ pub fn unknown_words(data: &Prepared, ledger: &Ledger) -> Option<String> {
 fn coloured(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     if let Some((_, held_out)) = floors(data, done).filter(|(fit, _)| *fit <= AT_FLOOR) {
         return format!(
-            "The residual is the sensor's noise on the fit segment, but {held_out:.1} times that held out: the held-out segment differs from the fit segment."
+            "The residual is the sensor's noise on the fit segment, but {held_out:.1} times this noise on the held-out segment: the two segments differ."
         );
     }
     let size = match multiples(data, done) {
@@ -196,7 +196,7 @@ fn one_function(data: &Prepared, done: &FinalFit) -> Option<String> {
     let is_on_the_spring = data.mode == Mode::Displacement && term.source == Source::Input;
     let own = match is_on_the_spring && done.solution.structure.hysteresis {
         true => {
-            "; presliding with the sign of kappa_x is a slipping spring, with the opposite sign it is slack"
+            "; with the sign of kappa_x, presliding is a slipping spring; with the opposite sign, it is slack"
         }
         false => "",
     };
@@ -215,7 +215,7 @@ fn ballast(done: &FinalFit) -> Option<String> {
     }
     let part = Part::of(&done.data, &done.solution).filter(Part::is_ballast)?;
     Some(format!(
-        "On this record the hysteresis differs from a spring and an offset by {} of the output: their gains cancel each other, and the model holds within the recorded range only.",
+        "On this record the hysteresis differs from a spring and an offset by {} of the output: their gains cancel each other, and the model holds only within the recorded range.",
         percent(part.own)
     ))
 }
@@ -291,7 +291,7 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
         ));
     } else if let Some(channel) = made_without_input(data, &done.solution) {
         all.push(format!(
-            "Nearly all of the model's output comes from `{channel}` and none from `{}`: in this record the load follows `{channel}`, so the model describes the load. It will not hold with another load: record one, or name the transmission's terms in --baseline.",
+            "Nearly all of the model's output comes from `{channel}` and none from `{}`: in this record the load follows `{channel}`, so the model describes the load. It will not hold with another load: record another load, or name the transmission's terms in --baseline.",
             data.input.name
         ));
     } else if let Some(lead) = ledger.lead.filter(|_| !is_mended) {

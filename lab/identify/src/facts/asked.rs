@@ -119,7 +119,7 @@ impl Asked {
         }
         match data.is_at_rest() {
             true => Err(format!(
-                "{}: the input `{}` is at rest and shows only its sensor's noise: a record of a motion is needed",
+                "{}: the input `{}` is at rest and shows only its sensor's noise: record a motion",
                 record.path, data.input.name
             )),
             false => Ok((data, structure)),

@@ -170,7 +170,7 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
     if question.own_gains {
         if !structure.hysteresis {
             return Err(
-                "--per-file gains: they belong to bouc-wen, which --baseline omits".to_owned(),
+                "--per-file gains: these gains belong to bouc-wen, which --baseline omits".to_owned(),
             );
         }
         structure.own_gains = records.len();
@@ -267,7 +267,7 @@ fn hint(declared: &Solution, own: &Solution) -> Option<String> {
     let left = own.rmse.fit / declared.rmse.fit;
     (left < OTHER_CONFIGURATION).then(|| {
         format!(
-            "with separate gains for each file the baseline model has {:.0} % of this error on the fit segments: try --per-file gains",
+            "fitting separate gains for each file reduces the baseline model's error on the fit segments to {:.0} % of its value with common gains: try --per-file gains",
             100.0 * left
         )
     })

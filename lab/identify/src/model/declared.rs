@@ -41,13 +41,13 @@ pub fn declared(name: &str, data: &Prepared) -> Result<FitTerm, String> {
         names.sort_unstable();
         names.dedup();
         let near = nearest(name, names);
-        format!("--baseline {name}: no such effect{near}; known: bouc-wen, {known}, or an effect of these families by its own name, such as play-in-series")
+        format!("--baseline {name}: no such effect{near}; allowed: bouc-wen, {known}, and any effect of these families by its own name, such as play-in-series")
     };
     let entry = entry(name).or_else(|| first_of(name)).ok_or_else(unknown)?;
     let source = match (given, entry.declared) {
         (Some(source), _) => source,
         (None, Declared::OnStretch) => stretch(data).ok_or_else(|| {
-            format!("--baseline {name}: no channel of the record is a stretch; --channel stretch=phi_p-phi_d makes one")
+            format!("--baseline {name}: the record has no stretch channel; --channel stretch=phi_p-phi_d adds one")
         })?,
         (None, _) => default_source(data),
     };

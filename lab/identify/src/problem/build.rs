@@ -99,7 +99,7 @@ impl Prepared {
             .find(|(_, own)| **own > RATES_APART * step)
         {
             return Err(named(record, format!(
-                "has {:.6} samples per second, another file {:.6}: the rates may differ by a factor of {RATES_APART} at most",
+                "has {:.6} samples per second, another file {:.6}: the rates may differ by at most a factor of {RATES_APART}",
                 1.0 / own,
                 1.0 / step
             )));
@@ -208,7 +208,7 @@ fn place(
     let n_estimation = n_work.div_ceil(stride);
     if n_estimation < 2 * edge + rest::FEWEST {
         return Err(format!(
-            "the record is too short: {:.3} s at a cut-off of {cutoff:.4} Hz; at least {:.3} s are needed, or a higher --cutoff",
+            "the record is too short: {:.3} s at a cut-off of {cutoff:.4} Hz; record at least {:.3} s, or set a higher --cutoff",
             uniform.len as f64 * uniform.dt,
             (2 * edge + rest::FEWEST) as f64 * dt * stride as f64
         ));

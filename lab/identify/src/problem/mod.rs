@@ -49,7 +49,7 @@ pub const MOST_RECORDS: usize = 64;
 pub fn together(records: usize) -> Result<(), String> {
     match records > MOST_RECORDS {
         true => Err(format!(
-            "{records} records: at most {MOST_RECORDS} can be fitted together; --glob PATTERN --out ROWS.parquet identifies each by itself"
+            "{records} records: at most {MOST_RECORDS} can be fitted together; --glob PATTERN --out ROWS.parquet identifies each one separately"
         )),
         false => Ok(()),
     }

@@ -43,7 +43,7 @@ fn follow(first: &Record, other: &mut Record) -> Result<(), RecordError> {
     };
     if first.mode != other.mode {
         return Err(RecordError::new(format!(
-            "input of {} mode; {} mode is needed, as in {}",
+            "input for {} mode; the mode must be {}, as in {}",
             words(other.mode),
             words(first.mode),
             first.path
@@ -52,7 +52,7 @@ fn follow(first: &Record, other: &mut Record) -> Result<(), RecordError> {
     }
     let missing = |name: &str| {
         RecordError::new(format!(
-            "no such channel; it is needed, as in {}",
+            "no such channel, which {} contains; all files must have the same channels",
             first.path
         ))
         .on(name)
@@ -63,7 +63,7 @@ fn follow(first: &Record, other: &mut Record) -> Result<(), RecordError> {
         .find(|c| first.channel(&c.name).is_none())
     {
         return Err(RecordError::new(format!(
-            "a channel that {} does not have; the same channels are needed in all files",
+            "{} has no such channel; all files must have the same channels",
             first.path
         ))
         .on(&more.name));
@@ -119,7 +119,7 @@ fn convert(first: &Column, other: &mut Column, path: &str) -> Result<Option<Stri
         _ => None,
     };
     let Some(factor) = known else {
-        let message = format!("has {from}; {to} is needed, as in {path}");
+        let message = format!("has {from}; it must have {to}, as in {path}");
         return Err(RecordError::new(message).on(&other.name));
     };
     other.unit.clone_from(&first.unit);

@@ -26,7 +26,7 @@ pub(super) fn options(options: &Options) -> Result<(), RecordError> {
     }
     if options.header_line.is_some() && !options.names.is_empty() {
         return refuse(
-            "--names is for a file without names, --header-line for a file with names".to_owned(),
+            "--names is for a file without names, and --header-line is for a file with names".to_owned(),
         );
     }
     match options.rate {
@@ -58,7 +58,7 @@ pub(super) fn record(table: &Table, header: &Header, roles: &Roles) -> Result<()
     }
     if input == output {
         let message = format!(
-            "the output equals the input `{}` in every sample: the resulting force or torque is needed",
+            "the output equals the input `{}` in every sample: it must be the resulting force or torque",
             name(roles.input)
         );
         let line = table.lines.first().copied().unwrap_or(header.line);

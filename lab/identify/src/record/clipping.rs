@@ -36,7 +36,7 @@ impl fmt::Display for Clipped {
             f,
             "clipped: flat at {level} {times}, {share:.1} % of the samples; "
         )?;
-        write!(f, "a wider range of the sensor is needed")
+        write!(f, "use a sensor with a wider range")
     }
 }
 

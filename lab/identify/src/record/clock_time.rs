@@ -73,11 +73,11 @@ pub(super) fn expected(cell: &str) -> Option<&'static str> {
         return None;
     }
     Some(if cell.contains('/') {
-        "1/2/2026 may be two days; ISO 8601 (2026-02-01T23:59:50.250) or 1.2.2026 23:59:50.250 is needed"
+        "1/2/2026 is ambiguous; write 2026-02-01T23:59:50.250 (ISO 8601) or 1.2.2026 23:59:50.250"
     } else if upper.ends_with('M') {
-        "hours from 0 to 23 without AM and PM are allowed, as in 23:59:50.250"
+        "write hours from 0 to 23 without AM or PM, as in 23:59:50.250"
     } else {
-        "seconds, 23:59:50.250, 2026-02-01T23:59:50.250 (ISO 8601) or 1.2.2026 23:59:50.250 is needed"
+        "write seconds, 23:59:50.250, 2026-02-01T23:59:50.250 (ISO 8601) or 1.2.2026 23:59:50.250"
     })
 }
 

@@ -25,7 +25,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded<'_>, RecordError> {
     if bytes.is_empty() {
         return Err(RecordError::at(
             1,
-            "the file is empty; a header with column names is needed",
+            "the file is empty; a header with column names is missing",
         ));
     }
     let (text, note) = match wide(bytes) {
@@ -83,7 +83,7 @@ fn utf_16<'a>(bytes: &'a [u8], own: &'static Encoding) -> Result<Cow<'a, str>, R
     match text.find('\0') {
         Some(at) => Err(RecordError::at(
             line_of(&text[..at]),
-            "a character is NUL: a binary file; CSV text is needed",
+            "a character is NUL: a binary file; give CSV text",
         )),
         None => Ok(text),
     }
@@ -98,7 +98,7 @@ fn narrow(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<&'static str>), RecordEr
             .count()
     };
     if let Some(offset) = bytes.iter().position(|byte| *byte == 0) {
-        let message = format!("byte {offset} is NUL: a binary file; CSV text is needed");
+        let message = format!("byte {offset} is NUL: a binary file; give CSV text");
         return Err(RecordError::at(line_of(offset), message));
     }
     let error = match std::str::from_utf8(bytes) {

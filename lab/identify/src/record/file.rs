@@ -18,13 +18,13 @@ pub(super) fn load(path: &Path, label: &str) -> Result<Vec<u8>, RecordError> {
         refuse(match error.kind() {
             ErrorKind::NotFound => "no such file".to_owned(),
             ErrorKind::PermissionDenied => "no permission to read the file".to_owned(),
-            ErrorKind::IsADirectory => "is a folder; a CSV file is needed".to_owned(),
+            ErrorKind::IsADirectory => "is a folder; give a CSV file".to_owned(),
             _ => format!("cannot be read: {error}"),
         })
     };
     // A pipe has no size and is fine; only a folder is refused beforehand.
     if std::fs::metadata(path).map_err(failed)?.is_dir() {
-        return Err(refuse("is a folder; a CSV file is needed".to_owned()));
+        return Err(refuse("is a folder; give a CSV file".to_owned()));
     }
     let mut file = File::open(path).map_err(failed)?;
     let mut bytes = Vec::new();

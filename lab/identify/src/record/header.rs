@@ -146,7 +146,7 @@ fn tell_apart(columns: &mut [Named]) {
 pub(super) fn read(rows: &mut Rows<'_>) -> Result<Header, RecordError> {
     let (text, before) = rows.rest();
     let refuse = |what: &str| {
-        let message = format!("the {what}; a header with column names is needed");
+        let message = format!("the {what}; a header with column names is missing");
         Err(RecordError::at(before + 1, message))
     };
     if text
@@ -180,8 +180,7 @@ pub(super) fn read(rows: &mut Rows<'_>) -> Result<Header, RecordError> {
         return refuse("line has no names");
     }
     if named.all(|column| number::is_number(&column.name)) {
-        let message = "the line holds numbers; a header with column names is needed; \
-                       --names t,x,f gives the names of a file without them";
+        let message = "the line holds numbers; a header with column names is missing; --names t,x,f names the columns of a file without a header";
         return Err(RecordError::at(before + 1, message));
     }
     Ok(Header::with(line, columns))

@@ -155,8 +155,7 @@ fn unknown(header: &Header, cells: &[&str], index: usize, line: usize) -> Record
     let cell = shown(cells.get(index).copied().unwrap_or_default(), NAME_LENGTH);
     let name = &header.columns[index].name;
     let message = format!(
-        "`{cell}` is not a known unit; mm, N, N·m, deg or another is needed in a row of \
-         units, or an empty cell (`{} [{cell}]` as a name states any unit)",
+        "`{cell}` is not a known unit; a cell in a row of units must be mm, N, N·m, deg or another unit, or be empty (`{} [{cell}]` as a name states any unit)",
         shown(name, NAME_LENGTH)
     );
     RecordError::at(line, message).on(name)
@@ -254,7 +253,7 @@ fn nameless<'a>(text: &'a str, options: &Options) -> Result<Table<'a>, RecordErr
             ));
         };
         let message = format!(
-            "{} cells, --names has {}",
+            "{} cells, but --names lists {}",
             head.lines[line].1.len(),
             names.len()
         );

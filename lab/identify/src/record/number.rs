@@ -97,7 +97,7 @@ impl Notation {
         let text = shown(cell, CELL_LENGTH);
         let message = match cell.parse::<f64>() {
             Ok(_) => format!(
-                "`{text}` has a decimal point; a decimal comma is needed as in line {}",
+                "`{text}` has a decimal point; write a decimal comma, as in line {}",
                 self.decided.get()
             ),
             Err(_) => no_number(cell),
@@ -118,7 +118,7 @@ fn with_comma(cell: &str) -> Option<f64> {
 fn refuse(cell: &str, parsed: Option<f64>, line: usize, column: &str) -> Result<f64, RecordError> {
     let refuse = |message: String| Err(RecordError::at(line, message).on(column));
     if cell.is_empty() {
-        let message = "the cell is empty; a number is needed; --drop-bad drops such rows";
+        let message = "the cell is empty, but must be a number; --drop-bad drops such rows";
         return Err(RecordError::at(line, message).on(column).from(Bad::Empty));
     }
     let text = shown(cell, CELL_LENGTH);
@@ -128,7 +128,7 @@ fn refuse(cell: &str, parsed: Option<f64>, line: usize, column: &str) -> Result<
             .from(Bad::NotANumber)),
         Some(value) => measured(value, &text, line, column),
         None if cell.replacen(',', ".", 1).parse::<f64>().is_ok() => refuse(format!(
-            "`{text}` has a decimal comma; a decimal point is needed"
+            "`{text}` has a decimal comma; write a decimal point"
         )),
         None => refuse(no_number(cell)),
     }
@@ -202,16 +202,16 @@ fn has_thousands(cell: &str) -> bool {
 }
 
 fn not_finite(text: &str) -> String {
-    format!("`{text}` is not finite; a finite number is needed; --drop-bad drops such rows")
+    format!("`{text}` is not a finite number; --drop-bad drops such rows")
 }
 
 fn measured(value: f64, text: &str, line: usize, column: &str) -> Result<f64, RecordError> {
     let message = match value {
         value if value.abs() <= LARGEST => return Ok(value),
         value if value.is_finite() => {
-            format!("`{text}` is larger than {LARGEST:e}; a measured value is needed")
+            format!("`{text}` is larger than {LARGEST:e}, the largest allowed value")
         }
-        _ => format!("`{text}` is not finite; a finite number is needed"),
+        _ => format!("`{text}` is not a finite number"),
     };
     Err(RecordError::at(line, message).on(column))
 }
@@ -255,16 +255,16 @@ mod tests {
         assert_eq!(all(b'\t', &[",5", "1,"]), Ok(vec![0.5, 1.0]));
         assert_eq!(
             all(b';', &["0", "1,5", "1.5"]).unwrap_err(),
-            ":4: column `x`: `1.5` has a decimal point; a decimal comma is needed as in line 3"
+            ":4: column `x`: `1.5` has a decimal point; write a decimal comma, as in line 3"
         );
         assert_eq!(
             all(b';', &["0.5", "1,5"]).unwrap_err(),
-            ":3: column `x`: `1,5` has a decimal comma; a decimal point is needed"
+            ":3: column `x`: `1,5` has a decimal comma; write a decimal point"
         );
         // In quotes, of a file whose cells commas separate: thousands or decimals, who knows.
         assert_eq!(
             all(b',', &["1,5"]).unwrap_err(),
-            ":2: column `x`: `1,5` has a decimal comma; a decimal point is needed"
+            ":2: column `x`: `1,5` has a decimal comma; write a decimal point"
         );
     }
 

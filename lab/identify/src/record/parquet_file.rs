@@ -41,7 +41,7 @@ impl File {
             .collect();
         if places.is_empty() {
             return Err(RecordError::new(
-                "no numeric column; one for each quantity is needed",
+                "no numeric column; each quantity must have one",
             ));
         }
         Ok(Self { reader, places })

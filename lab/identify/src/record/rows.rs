@@ -57,7 +57,7 @@ impl Dropped {
         let rows = if self.all() == 1 { "row" } else { "rows" };
         (self.all() > 0).then(|| {
             format!(
-                "--drop-bad has dropped {} {rows}: {}",
+                "--drop-bad dropped {} {rows}: {}",
                 self.all(),
                 list.join(", ")
             )
@@ -209,7 +209,7 @@ impl<'a> Reader<'a> {
         {
             return Ok(());
         }
-        let mut message = format!("{} cells, the header has {}", row.len(), columns.len());
+        let mut message = format!("{} cells, but the header has {}", row.len(), columns.len());
         if row.last > row.line {
             message += &format!("; a quote extends the row to line {}", row.last);
         }
@@ -334,12 +334,12 @@ fn long_enough(left: usize, clock: &Clock, dropped: usize, line: usize) -> Resul
     // An option in the file's own stamps, which may be seconds since 1970.
     let counts = match all > 0 && clock.cut() == all {
         true => format!(
-            "; --start and --end count seconds from the first time stamp, the last one is at {:.3} s",
+            "; --start and --end count seconds from the first time stamp; the last one is at {:.3} s",
             clock.last()
         ),
         false => String::new(),
     };
     let message =
-        format!("too short: {left} {samples}{cut}; at least {MIN_SAMPLES} are needed{counts}");
+        format!("too short: {left} {samples}{cut}; the minimum is {MIN_SAMPLES}{counts}");
     Err(RecordError::at(line, message))
 }

@@ -96,7 +96,7 @@ impl Series {
             None => Err(RecordError::at(
                 header.line,
                 format!(
-                    "has {}; {} is needed, as `{}` has, to add or subtract them",
+                    "has {}; it must have {}, as `{}` has, so that the two can be added or subtracted",
                     unit(&b.unit),
                     unit(&a.unit),
                     shown(&a.name, NAME_LENGTH)

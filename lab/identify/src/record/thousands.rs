@@ -62,8 +62,7 @@ impl Thousands {
         };
         let number = grouped.trim_start_matches('+');
         let message = format!(
-            "`{}` may be {} or {}, next to `{}` without a comma in line {whole_line}; thousands \
-             without a separator or the same decimals in every cell are needed",
+            "`{}` may be {} or {}, next to `{}` without a comma in line {whole_line}; write thousands without a separator, or the same number of decimals in every cell",
             shown(grouped, CELL_LENGTH),
             number.replace(',', "."),
             number.replace(',', ""),
@@ -122,7 +121,7 @@ mod tests {
         assert_eq!(
             check(&["900", "1,197"]).unwrap_err(),
             ":3: column `f`: `1,197` may be 1.197 or 1197, next to `900` without a comma in line 2; \
-             thousands without a separator or the same decimals in every cell are needed"
+             write thousands without a separator, or the same number of decimals in every cell"
         );
     }
 

@@ -72,7 +72,7 @@ impl Clock {
                 let scale = units::seconds(unit).ok_or_else(|| {
                     let unit = shown(unit.unwrap_or_default(), NAME_LENGTH);
                     let message = format!(
-                        "unit `{unit}` is not a time; one of s, ms, us, ns, min, h, d is needed"
+                        "unit `{unit}` is not a unit of time; use s, ms, us, ns, min, h or d"
                     );
                     RecordError::at(header.line, message).on(&column.name)
                 })?;
@@ -192,7 +192,7 @@ impl Clock {
             if step > 0.0 && step < SHORT_STEP {
                 let name = &header.columns[index].name;
                 let message = format!(
-                    "no unit is stated, and there are {:.3e} rows per second if it is s: `{name} [d]` for days, `{name} [h]` for hours, or `{name} [s]` is needed",
+                    "no unit is stated, and there are {:.3e} rows per second if it is s: write `{name} [d]` for days, `{name} [h]` for hours, or `{name} [s]`",
                     1.0 / step
                 );
                 return Err(RecordError::at(header.line, message).on(name));
@@ -210,7 +210,7 @@ impl Clock {
         // Where most rows would go, what is left is another record.
         let drop = match 2 * self.repeated > self.rows {
             true => "",
-            false => ", --drop-bad drops such rows",
+            false => "; --drop-bad drops such rows",
         };
         let message = if self.repeated * 100 >= self.rows && self.last > 0.0 {
             let stamps = (self.rows - self.repeated).max(2) as f64;

@@ -57,15 +57,15 @@ fn a_stamp_of_another_form_says_which_forms_are_read() {
     };
     cell(
         "3/1/2026 23:59:50.000",
-        "1/2/2026 may be two days; ISO 8601 (2026-02-01T23:59:50.250) or 1.2.2026 23:59:50.250 is needed",
+        "1/2/2026 is ambiguous; write 2026-02-01T23:59:50.250 (ISO 8601) or 1.2.2026 23:59:50.250",
     );
     cell(
         "11:59:50.000 PM",
-        "hours from 0 to 23 without AM and PM are allowed, as in 23:59:50.250",
+        "write hours from 0 to 23 without AM or PM, as in 23:59:50.250",
     );
     cell(
         "2026-03-01",
-        "seconds, 23:59:50.250, 2026-02-01T23:59:50.250 (ISO 8601) or 1.2.2026 23:59:50.250 is needed",
+        "write seconds, 23:59:50.250, 2026-02-01T23:59:50.250 (ISO 8601) or 1.2.2026 23:59:50.250",
     );
 }
 
@@ -107,8 +107,8 @@ fn cuts_that_leave_nothing_say_from_where_they_count() {
     });
     assert_eq!(
         refusal(text, &options),
-        "r.csv:401: too short: 0 samples of 400 are left after cutting; at least 200 are needed; \
-         --start and --end count seconds from the first time stamp, the last one is at 3.990 s"
+        "r.csv:401: too short: 0 samples of 400 are left after cutting; the minimum is 200; \
+         --start and --end count seconds from the first time stamp; the last one is at 3.990 s"
     );
 }
 

@@ -34,11 +34,11 @@ fn a_decimal_comma_is_read_behind_semicolons_and_tabs() {
     refused(comma(&plain, ","), "r.csv:2: 6 cells, the header has 3");
     refused(
         comma(&plain, ";").replace("0,20;", "0.20;"),
-        "r.csv:22: column `t`: `0.20` has a decimal point; a decimal comma is needed as in line 2",
+        "r.csv:22: column `t`: `0.20` has a decimal point; write a decimal comma, as in line 2",
     );
     refused(
         plain.replace(',', ";").replace("0.20;", "0,20;"),
-        "r.csv:22: column `t`: `0,20` has a decimal comma; a decimal point is needed",
+        "r.csv:22: column `t`: `0,20` has a decimal comma; write a decimal point",
     );
     let thousands = comma(&plain, ";").replace("0,20;", "1.000,20;");
     refused(
@@ -61,13 +61,13 @@ fn commas_that_may_separate_thousands_are_refused() {
     refused(
         with(&|i| grouped(900 + i), &seconds),
         "r.csv:102: column `f`: `1,000` may be 1.000 or 1000, next to `900` without a comma in \
-         line 2; thousands without a separator or the same decimals in every cell are needed",
+         line 2; write thousands without a separator, or the same number of decimals in every cell",
     );
     // Time would run backwards at this place.
     refused(
         with(&|i| format!("{i},5"), &|i| grouped(10 * i)),
         "r.csv:102: column `t`: `1,000` may be 1.000 or 1000, next to `0` without a comma in \
-         line 2; thousands without a separator or the same decimals in every cell are needed",
+         line 2; write thousands without a separator, or the same number of decimals in every cell",
     );
     // Three decimals in every cell, four digits without a comma, another number of decimals.
     for (force, value) in [
@@ -180,8 +180,7 @@ fn the_line_of_the_names_can_be_given() {
     );
     assert_eq!(
         refusal(&text, &at(9)),
-        "r.csv:9: the line holds numbers; a header with column names is needed; \
-         --names t,x,f gives the names of a file without them"
+        "r.csv:9: the line holds numbers; a header with column names is missing; --names t,x,f names the columns of a file without a header"
     );
 }
 
@@ -232,7 +231,7 @@ fn text_below_and_empty_cells_beside_the_table_are_passed_over() {
     );
     refused(
         format!("{plain}NaN,NaN,NaN\n"),
-        "r.csv:402: column `t`: `NaN` is not finite; a finite number is needed; \
+        "r.csv:402: column `t`: `NaN` is not a finite number; \
          --drop-bad drops such rows",
     );
 }
@@ -404,25 +403,24 @@ fn bad_rows_are_left_out_where_that_is_asked_for() {
     // Without it the first one is named.
     refused(
         &text,
-        "r.csv:22: column `x`: the cell is empty; a number is needed; --drop-bad drops such rows",
+        "r.csv:22: column `x`: the cell is empty, but must be a number; --drop-bad drops such rows",
     );
     spoilt = rows();
     spoilt[30] = "0.29,1,1".to_owned();
     refused(
         csv("t,x,f", &spoilt),
-        "r.csv:32: column `t`: the time stamp repeats at 0.29; --rate HZ takes time from the row number, \
-         --drop-bad drops such rows",
+        "r.csv:32: column `t`: the time stamp repeats at 0.29; --rate HZ takes time from the row number; --drop-bad drops such rows",
     );
     // Words and infinities stay refused, and what is left has to be enough.
     spoilt[30] = "0.30,inf,1".to_owned();
     assert_eq!(
         refusal(csv("t,x,f", &spoilt), &drop),
-        "r.csv:32: column `x`: `inf` is not finite; a finite number is needed"
+        "r.csv:32: column `x`: `inf` is not a finite number"
     );
     let empty: Vec<_> = rows().iter().map(|_| "0,,".to_owned()).collect();
     assert_eq!(
         refusal(csv("t,x,f", &empty), &drop),
-        "r.csv:401: too short: 0 samples of 400 are left after cutting and --drop-bad; at least 200 are needed"
+        "r.csv:401: too short: 0 samples of 400 are left after cutting and --drop-bad; the minimum is 200"
     );
 }
 
@@ -450,7 +448,7 @@ fn a_channel_is_the_difference_or_the_sum_of_two() {
     let line = |column: &str| of(&[("stretch", column)]).unwrap_err();
     assert_eq!(
         line("a-t"),
-        "r.csv:1: column `t`: has no unit; unit rad is needed, as `a` has, to add or subtract them"
+        "r.csv:1: column `t`: has no unit; it must have unit rad, as `a` has, so that the two can be added or subtracted"
     );
     assert_eq!(
         line("tau_i-tau_o"),

@@ -77,7 +77,7 @@ fn the_unit_of_time_is_converted() {
     assert_eq!(record.notes, ["time converted from ms to s"]);
     refused(
         csv("t [V],x,f", &rows()),
-        "r.csv:1: column `t`: unit `V` is not a time; one of s, ms, us, ns, min, h, d is needed",
+        "r.csv:1: column `t`: unit `V` is not a unit of time; use s, ms, us, ns, min, h or d",
     );
 }
 
@@ -86,7 +86,7 @@ fn days_without_a_unit_are_not_taken_for_seconds() {
     let day = |i: usize| format!("{:.12}", 45_000.0 + i as f64 * 1e-3 / 86_400.0);
     refused(
         with_time("t,x,f", day),
-        "r.csv:1: column `t`: no unit is stated, and there are 8.640e7 rows per second if it is s: `t [d]` for days, `t [h]` for hours, or `t [s]` is needed",
+        "r.csv:1: column `t`: no unit is stated, and there are 8.640e7 rows per second if it is s: write `t [d]` for days, `t [h]` for hours, or `t [s]`",
     );
     let record = accepted(with_time("t [d],x,f", day));
     // A day's twelfth digit is a tenth of a microsecond.
@@ -113,7 +113,7 @@ fn a_file_that_cannot_be_opened_is_named() {
     );
     let error = read(folder.path(), &Options::default()).unwrap_err();
     let line = format!(
-        "{}: is a folder; a CSV file is needed",
+        "{}: is a folder; give a CSV file",
         folder.path().display()
     );
     assert_eq!(error.to_string(), line);
@@ -121,13 +121,13 @@ fn a_file_that_cannot_be_opened_is_named() {
 
 #[test]
 fn a_file_without_a_record_is_refused() {
-    let header = "a header with column names is needed";
+    let header = "a header with column names is missing";
     refused("", &format!("r.csv:1: the file is empty; {header}"));
     refused(
         "\u{feff}\r\n \n",
         &format!("r.csv:1: the file is blank; {header}"),
     );
-    let short = "at least 200 are needed";
+    let short = "the minimum is 200";
     refused(
         "t,x,f\n",
         &format!("r.csv:1: too short: 0 samples; {short}"),
@@ -146,7 +146,7 @@ fn a_file_without_a_record_is_refused() {
 fn a_file_that_is_not_text_is_refused() {
     refused(
         b"t,x,f\n0,1,2\n\x00\x01",
-        "r.csv:3: byte 12 is NUL: a binary file; CSV text is needed",
+        "r.csv:3: byte 12 is NUL: a binary file; give CSV text",
     );
     refused(
         b"t,x,f\n0,1\xb5,2\n",
@@ -168,7 +168,7 @@ fn a_file_that_is_not_text_is_refused() {
 
 #[test]
 fn a_header_that_is_none_is_refused() {
-    let header = "a header with column names is needed";
+    let header = "a header with column names is missing";
     refused(
         ",,\n1,2,3\n",
         &format!("r.csv:1: the line has no names; {header}"),
@@ -288,18 +288,18 @@ fn a_cell_that_is_no_measured_number_is_shown() {
     let drop = "--drop-bad drops such rows";
     refuses(
         "",
-        &format!("the cell is empty; a number is needed; {drop}"),
+        &format!("the cell is empty, but must be a number; {drop}"),
     );
     refuses("abc", "`abc` is not a number");
     refuses(
         "NaN",
-        &format!("`NaN` is not finite; a finite number is needed; {drop}"),
+        &format!("`NaN` is not a finite number; {drop}"),
     );
-    refuses("-inf", "`-inf` is not finite; a finite number is needed");
-    refuses("1e999", "`1e999` is not finite; a finite number is needed");
+    refuses("-inf", "`-inf` is not a finite number");
+    refuses("1e999", "`1e999` is not a finite number");
     refuses(
         "1e308",
-        "`1e308` is larger than 1e150; a measured value is needed",
+        "`1e308` is larger than 1e150, the largest allowed value",
     );
     refuses("\u{1b}[2J\u{7}", "`\\u{1b}[2J\\u{7}` is not a number");
     refuses(
@@ -308,7 +308,7 @@ fn a_cell_that_is_no_measured_number_is_shown() {
     );
     refused(
         with_line(9, "0.07,1,"),
-        &format!("r.csv:9: column `f`: the cell is empty; a number is needed; {drop}"),
+        &format!("r.csv:9: column `f`: the cell is empty, but must be a number; {drop}"),
     );
     refused(
         with_line(9, "x,1,2"),
@@ -318,7 +318,7 @@ fn a_cell_that_is_no_measured_number_is_shown() {
         with_line(9, "0.07,1.5,2")
             .replace(',', ";")
             .replace("1.5;", "1,5;"),
-        "r.csv:9: column `x`: `1,5` has a decimal comma; a decimal point is needed",
+        "r.csv:9: column `x`: `1,5` has a decimal comma; write a decimal point",
     );
 }
 

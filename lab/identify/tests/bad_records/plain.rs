@@ -78,8 +78,7 @@ fn names_that_do_not_fit_are_refused() {
     let lines = rows().join("\n");
     assert_eq!(
         refusal(&lines, &Options::default()),
-        "r.csv:1: the line holds numbers; a header with column names is needed; \
-         --names t,x,f gives the names of a file without them"
+        "r.csv:1: the line holds numbers; a header with column names is missing; --names t,x,f names the columns of a file without a header"
     );
     assert_eq!(
         refusal(&lines, &named(&["t", "x"])),
@@ -99,7 +98,7 @@ fn names_that_do_not_fit_are_refused() {
     };
     assert_eq!(
         refusal(&lines, &both),
-        "r.csv: --names is for a file without names, --header-line for a file with names"
+        "r.csv: --names is for a file without names, and --header-line is for a file with names"
     );
 }
 

@@ -11,14 +11,13 @@ fn time_that_does_not_run_forward_is_refused() {
     refused(
         with_line(57, "0.54,1,2"),
         "r.csv:57: column `t`: the time stamp repeats at 0.54; \
-         --rate HZ takes time from the row number, --drop-bad drops such rows",
+         --rate HZ takes time from the row number; --drop-bad drops such rows",
     );
     let rounded = with_time("t,x,f", |i| format!("{:.2}", i as f64 / 128.0));
     refused(
         &rounded,
         "r.csv:5: column `t`: the time stamp repeats at 0.02, as in 87 of 400 rows: \
-         the stamps are rounded; --rate HZ takes time from the row number (about 127.9 Hz), \
-         --drop-bad drops such rows",
+         the stamps are rounded; --rate HZ takes time from the row number (about 127.9 Hz); --drop-bad drops such rows",
     );
     let options = Options {
         rate: Some(128.0),
@@ -75,7 +74,7 @@ fn options_that_cannot_be_followed_are_refused() {
     refuses(
         cut(3.0, None),
         "r.csv:401: too short: 100 samples of 400 are left after cutting; \
-         at least 200 are needed",
+         the minimum is 200",
     );
 }
 
@@ -97,7 +96,7 @@ fn an_end_that_stands_still_is_refused() {
 fn an_output_that_is_the_input_is_refused() {
     refused(
         of(f64::sin, f64::sin),
-        "r.csv:2: column `f`: the output equals the input `x` in every sample: the resulting force or torque is needed",
+        "r.csv:2: column `f`: the output equals the input `x` in every sample: it must be the resulting force or torque",
     );
 }
 
@@ -107,12 +106,12 @@ fn a_clipped_sensor_is_recognised() {
     refused(
         of(sine, |t| (3.0 * sine(t)).clamp(-24.0, 24.0)),
         "r.csv:49: column `f`: clipped: flat at 24 7 times, 22.5 % of the samples; \
-         a wider range of the sensor is needed",
+         use a sensor with a wider range",
     );
     refused(
         of(|t| sine(t).min(9.5), |t| 3.0 * sine(t)),
         "r.csv:65: column `x`: clipped: flat at 9.5 7 times, 11.2 % of the samples; \
-         a wider range of the sensor is needed",
+         use a sensor with a wider range",
     );
     // With noise, and a force that mostly follows the speed: the input does not turn.
     let noise = |t: f64| (7919.0 * t * t).sin();

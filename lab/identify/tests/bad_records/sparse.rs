@@ -50,7 +50,7 @@ fn cells_that_lack_in_a_channel_that_is_mostly_there_are_faults() {
     };
     refused(
         gap(","),
-        "r.csv:32: column `temperature`: the cell is empty; a number is needed; --drop-bad drops such rows",
+        "r.csv:32: column `temperature`: the cell is empty, but must be a number; --drop-bad drops such rows",
     );
     let options = Options {
         drop_bad: true,
@@ -64,7 +64,7 @@ fn cells_that_lack_in_a_channel_that_is_mostly_there_are_faults() {
     assert!(later.contains("abc"));
     refused(
         later,
-        "r.csv:32: column `temperature`: the cell is empty; a number is needed; --drop-bad drops such rows",
+        "r.csv:32: column `temperature`: the cell is empty, but must be a number; --drop-bad drops such rows",
     );
 }
 

@@ -56,8 +56,7 @@ fn a_row_of_units_has_torques_in_every_spelling() {
 fn the_cell_of_a_row_of_units_that_is_no_unit_is_named() {
     let says = |line: usize, name: &str, cell: &str| {
         format!(
-            "r.csv:{line}: column `{name}`: `{cell}` is not a known unit; mm, N, N·m, deg or \
-             another is needed in a row of units, or an empty cell (`{name} [{cell}]` as a name \
+            "r.csv:{line}: column `{name}`: `{cell}` is not a known unit; a cell in a row of units must be mm, N, N·m, deg or another unit, or be empty (`{name} [{cell}]` as a name \
              states any unit)"
         )
     };
@@ -107,5 +106,5 @@ fn spellings_of_one_unit_are_one_and_newton_millimetres_convert() {
     // What is not known stays as it is, and is not taken for anything else.
     let mut both = [of("N·m"), of("wide")];
     let line = agree(&mut both).unwrap_err().to_string();
-    assert!(line.contains("has unit wide; unit N·m is needed"), "{line}");
+    assert!(line.contains("has unit wide; it must have unit N·m"), "{line}");
 }

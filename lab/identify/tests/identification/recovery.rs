@@ -223,11 +223,11 @@ fn parameters_that_move_with_each_other_name_each_other() {
             refused
                 .iter()
                 .any(|(name, r)| ["rho", "kappa_eta"].contains(name)
-                    && r.reason.contains("moves with ")),
+                    && r.reason.contains("correlated with ")),
             "{refused:#?}"
         );
         for (name, refusal) in refused {
-            assert!(!refusal.reason.ends_with(&format!("moves with {name}")));
+            assert!(!refusal.reason.ends_with(&format!("correlated with {name}")));
             assert!(!refusal.excitation.is_empty());
         }
     }

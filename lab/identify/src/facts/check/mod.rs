@@ -140,7 +140,7 @@ impl ModelOfFile {
     pub fn could_hold(&self) -> Result<(), String> {
         match self.given.about.verdict.as_deref() {
             Some("no-input-dependence") => Err(
-                "its verdict is `no-input-dependence`: it does not describe its own records, so validation is not possible; `bowden identify` says what to do"
+                "its verdict is `no-input-dependence`: it does not describe its own records, so it cannot be validated; `bowden identify` says what to do"
                     .to_owned(),
             ),
             _ => Ok(()),

@@ -62,7 +62,7 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
     let share = |rmse: f64| percent(rmse / check.deviation);
     let as_it_is = share(check.rmse);
     let came = check.reference.map_or_else(
-        || "its file does not state its own error".to_owned(),
+        || "an unknown error on its own record (its file states none)".to_owned(),
         |own| format!("{} on the held-out part of its own record", percent(own)),
     );
     let mut text = match check.verdict {
@@ -107,7 +107,7 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
             check.allowed.map_or_else(String::new, share)
         ),
         Verdict::CannotTell => format!(
-            "It cannot be decided whether the model holds: its error is {as_it_is} of this record's output, which is more than noise, and {came}."
+            "It cannot be decided whether the model holds: its error exceeds the noise and is {as_it_is} of this record's output, compared with {came}."
         ),
         Verdict::DefectiveRecord => format!(
             "The measurement is defective, so the record says nothing about the model: its error is {as_it_is} of the recorded output."

@@ -159,7 +159,7 @@ fn targets(data: &Prepared, solution: &Solution, names: &[String]) -> Result<Vec
         known.sort_unstable();
         known.dedup();
         return Err(format!(
-            "--effects {name}: possible with this record: {}{}",
+            "--effects {name}: this record allows only {}{}",
             known.join(", "),
             nearest(name, known.iter().copied())
         ));

@@ -275,7 +275,7 @@ fn clipped(
     let share = share(&samples, signal.len());
     (!samples.is_empty()).then(|| Found {
         message: format!(
-            "clipped: flat at {} {}, {:.2} % of the samples; a wider range of the sensor is needed",
+            "clipped: flat at {} {}, {:.2} % of the samples; use a sensor with a wider range",
             levels.join(" and "),
             times(samples.len()),
             100.0 * share

@@ -61,13 +61,12 @@ fn vectors(variables: Result<Vec<(String, Value)>, String>) -> Result<Vec<Vector
         };
         let objects = match has_objects(&variables) {
             true => {
-                ". only MATLAB can read its objects (tables, time series, outputs of Simulink): extract their vectors, as in `t = out.tout; save('r.mat', 't', …)`"
+                "; only MATLAB can read its objects (tables, time series, outputs of Simulink): extract their vectors, as in `t = out.tout; save('r.mat', 't', …)`"
             }
             false => "",
         };
         return Err(RecordError::new(format!(
-            "no vector of real numbers{among}; one vector for each column is needed, \
-             alone or as the fields of a structure{objects}"
+            "no vector of real numbers{among}; each column must be one vector, alone or as a field of a structure{objects}"
         )));
     }
     // A name that two have says nothing.
