@@ -50,7 +50,7 @@ fn files_that_do_not_go_together_give_one_line_with_file_and_column() {
     let x = folder.record("x.csv", &["--mode", "displacement"]);
     let line = refused(&["identify", &a, &x]);
     assert!(
-        line.contains("x.csv: column `x`: ") && line.contains("torque mode is needed"),
+        line.contains("x.csv: column `x`: ") && line.contains("the mode must be torque"),
         "{line}"
     );
     let fewer = folder.renamed(&a, "fewer.csv", |h| h.replace("phi_d", "other"));

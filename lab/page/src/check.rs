@@ -111,7 +111,7 @@ fn errors(facts: &CheckFacts) -> Markup {
         row(fitted, facts.rmse_gain_offset),
     ];
     let rmse = format!("RMSE{}", in_brackets(record.unit.as_deref()));
-    let head = ["", &rmse, "of the output's deviation", "× floor"];
+    let head = ["", &rmse, "of the output's std", "× floor"];
     html! {
         (table("Errors on this record", &head, 1..4, &rows))
         @if let Some(allowed) = facts.allowed {
@@ -129,7 +129,7 @@ fn signals(facts: &CheckFacts, figures: &Figures) -> Markup {
         @if facts.left_out > 0.0 {
             p {
                 "The first " (format!("{:.1}", facts.left_out))
-                " s do not count: the input before them is unknown."
+                " s are ignored: the input before them is unknown."
             }
         }
         (of_files(&figures.signals))

@@ -72,7 +72,7 @@ impl Compare<'_> {
                 p class="note" {
                     "The figures follow Figures 7 to 10 of "
                     cite { "Direct Torque Control for Cable Conduit Mechanisms for the Robotic Foot for Footwear Testing" }
-                    "; the plant here is simulated. Each figure shows the first seed; the tables have all seeds."
+                    "; the plant here is simulated. Each figure shows the first seed; the tables list all seeds."
                 }
             },
         };
@@ -272,7 +272,7 @@ impl<'a> Part<'a> {
             .filter_map(|(moves, chart)| moves.then_some(chart))
             .collect();
         html! {
-            @if charts.is_empty() { p { "No law here adapts." } }
+            @if charts.is_empty() { p { "None of these laws adapts." } }
             div class="grid-of" { @for chart in &charts { (chart.figure()) } }
         }
     }

@@ -99,7 +99,7 @@ pub(crate) fn page(opening: &Opening<'_>, sections: &[Section], from: &Provenanc
                     }
                     nav aria-label="Sections" { ul {
                         @for section in sections { li { a href={ "#" (section.id) } { (section.title) } } }
-                        li { a href="#origin" { "How it was obtained" } }
+                        li { a href="#origin" { "How these results were obtained" } }
                     } }
                     @for section in sections {
                         section id=(section.id) aria-labelledby={ (section.id) "-head" } {
@@ -130,10 +130,10 @@ fn origin(from: &Provenance) -> Markup {
         .collect();
     html! {
         section id="origin" aria-labelledby="origin-head" {
-            h2 id="origin-head" { "How it was obtained" }
+            h2 id="origin-head" { "How these results were obtained" }
             pre tabindex="0" { code { (from.command) } }
             p { "Program: bowden " (from.version) "." }
-            @if !rows.is_empty() { (table("Files that were read", &["file", "bytes", "SHA-256"], 1..2, &rows)) }
+            @if !rows.is_empty() { (table("Input files", &["file", "bytes", "SHA-256"], 1..2, &rows)) }
         }
     }
 }

@@ -29,7 +29,7 @@ impl Running {
         let (name, mode) = (planted.effect.as_str(), recipe.mode);
         if !effects(mode).contains(&name) && !outsiders().contains(&name) {
             return refuse(format!(
-                "effect `{name}`: one of {} is needed",
+                "effect `{name}`: must be one of {}",
                 effects(mode).join(", ")
             ));
         }
@@ -40,7 +40,7 @@ impl Running {
                 (Some(channel), Some(_)) => Some(channel),
                 (_, None) => {
                     return refuse(format!(
-                        "effect `{name}` reads no channel, `{given}` was given"
+                        "effect `{name}` reads no channel, but `{given}` was given"
                     ))
                 }
                 (None, _) => {

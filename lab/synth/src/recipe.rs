@@ -179,7 +179,7 @@ impl Recipe {
         for (name, value) in positive {
             if !(value > 0.0 && value <= 1e6) {
                 return refuse(format!(
-                    "{name} {value}: a number above 0, at most a million, is allowed"
+                    "{name} {value}: must be above 0 and at most a million"
                 ));
             }
         }
@@ -193,21 +193,21 @@ impl Recipe {
         for (name, value) in sizes {
             if !(0.0..=1e6).contains(&value) {
                 return refuse(format!(
-                    "{name} {value}: a number from 0 to a million is allowed"
+                    "{name} {value}: must be from 0 to a million"
                 ));
             }
         }
         if !(0.0..1.0).contains(&self.colour) {
             return refuse(format!(
-                "colour {}: a number from 0 to below 1 is allowed",
+                "colour {}: must be at least 0 and below 1",
                 self.colour
             ));
         }
         if self.bias.is_nan() || self.bias.abs() > 1e6 {
-            return refuse(format!("bias {}: a finite number is needed", self.bias));
+            return refuse(format!("bias {}: must be finite", self.bias));
         }
         if !(10.0..=1e7).contains(&(self.seconds * self.rate)) {
-            return refuse("seconds times rate: 10 to 10000000 samples are allowed".to_owned());
+            return refuse("seconds times rate: must be 10 to 10000000 samples".to_owned());
         }
         if let Some(planted) = self
             .effects
@@ -216,7 +216,7 @@ impl Recipe {
         {
             let (name, strength) = (&planted.effect, planted.strength);
             return refuse(format!(
-                "strength {strength} of {name}: a positive number is needed"
+                "strength {strength} of {name}: must be above 0 and at most a million"
             ));
         }
         let given = |p: &Planted| {
@@ -228,12 +228,12 @@ impl Recipe {
         if let Some(planted) = self.effects.iter().find(|p| given(p)) {
             let name = &planted.effect;
             return refuse(format!(
-                "gain and origin of {name}: finite numbers are needed"
+                "gain and origin of {name}: must be finite"
             ));
         }
         match &self.base {
             Some(base) if !base.is_sound() => refuse(
-                "base: finite numbers, rho > 0, sigma >= 1/2 and n >= 1 are needed".to_owned(),
+                "base: the numbers must be finite, with rho > 0, sigma >= 1/2 and n >= 1".to_owned(),
             ),
             _ => Ok(()),
         }

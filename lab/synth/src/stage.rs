@@ -85,7 +85,7 @@ pub(super) fn apply(
         high *= 2.0;
         if high > LONGEST {
             return refuse(format!(
-                "{effect}: not even {LONGEST} s would be as strong as asked"
+                "{effect}: even {LONGEST} s would not reach the requested strength"
             ));
         }
     }

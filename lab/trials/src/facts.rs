@@ -139,7 +139,7 @@ pub fn compare(question: &Question<'_>) -> Result<Compared, String> {
     let effect = question.effect.map(Undeclared::parse).transpose()?;
     if effect.is_some() && (is_given || gains.is_some()) {
         return Err(
-            "--effect: works on the reference rig with the paper's gains; it cannot be combined with a model or with gains of `bowden design`"
+            "--effect: works on the reference rig with the paper's gains; it cannot be combined with a model or with gains from `bowden design`"
                 .to_owned(),
         );
     }
@@ -233,7 +233,7 @@ fn no_model_is_refused(path: &Path) -> Result<(), String> {
     match is_model(Some(path)) {
         true => Ok(()),
         false => Err(format!(
-            "{}: a model of `bowden identify --model-out` is needed with --gains",
+            "{}: with --gains, give a model written by `bowden identify --model-out`",
             path.display()
         )),
     }
@@ -253,7 +253,7 @@ fn inputs(question: &Question<'_>) -> Result<(Setup, Option<GainsFile>, bool), S
         .and_then(|table| Some(table.get("schema")?.as_str()?.to_owned()));
     match schema.as_deref() {
         Some("bowden.model/1") if question.setup.is_some() => Err(format!(
-            "{label}: is a model; gains of `bowden design` are needed with --model"
+            "{label}: is a model; with --model, give gains from `bowden design`"
         )),
         Some("bowden.model/1") | None => {
             let mut gains = setup(question, Some(path))?;
@@ -269,7 +269,7 @@ fn inputs(question: &Question<'_>) -> Result<(Setup, Option<GainsFile>, bool), S
             let gains = GainsFile::parse(&text, &label)?;
             let Some(model) = question.setup else {
                 return Err(format!(
-                    "{label}: gains of `bowden design` need the model that they were designed for: --model MODEL.toml"
+                    "{label}: gains from `bowden design` need the model that they were designed for: --model MODEL.toml"
                 ));
             };
             // What the gains were designed for is what they are tried with.
@@ -302,8 +302,7 @@ pub fn certify(setup: Option<&Path>) -> Result<Certified, String> {
         let text = std::fs::read_to_string(path).unwrap_or_default();
         if is_of_design(&text) {
             return Err(format!(
-                "{}: is a file of `bowden design`; gains and rig in one file are needed. Certify \
-                 it without --gains: `bowden certify FILE`",
+                "{}: is a file written by `bowden design`; give gains and rig in one file. Certify this file without --gains: `bowden certify FILE`",
                 path.display()
             ));
         }
@@ -311,7 +310,7 @@ pub fn certify(setup: Option<&Path>) -> Result<Certified, String> {
     let own = read(setup)?;
     match (setup, &own.model) {
         (Some(path), Some(_)) => Err(format!(
-            "{}: is a model; these certificates need gains, on the reference rig or on the rig of a table [rig]. `bowden design MODEL.toml --rate HZ --delay S` derives gains from a model, with their guarantees",
+            "{}: is a model; these certificates need gains, for the reference rig or for the rig in a table [rig]. `bowden design MODEL.toml --rate HZ --delay S` derives gains from a model, with guarantees for them",
             path.display()
         )),
         _ => Ok(Certified {
@@ -453,13 +452,13 @@ fn best(lines: &[Line]) -> String {
         return "Every controller ran away.".to_owned();
     };
     let mut text = format!(
-        "Of {} controllers {} follows the reference best: its true error is {error:.4} N·m rms",
+        "Of {} controllers, {} follows the reference best: its true error is {error:.4} N·m rms",
         lines.len(),
         best.controller
     );
     let pi = lines.iter().find(|line| line.controller == "pi");
     if let Some(pi) = pi.and_then(Line::mean_error).filter(|pi| *pi > error) {
-        text.push_str(&format!(", that of the PI {pi:.4} N·m"));
+        text.push_str(&format!("; the true error of the PI is {pi:.4} N·m rms"));
     }
     text + "."
 }

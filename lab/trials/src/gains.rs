@@ -52,7 +52,7 @@ impl Known {
         let [low, high] = self.alpha;
         if !(low.is_finite() && high.is_finite() && 0.0 < low && low <= high) {
             let what = "a pair of finite numbers above zero, the lower one first";
-            return Some(("alpha", format!("[{low}, {high}]: {what} is needed")));
+            return Some(("alpha", format!("[{low}, {high}]: must be {what}")));
         }
         let bounds = [
             ("disturbance", self.disturbance),
@@ -62,7 +62,7 @@ impl Known {
         ];
         let wrong = bounds.iter().find(|(_, x)| !(x.is_finite() && *x >= 0.0));
         wrong.map(|(name, x)| {
-            let what = "a finite number, zero or above, is allowed";
+            let what = "must be a finite number, zero or above";
             (*name, format!("{x}: {what}"))
         })
     }
@@ -99,7 +99,7 @@ impl GainsFile {
                 label,
                 "",
                 "schema",
-                &format!("schema {:?}: {SCHEMA:?} is needed", gains.schema),
+                &format!("schema {:?}: must be {SCHEMA:?}", gains.schema),
             ));
         }
         let d = &gains.design;
@@ -110,8 +110,8 @@ impl GainsFile {
             (d.noise, "noise", false),
         ] {
             if !(value.is_finite() && value >= 0.0 && (value > 0.0 || !above)) {
-                let what = if above { "above zero" } else { "from zero up" };
-                let line = format!("[design]: {name} {value}: a finite number {what} is needed");
+                let what = if above { "above zero" } else { "zero or above" };
+                let line = format!("[design]: {name} {value}: must be a finite number, {what}");
                 return Err(at(text, label, "design", name, &line));
             }
         }
@@ -140,7 +140,7 @@ impl GainsFile {
     pub fn toml(&self) -> Result<String, toml::ser::Error> {
         let d = &self.design;
         Ok(format!(
-            "# Designed by {} for {} at {} Hz behind {} s\n{}",
+            "# Designed by {} for {} at {} Hz with a delay of {} s\n{}",
             d.by,
             d.model,
             d.rate,
@@ -196,7 +196,7 @@ fn at(text: &str, label: &str, table: &str, key: &str, line: &str) -> String {
 pub(crate) fn message(error: &toml::de::Error, text: &str, label: &str) -> String {
     if text.trim_start().starts_with('{') {
         return format!(
-            "{label}: is JSON; TOML is needed, as `bowden identify --model-out MODEL.toml` and `bowden design --out GAINS.toml` write it"
+            "{label}: is JSON; give TOML, as `bowden identify --model-out MODEL.toml` and `bowden design --out GAINS.toml` write it"
         );
     }
     let what = error.message().replace('\n', " ");

@@ -86,13 +86,13 @@ impl Heading {
             all.push(format!(
                 "Reference: {} between {low:.places$} and {high:.places$} N·m, within the range of the model's record.",
                 match self.gait {
-                    true => "a push-off a second",
-                    false => "the paper's",
+                    true => "one push-off per second,",
+                    false => "that of Nguyen et al. (2018),",
                 }
             ));
         }
         if self.gait && self.reference.is_none() {
-            all.push("Reference: 5 N·m and a push-off of 30 N·m more, once a second.".to_owned());
+            all.push("Reference: 5 N·m, plus a push-off of 30 N·m once per second.".to_owned());
         }
         if self.gait {
             let error = self.lag_error;

@@ -97,7 +97,7 @@ pub fn with_transmission(rig: &RigConfig<f64>, cable: &Transmission<f64>) -> Rig
 pub fn transmission(file: &ModelFile) -> Result<Transmission<f64>, String> {
     let model = file.model::<MOST_TERMS>()?;
     let cable = model.transmission().copied();
-    cable.ok_or_else(|| "no table `transmission`: a model with this table is needed".to_owned())
+    cable.ok_or_else(|| "no table `transmission`: the model must contain it".to_owned())
 }
 
 /// The effects of a model as the rig has them: its pulleys are the channels `phi_p` and `phi_d`.

@@ -322,7 +322,7 @@ impl Setup {
     pub fn parse(text: &str, label: &str) -> Result<Self, String> {
         if is_of_design(text) {
             return Err(format!(
-                "{label}: is a file of `bowden design`; a model of `bowden identify --model-out`, or gains and rig in one file, is needed"
+                "{label}: is a file written by `bowden design`; give a model written by `bowden identify --model-out`, or gains and rig in one file"
             ));
         }
         let failed = |e: toml::de::Error| message(&e, text, label);
@@ -344,13 +344,13 @@ impl Setup {
         if let Some(model) = &self.model {
             if model.schema != "bowden.model/1" {
                 return Err(format!(
-                    "{label}: model.schema {:?}: \"bowden.model/1\" is needed",
+                    "{label}: model.schema {:?}: must be \"bowden.model/1\"",
                     model.schema
                 ));
             }
             if model.mode != "torque" {
                 return Err(format!(
-                    "{label}: model.mode {:?}: \"torque\" is needed, since the simulated rig transmits torque to torque",
+                    "{label}: model.mode {:?}: must be \"torque\", because the simulated rig transmits torque to torque",
                     model.mode
                 ));
             }

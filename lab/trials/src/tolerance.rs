@@ -55,7 +55,7 @@ const FACTOR: f64 = 0.99;
 const CADENCE: f64 = 0.1;
 
 static ASSUMPTIONS: &[&str] = &[
-    "the plant is f*alpha*e^(-theta*s)/(1 + f*(s^2/wn^2 + 2*zeta*s/wn)/(1 + c/K*s)), its numbers constant",
+    "the plant is f*alpha*e^(-theta*s)/(1 + f*(s^2/wn^2 + 2*zeta*s/wn)/(1 + c/K*s)), with constant parameters",
     "the rig is of that form: the joint's inertia, and the cable's position before the hysteresis, are neglected",
     "continuous time: samples much shorter than tau and 1/wn; hold, delay and the lags of drive and sensor act as a delay",
     "friction and load are bounded disturbances; f is any constant slope of the hysteresis",

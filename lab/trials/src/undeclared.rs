@@ -41,7 +41,7 @@ impl Undeclared {
             None => (text, None),
             Some((what, strength)) => {
                 let value: f64 = strength.parse().map_err(|_| {
-                    format!("--effect {text}: {strength:?} is not a number of N·m; NAME:STRENGTH is needed")
+                    format!("--effect {text}: {strength:?} is not a number of N·m; write NAME:STRENGTH")
                 })?;
                 if !(value.is_finite() && value > 0.0) {
                     return Err(format!(
@@ -58,7 +58,7 @@ impl Undeclared {
         if !CATALOGUE.iter().any(|info| info.name == name) {
             let names: Vec<&str> = CATALOGUE.iter().map(|info| info.name).collect();
             return Err(format!(
-                "--effect {text}: one of {} is needed",
+                "--effect {text}: the effect must be one of {}",
                 names.join(", ")
             ));
         }
@@ -88,7 +88,7 @@ impl Undeclared {
             Some("phi_d") => Source::Channel(1),
             Some(other) => {
                 return Err(format!(
-                    "--effect {name}@{other}: tau_i, phi_p or phi_d is needed"
+                    "--effect {name}@{other}: the channel must be tau_i, phi_p or phi_d"
                 ))
             }
         };
@@ -118,7 +118,7 @@ impl Undeclared {
         }
         let rms = path.rms(&term(1.0));
         if !(rms > 0.0 && rms.is_finite()) {
-            return Err(format!("--effect {name}: it does not move on this rig"));
+            return Err(format!("--effect {name}: this effect is constant zero on this rig"));
         }
         // Friction takes away from the torque that arrives.
         Ok(term(-self.strength / rms))

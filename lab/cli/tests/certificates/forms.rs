@@ -264,12 +264,12 @@ fn a_file_that_is_none_is_refused_with_file_line_and_column() {
         (
             "k = 17.3",
             "k = nan",
-            &["gains.toml:3:5: `k`", "above zero is needed"],
+            &["gains.toml:3:5: `k`", "must be a finite number above zero"],
         ),
         (
             "k = 17.3",
             "k = -1",
-            &["gains.toml:3:5: `k`", "above zero is needed"],
+            &["gains.toml:3:5: `k`", "must be a finite number above zero"],
         ),
         (
             "disturbance = 7.056",
@@ -379,7 +379,7 @@ fn gains_without_their_plant_are_told_what_was_expected() {
     let path = folder.path().join("bare.toml");
     std::fs::write(&path, format!("{before}[[regressor]]{behind}")).unwrap();
     let line = refused(&["certify", path.to_str().unwrap()]);
-    let expected = "bare.toml: has no [plant]: a table [plant] with alpha = [least, greatest], disturbance, disturbance_rate, reference and reference_rate is needed";
+    let expected = "bare.toml: has no [plant]: add a table [plant] with alpha = [least, greatest], disturbance, disturbance_rate, reference and reference_rate";
     assert!(line.ends_with(expected), "{line}");
     // What else is missing is told without the comment at the head of the file.
     std::fs::write(&path, own.replace("epsilon = 0.08", "")).unwrap();

@@ -193,7 +193,7 @@ fn the_table_says_whose_rig_gains_and_reference_they_are_and_keeps_the_papers_ou
         "simulated reference rig with the transmission of model.toml",
         "Gains: those of gains.toml.",
         "No bounds here: `bowden certify GAINS.toml`",
-        "Reference: the paper's between ",
+        "Reference: that of Nguyen et al. (2018), between ",
         "Rig: inertia 0.002 kg·m², damping 0.5 N·m·s/rad.",
     ] {
         assert!(table.contains(words), "{words} is not in\n{table}");
@@ -278,7 +278,7 @@ fn bad_use_is_one_line_and_nothing_is_written() {
     let good = ["--rate", "1000", "--delay", "0.001"];
     let line = with(&good);
     assert!(
-        line.contains("m.toml: mode \"displacement\": a torque model is needed"),
+        line.contains("m.toml: mode \"displacement\": must be torque"),
         "{line}"
     );
     for (rate, delay, part) in [
@@ -451,7 +451,7 @@ fn a_model_in_another_unit_of_torque_is_refused() {
             vec!["compare", "--model", &other, "--inertia", "0.002"],
         ] {
             let line = refused(&arguments);
-            let wanted = format!("its {end} is in mN·m: N·m is needed");
+            let wanted = format!("its {end} is in mN·m: it must be in N·m");
             assert!(
                 line.contains("milli.toml") && line.contains(&wanted),
                 "{line}"

@@ -72,7 +72,7 @@ fn rows_that_are_left_out_are_counted_in_the_ledger_and_in_the_json() {
     lines[900] = lines[899].clone();
     let path = folder.file("bad.csv", lines.join("\n"));
     let text = said(&["identify", &path, "--drop-bad", "--max-terms", "0"]);
-    let note = "--drop-bad has dropped 3 rows: 1 with an empty cell, 1 with NaN, 1 with the time stamp of the row before";
+    let note = "--drop-bad dropped 3 rows: 1 with an empty cell, 1 with NaN, 1 with the time stamp of the row before";
     assert!(text.contains(note), "{text}");
     let json = said(&[
         "identify",

@@ -161,7 +161,7 @@ fn text_that_could_be_read_in_two_ways_is_refused_with_line_and_column() {
     refuses(
         csv().replacen("\n1.5,", "\n1,5,", 1),
         &[],
-        ":386: 5 cells, the header has 4",
+        ":386: 5 cells, but the header has 4",
     );
     refuses(
         csv(),
@@ -178,7 +178,7 @@ fn text_that_could_be_read_in_two_ways_is_refused_with_line_and_column() {
             .replacen("\n1.5,", "\n1.5,NaN,", 1)
             .replacen("t,", "t,extra,", 1),
         &[],
-        ":2: 4 cells, the header has 5",
+        ":2: 4 cells, but the header has 5",
     );
 }
 

@@ -54,6 +54,6 @@ fn a_displacement_model_is_refused_on_the_torque_rig() {
     let output = bowden(&["compare", "--model", &model]);
     assert_eq!(output.status.code(), Some(2));
     let line = String::from_utf8(output.stderr).unwrap();
-    assert!(line.contains("\"torque\" is needed"), "{line}");
+    assert!(line.contains("must be \"torque\""), "{line}");
     assert_eq!(line.trim_end().lines().count(), 1, "{line}");
 }

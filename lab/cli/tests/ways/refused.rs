@@ -182,7 +182,8 @@ fn units_are_converted_or_refused() {
         assert!(
             line.contains("wrong.csv")
                 && line.contains(word)
-                && line.contains("is needed, as in the model"),
+                && line.contains("; it must have unit ")
+                && line.contains(", as in the model"),
             "{line}"
         );
     }

@@ -31,7 +31,7 @@ fn a_decimal_comma_is_read_behind_semicolons_and_tabs() {
     // Integers say nothing of the sign.
     read(plain.replace(',', ";").replace("0.00;", "0;"), &[]);
     // Behind commas a comma separates.
-    refused(comma(&plain, ","), "r.csv:2: 6 cells, the header has 3");
+    refused(comma(&plain, ","), "r.csv:2: 6 cells, but the header has 3");
     refused(
         comma(&plain, ";").replace("0,20;", "0.20;"),
         "r.csv:22: column `t`: `0.20` has a decimal point; write a decimal comma, as in line 2",
@@ -219,7 +219,7 @@ fn text_below_and_empty_cells_beside_the_table_are_passed_over() {
     // A row that was cut short, a spoilt one, and values behind the text are no text.
     refused(
         format!("{plain}4.00,1\n"),
-        "r.csv:402: 2 cells, the header has 3",
+        "r.csv:402: 2 cells, but the header has 3",
     );
     refused(
         format!("{plain}4.00,a,b\n"),
@@ -227,7 +227,7 @@ fn text_below_and_empty_cells_beside_the_table_are_passed_over() {
     );
     refused(
         format!("{plain}End\n4.00,1,2\n"),
-        "r.csv:402: 1 cells, the header has 3",
+        "r.csv:402: 1 cells, but the header has 3",
     );
     refused(
         format!("{plain}NaN,NaN,NaN\n"),
@@ -251,13 +251,13 @@ fn a_column_at_the_end_that_no_row_has_is_passed_over() {
     cut[7] = "0.07,1.0".to_owned();
     refused(
         csv("t,x,f,Comment", &cut),
-        "r.csv:9: 2 cells, the header has 4",
+        "r.csv:9: 2 cells, but the header has 4",
     );
     let mut long = rows();
     long[0] += ",start";
     refused(
         csv("t,x,f,Comment", &long),
-        "r.csv:3: 3 cells, the header has 4",
+        "r.csv:3: 3 cells, but the header has 4",
     );
     let lost: Vec<String> = rows().iter().map(|row| row[..4].to_owned()).collect();
     let line = refusal(csv("t,x,f", &lost), &Options::default());
@@ -384,7 +384,7 @@ fn bad_rows_are_left_out_where_that_is_asked_for() {
     assert_eq!((record.samples(), record.dropped), (396, 4));
     assert_eq!(
         record.notes,
-        ["--drop-bad has dropped 4 rows: 2 with an empty cell, 1 with NaN, 1 with the time stamp of the row before"]
+        ["--drop-bad dropped 4 rows: 2 with an empty cell, 1 with NaN, 1 with the time stamp of the row before"]
     );
     assert!(!record.time.contains(&0.20) && record.time.contains(&0.22));
     // Each is a gap, from a time column and from the row number.

@@ -213,8 +213,7 @@ fn a_missing_column_is_named_with_those_that_exist() {
     );
     refused(
         csv("t,a,b", &rows()),
-        "r.csv:1: neither `tau_i` and `tau_o` nor `x` and `f` among the columns `t`, `a`, `b`; \
-         name them with --mode, --input and --output",
+        "r.csv:1: the columns `t`, `a`, `b` include neither `tau_i` and `tau_o` nor `x` and `f`; name them with --mode, --input and --output",
     );
 }
 
@@ -326,11 +325,11 @@ fn a_cell_that_is_no_measured_number_is_shown() {
 fn a_row_that_does_not_fit_the_header_is_refused() {
     refused(
         with_line(57, "0.55,3"),
-        "r.csv:57: 2 cells, the header has 3",
+        "r.csv:57: 2 cells, but the header has 3",
     );
     refused(
         with_line(57, "0.55,3,4,5"),
-        "r.csv:57: 4 cells, the header has 3",
+        "r.csv:57: 4 cells, but the header has 3",
     );
     refused(
         with_line(57, ""),
@@ -391,7 +390,7 @@ fn a_quote_that_stays_open_is_refused() {
     // Closed by the next stray quote.
     refused(
         with_line(57, "0.55,\"1,2\n0.56,3,4\""),
-        "r.csv:57: 2 cells, the header has 3; a quote extends the row to line 58",
+        "r.csv:57: 2 cells, but the header has 3; a quote extends the row to line 58",
     );
     refused(
         with_line(57, "0.55,\"1,2\n0.56,\"3,4"),

@@ -87,9 +87,9 @@ pub(super) fn section(facts: &Facts, figures: &Figures) -> Markup {
         p { "Baseline: " (facts.declared.effects.join(", ")) "." }
         (table(&caption, &head, 2..7, &rows))
         p class="note" {
-            "Removes: share of the squared error on the fit segment that the term removes. vs noise: held-out error in multiples of the sensor's noise. Confidence: in the name of the term, not in its coefficient."
+            "Removes: share of the squared error on the fit segment that the term removes. vs noise: held-out error in multiples of the sensor's noise. Confidence concerns the name of the term, not its coefficient."
             @if !facts.beyond.is_empty() { " In brackets: found, but not delivered." }
-            @if facts.rounds.iter().any(|r| r.raises_held_out) { " ↑: the round raises the held-out error." }
+            @if facts.rounds.iter().any(|r| r.raises_held_out) { " ↑: the term raises the held-out error." }
         }
         (names(facts))
         (parts(figures))
@@ -225,7 +225,7 @@ pub(super) fn blocks(facts: &Facts, figures: &Figures) -> Markup {
         }
         @for round in facts.rounds.iter().filter(|r| !r.rivals.is_empty()) {
             p {
-                b { (round.title) } " cannot be told from "
+                b { (round.title) } " cannot be distinguished from "
                 @for (k, rival) in round.rivals.iter().enumerate() { @if k > 0 { ", " } b { (rival.title) } }
                 " on this record."
                 @if let Some(experiment) = &round.experiment {

@@ -34,7 +34,7 @@ impl Close<'_> {
         let mut sections = vec![
             Section {
                 id: "signals",
-                title: "Measured, declared, final",
+                title: "Measured, baseline, final",
                 body: signals::section(facts, figures),
             },
             Section {
@@ -49,7 +49,7 @@ impl Close<'_> {
             },
             Section {
                 id: "ledger",
-                title: "Ledger",
+                title: "Results table",
                 body: ledger::section(facts, figures),
             },
             Section {

@@ -172,7 +172,7 @@ fn zoom(signals: &Signals, file: &File, id: &str) -> Option<Chart> {
         Segment::HeldOut => "held-out data",
         _ => "the record",
     };
-    let title = "The worst spot";
+    let title = "Where the error is largest";
     let [first, last] = &signals.models;
     let description = format!(
         "On {segment} the largest error is at {at} s: {} by {before}, {} by {after}{}.",

@@ -181,7 +181,7 @@ fn settings(
     let lambda = (bandwidth / 50.0).max(4.0 * g / bandwidth);
     if h * lambda > 1.0 {
         return Err(format!(
-            "k > 1/lambda² and h·lambda <= 1 exclude each other at a step of {h} s, the first whole number of samples beyond the delay; a step of at most {:.3} s is needed: a higher rate or a shorter delay",
+            "k > 1/lambda² and h·lambda <= 1 exclude each other at a step of {h} s, the first whole number of samples beyond the delay; the step must be at most {:.3} s: raise the rate or shorten the delay",
             (0.25 * found.loop_gain / g).sqrt()
         ));
     }
@@ -272,7 +272,7 @@ fn certificate(
     let peak = PeakSampled::try_new(&law, &bounds).map_err(|e| e.to_string())?;
     if peak.bound > known.reference {
         return Err(format!(
-            "the certificate is vacuous: {:.3} N·m, more than the greatest output {:.3} N·m",
+            "the certificate is vacuous: its bound of {:.3} N·m exceeds the greatest output of {:.3} N·m",
             peak.bound, known.reference
         ));
     }

@@ -195,9 +195,9 @@ impl Question {
             (self.drive_gain, "--drive-gain", "N·m/command unit", true),
         ] {
             if !(value.is_finite() && value >= 0.0 && (value > 0.0 || !above)) {
-                let from = if above { "above zero" } else { "from zero up" };
+                let from = if above { "above zero" } else { "zero or above" };
                 return Err(format!(
-                    "{option} {value}: a number {from} is needed [{unit}]"
+                    "{option} {value}: must be {from} [{unit}]"
                 ));
             }
         }
@@ -237,7 +237,7 @@ pub fn design(text: &str, label: &str, asked: &Question) -> Result<Designed, Str
     let delay = asked.delay + plant.own_delay;
     if delay * asked.rate > MOST_DELAY {
         return Err(format!(
-            "--rate {}: the delay of {delay} s is more than {MOST_DELAY} samples; a lower rate is needed",
+            "--rate {}: the delay of {delay} s is more than {MOST_DELAY} samples; lower the rate",
             asked.rate
         ));
     }
@@ -368,13 +368,13 @@ impl Safety {
 fn read(text: &str, label: &str) -> Result<ModelFile, String> {
     if text.trim().is_empty() {
         return Err(format!(
-            "{label}: is empty; a model of `bowden identify --model-out` is needed"
+            "{label}: is empty; give a model written by `bowden identify --model-out`"
         ));
     }
     let file: ModelFile = toml::from_str(text).map_err(|e| message(&e, text, label))?;
     if file.schema != "bowden.model/1" {
         return Err(format!(
-            "{label}: schema {:?}: \"bowden.model/1\" is needed",
+            "{label}: schema {:?}: must be \"bowden.model/1\"",
             file.schema
         ));
     }
@@ -466,7 +466,7 @@ fn notes(plant: &Plant, adaptive: &AdaptiveDesign) -> Vec<String> {
     let [low, high] = plant.input;
     if adaptive.certificate.is_some() && low * high >= 0.0 {
         notes.push(
-            "the limits are on one side of zero, as the record is: `bowden certify` refuses such a file, because its theorem needs limits on both sides; the certificate above ignores the limits".to_owned(),
+            "the limits are on one side of zero, as the record is; `bowden certify` refuses such a file, because its theorem needs limits on both sides; the certificate above ignores the limits".to_owned(),
         );
     } else if let Some(why) = &adaptive.unproved {
         notes.push(format!(

@@ -103,7 +103,7 @@ fn in_newton_metres(file: &ModelFile) -> Result<(), String> {
         let other = stated(end).filter(|unit| !is_same_unit(unit, TORQUE));
         if let Some(unit) = other.filter(|_| file.mode == "torque") {
             return Err(format!(
-                "its {end} is in {unit}: {TORQUE} is needed, the unit of noise, limits and gains; convert the columns of the record and fit again"
+                "its {end} is in {unit}: it must be in {TORQUE}, the unit of noise, limits and gains; convert the columns of the record and fit again"
             ));
         }
     }
@@ -141,13 +141,13 @@ impl Plant {
     pub(super) fn new(file: &ModelFile) -> Result<Self, String> {
         if file.mode != "torque" {
             return Err(format!(
-                "mode {:?}: a torque model is needed, since the loop commands a torque",
+                "mode {:?}: must be torque, because the loop commands a torque",
                 file.mode
             ));
         }
         let model = file.model::<{ bowden_lab::export::MOST_TERMS }>()?;
         let Some(cable) = model.transmission().copied() else {
-            return Err("no table `transmission`: a model with this table is needed".to_owned());
+            return Err("no table `transmission`: the model must contain it".to_owned());
         };
         let about = file.about.clone().ok_or(
             "no table `about`: the limits come from `about.ranges`, which `bowden identify --model-out` writes",
@@ -159,7 +159,7 @@ impl Plant {
         for (range, name) in [(input, "position"), (input_rate, "velocity")] {
             if !(range[0].is_finite() && range[1].is_finite() && range[0] < range[1]) {
                 return Err(format!(
-                    "about.ranges.input.{name}: two numbers, the lower one first, are allowed"
+                    "about.ranges.input.{name}: must be two numbers, the lower one first"
                 ));
             }
         }

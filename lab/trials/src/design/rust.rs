@@ -65,7 +65,7 @@ fn head(designed: &Designed) -> String {
     let mut out = String::new();
     line!(
         out,
-        "//! Gains that {} designed for {}.",
+        "//! Gains designed by {} for {}.",
         for_.by,
         for_.model
     );
@@ -106,7 +106,7 @@ fn item(what: &str, value: &str, out: &mut String) {
 
 fn bounds(designed: &Designed, out: &mut String) {
     let b = &designed.bounds;
-    line!(out, "/// Samples a second [Hz].");
+    line!(out, "/// Samples per second [Hz].");
     line!(out, "#[allow(dead_code)]");
     let rate = number(designed.gains.design.rate);
     item("pub const RATE: f32", &rate, out);
@@ -116,20 +116,20 @@ fn bounds(designed: &Designed, out: &mut String) {
     let range = format!("constant!(Limits::<f32>::const_new({low}, {high}))");
     item("const RANGE: Limits<f32>", &range, out);
     line!(out);
-    line!(out, "/// The range with the slew rate [command unit/s].");
+    line!(out, "/// The range with the slew-rate limit [command unit/s].");
     let slewed = format!("constant!(RANGE.const_with_slew({}))", number(b.slew));
     item("pub const LIMITS: Limits<f32>", &slewed, out);
     line!(out);
     let after = b.fallback_after;
     line!(
         out,
-        "/// The safe command [command unit], after {after} bad samples in a row."
+        "/// The safe command [command unit] after {after} bad samples in a row."
     );
     let safe = number(b.fallback_command);
     let fallback = format!("constant!(Fallback::<f32>::const_new({after}, {safe}))");
     item("pub const FALLBACK: Fallback<f32>", &fallback, out);
     line!(out);
-    line!(out, "/// A longer `dt` is a bad sample [s].");
+    line!(out, "/// Longest valid `dt` [s]; a sample with a longer one is bad.");
     item("pub const LONGEST_DT: f32", &number(b.longest_dt), out);
 }
 
@@ -138,7 +138,7 @@ fn settings(name: &str, own: &PidSettings<f64>, out: &mut String) {
     let plain = format!("PidSettings::new({k_p}, {k_i}, LIMITS, LONGEST_DT, FALLBACK)");
     line!(out);
     let unit = "[command unit/(N·m)] and k_i [command unit/(N·m·s)]";
-    line!(out, "/// {name}: k_p {unit} first.");
+    line!(out, "/// {name}: k_p {unit} come first.");
     let what = format!("const {name}_SETTINGS: PidSettings<f32>");
     if own.k_d == 0.0 {
         item(&what, &plain, out);
@@ -180,7 +180,7 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
         ("EPSILON", "epsilon [N·m]", own.epsilon),
         (
             "LONGEST_STEP",
-            "A longer step of the law is a bad sample [s]",
+            "Longest valid step of the law [s]; a sample with a longer one is bad",
             own.longest_dt,
         ),
     ] {
@@ -191,7 +191,7 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
     let (after, safe) = (own.fallback.after(), own.fallback.command().unwrap_or(0.0));
     line!(
         out,
-        "/// The safe command [command unit], after {after} bad steps of the law in a row."
+        "/// The safe command [command unit] after {after} bad steps of the law in a row."
     );
     let fallback = format!(
         "constant!(Fallback::<f32>::const_new({after}, {}))",
@@ -202,7 +202,7 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
     let slew = own.limits.slew().unwrap_or(f64::INFINITY);
     line!(
         out,
-        "/// The range with the slew rate that the certificate needs [command unit/s]."
+        "/// The range with the slew-rate limit that the certificate needs [command unit/s]."
     );
     let slewed = format!("constant!(RANGE.const_with_slew({}))", number(slew));
     item("const STEPS_LIMITS: Limits<f32>", &slewed, out);

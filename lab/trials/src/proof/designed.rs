@@ -34,13 +34,13 @@ pub(crate) fn prove(gains: &GainsFile) -> Result<Proof, String> {
 
 fn form(law: &AdaptiveSettings<f64, 0>, known: &Known) -> Result<Form, String> {
     let control::Form::FirstOrder { step, .. } = law.form else {
-        return Err("[adaptive]: the first-order form is needed".to_owned());
+        return Err("[adaptive]: must be in first-order form".to_owned());
     };
     let (low, high) = (law.limits.low(), law.limits.high());
     let command = high.min(-low);
     if !(command.is_finite() && command > 0.0) {
         return Err(format!(
-            "[adaptive]: limits {low} to {high}: finite ones on both sides of zero are allowed"
+            "[adaptive]: limits {low} to {high}: they must be finite and on both sides of zero"
         ));
     }
     Ok(Form {

@@ -86,7 +86,7 @@ macro_rules! number {
                 if x.is_finite() && ok(x) {
                     Ok(Self(x))
                 } else {
-                    Err(format!("{x}: {} is needed", $what))
+                    Err(format!("{x}: must be {}", $what))
                 }
             }
         }
@@ -113,7 +113,7 @@ macro_rules! range {
                     {
                         Ok(Self([low, high]))
                     }
-                    _ => Err(format!("{list:?}: {} is needed", $what)),
+                    _ => Err(format!("{list:?}: must be {}", $what)),
                 }
             }
         }

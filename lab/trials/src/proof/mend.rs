@@ -56,7 +56,7 @@ pub(super) fn words(form: &Form, inequality: &Inequality) -> String {
         ),
         Named::Waiting => format!("a rate of at least {} Hz", up(left / step)),
         Named::Slew => format!(
-            "a slew rate of at least {} instead of {}, or none: below this value the slew rate may be active, and the proof is for a law without an active slew rate",
+            "a slew-rate limit of at least {} instead of {}, or none: a lower limit may become active, and the proof is for a law whose slew-rate limit is inactive",
             up(1.001 * left / step),
             form.slew.map_or(f64::NAN, |slew| slew.0)
         ),

@@ -224,7 +224,7 @@ pub fn prove(path: &Path) -> Result<Proof, String> {
 }
 
 /// What a file of gains lacks that says nothing of its plant.
-const NO_PLANT: &str = "has no [plant]: a table [plant] with alpha = [least, greatest], disturbance, disturbance_rate, reference and reference_rate is needed";
+const NO_PLANT: &str = "has no [plant]: add a table [plant] with alpha = [least, greatest], disturbance, disturbance_rate, reference and reference_rate";
 
 /// The same of a text; `label` stands for the file's name.
 ///
@@ -420,7 +420,7 @@ fn assumptions() -> Vec<&'static str> {
     let certificate = bowden::bound::Certificate { kind, value: 0.0 };
     let mut all = certificate.assumptions().to_vec();
     all.push(
-        "adaptation gains and leakages [1/s] are at most 2^30, each prior lies within its bounds",
+        "adaptation gains and leakages [1/s] are at most 2^30, and each prior lies within its bounds",
     );
     all
 }

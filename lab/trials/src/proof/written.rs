@@ -34,7 +34,7 @@ struct Numbers {
 }
 
 /// The theorem of a limit is over the reals alone.
-const AT_THE_LIMIT: &str = "--coq: this proof is for a limit of the command that may be active; certificates for Coq are for inactive limits only (theorems/Limit.v has the theorem, --json all numbers)";
+const AT_THE_LIMIT: &str = "--coq: this proof allows the limit of the command to be active; certificates for Coq cover only inactive limits (theorems/Limit.v has the theorem, --json all numbers)";
 
 /// The certificate as a theorem: `coqc` checks it, or refuses it.
 ///
@@ -124,7 +124,7 @@ pub fn coq(proof: &Proof) -> Result<String, String> {
 fn slew(proof: &Proof) -> Option<String> {
     let sides = proof.slew.as_ref()?;
     Some(format!(
-        "\n\n   The slew rate is omitted, because no step from the box reaches it: a step moves the command by\n   at most {:e}, and {:e} is allowed (theorems/Slew.v). *)\n(* The theorem over the reals.",
+        "\n\n   The slew-rate limit is omitted, because no step within the bounds reaches it: a step moves the\n   command by at most {:e}, and {:e} is allowed (theorems/Slew.v). *)\n(* The theorem over the reals.",
         sides.left.high, sides.right.low
     ))
 }
@@ -244,7 +244,7 @@ fn read(exact: &str) -> Result<f64, String> {
         #[allow(clippy::cast_precision_loss)] // of a float: 53 bits at most
         Some(mantissa as f64 * 2_f64.powi(exponent.parse().ok()?))
     });
-    parts.ok_or_else(|| format!("{exact}: a number is needed"))
+    parts.ok_or_else(|| format!("{exact}: must be a number"))
 }
 
 /// A number as Coq reads it.

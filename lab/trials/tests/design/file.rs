@@ -105,7 +105,7 @@ fn a_model_that_is_none_of_a_torque_loop_is_one_line() {
     expect(" \n", "is empty");
     expect(
         &text.replace("\"torque\"", "\"displacement\""),
-        "a torque model is needed",
+        "must be torque, because the loop commands a torque",
     );
     expect(
         &text.replace("n = 2.0", "n = 2.0\nm = 1"),
