@@ -108,7 +108,7 @@ fn one_function_under_two_names_is_one_term_with_a_note() {
         let summary = report["summary"].as_str().unwrap();
         for text in [
             "Presliding and backlash are one function with opposite signs: either name is right",
-            "with the opposite sign it is slack",
+            "with the opposite sign, it is slack",
         ] {
             assert!(summary.contains(text), "{summary}");
         }

@@ -196,7 +196,7 @@ fn bad_use_of_glob_leaves_the_rows_of_before() {
     let none = file(folder.path(), "q*.csv");
     assert_eq!(
         refused(&["identify", "--glob", &none, "--out", &out]),
-        format!("bowden: {none}: no file has such a name")
+        format!("bowden: {none}: no file matches this pattern")
     );
     let pattern = file(folder.path(), "r*.csv");
     let record = file(folder.path(), "r1.csv");

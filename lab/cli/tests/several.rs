@@ -122,7 +122,7 @@ fn a_pattern_leaves_out_the_test_vectors_that_the_program_has_written_and_says_s
     assert!(refused(&["identify", &vector]).contains("a.vector.csv:1: neither `tau_i`"));
     let line = refused(&["identify", &folder.path("*.vector.csv")]);
     assert!(
-        line.ends_with("no file has such a name but 1 test vector of --model-out"),
+        line.ends_with("no file matches this pattern but 1 test vector of --model-out"),
         "{line}"
     );
     // A record of such a name stays one.

@@ -39,7 +39,7 @@ fn a_limit_that_may_be_met_is_proved_with_its_own_inequalities() {
     assert!(report.status.success(), "{report:?}");
     let report = text(&report.stdout).to_owned();
     assert!(
-        report.contains("\n  PROVED") && report.contains("the limit may be met"),
+        report.contains("\n  PROVED") && report.contains("the limit may become active"),
         "{report}"
     );
     let holds = report.lines().filter(|l| l.starts_with("holds "));
@@ -361,7 +361,7 @@ fn a_file_of_design_is_named_as_one_where_a_setup_is_expected() {
     let path = path.to_str().unwrap();
     let line = refused(&["certify", "--gains", path]);
     assert!(
-        line.contains("gains.toml: is a file of `bowden design`"),
+        line.contains("gains.toml: is a file written by `bowden design`"),
         "{line}"
     );
     assert!(line.contains("gains and rig"), "{line}");

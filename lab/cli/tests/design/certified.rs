@@ -60,7 +60,7 @@ fn designed_gains_are_proved_as_they_stand_and_refused_beyond_what_their_limits_
     assert_eq!(output.status.code(), Some(1));
     let refusal = of_bytes(&output.stdout);
     let (_, enough) = refusal
-        .split_once("Remedy: a slew rate of at least ")
+        .split_once("Remedy: a slew-rate limit of at least ")
         .unwrap();
     let enough = enough.split(' ').next().unwrap();
     let mended = with(&gains, "adaptive.limits", &[("slew", enough)]);

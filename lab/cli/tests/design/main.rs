@@ -365,7 +365,7 @@ fn designed_gains_run_on_no_rig_but_that_of_a_model() {
     let (_, gains) = designed(&place);
     let line = refused(&["compare", "--gains", &gains, "--seeds", "1"]);
     assert!(
-        line.contains("gains.toml: gains of `bowden design` need the model")
+        line.contains("gains.toml: gains from `bowden design` need the model")
             && line.contains("--model MODEL.toml"),
         "{line}"
     );
@@ -375,7 +375,7 @@ fn designed_gains_run_on_no_rig_but_that_of_a_model() {
         "compare", "--model", &setup, "--gains", &gains, "--seeds", "1",
     ]);
     assert!(
-        line.contains("setup.toml: a model of `bowden identify"),
+        line.contains("setup.toml: with --gains, give a model written by `bowden identify"),
         "{line}"
     );
 }

@@ -28,7 +28,7 @@ fn a_stroke_shorter_than_the_hysteresis_has_no_reference_and_no_certificate() {
     // Neither of the two that refuse it is recommended.
     assert!(
         report.contains("`bowden compare` refuses this model")
-            && report.contains("`bowden certify` refuses a file of these gains: it has no [plant]"),
+            && report.contains("`bowden certify` refuses a file with these gains: it has no [plant]"),
         "{report}"
     );
     let gains = place.path("gains.toml");
@@ -91,7 +91,7 @@ fn limits_on_one_side_of_zero_are_told_before_certify_refuses_them() {
     assert!(line.contains("on both sides of zero"), "{line}");
     assert!(
         one.contains(
-            "\n        `bowden certify` refuses a file of these gains: [adaptive]: limits 2 to 40"
+            "\n        `bowden certify` refuses a file with these gains: [adaptive]: limits 2\n        to 40"
         ),
         "{one}"
     );

@@ -222,7 +222,7 @@ fn a_name_that_is_not_utf8_is_matched_as_any_other() {
     said(&close);
     let none = folder.path("*.dat");
     let line = refused(&["identify", &none]);
-    assert_eq!(line, format!("bowden: {none}: no file has such a name"));
+    assert_eq!(line, format!("bowden: {none}: no file matches this pattern"));
 }
 
 #[test]
@@ -261,8 +261,8 @@ fn a_pattern_reads_as_in_a_shell() {
     assert_eq!(read("*/../[!a].csv"), paths(&["a/../1.csv"]));
     assert_eq!(read("**/*.csv"), paths(&["1.csv", "a/2.csv", "a/b/3.csv"]));
     for (pattern, why) in [
-        ("*/", "no file has such a name"),
-        ("1.csv/*", "no file has such a name"),
+        ("*/", "no file matches this pattern"),
+        ("1.csv/*", "no file matches this pattern"),
         ("[", "is not a pattern: invalid range pattern"),
     ] {
         let path = folder.path(pattern);

@@ -186,7 +186,7 @@ fn text_that_could_be_read_in_two_ways_is_refused_with_line_and_column() {
 fn a_pattern_without_files_or_with_several_is_refused() {
     let folder = Folder::new();
     let none = folder.path("*.csv");
-    assert_eq!(line(&none, &[]), ": no file has such a name");
+    assert_eq!(line(&none, &[]), ": no file matches this pattern");
     folder.file("a.csv", csv());
     folder.file("b.csv", csv());
     let line = refused(&["plan", &none]);

@@ -53,7 +53,7 @@ fn a_round_that_raises_the_held_out_error_is_marked() {
     let text = closed.text();
     assert!(text.contains(" ↑"), "{text}");
     assert!(
-        text.contains("raises the held-out error, which selects nothing"),
+        text.contains("raises the held-out error, which the search does not use"),
         "{text}"
     );
 }

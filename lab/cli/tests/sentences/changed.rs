@@ -75,7 +75,7 @@ fn motion_in_a_gap_is_said_to_act_on() {
     let mut rows = spring((99.0, 0.0), 0);
     rows.rows.drain(4000..4600);
     let closed = rows.close(&[]);
-    closed.says(&["The motion of `x` where it was not measured is unknown"]);
+    closed.says(&["How `x` moved while it was not measured is unknown"]);
     let sound = spring((99.0, 0.0), 0).close(&[]);
     assert!(!sound.sentence().contains("not measured"));
 }

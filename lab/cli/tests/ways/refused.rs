@@ -70,7 +70,7 @@ fn what_is_no_model_is_refused_with_the_reason() {
         "about",
     );
     let none = "schema = \"bowden.model/1\"\nmode = \"displacement\"\nchannels = []\n";
-    refuse("nothing.toml", none.as_bytes(), "without any part");
+    refuse("nothing.toml", none.as_bytes(), "has no parts");
     refused(&["validate", &folder.path("missing.toml"), &record]);
     refused(&["validate", &folder.path("."), &record]);
     // And the model itself is taken.

@@ -176,8 +176,7 @@ fn a_header_that_is_none_is_refused() {
     refused(
         rows().join("\n"),
         &format!(
-            "r.csv:1: the line holds numbers; {header}; --names t,x,f gives the names of a file \
-             without them"
+            "r.csv:1: the line holds numbers; {header}; --names t,x,f names the columns of a file without a header"
         ),
     );
     refused(

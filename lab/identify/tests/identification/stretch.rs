@@ -70,6 +70,6 @@ fn a_declared_stretch_reads_the_stretch_and_needs_one() {
     let refused = structure(&list, &without.data).unwrap_err();
     assert_eq!(
         refused,
-        "--baseline stretch-linear: no channel of the record is a stretch; --channel stretch=phi_p-phi_d makes one"
+        "--baseline stretch-linear: the record has no stretch channel; --channel stretch=phi_p-phi_d adds one"
     );
 }
