@@ -111,7 +111,7 @@ fn errors(facts: &CheckFacts) -> Markup {
         row(fitted, facts.rmse_gain_offset),
     ];
     let rmse = format!("RMSE{}", in_brackets(record.unit.as_deref()));
-    let head = ["", &rmse, "of the output's std", "× floor"];
+    let head = ["", &rmse, "of the output's std", "vs noise"];
     html! {
         (table("Errors on this record", &head, 1..4, &rows))
         @if let Some(allowed) = facts.allowed {

@@ -1,4 +1,4 @@
-//! The rig's numbers.
+//! Parameters of the rig.
 
 use super::checked::finite;
 use super::{Drift, MOST_DELAY};
@@ -39,7 +39,7 @@ pub struct RigConfig<T> {
     pub drive_lag: T,
     /// Inertia of motor, gear and proximal pulley, th2 \[kg·m²\].
     pub motor_inertia: T,
-    /// Viscous friction of the same, th1 \[N·m·s/rad\].
+    /// Viscous friction of motor, gear and proximal pulley, th1 \[N·m·s/rad\].
     pub motor_damping: T,
     /// Stiffness of the cable, K_c \[N·m/rad\].
     pub cable_stiffness: T,
@@ -59,39 +59,40 @@ pub struct RigConfig<T> {
     pub t0: T,
     /// Bouc-Wen rho \[1/(N·m)\].
     pub rho: T,
-    /// Bouc-Wen sigma; in a loop at most `B/(2·kappa_eta·rho)`.
+    /// Bouc-Wen sigma; in a feedback loop at most `B/(2·kappa_eta·rho)`.
     pub sigma: T,
     /// Bouc-Wen n.
     pub n: T,
     /// Time constant of both torque sensors \[s\].
     pub sensor_lag: T,
-    /// White noise of the distal torque \[N·m rms\] a sample.
+    /// White noise of the distal torque in each sample \[N·m rms\].
     pub noise: T,
-    /// White noise of the proximal torque \[N·m rms\] a sample.
+    /// White noise of the proximal torque in each sample \[N·m rms\].
     pub input_noise: T,
-    /// The distal converter saturates at plus and minus this \[N·m\].
+    /// Torque at which the distal converter saturates, in both directions \[N·m\].
     pub output_range: T,
-    /// The proximal converter saturates at plus and minus this \[N·m\].
+    /// Torque at which the proximal converter saturates, in both directions \[N·m\].
     pub input_range: T,
-    /// Counts of a converter over its whole range.
+    /// Counts of a converter over its full range.
     pub converter_counts: T,
-    /// Counts of an encoder in one turn.
+    /// Counts of an encoder per turn.
     pub encoder_counts: T,
-    /// Time constant of the filter behind encoder differences \[s\].
+    /// Time constant of the filter for encoder differences \[s\].
     pub velocity_lag: T,
-    /// Samples between a command and the drive.
+    /// Samples between a command and its effect on the drive.
     pub delay: u8,
-    /// Longest sub-step of the integration \[s\].
+    /// Longest integration sub-step \[s\].
     pub sub_step: T,
-    /// How the conduit is moved; `None`: it lies still.
+    /// How the conduit is moved; `None` if it is fixed.
     pub drift: Option<Drift<T>>,
 }
 
 impl<T: Real> RigConfig<T> {
-    /// The reference rig: the paper's first set with sigma = 1/2, noise 0.28 N·m.
+    /// The reference rig: the first parameter set of Nguyen et al. (2018) with sigma = 1/2 and a
+    /// noise of 0.28 N·m.
     ///
-    /// The identified sigma of 98 is not admissible in a loop: the output would fall
-    /// while the input rises. Encoders: 4096 lines, four counts each.
+    /// The identified sigma of 98 is not admissible in a feedback loop: the output would fall while
+    /// the input rises. The encoders have 4096 lines with four counts each.
     #[must_use]
     pub fn reference() -> Self {
         let of = T::from_f64;
@@ -125,7 +126,7 @@ impl<T: Real> RigConfig<T> {
         }
     }
 
-    /// The reference rig with the conduit being moved.
+    /// The reference rig with a conduit that is moved.
     #[must_use]
     pub fn varying() -> Self {
         Self {

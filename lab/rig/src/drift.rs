@@ -1,4 +1,4 @@
-//! A conduit that is moved while the joint works: B, kappa_eta and T0 wander.
+//! A conduit that is moved while the joint works: B, kappa_eta and T0 drift.
 
 use super::{Noise, RigConfig};
 use bowden::signal::clamp;
@@ -25,16 +25,16 @@ use bowden::Real;
 pub struct Drift<T> {
     /// Correlation time \[s\].
     pub time: T,
-    /// Of B, for one standard deviation.
+    /// Standard deviation of B.
     pub b: T,
-    /// Of kappa_eta, for one standard deviation, as a share.
+    /// Standard deviation of kappa_eta, as a share of kappa_eta.
     pub kappa_eta: T,
-    /// Of T0 \[N·m\], for one standard deviation.
+    /// Standard deviation of T0 \[N·m\].
     pub t0: T,
 }
 
 impl<T: Real> Drift<T> {
-    /// 2 s, 0.02, 10 %, 0.2 N·m.
+    /// The reference drift: 2 s, 0.02, 10 % and 0.2 N·m.
     #[must_use]
     pub fn reference() -> Self {
         Self {

@@ -1,7 +1,7 @@
 //! A simulated rig: motor, cable, spring-loaded joint, sensors, one sample of delay.
 //!
-//! The paper's experiment as an ordinary differential equation, so that a controller can
-//! be tried, and a bound seen beside a measured error, before there is hardware:
+//! The experiment of Nguyen et al. (2018) as an ordinary differential equation. With it you can try
+//! a controller, and compare an error bound with a measured error, before you have hardware:
 //!
 //! ```text
 //! tau_c·tau_m' = N_A·u − tau_m                               current loop
@@ -11,19 +11,19 @@
 //! J_d·w_d'     = tau_o − K·phi_d − c_d·w_d + load            joint against its spring (12)
 //! ```
 //!
-//! It is integrated with short sub-steps, velocities before positions, and read as a
-//! firmware reads hardware: torque through a lag, white noise and a converter, angles
-//! through encoders, rates from filtered differences of those. The command reaches the
-//! drive late by whole samples. Its configuration can drift as a conduit that is moved
-//! ([`Drift`]), and any effect of the catalogue can be switched on in it without the
-//! controller's knowledge. Everything random follows from one seed.
+//! The equations are integrated with short sub-steps, velocities before positions. The rig is read
+//! as firmware reads hardware: torque through a lag, white noise and a converter, angles through
+//! encoders, and rates from filtered differences of the angles. The command reaches the drive after
+//! a delay of whole samples. The configuration can drift as it does in a conduit that is moved
+//! ([`Drift`]), and any effect of the catalogue can be switched on without the controller's
+//! knowledge. All random numbers follow from one seed.
 //!
-//! Inertias, stiffnesses, drive gain and noise are not in the paper: they were chosen so
-//! that the errors of PI and of the adaptive law come out as in its Table 3. What
-//! the rig shows beside those two is a result; those two are calibration.
+//! The paper does not state inertias, stiffnesses, drive gain or noise. They were chosen so that
+//! the errors of PI and of the adaptive law match the paper's Table 3. These two errors are
+//! therefore calibration; everything else that the rig shows is a result.
 //!
-//! `no_std` and without a heap, as the core that it is made of: what is tried here can be
-//! tried on the controller's own processor. Features, all off: `serde`, `defmt`, `std`.
+//! The crate is `no_std` and needs no heap, like the core that it uses, so the same trial can run
+//! on the controller's own processor. Features, all off by default: `serde`, `defmt`, `std`.
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -47,7 +47,7 @@ use drift::DriftState;
 use plant::{Plant, PlantState};
 use sensor::{Encoder, EncoderState, TorqueSensor, TorqueSensorState};
 
-/// Most samples between a command and the drive.
+/// Maximum number of samples between a command and its effect on the drive.
 pub const MOST_DELAY: usize = 8;
 
 /// Most sub-steps of one step: a longer `dt` makes them longer.
@@ -85,36 +85,36 @@ pub struct Rig<T, const N: usize> {
     delay: usize,
 }
 
-/// What can be read off the rig at one sample, the truth beside the measurement.
+/// What can be read from the rig at one sample: the true values and the measured ones.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RigSample<T> {
-    /// Since the start \[s\].
+    /// Time since the start \[s\].
     pub time: T,
-    /// Distal torque \[N·m\], as it is.
+    /// True distal torque \[N·m\].
     pub tau_o: T,
-    /// Distal torque \[N·m\], as the sensor tells it.
+    /// Measured distal torque \[N·m\].
     pub measured: T,
-    /// Proximal torque \[N·m\], as it is.
+    /// True proximal torque \[N·m\].
     pub tau_i: T,
-    /// Proximal torque \[N·m\], as the sensor tells it.
+    /// Measured proximal torque \[N·m\].
     pub measured_input: T,
     /// Motor torque \[N·m\].
     pub tau_m: T,
-    /// Proximal pulley \[rad\], as a firmware derives it from the encoder.
+    /// Motion of the proximal pulley \[rad\], as firmware derives it from the encoder.
     pub proximal: Motion<T>,
-    /// Distal pulley \[rad\], as a firmware derives it from the encoder.
+    /// Motion of the distal pulley \[rad\], as firmware derives it from the encoder.
     pub distal: Motion<T>,
     /// Hysteresis state, within ±1.
     pub eta: T,
-    /// Configuration at this sample: B.
+    /// B at this sample.
     pub b: T,
-    /// Configuration at this sample: kappa_eta \[N·m\].
+    /// kappa_eta at this sample \[N·m\].
     pub kappa_eta: T,
-    /// Configuration at this sample: T0 \[N·m\].
+    /// T0 at this sample \[N·m\].
     pub t0: T,
-    /// Whether the motion has left the range of floats; the rig then stands still.
+    /// Whether the motion has left the range of floats; the rig then stops.
     pub diverged: bool,
 }
 
@@ -144,21 +144,21 @@ pub struct RigState<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> RigState<T, N> {
-    /// The last sample; before the first step the one at time zero.
+    /// The last sample; before the first step, the sample at time zero.
     #[inline]
     #[must_use]
     pub fn sample(&self) -> RigSample<T> {
         self.sample
     }
 
-    /// The proximal pulley \[rad\] as it is, without encoder or filter.
+    /// True motion of the proximal pulley \[rad\], without encoder or filter.
     #[inline]
     #[must_use]
     pub fn proximal(&self) -> Motion<T> {
         self.plant.proximal()
     }
 
-    /// The distal pulley \[rad\] as it is, without encoder or filter.
+    /// True motion of the distal pulley \[rad\], without encoder or filter.
     #[inline]
     #[must_use]
     pub fn distal(&self) -> Motion<T> {
@@ -169,15 +169,15 @@ impl<T: Real, const N: usize> RigState<T, N> {
 impl<T: Real, const N: usize> Rig<T, N> {
     /// Checks the configuration and the undeclared effects.
     ///
-    /// The effects read `Source::Input` (the proximal torque), `Source::Channel(0)` (the
-    /// proximal pulley) or `Source::Channel(1)` (the distal pulley); their load is the
-    /// proximal torque. One that reads an acceleration gets that of the sub-step
-    /// before: the gain of an inertia must stay below that of what it reads.
+    /// The effects read `Source::Input` (the proximal torque), `Source::Channel(0)` (the proximal
+    /// pulley) or `Source::Channel(1)` (the distal pulley); their load is the proximal torque. An
+    /// effect that reads an acceleration gets the one of the previous sub-step, so the gain of an
+    /// inertia must stay below the inertia of the pulley that it reads.
     ///
     /// # Errors
-    /// Those of the configuration, see [`RigConfig`]; [`Error::Capacity`] for more than
-    /// `N` effects; [`Error::OutOfRange`] with `"channel"`; [`Error::NonFinite`] with
-    /// `"origin"` or `"gain"`.
+    /// The errors of the configuration (see [`RigConfig`]); [`Error::Capacity`] for more than `N`
+    /// effects; [`Error::OutOfRange`] with `"channel"`; [`Error::NonFinite`] with `"origin"` or
+    /// `"gain"`.
     pub fn try_new(config: RigConfig<T>, undeclared: &[Term<T>]) -> Result<Self, Error> {
         config.check()?;
         Ok(Self {
@@ -204,7 +204,7 @@ impl<T: Real, const N: usize> Rig<T, N> {
         self.plant.undeclared()
     }
 
-    /// At rest, all torques zero; the sensors have been read once.
+    /// The state at rest: all torques are zero, and the sensors have been read once.
     #[must_use]
     pub fn start(&self, seed: u64) -> RigState<T, N> {
         let mut state = RigState {
@@ -235,16 +235,16 @@ impl<T: Real, const N: usize> Rig<T, N> {
 
     /// Advances by `dt` \[s\] and reads the sensors.
     ///
-    /// A command that is not finite is not taken over: the drive keeps the last one. A
-    /// `dt` that is not positive and finite changes nothing.
+    /// If the command is not finite, the drive keeps the last one. A `dt` that is not positive and
+    /// finite changes nothing.
     pub fn step(&self, state: &mut RigState<T, N>, command: T, dt: T) -> RigSample<T> {
         self.step_with_load(state, command, T::zero(), dt)
     }
 
-    /// The same with a torque \[N·m\] that somebody else puts on the joint.
+    /// [`step`](Self::step) with an additional external torque on the joint \[N·m\].
     ///
-    /// On a bench it makes the joint's motion independent of the torque; without it the
-    /// spring ties the angle to the torque, and no record can tell them apart.
+    /// On a bench this torque makes the joint's motion independent of the transmitted torque.
+    /// Without it the spring ties the angle to the torque, and no record can distinguish the two.
     pub fn step_with_load(
         &self,
         state: &mut RigState<T, N>,

@@ -1,11 +1,11 @@
-//! Noise from a seed: the rig's own generator, the same on every machine.
+//! Noise from a seed: the rig's own generator, with the same output on every machine.
 
 use bowden::Real;
 
 /// White Gaussian noise of unit variance, deterministic.
 ///
 /// Integers from SplitMix64 (Steele, Lea, Flood, OOPSLA 2014), normal deviates from the
-/// polar form of Box and Muller (Marsaglia, Bray 1964). Not for secrets.
+/// polar form of Box and Muller (Marsaglia, Bray 1964). Not for cryptography.
 ///
 /// ```
 /// use bowden_rig::Noise;
@@ -50,11 +50,11 @@ impl Noise {
         uniform(self.bits())
     }
 
-    /// Normal with mean zero and variance one, finite: at most 8.6 away from zero.
+    /// A normal deviate with mean zero and variance one; its magnitude is at most 8.6.
     ///
-    /// Computed in `T` throughout: in `f32` it is that of `f64` but for rounding, which near
-    /// zero may be 3e-4. A point on the circle's edge may fall on its other side (once in ten
-    /// million); from there on the deviates are others.
+    /// It is computed in `T` throughout. In `f32` it equals the value in `f64` except for rounding,
+    /// which may be 3e-4 near zero. A point at the edge of the circle may fall on the other side of
+    /// it (once in ten million); from there on, the deviates of `f32` and `f64` differ.
     pub fn normal<T: Real>(&mut self) -> T {
         if let Some(state) = self.spare.take() {
             if let Some((_, second)) = pair(state) {

@@ -1,12 +1,14 @@
-//! What the joint is to do: the paper's torque reference, and its rates.
+//! The reference for the joint: the torque reference of Nguyen et al. (2018), a gait, and their
+//! rates.
 
 use bowden::effect::Motion;
 use bowden::Real;
 
-/// A torque reference: the paper's mean and two sines, or a gait's push-off; ramped in if wanted.
+/// A torque reference: a mean and two sines (Nguyen et al., 2018), or a gait's push-off, optionally
+/// with a ramp.
 ///
-/// The paper's is `25 + 10·sin(2·pi·0.25·t) + 3·sin(2·pi·0.2·sqrt(3)·t)` \[N·m\] (section
-/// 4.2, Figure 7); at most 38.
+/// The reference of the paper is `25 + 10·sin(2·pi·0.25·t) + 3·sin(2·pi·0.2·sqrt(3)·t)` \[N·m\]
+/// (section 4.2, Figure 7); its maximum is 38.
 ///
 /// ```
 /// use bowden_rig::Reference;
@@ -37,7 +39,7 @@ enum Task<T> {
 const PUSH: [f64; 3] = [0.2, 0.5, 0.65];
 
 impl<T: Real> Reference<T> {
-    /// The paper's, at its full value from the first sample on.
+    /// The reference of Nguyen et al. (2018), at its full value from the first sample on.
     #[must_use]
     pub fn paper() -> Self {
         let turn = 2.0 * core::f64::consts::PI;
@@ -54,9 +56,9 @@ impl<T: Real> Reference<T> {
         }
     }
 
-    /// Steps of an ankle, one a second: 5 N·m, and a push-off of 30 N·m more that rises from a
-    /// fifth of the cycle to its half and ends at 0.65 of it, along fifth-order polynomials without a
-    /// jump of rate or acceleration.
+    /// Steps of an ankle, one per second: 5 N·m, plus a push-off of 30 N·m. The push-off rises from
+    /// 0.2 to 0.5 of the cycle and ends at 0.65, along fifth-order polynomials without a jump in
+    /// rate or acceleration.
     ///
     /// ```
     /// use bowden_rig::Reference;
@@ -73,7 +75,7 @@ impl<T: Real> Reference<T> {
         }
     }
 
-    /// After what time it repeats \[s\]; the paper's never does.
+    /// Period \[s\]; `None` for the reference of Nguyen et al. (2018), which never repeats.
     #[must_use]
     pub fn period(&self) -> Option<T> {
         match self.task {
@@ -82,7 +84,7 @@ impl<T: Real> Reference<T> {
         }
     }
 
-    /// The same, rising smoothly from zero in the first `seconds` \[s\].
+    /// The reference with a smooth rise from zero in the first `seconds` \[s\].
     ///
     /// The factor is `x²·(3 − 2·x)`; a number that is not positive means no ramp.
     #[must_use]
@@ -95,7 +97,7 @@ impl<T: Real> Reference<T> {
         Self { ramp, ..self }
     }
 
-    /// The same, moved and stretched to stay between two values \[N·m\].
+    /// The reference, shifted and scaled to stay between two values \[N·m\].
     ///
     /// Numbers that are not finite, or not in order, change nothing.
     ///

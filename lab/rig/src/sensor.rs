@@ -1,4 +1,4 @@
-//! What a firmware sees: torque through a converter, angles through an encoder.
+//! What firmware sees: torque through a converter, angles through an encoder.
 
 use super::{Noise, RigConfig};
 use bowden::effect::Motion;

@@ -1,22 +1,21 @@
-//! Makes test records with known missing effects.
+//! Generates test records with known missing effects.
 //!
 //! ```text
 //! bowden generate --mode torque --effect viscous --seed 7 > my.csv
 //! bowden identify my.csv
 //! ```
-//! writes twenty seconds at 1 kHz of a transmission by the paper's (5) to (7)
-//! with a viscous term on `phi_p` that the baseline model does not have: three
-//! times as large (rms) as the noise. Several effects may be planted at once;
-//! [`effects`] lists their names. The same seed gives the same bytes.
+//! writes twenty seconds at 1 kHz of a transmission that follows (5) to (7) of Nguyen et al.
+//! (2018), with a viscous term on `phi_p` that the baseline model lacks. The term's rms is three
+//! times that of the noise. Several effects may be planted at once; [`effects`] lists their names.
+//! The same seed gives the same bytes.
 //!
-//! **This generator shares no code with the model that is to be tested.** An
-//! error in a common regressor or integrator would be in the record and in the
-//! fit, and cancel out of sight. So it integrates the hysteresis in the form
-//! in which the paper prints it, by fourth-order Runge-Kutta with the analytic
-//! rate of the input, on a grid at least twenty times finer than the samples;
-//! delays, lags, creep and plays run on that fine grid too; friction changes
-//! its sign by another smooth curve than the fit's; and what is sampled from it
-//! is quantised and noisy as by converters and encoders.
+//! **This generator shares no code with the model that it tests.** An error in a common regressor
+//! or integrator would be in both the record and the fit, and would cancel unnoticed. The generator
+//! therefore integrates the hysteresis as the paper prints it, by fourth-order Runge-Kutta with the
+//! analytic rate of the input, on a grid at least twenty times finer than the samples. Delays,
+//! lags, creep and plays run on this fine grid too. Friction changes its sign along another smooth
+//! curve than in the fit. The samples are quantised and noisy, like those of converters and
+//! encoders.
 //!
 //! ```
 //! use bowden_synth::{generate, Mode, Planted, Recipe};
@@ -52,7 +51,7 @@ pub use stored::{stored_csv, stored_recipe};
 
 use std::fmt::Write as _;
 
-/// A generated column: its name, its unit and a value a sample.
+/// A generated column: its name, its unit and one value per sample.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     /// Name in the header.
@@ -68,7 +67,7 @@ pub struct Column {
 pub struct Synthetic {
     /// `t`, input, output, then the channels.
     pub columns: Vec<Column>,
-    /// What a perfect identification would find.
+    /// The result of a perfect identification.
     pub truth: Truth,
 }
 
@@ -81,9 +80,9 @@ pub struct Truth {
     pub effects: Vec<PlantedTruth>,
     /// Hysteresis state at each sample.
     pub eta: Vec<f64>,
-    /// Input at each sample before its sensor.
+    /// True input at each sample, before the sensor.
     pub input: Vec<f64>,
-    /// Output at each sample without noise and quantisation.
+    /// Output at each sample, without noise or quantisation.
     pub output: Vec<f64>,
     /// Rms of the noise that was added to the output.
     pub noise_rms: f64,
@@ -96,7 +95,7 @@ pub struct PlantedTruth {
     pub effect: String,
     /// The channel that it reads, if it reads one.
     pub channel: Option<&'static str>,
-    /// What multiplies the regressor; for a delay or a lag the time \[s\].
+    /// The factor of the regressor; for a delay or a lag, its time \[s\].
     pub gain: f64,
     /// Shape parameters by name.
     pub shapes: Vec<(&'static str, f64)>,

@@ -1,4 +1,4 @@
-//! Effects that no catalogue lists: what is to come out as "unknown".
+//! Effects that the catalogue does not list, which the search must report as "unknown".
 //!
 //! A local bump is what a single bad tooth, a kinked cable or one worn spot of a guide
 //! makes; a spike after reversals is a part that knocks against its stop.
@@ -11,7 +11,7 @@ use rand_chacha::ChaCha8Rng;
 /// of one sign for both directions over the first path after each reversal of the input.
 pub(super) const NAMES: [&str; 3] = ["bump-position", "bump-load", "reversal-spike"];
 
-/// Names of effects that can be planted but that are in no catalogue.
+/// Names of effects that can be planted but that the catalogue does not list.
 pub fn outsiders() -> &'static [&'static str] {
     &NAMES
 }

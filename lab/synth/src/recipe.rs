@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-/// What drives the transmission. Own type: see the module on independence.
+/// What drives the transmission. The type is separate to keep the generator independent: see the
+/// crate's documentation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
     /// `tau_i` in, `tau_o` out, with the angles `phi_p` and `phi_d`.
@@ -20,10 +21,10 @@ pub struct Planted {
     pub strength: f64,
     /// The channel that it reads; each effect has a default.
     pub channel: Option<String>,
-    /// The gain itself, in place of the strength: so several records can be of one rig.
-    /// A delay or a lag has none.
+    /// The gain itself instead of the strength, so that several records can come from one rig. A
+    /// delay or a lag has no gain.
     pub gain: Option<f64>,
-    /// Where its position counts from; the middle of its motion where it is `None`.
+    /// Origin of its position; `None` means the middle of its motion.
     pub origin: Option<f64>,
 }
 
@@ -39,7 +40,7 @@ impl Planted {
         }
     }
 
-    /// An effect of that gain, whatever the motion and the noise.
+    /// An effect with this gain, independent of the motion and the noise.
     pub fn with_gain(effect: &str, gain: f64) -> Self {
         Self {
             gain: Some(gain),
@@ -48,7 +49,7 @@ impl Planted {
     }
 }
 
-/// Parameters of the transmission, in the paper's form.
+/// Parameters of the transmission, as in Nguyen et al. (2018).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Base {
     /// B \[-\] in (6), or k_x \[N/mm\] in (1).
@@ -92,13 +93,13 @@ impl Base {
 pub struct Recipe {
     /// What drives the transmission.
     pub mode: Mode,
-    /// The effects that the baseline model will not have.
+    /// The effects that the baseline model will lack.
     pub effects: Vec<Planted>,
-    /// Every random choice follows from it.
+    /// Seed of all random choices.
     pub seed: u64,
     /// Length \[s\].
     pub seconds: f64,
-    /// Samples a second \[Hz\].
+    /// Sampling rate \[Hz\].
     pub rate: f64,
     /// Noise of the output, rms \[N·m or N\].
     pub noise: f64,
@@ -114,13 +115,13 @@ pub struct Recipe {
     pub amplitude: f64,
     /// Mean of the input \[N·m or mm\].
     pub bias: f64,
-    /// Whether all motion rests for a second now and then.
+    /// Whether all motion rests for a second from time to time.
     pub holds: bool,
     /// Whether a temperature is recorded.
     pub temperature: bool,
     /// Whether a load is recorded (displacement mode).
     pub load: bool,
-    /// The transmission; drawn from the seed where it is `None`.
+    /// The transmission; `None` means drawn from the seed.
     pub base: Option<Base>,
     /// Half-width of a play in series, between the input and the transmission
     /// \[N·m or mm\]; 0 is none.
@@ -255,7 +256,7 @@ impl Base {
     }
 }
 
-/// A recipe that cannot be followed, in one line.
+/// Why a recipe cannot be followed, in one line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RecipeError(String);
 

@@ -1,9 +1,9 @@
-//! The record that is built into the program, as the counts of its sensors.
+//! The record that is built into the program, stored as the counts of its sensors.
 //!
-//! To make it anew takes longer than to close it. So what [`generate`](crate::generate)
-//! makes of [`stored_recipe`] is stored: of each column but the time the count of every
-//! sample less the count before it, zigzag, as a variable-length integer; then the samples
-//! that are a zero with a minus sign.
+//! Generating it takes longer than identifying it. Therefore the output of
+//! [`generate`](crate::generate) for [`stored_recipe`] is stored: for each column except the time,
+//! the difference between the counts of successive samples as a zigzag variable-length integer;
+//! then the samples that are a negative zero.
 
 use super::{csv, Column, Mode, Planted, Recipe};
 
@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    #[ignore = "writes stored.bin anew, beside this file"]
+    #[ignore = "rewrites stored.bin, next to this file"]
     fn the_record_is_stored() {
         let recipe = stored_recipe();
         let bytes = stored(&generate(&recipe).unwrap().columns, &recipe);

@@ -213,12 +213,12 @@ pub fn all(setup: &Setup) -> Result<Vec<Promise>, String> {
     let epsilon = settings.epsilon.max(0.2);
     for spread in [0.0, 0.05, 0.10, 0.20, 0.30] {
         let percent = 100.0 * spread;
-        let name = format!("adaptive, boxes, beta within {percent:.0} %");
+        let name = format!("adaptive, bounded, beta within {percent:.0} %");
         let continuous = boxed(spread, settings.form, settings.epsilon)
             .and_then(|law| PeakContinuous::try_new(&law, &known))
             .map(|c| c.certificate());
         lines.push(line(&name, "peak-continuous", continuous));
-        let name = format!("lag form at 1 kHz, boxes, beta within {percent:.0} %");
+        let name = format!("lag form at 1 kHz, bounded, beta within {percent:.0} %");
         let sampled = boxed(spread, lag, epsilon);
         let peak = sampled.and_then(|law| PeakSampled::try_new(&law, &known));
         lines.push(line(&name, "peak-sampled", peak.map(|c| c.certificate())));

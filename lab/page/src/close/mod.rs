@@ -66,7 +66,7 @@ impl Close<'_> {
         if let Some(unknown) = &facts.unknown {
             sections.push(Section {
                 id: "unknown",
-                title: "The unknown",
+                title: "The unmodelled dependence",
                 body: residual::unknown(facts, unknown),
             });
         }
