@@ -139,7 +139,7 @@ pub fn compare(question: &Question<'_>) -> Result<Compared, String> {
     let effect = question.effect.map(Undeclared::parse).transpose()?;
     if effect.is_some() && (is_given || gains.is_some()) {
         return Err(
-            "--effect: works on the reference rig with the paper's gains; it cannot be combined with a model or with gains from `bowden design`"
+            "--effect: works only on the reference rig with the gains of Nguyen et al. (2018); it cannot be combined with a model or with gains from `bowden design`"
                 .to_owned(),
         );
     }

@@ -27,7 +27,7 @@ impl AtLimit {
             (share > TOLD).then(|| format!("{limit} in {:.0} % of the samples", 100.0 * share))
         };
         let both = [
-            told(self.slew, "at its slew rate"),
+            told(self.slew, "at its slew-rate limit"),
             told(self.range, "at an end of its range"),
         ];
         let both: Vec<String> = both.into_iter().flatten().collect();
@@ -95,7 +95,7 @@ mod tests {
         assert!((shares.slew - 6.0 / 9.0).abs() < 1e-12, "{shares:?}");
         assert_eq!(
             shares.words().unwrap(),
-            "at its slew rate in 67 % of the samples and at an end of its range in 22 % of the samples"
+            "at its slew-rate limit in 67 % of the samples and at an end of its range in 22 % of the samples"
         );
         assert!(AtLimit::default().words().is_none());
     }

@@ -81,7 +81,7 @@ impl Undeclared {
         let name = self.name.as_str();
         let source = match self.channel.as_deref() {
             None => usual(name).ok_or_else(|| {
-                format!("--effect {name}: the rig has no channel that it could read")
+                format!("--effect {name}: the rig has no channel that this effect could read")
             })?,
             Some("tau_i") => Source::Input,
             Some("phi_p") => Source::Channel(0),

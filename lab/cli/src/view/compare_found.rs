@@ -137,7 +137,7 @@ const NOTES: [&str; 4] = [
     "Baseline: the feed-forward is Bouc-Wen alone, fitted to the bench record.",
     "With found: the terms that `identify` adds are refitted together with Bouc-Wen and fed forward.",
     "Third regressor: the found terms enter the adaptive law with their bench values as priors. Its baseline is the law without them.",
-    "Quiet: the loop has a fifth of the paper's gains. It shows what a full gain hides.",
+    "Quiet: the loop has a fifth of the gains of Nguyen et al. (2018). It shows what the full gains hide.",
 ];
 
 /// Schema `bowden.compare/1`.

@@ -91,7 +91,7 @@ fn limits_on_one_side_of_zero_are_told_before_certify_refuses_them() {
     assert!(line.contains("on both sides of zero"), "{line}");
     assert!(
         one.contains(
-            "\n        `bowden certify` refuses a file with these gains: [adaptive]: limits 2\n        to 40"
+            "\n        `bowden certify` refuses a file with these gains: [adaptive]: limits 2 to 40"
         ),
         "{one}"
     );
@@ -191,7 +191,7 @@ fn gains_of_another_model_are_told() {
     );
 }
 
-/// A loop that its slew rate rules has an error that says nothing of its gains.
+/// A loop that its slew-rate limit rules has an error that says nothing of its gains.
 #[test]
 fn a_command_that_is_at_its_limit_much_of_the_time_is_told_beside_its_errors() {
     let place = Place::new();
@@ -215,7 +215,7 @@ fn a_command_that_is_at_its_limit_much_of_the_time_is_told_beside_its_errors() {
         .lines()
         .find(|l| l.contains("At a limit of the command"));
     let told = told.unwrap_or_else(|| panic!("{report}"));
-    assert!(told.contains("command: pi at its slew rate in "), "{told}");
+    assert!(told.contains("command: pi at its slew-rate limit in "), "{told}");
     assert!(!told.contains("adaptive"), "{told}");
     let json: Value = serde_json::from_str(&compared(&slow, &["--json"])).unwrap();
     let rows = json["rows"].as_array().unwrap();
@@ -229,7 +229,7 @@ fn a_command_that_is_at_its_limit_much_of_the_time_is_told_beside_its_errors() {
     assert!(told.contains(&percent), "{told}");
     let page = place.path("page.html");
     compared(&slow, &["--report", &page]);
-    assert!(text(&page).contains("command: pi at its slew rate in "));
+    assert!(text(&page).contains("command: pi at its slew-rate limit in "));
 }
 
 /// Certificates without a model's cable would be believed to be of it.

@@ -16,7 +16,7 @@ const ALIKE: f64 = 0.1;
 
 /// What is said of such an output.
 pub(super) fn words(output: &str, input: &str) -> String {
-    format!("`{output}` has the opposite sign of the motion of `{input}`: friction has a negative gain here")
+    format!("`{output}` has the opposite sign to the motion of `{input}`: friction has a negative gain here")
 }
 
 /// Whether the output gives energy to the motion instead of taking it, as friction and hysteresis do

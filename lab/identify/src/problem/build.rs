@@ -99,7 +99,7 @@ impl Prepared {
             .find(|(_, own)| **own > RATES_APART * step)
         {
             return Err(named(record, format!(
-                "has {:.6} samples per second, another file {:.6}: the rates may differ by at most a factor of {RATES_APART}",
+                "has {:.6} samples per second, but another file has {:.6}: the rates may differ by at most a factor of {RATES_APART}",
                 1.0 / own,
                 1.0 / step
             )));

@@ -268,7 +268,7 @@ impl Clock {
         let (shown, unit) = (shown(name, NAME_LENGTH), likely_unit(step));
         (!self.of_day && step >= LONG_STEP).then(|| {
             let asked = format!(
-                "states no unit and was read as seconds; its median step is {step} s: is that {unit}? Then call it `{shown} [{unit}]`"
+                "states no unit and was read as seconds; its median step is {step} s: is the unit {unit}? Then name the column `{shown} [{unit}]`"
             );
             (name.as_str(), asked)
         })

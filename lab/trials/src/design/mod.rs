@@ -470,7 +470,7 @@ fn notes(plant: &Plant, adaptive: &AdaptiveDesign) -> Vec<String> {
         );
     } else if let Some(why) = &adaptive.unproved {
         notes.push(format!(
-            "`bowden certify` does not prove this file as it is, because {why}; the certificate above ignores the limits and the slew rate"
+            "`bowden certify` does not prove this file as it is, because {why}; the certificate above ignores the limits and the slew-rate limit"
         ));
     }
     if plant.own_delay > 0.0 {

@@ -38,7 +38,7 @@ pub(super) fn find(time: &[f64]) -> Option<Found> {
     let gaps = if samples.len() == 1 { "gap" } else { "gaps" };
     Some(Found {
         message: format!(
-            "{} {gaps} in time, the longest {longest:.4} s where {step:.4} s is usual; {:.2} % of the time",
+            "{} {gaps} in time, the longest of {longest:.4} s instead of the usual {step:.4} s; {:.2} % of the time",
             samples.len(),
             100.0 * share
         ),

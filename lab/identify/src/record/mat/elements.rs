@@ -181,7 +181,7 @@ fn matrix(bytes: &[u8], order: Order, depth: usize) -> Result<(String, Value), D
     let count = dims
         .iter()
         .try_fold(1_usize, |all, own| all.checked_mul(*own));
-    let count = count.ok_or_else(|| damaged("a matrix is larger than any"))?;
+    let count = count.ok_or_else(|| damaged("a matrix has an impossible size"))?;
     let value = match class {
         1 => Value::Cells(
             nested(&mut parts, count, depth)?
