@@ -260,15 +260,15 @@ const NOT_OF_THESE_GAINS: &str = "No bounds here: `bowden certify GAINS.toml` pr
 const NOT_OF_THIS_RIG: &str = "No bounds: they hold only for the reference rig. `bowden design` derives gains from a model, and a bound for these gains.";
 
 const OF_CONTROLLERS: [(&str, &str); 5] = [
-    ("matched-pi", "a PI with the effective integral gain of the paper's adaptive law (320). Its error shows what the gain achieves without adaptation."),
+    ("matched-pi", "a PI with the effective integral gain of the adaptive law in Nguyen et al. (2018), 320. Its error shows what the gain achieves without adaptation."),
     ("pi-observer", "a softer PI with a disturbance observer. It has no model of the friction. `bowden certify` prints for which plants its loop is stable."),
     ("adaptive-frozen", "beta_hat is 1/alpha, delta_hat is the given value, and neither adapts."),
     ("adaptive-feed-forward", "the adaptive law, plus the inverse of the rig's own transmission or of the given model."),
-    ("pi-learning", "the paper's PI, plus a correction for each cell of the cycle and the inverse of the nominal plant. It needs the phase of the cycle, and five to twenty cycles to learn."),
+    ("pi-learning", "the PI of Nguyen et al. (2018), plus a correction for each cell of the cycle and the inverse of the nominal plant. It needs the phase of the cycle, and five to twenty cycles to learn."),
 ];
 
 const OF_COLUMNS: [&str; 3] = [
-    "Columns: `measured` is the rms of the measured error, which the paper's Table 3 lists; `% max` is this rms as a share of the greatest reference.",
+    "Columns: `measured` is the rms of the measured error, which Table 3 of Nguyen et al. (2018) lists; `% max` is this rms as a share of the greatest reference.",
     "Columns: `effort` is the total variation of the command [units/s].",
     "Columns: `bound` is the proved bound of the rms error of an idealised plant without sensor noise. `bowden certify` lists its assumptions.",
 ];

@@ -175,7 +175,7 @@ fn moved() -> Rows {
 fn said_to_count_against(closed: &Closed) -> bool {
     let notes = closed.json["notes"].as_array().unwrap();
     let mut notes = notes.iter().filter_map(|note| note.as_str());
-    notes.any(|note| note.contains("has the opposite sign of"))
+    notes.any(|note| note.contains("has the opposite sign to"))
 }
 
 /// The torque channel has nothing to do with the output; an angle makes all of it.
