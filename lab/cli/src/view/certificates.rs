@@ -52,7 +52,7 @@ pub fn text(all: &Certified, label: Option<&str>, width: Width, verbose: bool) -
     let peaks: Vec<f64> = peaks.filter_map(|line| line.value).collect();
     if let (Some(least), Some(greatest)) = (peaks.first(), peaks.last()) {
         let words = format!(
-            "The peak bounds of the sampled law range from {least:.4} to {greatest:.4} N·m, depending on the plant and on the bounds of beta_hat."
+            "The peak bounds of the sampled law range from {least:.4} to {greatest:.4} N·m."
         );
         prose(&mut out, width, &words);
     }
