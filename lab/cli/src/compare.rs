@@ -36,7 +36,7 @@ pub struct Compare {
     effect: Option<String>,
     /// A file written by `identify --model-out`; its model is fed forward. With --gains or an
     /// option of the rig, the rig has this model's transmission and effects, and the reference
-    /// X
+    /// stays within the range of its record. Alternatively one file with gains, rig and model.
     #[arg(long, value_name = "MODEL.toml")]
     model: Option<PathBuf>,
     /// Gains from `bowden design`, with the model that they were designed for in --model; or one

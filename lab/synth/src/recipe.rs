@@ -193,9 +193,7 @@ impl Recipe {
         ];
         for (name, value) in sizes {
             if !(0.0..=1e6).contains(&value) {
-                return refuse(format!(
-                    "{name} {value}: must be from 0 to a million"
-                ));
+                return refuse(format!("{name} {value}: must be from 0 to a million"));
             }
         }
         if !(0.0..1.0).contains(&self.colour) {
@@ -228,13 +226,12 @@ impl Recipe {
         };
         if let Some(planted) = self.effects.iter().find(|p| given(p)) {
             let name = &planted.effect;
-            return refuse(format!(
-                "gain and origin of {name}: must be finite"
-            ));
+            return refuse(format!("gain and origin of {name}: must be finite"));
         }
         match &self.base {
             Some(base) if !base.is_sound() => refuse(
-                "base: the numbers must be finite, with rho > 0, sigma >= 1/2 and n >= 1".to_owned(),
+                "base: the numbers must be finite, with rho > 0, sigma >= 1/2 and n >= 1"
+                    .to_owned(),
             ),
             _ => Ok(()),
         }

@@ -107,8 +107,12 @@ pub fn knows(controller: &str) -> Option<&'static str> {
             Some("the phase of the gait, and the rig's drive gain, inertia, damping and stiffness")
         }
         "adaptive-frozen" => Some("the rig's drive gain and the gain of its cable"),
-        "adaptive-feed-forward" => Some("the transmission of the rig, or the model given with --model"),
-        "pi-feed-forward" => Some("the transmission of the rig, which is the model given with --model"),
+        "adaptive-feed-forward" => {
+            Some("the transmission of the rig, or the model given with --model")
+        }
+        "pi-feed-forward" => {
+            Some("the transmission of the rig, which is the model given with --model")
+        }
         _ => None,
     }
 }

@@ -41,7 +41,9 @@ impl Undeclared {
             None => (text, None),
             Some((what, strength)) => {
                 let value: f64 = strength.parse().map_err(|_| {
-                    format!("--effect {text}: {strength:?} is not a number of N·m; write NAME:STRENGTH")
+                    format!(
+                        "--effect {text}: {strength:?} is not a number of N·m; write NAME:STRENGTH"
+                    )
                 })?;
                 if !(value.is_finite() && value > 0.0) {
                     return Err(format!(
@@ -118,7 +120,9 @@ impl Undeclared {
         }
         let rms = path.rms(&term(1.0));
         if !(rms > 0.0 && rms.is_finite()) {
-            return Err(format!("--effect {name}: this effect is constant zero on this rig"));
+            return Err(format!(
+                "--effect {name}: this effect is constant zero on this rig"
+            ));
         }
         // Friction takes away from the torque that arrives.
         Ok(term(-self.strength / rms))

@@ -212,11 +212,9 @@ fn notes(heading: &Heading, lineup: &Lineup, verbose: bool) -> Vec<String> {
     let mut notes = Vec::new();
     notes.extend(told_of_limits(&lineup.lines));
     let changed = heading.fed_with.as_ref();
-    notes.extend(
-        changed.map(|changed| {
-            format!("The model has no inverse. The feed-forward inverts {changed} instead.")
-        }),
-    );
+    notes.extend(changed.map(|changed| {
+        format!("The model has no inverse. The feed-forward inverts {changed} instead.")
+    }));
     let rig = match (heading.is_paper, &heading.model, heading.gait) {
         (true, ..) => &[CALIBRATED, NOT_REPRODUCED][..],
         (false, Some(_), _) => &[OF_THE_REFERENCE_RIG],
@@ -253,9 +251,11 @@ const RINGING: &str = "Gains from `bowden design` can cause ringing on a heavy j
 const CHANGED: &str =
     "The rig or the gains differ from those of Nguyen et al. (2018): their Table 3 is no reference for this comparison.";
 
-const NOT_OF_A_GAIT: &str = "No bounds: they hold only for the reference signal of Nguyen et al. (2018).";
+const NOT_OF_A_GAIT: &str =
+    "No bounds: they hold only for the reference signal of Nguyen et al. (2018).";
 
-const NOT_OF_THESE_GAINS: &str = "No bounds here: `bowden certify GAINS.toml` prints what is proved.";
+const NOT_OF_THESE_GAINS: &str =
+    "No bounds here: `bowden certify GAINS.toml` prints what is proved.";
 
 const NOT_OF_THIS_RIG: &str = "No bounds: they hold only for the reference rig. `bowden design` derives gains from a model, and a bound for these gains.";
 

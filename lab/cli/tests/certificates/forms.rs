@@ -328,9 +328,9 @@ fn a_file_that_is_absent_or_a_gain_beyond_its_float_is_refused() {
 #[test]
 fn without_a_file_the_certificates_of_table_2_stay() {
     let report = said(&["certify"]);
-    assert!(
-        report.starts_with("bowden certify · the gains of Nguyen et al. (2018) on the reference rig\n\n  BOUND: ")
-    );
+    assert!(report.starts_with(
+        "bowden certify · the gains of Nguyen et al. (2018) on the reference rig\n\n  BOUND: "
+    ));
 }
 
 #[test]

@@ -28,7 +28,8 @@ fn a_stroke_shorter_than_the_hysteresis_has_no_reference_and_no_certificate() {
     // Neither of the two that refuse it is recommended.
     assert!(
         report.contains("`bowden compare` refuses this model")
-            && report.contains("`bowden certify` refuses a file with these gains: it has no [plant]"),
+            && report
+                .contains("`bowden certify` refuses a file with these gains: it has no [plant]"),
         "{report}"
     );
     let gains = place.path("gains.toml");
@@ -215,7 +216,10 @@ fn a_command_that_is_at_its_limit_much_of_the_time_is_told_beside_its_errors() {
         .lines()
         .find(|l| l.contains("At a limit of the command"));
     let told = told.unwrap_or_else(|| panic!("{report}"));
-    assert!(told.contains("command: pi at its slew-rate limit in "), "{told}");
+    assert!(
+        told.contains("command: pi at its slew-rate limit in "),
+        "{told}"
+    );
     assert!(!told.contains("adaptive"), "{told}");
     let json: Value = serde_json::from_str(&compared(&slow, &["--json"])).unwrap();
     let rows = json["rows"].as_array().unwrap();

@@ -222,7 +222,10 @@ fn a_name_that_is_not_utf8_is_matched_as_any_other() {
     said(&close);
     let none = folder.path("*.dat");
     let line = refused(&["identify", &none]);
-    assert_eq!(line, format!("bowden: {none}: no file matches this pattern"));
+    assert_eq!(
+        line,
+        format!("bowden: {none}: no file matches this pattern")
+    );
 }
 
 #[test]

@@ -31,10 +31,7 @@ impl Played {
         let prepared = Prepared::joined(records, preparation, HeldOut::Nothing);
         let mut data = prepared.map_err(|message| match (cutoff, own) {
             (None, Some(own)) => message
-                .replace(
-                    "a higher --cutoff",
-                    "a --cutoff above the model's",
-                )
+                .replace("a higher --cutoff", "a --cutoff above the model's")
                 .replace(
                     &format!("--cutoff {own} Hz is too high"),
                     &format!(

@@ -170,7 +170,7 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
     if question.own_gains {
         if !structure.hysteresis {
             return Err(
-                "--per-file gains: these gains belong to bouc-wen, which --baseline omits".to_owned(),
+                "--per-file gains: these belong to bouc-wen, which --baseline omits".to_owned(),
             );
         }
         structure.own_gains = records.len();

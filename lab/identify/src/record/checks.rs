@@ -26,7 +26,8 @@ pub(super) fn options(options: &Options) -> Result<(), RecordError> {
     }
     if options.header_line.is_some() && !options.names.is_empty() {
         return refuse(
-            "--names is for a file without names, and --header-line is for a file with names".to_owned(),
+            "--names is for a file without names, and --header-line is for a file with names"
+                .to_owned(),
         );
     }
     match options.rate {

@@ -339,7 +339,6 @@ fn long_enough(left: usize, clock: &Clock, dropped: usize, line: usize) -> Resul
         ),
         false => String::new(),
     };
-    let message =
-        format!("too short: {left} {samples}{cut}; the minimum is {MIN_SAMPLES}{counts}");
+    let message = format!("too short: {left} {samples}{cut}; the minimum is {MIN_SAMPLES}{counts}");
     Err(RecordError::at(line, message))
 }

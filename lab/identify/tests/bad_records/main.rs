@@ -112,10 +112,7 @@ fn a_file_that_cannot_be_opened_is_named() {
         format!("{}: no such file", missing.display())
     );
     let error = read(folder.path(), &Options::default()).unwrap_err();
-    let line = format!(
-        "{}: is a folder; give a CSV file",
-        folder.path().display()
-    );
+    let line = format!("{}: is a folder; give a CSV file", folder.path().display());
     assert_eq!(error.to_string(), line);
 }
 
@@ -289,10 +286,7 @@ fn a_cell_that_is_no_measured_number_is_shown() {
         &format!("the cell is empty, but must be a number; {drop}"),
     );
     refuses("abc", "`abc` is not a number");
-    refuses(
-        "NaN",
-        &format!("`NaN` is not a finite number; {drop}"),
-    );
+    refuses("NaN", &format!("`NaN` is not a finite number; {drop}"));
     refuses("-inf", "`-inf` is not a finite number");
     refuses("1e999", "`1e999` is not a finite number");
     refuses(

@@ -106,5 +106,8 @@ fn spellings_of_one_unit_are_one_and_newton_millimetres_convert() {
     // What is not known stays as it is, and is not taken for anything else.
     let mut both = [of("N·m"), of("wide")];
     let line = agree(&mut both).unwrap_err().to_string();
-    assert!(line.contains("has unit wide; it must have unit N·m"), "{line}");
+    assert!(
+        line.contains("has unit wide; it must have unit N·m"),
+        "{line}"
+    );
 }

@@ -196,9 +196,7 @@ impl Question {
         ] {
             if !(value.is_finite() && value >= 0.0 && (value > 0.0 || !above)) {
                 let from = if above { "above zero" } else { "zero or above" };
-                return Err(format!(
-                    "{option} {value}: must be {from} [{unit}]"
-                ));
+                return Err(format!("{option} {value}: must be {from} [{unit}]"));
             }
         }
         Ok(())

@@ -63,12 +63,7 @@ pub fn rust(designed: &Designed) -> String {
 fn head(designed: &Designed) -> String {
     let (for_, pi) = (&designed.gains.design, &designed.pi);
     let mut out = String::new();
-    line!(
-        out,
-        "//! Gains designed by {} for {}.",
-        for_.by,
-        for_.model
-    );
+    line!(out, "//! Gains designed by {} for {}.", for_.by, for_.model);
     line!(out, "//!");
     line!(
         out,
@@ -116,7 +111,10 @@ fn bounds(designed: &Designed, out: &mut String) {
     let range = format!("constant!(Limits::<f32>::const_new({low}, {high}))");
     item("const RANGE: Limits<f32>", &range, out);
     line!(out);
-    line!(out, "/// The range with the slew-rate limit [command unit/s].");
+    line!(
+        out,
+        "/// The range with the slew-rate limit [command unit/s]."
+    );
     let slewed = format!("constant!(RANGE.const_with_slew({}))", number(b.slew));
     item("pub const LIMITS: Limits<f32>", &slewed, out);
     line!(out);
@@ -129,7 +127,10 @@ fn bounds(designed: &Designed, out: &mut String) {
     let fallback = format!("constant!(Fallback::<f32>::const_new({after}, {safe}))");
     item("pub const FALLBACK: Fallback<f32>", &fallback, out);
     line!(out);
-    line!(out, "/// Longest valid `dt` [s]; a sample with a longer one is bad.");
+    line!(
+        out,
+        "/// Longest valid `dt` [s]; a sample with a longer one is bad."
+    );
     item("pub const LONGEST_DT: f32", &number(b.longest_dt), out);
 }
 
