@@ -4,6 +4,8 @@
 //! seeds are none that the method was developed on. The baseline model is Bouc-Wen alone.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod unexpected;
+
 use bowden::effect::Family;
 use bowden_lab::conclude::curve::curve;
 use bowden_lab::conclude::final_fit::FinalFit;
