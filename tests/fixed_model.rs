@@ -62,6 +62,7 @@ fn plain<T: Real>() -> impl Terms<T, 16> {
         StiffnessCubic,
         StiffnessProgressive,
         PositionHysteresis,
+        PositionHysteresisQuadratic,
     ]
 }
 

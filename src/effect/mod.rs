@@ -289,7 +289,7 @@ effects! {
         asymmetry: AsymmetryViscous AsymmetryDrag AsymmetryEta AsymmetryEtaSquared;
         inertia: Inertia;
         stiffness: StiffnessLinear StiffnessQuadratic StiffnessCubic StiffnessProgressive;
-        position_friction: PositionHysteresis;
+        position_friction: PositionHysteresis PositionHysteresisQuadratic;
         delay: Delay;
         rate: Rate RateSymmetric;
         drift: Drift;

@@ -115,6 +115,7 @@ fn what_an_effect_reads_tells_output_stages_and_hysteresis() {
         "asymmetry-eta",
         "asymmetry-eta-squared",
         "position-hysteresis",
+        "position-hysteresis-quadratic",
         "rate",
         "rate-symmetric",
         "degradation",
