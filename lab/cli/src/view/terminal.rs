@@ -7,8 +7,7 @@ use super::several;
 use super::words::{estimate, in_brackets, table};
 use anstyle::AnsiColor;
 use bowden_lab::facts::{
-    lacking, number, Defect, Facts, Grade, Lack, Mode, Parameter, Segments, Size, Verdict, BLOCKS,
-    TIED,
+    lacking, number, Defect, Facts, Grade, Lack, Parameter, Segments, Size, Verdict, BLOCKS, TIED,
 };
 use std::fmt::Write as _;
 
@@ -394,7 +393,7 @@ fn model(facts: &Facts, report: Report) -> String {
     let tied = on_bound.then(|| format!("{} is {TIED}", last.gain_names[0]));
     let lines = exported
         .into_iter()
-        .chain(std::iter::once(equation(facts)))
+        .chain(std::iter::once(facts.equation()))
         .chain(tied)
         .chain(two_columns(&short, report.width))
         .chain(long)
@@ -402,21 +401,6 @@ fn model(facts: &Facts, report: Report) -> String {
     block(&mut out, report.width, "Model", lines);
     out.push('\n');
     out
-}
-
-/// The output as the sum of the model's parts.
-fn equation(facts: &Facts) -> String {
-    let (input, output) = (&facts.record.input, &facts.record.output);
-    let parts = &facts.shown().effects;
-    let hysteresis = parts.iter().any(|part| part == "bouc-wen");
-    let eta = |text: &'static str| if hysteresis { text } else { "" };
-    let cable = match facts.record.mode {
-        Mode::Torque => format!("B·{input}{} − T0", eta(" − kappa_eta·eta")),
-        Mode::Displacement => format!("kappa_x·{input}{} + offset", eta(" + kappa_eta·eta")),
-    };
-    let others = parts.iter().filter(|part| *part != "bouc-wen");
-    let others: String = others.map(|part| format!(" + {part}")).collect();
-    format!("{output} = {cable}{others}")
 }
 
 /// Whether the verdict leaves a model that can be used.

@@ -68,13 +68,13 @@ fn the_page_has_its_sections_in_order_and_the_numbers_of_the_json() {
     let document = parsed(&page);
     let wanted = [
         "verdict",
-        "signals",
         "loop",
-        "residual",
         "ledger",
+        "parameters",
+        "signals",
+        "residual",
         "blocks",
         "noise",
-        "parameters",
         "origin",
     ];
     assert_eq!(sections(&document), wanted);

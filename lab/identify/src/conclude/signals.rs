@@ -1,6 +1,6 @@
 //! The signals of a run on the estimation grid, as plain data: what a figure draws.
 
-use super::trace::{input, parts, Column};
+use super::trace::{parts, position, Column};
 use crate::fit::Solution;
 use crate::problem::Prepared;
 use std::ops::Range;
@@ -62,6 +62,8 @@ pub struct Signals {
     pub segments: Vec<Segment>,
     /// The input through the filter.
     pub input: Column,
+    /// The channels through the filter.
+    pub channels: Vec<Column>,
     /// The output through the filter.
     pub measured: Column,
     /// What the models predict: the declared one and the final one, or the model as it is and
@@ -114,10 +116,8 @@ impl Signals {
         Ok(Self {
             files: files.collect(),
             step: data.stride as f64 * data.dt,
-            input: Column {
-                name: data.input.name.clone(),
-                ..input(data)
-            },
+            input: position(data, &data.input),
+            channels: data.channels.iter().map(|c| position(data, c)).collect(),
             measured: Column::new(data.output_name.clone(), unit, data.target.clone()),
             models: models.map(|(name, values)| Column::new(name, unit, values.to_vec())),
             parts: parts(data, whole)?.into_iter().map(part).collect(),

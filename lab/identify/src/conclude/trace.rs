@@ -10,7 +10,7 @@ use super::intervals::term_name;
 use super::Shares;
 use crate::fit::Solution;
 use crate::ledger::Ledger;
-use crate::problem::Prepared;
+use crate::problem::{Channel, Prepared};
 
 /// A column of numbers on the estimation grid.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,12 +72,17 @@ pub fn trace(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Result<String
 
 /// The input through the filter.
 pub(crate) fn input(data: &Prepared) -> Column {
-    let position: Vec<f64> = data.input.motion.iter().map(|m| m.position).collect();
-    Column::new(
-        "input",
-        data.input.unit.as_deref(),
-        data.filtered(&position),
-    )
+    Column {
+        name: "input".to_owned(),
+        ..position(data, &data.input)
+    }
+}
+
+/// The position of a channel through the filter.
+pub(super) fn position(data: &Prepared, channel: &Channel) -> Column {
+    let position: Vec<f64> = channel.motion.iter().map(|m| m.position).collect();
+    let unit = channel.unit.as_deref();
+    Column::new(channel.name.clone(), unit, data.filtered(&position))
 }
 
 /// What each part of a model adds, through the filter.

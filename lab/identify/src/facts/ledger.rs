@@ -15,6 +15,7 @@ use crate::export::hand_over::HandOver;
 use crate::fit::Segments;
 use crate::ledger::{ChannelApart, FileApart, Gate, Ledger, Unknown};
 use crate::problem::Prepared;
+use crate::record::Mode;
 use crate::score::blocks::{Regime, BLOCKS};
 use crate::score::explains::{explained, segments_differ, Explained};
 
@@ -235,6 +236,23 @@ impl Facts {
     #[must_use]
     pub fn constrained(&self) -> Option<&FinalFacts> {
         self.hand_over.as_ref().ok()?.model.as_ref()
+    }
+
+    /// The output of the model that is shown, as the sum of its parts.
+    #[must_use]
+    pub fn equation(&self) -> String {
+        let (input, output) = (&self.record.input, &self.record.output);
+        let parts = &self.shown().effects;
+        let cable = match self.record.mode {
+            Mode::Torque => format!("B·{input} − kappa_eta·eta − T0"),
+            Mode::Displacement => format!("kappa_x·{input} + kappa_eta·eta + offset"),
+        };
+        let part = |part: &String| match part.as_str() {
+            "bouc-wen" => cable.clone(),
+            _ => part.clone(),
+        };
+        let parts: Vec<String> = parts.iter().map(part).collect();
+        format!("{output} = {}", parts.join(" + "))
     }
 
     /// The model that a report describes: the constrained one, else the final one.

@@ -31,50 +31,43 @@ impl Close<'_> {
     #[must_use]
     pub fn page(&self, from: &Provenance) -> String {
         let (facts, figures) = (self.facts, self.figures);
+        let section = |id, title, body| Section { id, title, body };
         let mut sections = vec![
-            Section {
-                id: "signals",
-                title: "Measured, baseline, final",
-                body: signals::section(facts, figures),
-            },
-            Section {
-                id: "loop",
-                title: "Hysteresis loop",
-                body: signals::loops(facts, figures),
-            },
-            Section {
-                id: "residual",
-                title: "Residual over each variable",
-                body: residual::over_variables(facts, figures),
-            },
-            Section {
-                id: "ledger",
-                title: "Results table",
-                body: ledger::section(facts, figures),
-            },
-            Section {
-                id: "blocks",
-                title: "Terms and their alternatives, block by block",
-                body: ledger::blocks(facts, figures),
-            },
-            Section {
-                id: "noise",
-                title: "Is the residual noise?",
-                body: residual::noise(facts, figures),
-            },
+            section("loop", "Loop and residual", signals::loops(facts, figures)),
+            section("ledger", "What is missing", ledger::section(facts, figures)),
         ];
         if let Some(unknown) = &facts.unknown {
-            sections.push(Section {
-                id: "unknown",
-                title: "The unmodelled dependence",
-                body: residual::unknown(facts, unknown),
-            });
+            let body = residual::unknown(facts, unknown);
+            sections.push(section("unknown", "The unmodelled dependence", body));
         }
-        sections.push(Section {
-            id: "parameters",
-            title: "Parameters",
-            body: model::section(facts, self.models),
-        });
+        let blocks = ledger::blocks(facts, figures);
+        sections.extend([
+            section(
+                "parameters",
+                "The model",
+                model::section(facts, self.models),
+            ),
+            section(
+                "signals",
+                "Signals over time",
+                signals::section(facts, figures),
+            ),
+            section(
+                "residual",
+                "Residual over each variable",
+                residual::over_variables(facts, figures),
+            ),
+            section(
+                "blocks",
+                "Terms and their alternatives, block by block",
+                blocks,
+            ),
+            section(
+                "noise",
+                "Is the residual noise?",
+                residual::noise(facts, figures),
+            ),
+        ]);
         let badge = match facts.constrained() {
             Some(_) => format!("unconstrained model: {}", facts.verdict.name()),
             None => facts.verdict.name().to_owned(),

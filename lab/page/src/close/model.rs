@@ -32,6 +32,7 @@ pub(super) fn section(facts: &Facts, models: &[Handed]) -> Markup {
     });
     let texts: Vec<String> = texts.collect();
     html! {
+        p { code { (facts.equation()) } }
         @match facts.constrained() {
             Some(exported) => {
                 (parameters(exported, "exported"))
@@ -44,7 +45,7 @@ pub(super) fn section(facts: &Facts, models: &[Handed]) -> Markup {
                 p {
                     "On a controller, sample by sample with causal velocities, the model has an error of "
                     (percent(handed.causal.held_out)) " on held-out data; with the velocities of the fit "
-                    (percent(handed.nrmse.held_out)) "."
+                    (percent(handed.nrmse.held_out)) ". As a feed-forward: " (handed.feed_forward.words()) "."
                 }
             }
             Err(because) => { p { "No model can be exported: " (because) } }

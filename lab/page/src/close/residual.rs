@@ -15,9 +15,9 @@ fn points(bins: &[Bin], of: usize) -> Vec<([f64; 2], Option<[f64; 2]>)> {
     own.collect()
 }
 
-/// The ends of all intervals, for an axis that the figures share.
-fn ends(over: &[Dependence]) -> impl Iterator<Item = f64> + '_ {
-    let means = over.iter().flat_map(|d| &d.bins).flat_map(|b| &b.means);
+/// The ends of all intervals.
+fn ends(one: &Dependence) -> impl Iterator<Item = f64> + '_ {
+    let means = one.bins.iter().flat_map(|b| &b.means);
     means.flat_map(|mean| match mean.ci95 {
         Some([low, high]) => [low, high],
         None => [mean.value; 2],
@@ -32,7 +32,17 @@ fn off_zero(bins: &[Bin], of: usize) -> (usize, usize) {
     })
 }
 
-fn over_one(one: &Dependence, k: usize, y: &Axis) -> Chart {
+/// Share of the bins in which what the last model leaves differs from zero.
+fn stands_out(one: &Dependence) -> f64 {
+    let (off, all) = off_zero(&one.bins, 1);
+    off as f64 / all.max(1) as f64
+}
+
+fn over_one(one: &Dependence, k: usize, unit: Option<&str>) -> Chart {
+    let y = Axis {
+        label: quantity("residual", unit),
+        scale: Scale::linear(ends(one)),
+    };
     let x = Axis {
         label: quantity(&one.words, one.unit.as_deref()),
         scale: Scale::linear(one.bins.iter().map(|b| b.at)),
@@ -46,7 +56,7 @@ fn over_one(one: &Dependence, k: usize, y: &Axis) -> Chart {
         "Mean residual in bins over {}, before → after at 95 %: {caption}.",
         one.words
     );
-    Chart::new(&format!("over-{k}"), &one.words, &description, x, y.clone())
+    Chart::new(&format!("over-{k}"), &one.words, &description, x, y)
         .low()
         .level("zero", 0.0)
         .dots("before", &points(&one.bins, 0))
@@ -54,21 +64,32 @@ fn over_one(one: &Dependence, k: usize, y: &Axis) -> Chart {
         .caption(&caption)
 }
 
-/// Residuals over all variables.
+/// So many figures are shown before the others are folded: those in which most bins differ from zero.
+const WORST: usize = 4;
+
+/// Residuals over all variables, each on its own scale.
 pub(crate) fn over_all(figures: &Figures, unit: Option<&str>) -> Markup {
     let [first, last] = &figures.signals.models;
-    let y = Axis {
-        label: quantity("residual", unit),
-        scale: Scale::linear(ends(&figures.over)),
-    };
+    let mut ranked: Vec<&Dependence> = figures.over.iter().collect();
+    ranked.sort_by(|a, b| stands_out(b).total_cmp(&stands_out(a)));
+    let charts: Vec<Markup> = ranked
+        .iter()
+        .enumerate()
+        .map(|(k, one)| over_one(one, k, unit).figure())
+        .collect();
+    let (worst, others) = charts.split_at(charts.len().min(WORST));
     html! {
         p {
             "Mean residual in bins of equally many samples, with 95 % intervals that allow for correlation in time. "
             "Open: " (first.name) "; filled: " (last.name)
             ". If the filled dots form a curve, the model lacks an effect; about one bin in twenty differs from zero by chance."
         }
-        div class="grid-of" {
-            @for (k, one) in figures.over.iter().enumerate() { (over_one(one, k, &y).figure()) }
+        div class="grid-of" { @for chart in worst { (chart) } }
+        @if !others.is_empty() {
+            details {
+                summary { (others.len()) " more variables" }
+                div class="grid-of" { @for chart in others { (chart) } }
+            }
         }
     }
 }

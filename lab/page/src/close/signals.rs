@@ -313,7 +313,33 @@ pub(super) fn section(facts: &Facts, figures: &Figures) -> Markup {
         @for note in &record.notes { p class="note" { (note) } }
         @for defect in &record.defects { p { b { "Defect. " } (defect.channel) ": " (defect.message) } }
         (of_files(signals))
+        details {
+            summary { "Input and channels" }
+            @for (k, file) in signals.files.iter().enumerate() {
+                (file_head(signals, file))
+                div class="grid-of" {
+                    @for (c, column) in std::iter::once(&signals.input).chain(&signals.channels).enumerate() {
+                        (read(signals, file, column, &format!("read-{k}-{c}")).figure())
+                    }
+                }
+            }
+        }
     }
+}
+
+/// What the model reads, over time.
+fn read(signals: &Signals, file: &File, column: &Column, id: &str) -> Chart {
+    let values = &column.values[file.rows.clone()];
+    let y = Axis {
+        label: quantity(&column.name, column.unit.as_deref()),
+        scale: Scale::linear(values.iter().copied()),
+    };
+    let description = format!("`{}` over time, through the filter.", column.name);
+    let x = time_axis(signals, file, &file.rows);
+    let points = over_time(signals, file, file.rows.clone(), &column.values);
+    Chart::new(id, &column.name, &description, x, y)
+        .low()
+        .line("measured", points.collect::<Vec<_>>())
 }
 
 /// Output, worst spot and residual over time of each file.
