@@ -86,6 +86,7 @@ mod tests {
             segments: vec![Segment::Fit; n],
             models: ["a", "b"].map(|name| column(name, output.clone())),
             input: column("x", input),
+            channels: Vec::new(),
             measured: column("f", output),
             residuals: [vec![0.0; n], vec![0.0; n]],
             parts: Vec::new(),

@@ -51,12 +51,14 @@ pub(super) fn section(facts: &Facts, models: &[Handed]) -> Markup {
             Err(because) => { p { "No model can be exported: " (because) } }
         }
         @for (k, text) in texts.iter().enumerate() {
-            h3 {
-                "The model as TOML, to copy"
-                @if texts.len() > 1 { ", file " (k + 1) }
+            details {
+                summary {
+                    "The model as TOML, to copy"
+                    @if texts.len() > 1 { ", file " (k + 1) }
+                }
+                p class="note" { code { "bowden validate model.toml RECORD.csv" } " shows whether the model still holds; firmware reads the same file." }
+                pre tabindex="0" aria-label="The model as TOML" { code { (text) } }
             }
-            p class="note" { code { "bowden validate model.toml RECORD.csv" } " shows whether the model still holds; firmware reads the same file." }
-            pre tabindex="0" aria-label="The model as TOML" { code { (text) } }
         }
     }
 }
