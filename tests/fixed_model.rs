@@ -62,7 +62,6 @@ fn plain<T: Real>() -> impl Terms<T, 16> {
         StiffnessCubic,
         StiffnessProgressive,
         PositionHysteresis,
-        PositionHysteresisQuadratic,
     ]
 }
 
@@ -113,9 +112,10 @@ fn remembering<T: Real>() -> Result<impl Terms<T, 16>, Error> {
 }
 
 /// What there was no room for above.
-fn others<T: Real>() -> Result<impl Terms<T, 2>, Error> {
+fn others<T: Real>() -> Result<impl Terms<T, 3>, Error> {
     let one = T::from_f64(0.7);
     Ok(terms![
+        PositionHysteresisQuadratic,
         Hardening::try_new(one, one)?,
         PowerLaw::try_new(one)?
     ])
