@@ -183,12 +183,12 @@ proptest! {
         same::<f64, 16, _>(plain(), &rows, with);
         same::<f64, 16, _>(staged().unwrap(), &rows, with);
         same::<f64, 16, _>(remembering().unwrap(), &rows, with);
-        same::<f64, 2, _>(others().unwrap(), &rows, with);
+        same::<f64, 3, _>(others().unwrap(), &rows, with);
         same::<f64, 3, _>(stages().unwrap(), &rows, with);
         same::<f32, 16, _>(plain(), &rows, with);
         same::<f32, 16, _>(staged().unwrap(), &rows, with);
         same::<f32, 16, _>(remembering().unwrap(), &rows, with);
-        same::<f32, 2, _>(others().unwrap(), &rows, with);
+        same::<f32, 3, _>(others().unwrap(), &rows, with);
         same::<f32, 3, _>(stages().unwrap(), &rows, with);
     }
 }
