@@ -120,6 +120,7 @@ mod tests {
             since: 0.0,
             fitted: true,
             rests: false,
+            shuffled: false,
         }
     }
 
