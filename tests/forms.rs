@@ -202,7 +202,7 @@ const BROKEN: &[(&str, &str, &str)] = &[
     (
         "\"viscous\"",
         "\"coulomb\"",
-        "term coulomb: condition not met: one value for each shape",
+        "term coulomb: condition not met: there must be one value for each shape",
     ),
     (
         "name = \"a\"",

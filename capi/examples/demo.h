@@ -16,11 +16,11 @@
  * if (demo_load_f32(&model, NULL) < 0) ...
  */
 #ifdef BOWDEN_MODEL_DEMO_H
-#if BOWDEN_MODEL_DEMO_H != 0xa458ff90u
+#if BOWDEN_MODEL_DEMO_H != 0xc24c112du
 #error "two headers of different models have the prefix DEMO_: export one under another file name"
 #endif
 #else
-#define BOWDEN_MODEL_DEMO_H 0xa458ff90u /* CRC-32 of what follows */
+#define BOWDEN_MODEL_DEMO_H 0xc24c112du /* CRC-32 of what follows */
 
 #include "bowden.h"
 
@@ -29,7 +29,7 @@
 #define DEMO_CHANNEL_PHI_P 0 /* phi_p [rad] */
 #define DEMO_CHANNEL_PHI_D 1 /* phi_d [rad] */
 
-/* time_constant of BOWDEN_RATES_SETTINGS_F32_INIT and _F64_INIT, for every source [s]. */
+/* time_constant [s] to set after BOWDEN_RATES_SETTINGS_F32_INIT or _F64_INIT, for every source. */
 #define DEMO_RATES_TIME_CONSTANT_F32 0.008376576f
 #define DEMO_RATES_TIME_CONSTANT_F64 0.008376575952205019
 

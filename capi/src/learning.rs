@@ -42,10 +42,10 @@ unsafe fn begin<
     };
     own.check_cells(cells)?;
     if learned.overlaps(&unfiltered) {
-        return Err(Error::Inadmissible("learned and unfiltered do not overlap").into());
+        return Err(Error::Inadmissible("learned and unfiltered must not overlap").into());
     }
     if learned.overlaps_object(object) || unfiltered.overlaps_object(object) {
-        return Err(Error::Inadmissible("the arrays do not overlap the object").into());
+        return Err(Error::Inadmissible("the arrays must not overlap the object").into());
     }
     if !is_kept {
         learned.fill(T::ZERO);

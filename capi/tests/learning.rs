@@ -187,8 +187,8 @@ fn arrays_that_cannot_be_are_refused_and_nothing_is_written() {
     let (null, far) = (null_mut(), NonNull::<f32>::dangling().as_ptr());
     // The last place that a pointer can lead to.
     let last = far.with_addr(usize::MAX - 3);
-    let overlap = "learned and unfiltered do not overlap";
-    let few = "as many cells as lead and filter need";
+    let overlap = "learned and unfiltered must not overlap";
+    let few = "there must be as many cells as lead and filter need";
     for (arrays, cells, result, about) in [
         ([null, at(250)], 250, R::ErrorNull, ""),
         ([at(0), null], 250, R::ErrorNull, ""),
@@ -265,7 +265,7 @@ fn an_array_within_the_object_is_refused() {
             (&raw mut (*own).behind).cast::<f32>(),
         )
     };
-    let text = "the arrays do not overlap the object";
+    let text = "the arrays must not overlap the object";
     // One that ends in the object, one within it, one that begins in its last word.
     for array in [own.cast(), object.cast(), behind.wrapping_sub(1)] {
         for arrays in [[array, other], [other, array]] {
@@ -284,7 +284,7 @@ fn an_array_within_the_object_is_refused() {
 fn a_setting_that_is_refused_is_named_and_object_and_arrays_are_as_they_were() {
     use bowden_result as R;
     type Change = fn(&mut bowden_iterative_learning_settings_f32);
-    let few = "as many cells as lead and filter need";
+    let few = "there must be as many cells as lead and filter need";
     let cases: [(Change, R, &str); 8] = [
         (|s| s.gain = f32::NAN, R::ErrorNonFinite, "gain"),
         (|s| s.gain = 0.0, R::ErrorOutOfRange, "gain"),

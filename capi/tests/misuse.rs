@@ -188,7 +188,7 @@ fn a_setting_that_is_refused_is_named_and_the_object_is_as_it_was() {
         (
             |s| s.k_i = -1.0,
             R::ErrorInadmissible,
-            "k_p and k_i have the same sign",
+            "k_p and k_i must have the same sign",
         ),
         (|s| s.damping = 2, R::ErrorChoice, "damping"),
         (|s| s.anti_windup = u32::MAX, R::ErrorChoice, "anti_windup"),

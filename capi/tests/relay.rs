@@ -196,12 +196,12 @@ fn what_is_wrong_with_a_relay_is_told() {
         (
             |s| s.limits.slew = 5.0,
             bowden_result::ErrorInadmissible,
-            "the limits of a relay have no slew rate",
+            "the limits of a relay must not include a slew-rate limit",
         ),
         (
             |s| s.fallback.after = BOWDEN_HOLD_FOR_EVER,
             bowden_result::ErrorInadmissible,
-            "a relay has a safe command",
+            "a relay must have a safe command",
         ),
     ];
     for (change, code, name) in cases {

@@ -73,7 +73,7 @@ def test_limits_bad_samples_and_the_safe_command() -> None:
     assert pi.step(DT, 30.0, 29.9) == (0.0, bowden.Status.SAFE, *bad) and pi.is_latched
     pi.acknowledge()
     assert pi.step(DT, 30.0, 29.9).status == bowden.Status.GOOD and not pi.is_latched
-    with pytest.raises(bowden.Error, match="k_p and k_i have the same sign"):
+    with pytest.raises(bowden.Error, match="k_p and k_i must have the same sign"):
         bowden.PI(30.0, -1.0)
     with pytest.raises(bowden.Error, match="k_p"):
         bowden.PI(float("nan"), 1.0)

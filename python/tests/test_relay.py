@@ -88,7 +88,7 @@ def test_a_failure_keeps_the_safe_command_until_it_is_acknowledged() -> None:
 def test_what_is_refused_says_what_is_allowed() -> None:
     for change, message in [
         ({"cycles": 1}, "cycles"),
-        ({"amplitude": 60.0}, "centre ± amplitude lies within the limits"),
+        ({"amplitude": 60.0}, "centre ± amplitude must lie within the limits"),
         ({"limits": (5.0, 1.0)}, "low < high is allowed"),
         ({"fallback": (3, 99.0)}, "the safe command lies within the limits"),
     ]:

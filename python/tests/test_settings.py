@@ -318,7 +318,7 @@ def test_a_change_that_is_refused_changes_nothing() -> None:
     many.step(DT, 1.0, 0.0)
     before = many.settings, many.state
     for settings, message in (
-        ({"k_i": np.array([1.0, -1.0])}, "k_p and k_i have the same sign"),
+        ({"k_i": np.array([1.0, -1.0])}, "k_p and k_i must have the same sign"),
         ({"k_q": 1.0}, "no setting `k_q`"),
         ({"lanes": 3}, "lanes cannot change while it runs"),
         ({"k_p": np.ones(3)}, "different numbers of lanes"),

@@ -151,7 +151,7 @@ impl IterativeLearningConvergence {
             natural_frequency: all.natural_frequency.middle(),
         };
         let stable = closed.is_stable(&all).ok_or(Error::Inadmissible(
-            "the loop without learning is stable with every plant of the range",
+            "the loop without learning must be stable with every plant of the range",
         ))?;
         let count = Span::at(cells as f64);
         let cell = Span {
@@ -159,7 +159,7 @@ impl IterativeLearningConvergence {
             high: (Span::at(cycle.high) * count.recip()).high,
         };
         let beyond = closed.beyond(&all, cell).ok_or(Error::Inadmissible(
-            "the loop hardly answers above the cells' Nyquist frequency",
+            "the loop must hardly respond above the cells' Nyquist frequency",
         ))?;
         let turn = Span::at(core::f64::consts::TAU);
         let own = |cycle: f64| turn * Span::at(cycle).recip();
@@ -196,7 +196,7 @@ impl IterativeLearningConvergence {
             && (k_i == 0.0 || halving.all(&below, &|of| proof.is_below_one(of), &halves));
         if !shrinks {
             return Err(Error::Inadmissible(
-                "every tone shrinks by the factor on every plant of the range",
+                "every tone must shrink by the factor on every plant of the range",
             ));
         }
         Ok(Self {

@@ -127,14 +127,17 @@ impl ObserverStability {
             rate,
         };
         if (closed.gain > 0.0) != (plants.gain.low > 0.0) {
-            return Err(Error::Inadmissible("gain and nominal gain have one sign"));
+            return Err(Error::Inadmissible(
+                "gain and nominal gain must have the same sign",
+            ));
         }
         if !first.is_stable_with(k_p, k_i) {
             return Err(Error::Inadmissible(
-                "the nominal loop without latency is stable",
+                "the nominal loop without latency must be stable",
             ));
         }
-        let shown = Error::Inadmissible("no plant of the range comes near the edge of stability");
+        let shown =
+            Error::Inadmissible("no plant of the range may come near the edge of stability");
         let all = plants.all(observer.latency().as_f64());
         let highest = closed.highest(&first, &all).ok_or(shown)?;
         let boxes = excluded(&closed, first, all, highest).ok_or(shown)?;
@@ -151,7 +154,7 @@ pub(super) fn proportional_and_integral<T: Real>(
     law: &PidSettings<T>,
 ) -> Result<(f64, f64), Error> {
     if law.k_d != T::ZERO || matches!(law.damping, DerivativeSource::Velocity) {
-        return Err(Error::Inadmissible("the law is a P or a PI"));
+        return Err(Error::Inadmissible("the law must be a P or a PI"));
     }
     Ok((law.k_p.as_f64(), law.k_i.as_f64()))
 }

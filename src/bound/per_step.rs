@@ -70,7 +70,7 @@ impl<T: Real> PerStep<T> {
         let within = PeakSampled::try_new(law, plant)?;
         let settings = law.settings();
         let Form::FirstOrder { step, .. } = settings.form else {
-            return Err(Error::Inadmissible("the lag form"));
+            return Err(Error::Inadmissible("the gains must have the lag form"));
         };
         let (gain, lambda, two) = (settings.gain, settings.lambda, T::from_f64(2.0));
         let mut rate = if gain < two {
@@ -84,7 +84,9 @@ impl<T: Real> PerStep<T> {
                 continue;
             }
             let Leakage::Constant { rate: sigma } = estimator.leakage else {
-                return Err(Error::Inadmissible("constant leakage of every estimate"));
+                return Err(Error::Inadmissible(
+                    "the leakage of every estimate must be constant",
+                ));
             };
             let lost = sigma / (T::one() + step * sigma);
             if lost < rate {

@@ -74,7 +74,7 @@ impl<T: Real> RmsSampled<T> {
         let within = PeakSampled::try_new(law, plant)?;
         let settings = law.settings();
         let Form::FirstOrder { step, .. } = settings.form else {
-            return Err(Error::Inadmissible("the lag form"));
+            return Err(Error::Inadmissible("the gains must have the lag form"));
         };
         if step * settings.lambda >= T::one() {
             return Err(Error::Inadmissible("h*lambda < 1"));
@@ -82,7 +82,9 @@ impl<T: Real> RmsSampled<T> {
         let leaking = [settings.beta, settings.delta];
         for estimator in leaking.iter().chain(&settings.theta) {
             if let Leakage::Switching { .. } = estimator.leakage {
-                return Err(Error::Inadmissible("constant leakage of every estimate"));
+                return Err(Error::Inadmissible(
+                    "the leakage of every estimate must be constant",
+                ));
             }
         }
         let two = T::from_f64(2.0);

@@ -83,7 +83,7 @@ impl<T: Real> PeakSampled<T> {
         plant.check()?;
         let settings = law.settings();
         let Form::FirstOrder { plant_gain, .. } = settings.form else {
-            return Err(Error::Inadmissible("the lag form"));
+            return Err(Error::Inadmissible("the gains must have the lag form"));
         };
         if plant.alpha.high > plant_gain {
             return Err(Error::Inadmissible("alpha <= plant_gain of the lag form"));

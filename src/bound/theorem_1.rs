@@ -76,7 +76,11 @@ impl<T: Real> Theorem1<T> {
             }
             match estimator.leakage {
                 Leakage::Constant { rate } if rate > T::zero() => slowest(rate),
-                _ => return Err(Error::Inadmissible("constant leakage of every estimate")),
+                _ => {
+                    return Err(Error::Inadmissible(
+                        "the leakage of every estimate must be constant",
+                    ))
+                }
             }
         }
         // Twice the residue is sigma·(p* - p0)²/(2·m).

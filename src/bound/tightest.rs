@@ -137,7 +137,11 @@ impl<'a, T: Real, const N: usize> Problem<'a, T, N> {
                 Leakage::Constant { rate } if rate > T::zero() => {
                     slowest = if rate < slowest { rate } else { slowest };
                 }
-                _ => return Err(Error::Inadmissible("constant leakage of every estimate")),
+                _ => {
+                    return Err(Error::Inadmissible(
+                        "the leakage of every estimate must be constant",
+                    ))
+                }
             }
         }
         let top = Interval::exactly(plant.delta);

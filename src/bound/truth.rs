@@ -74,14 +74,18 @@ pub(super) fn adapting<T: Real>(
         return if truth.max_distance_from(estimator.initial) <= rounding {
             Ok(None)
         } else {
-            Err(Error::Inadmissible("an estimate adapts or is the truth"))
+            Err(Error::Inadmissible(
+                "an estimate must adapt or be the truth",
+            ))
         };
     }
     if estimator.gain == T::zero() {
-        return Err(Error::Inadmissible("an estimate that leaks has a gain"));
+        return Err(Error::Inadmissible(
+            "an estimate that leaks must have a gain",
+        ));
     }
     if !(estimator.contains(truth.low) && estimator.contains(truth.high)) {
-        return Err(Error::Inadmissible("each box holds the truth"));
+        return Err(Error::Inadmissible("each box must contain the truth"));
     }
     Ok(Some(Adapting {
         gain: estimator.gain,
@@ -177,7 +181,7 @@ pub(super) fn bounded<T: Real>(value: T) -> Result<T, Error> {
         Ok(value)
     } else {
         Err(Error::Inadmissible(
-            "boxes narrow enough for a finite bound",
+            "the boxes must be narrow enough for a finite bound",
         ))
     }
 }
@@ -185,7 +189,9 @@ pub(super) fn bounded<T: Real>(value: T) -> Result<T, Error> {
 /// The form as published, which the continuous certificates require.
 pub(super) fn literal<T: Real, const N: usize>(law: &Adaptive<T, N>) -> Result<(), Error> {
     if law.largest_step().is_some() {
-        return Err(Error::Inadmissible("the literal form"));
+        return Err(Error::Inadmissible(
+            "the gains must have the form as published",
+        ));
     }
     Ok(())
 }

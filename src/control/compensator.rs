@@ -194,16 +194,16 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     pub fn try_new(model: &Model<T, N>) -> Result<Self, Error> {
         let transmission = *model
             .transmission()
-            .ok_or(Error::Inadmissible("the model has a transmission"))?;
+            .ok_or(Error::Inadmissible("the model must have a transmission"))?;
         let any = |stage: fn(&Effect<T>) -> bool| {
             let mut terms = model.terms().iter();
             terms.any(|term| stage(&term.effect))
         };
         if any(Effect::is_output_stage) {
-            return Err(Error::Inadmissible("no term is an output stage"));
+            return Err(Error::Inadmissible("no term may be an output stage"));
         }
         if any(Effect::is_input_stage) {
-            return Err(Error::Inadmissible("no term is an input stage"));
+            return Err(Error::Inadmissible("no term may be an input stage"));
         }
         Self::of(transmission, model.without_transmission())
     }
@@ -279,7 +279,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
             }
             if !is_read {
                 return Err(Error::Inadmissible(
-                    "a term reads the source of every range",
+                    "a term must read the source of every range",
                 ));
             }
         }

@@ -274,7 +274,9 @@ impl<T: Real> IterativeLearning<T> {
     /// [`Error::Capacity`] with more than [`MOST_CELLS`](Self::MOST_CELLS).
     pub fn check_cells(&self, cells: usize) -> Result<(), Error> {
         if cells < self.fewest_cells() {
-            return Err(Error::Inadmissible("as many cells as lead and filter need"));
+            return Err(Error::Inadmissible(
+                "there must be as many cells as lead and filter need",
+            ));
         }
         if cells > Self::MOST_CELLS {
             return Err(Error::Capacity("cells"));
@@ -319,7 +321,9 @@ impl<T: Real> IterativeLearning<T> {
 
     fn check(&self, learned: &[T], unfiltered: &[T]) -> Result<(), Error> {
         if learned.len() != unfiltered.len() {
-            return Err(Error::Inadmissible("both buffers have the same length"));
+            return Err(Error::Inadmissible(
+                "both buffers must have the same length",
+            ));
         }
         self.check_cells(learned.len())
     }

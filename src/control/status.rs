@@ -492,7 +492,7 @@ impl<T: Real> TryFrom<Unchecked<T>> for Fallback<T> {
             Some(command) => Self::try_new(raw.after, command)?.with_weight(raw.weight),
             None if (raw.after, raw.weight) == (hold.after, hold.weight) => Ok(hold),
             // A line that was lost must not take the safe command away.
-            None => Err(Error::Inadmissible("a fallback has a safe command")),
+            None => Err(Error::Inadmissible("a fallback must have a safe command")),
         }
     }
 }

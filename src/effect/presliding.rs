@@ -6,10 +6,10 @@
 //! this is the [`backlash`](super::backlash) with the same r, except for a factor of r.
 //!
 //! The second formula, `dahl(x; r)`, bends instead of slipping: `dz/dx = (1 − z·sgn dx)/r`, Dahl's
-//! equation with exponent 1. Between two samples x is monotone, and the step
+//! equation with exponent 1. If x is monotone between two samples, the step
 //! `z ← sgn dx + (z − sgn dx)·exp(−|dx|/r)` is exact for any dx. Every cycle dissipates energy: the
-//! loop's area is `4·(X − r·tanh(X/r))`, and z swings between ±tanh(X/r). The state starts at z =
-//! 0.
+//! loop's area is `4·(X − r·tanh(X/r))`, and z swings between ±tanh(X/r). The state starts at
+//! `z = 0`.
 //!
 //! Source: L. Prandtl, 1928; P. R. Dahl, *A Solid Friction Model*, 1968; stops in
 //! parallel, F. Al-Bender, V. Lampaert, J. Swevers, "The generalized Maxwell-slip

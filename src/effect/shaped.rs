@@ -14,7 +14,8 @@ pub(super) trait Shaped<T>: Sized {
 }
 
 /// Values and shapes do not match in number.
-pub(super) const COUNT: Error = Error::Inadmissible("one value for each shape of the effect");
+pub(super) const COUNT: Error =
+    Error::Inadmissible("there must be one value for each shape of the effect");
 
 /// Defines the configuration of an effect with shape parameters:
 /// `Name { field: Range, Dimension::UNIT; … }`, each field with its doc line.

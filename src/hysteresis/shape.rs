@@ -203,9 +203,10 @@ impl<T: Real> BoucWen<T> {
         })
     }
 
-    /// The state after one increment, in four stages: fourth order, four powers.
+    /// The state after one increment, by a four-stage method of fourth order.
     ///
-    /// For reference runs; firmware uses [`advance`](Self::advance).
+    /// A long increment is split; each part needs four powers. For reference runs; firmware uses
+    /// [`advance`](Self::advance).
     #[inline]
     #[must_use]
     pub fn advance_four_stage(&self, eta: T, input_change: T) -> T {

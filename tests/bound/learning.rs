@@ -394,22 +394,25 @@ fn what_cannot_be_shown_is_refused_by_name() {
     assert_eq!(refused(CELLS, one, 1.1), Some(Error::OutOfRange("factor")));
     let cycle = Some(Error::OutOfRange("cycle"));
     assert_eq!(refused(CELLS, Interval::exactly(0.0), 1.0), cycle);
-    let few = Error::Inadmissible("as many cells as lead and filter need");
+    let few = Error::Inadmissible("there must be as many cells as lead and filter need");
     assert_eq!(refused(19, one, 1.0), Some(few));
-    let slow = Error::Inadmissible("the loop hardly answers above the cells' Nyquist frequency");
+    let slow =
+        Error::Inadmissible("the loop must hardly respond above the cells' Nyquist frequency");
     assert_eq!(refused(21, one, 1.0), Some(slow));
     let of = |law: &Pid<f64>, plants: &PlantRange| {
         IterativeLearningConvergence::try_new(&good, CELLS, &one, law, plants, 1.0).err()
     };
     let damped = Pid::<f64>::paper_pid();
-    let not_pi = Error::Inadmissible("the law is a P or a PI");
+    let not_pi = Error::Inadmissible("the law must be a P or a PI");
     assert_eq!(of(&damped, &plants), Some(not_pi));
-    let unstable =
-        Error::Inadmissible("the loop without learning is stable with every plant of the range");
+    let unstable = Error::Inadmissible(
+        "the loop without learning must be stable with every plant of the range",
+    );
     // Beyond the gain margin, and by Routh already.
     assert_eq!(of(&pi(120.0, 18.0), &plants), Some(unstable));
     assert_eq!(of(&pi(1.0, 1e5), &plants), Some(unstable));
-    let grows = Error::Inadmissible("every tone shrinks by the factor on every plant of the range");
+    let grows =
+        Error::Inadmissible("every tone must shrink by the factor on every plant of the range");
     assert_eq!(of(&pi(12.0, 60.0), &plants), Some(grows));
     let reversed = PlantRange {
         gain: Interval::exactly(-0.6),

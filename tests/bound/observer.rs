@@ -226,7 +226,9 @@ fn what_is_no_range_or_no_loop_is_refused_by_name() {
             gain: interval(-0.7, -0.5),
             ..good
         }),
-        Some(Error::Inadmissible("gain and nominal gain have one sign"))
+        Some(Error::Inadmissible(
+            "gain and nominal gain must have the same sign"
+        ))
     );
     let law =
         |settings| ObserverStability::try_new(&observer, &Pid::try_new(settings).unwrap(), &good);
@@ -237,13 +239,13 @@ fn what_is_no_range_or_no_loop_is_refused_by_name() {
     };
     assert_eq!(
         law(derivative).err(),
-        Some(Error::Inadmissible("the law is a P or a PI"))
+        Some(Error::Inadmissible("the law must be a P or a PI"))
     );
     // Routh: 2·zeta/wn·(1 + alpha·k_p) against alpha·k_i/wn².
     assert_eq!(
         law(PidSettings::unlimited(12.0, 300.0)).err(),
         Some(Error::Inadmissible(
-            "the nominal loop without latency is stable"
+            "the nominal loop without latency must be stable"
         ))
     );
 }

@@ -35,14 +35,14 @@ fn law(settings: AdaptiveSettings<f64, 1>) -> Adaptive<f64, 1> {
 #[test]
 fn each_form_has_its_own_certificates() {
     let plant = Plant::new(1.0, 5.0);
-    let not_literal = Error::Inadmissible("the literal form");
+    let not_literal = Error::Inadmissible("the gains must have the form as published");
     assert_eq!(Theorem1::try_new(&law(lag()), &plant), Err(not_literal));
     assert_eq!(Rms::try_new(&law(lag()), &plant), Err(not_literal));
     assert_eq!(
         PeakContinuous::try_new(&law(lag()), &plant),
         Err(not_literal)
     );
-    let not_lag = Error::Inadmissible("the lag form");
+    let not_lag = Error::Inadmissible("the gains must have the lag form");
     assert_eq!(PeakSampled::try_new(&law(literal()), &plant), Err(not_lag));
     assert_eq!(PerStep::try_new(&law(literal()), &plant), Err(not_lag));
 }
@@ -93,7 +93,7 @@ fn an_assumption_that_can_be_checked_is_checked() {
     };
     assert_eq!(
         Theorem1::try_new(&law(tight), &plant).err(),
-        unmet("each box holds the truth")
+        unmet("each box must contain the truth")
     );
     // The RMS certificate aims delta_hat at 4 and pays for the rest.
     assert!(Rms::try_new(&law(tight), &plant).unwrap().target <= 4.0);
@@ -101,7 +101,7 @@ fn an_assumption_that_can_be_checked_is_checked() {
         frozen: true,
         ..literal()
     };
-    let condition = "an estimate adapts or is the truth";
+    let condition = "an estimate must adapt or be the truth";
     let off = Plant {
         alpha: Interval::exactly(0.98),
         ..plant
@@ -133,7 +133,7 @@ fn an_assumption_that_can_be_checked_is_checked() {
         PeakSampled::try_new(&law(soft), &plant).err(),
         unmet("k > 1/lambda²")
     );
-    let condition = "boxes narrow enough for a finite bound";
+    let condition = "the boxes must be narrow enough for a finite bound";
     let regressors = [Known {
         magnitude: 1.0,
         ..Known::default()

@@ -279,7 +279,7 @@ fn a_certificate_that_cannot_be_stated_names_the_reason() {
                 form: literal,
                 ..good
             },
-            Error::Inadmissible("the lag form"),
+            Error::Inadmissible("the gains must have the lag form"),
         ),
         (
             AdaptiveSettings {

@@ -450,9 +450,9 @@ fn what_cannot_be_is_refused_by_name() {
         learning.start(&mut own, &mut unfiltered).map(drop).err()
     };
     assert_eq!(start(16, 16), None);
-    let lengths = Error::Inadmissible("both buffers have the same length");
+    let lengths = Error::Inadmissible("both buffers must have the same length");
     assert_eq!(start(16, 17), Some(lengths));
-    let few = Error::Inadmissible("as many cells as lead and filter need");
+    let few = Error::Inadmissible("there must be as many cells as lead and filter need");
     assert_eq!(start(15, 15), Some(few));
     assert_eq!(start(65_536, 65_536), Some(Error::Capacity("cells")));
 }

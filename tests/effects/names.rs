@@ -38,7 +38,7 @@ fn every_name_makes_the_effect_that_bears_it() {
 
 #[test]
 fn wrong_names_and_wrong_numbers_of_shapes_are_refused() {
-    let count = Error::Inadmissible("one value for each shape of the effect");
+    let count = Error::Inadmissible("there must be one value for each shape of the effect");
     for name in ["", "Viscous", "viscous ", "friction", "drag"] {
         assert_eq!(
             Effect::<f64>::try_from_name(name, &[]),

@@ -196,7 +196,7 @@ impl<T: Real> RigConfig<T> {
             Ok(())
         } else {
             Err(Error::Inadmissible(
-                "sub_step resolves the cable: 2·h·c/m + h²·k/m <= 1",
+                "sub_step must resolve the cable: 2·h·c/m + h²·k/m <= 1",
             ))
         }
     }

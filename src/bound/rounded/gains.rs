@@ -138,7 +138,7 @@ fn word<T: Real>() -> Word {
 /// The step \[s\] of settings whose single numbers make sense.
 fn usable<T: Real, const N: usize>(settings: &AdaptiveSettings<T, N>) -> Result<T, Error> {
     let Form::FirstOrder { step, .. } = settings.form else {
-        return Err(Error::Inadmissible("the lag form"));
+        return Err(Error::Inadmissible("the gains must have the lag form"));
     };
     above_zero!(step, T::ZERO, "step");
     above_zero!(settings.gain, T::ZERO, "gain");

@@ -315,7 +315,7 @@ impl<T: Real, const N: usize> TryFrom<Unchecked<T, N>> for AdaptiveState<T, N> {
             && raw.gap >= T::ZERO;
         if !finite {
             return Err(crate::Error::Inadmissible(
-                "a state has finite numbers and no negative gap",
+                "a state must have finite numbers and no negative gap",
             ));
         }
         let (told, mut held) = (raw.held.latch == Latch::Told, raw.held.remembering());

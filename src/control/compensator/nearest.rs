@@ -88,7 +88,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     pub fn try_nearest(model: &Model<T, N>) -> Result<(Self, Changed<T, N>), Error> {
         let identified = *model
             .transmission()
-            .ok_or(Error::Inadmissible("the model has a transmission"))?;
+            .ok_or(Error::Inadmissible("the model must have a transmission"))?;
         let transmission = identified.nearest_invertible()?;
         let lowered = |from: T, to: T| (from != to).then_some(Lowered { from, to });
         let (before, after) = (identified.shape(), transmission.shape());

@@ -119,7 +119,7 @@ impl<T: Real> TryFrom<Unchecked<T>> for ObserverState<T> {
             return Ok(Self::assumed(raw));
         }
         Err(Error::Inadmissible(
-            "a state has finite numbers and no negative gap",
+            "a state must have finite numbers and no negative gap",
         ))
     }
 }

@@ -131,13 +131,15 @@ pub enum AntiWindup<T> {
 pub struct PidSettings<T> {
     /// Proportional gain \[command unit/output unit\]; finite.
     pub k_p: T,
-    /// Integral gain \[command unit/(output unit·s)\]; finite, with the sign of `k_p`.
+    /// Integral gain \[command unit/(output unit·s)\]; finite. It must have the
+    /// sign of `k_p`.
     ///
     /// **With 0 there is no integral.** An existing integral (from another law, or from a start
     /// at a given command) returns to zero with a time constant of 1 s. The command moves to
     /// the other terms without a jump.
     pub k_i: T,
-    /// Gain of the damping; finite. With [`DerivativeSource::Rate`] it has the sign of `k_p`.
+    /// Gain of the damping; finite. With [`DerivativeSource::Rate`] it must have the sign of
+    /// `k_p` (and of `k_i`).
     ///
     /// The unit is \[command unit·s/output unit\], for PIV \[command unit·s/rad\]. With 0 nothing
     /// is filtered.
@@ -208,14 +210,14 @@ macro_rules! checks {
         must_be_finite!(s.k_i, "k_i");
         must_be_finite!(s.k_d, "k_d");
         if (s.k_p > zero && s.k_i < zero) || (s.k_p < zero && s.k_i > zero) {
-            return Err(Error::Inadmissible("k_p and k_i have the same sign"));
+            return Err(Error::Inadmissible("k_p and k_i must have the same sign"));
         }
         if let DerivativeSource::Rate { weight } = s.damping {
             share!(weight, zero, one, "derivative weight");
             let above = s.k_p > zero || s.k_i > zero;
             let below = s.k_p < zero || s.k_i < zero;
             if (above && s.k_d < zero) || (below && s.k_d > zero) {
-                return Err(Error::Inadmissible("k_d has the sign of k_p and k_i"));
+                return Err(Error::Inadmissible("k_d must have the sign of k_p and k_i"));
             }
         }
         share!(s.setpoint_weight, zero, one, "setpoint_weight");
@@ -235,7 +237,7 @@ macro_rules! checks {
             };
             if s.setpoint_weight != one || !whole {
                 return Err(Error::Inadmissible(
-                    "a period needs setpoint_weight = 1 and a derivative weight of 0 or 1",
+                    "with a period, setpoint_weight must be 1 and the derivative weight 0 or 1",
                 ));
             }
         }

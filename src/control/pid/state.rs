@@ -316,7 +316,7 @@ impl<T: Real> TryFrom<Unchecked<T>> for PidState<T> {
             Ok(state)
         } else {
             Err(crate::Error::Inadmissible(
-                "a state has finite numbers and no negative gap",
+                "a state must have finite numbers and no negative gap",
             ))
         }
     }

@@ -111,18 +111,18 @@ macro_rules! checks {
         let (above, below) = (s.centre + s.amplitude, s.centre - s.amplitude);
         if above < low || above > high || below < low || below > high {
             return Err(Error::Inadmissible(
-                "centre ± amplitude lies within the limits",
+                "centre ± amplitude must lie within the limits",
             ));
         }
         if s.limits.slew().is_some() {
             return Err(Error::Inadmissible(
-                "the limits of a relay have no slew rate",
+                "the limits of a relay must not include a slew-rate limit",
             ));
         }
         match s.fallback.command() {
             Some(safe) if safe >= low && safe <= high => Ok(()),
             Some(_) => Err(Error::Inadmissible(OUTSIDE)),
-            None => Err(Error::Inadmissible("a relay has a safe command")),
+            None => Err(Error::Inadmissible("a relay must have a safe command")),
         }
     }};
 }

@@ -233,7 +233,7 @@ impl<T: Real> TryFrom<Unchecked<T>> for RelayState<T> {
         };
         let mean = finite(&[raw.mean.period, raw.mean.amplitude, raw.mean.duty]);
         if !(cycle && result && mean && raw.held.command.is_finite()) {
-            return Err(Error::Inadmissible("a state has finite numbers"));
+            return Err(Error::Inadmissible("a state must have finite numbers"));
         }
         Ok(Self {
             held: raw.held.remembering(),

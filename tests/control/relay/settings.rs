@@ -36,15 +36,15 @@ fn what_cannot_be_is_refused_by_name() {
         ),
         (
             |s| s.centre = 4.5,
-            Error::Inadmissible("centre ± amplitude lies within the limits"),
+            Error::Inadmissible("centre ± amplitude must lie within the limits"),
         ),
         (
             |s| s.amplitude = -3.5,
-            Error::Inadmissible("centre ± amplitude lies within the limits"),
+            Error::Inadmissible("centre ± amplitude must lie within the limits"),
         ),
         (
             |s| s.limits = s.limits.with_slew(100.0).unwrap(),
-            Error::Inadmissible("the limits of a relay have no slew rate"),
+            Error::Inadmissible("the limits of a relay must not include a slew-rate limit"),
         ),
         (
             |s| s.fallback = Fallback::try_new(10, 5.5).unwrap(),
@@ -52,7 +52,7 @@ fn what_cannot_be_is_refused_by_name() {
         ),
         (
             |s| s.fallback = Fallback::hold_indefinitely(),
-            Error::Inadmissible("a relay has a safe command"),
+            Error::Inadmissible("a relay must have a safe command"),
         ),
     ];
     assert!(Relay::try_new(usual::<f64>()).is_ok());

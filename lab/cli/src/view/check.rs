@@ -172,7 +172,7 @@ pub fn check_text(model: &str, path: &str, check: &CheckFacts, width: Width) -> 
     line!(out, "\n{}", errors(check).text(width));
     let bound = check.allowed.map(|allowed| {
         format!(
-            "the model holds up to {}: {}",
+            "the model holds up to an error of {}: {}",
             percent(allowed / check.deviation),
             check.rule()
         )

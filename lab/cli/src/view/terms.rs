@@ -31,7 +31,8 @@ coefficient   Gain of the term in the final model with its 95 % interval (jackkn
               blocks). \"acts, size unknown\": the interval contains zero, because other terms can
               replace this one.
 p             Probability that chance alone explains as much, from the exact sign-flip test over
-              sixteen blocks. A term is significant below 0.01 over all tests.
+              sixteen blocks. A term is significant if p is at most 0.01 divided by the number of
+              families times channels.
 blocks improved
               The number of the sixteen stretches of equal path on which the term lowers the error
               when its coefficients are fitted on the other fifteen.

@@ -6,7 +6,7 @@
 //! Run it at the end of a change and report what it prints: no threshold is ever set by these
 //! seeds, strengths and colours. The figures of each commit are in `docs/results/judged.md`.
 //!
-//! - **found**: planted families that are a term, or an alternative of one; a share of all.
+//! - **found**: planted families that are a term, or an alternative to one; a share of all.
 //! - **false**: terms that are neither, and a curve where nothing was planted; per record.
 //! - **names**: terms of high confidence of a planted family, of all terms of high confidence.
 //! - **mechanisms**: the same of the mechanisms of the terms.

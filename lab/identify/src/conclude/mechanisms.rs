@@ -29,7 +29,7 @@ pub struct Lack {
     /// High for the mechanism that removes at least half of what all members remove, if no member of
     /// it has an alternative of another mechanism.
     pub confidence: Grade,
-    /// Mechanisms of the alternatives of its members.
+    /// Mechanisms of the alternatives to its members.
     pub alternatives: Vec<Mechanism>,
     /// Its terms, as the results table names them, in the order of their rounds.
     pub members: Vec<String>,
@@ -134,7 +134,7 @@ pub fn mechanisms(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Vec<Lack
     all
 }
 
-/// Mechanisms of the alternatives of a round.
+/// Mechanisms of the alternatives to the terms of a round.
 fn others(round: &Round, own: Mechanism) -> impl Iterator<Item = Mechanism> + '_ {
     let all = round
         .rivals

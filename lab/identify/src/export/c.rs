@@ -38,7 +38,7 @@ impl ModelFile {
             let tau = about.rates_time_constant_s;
             line!(
                 body,
-                "/* time_constant of BOWDEN_RATES_SETTINGS_F32_INIT and _F64_INIT, for every source [s]. */"
+                "/* time_constant [s] to set after BOWDEN_RATES_SETTINGS_F32_INIT or _F64_INIT, for every source. */"
             );
             line!(
                 body,

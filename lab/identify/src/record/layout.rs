@@ -155,7 +155,7 @@ fn unknown(header: &Header, cells: &[&str], index: usize, line: usize) -> Record
     let cell = shown(cells.get(index).copied().unwrap_or_default(), NAME_LENGTH);
     let name = &header.columns[index].name;
     let message = format!(
-        "`{cell}` is not a known unit; a cell in a row of units must be mm, N, N·m, deg or another unit, or be empty (`{} [{cell}]` as a name states any unit)",
+        "`{cell}` is not a known unit; a cell in a row of units must be empty or a known unit, such as mm, N, N·m or deg (for any other unit, put it in the column name: `{} [{cell}]`)",
         shown(name, NAME_LENGTH)
     );
     RecordError::at(line, message).on(name)

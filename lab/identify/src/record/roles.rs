@@ -195,7 +195,7 @@ fn mode(header: &Header, options: &Options) -> Result<Mode, RecordError> {
         (false, false) => {
             let list = header.list();
             let message = format!(
-                "the columns {list} include neither `tau_i` and `tau_o` nor `x` and `f`; name them with --mode, --input and --output"
+                "the columns {list} include neither `tau_i` and `tau_o` nor `x` and `f`; set --mode, and name the columns with --input and --output"
             );
             Err(RecordError::at(header.line, message))
         }

@@ -209,7 +209,7 @@ fn a_missing_column_is_named_with_those_that_exist() {
     );
     refused(
         csv("t,a,b", &rows()),
-        "r.csv:1: the columns `t`, `a`, `b` include neither `tau_i` and `tau_o` nor `x` and `f`; name them with --mode, --input and --output",
+        "r.csv:1: the columns `t`, `a`, `b` include neither `tau_i` and `tau_o` nor `x` and `f`; set --mode, and name the columns with --input and --output",
     );
 }
 

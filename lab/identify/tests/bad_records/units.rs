@@ -56,8 +56,8 @@ fn a_row_of_units_has_torques_in_every_spelling() {
 fn the_cell_of_a_row_of_units_that_is_no_unit_is_named() {
     let says = |line: usize, name: &str, cell: &str| {
         format!(
-            "r.csv:{line}: column `{name}`: `{cell}` is not a known unit; a cell in a row of units must be mm, N, N·m, deg or another unit, or be empty (`{name} [{cell}]` as a name \
-             states any unit)"
+            "r.csv:{line}: column `{name}`: `{cell}` is not a known unit; a cell in a row of units must be empty or a known unit, such as mm, N, N·m or deg \
+             (for any other unit, put it in the column name: `{name} [{cell}]`)"
         )
     };
     for (above, line) in [(ABOVE[0], 2), (ABOVE[1], 4)] {
