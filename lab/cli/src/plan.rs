@@ -41,7 +41,7 @@ impl Plan {
         let Some(planned) = &found.planned else {
             return Ok(match &self.out {
                 Some(path) => {
-                    anstream::eprintln!("{} is not written", path.display());
+                    anstream::eprintln!("{} was not written", path.display());
                     ExitCode::from(NOTHING_TO_WRITE)
                 }
                 None => ExitCode::SUCCESS,

@@ -146,14 +146,14 @@ fn what_no_motion_makes_known_is_said_and_not_called_settled() {
         !told.to_lowercase().contains("no experiment is needed"),
         "{told}"
     );
-    assert!(!told.contains("is not written"), "{told}");
+    assert!(!told.contains("was not written"), "{told}");
     // A script that asked for a file learns that there is none.
     let out = folder.path().join("plan.csv").display().to_string();
     let plan = bowden(&[&["plan", &path, "--out", &out], &declared[..]].concat());
     assert_eq!(plan.status.code(), Some(1));
     assert!(plan.stdout.is_empty() && !std::path::Path::new(&out).exists());
     let with_file = String::from_utf8(plan.stderr).unwrap();
-    assert_eq!(with_file, format!("{told}{out} is not written\n"));
+    assert_eq!(with_file, format!("{told}{out} was not written\n"));
 }
 
 /// A cable of four Maxwell-slip elements: what presliding and backlash are made of, four times over.

@@ -42,7 +42,7 @@ impl Undeclared {
             Some((what, strength)) => {
                 let value: f64 = strength.parse().map_err(|_| {
                     format!(
-                        "--effect {text}: {strength:?} is not a number of N·m; write NAME:STRENGTH"
+                        "--effect {text}: {strength:?} is not a number [N·m]; write NAME:STRENGTH"
                     )
                 })?;
                 if !(value.is_finite() && value > 0.0) {
@@ -121,7 +121,7 @@ impl Undeclared {
         let rms = path.rms(&term(1.0));
         if !(rms > 0.0 && rms.is_finite()) {
             return Err(format!(
-                "--effect {name}: this effect is constant zero on this rig"
+                "--effect {name}: this effect is always zero on this rig"
             ));
         }
         // Friction takes away from the torque that arrives.

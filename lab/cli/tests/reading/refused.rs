@@ -115,7 +115,7 @@ fn what_a_foreign_file_lacks_is_said_with_the_column() {
     );
     assert_eq!(
         foreign("lengths.mat", &[]),
-        ": column `f`: has 239 values; it must have 240, as `t` has"
+        ": column `f`: has 239 values; it must have 240, as `t` does"
     );
     for name in ["complex.mat", "complex_7_3.mat"] {
         let line = foreign(name, &[]);
@@ -171,7 +171,7 @@ fn text_that_could_be_read_in_two_ways_is_refused_with_line_and_column() {
     refuses(
         csv(),
         &["--channel", "stretch=x_mm-load_N"],
-        ":1: column `load_N`: has unit N; it must have unit mm, as `x_mm` has, so that the two can be added or subtracted",
+        ":1: column `load_N`: has unit N; it must have unit mm, as `x_mm` does, so that the two can be added or subtracted",
     );
     refuses(
         csv()

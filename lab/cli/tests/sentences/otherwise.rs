@@ -73,10 +73,13 @@ fn a_record_logged_otherwise_is_asked_about() {
     let report = bench.check(|rows| rows.set(PHI_P, |_, row| -row[PHI_P]));
     asks(
         &report,
-        &["With `phi_p` reversed", "have the opposite sign here?"],
+        &[
+            "With the sign of `phi_p` reversed",
+            "have the opposite sign here?",
+        ],
     );
     let report = bench.check(|rows| rows.set(TAU_I, |_, row| -row[TAU_I]));
-    asks(&report, &["With `tau_i` reversed"]);
+    asks(&report, &["With the sign of `tau_i` reversed"]);
 
     let report = bench.check(|rows| {
         rows.set(PHI_P, |_, row| row[PHI_P].to_degrees());

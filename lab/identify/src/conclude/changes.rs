@@ -47,7 +47,7 @@ pub(super) fn extrapolates(data: &Prepared, done: &FinalFit) -> Option<String> {
         let unit = one.unit.map(|unit| format!(" {unit}")).unwrap_or_default();
         let ends = |[low, high]: [f64; 2]| format!("{} to {}", four_digits(low), four_digits(high));
         format!(
-            "The fit saw `{}` from {}{unit}, and the held-out segment goes from {}{unit}: the held-out error is that of an extrapolation.",
+            "The fit segment covers `{}` from {}{unit}, and the held-out segment covers it from {}{unit}: the held-out error is an extrapolation error.",
             one.channel,
             ends(one.seen),
             ends(one.here)

@@ -223,7 +223,7 @@ pub(super) fn apart_words(data: &Prepared, apart: &[FileApart]) -> Option<String
     let asked = match first.gain < 0.0 {
         true => format!("Does a sensor have the opposite sign {where_it_is}?"),
         false => format!(
-            "Does a sensor have a different unit or calibration {where_it_is}, or is the rig a different one?"
+            "Does a sensor have a different unit or calibration {where_it_is}, or is this a different rig?"
         ),
     };
     let also = match others {

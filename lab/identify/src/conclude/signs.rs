@@ -40,7 +40,7 @@ pub(super) fn of_the_motion(data: &Prepared, solution: &Solution) -> Option<Stri
     let tones: Vec<String> = tones.map(|t| term_title(data, t)).collect();
     (!tones.is_empty()).then(|| {
         format!(
-            "The frequency of {} is a sum, a difference or a multiple of the motion's frequencies: missing friction causes such lines, even without an external disturbance.",
+            "The frequency of {} is a sum, a difference or a multiple of the motion's frequencies: missing friction can cause such lines, even without an external disturbance.",
             tones.join(", ")
         )
     })
@@ -80,7 +80,7 @@ pub(super) fn falls(data: &Prepared, solution: &Solution) -> Option<String> {
     let (slope, _) = line(rows.map(|&i| (solution.columns[0][i], data.target[i])));
     (slope < 0.0).then(|| {
         format!(
-            "`{}` falls while `{}` rises: one of them has the opposite sign, and `bowden design` refuses the model until this is corrected.",
+            "`{}` falls while `{}` rises: the sign of one of them is probably reversed, and `bowden design` refuses the model until this is corrected.",
             data.output_name, data.input.name
         )
     })
@@ -152,7 +152,7 @@ pub(super) fn exchanged_words(data: &Prepared, ledger: &Ledger) -> Option<String
     let [before, after] = ledger.exchanged?;
     let (input, output) = (&data.input.name, &data.output_name);
     Some(format!(
-        "Are `{input}` and `{output}` swapped? `{output}` comes before `{input}`. With both columns exchanged the baseline model has an error of {} of the output's standard deviation instead of {}.",
+        "Are `{input}` and `{output}` swapped? `{output}` leads `{input}`. With the two columns swapped, the baseline model has an error of {} of the output's standard deviation instead of {}.",
         percent(after),
         percent(before)
     ))

@@ -243,7 +243,7 @@ fn rest(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -> St
                 .map(|defect| format!("{} ({})", defect.channel, defect.kind.name()))
                 .collect();
             format!(
-                "The measurement is defective: {}. Repair it and record again.",
+                "The measurement is defective: {}. Correct the cause and record again.",
                 list.join(", ")
             )
         }

@@ -48,7 +48,7 @@ pub(super) fn warning(data: &Prepared, hand: &HandOver) -> Option<String> {
         Some(calmed) => {
             let unit = data.input.unit.as_ref().map(|unit| format!(" {unit}"));
             format!(
-                "In firmware, sample by sample, {errors}: the noise of `{}` drives the hysteresis. With `signal::Play` of half-width {}{} on the input it is {}.",
+                "In firmware, sample by sample, {errors}: the noise of `{}` drives the hysteresis. With `signal::Play` of half-width {}{} on the input, the error is {}.",
                 data.input.name,
                 three_digits(calmed.half_width),
                 unit.unwrap_or_default(),

@@ -48,7 +48,7 @@ pub(super) fn note(channel: &str, records: usize) -> String {
     match records {
         1 => format!("`{channel}` shows only its sensor's noise: no term reads it"),
         _ => format!(
-            "within each file `{channel}` shows only its sensor's noise: it has one value a file, and no term reads it"
+            "within each file `{channel}` shows only its sensor's noise: it has one value per file, and no term reads it"
         ),
     }
 }

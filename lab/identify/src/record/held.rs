@@ -64,7 +64,7 @@ pub(super) fn smooth(name: &str, values: &mut [f64], step: f64) -> Option<String
         }
     }
     Some(format!(
-        "`{name}` changes in every {}th row only ({:.1} Hz), which delays it by {:.3} ms: a curve through its updates replaces it",
+        "`{name}` changes only in every {}th row ({:.1} Hz), which delays it by {:.3} ms: a curve through its updates replaces it",
         two_decimals(period),
         1.0 / (period * step),
         500.0 * (period - 1.0) * step

@@ -64,7 +64,7 @@ const OTHERS: [(&[u8], &str, &str); 16] = [
     ),
     (
         b"{\\rtf",
-        "a text processor's file",
+        "a word processor's file",
         "export the values as CSV",
     ),
 ];

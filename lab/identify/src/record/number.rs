@@ -170,7 +170,7 @@ fn no_number(cell: &str) -> String {
     let is_mark = of_a_sheet || MARKS.contains(&upper.trim_start_matches('+'));
     if is_mark || MARKS.contains(&upper.trim_start_matches('-')) {
         return format!(
-            "`{text}` is a mark instead of a number; empty the cell, and --drop-bad drops the row"
+            "`{text}` is a placeholder, not a number; empty the cell, and use --drop-bad to drop the row"
         );
     }
     match has_thousands(cell) {

@@ -69,7 +69,7 @@ fn parts(header: &Header, options: &Options) -> Result<Roles, RecordError> {
     // A name that is not there says more than a mode that does not follow from it.
     for (name, option) in [(&options.input, "--input"), (&options.output, "--output")] {
         if let Some(name) = name {
-            require(header, name, &format!("{option} COL names another one"))?;
+            require(header, name, &format!("{option} COL selects another one"))?;
         }
     }
     let mode = mode(header, options)?;
@@ -85,13 +85,13 @@ fn parts(header: &Header, options: &Options) -> Result<Roles, RecordError> {
             None => require(header, usual, hint),
         },
     };
-    let input = end(&options.input, input, "--input COL names another one")?;
-    let output = end(&options.output, output, "--output COL names another one")?;
+    let input = end(&options.input, input, "--input COL selects another one")?;
+    let output = end(&options.output, output, "--output COL selects another one")?;
     let refuse = |index: usize, message: String| {
         Err(RecordError::at(header.line, message).on(&header.columns[index].name))
     };
     if input == output {
-        return refuse(input, "is both input and output".to_owned());
+        return refuse(input, "cannot be both input and output".to_owned());
     }
     if let Some(time) = time.filter(|time| *time == input || *time == output) {
         return refuse(
@@ -125,7 +125,7 @@ const TIMES: [&str; 3] = ["t", "time", "timestamp"];
 
 /// The column of the time. `T` without a unit may as well be a temperature.
 fn time(header: &Header, options: &Options) -> Result<usize, RecordError> {
-    let hint = "--time COL names another one; --rate HZ takes time from the row number";
+    let hint = "--time COL selects another one; --rate HZ takes time from the row number";
     let usual = |index: &usize| {
         let column = &header.columns[*index];
         let unit = column.unit.as_deref();
@@ -154,7 +154,7 @@ fn mode(header: &Header, options: &Options) -> Result<Mode, RecordError> {
         return Ok(mode);
     }
     let ask = |message: String| {
-        let message = format!("{message}; state --mode torque or --mode displacement");
+        let message = format!("{message}; set --mode torque or --mode displacement");
         Err(RecordError::at(header.line, message))
     };
     // A name as it is first: `X` beside `tau_i` and `tau_o` makes no second mode.

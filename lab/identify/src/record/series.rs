@@ -6,7 +6,7 @@ use super::header::{require, Header};
 use super::sizes::factor;
 use super::Options;
 
-const HINT: &str = "--channel NAME=COL names another one";
+const HINT: &str = "--channel NAME=COL selects another one";
 
 /// A series of the record.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,7 +96,7 @@ impl Series {
             None => Err(RecordError::at(
                 header.line,
                 format!(
-                    "has {}; it must have {}, as `{}` has, so that the two can be added or subtracted",
+                    "has {}; it must have {}, as `{}` does, so that the two can be added or subtracted",
                     unit(&b.unit),
                     unit(&a.unit),
                     shown(&a.name, NAME_LENGTH)

@@ -109,7 +109,7 @@ fn same_length(
     let length = columns[first].len();
     match roles.read().find(|index| columns[*index].len() != length) {
         Some(other) => Err(RecordError::new(format!(
-            "has {} values; it must have {length}, as `{}` has",
+            "has {} values; it must have {length}, as `{}` does",
             columns[other].len(),
             super::error::shown(&header.columns[first].name, NAME_LENGTH)
         ))

@@ -192,7 +192,7 @@ impl Clock {
             if step > 0.0 && step < SHORT_STEP {
                 let name = &header.columns[index].name;
                 let message = format!(
-                    "no unit is stated, and there are {:.3e} rows per second if it is s: write `{name} [d]` for days, `{name} [h]` for hours, or `{name} [s]`",
+                    "no unit is stated; if it is s, there are {:.3e} rows per second: write `{name} [d]` for days, `{name} [h]` for hours, or `{name} [s]`",
                     1.0 / step
                 );
                 return Err(RecordError::at(header.line, message).on(name));
@@ -220,7 +220,7 @@ impl Clock {
                 false => (self.rows - 1) as f64 / self.last,
             };
             format!(
-                "the time stamp repeats at {cell}, as in {} of {} rows: the stamps are rounded; \
+                "the time stamp repeats at {cell}, as in {} of {} rows: the stamps appear to be rounded; \
                  --rate HZ takes time from the row number (about {rate:.1} Hz){drop}",
                 self.repeated, self.rows
             )
@@ -243,7 +243,7 @@ impl Clock {
         {
             Some((name, asked)) => {
                 let start = match first.abs() > NO_STAMP {
-                    true => format!("; the first stamp is {first:.3e} s, thousands of years"),
+                    true => format!("; the first stamp would be {first:.3e} s, thousands of years"),
                     false => String::new(),
                 };
                 let shown = shown(name, NAME_LENGTH);

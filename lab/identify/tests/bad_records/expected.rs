@@ -11,7 +11,7 @@ fn stamps_without_a_unit_that_cannot_be_seconds_are_refused() {
              is the unit {unit}? Then name the column `t [{unit}]`, or `t [s]` if it is s{start}"
         )
     };
-    let since = |first: &str| format!("; the first stamp is {first} s, thousands of years");
+    let since = |first: &str| format!("; the first stamp would be {first} s, thousands of years");
     let of =
         |step: u64, first: u64| with_time("t,x,f", move |i| (first + step * i as u64).to_string());
     refused(of(2_000, 0), &asks("2000", "µs", ""));
@@ -75,7 +75,7 @@ fn marks_and_separators_of_thousands_are_told_from_other_words() {
         refused(
             with_line(9, &format!("0.07,{mark},2")),
             &format!(
-                "r.csv:9: column `x`: `{mark}` is a mark instead of a number; empty the cell, and --drop-bad drops the row"
+                "r.csv:9: column `x`: `{mark}` is a placeholder, not a number; empty the cell, and use --drop-bad to drop the row"
             ),
         );
     }

@@ -189,7 +189,7 @@ fn a_preamble_without_the_names_is_refused_at_the_line_that_should_have_them() {
     refused(
         format!("rig,3\nwhen,now\nt,x,force\n{}", rows().join("\n")),
         "r.csv:3: column `f`: no such column among `t`, `x`, `force`; \
-         --output COL names another one",
+         --output COL selects another one",
     );
 }
 
@@ -288,7 +288,7 @@ fn names_are_found_in_other_letters_and_with_their_units() {
     refused(
         csv("t,X_mm,x_m,f", &rows().iter().map(|r| format!("{r},1")).collect::<Vec<_>>()),
         "r.csv:1: column `x`: no such column among `t`, `X_mm`, `x_m`, `f` (nearest: `x_m`, `X_mm`); \
-         --input COL names another one",
+         --input COL selects another one",
     );
     let line = refusal(csv("T,x,f", &rows()), &Options::default());
     assert!(
@@ -448,7 +448,7 @@ fn a_channel_is_the_difference_or_the_sum_of_two() {
     let line = |column: &str| of(&[("stretch", column)]).unwrap_err();
     assert_eq!(
         line("a-t"),
-        "r.csv:1: column `t`: has no unit; it must have unit rad, as `a` has, so that the two can be added or subtracted"
+        "r.csv:1: column `t`: has no unit; it must have unit rad, as `a` does, so that the two can be added or subtracted"
     );
     assert_eq!(
         line("tau_i-tau_o"),

@@ -86,7 +86,7 @@ fn days_without_a_unit_are_not_taken_for_seconds() {
     let day = |i: usize| format!("{:.12}", 45_000.0 + i as f64 * 1e-3 / 86_400.0);
     refused(
         with_time("t,x,f", day),
-        "r.csv:1: column `t`: no unit is stated, and there are 8.640e7 rows per second if it is s: write `t [d]` for days, `t [h]` for hours, or `t [s]`",
+        "r.csv:1: column `t`: no unit is stated; if it is s, there are 8.640e7 rows per second: write `t [d]` for days, `t [h]` for hours, or `t [s]`",
     );
     let record = accepted(with_time("t [d],x,f", day));
     // A day's twelfth digit is a tenth of a microsecond.
@@ -191,12 +191,12 @@ fn a_missing_column_is_named_with_those_that_exist() {
     refused(
         csv("tim,x,f", &rows()),
         "r.csv:1: column `t`: no such column among `tim`, `x`, `f` (nearest: `tim`); \
-         --time COL names another one; --rate HZ takes time from the row number",
+         --time COL selects another one; --rate HZ takes time from the row number",
     );
     refused(
         csv("t,tau_i,torque", &rows()),
         "r.csv:1: column `tau_o`: no such column among `t`, `tau_i`, `torque` (nearest: `tau_i`); \
-         --output COL names another one",
+         --output COL selects another one",
     );
     let options = Options {
         channels: vec![("phi_p".into(), "q".into())],
@@ -205,7 +205,7 @@ fn a_missing_column_is_named_with_those_that_exist() {
     assert_eq!(
         refusal(csv("t,x,f", &rows()), &options),
         "r.csv:1: column `q`: no such column among `t`, `x`, `f`; \
-         --channel NAME=COL names another one"
+         --channel NAME=COL selects another one"
     );
     refused(
         csv("t,a,b", &rows()),
@@ -218,7 +218,7 @@ fn an_open_mode_is_asked_for() {
     let rows: Vec<_> = rows().iter().map(|row| format!("{row},1,2")).collect();
     refused(
         csv("t,x,f,tau_i,tau_o", &rows),
-        "r.csv:1: the columns fit both modes; state --mode torque or --mode displacement",
+        "r.csv:1: the columns fit both modes; set --mode torque or --mode displacement",
     );
     let options = Options {
         input: Some("q".into()),
@@ -228,7 +228,7 @@ fn an_open_mode_is_asked_for() {
     assert_eq!(
         refusal(csv("t,q,u,a,b", &rows), &options),
         "r.csv:1: the named columns do not determine the mode; \
-         state --mode torque or --mode displacement"
+         set --mode torque or --mode displacement"
     );
 }
 
@@ -243,7 +243,7 @@ fn one_column_has_one_part() {
             mode,
             ..Options::default()
         },
-        "r.csv:1: column `x`: is both input and output",
+        "r.csv:1: column `x`: cannot be both input and output",
     );
     refuses(
         Options {

@@ -124,7 +124,7 @@ fn one_name_with_two_units_is_two_columns() {
     assert_eq!(
         refusal(&text, &ends("Way (mm)", "Force")),
         "r.csv:1: column `Force`: no such column among `t`, `Way (V)`, `Way (mm)`, `Force (V)`, \
-         `Force (N)` (nearest: `Force (V)`, `Force (N)`); --output COL names another one"
+         `Force (N)` (nearest: `Force (V)`, `Force (N)`); --output COL selects another one"
     );
     // One of three is the other's twin: neither of these two can be wanted.
     let twins = text.replacen("Force (V)", "Force (N)", 1);

@@ -17,7 +17,7 @@ fn time_that_does_not_run_forward_is_refused() {
     refused(
         &rounded,
         "r.csv:5: column `t`: the time stamp repeats at 0.02, as in 87 of 400 rows: \
-         the stamps are rounded; --rate HZ takes time from the row number (about 127.9 Hz); --drop-bad drops such rows",
+         the stamps appear to be rounded; --rate HZ takes time from the row number (about 127.9 Hz); --drop-bad drops such rows",
     );
     let options = Options {
         rate: Some(128.0),

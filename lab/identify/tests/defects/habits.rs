@@ -91,7 +91,7 @@ fn a_log_that_samples_and_holds_changes_no_name() {
         let text = format!("t [s],x [mm],f [N]\n{text}");
         let record = parse(text.as_bytes(), "r.csv", &Options::default()).unwrap();
         assert_eq!(record.held, [name]);
-        let said = format!("`{name}` changes in every 8th row only (62.5 Hz)");
+        let said = format!("`{name}` changes only in every 8th row (62.5 Hz)");
         assert!(
             record.notes.iter().any(|n| n.starts_with(&said)),
             "{:?}",

@@ -127,7 +127,7 @@ fn a_protocol_of_growing_strokes_is_held_out_beyond_what_the_fit_saw() {
         });
         closed(&[record(&t, &x, &f)]).sentence
     };
-    let said = "that of an extrapolation";
+    let said = "the held-out error is an extrapolation error";
     let growing = grown(0.15);
     assert!(growing.contains(said), "{growing}");
     let steady = grown(0.0);

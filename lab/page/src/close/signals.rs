@@ -212,7 +212,7 @@ pub(crate) fn hysteresis_loop(signals: &Signals, file: &File, id: &str) -> Chart
         scale: Scale::linear(rows().flat_map(|row| columns.map(|c| c.values[row]))),
     };
     let description = format!(
-        "The output {} over the input {}: the measured loop, that of the {} and that of the {} model.",
+        "The output {} over the input {}: the measured loop, and the loops of the {} and the {} model.",
         signals.measured.name, signals.input.name, first.name, last.name
     );
     let of = |column: &Column| {

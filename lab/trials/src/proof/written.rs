@@ -34,7 +34,7 @@ struct Numbers {
 }
 
 /// The theorem of a limit is over the reals alone.
-const AT_THE_LIMIT: &str = "--coq: this proof allows the limit of the command to be active; certificates for Coq cover only inactive limits (theorems/Limit.v has the theorem, --json all numbers)";
+const AT_THE_LIMIT: &str = "--coq: this proof allows the limit of the command to be active; certificates for Coq cover only inactive limits (theorems/Limit.v states the theorem, and --json lists all numbers)";
 
 /// The certificate as a theorem: `coqc` checks it, or refuses it.
 ///

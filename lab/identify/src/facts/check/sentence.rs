@@ -175,7 +175,7 @@ fn with_reserve(check: &CheckFacts) -> String {
     if let Some(made) = made {
         let _ = write!(
             text,
-            " The model hardly depends on `{}`: its contribution is {} of this record's output. This validation would hardly show a change of that part of the transmission.",
+            " The model hardly depends on `{}`, which contributes {} of this record's output. This validation would hardly show a change of that part of the transmission.",
             check.record.input,
             share(made)
         );
@@ -260,10 +260,10 @@ fn asked(one: &Otherwise) -> String {
     let left = percent(one.nrmse);
     match &one.way {
         Way::Turned { column } => format!(
-            " With `{column}` reversed its error is {left}: does it have the opposite sign here?"
+            " With the sign of `{column}` reversed, the error is {left}: does `{column}` have the opposite sign here?"
         ),
         Way::Scaled { column, factor } => format!(
-            " With `{column}` divided by {} its error is {left}: is it in another unit here{}?",
+            " With `{column}` divided by {}, the error is {left}: is this column in another unit here{}?",
             number(*factor, Some(0.001 * factor)),
             match (50.0..60.0).contains(factor) {
                 true => " (degrees instead of radians)",
@@ -271,10 +271,10 @@ fn asked(one: &Otherwise) -> String {
             }
         ),
         Way::Exchanged { column, other } => format!(
-            " With `{column}` and `{other}` swapped its error is {left}: are these two columns swapped here?"
+            " With `{column}` and `{other}` swapped, the error is {left}: are these two columns swapped here?"
         ),
         Way::Late { seconds } => format!(
-            " With the output {} ms {} its error is {left}: is it delayed here, or logged on another clock?",
+            " With the output {} ms {}, the error is {left}: is the output delayed here, or logged on another clock?",
             number(1e3 * seconds.abs(), Some(0.02 * 1e3 * seconds.abs())),
             if *seconds > 0.0 { "earlier" } else { "later" }
         ),
