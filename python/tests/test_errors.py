@@ -84,7 +84,7 @@ def test_of_options(plain: dict[str, Any], options: dict[str, Any], message: str
 def test_options_have_their_names_in_python(plain: dict[str, Any]) -> None:
     unnamed = {"t": plain["t"], "a": plain["tau_i"], "b": plain["tau_o"]}
     message = str(refused(unnamed, input="a", output="b"))
-    assert message.endswith("; state mode=torque or mode=displacement"), message
+    assert message.endswith("; set mode=torque or mode=displacement"), message
     message = str(refused({"a": plain["tau_i"], "b": plain["tau_o"]}, mode="torque"))
     assert "time= selects another one; rate= takes time from the row number" in message
     assert "--" not in message
