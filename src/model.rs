@@ -46,13 +46,13 @@ pub enum Source {
 /// One effect of a model, with its gain and its origin.
 ///
 /// # Origin
-/// The effect reads `motion.position − origin`; velocity and acceleration come unchanged from
-/// the sensor. The zero of a sensor is arbitrary. An effect such as `x·|x|` or `x·tanh(v/v_e)`
-/// is even, odd or largest about a specific position. A different zero gives a different
-/// function, which no gain corrects. The bench identifies or selects this position. The
-/// firmware must use the same origin with the same gain. Shape parameters that are positions
-/// (`x_h`) count from the origin. The origin does not shift the transmission's input, even if
-/// an effect reads the input in addition to its source (`degradation`).
+/// The effect reads `motion.position − origin`; velocity and acceleration come unchanged from the
+/// sensor. The zero of a sensor is arbitrary. An effect such as `x·|x|` or `x·tanh(v/v_e)` is even,
+/// odd or largest about a specific position. A different zero gives a different function, which no
+/// gain corrects. The bench identifies or selects this position. The firmware must use the same
+/// origin with the same gain. Shape parameters that are positions (`x_h`) are measured from the
+/// origin. The origin does not shift the transmission's input, even if an effect reads the input in
+/// addition to its source (`degradation`).
 ///
 /// ```
 /// use bowden::effect::{Effect, Motion};
@@ -109,10 +109,10 @@ pub struct Sample<'a, T> {
 /// stores only the numbers of its channels and writes them as `channel_0`, ….
 ///
 /// Every other format, such as postcard, stores the parts in order, without names: 143 bytes in
-/// `f32` for eight terms with eight shape parameters. The bytes contain neither precision nor
-/// version. They identify an effect by its index in [`CATALOGUE`](crate::effect::CATALOGUE). Store
-/// them with a checksum (postcard's `to_slice_crc32`), and write them again for a new version of
-/// this crate.
+/// `f32` for eight terms with eight shape parameters. The bytes state neither their precision nor
+/// their version. They identify an effect by its index in [`CATALOGUE`](crate::effect::CATALOGUE).
+/// Store them with a checksum (postcard's `to_slice_crc32`), and write them again for a new version
+/// of this crate.
 ///
 /// ```
 /// # #[cfg(feature = "serde")] {

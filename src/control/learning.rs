@@ -204,10 +204,10 @@ impl<T: Real> IterativeLearning<T> {
     /// Most cells of a cycle.
     pub const MOST_CELLS: usize = u16::MAX as usize;
 
-    /// Learning without forgetting. `gain` multiplies the error \[command unit/output unit\]; it is
-    /// not zero and has the sign of the plant's gain. `limit > 0` bounds the learned values
-    /// \[command unit\]. `lead` is the number of cells from a command to its effect, and
-    /// `half_width` is that of the triangle \[cells\].
+    /// Learning without forgetting. `gain` multiplies the error \[command unit/output unit\]; it
+    /// must not be zero and must have the sign of the plant's gain. `limit > 0` bounds the learned
+    /// values \[command unit\]. `lead` is the number of cells from a command to its effect, and
+    /// `half_width` is the half-width of the triangle \[cells\].
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"gain"` or `"limit"`.
@@ -247,7 +247,7 @@ impl<T: Real> IterativeLearning<T> {
         self.lead
     }
 
-    /// Half width of the triangle \[cells\]; 0 means no filter.
+    /// Half-width of the triangle \[cells\]; 0 means no filter.
     #[inline]
     #[must_use]
     pub const fn half_width(&self) -> u16 {
@@ -287,7 +287,7 @@ impl<T: Real> IterativeLearning<T> {
     /// A new state over two buffers with one number per cell; both are set to zero.
     ///
     /// # Errors
-    /// [`Error::Inadmissible`] if the buffers differ in length; otherwise as
+    /// [`Error::Inadmissible`] if the buffers differ in length; otherwise the errors of
     /// [`check_cells`](Self::check_cells).
     pub fn start<M: AsRef<[T]> + AsMut<[T]>>(
         &self,

@@ -225,7 +225,7 @@ impl<T: Real> Pid<T> {
     ///
     /// Call this method between two steps. The slew-rate limit, back-calculation and a bumpless
     /// start then continue from the applied command. The integral reverses the part of its last
-    /// change that exceeds the drive's limit; With [`AntiWindup::None`] it keeps this part. With
+    /// change that exceeds the drive's limit; with [`AntiWindup::None`] it keeps this part. With
     /// back-calculation, the part that the drive cut off returns to the integral. The next command
     /// still contains the full demand, so a recovered drive is used at once. See [`Applied`].
     pub fn applied(&self, state: &mut PidState<T>, applied: Applied<T>) {

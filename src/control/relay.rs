@@ -28,10 +28,10 @@
 //! - **Sign.** The amplitude d, k_u and the gains have the sign of the plant's gain. With the wrong
 //!   sign, the output leaves its range or the relay never switches back. The experiment then fails
 //!   with `OutputOutOfRange` or `NoOscillation`.
-//! - **Duration.** Every sample, good or bad, takes time from an integer budget. The experiment
-//!   therefore ends within `longest_time`. A sample without a usable `dt` takes `longest_dt`. A
-//!   failure latches the safe command until [`RelayState::acknowledge`]. After a success the
-//!   relay applies the centre.
+//! - **Duration.** Every sample, good or bad, consumes part of an integer time budget. The
+//!   experiment therefore ends within `longest_time`. A sample without a usable `dt` consumes
+//!   `longest_dt`. A failure latches the safe command until [`RelayState::acknowledge`]. After a
+//!   success the relay applies the centre.
 //!
 //! Source: K. Åström, T. Hägglund, "Automatic tuning of simple regulators with specifications on
 //! phase and amplitude margins", *Automatica* 20(5), 1984; the first harmonic of an asymmetric relay

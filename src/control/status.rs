@@ -59,7 +59,7 @@ pub enum Status {
     /// Too many bad samples: the safe command is applied until
     /// [`acknowledge`](crate::control::Controller::acknowledge), even if later samples are good.
     ///
-    /// The fault is the fault of the sample that exceeded the limit.
+    /// The value is the fault of the sample that brought the score to its limit.
     Safe(Fault),
 }
 

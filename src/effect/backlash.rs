@@ -5,8 +5,8 @@
 //! In series the same play acts on the transmission's input: hysteresis and gain then see
 //! `play(x; r)` instead of x.
 //!
-//! `play(x; r) − x` is `−stop(x; r)`: it is [`presliding`](super::presliding) with the opposite
-//! sign and r times as large. No record can distinguish the two.
+//! `play(x; r) − x` is `−stop(x; r)`: it equals [`presliding`](super::presliding) with the opposite
+//! sign, multiplied by r. No record can distinguish the two.
 //!
 //! Source: M. Nordin, P.-O. Gutman, "Controlling mechanical systems with backlash
 //! — a survey", *Automatica* 38(10), 2002; for the play, M. A. Krasnosel'skii,
@@ -60,7 +60,7 @@ shaped! {
     ///
     /// This is an input stage (see [`Effect::is_input_stage`](super::Effect::is_input_stage)). With
     /// a gain of one the transmission sees `play(x; r)`; with a lower gain, part of the gap is
-    /// bridged. It starts in mid-gap.
+    /// bridged. The play starts in mid-gap.
     ///
     /// ```
     /// use bowden::{effect::backlash::PlayInSeries, Error};

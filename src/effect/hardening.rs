@@ -17,10 +17,10 @@
 //!   `U(x) = (exp(g·(x − x_min)) − 1)/g` has `U' = 1 + g·U`. At w = U, the state rises with the
 //!   same slope, and falls with `1 + (g + 2·beta)·w`, which is steeper; so w never exceeds U. The
 //!   same holds for negative w. With `beta < 0` small reversals would increase w without limit.
-//! - Cycles dissipate energy: the area of a loop is never negative, as the return branch lies
-//!   below.
+//! - Cycles dissipate energy: the area of a loop is never negative, because the return branch lies
+//!   below the outgoing one.
 //!
-//! Between two samples x is monotone, and the step is the exact solution for any dx. If the
+//! If x is monotone between two samples, the step is the exact solution for any dx. If the
 //! exponential overflows, the step saturates at the largest float.
 //!
 //! Source: Y. K. Wen, "Method for random vibration of hysteretic systems", *Journal of the

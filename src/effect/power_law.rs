@@ -7,9 +7,9 @@
 //! (a = 1) and Coulomb friction (a towards 0). The function is continuous at v = 0, where its slope
 //! is infinite.
 //!
-//! Oils with additives, greases, and the fluids of magnetorheological dampers past yield thin
-//! with the shear rate. The constructor accepts any a > 0; above 1 the fluid thickens, and the
-//! formulas of [`drag`](super::drag) are a = 2 and a = 3.
+//! Oils with additives, greases, and (past yield) the fluids of magnetorheological dampers become
+//! thinner as the shear rate rises. The constructor accepts any a > 0. With a above 1 the fluid
+//! thickens; the formulas of [`drag`](super::drag) are the cases a = 2 and a = 3.
 //!
 //! Source: W. Ostwald, "Über die Geschwindigkeitsfunktion der Viskosität disperser Systeme. I",
 //! *Kolloid-Zeitschrift* 36, 1925, pp. 99–117; for dampers, `F = C·|v|^a·sgn(v)`: N. Makris,

@@ -12,7 +12,7 @@ use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 shaped! {
-    /// The temperature difference to `t_ref`.
+    /// The difference between the temperature and `t_ref`.
     ///
     /// ```
     /// use bowden::{effect::temperature::Temperature, Error};

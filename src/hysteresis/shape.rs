@@ -188,7 +188,7 @@ impl<T: Real> BoucWen<T> {
 
     /// The state after one increment; a long increment is split, so any jump is accurate.
     ///
-    /// Exact for `n = 1` and `n = 2`, otherwise of third order.
+    /// The result is exact for `n = 1` and `n = 2`, otherwise of third order.
     #[inline]
     #[must_use]
     pub fn advance_split(&self, eta: T, input_change: T) -> T {

@@ -124,7 +124,7 @@ impl<T: Real> TryFrom<Stored<T>> for BoucWenState<T> {
 
 /// The state eta with its derivatives by the parameters and the initial state.
 ///
-/// Advanced by [`BoucWen::advance_with_sensitivity`](super::BoucWen::advance_with_sensitivity).
+/// [`BoucWen::advance_with_sensitivity`](super::BoucWen::advance_with_sensitivity) advances it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

@@ -14,7 +14,7 @@ use crate::{Error, Real};
 
 /// The seven parameters of the textbook's Bouc-Wen model.
 ///
-/// With `x` a displacement and `F` a force or torque.
+/// Here `x` is a displacement, and `F` is a force or torque.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -37,8 +37,8 @@ pub struct Textbook<T> {
 
 /// Class of a Bouc-Wen model by the signs of A, beta + gamma and beta - gamma.
 ///
-/// The five classes with a bounded output for a bounded input. Only class I is dissipative with
-/// a hysteretic part that saturates, so only class I is a [`BoucWen`].
+/// Classes I to V give a bounded output for a bounded input. Only class I is dissipative with a
+/// hysteretic part that saturates, so only class I is a [`BoucWen`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

@@ -278,7 +278,7 @@ impl<T: Real> Biquad<T> {
         self.design.sample_time
     }
 
-    /// The output \[signal unit\] after a sample, `dt` \[s\] after the last one.
+    /// The output \[signal unit\] for a sample taken `dt` \[s\] after the last one.
     ///
     /// The first good sample starts the filter at rest: the output is that sample. A bad sample
     /// (not finite, or a `dt` that is not positive and finite) leaves the state unchanged. It

@@ -104,7 +104,7 @@ impl<T: Real> Derivative<T> {
         self.time_constant
     }
 
-    /// The filtered rate [signal unit/s] after a sample, `dt` \[s\] after the last one.
+    /// The filtered rate [signal unit/s] at a sample taken `dt` \[s\] after the last one.
     ///
     /// A sample is bad if it is not finite, if `dt` is not positive and finite, or if the result
     /// overflows. A bad sample leaves the state unchanged and returns the last rate. The state does

@@ -206,7 +206,7 @@ impl<T: Real> EdgeVelocity<T> {
         wrapping!(self, period, T::ZERO)
     }
 
-    /// The velocity \[channel unit/s\] after a `position`, `dt` \[s\] after the last call.
+    /// The velocity \[channel unit/s\] at a `position` measured `dt` \[s\] after the last call.
     ///
     /// `dt` is the time since the last call, whether that sample was good or bad. If the distance
     /// of a position from the last one overflows, the measurement restarts.

@@ -11,9 +11,9 @@ use crate::{Error, Real};
 /// `1/(2π·tau)` \[Hz\], to `dt/tau`. Slow signals have a delay of tau and a gain of 1.
 ///
 /// The first good sample starts the filter at rest: the output is that sample. The output leaves
-/// the range of the samples by rounding only. The output is a [`Compensated`] sum. A plain `f32`
-/// lag stops once its increment is less than half a unit in the last place. At `tau = 1000·dt` it
-/// would stop as far as 3e-5 of the target away from it.
+/// the range of the samples only through rounding. The output is a [`Compensated`] sum. A plain
+/// `f32` lag stops once its increment is less than half a unit in the last place. With a tau of
+/// 1000·dt it would stop up to 3e-5 of the target away from it.
 ///
 /// For a second-order filter, see [`Biquad`](super::Biquad).
 ///
@@ -110,7 +110,7 @@ impl<T: Real> LowPass<T> {
         self.time_constant
     }
 
-    /// The output \[signal unit\] after a sample, `dt` \[s\] after the last one.
+    /// The output \[signal unit\] for a sample taken `dt` \[s\] after the last one.
     ///
     /// A bad sample (not finite, or a `dt` that is not positive and finite) leaves the state
     /// unchanged. It returns the last output, zero before the first good sample. If the

@@ -277,7 +277,7 @@ impl<T: Real> Plausible<T> {
         longest!(self, longest_dt, T::ZERO)
     }
 
-    /// Checks a sample, `dt` \[s\] after the one before.
+    /// Checks a sample taken `dt` \[s\] after the one before.
     ///
     /// `moves` states whether the machine moves, so that the signal must change. A change of the
     /// command or of another sensor shows this, for example.

@@ -7,8 +7,8 @@ use crate::{Error, Real};
 /// A reference ramp: a rate limit, then a first-order lag.
 ///
 /// `r⁺ = r + clamp(wanted − r, ±rate·dt)`, `y⁺ = y + dt/(tau + dt)·(r⁺ − y)`. A step of the
-/// reference exceeds the drive's capability. The anti-windup, not the gains, then determines the
-/// response.
+/// reference can exceed what the drive can deliver. The anti-windup, not the gains, then determines
+/// the response.
 ///
 /// ```
 /// use bowden::signal::{Ramp, RampState};

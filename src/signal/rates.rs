@@ -309,7 +309,7 @@ impl<T: Real> Rates<T> {
         self.period
     }
 
-    /// The motion after a `position` \[channel unit\], `dt` \[s\] after the last call.
+    /// The motion at a `position` \[channel unit\] measured `dt` \[s\] after the last call.
     ///
     /// `dt` is the time since the last call, whether that sample was good or bad. It must be above
     /// zero at the first call too. A bad sample leaves the state unchanged except for the elapsed

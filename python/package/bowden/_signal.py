@@ -219,7 +219,7 @@ class _Filter(Block):
     """A signal in, a signal out."""
 
     def step(self, dt: Any, sample: Any) -> Any:
-        """The output after a sample, ``dt`` [s] (or a duration with a unit) after the last one.
+        """The output for a sample taken ``dt`` [s] (or a duration with a unit) after the last one.
 
         A bad sample (NaN, or a ``dt`` that is not positive) leaves the output unchanged.
         """

@@ -131,8 +131,7 @@ pub enum AntiWindup<T> {
 pub struct PidSettings<T> {
     /// Proportional gain \[command unit/output unit\]; finite.
     pub k_p: T,
-    /// Integral gain \[command unit/(output unit·s)\]; finite. It must have the
-    /// sign of `k_p`.
+    /// Integral gain \[command unit/(output unit·s)\]; finite. It must have the sign of `k_p`.
     ///
     /// **With 0 there is no integral.** An existing integral (from another law, or from a start
     /// at a given command) returns to zero with a time constant of 1 s. The command moves to
@@ -178,7 +177,7 @@ pub struct PidSettings<T> {
     ///
     /// A longer `dt` (a wrapped counter, a starved task) is a bad sample.
     pub longest_dt: T,
-    /// Fallback after repeated bad samples; its safe command lies within `limits`.
+    /// Fallback after repeated bad samples; its safe command must lie within `limits`.
     pub fallback: Fallback<T>,
 }
 

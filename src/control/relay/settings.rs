@@ -59,15 +59,15 @@ pub struct RelaySettings<T> {
     pub most_deviation: T,
     /// Number of successive cycles in the average, at least two.
     pub cycles: u32,
-    /// Largest deviation of a cycle's period and amplitude from the mean of earlier cycles, as
-    /// a share of this mean. The share lies between 0 and 1.
+    /// Largest deviation of a cycle's period and amplitude from the mean of earlier cycles, as a
+    /// share of this mean. The share must lie between 0 and 1.
     ///
     /// A cycle with a greater difference restarts the average. A period must have at least
     /// `2/agreement` samples, because a shorter period cannot be measured to this share.
     pub agreement: T,
     /// Maximum duration of the experiment, at least `longest_dt` \[s\].
     ///
-    /// The budget has 2³² − 1 ticks. Each sample takes the ticks of its `dt`, rounded up. n
+    /// The budget has 2³² − 1 ticks. Each sample consumes the ticks of its `dt`, rounded up; n
     /// samples therefore end the experiment early by at most n/2³² of this duration.
     pub longest_time: T,
     /// Longest `dt` of a good sample, above zero \[s\]: for example five nominal steps.

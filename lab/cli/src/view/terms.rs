@@ -2,7 +2,7 @@
 
 /// Output of `bowden help terms`.
 pub const TERMS: &str = "\
-The terms of `bowden identify`
+Terms used in the output of `bowden identify`
 
 baseline      The model that --baseline names (default: bouc-wen).
 term          An effect that the search adds to the baseline model. The effect in `effect@channel`

@@ -27,7 +27,7 @@ pub struct Lack {
     /// Share of the baseline's squared error on the fit segment that its members remove.
     pub share: f64,
     /// High for the mechanism that removes at least half of what all members remove, if no member of
-    /// it has an alternative of another mechanism.
+    /// it has an alternative in another mechanism.
     pub confidence: Grade,
     /// Mechanisms of the alternatives to its members.
     pub alternatives: Vec<Mechanism>,
