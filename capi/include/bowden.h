@@ -2306,7 +2306,8 @@ bowden_result bowden_adaptive_init_f32(struct bowden_adaptive_f32 *law,
                                        const struct bowden_adaptive_settings_f32 *settings,
                                        struct bowden_about *about);
 
-// One sample: the command and its status, as from bowden_pid_step.
+// Processes one sample; `out` receives the command and its status, as from
+// bowden_pid_step.
 bowden_result bowden_adaptive_step_f32(struct bowden_adaptive_f32 *law,
                                        const struct bowden_adaptive_sample_f32 *sample,
                                        struct bowden_output_f32 *out);
@@ -2362,7 +2363,8 @@ bowden_result bowden_adaptive_init_f64(struct bowden_adaptive_f64 *law,
                                        const struct bowden_adaptive_settings_f64 *settings,
                                        struct bowden_about *about);
 
-// One sample: the command and its status, as from bowden_pid_step.
+// Processes one sample; `out` receives the command and its status, as from
+// bowden_pid_step.
 bowden_result bowden_adaptive_step_f64(struct bowden_adaptive_f64 *law,
                                        const struct bowden_adaptive_sample_f64 *sample,
                                        struct bowden_output_f64 *out);
@@ -2437,7 +2439,7 @@ bowden_result bowden_compensator_set_play_f32(struct bowden_compensator_f32 *com
                                               float half_width,
                                               struct bowden_about *about);
 
-// One sample: the input for which the model's output is `desired`.
+// Computes, for one sample, the input for which the model's output is `desired`.
 //
 // A bad sample leaves the state unchanged and holds the last good command, zero before
 // the first one: BOWDEN_RESULT_HELD. `out` is written if the result is not negative.
@@ -2495,7 +2497,7 @@ bowden_result bowden_compensator_set_play_f64(struct bowden_compensator_f64 *com
                                               double half_width,
                                               struct bowden_about *about);
 
-// One sample: the input for which the model's output is `desired`.
+// Computes, for one sample, the input for which the model's output is `desired`.
 //
 // A bad sample leaves the state unchanged and holds the last good command, zero before
 // the first one: BOWDEN_RESULT_HELD. `out` is written if the result is not negative.
@@ -2572,7 +2574,7 @@ bowden_result bowden_low_pass_init_f32(struct bowden_low_pass_f32 *filter,
                                        float time_constant,
                                        struct bowden_about *about);
 
-// One sample, `dt` [s] after the last call: `output` receives
+// Processes a sample taken `dt` [s] after the last call; `output` receives
 //
 //     y+ = y + dt/(time_constant + dt)*(x - y)
 //
@@ -2594,7 +2596,8 @@ bowden_result bowden_biquad_init_notch_f32(struct bowden_biquad_f32 *filter,
                                            const struct bowden_biquad_settings_f32 *settings,
                                            struct bowden_about *about);
 
-// One sample, `dt` [s] after the last call: `output` receives the filtered value.
+// Processes a sample taken `dt` [s] after the last call; `output` receives the
+// filtered value.
 //
 // The first good sample starts the filter at rest. If the sample is not finite, or dt
 // is not positive and finite, the last output is held (zero before the first sample):
@@ -2610,7 +2613,7 @@ bowden_result bowden_low_pass_init_f64(struct bowden_low_pass_f64 *filter,
                                        double time_constant,
                                        struct bowden_about *about);
 
-// One sample, `dt` [s] after the last call: `output` receives
+// Processes a sample taken `dt` [s] after the last call; `output` receives
 //
 //     y+ = y + dt/(time_constant + dt)*(x - y)
 //
@@ -2632,7 +2635,8 @@ bowden_result bowden_biquad_init_notch_f64(struct bowden_biquad_f64 *filter,
                                            const struct bowden_biquad_settings_f64 *settings,
                                            struct bowden_about *about);
 
-// One sample, `dt` [s] after the last call: `output` receives the filtered value.
+// Processes a sample taken `dt` [s] after the last call; `output` receives the
+// filtered value.
 //
 // The first good sample starts the filter at rest. If the sample is not finite, or dt
 // is not positive and finite, the last output is held (zero before the first sample):
@@ -2647,9 +2651,9 @@ bowden_result bowden_hysteresis_init_f32(struct bowden_hysteresis_f32 *hysteresi
                                          const struct bowden_hysteresis_settings_f32 *settings,
                                          struct bowden_about *about);
 
-// One input [input unit]: `eta` receives the state, within -1 and 1. The first sample
-// only sets the input. If the value is not finite, the last result is held:
-// BOWDEN_RESULT_HELD.
+// Processes one input [input unit]; `eta` receives the state, within -1 and 1. The
+// first sample only sets the input. If the input is not finite, the last result is
+// held: BOWDEN_RESULT_HELD.
 bowden_result bowden_hysteresis_step_f32(struct bowden_hysteresis_f32 *hysteresis,
                                          float input,
                                          float *eta);
@@ -2659,8 +2663,8 @@ bowden_result bowden_cable_init_f32(struct bowden_cable_f32 *cable,
                                     const struct bowden_cable_settings_f32 *settings,
                                     struct bowden_about *about);
 
-// One input [input unit]: `output` receives the output [output unit]. If the input is
-// not finite, the last output is held (zero before the first sample):
+// Processes one input [input unit]; `output` receives the output [output unit]. If the
+// input is not finite, the last output is held (zero before the first sample):
 // BOWDEN_RESULT_HELD.
 bowden_result bowden_cable_step_f32(struct bowden_cable_f32 *cable, float input, float *output);
 
@@ -2683,9 +2687,9 @@ bowden_result bowden_hysteresis_init_f64(struct bowden_hysteresis_f64 *hysteresi
                                          const struct bowden_hysteresis_settings_f64 *settings,
                                          struct bowden_about *about);
 
-// One input [input unit]: `eta` receives the state, within -1 and 1. The first sample
-// only sets the input. If the value is not finite, the last result is held:
-// BOWDEN_RESULT_HELD.
+// Processes one input [input unit]; `eta` receives the state, within -1 and 1. The
+// first sample only sets the input. If the input is not finite, the last result is
+// held: BOWDEN_RESULT_HELD.
 bowden_result bowden_hysteresis_step_f64(struct bowden_hysteresis_f64 *hysteresis,
                                          double input,
                                          double *eta);
@@ -2695,8 +2699,8 @@ bowden_result bowden_cable_init_f64(struct bowden_cable_f64 *cable,
                                     const struct bowden_cable_settings_f64 *settings,
                                     struct bowden_about *about);
 
-// One input [input unit]: `output` receives the output [output unit]. If the input is
-// not finite, the last output is held (zero before the first sample):
+// Processes one input [input unit]; `output` receives the output [output unit]. If the
+// input is not finite, the last output is held (zero before the first sample):
 // BOWDEN_RESULT_HELD.
 bowden_result bowden_cable_step_f64(struct bowden_cable_f64 *cable, double input, double *output);
 
@@ -2742,11 +2746,11 @@ bowden_result bowden_iterative_learning_resume_f32(struct bowden_iterative_learn
                                                    size_t cells,
                                                    struct bowden_about *about);
 
-// One sample, before the controller's step: the phase of the cycle, from 0 to 1, and
-// the reference and the measured output [output unit]. Set `learns` to 0 if a limit
-// has cut the command, the safe command is applied, or the task is different. If more
-// than half of a cell's samples have `learns` = 0, the errors of the next `lead` cells
-// are ignored too.
+// Processes one sample; call it before the controller's step, with the phase of the
+// cycle, from 0 to 1, the reference, and the measured output [output unit]. Set
+// `learns` to 0 if a limit has cut the command, the safe command is applied, or the
+// task is different. If more than half of a cell's samples have `learns` = 0, the
+// errors of the next `lead` cells are ignored too.
 //
 // A phase outside 0 to 1 changes nothing and holds the feed-forward:
 // BOWDEN_RESULT_HELD. The controller counts such samples as good.
@@ -2790,11 +2794,11 @@ bowden_result bowden_iterative_learning_resume_f64(struct bowden_iterative_learn
                                                    size_t cells,
                                                    struct bowden_about *about);
 
-// One sample, before the controller's step: the phase of the cycle, from 0 to 1, and
-// the reference and the measured output [output unit]. Set `learns` to 0 if a limit
-// has cut the command, the safe command is applied, or the task is different. If more
-// than half of a cell's samples have `learns` = 0, the errors of the next `lead` cells
-// are ignored too.
+// Processes one sample; call it before the controller's step, with the phase of the
+// cycle, from 0 to 1, the reference, and the measured output [output unit]. Set
+// `learns` to 0 if a limit has cut the command, the safe command is applied, or the
+// task is different. If more than half of a cell's samples have `learns` = 0, the
+// errors of the next `lead` cells are ignored too.
 //
 // A phase outside 0 to 1 changes nothing and holds the feed-forward:
 // BOWDEN_RESULT_HELD. The controller counts such samples as good.
@@ -2827,7 +2831,7 @@ bowden_result bowden_model_load_f32(struct bowden_model_f32 *model,
                                     float eta,
                                     struct bowden_about *about);
 
-// One sample: `output` receives the predicted output [output unit]:
+// Processes one sample; `output` receives the predicted output [output unit]:
 //
 //     y = transmission(input, eta) + sum of gain*regressor
 //
@@ -2861,7 +2865,7 @@ bowden_result bowden_model_load_f64(struct bowden_model_f64 *model,
                                     double eta,
                                     struct bowden_about *about);
 
-// One sample: `output` receives the predicted output [output unit]:
+// Processes one sample; `output` receives the predicted output [output unit]:
 //
 //     y = transmission(input, eta) + sum of gain*regressor
 //
@@ -2883,9 +2887,9 @@ bowden_result bowden_observer_init_f32(struct bowden_observer_f32 *observer,
                                        const struct bowden_observer_settings_f32 *settings,
                                        struct bowden_about *about);
 
-// One sample, before the controller's step: `dt` since the last call [s], the applied
-// command of the last call after all limits [command unit], and the measured output
-// [output unit].
+// Processes one sample; call it before the controller's step, with `dt` since the last
+// call [s], the applied command of the last call after all limits [command unit], and
+// the measured output [output unit].
 //
 // A bad sample holds the estimate: BOWDEN_RESULT_HELD. `out` is written if the result
 // is not negative.
@@ -2910,9 +2914,9 @@ bowden_result bowden_observer_init_f64(struct bowden_observer_f64 *observer,
                                        const struct bowden_observer_settings_f64 *settings,
                                        struct bowden_about *about);
 
-// One sample, before the controller's step: `dt` since the last call [s], the applied
-// command of the last call after all limits [command unit], and the measured output
-// [output unit].
+// Processes one sample; call it before the controller's step, with `dt` since the last
+// call [s], the applied command of the last call after all limits [command unit], and
+// the measured output [output unit].
 //
 // A bad sample holds the estimate: BOWDEN_RESULT_HELD. `out` is written if the result
 // is not negative.
@@ -2955,7 +2959,7 @@ bowden_result bowden_pid_init_f32(struct bowden_pid_f32 *pid,
                                   const struct bowden_pid_settings_f32 *settings,
                                   struct bowden_about *about);
 
-// One sample: the command and its status.
+// Processes one sample; `out` receives the command and its status.
 //
 // A bad sample (NaN, an infinity, a dt that is not positive or too long) leaves the
 // state unchanged and holds the last good command: BOWDEN_RESULT_HELD. After too many
@@ -3051,7 +3055,7 @@ bowden_result bowden_pid_init_f64(struct bowden_pid_f64 *pid,
                                   const struct bowden_pid_settings_f64 *settings,
                                   struct bowden_about *about);
 
-// One sample: the command and its status.
+// Processes one sample; `out` receives the command and its status.
 //
 // A bad sample (NaN, an infinity, a dt that is not positive or too long) leaves the
 // state unchanged and holds the last good command: BOWDEN_RESULT_HELD. After too many
@@ -3162,8 +3166,8 @@ bowden_result bowden_play_init_f32(struct bowden_play_f32 *play,
                                    float half_width,
                                    struct bowden_about *about);
 
-// One input [input unit]: `output` receives the last output, moved by the least amount
-// that keeps it within the half-width r of the input:
+// Processes one input [input unit]; `output` receives the last output, moved by the
+// least amount that keeps it within the half-width r of the input:
 //
 //     y+ = clamp(y, x - r, x + r)
 //
@@ -3179,8 +3183,8 @@ bowden_result bowden_play_init_f64(struct bowden_play_f64 *play,
                                    double half_width,
                                    struct bowden_about *about);
 
-// One input [input unit]: `output` receives the last output, moved by the least amount
-// that keeps it within the half-width r of the input:
+// Processes one input [input unit]; `output` receives the last output, moved by the
+// least amount that keeps it within the half-width r of the input:
 //
 //     y+ = clamp(y, x - r, x + r)
 //
@@ -3236,13 +3240,13 @@ bowden_result bowden_relay_init_f32(struct bowden_relay_f32 *relay,
                                     const struct bowden_relay_settings_f32 *settings,
                                     struct bowden_about *about);
 
-// One sample: `dt` since the last call [s], also after a bad sample, and the measured
-// output [output unit]. Call this function while the phase is
+// Processes one sample, with `dt` since the last call [s], also after a bad sample,
+// and the measured output [output unit]. Call this function while the phase is
 // BOWDEN_RELAY_PHASE_RUNNING.
 //
 // A bad sample holds the command: BOWDEN_RESULT_HELD. After a failure the safe command
-// is applied until bowden_relay_acknowledge: BOWDEN_RESULT_SAFE. Every sample takes
-// time from `longest_time`, so the experiment ends. `out` is written if the result is
+// is applied until bowden_relay_acknowledge: BOWDEN_RESULT_SAFE. Every sample consumes
+// part of `longest_time`, so the experiment ends. `out` is written if the result is
 // not negative.
 bowden_result bowden_relay_step_f32(struct bowden_relay_f32 *relay,
                                     float dt,
@@ -3273,13 +3277,13 @@ bowden_result bowden_relay_init_f64(struct bowden_relay_f64 *relay,
                                     const struct bowden_relay_settings_f64 *settings,
                                     struct bowden_about *about);
 
-// One sample: `dt` since the last call [s], also after a bad sample, and the measured
-// output [output unit]. Call this function while the phase is
+// Processes one sample, with `dt` since the last call [s], also after a bad sample,
+// and the measured output [output unit]. Call this function while the phase is
 // BOWDEN_RELAY_PHASE_RUNNING.
 //
 // A bad sample holds the command: BOWDEN_RESULT_HELD. After a failure the safe command
-// is applied until bowden_relay_acknowledge: BOWDEN_RESULT_SAFE. Every sample takes
-// time from `longest_time`, so the experiment ends. `out` is written if the result is
+// is applied until bowden_relay_acknowledge: BOWDEN_RESULT_SAFE. Every sample consumes
+// part of `longest_time`, so the experiment ends. `out` is written if the result is
 // not negative.
 bowden_result bowden_relay_step_f64(struct bowden_relay_f64 *relay,
                                     double dt,

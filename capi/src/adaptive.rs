@@ -110,7 +110,8 @@ macro_rules! adaptive {
                 }
             }
 
-            /// One sample: the command and its status, as from bowden_pid_step.
+            /// Processes one sample; `out` receives the command and its status, as from
+            /// bowden_pid_step.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_step_ $f>](
                 law: *mut [<bowden_adaptive_ $f>],

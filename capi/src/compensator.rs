@@ -153,7 +153,7 @@ macro_rules! compensator {
                 unsafe { told(tried(), about) }
             }
 
-            /// One sample: the input for which the model's output is `desired`.
+            /// Computes, for one sample, the input for which the model's output is `desired`.
             ///
             /// A bad sample leaves the state unchanged and holds the last good command, zero before
             /// the first one: BOWDEN_RESULT_HELD. `out` is written if the result is not negative.

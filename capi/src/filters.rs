@@ -55,7 +55,7 @@ macro_rules! filters {
                 unsafe { told(parts().and_then(|inner| Ok(start(filter, inner)?)), about) }
             }
 
-            /// One sample, `dt` [s] after the last call: `output` receives
+            /// Processes a sample taken `dt` [s] after the last call; `output` receives
             ///
             ///     y+ = y + dt/(time_constant + dt)*(x - y)
             ///
@@ -168,7 +168,8 @@ macro_rules! filters {
                 }
             }
 
-            /// One sample, `dt` [s] after the last call: `output` receives the filtered value.
+            /// Processes a sample taken `dt` [s] after the last call; `output` receives the
+            /// filtered value.
             ///
             /// The first good sample starts the filter at rest. If the sample is not finite, or dt
             /// is not positive and finite, the last output is held (zero before the first sample):

@@ -193,9 +193,9 @@ macro_rules! hysteresis {
                 unsafe { told(parts().and_then(|inner| Ok(start(hysteresis, inner)?)), about) }
             }
 
-            /// One input [input unit]: `eta` receives the state, within -1 and 1. The first sample
-            /// only sets the input. If the value is not finite, the last result is held:
-            /// BOWDEN_RESULT_HELD.
+            /// Processes one input [input unit]; `eta` receives the state, within -1 and 1. The
+            /// first sample only sets the input. If the input is not finite, the last result is
+            /// held: BOWDEN_RESULT_HELD.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_hysteresis_step_ $f>](
                 hysteresis: *mut [<bowden_hysteresis_ $f>],
@@ -228,8 +228,8 @@ macro_rules! hysteresis {
                 }
             }
 
-            /// One input [input unit]: `output` receives the output [output unit]. If the input is
-            /// not finite, the last output is held (zero before the first sample):
+            /// Processes one input [input unit]; `output` receives the output [output unit]. If the
+            /// input is not finite, the last output is held (zero before the first sample):
             /// BOWDEN_RESULT_HELD.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_cable_step_ $f>](

@@ -186,11 +186,11 @@ macro_rules! learning {
                 }
             }
 
-            /// One sample, before the controller's step: the phase of the cycle, from 0 to 1, and
-            /// the reference and the measured output [output unit]. Set `learns` to 0 if a limit
-            /// has cut the command, the safe command is applied, or the task is different. If more
-            /// than half of a cell's samples have `learns` = 0, the errors of the next `lead` cells
-            /// are ignored too.
+            /// Processes one sample; call it before the controller's step, with the phase of the
+            /// cycle, from 0 to 1, the reference, and the measured output [output unit]. Set
+            /// `learns` to 0 if a limit has cut the command, the safe command is applied, or the
+            /// task is different. If more than half of a cell's samples have `learns` = 0, the
+            /// errors of the next `lead` cells are ignored too.
             ///
             /// A phase outside 0 to 1 changes nothing and holds the feed-forward:
             /// BOWDEN_RESULT_HELD. The controller counts such samples as good.

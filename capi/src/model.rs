@@ -124,7 +124,7 @@ macro_rules! model {
                 }
             }
 
-            /// One sample: `output` receives the predicted output [output unit]:
+            /// Processes one sample; `output` receives the predicted output [output unit]:
             ///
             ///     y = transmission(input, eta) + sum of gain*regressor
             ///

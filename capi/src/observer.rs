@@ -109,9 +109,9 @@ macro_rules! observer {
                 unsafe { told(parts().and_then(|inner| Ok(start(observer, inner)?)), about) }
             }
 
-            /// One sample, before the controller's step: `dt` since the last call [s], the applied
-            /// command of the last call after all limits [command unit], and the measured output
-            /// [output unit].
+            /// Processes one sample; call it before the controller's step, with `dt` since the last
+            /// call [s], the applied command of the last call after all limits [command unit], and
+            /// the measured output [output unit].
             ///
             /// A bad sample holds the estimate: BOWDEN_RESULT_HELD. `out` is written if the result
             /// is not negative.

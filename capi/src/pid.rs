@@ -144,7 +144,7 @@ macro_rules! pid {
                 }
             }
 
-            /// One sample: the command and its status.
+            /// Processes one sample; `out` receives the command and its status.
             ///
             /// A bad sample (NaN, an infinity, a dt that is not positive or too long) leaves the
             /// state unchanged and holds the last good command: BOWDEN_RESULT_HELD. After too many

@@ -40,8 +40,8 @@ macro_rules! play {
                 unsafe { told(parts().and_then(|inner| Ok(start(play, inner)?)), about) }
             }
 
-            /// One input [input unit]: `output` receives the last output, moved by the least amount
-            /// that keeps it within the half-width r of the input:
+            /// Processes one input [input unit]; `output` receives the last output, moved by the
+            /// least amount that keeps it within the half-width r of the input:
             ///
             ///     y+ = clamp(y, x - r, x + r)
             ///

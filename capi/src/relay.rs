@@ -268,13 +268,13 @@ macro_rules! relay {
                 }
             }
 
-            /// One sample: `dt` since the last call [s], also after a bad sample, and the measured
-            /// output [output unit]. Call this function while the phase is
+            /// Processes one sample, with `dt` since the last call [s], also after a bad sample,
+            /// and the measured output [output unit]. Call this function while the phase is
             /// BOWDEN_RELAY_PHASE_RUNNING.
             ///
             /// A bad sample holds the command: BOWDEN_RESULT_HELD. After a failure the safe command
-            /// is applied until bowden_relay_acknowledge: BOWDEN_RESULT_SAFE. Every sample takes
-            /// time from `longest_time`, so the experiment ends. `out` is written if the result is
+            /// is applied until bowden_relay_acknowledge: BOWDEN_RESULT_SAFE. Every sample consumes
+            /// part of `longest_time`, so the experiment ends. `out` is written if the result is
             /// not negative.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_relay_step_ $f>](
