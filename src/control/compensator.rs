@@ -292,7 +292,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         &self.transmission
     }
 
-    /// One sample: the input for which the model's output is `desired`.
+    /// Processes one sample and returns the input for which the model's output is `desired`.
     ///
     /// A bad sample holds the last good command, zero before the first one. It leaves the state
     /// unchanged except for the count of bad samples. A sample is bad if

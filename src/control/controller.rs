@@ -79,7 +79,8 @@ pub trait Controller<T: Real> {
     /// A new state, before the first sample.
     fn start(&self) -> Self::State;
 
-    /// One sample: the command \[command unit\], finite and within the limits for any state.
+    /// Processes one sample and returns the command \[command unit\], which is finite and within
+    /// the limits for any state.
     fn step(&self, state: &mut Self::State, at: &LoopSample<'_, T>) -> Output<T>;
 
     /// Prepares a stored state for a start after a power-off: the command becomes the permitted

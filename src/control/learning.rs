@@ -328,7 +328,7 @@ impl<T: Real> IterativeLearning<T> {
         self.check_cells(learned.len())
     }
 
-    /// One sample: returns the value to add to the command at this phase.
+    /// Processes one sample and returns the value to add to the command at this phase.
     ///
     /// Call this method at every sample, before the controller, with the state of this learning.
     /// For any state and buffers the feed-forward is finite and within ±limit. A jump of the phase

@@ -251,7 +251,7 @@ impl<T: Real> DisturbanceObserver<T> {
         self.latency
     }
 
-    /// One sample: returns the estimate to add to the next command.
+    /// Processes one sample and returns the estimate to add to the next command.
     ///
     /// Call this method at every sample, before the controller. A bad sample holds the estimate,
     /// and the next good sample includes its time. A sample is bad if `dt` is not positive or too

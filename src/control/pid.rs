@@ -147,7 +147,7 @@ impl<T: Real> Pid<T> {
         &self.settings
     }
 
-    /// One sample: returns the command \[command unit\] and the status.
+    /// Processes one sample and returns the command \[command unit\] and the status.
     ///
     /// The command is finite and within the limits for any input **and any state**, including a
     /// stored state and a state of another controller. A bad sample leaves the state unchanged,

@@ -205,8 +205,8 @@ impl<T: Real> Relay<T> {
         &self.settings
     }
 
-    /// One sample: `dt` is the time since the last call \[s\], also after a bad sample; `measured`
-    /// is the measured output \[output unit\].
+    /// Processes one sample. `dt` is the time since the last call \[s\], also after a bad sample;
+    /// `measured` is the measured output \[output unit\].
     ///
     /// The command is finite and within the limits for any input **and any state**. A bad sample
     /// holds the command, and its time counts. If its `dt` is not usable, the remaining time

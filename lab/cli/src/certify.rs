@@ -9,9 +9,9 @@ use std::process::ExitCode;
 
 #[derive(Args)]
 pub struct Certify {
-    /// Your gains of the first-order form and the known ranges of the plant. Proves an error bound
-    /// for the controller in its float type, including every rounding. Exit status 1 if the proof
-    /// fails.
+    /// Your gains of the first-order form and the known ranges of the plant. The program then
+    /// proves an error bound for the controller in its float type, including every rounding error.
+    /// The exit status is 1 if the proof fails.
     #[arg(value_name = "GAINS.toml", conflicts_with = "gains")]
     own: Option<PathBuf>,
     /// Gains and rig [default: the gains of Nguyen et al. (2018) and the reference rig].

@@ -17,7 +17,7 @@ pub struct Compare {
     /// gains of Nguyen et al. (2018), hides what a found effect improves.
     #[arg(long, value_name = "N·m")]
     noise: Option<f64>,
-    /// The conduit is moved during the trials: B, kappa_eta and T0 drift.
+    /// Move the conduit during the trials, so that B, kappa_eta and T0 drift.
     #[arg(long)]
     varying: bool,
     /// Follow a gait, with an ankle's push-off once per second, instead of the reference of Nguyen

@@ -14,7 +14,7 @@ pub enum ModeName {
 /// How the columns of a record are read and filtered.
 #[derive(Args, Default)]
 pub struct Columns {
-    /// Torque (tau_i to tau_o) or displacement (x to f) [default: what the column names say].
+    /// Torque (tau_i to tau_o) or displacement (x to f) [default: from the column names].
     #[arg(long, value_enum)]
     pub mode: Option<ModeName>,
     /// Column of the time [s] [default: `t`, `time` or `timestamp`].
@@ -67,8 +67,8 @@ pub struct Reading {
     /// Add at most N terms, 0 to 8; 0 fits only the baseline model.
     #[arg(long, alias = "rounds", value_name = "N")]
     pub max_terms: Option<usize>,
-    /// Stop the search after this time and print the best model so far. The result then depends on
-    /// the speed of the computer.
+    /// Stop the search after this time and print the best model so far. The result may then depend
+    /// on the speed of the computer.
     #[arg(long, alias = "budget", value_name = "SECONDS")]
     pub time_limit: Option<f64>,
 }

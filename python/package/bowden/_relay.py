@@ -111,7 +111,7 @@ class Relay(Block):
         }
 
     def step(self, dt: Any, measured: Any) -> RelayResult:
-        """One sample: ``dt`` since the last one [s] (or a duration), and the measured output."""
+        """Processes a sample: ``dt`` since the last one [s] or a duration; the measured output."""
         (command, *_), phase, fault = self._one(dt, "measured", measured)
         if self._alone:
             return RelayResult(command, RelayPhase(phase), Fault(fault))

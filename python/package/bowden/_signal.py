@@ -169,7 +169,7 @@ class Rates(Block):
         return {**super()._from_core(core), "longest_gap": core["block"]["longest_gap"]}
 
     def step(self, dt: Any, position: Any) -> RatesResult:
-        """One sample: ``dt`` since the last one [s], or a duration with a unit; ``position``."""
+        """Processes one ``position``, ``dt`` [s] (or a duration with a unit) after the last one."""
         (x, v, a), status, fault = self._one(dt, "position", position)
         if self._alone:
             return RatesResult(x, v, a, RatesStatus(status), Fault(fault))
@@ -203,7 +203,7 @@ class EdgeVelocity(Block):
     )
 
     def step(self, dt: Any, position: Any) -> EdgeVelocityResult:
-        """One sample: ``dt`` since the last one [s], or a duration with a unit; ``position``."""
+        """Processes one ``position``, ``dt`` [s] (or a duration with a unit) after the last one."""
         (velocity, *_), status, fault = self._one(dt, "position", position)
         if self._alone:
             return EdgeVelocityResult(velocity, EdgeStatus(status), Fault(fault))
