@@ -13,7 +13,7 @@
 //!
 //! The rates of each source, once per sample, each source with its own `RatesState`:
 //! `let motion = Rates::try_new(RATES_TIME_CONSTANT)?.step(&mut state, position, dt).motion;`
-//! Made for a feed-forward: `Compensator::try_new(&model()?)?.with_ranges(&ranges())?`.
+//! For a feed-forward: `Compensator::try_new(&model()?)?.with_ranges(&ranges())?`.
 
 use bowden::control::BenchRange;
 use bowden::effect::Motion;

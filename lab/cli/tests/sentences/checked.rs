@@ -273,7 +273,7 @@ fn a_model_that_did_not_carry_over_at_home_is_told_of_wherever_it_is_tried() {
         .find(|line| line.starts_with("verdict = "))
         .unwrap();
     let other = text.replace(own, "verdict = \"not-transferable\"");
-    let told = "Its own verdict was `not-transferable`";
+    let told = "The model's own verdict was `not-transferable`";
     assert!(!sentence(&bench.check(&another(rows))).contains(told));
     std::fs::write(&bench.model, other).unwrap();
     says(&bench.check(&another(spring((99.0, 0.0), 0))), &[told]);
@@ -298,7 +298,7 @@ fn just_above_the_limit_of_a_model_that_was_not_exact_nothing_is_decided() {
     );
     let more = bench.check(&disturbed(1.0, 3.5, 200_000));
     assert_eq!(more["verdict"], "does-not-hold");
-    says(&more, &["It was not exact on its own record"]);
+    says(&more, &["The model was not exact on its own record"]);
     // The model of a spring that it describes to the noise.
     let bench = Bench::of(&spring((99.0, 0.0), 0));
     let disturbed = bench.check(&disturbed(1.0, 0.1, 200_000));

@@ -157,7 +157,7 @@ impl ModelFile {
             );
             line!(
                 out,
-                "//! Made for a feed-forward: `Compensator::try_new(&model()?)?.with_ranges(&ranges())?`."
+                "//! For a feed-forward: `Compensator::try_new(&model()?)?.with_ranges(&ranges())?`."
             );
         }
         line!(out);

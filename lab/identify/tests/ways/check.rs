@@ -236,7 +236,7 @@ fn without_a_held_out_error_only_noise_is_judged() {
     assert_eq!(found.verdict, Verdict::CannotTell);
     assert!(CheckFacts::new(&found)
         .sentence
-        .contains("cannot be decided"));
+        .contains("cannot tell whether the model holds"));
 }
 
 #[test]

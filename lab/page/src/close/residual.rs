@@ -80,7 +80,7 @@ pub(crate) fn over_all(figures: &Figures, unit: Option<&str>) -> Markup {
     let (worst, others) = charts.split_at(charts.len().min(WORST));
     html! {
         p {
-            "Mean residual in bins of equally many samples, with 95 % intervals that allow for correlation in time. "
+            "Mean residual in bins with equal numbers of samples, with 95 % intervals that allow for correlation in time. "
             "Open: " (first.name) "; filled: " (last.name)
             ". If the filled dots form a curve, the model lacks an effect; about one bin in twenty differs from zero by chance."
         }

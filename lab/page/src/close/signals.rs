@@ -361,7 +361,7 @@ pub(crate) fn of_files(signals: &Signals) -> Markup {
 pub(super) fn loops(facts: &Facts, figures: &Figures) -> Markup {
     html! {
         p {
-            "Without hysteresis the output would be a function of the input, and the loop a single curve. Its height at a given input is the difference between the forward and the backward stroke"
+            "Without hysteresis the output would be a function of the input, and the loop a single curve. The height of the loop at a given input is the difference between the forward and the backward stroke"
             (in_brackets(facts.record.unit.as_deref())) ". On the right: the residuals over the same input."
         }
         (loops_of_files(&figures.signals))

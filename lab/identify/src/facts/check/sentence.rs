@@ -71,7 +71,7 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
             was_poor(check)
         ),
         Verdict::Holds if check.is_as_at_home && !is_noise(check) => format!(
-            "The model holds: its error is {}; nothing was refitted. The output moves less here, so this is {as_it_is} of it, compared with {came}.",
+            "The model holds: its error is {}; nothing was refitted. The output moves less here, so this error is {as_it_is} of the output, compared with {came}.",
             in_its_unit(check)
         ),
         Verdict::Holds => format!(
@@ -99,15 +99,15 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
             "This record is inconclusive: its output moves by little more than the noise.".to_owned()
         }
         Verdict::CannotTell if check.is_as_at_home => format!(
-            "This record is inconclusive: the error is {}, which is no sign of a change, but the output moves so little here that this is {as_it_is} of it. Record a larger motion.",
+            "This record is inconclusive: the error is {}, which is no sign of a change, but the output moves so little here that this error is {as_it_is} of the output. Record a larger motion.",
             in_its_unit(check)
         ),
         Verdict::CannotTell if check.is_just_above => format!(
-            "It cannot be decided whether the model holds: its error is {as_it_is} of this record's output, compared with {came}; the limit is {}. It was not exact on its own record, and such a model has a larger error on another motion. Use a record of the same motion.",
+            "The program cannot tell whether the model holds: its error is {as_it_is} of this record's output, compared with {came}; the limit is {}. The model was not exact on its own record, and such a model may have a larger error on another motion. Use a record of the same motion.",
             check.allowed.map_or_else(String::new, share)
         ),
         Verdict::CannotTell => format!(
-            "It cannot be decided whether the model holds: its error exceeds the noise and is {as_it_is} of this record's output, compared with {came}."
+            "The program cannot tell whether the model holds: its error exceeds the noise and is {as_it_is} of this record's output, compared with {came}."
         ),
         Verdict::DefectiveRecord => format!(
             "The measurement is defective, so the record says nothing about the model: its error is {as_it_is} of the recorded output."
@@ -123,7 +123,9 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
         text.push_str(&with_reserve(check));
     }
     if check.was_of_one_record {
-        text.push_str(" Its own verdict was `not-transferable`: do not use it on another record.");
+        text.push_str(
+            " The model's own verdict was `not-transferable`: do not use it on another record.",
+        );
     }
     text
 }
@@ -250,7 +252,7 @@ fn another_unit(check: &CheckFacts) -> &'static str {
     match (is_far, check.was_inexact && !check.offset_alone) {
         (true, true) => " Is the output in another unit here, or calibrated differently, or is the motion different? The gain of a model that was not exact on its own record may differ at another speed or stroke.",
         (true, false) => " Is the output in another unit here, or calibrated differently?",
-        (false, true) => " It was not exact on its own record: at another speed or stroke the gain of such a model may differ although the rig is the same.",
+        (false, true) => " The model was not exact on its own record: at another speed or stroke the gain of such a model may differ although the rig is the same.",
         (false, false) => "",
     }
 }
@@ -297,7 +299,7 @@ fn reasons(check: &CheckFacts) -> String {
         }
     };
     if check.was_inexact {
-        text.push_str(" It was not exact on its own record: on another motion such a model may have this error although the rig is the same.");
+        text.push_str(" The model was not exact on its own record: on another motion such a model may have this error although the rig is the same.");
     }
     let mut beyond: Vec<String> = Vec::new();
     for one in &check.outside {
