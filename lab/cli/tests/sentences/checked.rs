@@ -294,7 +294,7 @@ fn just_above_the_limit_of_a_model_that_was_not_exact_nothing_is_decided() {
     assert_eq!(above["verdict"], "cannot-tell");
     says(
         &above,
-        &["the limit is", "has a larger error on another motion"],
+        &["the limit is", "may have a larger error on another motion"],
     );
     let more = bench.check(&disturbed(1.0, 3.5, 200_000));
     assert_eq!(more["verdict"], "does-not-hold");
