@@ -104,7 +104,12 @@ fn on_the_bench(outcome: &Outcome) -> String {
 
 /// Number of trials in which each controller gains.
 fn over_seeds(found: &Found) -> Columns {
-    let header = ["Trials in which the error is", "lower", "the same", "higher"];
+    let header = [
+        "Trials in which the error is",
+        "lower",
+        "the same",
+        "higher",
+    ];
     let mut rows = Columns::new(&header, &[]);
     for over in &found.over_seeds {
         let counts = [over.lower, over.same, over.higher].map(|count| count.to_string());
