@@ -104,15 +104,16 @@ macro_rules! shaped_types {
 
 /// The enum of all effects and the dispatch to each one's own file.
 ///
-/// Compact forms store the index of an effect in the enum: add new effects under `later`.
+/// Compact forms store the index of an effect in the enum: add new effects under `newest`.
 macro_rules! effects {
     (
         plain { $($module:ident: $($plain:ident)+;)* }
         shaped { $($shaped_module:ident: $($shaped:ident)+;)* }
         later { $($later_module:ident: $($later:ident)+;)* }
         later_shaped { $($late_module:ident: $($late:ident)+;)* }
+        newest { $($new_module:ident: $($new:ident)+;)* }
     ) => {
-        plain_types! { $($module: $($plain)+;)* $($later_module: $($later)+;)* }
+        plain_types! { $($module: $($plain)+;)* $($later_module: $($later)+;)* $($new_module: $($new)+;)* }
 
         shaped_types! { $($shaped_module: $($shaped)+;)* $($late_module: $($late)+;)* }
 
@@ -139,6 +140,7 @@ macro_rules! effects {
             $($(#[doc = concat!("Formula and source: [`", stringify!($shaped_module), "`].")] $shaped($shaped_module::$shaped<T>),)+)*
             $($(#[doc = concat!("Without shapes; formula and source: [`", stringify!($later_module), "`].")] $later,)+)*
             $($(#[doc = concat!("Formula and source: [`", stringify!($late_module), "`].")] $late($late_module::$late<T>),)+)*
+            $($(#[doc = concat!("Without shapes; formula and source: [`", stringify!($new_module), "`].")] $new,)+)*
         }
 
         /// All effects, in the order in which compact forms number them.
@@ -152,6 +154,7 @@ macro_rules! effects {
             $($(<$shaped_module::$shaped<f64> as Regressor<f64>>::INFO,)+)*
             $($(<$later as Regressor<f64>>::INFO,)+)*
             $($(<$late_module::$late<f64> as Regressor<f64>>::INFO,)+)*
+            $($(<$new as Regressor<f64>>::INFO,)+)*
         ];
 
         impl<T: Real> Effect<T> {
@@ -162,6 +165,7 @@ macro_rules! effects {
                     $($(Self::$plain => <$plain as Regressor<T>>::INFO,)+)*
                     $($(Self::$shaped(_) => <$shaped_module::$shaped<T> as Regressor<T>>::INFO,)+)*
                     $($(Self::$later => <$later as Regressor<T>>::INFO,)+)*
+                    $($(Self::$new => <$new as Regressor<T>>::INFO,)+)*
                     $($(Self::$late(_) => <$late_module::$late<T> as Regressor<T>>::INFO,)+)*
                 }
             }
@@ -172,6 +176,7 @@ macro_rules! effects {
                     $($(Self::$plain => <$plain as Regressor<T>>::STAGE,)+)*
                     $($(Self::$shaped(_) => <$shaped<T> as Regressor<T>>::STAGE,)+)*
                     $($(Self::$later => <$later as Regressor<T>>::STAGE,)+)*
+                    $($(Self::$new => <$new as Regressor<T>>::STAGE,)+)*
                     $($(Self::$late(_) => <$late<T> as Regressor<T>>::STAGE,)+)*
                 }
             }
@@ -183,6 +188,7 @@ macro_rules! effects {
                     $($(Self::$plain)|+ => &[],)*
                     $($(Self::$shaped(_) => <$shaped_module::$shaped<T>>::NAMES,)+)*
                     $($(Self::$later)|+ => &[],)*
+                    $($(Self::$new)|+ => &[],)*
                     $($(Self::$late(_) => <$late_module::$late<T>>::NAMES,)+)*
                 }
             }
@@ -194,6 +200,7 @@ macro_rules! effects {
                     $($(Self::$plain)|+ => &[],)*
                     $($(Self::$shaped(_) => <$shaped_module::$shaped<T>>::SHAPES,)+)*
                     $($(Self::$later)|+ => &[],)*
+                    $($(Self::$new)|+ => &[],)*
                     $($(Self::$late(_) => <$late_module::$late<T>>::SHAPES,)+)*
                 }
             }
@@ -205,6 +212,7 @@ macro_rules! effects {
                     $($(Self::$plain)|+ => None,)*
                     $($(Self::$shaped(config) => config.shape(index),)+)*
                     $($(Self::$later)|+ => None,)*
+                    $($(Self::$new)|+ => None,)*
                     $($(Self::$late(config) => config.shape(index),)+)*
                 }
             }
@@ -219,6 +227,7 @@ macro_rules! effects {
                     $($(Self::$plain)|+ => Err(Error::OutOfRange("shape index")),)*
                     $($(Self::$shaped(config) => config.with_shape(index, value).map(Self::$shaped),)+)*
                     $($(Self::$later)|+ => Err(Error::OutOfRange("shape index")),)*
+                    $($(Self::$new)|+ => Err(Error::OutOfRange("shape index")),)*
                     $($(Self::$late(config) => config.with_shape(index, value).map(Self::$late),)+)*
                 }
             }
@@ -238,6 +247,7 @@ macro_rules! effects {
                         Shaped::try_from_shapes(shapes).map(Self::$shaped)
                     })+)*
                     $($(name if name == <$later as Regressor<T>>::INFO.name => plain(Self::$later),)+)*
+                    $($(name if name == <$new as Regressor<T>>::INFO.name => plain(Self::$new),)+)*
                     $($(name if name == <$late_module::$late<T> as Regressor<T>>::INFO.name => {
                         Shaped::try_from_shapes(shapes).map(Self::$late)
                     })+)*
@@ -258,6 +268,7 @@ macro_rules! effects {
                     $($(Self::$plain => along(&$plain, state, record, take),)+)*
                     $($(Self::$shaped(config) => along(config, state, record, take),)+)*
                     $($(Self::$later => along(&$later, state, record, take),)+)*
+                    $($(Self::$new => along(&$new, state, record, take),)+)*
                     $($(Self::$late(config) => along(config, state, record, take),)+)*
                 }
             }
@@ -273,6 +284,7 @@ macro_rules! effects {
                     $($(Self::$plain => evaluate(&$plain, state, at),)+)*
                     $($(Self::$shaped(config) => evaluate(config, state, at),)+)*
                     $($(Self::$later => evaluate(&$later, state, at),)+)*
+                    $($(Self::$new => evaluate(&$new, state, at),)+)*
                     $($(Self::$late(config) => evaluate(config, state, at),)+)*
                 }
             }
@@ -289,7 +301,7 @@ effects! {
         asymmetry: AsymmetryViscous AsymmetryDrag AsymmetryEta AsymmetryEtaSquared;
         inertia: Inertia;
         stiffness: StiffnessLinear StiffnessQuadratic StiffnessCubic StiffnessProgressive;
-        position_friction: PositionHysteresis PositionHysteresisQuadratic;
+        position_friction: PositionHysteresis;
         delay: Delay;
         rate: Rate RateSymmetric;
         drift: Drift;
@@ -322,6 +334,9 @@ effects! {
     later_shaped {
         hardening: Hardening;
         power_law: PowerLaw;
+    }
+    newest {
+        position_friction: PositionHysteresisQuadratic;
     }
 }
 

@@ -76,7 +76,7 @@ fn the_page_fits_a_telephone_and_a_desk_and_logs_no_error() {
         assert!(!log.contains("CONSOLE"), "{log}");
     }
     let (dom, log) = run(&browser, &folder, "page.html", 1280);
-    assert!(dom.contains("Hysteresis loop") && dom.contains("id=\"verdict\""));
+    assert!(dom.contains("Loop and residual") && dom.contains("id=\"verdict\""));
     assert!(!log.contains("CONSOLE"), "{log}");
 }
 

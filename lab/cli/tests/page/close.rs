@@ -153,7 +153,7 @@ fn several_records_have_a_part_each_on_one_page() {
     let document = parsed(&page);
     let heads: Vec<String> = elements(document.root(), "h3").map(text).collect();
     for path in [&first, &second] {
-        assert_eq!(heads.iter().filter(|h| *h == path).count(), 2, "{heads:?}");
+        assert_eq!(heads.iter().filter(|h| *h == path).count(), 3, "{heads:?}");
     }
     let title = |id: &str| {
         document

@@ -12,7 +12,10 @@ fn a_time_column_without_a_unit_and_with_long_steps_is_asked_about() {
     rows.set(T, |_, row| 1000.0 * row[T]);
     let closed = rows.close(&[]);
     let text = closed.text();
-    assert!(text.contains("median step is 2 s: is that ms?"), "{text}");
+    assert!(
+        text.contains("median step is 2 s: is the unit ms?"),
+        "{text}"
+    );
     rows.header = format!("t [ms],{others}");
     let closed = rows.close(&[]);
     let text = closed.text();

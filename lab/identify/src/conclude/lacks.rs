@@ -86,7 +86,7 @@ pub(super) fn rises(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String
     if let (false, Some((fit, held_out))) = (is_worse(ledger, done), other_rig(data, done)) {
         let since = begins(data, done).map(|t| format!(", from {t:.3} s on"));
         return format!(
-            "The model does not transfer: its error is {} of the output's standard deviation on the fit segment and {} on the held-out segment{}. The two segments differ: has the rig changed, or the sensor of `{}`? Do not use this model on other data.{}",
+            "The model does not transfer: its error is {} of the output's standard deviation on the fit segment and {} on the held-out segment{}. The two segments differ: do not use this model on other data. Has the rig changed, or the sensor of `{}`?{}",
             percent(fit),
             percent(held_out),
             since.unwrap_or_default(),

@@ -297,8 +297,8 @@ mod tests {
         let said = |n, sigma| caution(&file("torque", 7.0, sigma, n)).unwrap_or_default();
         assert_eq!(said(4.0, 0.7), "");
         assert!(said(4.1, 0.7).contains("n = 4.10 tests show, but no proof,"));
-        assert!(said(10.0, 0.7).contains("measured, not proved"));
-        assert!(said(20.0, 0.51).contains("measured, not proved"));
+        assert!(said(10.0, 0.7).contains("tests show, but no proof,"));
+        assert!(said(20.0, 0.51).contains("tests show, but no proof,"));
         assert!(said(20.0, 0.52).contains("may have more than one input"));
         // A hysteresis that helps its gain needs no slope.
         assert_eq!(caution(&file("torque", -7.0, 0.7, 20.0)), None);

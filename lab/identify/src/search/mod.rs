@@ -17,6 +17,8 @@ mod coarse;
 mod exchange;
 mod forward;
 pub mod gram;
+mod hidden;
+mod instead;
 mod kept;
 mod linear;
 mod moves;

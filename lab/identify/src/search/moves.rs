@@ -21,8 +21,6 @@ const MOVES: usize = 40;
 const TESTED: usize = 60;
 /// After this many tests in a round, a set that fails is not tested again at other shapes.
 const OTHER_SHAPES: usize = 40;
-/// Moves from each kept set that a forward selection completes.
-const COMPLETED: usize = 3;
 
 /// A move and its first-order criterion.
 #[derive(Debug, Clone)]
@@ -189,7 +187,7 @@ impl Linear<'_> {
         let begun: Vec<Vec<usize>> = moves
             .iter()
             .filter(names)
-            .take(COMPLETED)
+            .take(policy::REFITTED)
             .map(|m| m.added.clone())
             .collect();
         for added in begun {

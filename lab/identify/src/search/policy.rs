@@ -97,6 +97,12 @@ pub const MOST_NAMES: usize = 8;
 /// that only a refit of several decides.
 pub const REFITTED: usize = 3;
 
+/// Number of names over its variable that are refitted one at a time before a curve is taken.
+///
+/// A dead zone whose gap lies between trial shapes promises less than a curve and less than seven
+/// names that imitate it. The number is a choice.
+pub const INSTEAD: usize = 4;
+
 /// Number of successive rounds without an accepted move that ends a phase of the search.
 ///
 /// A choice: a second round refits the moves after the best three.

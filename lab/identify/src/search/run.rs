@@ -62,6 +62,8 @@ pub(super) struct Search<'a> {
     pub(super) visited: Vec<Vec<Identity>>,
     /// Sets in which a power law has been tried in the place of named friction.
     pub(super) exchanges: Vec<Vec<Identity>>,
+    /// Sets beside which effects that the hysteresis hides have been tried.
+    pub(super) uncovered: Vec<Vec<Identity>>,
     failures: usize,
     phase: Phase,
     linear: Option<Standing<'a>>,
@@ -102,6 +104,7 @@ impl<'a> Search<'a> {
             budget: None,
             visited: Vec::new(),
             exchanges: Vec::new(),
+            uncovered: Vec::new(),
             failures: 0,
             phase: Phase::Any,
             linear: None,
@@ -200,7 +203,13 @@ impl<'a> Search<'a> {
         if proposed.moves.is_empty() {
             return self.exhausted(standing);
         }
-        let tried = self.refitted(standing, &proposed.moves, j);
+        let mut tried = self.refitted(standing, &proposed.moves, j);
+        let is_curve = |best: &&Tried| self.phase == Phase::Any && linear.adds_curve(&best.made);
+        if let Some(curve) = chosen(&tried).filter(is_curve) {
+            let curve = curve.made.clone();
+            tried.extend(self.names_instead(standing, &curve, j));
+            tried.sort_by(|a, b| a.j.total_cmp(&b.j));
+        }
         match chosen(&tried).map(|best| self.accepted(standing, best, &tried)) {
             Some(true) => {
                 self.failures = 0;
@@ -214,10 +223,11 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// After the last name: a power law in the place of named friction, then curves at a lower price.
+    /// After the last name: a power law in the place of named friction, then what the hysteresis
+    /// hides, then curves at a lower price.
     fn exhausted(&mut self, standing: &Standing<'a>) -> bool {
         self.failures = 0;
-        if self.exchanged(standing) {
+        if self.exchanged(standing) || self.uncovered(standing) {
             self.phase = Phase::Any;
             return true;
         }
