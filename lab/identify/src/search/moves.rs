@@ -11,6 +11,7 @@ use super::kept::Kept;
 use super::linear::Linear;
 use super::policy;
 use crate::ledger::{reject, Gate, Rejection};
+use crate::model::kind::is_stage;
 use crate::score::blocks::Regime;
 
 /// Pairs of names that are evaluated with their slopes, for each kept set.
@@ -215,6 +216,9 @@ impl Linear<'_> {
             rejected: Vec::new(),
             is_cut: false,
         };
+        // The first-order promise of a stage is the least accurate: the best one is refitted whatever
+        // the others promise.
+        let has_stage = |moves: &[Move]| moves.iter().any(|m| self.is_one_stage(m));
         let mut tested = 0;
         for mut one in all {
             let members = self.identities(&one.kept, &one.added);
@@ -236,6 +240,10 @@ impl Linear<'_> {
             }
             if names > policy::MOST_NAMES.min(wanted.most) + self.declared {
                 proposed.is_cut |= names <= policy::MOST_NAMES + self.declared;
+                continue;
+            }
+            let is_full = proposed.moves.len() >= policy::REFITTED;
+            if is_full && (!self.is_one_stage(&one) || has_stage(&proposed.moves)) {
                 continue;
             }
             tested += 1;
@@ -260,11 +268,18 @@ impl Linear<'_> {
             }
             seen.push(members);
             proposed.moves.push(one);
-            if proposed.moves.len() >= policy::REFITTED {
+            if proposed.moves.len() >= policy::REFITTED && has_stage(&proposed.moves) {
                 break;
             }
         }
         proposed
+    }
+
+    /// Whether the move adds one stage and nothing else: it acts on every column.
+    pub(super) fn is_one_stage(&self, one: &Move) -> bool {
+        let [only] = one.added[..] else { return false };
+        let effect = self.groups[only].candidate().map(|c| c.term.effect);
+        effect.is_some_and(|e| is_stage(&e))
     }
 
     /// Whether the move reduces the number of names and leaves the curve as it is.
