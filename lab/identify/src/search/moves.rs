@@ -8,10 +8,12 @@
 use super::bank::Identity;
 use super::gram::Swept;
 use super::kept::Kept;
-use super::linear::Linear;
+use super::linear::{Linear, Member};
 use super::policy;
 use crate::ledger::{reject, Gate, Rejection};
+use crate::model::catalogue::Candidate;
 use crate::model::kind::is_stage;
+use crate::model::Variable;
 use crate::score::blocks::Regime;
 
 /// Pairs of names that are evaluated with their slopes, for each kept set.
@@ -50,6 +52,9 @@ pub(super) struct Proposed {
 pub(super) enum Phase {
     /// Any move that promises a lower criterion.
     Any,
+    /// Moves to fewer names, whatever they promise: the promise at a trial shape is poor before
+    /// a refit, and two names with bent shapes may imitate a single other one.
+    Fewer,
     /// A curve at a lower price, once no further name is found.
     Curves,
 }
@@ -82,7 +87,13 @@ impl Linear<'_> {
             .map(|kept| self.moves_from(&kept))
             .collect();
         let mut all: Vec<Move> = all.into_iter().flatten().collect();
-        all.retain(|m| m.promise < wanted.below);
+        if wanted.phase == Phase::Fewer {
+            all.extend(self.removals());
+        }
+        all.retain(|m| match wanted.phase {
+            Phase::Fewer => self.takes_names_out(m),
+            Phase::Any | Phase::Curves => m.promise < wanted.below,
+        });
         all.sort_by(|a, b| a.promise.total_cmp(&b.promise));
         self.tested(all, wanted)
     }
@@ -95,6 +106,7 @@ impl Linear<'_> {
             dropped.push(vec![a]);
             dropped.extend((a + 1..names.end).map(|b| vec![a, b]));
         }
+        dropped.extend(self.crowds());
         let with = |table: bool| {
             let sets = dropped.iter().filter(move |d| table || d.len() < 2);
             sets.map(move |d| Kept {
@@ -113,6 +125,50 @@ impl Linear<'_> {
                 })
                 .collect(),
         }
+    }
+
+    /// Sets of three or more names over one variable. Together they imitate any curve over it,
+    /// so a move that replaces all of them by one curve is tried.
+    fn crowds(&self) -> Vec<Vec<usize>> {
+        let names = || self.declared..self.now.structure.terms.len();
+        let over = |index: usize, variable: Variable| {
+            let variables = Candidate::from(self.now.structure.terms[index]).variables();
+            variables.contains(&variable)
+        };
+        let curves = self.groups.iter().filter_map(|g| match g.member {
+            Member::Curve(variable) => Some(variable),
+            Member::Name(_) => None,
+        });
+        let mut crowds: Vec<Vec<usize>> = curves
+            .map(|variable| names().filter(|&i| over(i, variable)).collect())
+            .filter(|crowd: &Vec<usize>| crowd.len() > 2)
+            .collect();
+        crowds.sort();
+        crowds.dedup();
+        crowds
+    }
+
+    /// Removals of three or more names. Several names may imitate one effect that a later move
+    /// has added; without any one or two of them the others do not.
+    fn removals(&self) -> Vec<Move> {
+        let names: Vec<usize> = (self.declared..self.now.structure.terms.len()).collect();
+        let sets =
+            (0..1_usize << names.len()).filter(|set| set.count_ones() as usize >= policy::MANY);
+        let of = |set: usize| {
+            let dropped = names.iter().enumerate();
+            let dropped = dropped.filter(|(bit, _)| set >> bit & 1 == 1);
+            let kept = Kept {
+                dropped: dropped.map(|(_, &index)| index).collect(),
+                table: self.has_table(),
+            };
+            Move {
+                promise: self.left(&kept).max(1e-14).ln() + self.price_of(&kept),
+                kept,
+                added: Vec::new(),
+                p: Vec::new(),
+            }
+        };
+        sets.map(of).collect()
     }
 
     pub(super) fn moves_from(&self, kept: &Kept) -> Vec<Move> {
@@ -216,9 +272,16 @@ impl Linear<'_> {
             rejected: Vec::new(),
             is_cut: false,
         };
-        // The first-order promise of a stage is the least accurate: the best one is refitted whatever
-        // the others promise.
-        let has_stage = |moves: &[Move]| moves.iter().any(|m| self.is_one_stage(m));
+        // Kinds of moves whose first-order promises are the least accurate: the best one of each
+        // is refitted whatever the others promise.
+        let stage = |m: &Move| self.is_one_stage(m);
+        let many = |m: &Move| m.kept.dropped.len() >= m.added.len() + policy::MANY;
+        let poor: &[&dyn Fn(&Move) -> bool] = match wanted.phase {
+            Phase::Fewer => &[&stage, &many],
+            Phase::Any | Phase::Curves => &[&stage],
+        };
+        let has =
+            |proposed: &Proposed, kind: &dyn Fn(&Move) -> bool| proposed.moves.iter().any(kind);
         let mut tested = 0;
         for mut one in all {
             let members = self.identities(&one.kept, &one.added);
@@ -243,7 +306,7 @@ impl Linear<'_> {
                 continue;
             }
             let is_full = proposed.moves.len() >= policy::REFITTED;
-            if is_full && (!self.is_one_stage(&one) || has_stage(&proposed.moves)) {
+            if is_full && !poor.iter().any(|kind| kind(&one) && !has(&proposed, kind)) {
                 continue;
             }
             tested += 1;
@@ -268,14 +331,17 @@ impl Linear<'_> {
             }
             seen.push(members);
             proposed.moves.push(one);
-            if proposed.moves.len() >= policy::REFITTED && has_stage(&proposed.moves) {
+            if proposed.moves.len() >= policy::REFITTED
+                && poor.iter().all(|kind| has(&proposed, kind))
+            {
                 break;
             }
         }
         proposed
     }
 
-    /// Whether the move adds one stage and nothing else: it acts on every column.
+    /// Whether the move adds one stage and nothing else. A stage acts on every column, so its
+    /// first-order promise is the least accurate: the best stage is always refitted.
     pub(super) fn is_one_stage(&self, one: &Move) -> bool {
         let [only] = one.added[..] else { return false };
         let effect = self.groups[only].candidate().map(|c| c.term.effect);
