@@ -30,16 +30,14 @@ pub(super) fn extrapolates(data: &Prepared, done: &FinalFit) -> Option<String> {
         return None;
     }
     let split = &data.split;
-    let structure = &done.solution.structure;
-    let reads = |source: Source| {
-        let is_input = structure.hysteresis && source == Source::Input;
-        is_input || structure.terms.iter().any(|term| term.source == source)
-    };
     let channels = 0..data.channels.len();
     let channels = channels.map(|index| Source::Channel(index as u8));
     let sources = std::iter::once(Source::Input).chain(channels);
     let outside = |source: Source| {
-        let channel = data.channel(source).filter(|_| reads(source))?;
+        let channel = data.channel(source)?;
+        if !done.solution.structure.reads(source) {
+            return None;
+        }
         let seen = range(data, channel, &split.fit, POSITION);
         beyond(data, channel, &split.held_out, POSITION, seen)
     };

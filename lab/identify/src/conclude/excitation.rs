@@ -1,34 +1,24 @@
 //! Which motion would show a parameter that the record leaves open.
 
+use super::by_file::rows_of;
 use crate::fit::Solution;
 use crate::model::effects::shown_by;
 use crate::model::structure::{Role, TermId};
+use crate::model::turns;
 use crate::problem::{Piece, Prepared};
 use crate::score::ranges::BEYOND;
 
-use super::by_file::rows_of;
-
 /// How often the input turns back on the fit segment, by more than a twentieth of its range.
 fn reversals(data: &Prepared) -> usize {
-    let least = BEYOND * 2.0 * data.input.reach;
-    let of = |piece: &Piece| {
-        let rows = rows_of(piece, &data.split.fit).iter();
-        let mut positions = rows.map(|&row| data.input.motion[row * data.stride].position);
-        let mut extreme = positions.next().unwrap_or(0.0);
-        let (mut way, mut count) = (0.0, 0);
-        for x in positions {
-            let moved: f64 = x - extreme;
-            let is_far = moved.abs() > least;
-            if way == 0.0 && is_far {
-                (extreme, way) = (x, moved.signum());
-            } else if way != 0.0 && moved * way >= 0.0 {
-                extreme = x;
-            } else if way != 0.0 && is_far {
-                count += 1;
-                (extreme, way) = (x, -way);
-            }
-        }
-        count
+    let back = BEYOND * 2.0 * data.input.reach;
+    let of = |piece: &Piece| match rows_of(piece, &data.split.fit) {
+        [first, .., last] => turns(
+            &data.input,
+            &(first * data.stride..last * data.stride + 1),
+            back,
+        )
+        .len(),
+        _ => 0,
     };
     data.pieces.iter().map(of).sum()
 }

@@ -15,19 +15,12 @@ use bowden::model::Source;
 /// Least share of the held-out output that the input explains of a model worth the name.
 const LEAST_EXPLAINED: f64 = 0.5;
 
-/// Whether the baseline model reads the input at all: one that was declared over other
-/// channels alone is judged by those.
-fn reads_input(declared: &Solution) -> bool {
-    let structure = &declared.structure;
-    structure.hysteresis || structure.terms.iter().any(|t| t.source == Source::Input)
-}
-
 /// The share of the output that must be explained by what the model is a model of.
 ///
 /// Friction of a joint that moves under a nearly constant load is no spring that stands for the
 /// output: what such effects of the channels explain counts.
 fn judged(shares: Explained, declared: &Solution, done: &Solution) -> f64 {
-    match reads_input(declared) && !is_friction_alone(done) {
+    match declared.structure.reads(Source::Input) && !is_friction_alone(done) {
         true => shares.input,
         false => shares.input + shares.channels,
     }
@@ -58,7 +51,7 @@ fn is_friction_alone(solution: &Solution) -> bool {
 fn stood_in_for(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Option<f64> {
     let shares = explained(data, &done.solution);
     let alone = explained(data, &ledger.declared).input;
-    let is = reads_input(&ledger.declared) && shares.channels > shares.time;
+    let is = ledger.declared.structure.reads(Source::Input) && shares.channels > shares.time;
     (is && alone >= LEAST_EXPLAINED).then_some(alone)
 }
 

@@ -16,4 +16,5 @@ pub mod units;
 mod variable;
 
 pub use table::Table;
+pub(crate) use variable::turns;
 pub use variable::Variable;

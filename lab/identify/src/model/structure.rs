@@ -133,6 +133,13 @@ impl Structure {
         }
     }
 
+    /// Whether any part reads the input, or a channel.
+    #[must_use]
+    pub fn reads(&self, source: Source) -> bool {
+        let is_input = self.hysteresis && source == Source::Input;
+        is_input || self.terms.iter().any(|t| t.source == source)
+    }
+
     /// Number of the transmission's linear gains: three, or three of each record.
     #[must_use]
     pub fn base(&self) -> usize {

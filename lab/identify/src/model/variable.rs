@@ -197,9 +197,8 @@ fn sign(v: f64) -> f64 {
     }
 }
 
-/// The samples of a record at which a channel turns.
-fn turns(channel: &Channel, record: &Range<usize>) -> Vec<usize> {
-    let back = REVERSAL * channel.reach;
+/// The samples of a stretch at which a channel turns, to move back by more than `back`.
+pub(crate) fn turns(channel: &Channel, record: &Range<usize>, back: f64) -> Vec<usize> {
     let mut turns = Vec::new();
     let (mut low, mut high) = (record.start, record.start);
     let mut rising: Option<bool> = None;
@@ -229,7 +228,7 @@ fn turns(channel: &Channel, record: &Range<usize>) -> Vec<usize> {
 /// Way and time since the channel last reversed in a record; before its first turn the
 /// largest of all.
 fn since_reversal(channel: &Channel, record: &Range<usize>, dt: f64) -> (Vec<f64>, Vec<f64>) {
-    let turns = turns(channel, record);
+    let turns = turns(channel, record, REVERSAL * channel.reach);
     let mut next = turns.iter().peekable();
     let mut last: Option<usize> = None;
     let (mut way, mut time) = (Vec::new(), Vec::new());

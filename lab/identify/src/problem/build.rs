@@ -257,6 +257,7 @@ fn place(
         }
     }
     let keep = |range: Range<usize>| -> Vec<usize> { range.filter(|&i| valid[i]).collect() };
+    let rests = still::is_at_rest(input);
     Ok(Placed {
         noise_floor,
         rest: rest::note(
@@ -264,8 +265,8 @@ fn place(
             (end < n_estimation - edge, (n_estimation - end) as f64 * row),
             rested as f64 * uniform.dt,
         ),
-        rests: still::is_at_rest(input),
-        shuffled: still::is_shuffled(input, &output),
+        rests,
+        shuffled: rests && still::follows(input, &output),
         still: channels.iter().map(|c| still::is_at_rest(c)).collect(),
         motion,
         output: on_work,
