@@ -140,6 +140,14 @@ fn is_one_stroke(data: &Prepared, done: &FinalFit) -> bool {
     done.solution.structure.hysteresis && without_reversals(data).is_some()
 }
 
+/// What is to be said of such a record.
+fn one_stroke(data: &Prepared) -> String {
+    format!(
+        "`{}` reverses fewer than two times on the fit segment: sigma and n are not identified, and the model holds for this stroke only. Record strokes in both directions.",
+        data.input.name
+    )
+}
+
 /// What the residual depends on without a name.
 #[must_use]
 pub fn unknown_words(data: &Prepared, ledger: &Ledger) -> Option<String> {
@@ -227,10 +235,7 @@ fn rest(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -> St
         Verdict::StructuredResidual => coloured(data, ledger, done),
         Verdict::UnmodelledDependence => unknown_words(data, ledger).unwrap_or_default(),
         Verdict::Ambiguous => confounded(data, ledger, done),
-        Verdict::UnderExcited if is_one_stroke(data, done) => format!(
-            "`{}` reverses less than twice on the fit segment: sigma and n are not identified, and the model holds for this stroke only. Record strokes in both directions.",
-            data.input.name
-        ),
+        Verdict::UnderExcited if is_one_stroke(data, done) => one_stroke(data),
         Verdict::UnderExcited => {
             let names = match ledger.rounds.is_empty() {
                 true => "only a large effect would be found",
@@ -271,6 +276,9 @@ fn warnings(data: &Prepared, ledger: &Ledger, done: &FinalFit, found: Verdict) -
     }
     if found != Verdict::NotTransferable {
         all.extend(poor_words(data, done));
+    }
+    if found != Verdict::UnderExcited && is_one_stroke(data, done) {
+        all.push(one_stroke(data));
     }
     all.extend(exchanged_words(data, ledger));
     all.extend(extrapolates(data, done));
