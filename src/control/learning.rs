@@ -18,9 +18,8 @@
 //! ```
 //! Its gain is 0.71 for a tone at 0.32·(cells per second)/M.
 //!
-//! The learned value of a cell is limited, and so is the mean over cells. Hence the
-//! feed-forward lies within ±limit for any input. *Convergence* depends on gain, lead, Q and
-//! the loop
+//! The learned value of a cell is limited, and so is the mean over cells. Hence the feed-forward
+//! lies within ±limit for any input. *Convergence* depends on gain, lead, Q and the loop
 //! ([`bound::IterativeLearningConvergence`](crate::bound::IterativeLearningConvergence)).
 //!
 //! Sources: D. Bristow, M. Tharayil, A. Alleyne, "A survey of iterative learning control", *IEEE
@@ -167,10 +166,9 @@ pub struct IterativeLearningInput<T> {
     pub reference: T,
     /// Measured output y \[output unit\].
     pub measured: T,
-    /// Whether the law learns from this sample. Set it to `false` if a limit has cut the command,
-    /// the safe command is applied, or the task is different (standing, or a held joint). If it is
-    /// `false` for more than half of a cell's samples, the law also ignores the errors of the next
-    /// `lead` cells.
+    /// Whether the law learns from this sample: not if a limit has cut the command, the safe
+    /// command is applied, or the task is different (standing, or a held joint). After a cell in
+    /// which it is mostly `false`, the law also ignores the errors of the next `lead` cells.
     pub learns: bool,
 }
 
@@ -204,10 +202,9 @@ impl<T: Real> IterativeLearning<T> {
     /// Most cells of a cycle.
     pub const MOST_CELLS: usize = u16::MAX as usize;
 
-    /// Learning without forgetting. `gain` multiplies the error \[command unit/output unit\]; it
-    /// must not be zero and must have the sign of the plant's gain. `limit > 0` bounds the learned
-    /// values \[command unit\]. `lead` is the number of cells from a command to its effect, and
-    /// `half_width` is the half-width of the triangle \[cells\].
+    /// Learning without forgetting. `gain` of the error \[command unit/output unit\] is not zero and
+    /// has the sign of the plant's gain; `limit > 0` bounds the learned values \[command unit\];
+    /// `lead` cells lie between a command and its effect; `half_width` is the triangle's \[cells\].
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"gain"` or `"limit"`.
@@ -338,8 +335,8 @@ impl<T: Real> IterativeLearning<T> {
     /// - A phase outside 0 to 1 changes nothing and holds the feed-forward. The controller counts
     ///   such samples as good, so the fallback does not act. If the phase signal can fail, omit the
     ///   feed-forward after a few such samples.
-    /// - If the reference or the measured output is not finite, the feed-forward follows the
-    ///   phase, and the law does not learn from the sample.
+    /// - If reference or measured output is not finite, the feed-forward follows the phase, and the
+    ///   law does not learn from the sample.
     /// - A jump is more than four cells forward or back in one sample. After a jump the cell before
     ///   it does not learn. The `lead` cells before the new cell do not learn either: they were
     ///   skipped, so the errors do not belong to them. A step that ends early at heel contact is
@@ -347,8 +344,7 @@ impl<T: Real> IterativeLearning<T> {
     /// - While the phase is up to four cells behind (jitter), the law does not learn. With larger
     ///   jitter the phase passes cells several times, and the law learns each time: filter the
     ///   phase, or set `learns` to `false`.
-    /// - The longest step passes four cells. At the end of each cell the law sums over
-    ///   `2·half_width + 1` cells.
+    /// - The longest step passes four cells, and sums over `2·half_width + 1` cells for each.
     #[inline]
     pub fn step<M: AsRef<[T]> + AsMut<[T]>>(
         &self,

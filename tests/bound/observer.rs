@@ -176,6 +176,7 @@ fn what_is_no_range_or_no_loop_is_refused_by_name() {
     };
     let (observer, law) = loops(0.016, 0.003, 12.0, 60.0);
     let refused = |range: PlantRange| ObserverStability::try_new(&observer, &law, &range).err();
+    let inadmissible = |what| Some(Error::Inadmissible(what));
     let good = at(one);
     assert_eq!(refused(good), None);
     let interval = |low: f64, high: f64| Interval { low, high };
@@ -226,9 +227,7 @@ fn what_is_no_range_or_no_loop_is_refused_by_name() {
             gain: interval(-0.7, -0.5),
             ..good
         }),
-        Some(Error::Inadmissible(
-            "gain and nominal gain must have the same sign"
-        ))
+        inadmissible("gain and nominal gain must have the same sign")
     );
     let law =
         |settings| ObserverStability::try_new(&observer, &Pid::try_new(settings).unwrap(), &good);
@@ -239,14 +238,12 @@ fn what_is_no_range_or_no_loop_is_refused_by_name() {
     };
     assert_eq!(
         law(derivative).err(),
-        Some(Error::Inadmissible("the law must be a P or a PI"))
+        inadmissible("the law must be a P or a PI")
     );
     // Routh: 2·zeta/wn·(1 + alpha·k_p) against alpha·k_i/wn².
     assert_eq!(
         law(PidSettings::unlimited(12.0, 300.0)).err(),
-        Some(Error::Inadmissible(
-            "the nominal loop without latency must be stable"
-        ))
+        inadmissible("the nominal loop without latency must be stable")
     );
 }
 
