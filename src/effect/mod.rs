@@ -104,16 +104,15 @@ macro_rules! shaped_types {
 
 /// The enum of all effects and the dispatch to each one's own file.
 ///
-/// Compact forms store the index of an effect in the enum: add new effects under `newest`.
+/// Compact forms store the index of an effect in the enum: add new effects under `later`.
 macro_rules! effects {
     (
         plain { $($module:ident: $($plain:ident)+;)* }
         shaped { $($shaped_module:ident: $($shaped:ident)+;)* }
         later { $($later_module:ident: $($later:ident)+;)* }
         later_shaped { $($late_module:ident: $($late:ident)+;)* }
-        newest { $($new_module:ident: $($new:ident)+;)* }
     ) => {
-        plain_types! { $($module: $($plain)+;)* $($later_module: $($later)+;)* $($new_module: $($new)+;)* }
+        plain_types! { $($module: $($plain)+;)* $($later_module: $($later)+;)* }
 
         shaped_types! { $($shaped_module: $($shaped)+;)* $($late_module: $($late)+;)* }
 
@@ -140,7 +139,6 @@ macro_rules! effects {
             $($(#[doc = concat!("Formula and source: [`", stringify!($shaped_module), "`].")] $shaped($shaped_module::$shaped<T>),)+)*
             $($(#[doc = concat!("Without shapes; formula and source: [`", stringify!($later_module), "`].")] $later,)+)*
             $($(#[doc = concat!("Formula and source: [`", stringify!($late_module), "`].")] $late($late_module::$late<T>),)+)*
-            $($(#[doc = concat!("Without shapes; formula and source: [`", stringify!($new_module), "`].")] $new,)+)*
         }
 
         /// All effects, in the order in which compact forms number them.
@@ -154,7 +152,6 @@ macro_rules! effects {
             $($(<$shaped_module::$shaped<f64> as Regressor<f64>>::INFO,)+)*
             $($(<$later as Regressor<f64>>::INFO,)+)*
             $($(<$late_module::$late<f64> as Regressor<f64>>::INFO,)+)*
-            $($(<$new as Regressor<f64>>::INFO,)+)*
         ];
 
         impl<T: Real> Effect<T> {
@@ -165,7 +162,6 @@ macro_rules! effects {
                     $($(Self::$plain => <$plain as Regressor<T>>::INFO,)+)*
                     $($(Self::$shaped(_) => <$shaped_module::$shaped<T> as Regressor<T>>::INFO,)+)*
                     $($(Self::$later => <$later as Regressor<T>>::INFO,)+)*
-                    $($(Self::$new => <$new as Regressor<T>>::INFO,)+)*
                     $($(Self::$late(_) => <$late_module::$late<T> as Regressor<T>>::INFO,)+)*
                 }
             }
@@ -176,7 +172,6 @@ macro_rules! effects {
                     $($(Self::$plain => <$plain as Regressor<T>>::STAGE,)+)*
                     $($(Self::$shaped(_) => <$shaped<T> as Regressor<T>>::STAGE,)+)*
                     $($(Self::$later => <$later as Regressor<T>>::STAGE,)+)*
-                    $($(Self::$new => <$new as Regressor<T>>::STAGE,)+)*
                     $($(Self::$late(_) => <$late<T> as Regressor<T>>::STAGE,)+)*
                 }
             }
@@ -188,7 +183,6 @@ macro_rules! effects {
                     $($(Self::$plain)|+ => &[],)*
                     $($(Self::$shaped(_) => <$shaped_module::$shaped<T>>::NAMES,)+)*
                     $($(Self::$later)|+ => &[],)*
-                    $($(Self::$new)|+ => &[],)*
                     $($(Self::$late(_) => <$late_module::$late<T>>::NAMES,)+)*
                 }
             }
@@ -200,7 +194,6 @@ macro_rules! effects {
                     $($(Self::$plain)|+ => &[],)*
                     $($(Self::$shaped(_) => <$shaped_module::$shaped<T>>::SHAPES,)+)*
                     $($(Self::$later)|+ => &[],)*
-                    $($(Self::$new)|+ => &[],)*
                     $($(Self::$late(_) => <$late_module::$late<T>>::SHAPES,)+)*
                 }
             }
@@ -212,7 +205,6 @@ macro_rules! effects {
                     $($(Self::$plain)|+ => None,)*
                     $($(Self::$shaped(config) => config.shape(index),)+)*
                     $($(Self::$later)|+ => None,)*
-                    $($(Self::$new)|+ => None,)*
                     $($(Self::$late(config) => config.shape(index),)+)*
                 }
             }
@@ -227,7 +219,6 @@ macro_rules! effects {
                     $($(Self::$plain)|+ => Err(Error::OutOfRange("shape index")),)*
                     $($(Self::$shaped(config) => config.with_shape(index, value).map(Self::$shaped),)+)*
                     $($(Self::$later)|+ => Err(Error::OutOfRange("shape index")),)*
-                    $($(Self::$new)|+ => Err(Error::OutOfRange("shape index")),)*
                     $($(Self::$late(config) => config.with_shape(index, value).map(Self::$late),)+)*
                 }
             }
@@ -247,7 +238,6 @@ macro_rules! effects {
                         Shaped::try_from_shapes(shapes).map(Self::$shaped)
                     })+)*
                     $($(name if name == <$later as Regressor<T>>::INFO.name => plain(Self::$later),)+)*
-                    $($(name if name == <$new as Regressor<T>>::INFO.name => plain(Self::$new),)+)*
                     $($(name if name == <$late_module::$late<T> as Regressor<T>>::INFO.name => {
                         Shaped::try_from_shapes(shapes).map(Self::$late)
                     })+)*
@@ -268,7 +258,6 @@ macro_rules! effects {
                     $($(Self::$plain => along(&$plain, state, record, take),)+)*
                     $($(Self::$shaped(config) => along(config, state, record, take),)+)*
                     $($(Self::$later => along(&$later, state, record, take),)+)*
-                    $($(Self::$new => along(&$new, state, record, take),)+)*
                     $($(Self::$late(config) => along(config, state, record, take),)+)*
                 }
             }
@@ -284,7 +273,6 @@ macro_rules! effects {
                     $($(Self::$plain => evaluate(&$plain, state, at),)+)*
                     $($(Self::$shaped(config) => evaluate(config, state, at),)+)*
                     $($(Self::$later => evaluate(&$later, state, at),)+)*
-                    $($(Self::$new => evaluate(&$new, state, at),)+)*
                     $($(Self::$late(config) => evaluate(config, state, at),)+)*
                 }
             }
@@ -334,9 +322,6 @@ effects! {
     later_shaped {
         hardening: Hardening;
         power_law: PowerLaw;
-    }
-    newest {
-        position_friction: PositionHysteresisQuadratic;
     }
 }
 

@@ -1,7 +1,6 @@
 //! Friction that varies along the stroke: the width of the loop depends on x.
 //!
-//! Formulas: `x·tanh(v/v_e)` for dry friction, `eta·x` and `eta·x²` for hysteresis: the second is
-//! larger at both ends of the stroke than in the middle.
+//! Formulas: `x·tanh(v/v_e)` for dry friction, `eta·x` for hysteresis.
 //!
 //! Source: B. Armstrong-Hélouvry, *Control of Machines with Friction*, 1991,
 //! chapter 4 (position-dependent friction).
@@ -10,10 +9,7 @@ use super::coulomb::sign;
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
 use super::Parity::{Even, Odd};
-use super::{
-    Dimension, EffectState, Family, Inputs, PositionHysteresis, PositionHysteresisQuadratic,
-    Quantity, Symmetry,
-};
+use super::{Dimension, EffectState, Family, Inputs, PositionHysteresis, Quantity, Symmetry};
 use crate::Real;
 
 shaped! {
@@ -62,25 +58,5 @@ impl<T: Real> Regressor<T> for PositionHysteresis {
     #[inline]
     fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.eta * at.motion.position
-    }
-}
-
-impl<T: Real> Regressor<T> for PositionHysteresisQuadratic {
-    const INFO: &'static Info = &Info {
-        name: "position-hysteresis-quadratic",
-        family: Family::PositionFriction,
-        formula: "eta·x²",
-        dimension: Dimension {
-            channel: 2,
-            ..Dimension::ONE
-        },
-        parity: Symmetry::new(Odd, Even),
-        reads: &[Quantity::Eta, Quantity::Position],
-        memory: false,
-    };
-
-    #[inline]
-    fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
-        at.eta * at.motion.position * at.motion.position
     }
 }

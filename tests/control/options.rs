@@ -188,7 +188,7 @@ fn options_that_make_no_sense_are_refused_by_name() {
             ..plain
         })
         .parameter(),
-        "with a period, setpoint_weight must be 1 and the derivative weight 0 or 1"
+        "with a period: setpoint_weight 1, derivative weight 0 or 1"
     );
     for (deadband, error) in [
         (-0.1, Error::OutOfRange("deadband")),

@@ -42,7 +42,6 @@ fn closed_form(name: &str, at: &Inputs<f64>) -> f64 {
         "ripple" => (3.3 * x + 0.4).sin(),
         "position-friction" => x * (v / w).tanh(),
         "position-hysteresis" => eta * x,
-        "position-hysteresis-quadratic" => eta * x.powi(2),
         "dead-zone" => x.signum() * (x.abs() - w).max(0.0),
         "rate" => eta * v,
         "rate-symmetric" => eta * v.abs(),

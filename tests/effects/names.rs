@@ -97,7 +97,6 @@ fn effects_keep_the_places_that_older_files_have_stored() {
         ("stretch-cubic", 45),
         ("hardening", 46),
         ("power-law", 47),
-        ("position-hysteresis-quadratic", 48),
     ] {
         assert_eq!(place(name), Some(at), "{name}");
     }
@@ -120,7 +119,6 @@ fn what_an_effect_reads_tells_output_stages_and_hysteresis() {
         "rate-symmetric",
         "degradation",
         "pinching",
-        "position-hysteresis-quadratic",
     ];
     assert_eq!(that(Effect::reads_eta), eta);
 }

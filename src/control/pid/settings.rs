@@ -236,7 +236,7 @@ macro_rules! checks {
             };
             if s.setpoint_weight != one || !whole {
                 return Err(Error::Inadmissible(
-                    "with a period, setpoint_weight must be 1 and the derivative weight 0 or 1",
+                    "with a period: setpoint_weight 1, derivative weight 0 or 1",
                 ));
             }
         }

@@ -29,7 +29,6 @@ impl Mechanism {
             // These three are functions of the state of the hysteresis.
             _ if [
                 "position-hysteresis",
-                "position-hysteresis-quadratic",
                 "asymmetry-eta",
                 "asymmetry-eta-squared",
             ]

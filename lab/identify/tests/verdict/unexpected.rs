@@ -52,10 +52,7 @@ fn csv(header: &str, columns: &[&[f64]]) -> String {
 }
 
 fn closed(files: &[String]) -> Facts {
-    closed_with(Asked::default(), files)
-}
-
-fn closed_with(asked: Asked, files: &[String]) -> Facts {
+    let asked = Asked::default();
     let read =
         |(index, text): (usize, &String)| asked.read_text(text.as_bytes(), &format!("{index}.csv"));
     let records: Result<Vec<_>, _> = files.iter().enumerate().map(read).collect();
@@ -220,27 +217,4 @@ fn a_thermometer_that_only_tells_which_file_it_is_is_no_cause() {
     let (f, celsius) = (noisy(&f, 0.5, 5), noisy(&warmer, 0.25, 6));
     let header = "t,x [mm],f [N],temperature [C]";
     assert!(reads(&[csv(header, &[&t, &x, &f, &celsius])]));
-}
-
-#[test]
-fn friction_that_rises_at_both_ends_is_explained_where_it_is_asked_for() {
-    let t = times(2500);
-    let x: Vec<f64> = t
-        .iter()
-        .map(|t| 30.0 * (1.3 * t).sin() + 12.0 * (2.9 * t + 1.0).sin() + 8.0 * (0.6 * t).sin())
-        .collect();
-    let guide = spring(&x, |_, x, eta| {
-        0.5 * x + (4.0 + 8.0 * (x / 50.0).powi(2)) * eta
-    });
-    let verdict = |effects: &[&str]| {
-        let declare = effects.iter().map(|effect| (*effect).to_owned());
-        let asked = Asked {
-            declare: declare.collect(),
-            ..Asked::default()
-        };
-        closed_with(asked, &[record(&t, &x, &guide)]).verdict
-    };
-    let both = ["bouc-wen", "position-hysteresis-quadratic"];
-    assert_eq!(verdict(&both), Verdict::Explained);
-    assert_ne!(verdict(&both[..1]), Verdict::Explained);
 }

@@ -243,16 +243,6 @@ pub(super) const MOTION: &[Entry] = &[
         shown_by: "short strokes at several positions",
         ..PLAIN
     },
-    // Larger at both ends of the stroke than in the middle, as in a guide with tight seals. Only where
-    // asked for: on a damper's record that no model explains, its trial leads the search to a lag.
-    Entry {
-        name: "position-hysteresis-quadratic",
-        rank: 16,
-        on: &[On::DirectedPosition],
-        shown_by: "short strokes at several positions",
-        fitted_zero: FittedZero::Unless(&["position-hysteresis"]),
-        ..PLAIN
-    },
     Entry {
         name: "load-friction",
         rank: 14,
