@@ -55,23 +55,23 @@ fn stood_in_for(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Option<f64
     (is && alone >= LEAST_EXPLAINED).then_some(alone)
 }
 
-/// Whether the baseline model explains the selection segment, which it was not fitted to: then it is
-/// a model, and the held-out part is of another rig, or of another motion.
-fn explains_before(data: &Prepared, declared: &Solution) -> bool {
-    let shares = explained_on(data, declared, &data.split.selection);
-    !data.split.selection.is_empty() && judged(shares, declared, declared) >= LEAST_EXPLAINED
+/// Whether nothing explains the held-out part, although the baseline model explains the selection
+/// segment, which it was not fitted to: then it is a model, and the held-out part is of another rig,
+/// or of another motion.
+fn only_held_out_is_lost(data: &Prepared, declared: &Solution, held_out: Explained) -> bool {
+    let all = held_out.input + held_out.channels + held_out.time;
+    let before = explained_on(data, declared, &data.split.selection);
+    all < LEAST_EXPLAINED
+        && !data.split.selection.is_empty()
+        && judged(before, declared, declared) >= LEAST_EXPLAINED
 }
 
 /// Whether there is no model of the input, or none of all files.
 pub(super) fn is_no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> bool {
-    let share = judged(
-        explained(data, &done.solution),
-        &ledger.declared,
-        &done.solution,
-    );
-    let little = share < LEAST_EXPLAINED
+    let shares = explained(data, &done.solution);
+    let little = judged(shares, &ledger.declared, &done.solution) < LEAST_EXPLAINED
         && !is_other_file(data, done)
-        && !explains_before(data, &ledger.declared);
+        && !only_held_out_is_lost(data, &ledger.declared, shares);
     ledger.integrates || !ledger.apart.is_empty() || ledger.channel_apart.is_some() || little
 }
 
