@@ -129,6 +129,7 @@ const LAYOUT: &[(&str, &[&str])] = &[
             "share",
             "confidence",
             "alternatives",
+            "curve",
             "members",
         ],
     ),

@@ -2,9 +2,13 @@
 
 use crate::fit::{Segments, Solution};
 use crate::model::catalogue::Candidate;
+use crate::model::mechanism::Mechanism;
 use crate::model::structure::FitTerm;
 use crate::model::Variable;
+use crate::problem::Prepared;
+use crate::score::binned::Bin;
 use crate::score::blocks::Regime;
+use bowden::model::Source;
 
 /// Why a candidate was not added.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
@@ -114,6 +118,8 @@ pub struct Ledger {
     pub beyond: Vec<Round>,
     /// Candidates that were rejected.
     pub rejected: Vec<Rejection>,
+    /// The mechanisms that the record supports; `None` if nothing was sought.
+    pub supported: Option<Supported>,
     /// A further dependence that no effect of the catalogue explains.
     pub unknown: Option<Unknown>,
     /// Whether the blocks were long enough for p-values, in the last linearisation and whenever
@@ -152,6 +158,7 @@ impl Ledger {
             rounds: Vec::new(),
             beyond: Vec::new(),
             rejected: Vec::new(),
+            supported: None,
             unknown: None,
             regime: Regime::Blocks,
             correlation_time: 0.0,
@@ -190,6 +197,24 @@ impl Ledger {
         })
     }
 
+    /// The mechanisms of what was added, in the order of the rounds.
+    #[must_use]
+    pub fn mechanisms(&self, data: &Prepared) -> Vec<Mechanism> {
+        let terms = self
+            .rounds
+            .iter()
+            .map(|round| Mechanism::of_term(round.term()));
+        let curve = self.unknown.as_ref();
+        let curve = curve.map(|own| Mechanism::of_variable(data, own.variable));
+        let mut all = Vec::new();
+        for mechanism in terms.chain(curve) {
+            if !all.contains(&mechanism) {
+                all.push(mechanism);
+            }
+        }
+        all
+    }
+
     /// The last accepted model, including the table of an unmodelled curve.
     #[must_use]
     pub fn last(&self) -> &Solution {
@@ -204,6 +229,46 @@ impl Ledger {
     pub fn named(&self) -> &Solution {
         self.rounds.last().map_or(&self.declared, |r| &r.solution)
     }
+}
+
+/// A share of the baseline's squared error.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Share {
+    /// The share.
+    pub value: f64,
+    /// Its 95 % interval, from the halves of the record.
+    pub ci95: [f64; 2],
+}
+
+/// A mechanism that a record supports.
+#[derive(Debug, Clone)]
+pub struct Support {
+    /// Which.
+    pub mechanism: Mechanism,
+    /// The channel with which it removes most.
+    pub source: Source,
+    /// What it removes by itself.
+    pub alone: Share,
+    /// What it removes beyond all others that are supported.
+    pub beyond: Share,
+    /// Whether, beside those found before it, it leaves at most half of the squared error that
+    /// any other mechanism leaves.
+    pub is_clear: bool,
+    /// Other mechanisms that leave less than twice as much in its place.
+    pub alternatives: Vec<Mechanism>,
+    /// What it is a function of.
+    pub variable: Variable,
+    /// That function: its means over the variable, with what all mechanisms leave.
+    pub curve: Vec<Bin>,
+}
+
+/// The mechanisms that a record supports, and what they leave.
+#[derive(Debug, Clone)]
+pub struct Supported {
+    /// In the order in which they were found.
+    pub all: Vec<Support>,
+    /// Mean logarithm of the squared error on the halves that were left out.
+    pub error: f64,
 }
 
 /// A file whose output is a multiple of what the gains of another one say.

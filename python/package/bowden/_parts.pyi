@@ -60,13 +60,32 @@ class FinalPart(Fields):
     feed_forward: Fields
     exported_model: Optional[Fields]
 
+class Share(Fields):
+    value: float
+    ci95: list[float]
+
+class Shares(Fields):
+    alone: Share
+    beyond: Share
+
+class Knot(Fields):
+    at: float
+    value: float
+    ci95: Optional[list[float]]
+
+class Curve(Fields):
+    over: str
+    unit: Optional[str]
+    points: list[Knot]
+
 class Lack(Fields):
     mechanism: str
     channel: str
     title: str
-    share: float
+    share: Shares
     confidence: str
     alternatives: list[str]
+    curve: Curve
     members: list[str]
 
 class Complete(Fields):

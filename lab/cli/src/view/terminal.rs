@@ -112,7 +112,7 @@ fn unsaid(facts: &Facts) -> &str {
 
 /// "friction over the velocity of x (94 % of the missing output)".
 fn share(lack: &Lack) -> String {
-    let share = 100.0 * lack.share;
+    let share = 100.0 * lack.share.most();
     format!("{} ({share:.1} % of the missing output)", lack.title)
 }
 

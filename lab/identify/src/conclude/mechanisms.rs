@@ -1,17 +1,14 @@
-//! Which mechanisms the baseline model lacks: the terms of a search, grouped by what the missing
-//! force depends on.
+//! Which mechanisms the baseline model lacks: what the missing force depends on.
 //!
 //! The terms of one mechanism describe one curve. Another record of the same rig often gives other
 //! terms, and mostly the same mechanism.
 
+use super::curve::Knot;
 use super::final_fit::FinalFit;
-use crate::ledger::{Grade, Ledger, Round};
+use crate::ledger::{Grade, Ledger, Round, Share, Support};
 use crate::model::mechanism::Mechanism;
-use crate::model::structure::FitTerm;
-use crate::model::Variable;
 use crate::problem::Prepared;
 use crate::search::is_at_noise;
-use crate::search::policy::HALF;
 use bowden::model::Source;
 use serde::Serialize;
 
@@ -24,15 +21,45 @@ pub struct Lack {
     pub channel: String,
     /// The mechanism for people, with its channel.
     pub title: String,
-    /// Share of the baseline's squared error on the fit segment that its members remove.
-    pub share: f64,
-    /// High for the mechanism that removes at least half of what all members remove, if no member of
-    /// it has an alternative in another mechanism.
+    /// Share of the baseline's squared error on left-out blocks that it removes.
+    pub share: Shares,
+    /// High where it leaves at most half of the squared error that any other mechanism leaves, or
+    /// where the model is complete and one of its terms is of high confidence.
     pub confidence: Grade,
-    /// Mechanisms of the alternatives to its members.
+    /// Other mechanisms that leave less than twice as much in its place.
     pub alternatives: Vec<Mechanism>,
+    /// What it adds to the output.
+    pub curve: Curve,
     /// Its terms, as the results table names them, in the order of their rounds.
     pub members: Vec<String>,
+}
+
+/// The shares of a mechanism.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Shares {
+    /// By itself.
+    pub alone: Share,
+    /// Beyond all others.
+    pub beyond: Share,
+}
+
+impl Shares {
+    /// The larger of the two.
+    #[must_use]
+    pub fn most(&self) -> f64 {
+        self.alone.value.max(self.beyond.value)
+    }
+}
+
+/// What a mechanism adds to the output, over its variable.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Curve {
+    /// The variable in words.
+    pub over: String,
+    /// Its unit, where the record states it.
+    pub unit: Option<String>,
+    /// Points with their 95 % intervals, which hold for the motion of this record.
+    pub points: Vec<Knot>,
 }
 
 /// Whether a model is complete: only a complete model can say which term describes a mechanism.
@@ -68,25 +95,6 @@ fn title(mechanism: Mechanism, channel: &str, is_input: bool) -> String {
     }
 }
 
-impl Mechanism {
-    fn of_term(term: &FitTerm) -> Self {
-        Self::of(term.effect.name(), term.effect.family())
-    }
-
-    fn of_variable(variable: Variable) -> Self {
-        match variable {
-            Variable::Velocity(_) | Variable::DirectedPosition(_) | Variable::DirectedLoad(_) => {
-                Self::Friction
-            }
-            Variable::Position(_) => Self::Elastic,
-            Variable::Acceleration(_) => Self::Inertia,
-            Variable::ReversalDistance(_) | Variable::ReversalTime(_) => Self::ContactMemory,
-            Variable::Eta => Self::HysteresisShape,
-            Variable::Time => Self::Time,
-        }
-    }
-}
-
 /// The sentence that names them.
 #[must_use]
 pub fn lacking(all: &[Lack]) -> String {
@@ -98,77 +106,76 @@ pub fn lacking(all: &[Lack]) -> String {
     format!("The baseline model lacks {titles}.")
 }
 
-/// The mechanisms that the delivered model adds to the baseline, the largest share first.
+/// The mechanisms that the baseline lacks, the largest share first; none where the search added
+/// nothing.
 #[must_use]
 pub fn mechanisms(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Vec<Lack> {
-    let unit = ledger.declared.rmse.fit.powi(2);
-    let share = |before: f64, after: f64| (before.powi(2) - after.powi(2)) / unit;
-    let mut all: Vec<(Source, Lack)> = Vec::new();
-    for round in &ledger.rounds {
-        let term = round.term();
-        let lack = entry(data, &mut all, Mechanism::of_term(term), term.source);
-        lack.share += share(round.before.fit, round.after.fit);
-        lack.members.push(done.title_of(round));
-        for other in others(round, lack.mechanism) {
-            if !lack.alternatives.contains(&other) {
-                lack.alternatives.push(other);
-            }
-        }
+    if ledger.rounds.is_empty() && ledger.unknown.is_none() {
+        return Vec::new();
     }
-    if let Some(unknown) = &ledger.unknown {
-        let variable = unknown.variable;
-        let mechanism = Mechanism::of_variable(variable);
-        let lack = entry(data, &mut all, mechanism, variable.source());
-        lack.share += share(unknown.before.fit, unknown.after.fit);
-        lack.members
-            .push(format!("curve over {}", variable.words(data)));
-    }
-    let mut all: Vec<Lack> = all.into_iter().map(|(_, lack)| lack).collect();
-    let whole: f64 = all.iter().map(|lack| lack.share).sum();
-    for lack in &mut all {
-        if lack.share >= HALF * whole && lack.alternatives.is_empty() {
-            lack.confidence = Grade::High;
-        }
-    }
-    all.sort_by(|a, b| b.share.total_cmp(&a.share));
+    let is_complete = is_at_noise(data, ledger.last());
+    let supported = ledger.supported.iter().flat_map(|found| &found.all);
+    let mut all: Vec<Lack> = supported
+        .map(|one| lack(data, ledger, done, one, is_complete))
+        .collect();
+    all.sort_by(|a, b| b.share.most().total_cmp(&a.share.most()));
     all
+}
+
+fn lack(
+    data: &Prepared,
+    ledger: &Ledger,
+    done: &FinalFit,
+    one: &Support,
+    is_complete: bool,
+) -> Lack {
+    let mechanism = one.mechanism;
+    let is_own = |round: &&Round| Mechanism::of_term(round.term()) == mechanism;
+    let rounds = || ledger.rounds.iter().filter(is_own);
+    let mut members: Vec<String> = rounds().map(|round| done.title_of(round)).collect();
+    let unknown = ledger.unknown.as_ref().map(|unknown| unknown.variable);
+    let unknown = unknown.filter(|v| Mechanism::of_variable(data, *v) == mechanism);
+    members.extend(unknown.map(|v| format!("curve over {}", v.words(data))));
+    let mut alternatives = one.alternatives.clone();
+    let mut is_high = one.is_clear;
+    if is_complete {
+        is_high |= rounds().any(|round| round.grade == Grade::High);
+        alternatives.extend(rounds().flat_map(|round| others(round, mechanism)));
+        alternatives.sort_unstable();
+        alternatives.dedup();
+    }
+    // The clocks explain as much.
+    is_high &= ledger.lead.is_none();
+    let channel = data.channel(one.source).map_or("", |c| c.name.as_str());
+    let point = |bin: &crate::score::binned::Bin| {
+        bin.means.first().map(|mean| Knot {
+            at: bin.at,
+            value: mean.value,
+            ci95: mean.ci95,
+        })
+    };
+    Lack {
+        mechanism,
+        channel: channel.to_owned(),
+        title: title(mechanism, channel, one.source == Source::Input),
+        share: Shares {
+            alone: one.alone,
+            beyond: one.beyond,
+        },
+        confidence: if is_high { Grade::High } else { Grade::Low },
+        alternatives,
+        curve: Curve {
+            over: one.variable.words(data),
+            unit: one.variable.unit(data),
+            points: one.curve.iter().filter_map(point).collect(),
+        },
+        members,
+    }
 }
 
 /// Mechanisms of the alternatives to the terms of a round.
 fn others(round: &Round, own: Mechanism) -> impl Iterator<Item = Mechanism> + '_ {
-    let all = round
-        .rivals
-        .iter()
-        .map(|rival| Mechanism::of_term(&rival.term));
+    let all = round.rivals.iter();
+    let all = all.map(|rival| Mechanism::of_term(&rival.term));
     all.filter(move |other| *other != own)
-}
-
-/// The entry of a mechanism on a channel, a new one if there is none.
-fn entry<'a>(
-    data: &Prepared,
-    all: &'a mut Vec<(Source, Lack)>,
-    mechanism: Mechanism,
-    source: Source,
-) -> &'a mut Lack {
-    // The shape of the hysteresis and a change over time have no channel of their own.
-    let is_whole = mechanism == Mechanism::HysteresisShape;
-    let source = if is_whole { Source::Input } else { source };
-    let known = all
-        .iter()
-        .position(|(of, lack)| *of == source && lack.mechanism == mechanism);
-    let index = known.unwrap_or_else(|| {
-        let channel = data.channel(source).map_or("", |c| c.name.as_str());
-        let lack = Lack {
-            mechanism,
-            channel: channel.to_owned(),
-            title: title(mechanism, channel, source == Source::Input),
-            share: 0.0,
-            confidence: Grade::Low,
-            alternatives: Vec::new(),
-            members: Vec::new(),
-        };
-        all.push((source, lack));
-        all.len() - 1
-    });
-    &mut all[index].1
 }

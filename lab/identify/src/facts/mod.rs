@@ -55,7 +55,7 @@ pub use crate::export::{LeftOut, ModelFile};
 pub use crate::fit::Segments;
 pub use crate::foresight::plan::{Aim, Experiment};
 pub use crate::foresight::power::{Answer, Question as PowerQuestion, SHARE, TRIALS, TRIALS_RANGE};
-pub use crate::ledger::{ChannelApart, FileApart, Gate, Grade};
+pub use crate::ledger::{ChannelApart, FileApart, Gate, Grade, Share};
 pub use crate::problem::cost::Counts;
 pub use crate::record::{Defect, Mode, Options, Record, RecordError};
 pub use crate::score::autocorrelation::Autocorrelation;

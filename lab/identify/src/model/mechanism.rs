@@ -1,7 +1,12 @@
 //! What a missing force depends on, and how: six mechanisms, coarser than the effects and more
 //! repeatable from record to record.
 
+use super::kind::{kind, Kind};
+use super::term::FitTerm;
+use super::variable::Variable;
+use crate::problem::Prepared;
 use bowden::effect::Family;
+use bowden::model::Source;
 
 /// A group of effects that one record cannot always tell apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
@@ -22,6 +27,55 @@ pub enum Mechanism {
 }
 
 impl Mechanism {
+    /// All of them; what only time explains comes last.
+    pub const ALL: [Self; 6] = [
+        Self::Friction,
+        Self::Elastic,
+        Self::Inertia,
+        Self::ContactMemory,
+        Self::HysteresisShape,
+        Self::Time,
+    ];
+
+    /// The mechanism of a term.
+    pub(crate) fn of_term(term: &FitTerm) -> Self {
+        Self::of(term.effect.name(), term.effect.family())
+    }
+
+    /// The mechanism of a curve over a variable.
+    pub(crate) fn of_variable(data: &Prepared, variable: Variable) -> Self {
+        match variable {
+            Variable::Velocity(_) | Variable::DirectedPosition(_) | Variable::DirectedLoad(_) => {
+                Self::Friction
+            }
+            Variable::Position(source) => {
+                let channel = data.channel(source);
+                match channel.map(|channel| kind(data.mode, source, channel)) {
+                    // It neither moves nor loads anything.
+                    Some(Kind::Temperature | Kind::Other) => Self::Time,
+                    _ => Self::Elastic,
+                }
+            }
+            Variable::Acceleration(_) => Self::Inertia,
+            Variable::ReversalDistance(_) | Variable::ReversalTime(_) => Self::ContactMemory,
+            Variable::Eta => Self::HysteresisShape,
+            Variable::Time => Self::Time,
+        }
+    }
+
+    /// What its force is drawn over.
+    pub(crate) fn variable(self, source: Source) -> Variable {
+        match self {
+            Self::Friction => Variable::Velocity(source),
+            Self::Elastic => Variable::Position(source),
+            Self::Inertia => Variable::Acceleration(source),
+            Self::ContactMemory => Variable::ReversalDistance(source),
+            Self::HysteresisShape => Variable::Eta,
+            Self::Time if source == Source::Input => Variable::Time,
+            Self::Time => Variable::Position(source),
+        }
+    }
+
     /// The mechanism of an effect, by its name and its family.
     #[must_use]
     pub fn of(name: &str, family: Family) -> Self {

@@ -22,7 +22,7 @@ const MOVES: f64 = 1e-6;
 const SEED: u64 = 1;
 
 /// Random half-sets of the blocks, in complementary pairs.
-fn halves(blocks: usize, count: usize) -> Vec<Vec<usize>> {
+pub(super) fn halves(blocks: usize, count: usize) -> Vec<Vec<usize>> {
     let mut rng = ChaCha8Rng::seed_from_u64(SEED);
     let mut all = Vec::with_capacity(count);
     let mut order: Vec<usize> = (0..blocks).collect();

@@ -163,7 +163,7 @@ impl Search<'_> {
         let gained = (pair.sse(self.data) / law.sse(self.data)).ln();
         let (least, worst) = match is_noise {
             true => (0.0, policy::NOT_WORSE),
-            false => (policy::MISFIT, 1.0),
+            false => (policy::CURVE_AGAINST_NAMES, 1.0),
         };
         let beats = p <= policy::SHORTER
             && gained > least

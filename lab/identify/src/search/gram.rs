@@ -177,6 +177,12 @@ impl Grams {
         self.parts.len()
     }
 
+    /// Product of two columns on one block.
+    #[must_use]
+    pub fn on_block(&self, block: usize, i: usize, j: usize) -> f64 {
+        self.parts[block][place(i.max(j), i.min(j))]
+    }
+
     /// The squared scale of a column: squared errors of a target are in units of it.
     #[must_use]
     pub fn unit(&self, column: usize) -> f64 {

@@ -346,6 +346,11 @@ impl<'a> Linear<'a> {
         }
     }
 
+    /// The gains and slopes of the baseline model, and the target.
+    pub(super) fn baseline(&self) -> (&[usize], usize) {
+        (&self.own, self.target)
+    }
+
     pub(super) fn has_table(&self) -> bool {
         !self.table.is_empty()
     }

@@ -29,6 +29,7 @@ mod readoff;
 mod refit;
 mod run;
 mod sought;
+mod support;
 
 use crate::fit::{fit, glance, Solution};
 use crate::ledger::{Grade, Ledger};
@@ -112,6 +113,7 @@ pub fn close_within(
     let limited = (most < MOST_NAMES && search.is_cut).then_some(most);
     let mut ledger = search.ledger().ok_or(cannot)?;
     ledger.lead = lead(data, &fine, &ledger);
+    ledger.supported = support::supported(data, &ledger);
     if ledger.lead.is_some() {
         // The clocks explain as much as the terms.
         let rounds = ledger.rounds.iter_mut().chain(&mut ledger.beyond);

@@ -37,7 +37,13 @@ fn a_complete_model_names_the_mechanism_and_a_term_of_high_confidence() {
         (Mechanism::Friction, Grade::High)
     );
     assert_eq!(lack.channel, "x");
-    assert!(lack.share > 0.8 && lack.share < 1.0, "{lack:?}");
+    // The only one: what it removes alone is what it removes beyond the others.
+    let share = lack.share;
+    assert_eq!(share.alone, share.beyond);
+    assert!(
+        share.alone.value > 0.8 && share.alone.value < 1.0,
+        "{share:?}"
+    );
     assert_eq!(closed.ledger.rounds[0].grade, Grade::High);
     let told = sentence(&closed.data, &closed.ledger, &closed.done);
     assert!(
@@ -47,24 +53,65 @@ fn a_complete_model_names_the_mechanism_and_a_term_of_high_confidence() {
     assert!(!told.contains("candidate"), "{told}");
 }
 
-/// A search that ends early leaves a model above the noise, whatever it has found.
+/// A search that ends early leaves a model above the noise, whatever it has found; the mechanisms
+/// do not wait for names.
 #[test]
-fn terms_of_a_model_above_the_noise_are_candidates_and_the_mechanism_stands() {
+fn the_terms_of_a_model_above_the_noise_are_candidates_and_both_mechanisms_are_found() {
     let mut recipe = planted("drag-quadratic", 6.0);
     recipe.effects.push(Planted {
         strength: 3.0,
         ..Planted::new("stiffness-cubic")
     });
     let closed = Closed::new(&recipe, &["bouc-wen"], 1);
-    assert!(closed
-        .ledger
-        .rounds
-        .iter()
-        .all(|round| round.grade == Grade::Low));
+    let rounds = &closed.ledger.rounds;
+    assert!(rounds.iter().all(|round| round.grade == Grade::Low));
     let all = lacks(&closed);
-    assert_eq!((all.len(), all[0].confidence), (1, Grade::High), "{all:?}");
+    let mechanisms: Vec<_> = all.iter().map(|l| (l.mechanism, l.confidence)).collect();
+    assert_eq!(
+        mechanisms,
+        [
+            (Mechanism::Friction, Grade::High),
+            (Mechanism::Elastic, Grade::High)
+        ]
+    );
+    // Only one of them has a term.
+    assert_eq!(all.iter().map(|l| l.members.len()).sum::<usize>(), 1);
     let told = sentence(&closed.data, &closed.ledger, &closed.done);
     assert!(told.contains("The term is a candidate"), "{told}");
+}
+
+/// The curve of a mechanism is the planted function, of which it knows nothing.
+#[test]
+fn the_curve_of_a_mechanism_follows_what_was_planted_within_its_intervals() {
+    let closed = Closed::new(&planted("drag-quadratic", 5.0), &["bouc-wen"], 8);
+    let curve = &lacks(&closed)[0].curve;
+    assert_eq!(curve.over, "the velocity of x");
+    let gain = closed.done.solution.gain(0);
+    let planted = |v: f64| gain * v * v.abs();
+    let [first, .., last] = &curve.points[..] else {
+        panic!("{curve:?}");
+    };
+    let reach = planted(last.at) - planted(first.at);
+    let within = curve.points.iter().filter(|knot| {
+        let [low, high] = knot.ci95.unwrap();
+        // A bin is as wide as a tenth of the samples: its mean is not the value at its middle.
+        let width = 0.05 * reach.abs();
+        (low - width..=high + width).contains(&planted(knot.at))
+    });
+    assert!(within.count() >= curve.points.len() - 1, "{curve:?} {gain}");
+}
+
+/// No effect of the catalogue describes a bump over the position; its mechanism does.
+#[test]
+fn the_mechanism_of_a_dependence_outside_the_catalogue_is_found_without_a_name() {
+    let closed = Closed::new(&planted("bump-position", 5.0), &["bouc-wen"], 8);
+    let all = lacks(&closed);
+    assert_eq!(
+        (all[0].mechanism, all[0].confidence),
+        (Mechanism::Elastic, Grade::High),
+        "{all:?}"
+    );
+    assert!(closed.ledger.rounds.iter().all(|r| r.grade == Grade::Low));
 }
 
 #[test]

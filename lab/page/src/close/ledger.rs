@@ -3,10 +3,10 @@
 use crate::chart::scale::Scale;
 use crate::chart::{Axis, Chart};
 use crate::document::{data, share_bar, table};
-use crate::words::{in_brackets, unit, value};
+use crate::words::{in_brackets, quantity, unit, value};
 use bowden_lab::facts::{
     number, percent, Experiment, Facts, Figures, Grade, Lack, Parameter, RoundFacts, Segments,
-    Size, BLOCKS,
+    Share, Size, BLOCKS,
 };
 use maud::{html, Markup};
 
@@ -108,15 +108,66 @@ fn mechanisms(facts: &Facts) -> Markup {
             th scope="row" { (lack.title) }
             td { (grade(lack.confidence)) }
             td class="number" {
-                (share_bar(lack.share))
-                (data(lack.share, &format!("{:.1} %", 100.0 * lack.share)))
+                (share_bar(lack.share.alone.value))
+                (share(lack.share.alone))
             }
+            td class="number" { (share(lack.share.beyond)) }
             td { (lack.members.join(", ")) }
         } }
     };
     let rows: Vec<Markup> = facts.lacks.iter().map(row).collect();
-    let head = ["", "confidence", "of the missing output", "terms"];
-    table("Missing mechanisms", &head, 2..3, &rows)
+    let head = ["", "confidence", "alone", "beyond the others", "terms"];
+    let charts = facts.lacks.iter().enumerate();
+    let charts: Vec<Markup> = charts
+        .filter_map(|(k, lack)| curve(facts, k, lack))
+        .collect();
+    html! {
+        (table("Missing mechanisms", &head, 2..4, &rows))
+        p class="note" {
+            "Alone and beyond the others: shares of the baseline's squared error that the mechanism removes on parts of the record that it was not fitted to, with 95 % intervals."
+        }
+        div class="grid-of" { @for chart in &charts { (chart) } }
+        p class="note" {
+            "What each mechanism adds to the output, with the residual of all. The 95 % intervals hold for the motion of this record."
+        }
+    }
+}
+
+/// A share with its interval.
+fn share(share: Share) -> Markup {
+    let [value, low, high] = [share.value, share.ci95[0], share.ci95[1]].map(|s| 100.0 * s);
+    data(
+        share.value,
+        &format!("{value:.1} % ({low:.1} to {high:.1})"),
+    )
+}
+
+/// What a mechanism adds over its variable; `None` where that cannot be drawn.
+fn curve(facts: &Facts, k: usize, lack: &Lack) -> Option<Markup> {
+    let points = &lack.curve.points;
+    let all: Vec<_> = points
+        .iter()
+        .map(|knot| ([knot.at, knot.value], knot.ci95))
+        .collect();
+    let ends = points
+        .iter()
+        .flat_map(|knot| knot.ci95.unwrap_or([knot.value; 2]));
+    let y = Axis {
+        label: quantity("added output", facts.record.unit.as_deref()),
+        scale: Scale::linear(ends),
+    };
+    let x = Axis {
+        label: quantity(&lack.curve.over, lack.curve.unit.as_deref()),
+        scale: Scale::linear(points.iter().map(|knot| knot.at)),
+    };
+    let description = format!("What {} adds to the output, at 95 %.", lack.title);
+    (points.len() > 1).then(|| {
+        Chart::new(&format!("mechanism-{k}"), &lack.title, &description, x, y)
+            .low()
+            .level("zero", 0.0)
+            .dots("final", &all)
+            .figure()
+    })
 }
 
 fn names(facts: &Facts) -> Markup {
