@@ -52,10 +52,10 @@ const MOST_SAMPLES: f64 = 65_536.0;
 
 /// Iterative learning over a repeating cycle: gain, lead, filter, limit, forgetting.
 ///
-/// The learned values are stored in two buffers of the same length, one number per cell: arrays,
-/// or borrowed slices. A gait of 200 cells in `f32` takes 1600 bytes. Choose about ten times
-/// the filter's corner frequency as the number of cells per second, and fewer cells than samples
-/// in the shortest cycle.
+/// The learned values are stored in two buffers of the same length, one number per cell: arrays, or
+/// borrowed slices. A gait of 200 cells in `f32` takes 1600 bytes. Use about ten cells per second
+/// for each hertz of the filter's corner frequency, but fewer cells than there are samples in the
+/// shortest cycle.
 ///
 /// ```
 /// use bowden::control::{IterativeLearning, IterativeLearningInput, Status};
@@ -212,8 +212,7 @@ impl<T: Real> IterativeLearning<T> {
         learning!(gain, limit, lead, half_width, T::ZERO)
     }
 
-    /// The same learning with a share from 0 to 1 of each learned value that is forgotten per
-    /// cycle.
+    /// The same learning, but in each cycle a share (0 to 1) of each learned value is forgotten.
     ///
     /// An error then remains, and values that do not repeat decay.
     ///

@@ -167,7 +167,7 @@ pub struct PidSettings<T> {
     pub deadband: T,
     /// Period of an output that wraps, above zero \[output unit\], such as 360°.
     ///
-    /// The error and the changes of the output are then measured along the shorter direction,
+    /// The error and the changes of the output are then measured along the shorter way round,
     /// within half a period. A period requires the full set-point weight b = 1, and a c of 0 or 1.
     #[cfg_attr(feature = "serde", serde(default = "none"))]
     pub period: Option<T>,
