@@ -334,8 +334,8 @@ impl<T: Real> IterativeLearning<T> {
     /// - A phase outside 0 to 1 changes nothing and holds the feed-forward. The controller counts
     ///   such samples as good, so the fallback does not act. If the phase signal can fail, omit the
     ///   feed-forward after a few such samples.
-    /// - If reference or measured output is not finite, the feed-forward follows the phase, and the
-    ///   law does not learn from the sample.
+    /// - If the reference or the measured output is not finite, the feed-forward follows the phase,
+    ///   and the law does not learn from the sample.
     /// - A jump is more than four cells forward or back in one sample. After a jump the cell before
     ///   it does not learn. The `lead` cells before the new cell do not learn either: they were
     ///   skipped, so the errors do not belong to them. A step that ends early at heel contact is

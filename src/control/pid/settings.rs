@@ -18,12 +18,12 @@ use crate::{Error, Real};
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum DerivativeSource<T> {
-    /// The filtered derivative of `y − c·y_r`, PID (14).
+    /// The filtered derivative of `y − c·y_r`, as in PID (14).
     Rate {
         /// Set-point weight c within 0..=1: 1 means the error, 0 the measurement.
         weight: T,
     },
-    /// The measured distal velocity, unfiltered, PIV (16).
+    /// The measured distal velocity, unfiltered, as in PIV (16).
     Velocity,
 }
 
