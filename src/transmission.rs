@@ -51,7 +51,7 @@ pub enum Mode {
     Displacement,
 }
 
-/// A linear gain with a hysteresis and an offset: equations (1)-(2) and (5)-(7).
+/// A linear gain with hysteresis and an offset: equations (1)-(2) and (5)-(7).
 ///
 /// ```
 /// use bowden::hysteresis::{BoucWenState, BoucWen};

@@ -1689,7 +1689,7 @@ typedef struct bowden_pid_settings_f32 {
     // wider than the jump.
     float deadband;
     // Period of an output that wraps, above zero [output unit], such as 360 degrees; 0
-    // for none. Errors and changes are then measured along the shorter direction.
+    // for none. Errors and changes are then measured along the shorter way round.
     float period;
     // Range and slew-rate limit of the command.
     struct bowden_limits_f32 limits;
@@ -1803,7 +1803,7 @@ typedef struct bowden_pid_settings_f64 {
     // wider than the jump.
     double deadband;
     // Period of an output that wraps, above zero [output unit], such as 360 degrees; 0
-    // for none. Errors and changes are then measured along the shorter direction.
+    // for none. Errors and changes are then measured along the shorter way round.
     double period;
     // Range and slew-rate limit of the command.
     struct bowden_limits_f64 limits;
@@ -1896,9 +1896,9 @@ typedef struct bowden_plausible_settings_f32 {
     // Greatest rate of the signal, above zero [signal unit/s]; 0 for none. Do not use
     // it for an angle that wraps.
     float rate;
-    // Longest time of the sensor from one number to the next, including jitter, above
-    // zero [s]; 0 if unknown. A repeated number is then at most this old. Without a
-    // rate this setting has no effect.
+    // Longest time of the sensor from one reading to the next, including jitter, above
+    // zero [s]; 0 if unknown. If it is set, a repeated reading is taken to be at most
+    // this old. Without a rate this setting has no effect.
     float sample_period;
     // Number of equal samples in a row that mean a stuck sensor, counted while the
     // machine moves; 0 for never.
@@ -1952,9 +1952,9 @@ typedef struct bowden_plausible_settings_f64 {
     // Greatest rate of the signal, above zero [signal unit/s]; 0 for none. Do not use
     // it for an angle that wraps.
     double rate;
-    // Longest time of the sensor from one number to the next, including jitter, above
-    // zero [s]; 0 if unknown. A repeated number is then at most this old. Without a
-    // rate this setting has no effect.
+    // Longest time of the sensor from one reading to the next, including jitter, above
+    // zero [s]; 0 if unknown. If it is set, a repeated reading is taken to be at most
+    // this old. Without a rate this setting has no effect.
     double sample_period;
     // Number of equal samples in a row that mean a stuck sensor, counted while the
     // machine moves; 0 for never.

@@ -77,7 +77,7 @@ macro_rules! settings {
                 /// wider than the jump.
                 pub deadband: $f,
                 /// Period of an output that wraps, above zero [output unit], such as 360 degrees; 0
-                /// for none. Errors and changes are then measured along the shorter direction.
+                /// for none. Errors and changes are then measured along the shorter way round.
                 pub period: $f,
                 /// Range and slew-rate limit of the command.
                 pub limits: [<bowden_limits_ $f>],

@@ -1,4 +1,4 @@
-//! Plausibility of a finite number from a sensor.
+//! Plausibility of a finite reading from a sensor.
 
 use crate::object::{kept, read_settings, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_result, code, told, Refused};
@@ -72,9 +72,9 @@ macro_rules! plausible {
                 /// Greatest rate of the signal, above zero [signal unit/s]; 0 for none. Do not use
                 /// it for an angle that wraps.
                 pub rate: $f,
-                /// Longest time of the sensor from one number to the next, including jitter, above
-                /// zero [s]; 0 if unknown. A repeated number is then at most this old. Without a
-                /// rate this setting has no effect.
+                /// Longest time of the sensor from one reading to the next, including jitter, above
+                /// zero [s]; 0 if unknown. If it is set, a repeated reading is taken to be at most
+                /// this old. Without a rate this setting has no effect.
                 pub sample_period: $f,
                 /// Number of equal samples in a row that mean a stuck sensor, counted while the
                 /// machine moves; 0 for never.

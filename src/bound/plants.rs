@@ -28,12 +28,11 @@ pub struct PlantRange {
     pub damping_ratio: Interval<f64>,
     /// c/K of the joint \[s\], not below zero.
     pub joint: Interval<f64>,
-    /// f, above zero. Without a hysteresis f is 1. With a hysteresis in torque mode, with
-    /// kappa_eta and sigma above zero, the range is from `1 − kappa_eta·rho·max(1, 2·sigma)/B`
-    /// to 1.
+    /// f, above zero. Without hysteresis f is 1. With hysteresis in torque mode, and if kappa_eta
+    /// and sigma are above zero, f ranges from `1 − kappa_eta·rho·max(1, 2·sigma)/B` to 1.
     pub slope: Interval<f64>,
-    /// theta \[s\], not below zero: samples of delay, half a sample of hold, the lags of drive
-    /// and sensor.
+    /// theta \[s\], not below zero: samples of delay, half a sample for the zero-order hold, the
+    /// lags of drive and sensor.
     pub latency: Interval<f64>,
 }
 

@@ -52,10 +52,10 @@ const MOST_SAMPLES: f64 = 65_536.0;
 
 /// Iterative learning over a repeating cycle: gain, lead, filter, limit, forgetting.
 ///
-/// The learned values are stored in two buffers of the same length, one number per cell: arrays,
-/// or borrowed slices. A gait of 200 cells in `f32` takes 1600 bytes. Choose about ten times
-/// the filter's corner frequency as the number of cells per second, and fewer cells than samples
-/// in the shortest cycle.
+/// The learned values are stored in two buffers of the same length, one number per cell: arrays, or
+/// borrowed slices. A gait of 200 cells in `f32` takes 1600 bytes. Use about ten cells per second
+/// for each hertz of the filter's corner frequency, but fewer cells than there are samples in the
+/// shortest cycle.
 ///
 /// ```
 /// use bowden::control::{IterativeLearning, IterativeLearningInput, Status};
@@ -212,8 +212,7 @@ impl<T: Real> IterativeLearning<T> {
         learning!(gain, limit, lead, half_width, T::ZERO)
     }
 
-    /// The same learning with a share from 0 to 1 of each learned value that is forgotten per
-    /// cycle.
+    /// The same learning, but in each cycle a share (0 to 1) of each learned value is forgotten.
     ///
     /// An error then remains, and values that do not repeat decay.
     ///
@@ -335,8 +334,8 @@ impl<T: Real> IterativeLearning<T> {
     /// - A phase outside 0 to 1 changes nothing and holds the feed-forward. The controller counts
     ///   such samples as good, so the fallback does not act. If the phase signal can fail, omit the
     ///   feed-forward after a few such samples.
-    /// - If reference or measured output is not finite, the feed-forward follows the phase, and the
-    ///   law does not learn from the sample.
+    /// - If the reference or the measured output is not finite, the feed-forward follows the phase,
+    ///   and the law does not learn from the sample.
     /// - A jump is more than four cells forward or back in one sample. After a jump the cell before
     ///   it does not learn. The `lead` cells before the new cell do not learn either: they were
     ///   skipped, so the errors do not belong to them. A step that ends early at heel contact is

@@ -204,9 +204,9 @@ impl<T: Real> DisturbanceObserver<T> {
         observer!(plant, time_constant, limit, longest_dt, T::ZERO, T::ONE)
     }
 
-    /// The same observer for a command that affects the measured output after `latency ≥ 0`
-    /// \[s\]. The latency covers whole samples of delay, half a sample of hold, and the lags of
-    /// drive and sensor. It excludes the response of the nominal plant.
+    /// The same observer for a command that affects the measured output after `latency ≥ 0` \[s\].
+    /// The latency covers whole samples of delay, half a sample for the zero-order hold, and the
+    /// lags of drive and sensor. It excludes the response of the nominal plant.
     ///
     /// The observer delays the command by a lag of this time before the comparison.
     ///

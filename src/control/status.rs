@@ -1,4 +1,5 @@
-//! Result of a step: a good sample, or a bad sample and the substitute command.
+//! Status of a step (good, degraded, held or safe), and the safe command after repeated bad
+//! samples.
 
 use crate::error::{must_be_finite, rarely};
 use crate::{Error, Real};

@@ -1,9 +1,9 @@
 //! Models and their states in serde: the terms as one list.
 //!
-//! A model in a human-readable format is a file, `file.rs`. In every other format it is the derived
-//! form of its parts, without names. serde has no arrays of arbitrary length `N`; here they are
-//! lists of at most `N`. Reading uses the constructors and their checks. If the list of a state is
-//! shorter, the omitted memories start as new.
+//! In a human-readable format a model has the form of a model file (`file.rs`). In every other
+//! format it has the derived form of its parts, without names. serde has no arrays of arbitrary
+//! length `N`; here they are lists of at most `N`. Reading uses the constructors and their checks.
+//! If the list of a state is shorter, the omitted memories start as new.
 
 use super::{file, padding, Model, ModelState, Term};
 use crate::effect::EffectState;

@@ -52,7 +52,7 @@ pub(crate) fn greatest<T: Real>(a: T, b: T) -> T {
     }
 }
 
-/// A difference on a circle of this period, along the shorter direction: within half a period.
+/// A difference on a circle of this period, along the shorter way round: within half a period.
 #[inline]
 pub(crate) fn wrapped<T: Real>(difference: T, period: T) -> T {
     // A float of 1.5/epsilon has no room for a fraction: the sum rounds to whole turns.

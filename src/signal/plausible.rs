@@ -1,4 +1,4 @@
-//! Plausibility of a finite number: its range, its rate, and whether it is stuck.
+//! Plausibility of a finite reading: its range, its rate, and whether it is stuck.
 
 use super::gap::gap_after;
 use crate::error::{above_zero, ordered};
@@ -6,7 +6,7 @@ use crate::{Error, Real};
 
 /// Plausibility check of a sensor: range, rate limit and stuck value.
 ///
-/// A controller rejects NaN by itself. It cannot detect a finite but wrong number: an encoder that
+/// A controller rejects NaN by itself. It cannot detect a finite but wrong reading: an encoder that
 /// was reset, a shorted bridge, or a bus that repeats its last frame. Use a `Plausible` before each
 /// input. It turns an implausible sample into NaN; the controller then holds its command and counts
 /// the sample.
@@ -200,14 +200,14 @@ impl<T: Real> Plausible<T> {
     /// Do not use a rate limit for an angle that wraps: each wrap is too fast. Instead, check the
     /// range of the velocity from [`Rates`](crate::signal::Rates), which knows the period.
     ///
-    /// A sensor may be slower than the loop. A repeated number counts as the same measurement,
-    /// whose age grows. The next number may lie `rate` times the time since the last *change* away.
-    /// A correct sensor never exceeds the rate, even if it repeats each number several times. After
-    /// a number has repeated for `t` seconds, the check accepts a spike of up to `rate·(t + dt)`.
-    /// It then rejects the true number for `distance/rate`, as after any gap.
+    /// A sensor may be slower than the loop. A repeated reading counts as the same measurement,
+    /// whose age grows. The next reading may differ by `rate` times the time since the last
+    /// *change*. A correct sensor never exceeds the rate, even if it repeats each reading several
+    /// times. After a reading has repeated for `t` seconds, the check accepts a spike of up to
+    /// `rate·(t + dt)`. It then rejects the true reading for `distance/rate`, as after any gap.
     /// [`with_sample_period`](Self::with_sample_period) bounds both. Set it for a sensor whose
-    /// numbers repeat while the signal rests (an encoder), and for a sensor that is not synchronous
-    /// with the loop.
+    /// readings repeat while the signal rests (an encoder), and for a sensor that is not
+    /// synchronous with the loop.
     ///
     /// During a gap the permitted distance grows with time. The check accepts a signal that has
     /// really moved after `distance/rate`, rounded up to the next sample. The same is true of an
@@ -222,13 +222,13 @@ impl<T: Real> Plausible<T> {
         rated!(self, rate, T::ZERO)
     }
 
-    /// The same check for a sensor that needs at most `sample_period` \[s\] from one number to the
-    /// next.
+    /// The same check for a sensor that needs at most `sample_period` \[s\] from one reading to
+    /// the next.
     ///
-    /// Include the jitter of the sensor and of its bus. Every number is then at most this old
-    /// when it is read, and the next number may lie `rate·(sample_period + dt)` away. This
-    /// distance does not depend on the number of repetitions or on the phase between sensor and
-    /// loop. It is also the largest accepted spike. Without a rate this setting has no effect.
+    /// Include the jitter of the sensor and of its bus. Every reading is then taken to be at most
+    /// this old, and the next reading may differ by `rate·(sample_period + dt)`. This distance does
+    /// not depend on the number of repetitions or on the phase between sensor and loop. It is also
+    /// the largest accepted spike. Without a rate this setting has no effect.
     ///
     /// ```
     /// use bowden::signal::{Implausible, Plausible, PlausibleState};
@@ -249,13 +249,13 @@ impl<T: Real> Plausible<T> {
         sampled!(self, sample_period, T::ZERO)
     }
 
-    /// The same check with a stuck limit: `samples` equal numbers in succession mean that the
+    /// The same check with a stuck limit: `samples` equal readings in succession mean that the
     /// sensor is stuck; with 0 this is never reported.
     ///
-    /// A stuck sensor stays stuck until its number changes, at rest too. If the machine cannot
+    /// A stuck sensor stays stuck until its reading changes, at rest too. If the machine cannot
     /// move for this reason, use a new [`PlausibleState`], which treats the sensor as sound.
     ///
-    /// Numbers count only while the machine moves. A coarse encoder repeats its number at low
+    /// Readings count only while the machine moves. A coarse encoder repeats its reading at low
     /// speed: choose more samples than one of its counts lasts at that speed.
     #[must_use]
     pub const fn with_stuck_after(self, samples: u32) -> Self {
@@ -282,11 +282,11 @@ impl<T: Real> Plausible<T> {
     /// `moves` states whether the machine moves, so that the signal must change. A change of the
     /// command or of another sensor shows this, for example.
     ///
-    /// A `dt` of zero adds no time: with a rate limit, the sample right after a change must be
-    /// the same number. A `dt` that is negative, NaN or infinite counts as
-    /// [`with_longest_dt`](Self::with_longest_dt) states. Without that setting the time is
-    /// unknown, and any sample in the range is plausible until the number has changed. A sample
-    /// that is not finite is never plausible.
+    /// A `dt` of zero adds no time: with a rate limit, the sample right after a change must have
+    /// the same value. A `dt` that is negative, NaN or infinite counts as
+    /// [`with_longest_dt`](Self::with_longest_dt) states. Without that setting the time is unknown,
+    /// and any sample in the range is plausible until the reading has changed. A sample that is not
+    /// finite is never plausible.
     #[inline]
     pub fn step(
         &self,

@@ -110,7 +110,9 @@ impl RigOptions {
         ];
         for (option, value) in positive {
             if let Some(value) = value.filter(|v| !(v.is_finite() && *v > 0.0)) {
-                return Err(format!("{option} {value} is out of range (above 0)"));
+                return Err(format!(
+                    "{option} {value} is out of range; it must be above 0"
+                ));
             }
         }
         for (option, value) in not_negative {

@@ -16,7 +16,7 @@ pub struct Design {
     #[arg(long, value_name = "HZ")]
     rate: f64,
     /// Delay from the command to its measured torque [s]: transport, computation, and the time
-    /// constants of drive, sensor and joint; half a sample of hold is added.
+    /// constants of drive, sensor and joint; half a sample is added for the zero-order hold.
     #[arg(long, value_name = "SECONDS")]
     delay: f64,
     /// Noise of the measured torque [N·m rms], which sets the least slew-rate limit.

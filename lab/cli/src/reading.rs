@@ -88,7 +88,7 @@ impl Columns {
         if let Some(cutoff) = self.cutoff {
             if !(cutoff.is_finite() && cutoff > 0.0) {
                 return Err(format!(
-                    "`--cutoff {cutoff}` is out of range (a frequency above 0 Hz)"
+                    "`--cutoff {cutoff}` is out of range; it must be above 0 Hz"
                 ));
             }
         }
@@ -128,7 +128,7 @@ impl Reading {
         }
         if let Some(limit) = self.time_limit.filter(|s| !(s.is_finite() && *s > 0.0)) {
             return Err(format!(
-                "`--time-limit {limit}` is out of range (above 0 s)"
+                "`--time-limit {limit}` is out of range; it must be above 0 s"
             ));
         }
         Ok(Asked {

@@ -302,7 +302,7 @@ pub fn certify(setup: Option<&Path>) -> Result<Certified, String> {
         let text = std::fs::read_to_string(path).unwrap_or_default();
         if is_of_design(&text) {
             return Err(format!(
-                "{}: is a file written by `bowden design`; give gains and rig in one file. Certify this file without --gains: `bowden certify FILE`",
+                "{}: this file was written by `bowden design`; give gains and rig in one file. Certify this file without --gains: `bowden certify FILE`",
                 path.display()
             ));
         }

@@ -57,7 +57,7 @@ impl RigChanges {
         };
         if !(rig.drive_gain > 0.0 && rig.drive_gain.is_finite()) {
             return Err(format!(
-                "the rig: drive_gain {} is out of range (above 0)",
+                "the rig: drive_gain {} is out of range; it must be above 0",
                 rig.drive_gain
             ));
         }

@@ -48,7 +48,7 @@ class Linear(Controller):
     period: Any = setting(
         default=None,
         doc="Period of an output that wraps [output unit], such as 360: the error is measured "
-        "along the shorter direction; None: the output does not wrap.",
+        "along the shorter way round; None: the output does not wrap.",
     )
 
     @classmethod

@@ -279,7 +279,7 @@ class Ramp(Block):
 
 
 class Plausible(Block):
-    """Plausibility check of a finite number: its range, its rate, and whether it is stuck.
+    """Plausibility check of a finite reading: its range, its rate, and whether it is stuck.
 
     Use one before each input of a controller. An implausible sample becomes NaN, and the controller
     then holds its command.
@@ -297,7 +297,7 @@ class Plausible(Block):
     sample_period: Any = setting(
         default=None,
         convert=duration,
-        doc="Longest time from one number of the sensor to the next [s], with rate; None: unknown.",
+        doc="Longest time from one reading of the sensor to the next [s], with rate; None: unknown.",
     )
     longest_dt: Any = setting(
         default=None,

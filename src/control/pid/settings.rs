@@ -18,12 +18,12 @@ use crate::{Error, Real};
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum DerivativeSource<T> {
-    /// The filtered derivative of `y − c·y_r`, PID (14).
+    /// The filtered derivative of `y − c·y_r`, as in PID (14).
     Rate {
         /// Set-point weight c within 0..=1: 1 means the error, 0 the measurement.
         weight: T,
     },
-    /// The measured distal velocity, unfiltered, PIV (16).
+    /// The measured distal velocity, unfiltered, as in PIV (16).
     Velocity,
 }
 
@@ -167,7 +167,7 @@ pub struct PidSettings<T> {
     pub deadband: T,
     /// Period of an output that wraps, above zero \[output unit\], such as 360°.
     ///
-    /// The error and the changes of the output are then measured along the shorter direction,
+    /// The error and the changes of the output are then measured along the shorter way round,
     /// within half a period. A period requires the full set-point weight b = 1, and a c of 0 or 1.
     #[cfg_attr(feature = "serde", serde(default = "none"))]
     pub period: Option<T>,

@@ -175,9 +175,9 @@ impl<T: Real> PidState<T> {
 
     /// Prepares a stored state for a start after a power-off: no command is applied.
     ///
-    /// Integral, rate and samples are cleared. The command becomes the value nearest to zero within
-    /// the limits. A latched safe command stays latched, and the score of the bad samples is kept.
-    /// The first good sample starts from this command without a jump, as after
+    /// The integral, the rate and the samples are cleared. The command becomes the value nearest to
+    /// zero within the limits. A latched safe command stays latched, and the score of the bad
+    /// samples is kept. The first good sample starts from this command without a jump, as after
     /// [`acknowledge`](Self::acknowledge). Without this call a step on a stored state continues
     /// with the stored command.
     ///

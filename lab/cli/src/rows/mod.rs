@@ -27,14 +27,15 @@ use std::time::Duration;
 #[derive(Args, Default)]
 #[group(id = "rows")]
 pub struct Rows {
-    /// Identify each record of a pattern such as 'runs/*.csv' separately and write one row per
-    /// record with --out; a record that cannot be identified becomes a row with its error.
+    /// Identify a model from each record of a pattern such as 'runs/*.csv' separately and write
+    /// one row per record with --out; if the identification of a record fails, its row contains
+    /// the error.
     #[arg(long, value_name = "PATTERN", requires = "out", conflicts_with_all = ["records", "per_file", "json", "model_out", "trace", "invertible", "Drawing"])]
     glob: Option<PathBuf>,
     /// File for the rows of --glob.
     #[arg(long, value_name = "ROWS.parquet")]
     out: Option<PathBuf>,
-    /// Number of records that --glob identifies at a time [default: the number of processors].
+    /// Number of records that --glob processes at a time [default: the number of processors].
     #[arg(long, value_name = "N")]
     workers: Option<NonZeroUsize>,
     /// Print the row of this record as JSON: what --glob has its processes do.
@@ -59,7 +60,7 @@ impl Rows {
         }
         match self.workers {
             Some(workers) => Err(format!(
-                "--workers {workers}: only --glob identifies records in parallel"
+                "--workers {workers}: only --glob processes records in parallel"
             )),
             None => Ok(()),
         }

@@ -134,7 +134,7 @@ fn plant(designed: &Designed) -> [String; 3] {
             slopes.least, slopes.greatest, designed.design_slope
         ),
         format!(
-            "delay {} sample{plural} with hold · drive gain {} N·m/unit · no joint inertia",
+            "delay {} sample{plural} incl. hold · drive gain {} N·m/unit · no joint inertia",
             designed.delay_samples, designed.gains.design.drive_gain
         ),
         format!("reference: {range}; {rate}"),

@@ -112,7 +112,7 @@ pub(super) fn text(hand: &Result<HandOverFacts, String>, width: Width) -> String
         ));
     }
     lines.push(format!("as feed-forward: {}", hand.feed_forward.words()));
-    // A model without a hysteresis has none with --invertible either.
+    // A model without hysteresis has none with --invertible either.
     if hand.effects.iter().any(|part| part == "bouc-wen") {
         lines.extend(
             match (&hand.feed_forward.reason, &hand.feed_forward.nearest) {

@@ -361,7 +361,7 @@ fn a_file_of_design_is_named_as_one_where_a_setup_is_expected() {
     let path = path.to_str().unwrap();
     let line = refused(&["certify", "--gains", path]);
     assert!(
-        line.contains("gains.toml: is a file written by `bowden design`"),
+        line.contains("gains.toml: this file was written by `bowden design`"),
         "{line}"
     );
     assert!(line.contains("gains and rig"), "{line}");

@@ -53,7 +53,7 @@ fn a_damaged_file_is_refused() {
     let short = line(&folder.file("short.gz", &packed[..packed.len() / 2]), &[]);
     assert!(short.starts_with(": the gzip file is damaged: "), "{short}");
     let twice = line(&folder.file("twice.gz", gzip(&packed)), &[]);
-    assert_eq!(twice, ": is compressed by gzip twice; unpack it once");
+    assert_eq!(twice, ": is compressed with gzip twice; unpack it once");
     for name in [
         "vectors.mat",
         "structure.mat",
@@ -136,7 +136,7 @@ fn what_a_foreign_file_lacks_is_said_with_the_column() {
         assert_eq!(
             foreign(&format!("{codec}.parquet"), &[]),
             format!(
-                ": column `t`: is compressed by {codec}, which bowden does not read; write the file with snappy or gzip"
+                ": column `t`: is compressed with {codec}, which bowden does not read; write the file with snappy or gzip"
             )
         );
     }

@@ -84,7 +84,10 @@ fn a_record_that_does_not_fit_the_model_is_refused_with_the_reason() {
     let csv = folder.read("own.csv");
     let without = folder.file("without.csv", csv.replace("phi_p", "angle"));
     let line = refused(&["validate", &model, &without]);
-    assert!(line.contains("`phi_p`, which the model reads"), "{line}");
+    assert!(
+        line.contains("the model reads channel `phi_p`, but"),
+        "{line}"
+    );
     said(&["validate", &model, &without, "--channel", "phi_p=angle"]);
 
     let other = folder.record(

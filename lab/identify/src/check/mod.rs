@@ -11,13 +11,14 @@
 //! Estimating eta(0) instead would be a refit. How much the unknown state still matters is
 //! measured: the model runs from eta = −1 and from eta = 1 as well.
 //!
-//! **The rule.** A model *holds* where its error is at most [`HOLDS`] times the held-out error
-//! that it came with, both as shares of the output's standard deviation; or both in the output's
-//! unit, where it is at most [`FAINT`] of the deviation, since a record that moves less makes the
-//! same error a larger share; or where it is at
-//! most [`NOISE`] times the noise floor of this record: what is noise is no fault of the
-//! model. An error of nine tenths of the standard deviation or more is no model that holds,
-//! whatever it came with.
+//! **The rule.** A model *holds* where its error is at most the largest of three values:
+//!
+//! * [`HOLDS`] times the held-out error that it came with, both as shares of the output's standard
+//!   deviation, but at most [`NOTHING`] of the deviation: above this share a model explains less
+//!   than half of the output's variance;
+//! * [`HOLDS`] times that error in the output's unit, but at most [`FAINT`] of the deviation: a
+//!   record that moves less makes the same error a larger share;
+//! * [`NOISE`] times the noise floor of this record: what is noise is no fault of the model.
 
 mod given;
 mod line;

@@ -241,8 +241,8 @@ fn source(data: &Prepared, given: &Given, own: Source) -> Result<Source, String>
 /// What is said where a channel is not there.
 pub(super) fn missing(given: &Given, name: &str) -> String {
     let fitted = given.about.definitions.get(name);
-    let fitted = fitted.map_or_else(String::new, |own| format!(" (it was fitted as {own})"));
+    let fitted = fitted.map_or_else(String::new, |own| format!(" (fitted as {own})"));
     format!(
-        "no channel `{name}`, which the model reads; --channel {name}=COL names its column{fitted}"
+        "the model reads channel `{name}`{fitted}, but the record has none; give its column with --channel {name}=COL"
     )
 }

@@ -24,7 +24,7 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// `None` without a hysteresis, and where each file has gains of its own.
+    /// `None` without hysteresis, and where each file has gains of its own.
     pub(super) fn of(data: &Prepared, solution: &Solution) -> Option<Self> {
         let structure = &solution.structure;
         if !structure.hysteresis || structure.own_gains > 0 {
@@ -68,7 +68,7 @@ fn is_over_eta(table: &Table) -> bool {
     table.variable == Variable::Eta
 }
 
-/// Whether an effect has no meaning without a hysteresis.
+/// Whether an effect has no meaning without hysteresis.
 fn goes_with(term: &FitTerm) -> bool {
     term.effect.reads_eta() || term.effect.is_input_stage()
 }

@@ -103,7 +103,7 @@ pub(super) fn starts_apart(data: &Prepared, solution: &Solution) -> Option<Strin
     let creeps = starts.any(|term| term.effect.family() == Family::Creep);
     creeps.then(|| {
         format!(
-            "The creep starts outside the range of the input: is it a drift of `{}`, for example of a sensor that warms up? A record made after a longer run would show which of the two it is.",
+            "The creep starts outside the range of the input: is it a drift of `{}`, for example of a sensor that warms up? A record made after the rig has run for longer would show which of the two it is.",
             data.output_name
         )
     })

@@ -23,7 +23,7 @@ const LINE_ERROR: f64 = 0.5;
 /// Gains that differ by less than this are one gain. A choice: sensors are calibrated to that.
 const SAME_GAIN: f64 = 0.05;
 
-/// The baseline model with gains of its own for each file; `None` without a hysteresis.
+/// The baseline model with gains of its own for each file; `None` without hysteresis.
 pub(crate) fn with_own_gains(data: &Prepared, declared: &Solution) -> Option<Solution> {
     if !declared.structure.hysteresis {
         return None;

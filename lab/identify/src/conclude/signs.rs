@@ -52,7 +52,7 @@ pub(super) fn of_tension(data: &Prepared, solution: &Solution) -> Option<String>
     let is_of_torque =
         |t: &FitTerm| t.effect.name() == "position-hysteresis" && t.source == Source::Input;
     (data.mode == Mode::Torque && terms.any(is_of_torque)).then(|| {
-        "The position-hysteresis of the torque is eta times the torque: the friction of the cable grows with its tension, as for a rope around a post.".to_owned()
+        "The effect `position-hysteresis` on the torque is eta times the torque: the friction of the cable grows with its tension, as with a rope around a post.".to_owned()
     })
 }
 
@@ -66,7 +66,7 @@ pub(super) fn of_temperature(data: &Prepared, solution: &Solution) -> Option<Str
     let mut terms = solution.structure.terms.iter();
     let channel = data.channel(terms.find(of_temperature)?.source)?;
     Some(format!(
-        "The position-hysteresis of `{0}` is eta times the temperature: the friction changes with `{0}`.",
+        "The effect `position-hysteresis` on `{0}` is eta times the temperature: the friction changes with `{0}`.",
         channel.name
     ))
 }
@@ -86,7 +86,7 @@ pub(super) fn falls(data: &Prepared, solution: &Solution) -> Option<String> {
     })
 }
 
-/// The gain over the input, with what a share of it adds; `None` without a hysteresis, and where each
+/// The gain over the input, with what a share of it adds; `None` without hysteresis, and where each
 /// file has its own.
 fn input_gain(solution: &Solution) -> Option<f64> {
     let structure = &solution.structure;

@@ -90,7 +90,8 @@ pub struct RoundModel {
     models: Option<Vec<ModelFile>>,
     /// Whether the parameters have seen the stop-check segment.
     refitted: bool,
-    /// Why the model still contains effects that belong to the record, if it does.
+    /// Why the model still contains effects that belong to the record and not to the rig, if it
+    /// does.
     #[serde(skip_serializing_if = "Option::is_none")]
     not_refitted_without: Option<String>,
     /// Its errors, as shares of the output's standard deviation.

@@ -52,7 +52,7 @@ fn follow(first: &Record, other: &mut Record) -> Result<(), RecordError> {
     }
     let missing = |name: &str| {
         RecordError::new(format!(
-            "no such channel, which {} contains; all files must have the same channels",
+            "no such channel, but {} has one; all files must have the same channels",
             first.path
         ))
         .on(name)

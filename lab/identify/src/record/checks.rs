@@ -19,7 +19,7 @@ pub(super) fn options(options: &Options) -> Result<(), RecordError> {
     if let Some(until) = options.until {
         if until.is_nan() || until <= options.skip {
             return refuse(format!(
-                "--end {until} is out of range (above --start {})",
+                "--end {until} is out of range; it must be above --start {}",
                 options.skip
             ));
         }
@@ -31,9 +31,9 @@ pub(super) fn options(options: &Options) -> Result<(), RecordError> {
         );
     }
     match options.rate {
-        Some(rate) if !(1e-9..=1e12).contains(&rate) => {
-            refuse(format!("--rate {rate} is out of range (above 0 Hz)"))
-        }
+        Some(rate) if !(1e-9..=1e12).contains(&rate) => refuse(format!(
+            "--rate {rate} is out of range; it must be above 0 Hz"
+        )),
         _ => Ok(()),
     }
 }

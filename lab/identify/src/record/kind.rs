@@ -29,23 +29,23 @@ const OTHERS: [(&[u8], &str, &str); 16] = [
     (b"TDSm", "a LabVIEW TDMS file", "export it as CSV or .mat"),
     (
         b"\x28\xb5\x2f\xfd",
-        "compressed by zstd",
+        "compressed with zstd",
         "unpack it with `zstd -d`, or use gzip",
     ),
     (b"\x89HDF\r\n\x1a\n", "an HDF5 file", HDF5),
     (
         b"BZh",
-        "compressed by bzip2",
+        "compressed with bzip2",
         "unpack it with `bunzip2`, or use gzip",
     ),
     (
         b"\xfd7zXZ\0",
-        "compressed by xz",
+        "compressed with xz",
         "unpack it with `unxz`, or use gzip",
     ),
     (
         b"\x04\x22\x4d\x18",
-        "compressed by lz4",
+        "compressed with lz4",
         "unpack it with `lz4 -d`, or use gzip",
     ),
     (b"7z\xbc\xaf\x27\x1c", "a 7z archive", "unpack it"),

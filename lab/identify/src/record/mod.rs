@@ -282,7 +282,7 @@ fn unpacked_as(kind: Kind, bytes: &[u8], options: &Options) -> Result<Record, Re
         Kind::MatHdf5 => sheet::record(sheet::of_mat_hdf5(bytes)?, options),
         Kind::Parquet => sheet::record(sheet::of_parquet(bytes)?, options),
         Kind::Gzip => Err(RecordError::new(
-            "is compressed by gzip twice; unpack it once",
+            "is compressed with gzip twice; unpack it once",
         )),
     }
 }

@@ -243,7 +243,9 @@ impl Clock {
         {
             Some((name, asked)) => {
                 let start = match first.abs() > NO_STAMP {
-                    true => format!("; the first stamp would be {first:.3e} s, thousands of years"),
+                    true => format!(
+                        "; the first stamp would be {first:.3e} s, which is thousands of years"
+                    ),
                     false => String::new(),
                 };
                 let shown = shown(name, NAME_LENGTH);

@@ -11,7 +11,8 @@ fn stamps_without_a_unit_that_cannot_be_seconds_are_refused() {
              is the unit {unit}? Then name the column `t [{unit}]`, or `t [s]` if it is s{start}"
         )
     };
-    let since = |first: &str| format!("; the first stamp would be {first} s, thousands of years");
+    let since =
+        |first: &str| format!("; the first stamp would be {first} s, which is thousands of years");
     let of =
         |step: u64, first: u64| with_time("t,x,f", move |i| (first + step * i as u64).to_string());
     refused(of(2_000, 0), &asks("2000", "µs", ""));

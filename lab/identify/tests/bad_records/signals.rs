@@ -44,11 +44,17 @@ fn options_that_cannot_be_followed_are_refused() {
         rate: Some(rate),
         ..Options::default()
     };
-    refuses(rate(0.0), "r.csv: --rate 0 is out of range (above 0 Hz)");
-    refuses(rate(-5.0), "r.csv: --rate -5 is out of range (above 0 Hz)");
+    refuses(
+        rate(0.0),
+        "r.csv: --rate 0 is out of range; it must be above 0 Hz",
+    );
+    refuses(
+        rate(-5.0),
+        "r.csv: --rate -5 is out of range; it must be above 0 Hz",
+    );
     refuses(
         rate(f64::NAN),
-        "r.csv: --rate NaN is out of range (above 0 Hz)",
+        "r.csv: --rate NaN is out of range; it must be above 0 Hz",
     );
     let cut = |skip: f64, until: Option<f64>| Options {
         skip,
@@ -65,11 +71,11 @@ fn options_that_cannot_be_followed_are_refused() {
     );
     refuses(
         cut(2.0, Some(2.0)),
-        "r.csv: --end 2 is out of range (above --start 2)",
+        "r.csv: --end 2 is out of range; it must be above --start 2",
     );
     refuses(
         cut(0.0, Some(f64::NAN)),
-        "r.csv: --end NaN is out of range (above --start 0)",
+        "r.csv: --end NaN is out of range; it must be above --start 0",
     );
     refuses(
         cut(3.0, None),

@@ -44,7 +44,7 @@ pub(super) fn section(facts: &Facts, models: &[Handed]) -> Markup {
             Ok(handed) => {
                 p {
                     "On a controller, sample by sample with causal velocities, the model has an error of "
-                    (percent(handed.causal.held_out)) " on held-out data; with the velocities of the fit "
+                    (percent(handed.causal.held_out)) " on held-out data; with the velocities of the fit, the error is "
                     (percent(handed.nrmse.held_out)) ". As a feed-forward: " (handed.feed_forward.words()) "."
                 }
             }

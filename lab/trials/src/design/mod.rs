@@ -488,7 +488,7 @@ fn notes(plant: &Plant, adaptive: &AdaptiveDesign) -> Vec<String> {
     }
     if !adaptive.assumed.is_empty() {
         notes.push(format!(
-            "the model file has no interval of {}: 10 % was assumed",
+            "the model file has no interval for {}; ±10 % was assumed",
             adaptive.assumed.join(", ")
         ));
     }

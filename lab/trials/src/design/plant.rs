@@ -204,7 +204,7 @@ impl Plant {
         use bowden::effect::{EffectState, Inputs, Motion};
         let Some(span) = self.about.ranges.get(&term.source) else {
             return Err(format!(
-                "no table `about.ranges.{}`, which the term {} reads",
+                "no table `about.ranges.{}`: the term {} reads this channel",
                 term.source, term.effect
             ));
         };

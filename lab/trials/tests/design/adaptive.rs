@@ -129,7 +129,7 @@ fn the_boxes_are_the_intervals_of_the_model_and_what_is_assumed_is_said() {
     let numbers = [0.9, 2.0, 0.05, 0.2, 0.6, 2.0];
     let plain = designed(numbers, &ASKED);
     assert_eq!(plain.adaptive.assumed, ["gain", "kappa_eta", "offset"]);
-    assert!(plain.notes.iter().any(|n| n.contains("10 % was assumed")));
+    assert!(plain.notes.iter().any(|n| n.contains("±10 % was assumed")));
     let text = model(numbers, "")
         + "[about.intervals]\ngain = [0.88, 0.92]\nkappa_eta = [1.9, 2.1]\noffset = [0.0, 0.1]\n";
     let told = design(&text, "m.toml", &ASKED).unwrap();

@@ -33,19 +33,23 @@ fn unit(check: &CheckFacts) -> String {
 
 /// What the error is up to which a model holds.
 pub(super) fn rule(check: &CheckFacts) -> String {
-    let noise = format!("or {NOISE} times the noise floor");
-    if check.reference.is_some_and(|own| HOLDS * own > NOTHING) {
+    let noise = format!("{NOISE} times the noise floor");
+    let Some(own) = check.reference else {
+        return noise;
+    };
+    if HOLDS * own > NOTHING {
         return format!(
-            "less than {HOLDS} times the model's own held-out error, because above this limit it explains less than half of the output; {noise}"
+            "the larger of two values: {} of the standard deviation (less than {HOLDS} times the model's own held-out error, because above this limit a model explains less than half of the output's variance); and {noise}",
+            percent(NOTHING)
         );
     }
     let own = format!("{HOLDS} times the model's own held-out error");
     match check.reference_rmse.is_some() {
         true => format!(
-            "{own}, as a share of the standard deviation, or in the output's unit up to {} of the standard deviation; {noise}",
+            "the largest of three values: {own}, as a share of the standard deviation; {own} in the output's unit, but at most {} of the standard deviation; and {noise}",
             percent(FAINT)
         ),
-        false => format!("{own}, {noise}"),
+        false => format!("the larger of two values: {own}, as a share of the standard deviation; and {noise}"),
     }
 }
 

@@ -231,7 +231,8 @@ impl Source<'_> {
                 self.warped(1.25 * seconds, |t| {
                     2.0_f64.powf((5.0 * TAU * t / (1.25 * seconds)).sin())
                 }),
-                "mixed speed: between 0.5 and 2 times the recorded speed, five times".to_owned(),
+                "mixed speed: varied between 0.5× and 2× the recorded speed, in five cycles"
+                    .to_owned(),
             ),
             Kind::Multisine => (
                 self.multisine(),
