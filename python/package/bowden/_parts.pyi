@@ -66,7 +66,7 @@ class Share(Fields):
 
 class Shares(Fields):
     alone: Share
-    beyond: Share
+    beyond_others: Share
 
 class Knot(Fields):
     at: float

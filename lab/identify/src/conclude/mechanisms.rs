@@ -40,14 +40,14 @@ pub struct Shares {
     /// By itself.
     pub alone: Share,
     /// Beyond all others.
-    pub beyond: Share,
+    pub beyond_others: Share,
 }
 
 impl Shares {
     /// The larger of the two.
     #[must_use]
     pub fn most(&self) -> f64 {
-        self.alone.value.max(self.beyond.value)
+        self.alone.value.max(self.beyond_others.value)
     }
 }
 
@@ -160,7 +160,7 @@ fn lack(
         title: title(mechanism, channel, one.source == Source::Input),
         share: Shares {
             alone: one.alone,
-            beyond: one.beyond,
+            beyond_others: one.beyond,
         },
         confidence: if is_high { Grade::High } else { Grade::Low },
         alternatives,

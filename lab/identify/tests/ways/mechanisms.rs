@@ -39,7 +39,7 @@ fn a_complete_model_names_the_mechanism_and_a_term_of_high_confidence() {
     assert_eq!(lack.channel, "x");
     // The only one: what it removes alone is what it removes beyond the others.
     let share = lack.share;
-    assert_eq!(share.alone, share.beyond);
+    assert_eq!(share.alone, share.beyond_others);
     assert!(
         share.alone.value > 0.8 && share.alone.value < 1.0,
         "{share:?}"

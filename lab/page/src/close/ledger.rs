@@ -111,7 +111,7 @@ fn mechanisms(facts: &Facts) -> Markup {
                 (share_bar(lack.share.alone.value))
                 (share(lack.share.alone))
             }
-            td class="number" { (share(lack.share.beyond)) }
+            td class="number" { (share(lack.share.beyond_others)) }
             td { (lack.members.join(", ")) }
         } }
     };
