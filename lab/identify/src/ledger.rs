@@ -236,8 +236,8 @@ impl Ledger {
 pub struct Share {
     /// The share.
     pub value: f64,
-    /// Its 95 % interval, from the halves of the record.
-    pub ci95: [f64; 2],
+    /// The least and the largest share over the halves of the record.
+    pub range: [f64; 2],
 }
 
 /// A mechanism that a record supports.

@@ -62,7 +62,7 @@ class FinalPart(Fields):
 
 class Share(Fields):
     value: float
-    ci95: list[float]
+    range: list[float]
 
 class Shares(Fields):
     alone: Share

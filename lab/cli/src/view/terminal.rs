@@ -82,7 +82,7 @@ fn answer(facts: &Facts, width: Width) -> String {
     let colour = colour(facts);
     heading(&mut out, width, command, (colour, &headline(facts)));
     for lack in facts.lacks.iter().skip(1) {
-        prose(&mut out, width, &format!("also {}", share(lack)));
+        prose(&mut out, width, &format!("also {}", share(facts, lack)));
     }
     let exported = facts.constrained().is_some();
     for round in &facts.rounds {
@@ -110,15 +110,22 @@ fn unsaid(facts: &Facts) -> &str {
     rest.map_or(&facts.sentence, str::trim_start)
 }
 
-/// "friction over the velocity of x (94 % of the missing output)".
-fn share(lack: &Lack) -> String {
-    let share = 100.0 * lack.share.most();
-    format!("{} ({share:.1} % of the missing output)", lack.title)
+/// "friction over the velocity of x (94 % of the missing output)". What the terms of a complete
+/// model remove is in the table of errors.
+fn share(facts: &Facts, lack: &Lack) -> String {
+    match facts.complete.at_floor {
+        true => lack.title.clone(),
+        false => {
+            let share = 100.0 * lack.share.most();
+            format!("{} ({share:.0} % of the missing output)", lack.title)
+        }
+    }
 }
 
 /// The answer in a few words.
 fn headline(facts: &Facts) -> String {
-    let main = facts.lacks.first().map_or_else(String::new, share);
+    let main = facts.lacks.first();
+    let main = main.map_or_else(String::new, |lack| share(facts, lack));
     match (facts.verdict, facts.rounds.len()) {
         (Verdict::NoInputDependence, _) => {
             "DO NOT USE THIS MODEL: the output does not follow the input".to_owned()

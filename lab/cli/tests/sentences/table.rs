@@ -46,7 +46,7 @@ fn the_answer_is_the_first_line_and_the_table_has_the_json_s_numbers() {
     assert_eq!(
         answer,
         [
-            "  MISSING: friction over the velocity of phi_p (99.7 % of the missing output)",
+            "  MISSING: friction over the velocity of phi_p",
             "  viscous@phi_p -0.2637 ± 0.0028 N·m·s/rad · high confidence"
         ]
     );

@@ -346,9 +346,9 @@ impl<'a> Linear<'a> {
         }
     }
 
-    /// The gains and slopes of the baseline model, and the target.
-    pub(super) fn baseline(&self) -> (&[usize], usize) {
-        (&self.own, self.target)
+    /// The gains and slopes of the whole present model, and the target.
+    pub(super) fn baseline(&self) -> (Vec<usize>, usize) {
+        (self.columns_of(&self.everything()), self.target)
     }
 
     pub(super) fn has_table(&self) -> bool {

@@ -135,16 +135,22 @@ impl<'a> Comparison<'a> {
         let grams = &linear.grams;
         let rows = linear.seen.split.fit.len().max(1) as f64;
         // A step of one on the unbounded scale of a parameter has unit variance.
-        let rest = grams.squared_error(own, target) * grams.unit(target) / rows;
+        let rest = grams.squared_error(&own, target) * grams.unit(target) / rows;
         let of_own = |column: &usize| match linear.free.contains(column) {
             true => rest / grams.unit(*column),
             false => DEPENDENT,
         };
-        let mut places: Vec<usize> = own.to_vec();
+        let mut places = own.clone();
         let mut columns: Vec<Option<Column>> = own.iter().map(|_| None).collect();
         let mut precision: Vec<f64> = own.iter().map(of_own).collect();
         for group in &linear.groups {
-            for &place in &group.columns {
+            // Of a name the column at its trial shapes; its slopes are columns of other names.
+            let most = if group.is_curve() {
+                group.columns.len()
+            } else {
+                1
+            };
+            for &place in &group.columns[..most] {
                 if !places.contains(&place) {
                     places.push(place);
                     columns.push(Some(owner(linear.data, group)));
@@ -385,26 +391,20 @@ fn mean_log(errors: &[f64]) -> f64 {
 }
 
 /// Share of the baseline's squared error by which an error falls from `before` to `after`, none of
-/// which counts for more than the baseline; the interval by balanced half samples (McCarthy, 1969).
+/// which counts for more than the baseline.
 fn share(before: &[f64], after: &[f64], baseline: &[f64]) -> Share {
     let capped = |errors: &[f64]| -> Vec<f64> {
         let pairs = errors.iter().zip(baseline);
-        pairs.map(|(error, most)| error.min(*most)).collect()
+        pairs.map(|(error, most)| (error / most).min(1.0)).collect()
     };
     let (before, after) = (capped(before), capped(after));
-    let falls: Vec<f64> = before
-        .iter()
-        .zip(&after)
-        .map(|(b, a)| (a / b).ln())
-        .collect();
-    let n = falls.len().max(1) as f64;
-    let mean = falls.iter().sum::<f64>() / n;
-    let spread = (falls.iter().map(|f| (f - mean).powi(2)).sum::<f64>() / n).sqrt();
-    let unit = (mean_log(&before) - mean_log(baseline)).exp();
-    let at = |fall: f64| unit * (1.0 - fall.exp());
-    // Two standard deviations to either side: 95 %.
+    let value = mean_log(&before).exp() - mean_log(&after).exp();
+    let each = before.iter().zip(&after).map(|(b, a)| b - a);
     Share {
-        value: at(mean),
-        ci95: [at(mean + 2.0 * spread), at(mean - 2.0 * spread)],
+        value,
+        range: [
+            each.clone().fold(value, f64::min),
+            each.fold(value, f64::max),
+        ],
     }
 }

@@ -124,7 +124,7 @@ fn mechanisms(facts: &Facts) -> Markup {
     html! {
         (table("Missing mechanisms", &head, 2..4, &rows))
         p class="note" {
-            "Alone and beyond the others: shares of the baseline's squared error that the mechanism removes on parts of the record that it was not fitted to, with 95 % intervals."
+            "Alone and beyond the others: shares of the baseline's squared error that the mechanism removes on halves of the record that it was not fitted to, with their range over the halves."
         }
         div class="grid-of" { @for chart in &charts { (chart) } }
         p class="note" {
@@ -133,12 +133,12 @@ fn mechanisms(facts: &Facts) -> Markup {
     }
 }
 
-/// A share with its interval.
+/// A share with its range.
 fn share(share: Share) -> Markup {
-    let [value, low, high] = [share.value, share.ci95[0], share.ci95[1]].map(|s| 100.0 * s);
+    let [value, low, high] = [share.value, share.range[0], share.range[1]].map(|s| 100.0 * s);
     data(
         share.value,
-        &format!("{value:.1} % ({low:.1} to {high:.1})"),
+        &format!("{value:.1} % ({low:.0} to {high:.0})"),
     )
 }
 
