@@ -236,8 +236,8 @@ impl Ledger {
 pub struct Share {
     /// The share.
     pub value: f64,
-    /// The least and the largest share over the halves of the record.
-    pub range: [f64; 2],
+    /// The first and the third quartile of the shares on the halves of the record.
+    pub quartiles: [f64; 2],
 }
 
 /// A mechanism that a record supports.

@@ -176,6 +176,21 @@ fn seven_of_ten_firm_names_are_known_to_the_other_record() {
     assert!(10 * known.count >= 7 * known.of, "{known}");
 }
 
+/// Each record and its copies with other last digits.
+#[test]
+#[ignore = "slow: bash .ci/run measured-records"]
+fn the_main_mechanism_of_a_record_is_that_of_the_other_records_of_its_rig() {
+    let draws = || std::iter::once(&*RIGS).chain(&*DRAWS);
+    if RIGS.is_empty() {
+        return;
+    }
+    let sum = |which: usize| -> Share { draws().flatten().map(|r| r.mechanisms()[which]).sum() };
+    let (all, high) = (sum(0), sum(1));
+    println!("pairs with one main mechanism: {all}; of high confidence in both: {high}");
+    assert!(10 * all.count >= 9 * all.of, "{all}");
+    assert!(high.of > 0 && high.count == high.of, "{high}");
+}
+
 fn name(family: &'static str, grade: Grade, rivals: &[&'static str]) -> Name {
     let identity = |family| Identity {
         family,

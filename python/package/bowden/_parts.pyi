@@ -62,7 +62,7 @@ class FinalPart(Fields):
 
 class Share(Fields):
     value: float
-    range: list[float]
+    quartiles: list[float]
 
 class Shares(Fields):
     alone: Share

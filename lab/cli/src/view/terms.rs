@@ -17,8 +17,9 @@ held-out      The last 25 %. Neither the fit nor the selection uses it: this is 
               expect on the next record of the same motion. `↑` marks a term that raises
               it. The search does not read this segment, so the mark is a warning, not a rule.
 removes       The share of the squared error on the fit segment that a term removes.
-confidence    Of a mechanism: high if it removes at least half of the squared error that all
-              mechanisms together remove, and no alternative to its terms belongs to another one.
+confidence    Of a mechanism: high if it leaves at most half of the squared error that any
+              other mechanism leaves, on parts of the record that it was not fitted to, or if
+              the model is complete and one of its terms has high confidence.
               Of a term: high if the final model's error is noise, the term has no alternative,
               and none of its parameters is at a bound. A term of low confidence is a candidate:
               it describes the mechanism on this record.

@@ -4,13 +4,14 @@
 use bowden::model::Source;
 use bowden_lab::check::{Check, Given, Verdict};
 use bowden_lab::conclude::final_fit::FinalFit;
+use bowden_lab::conclude::mechanisms::mechanisms;
 use bowden_lab::conclude::verdict::raises;
 use bowden_lab::export::hand_over::HandOver;
 use bowden_lab::facts::Asked;
 use bowden_lab::ledger::{Grade, Ledger, Round};
 use bowden_lab::model::catalogue::Candidate;
 use bowden_lab::model::declared::structure;
-
+use bowden_lab::model::mechanism::Mechanism;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::Record;
 use bowden_lab::search::close;
@@ -67,6 +68,8 @@ pub struct Closed {
     pub beyond: usize,
     /// On what the record depends besides, where that has no name.
     pub unknown: Option<String>,
+    /// The main missing mechanism with its confidence, where one is missing.
+    pub mechanism: Option<(Mechanism, Grade)>,
     given: Given,
     /// Held-out error of the model that is written, over the output's standard deviation.
     pub held_out: f64,
@@ -103,6 +106,9 @@ impl Closed {
             record,
             names: names(&data, &ledger),
             beyond: ledger.beyond.len(),
+            mechanism: mechanisms(&data, &ledger, &done)
+                .first()
+                .map(|lack| (lack.mechanism, lack.confidence)),
             unknown: ledger.unknown.map(|u| u.variable.words(&data)),
             given: Given::parse(&text)?,
             held_out: hand.nrmse.held_out,
@@ -261,6 +267,26 @@ impl Rig {
         pairs.sum()
     }
 
+    /// Pairs of records whose main missing mechanism is the same one, of all in which both lack
+    /// one; and of those in which both are of high confidence.
+    pub fn mechanisms(&self) -> [Share; 2] {
+        let all = self.closed.iter().enumerate().flat_map(|(i, one)| {
+            let others = self.closed[i + 1..].iter();
+            others.filter_map(|other| Some((one.mechanism?, other.mechanism?)))
+        });
+        let all: Vec<_> = all.collect();
+        let is_high =
+            |pair: &&((_, Grade), (_, Grade))| pair.0 .1 == Grade::High && pair.1 .1 == Grade::High;
+        let share = |pairs: Vec<&((Mechanism, Grade), (Mechanism, Grade))>| Share {
+            count: pairs.iter().filter(|(one, other)| one.0 == other.0).count(),
+            of: pairs.len(),
+        };
+        [
+            share(all.iter().collect()),
+            share(all.iter().filter(is_high).collect()),
+        ]
+    }
+
     /// Delivered rounds that raise the held-out error of their own record.
     pub fn raising(&self) -> Share {
         self.closed.iter().map(Closed::raising).sum()
@@ -304,9 +330,11 @@ impl Rig {
             );
         }
         println!(
-            "\nfirm names that the other record knows: {}; delivered rounds that raise the held-out error: {}",
+            "\nfirm names that the other record knows: {}; delivered rounds that raise the held-out error: {}; pairs with one main mechanism: {}, of high confidence in both: {}",
             self.agreement(),
-            self.raising()
+            self.raising(),
+            self.mechanisms()[0],
+            self.mechanisms()[1],
         );
     }
 }

@@ -9,7 +9,8 @@
 //! - **found**: planted families that are a term, or an alternative to one; a share of all.
 //! - **false**: terms that are neither, and a curve where nothing was planted; per record.
 //! - **names**: terms of high confidence of a planted family, of all terms of high confidence.
-//! - **mechanisms**: the same of the mechanisms of the terms.
+//! - **mechanisms**: missing mechanisms of high confidence that were planted, of all of high
+//!   confidence.
 //! - **error**: held-out error of the delivered model over the noise, median.
 //! - **fits**: evaluations of a model, mean.
 #![allow(clippy::unwrap_used)]
@@ -22,6 +23,7 @@ mod rig;
 
 use bowden::effect::Family;
 use bowden_lab::conclude::final_fit::FinalFit;
+use bowden_lab::conclude::mechanisms::mechanisms;
 use bowden_lab::ledger::Grade;
 use bowden_lab::model::mechanism::Mechanism;
 use bowden_lab::search::close;
@@ -80,10 +82,11 @@ fn run(job: &Job) -> Outcome {
     let ledger = close(&made.data, &made.declare(&["bouc-wen"]), |_| ()).unwrap();
     let truth: Vec<_> = job.planted.iter().map(|(name, _)| effect(name)).collect();
     let families: Vec<Family> = truth.iter().filter_map(|(family, _)| *family).collect();
+    let done = FinalFit::new(&made.data, &ledger);
     let mut outcome = Outcome {
         planted: families.len(),
         curve: ledger.unknown.is_some(),
-        error: FinalFit::new(&made.data, &ledger).rmse.held_out / made.noise_floor(),
+        error: done.rmse.held_out / made.noise_floor(),
         ..Outcome::default()
     };
     let mut seen: Vec<Family> = Vec::new();
@@ -92,14 +95,17 @@ fn run(job: &Job) -> Outcome {
         let right = families.iter().any(|family| own.contains(family));
         outcome.wrong += usize::from(!right);
         if round.grade == Grade::High {
-            let own = &round.candidate;
-            let mechanism = Mechanism::of(own.term.effect.name(), own.family);
             outcome.names[0] += usize::from(right);
             outcome.names[1] += 1;
-            outcome.mechanisms[0] += usize::from(truth.iter().any(|(_, m)| *m == mechanism));
-            outcome.mechanisms[1] += 1;
         }
         seen.extend(own);
+    }
+    for lack in mechanisms(&made.data, &ledger, &done) {
+        if lack.confidence == Grade::High {
+            let right = truth.iter().any(|(_, planted)| *planted == lack.mechanism);
+            outcome.mechanisms[0] += usize::from(right);
+            outcome.mechanisms[1] += 1;
+        }
     }
     outcome.found = families.iter().filter(|f| seen.contains(f)).count();
     outcome.wrong += usize::from(outcome.curve && job.planted.is_empty());

@@ -44,22 +44,21 @@ impl Mechanism {
 
     /// The mechanism of a curve over a variable.
     pub(crate) fn of_variable(data: &Prepared, variable: Variable) -> Self {
-        match variable {
-            Variable::Velocity(_) | Variable::DirectedPosition(_) | Variable::DirectedLoad(_) => {
-                Self::Friction
-            }
-            Variable::Position(source) => {
-                let channel = data.channel(source);
-                match channel.map(|channel| kind(data.mode, source, channel)) {
-                    // It neither moves nor loads anything.
-                    Some(Kind::Temperature | Kind::Other) => Self::Time,
-                    _ => Self::Elastic,
-                }
-            }
-            Variable::Acceleration(_) => Self::Inertia,
-            Variable::ReversalDistance(_) | Variable::ReversalTime(_) => Self::ContactMemory,
-            Variable::Eta => Self::HysteresisShape,
-            Variable::Time => Self::Time,
+        let source = variable.source();
+        let kind = data.channel(source).map(|c| kind(data.mode, source, c));
+        match (variable, kind) {
+            // A torque has no mass: its rates are those of a lag.
+            (Variable::Acceleration(_), Some(Kind::Torque)) => Self::Friction,
+            // It neither moves nor loads anything.
+            (Variable::Position(_), Some(Kind::Temperature | Kind::Other)) => Self::Time,
+            (Variable::Velocity(_), _)
+            | (Variable::DirectedPosition(_), _)
+            | (Variable::DirectedLoad(_), _) => Self::Friction,
+            (Variable::Position(_), _) => Self::Elastic,
+            (Variable::Acceleration(_), _) => Self::Inertia,
+            (Variable::ReversalDistance(_) | Variable::ReversalTime(_), _) => Self::ContactMemory,
+            (Variable::Eta, _) => Self::HysteresisShape,
+            (Variable::Time, _) => Self::Time,
         }
     }
 

@@ -399,12 +399,11 @@ fn share(before: &[f64], after: &[f64], baseline: &[f64]) -> Share {
     };
     let (before, after) = (capped(before), capped(after));
     let value = mean_log(&before).exp() - mean_log(&after).exp();
-    let each = before.iter().zip(&after).map(|(b, a)| b - a);
+    let mut each: Vec<f64> = before.iter().zip(&after).map(|(b, a)| b - a).collect();
+    each.sort_by(f64::total_cmp);
+    let at = |quarter: usize| each.get(quarter * each.len() / 4).copied();
     Share {
         value,
-        range: [
-            each.clone().fold(value, f64::min),
-            each.fold(value, f64::max),
-        ],
+        quartiles: [at(1), at(3)].map(|share| share.unwrap_or(value)),
     }
 }

@@ -124,7 +124,7 @@ fn mechanisms(facts: &Facts) -> Markup {
     html! {
         (table("Missing mechanisms", &head, 2..4, &rows))
         p class="note" {
-            "Alone and beyond the others: shares of the baseline's squared error that the mechanism removes on halves of the record that it was not fitted to, with their range over the halves."
+            "Alone and beyond the others: shares of the baseline's squared error that the mechanism removes on halves of the record that it was not fitted to, with the quartiles over twenty halves."
         }
         div class="grid-of" { @for chart in &charts { (chart) } }
         p class="note" {
@@ -133,9 +133,10 @@ fn mechanisms(facts: &Facts) -> Markup {
     }
 }
 
-/// A share with its range.
+/// A share with its quartiles.
 fn share(share: Share) -> Markup {
-    let [value, low, high] = [share.value, share.range[0], share.range[1]].map(|s| 100.0 * s);
+    let [value, low, high] =
+        [share.value, share.quartiles[0], share.quartiles[1]].map(|s| 100.0 * s);
     data(
         share.value,
         &format!("{value:.1} % ({low:.0} to {high:.0})"),
