@@ -274,17 +274,15 @@ impl Rig {
             let others = self.closed[i + 1..].iter();
             others.filter_map(|other| Some((one.mechanism?, other.mechanism?)))
         });
-        let all: Vec<_> = all.collect();
-        let is_high =
-            |pair: &&((_, Grade), (_, Grade))| pair.0 .1 == Grade::High && pair.1 .1 == Grade::High;
-        let share = |pairs: Vec<&((Mechanism, Grade), (Mechanism, Grade))>| Share {
-            count: pairs.iter().filter(|(one, other)| one.0 == other.0).count(),
-            of: pairs.len(),
-        };
-        [
-            share(all.iter().collect()),
-            share(all.iter().filter(is_high).collect()),
-        ]
+        let mut shares = [Share::default(); 2];
+        for ((one, own), (other, its)) in all {
+            let is_high = own == Grade::High && its == Grade::High;
+            for share in shares.iter_mut().take(1 + usize::from(is_high)) {
+                share.of += 1;
+                share.count += usize::from(one == other);
+            }
+        }
+        shares
     }
 
     /// Delivered rounds that raise the held-out error of their own record.
