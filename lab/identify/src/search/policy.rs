@@ -69,7 +69,7 @@ pub const CURVE_AGAINST_NAMES: f64 = core::f64::consts::LN_2;
 /// The same once no further name is found: a factor of 1.25, a share of 20 %.
 ///
 /// With it bumps and spikes of three times the noise are all found (30 of 30). A mechanism must
-/// lower its left-out error by as much; of 0.1, 0.15 and this it gives the fewest needless ones.
+/// lower its left-out error by as much, which is a choice.
 pub const CURVE_AFTER_NAMES: f64 = 0.2231;
 
 /// Share of a squared error from which one of its causes is the main one.
