@@ -118,7 +118,7 @@ pub struct Ledger {
     pub beyond: Vec<Round>,
     /// Candidates that were rejected.
     pub rejected: Vec<Rejection>,
-    /// The mechanisms that the record supports; `None` if nothing was sought.
+    /// The mechanisms that the record supports; `None` if nothing was added.
     pub supported: Option<Supported>,
     /// A further dependence that no effect of the catalogue explains.
     pub unknown: Option<Unknown>,
@@ -251,7 +251,7 @@ pub struct Support {
     pub alone: Share,
     /// What it removes beyond all others that are supported.
     pub beyond: Share,
-    /// Whether, beside those found before it, it leaves at most half of the squared error that
+    /// Whether, together with those found before it, it leaves at most half of the squared error that
     /// any other mechanism leaves.
     pub is_clear: bool,
     /// Other mechanisms that leave less than twice as much in its place.

@@ -8,6 +8,7 @@ use super::final_fit::FinalFit;
 use crate::ledger::{Grade, Ledger, Round, Share, Support};
 use crate::model::mechanism::Mechanism;
 use crate::problem::Prepared;
+use crate::score::binned::Bin;
 use crate::search::is_at_noise;
 use bowden::model::Source;
 use serde::Serialize;
@@ -110,9 +111,6 @@ pub fn lacking(all: &[Lack]) -> String {
 /// nothing.
 #[must_use]
 pub fn mechanisms(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Vec<Lack> {
-    if ledger.rounds.is_empty() && ledger.unknown.is_none() {
-        return Vec::new();
-    }
     let is_complete = is_at_noise(data, ledger.last());
     let supported = ledger.supported.iter().flat_map(|found| &found.all);
     let mut all: Vec<Lack> = supported
@@ -147,7 +145,7 @@ fn lack(
     // The clocks explain as much.
     is_high &= ledger.lead.is_none();
     let channel = data.channel(one.source).map_or("", |c| c.name.as_str());
-    let point = |bin: &crate::score::binned::Bin| {
+    let point = |bin: &Bin| {
         bin.means.first().map(|mean| Knot {
             at: bin.at,
             value: mean.value,

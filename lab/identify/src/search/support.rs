@@ -29,8 +29,8 @@ use std::f64::consts::LN_2;
 /// Ridge on a column of a mechanism, as a share of its squared norm.
 const RIDGE: f64 = 1e-3;
 
-/// The mechanisms that a record supports beside a baseline model. `None` if the model cannot be
-/// evaluated.
+/// The mechanisms that a record supports in addition to a baseline model. `None` if the search added
+/// nothing, or if the model cannot be evaluated.
 ///
 /// Where the last model of the search leaves noise alone, its terms tell the mechanisms, which are
 /// compared as they are. Otherwise the mechanisms are found before any term: one after the
@@ -38,6 +38,9 @@ const RIDGE: f64 = 1e-3;
 /// hysteresis is that of the baseline or of the last model, whichever errs less.
 pub(super) fn supported(data: &Prepared, ledger: &Ledger) -> Option<Supported> {
     let own = ledger.mechanisms(data);
+    if own.is_empty() {
+        return None;
+    }
     let is_complete = is_at_noise(data, ledger.last());
     let of = |solution: &Solution| {
         let answer = |linear: &Linear| {
@@ -138,6 +141,7 @@ impl<'a> Comparison<'a> {
         let rest = grams.squared_error(&own, target) * grams.unit(target) / rows;
         let of_own = |column: &usize| match linear.free.contains(column) {
             true => rest / grams.unit(*column),
+            // Columns that depend on each other share their gain.
             false => DEPENDENT,
         };
         let mut places = own.clone();
@@ -217,7 +221,7 @@ impl<'a> Comparison<'a> {
     }
 
     /// Squared error on the rows left out of each half, per row, with the columns for which
-    /// `holds` is true beside the baseline model.
+    /// `holds` is true added to the baseline model.
     fn errors(&self, holds: impl Fn(&Column) -> bool) -> Vec<f64> {
         let used = self.used(holds);
         let of = |(half, share): &(DMatrix<f64>, f64)| {
@@ -249,7 +253,7 @@ impl<'a> Comparison<'a> {
         found
     }
 
-    /// The mechanism that errs least beside a set, if it is worth adding.
+    /// The mechanism that errs least together with a set, if it is worth adding.
     fn next(&self, set: &[Mechanism], now: f64, pool: &[Mechanism]) -> Option<(f64, Found)> {
         let is_new = |m: &&Mechanism| {
             let is_own = |column: &Column| column.mechanism == **m;
