@@ -5,7 +5,7 @@
 mod shell;
 
 use serde_json::Value;
-use shell::{bowden, said, text};
+use shell::{bowden, example, said, text};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::OnceLock;
@@ -134,10 +134,6 @@ fn is_exact(text: &str) -> bool {
     let whole = |digits: &str| digits.parse::<i128>().is_ok();
     text.split_once("*2^")
         .is_some_and(|(mantissa, exponent)| whole(mantissa) && whole(exponent))
-}
-
-fn example(name: &str) -> String {
-    format!("{}/../../examples/data/{name}", env!("CARGO_MANIFEST_DIR"))
 }
 
 /// What a command prints, with any verdict.

@@ -4,7 +4,7 @@
 #[allow(dead_code)]
 mod shell;
 
-use shell::{bowden, bowden_on, refused, text, without_seconds};
+use shell::{bowden, bowden_on, example, refused, said, text, without_seconds};
 
 struct Folder(tempfile::TempDir);
 
@@ -191,6 +191,16 @@ fn a_file_in_other_units_of_the_same_kind_is_converted() {
     };
     // Nine decimals of a thousandth were written.
     assert!((error(&b) / error(&c) - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn the_report_says_what_each_file_supports_alone() {
+    let [a, b] = ["straight.csv", "straight_later.csv"].map(example);
+    let report = said(&["identify", &a, &b]);
+    let line =
+        "Files   friction over the velocity of phi_p: each file alone, with high confidence\n";
+    assert!(report.contains(line), "{report}");
+    assert!(!report.contains("not the joint fit"), "{report}");
 }
 
 #[test]

@@ -88,6 +88,17 @@ class Lack(Fields):
     curve: Curve
     members: list[str]
 
+class LackAlone(Fields):
+    mechanism: str
+    channel: str
+    title: str
+    share: Share
+    confidence: str
+
+class FileAlone(Fields):
+    path: str
+    lacks: Optional[list[LackAlone]]
+
 class Complete(Fields):
     floors: Optional[float]
     at_floor: bool

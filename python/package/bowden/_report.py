@@ -152,6 +152,7 @@ class Report(_Found):
         records: list[parts.RecordPart]
         baseline: parts.ModelPart
         lacks: list[parts.Lack]
+        files_alone: list[parts.FileAlone]
         complete: parts.Complete
         terms: list[parts.Term]
         undelivered: list[parts.Term]

@@ -3,9 +3,9 @@
 use super::curve::UnknownPart;
 use super::hand_over::HandOverPart;
 use bowden_lab::facts::{
-    ChannelApart, Complete, CostFacts, Defect, Experiment, Explained, Facts, FileApart, FileErrors,
-    FinalFacts, Gate, Grade, HeldOutOf, Lack, ModelFacts, Parameter, RejectedFacts, RivalFacts,
-    RoundFacts, RoundModel, Segments, Unneeded, Worse,
+    ChannelApart, Complete, CostFacts, Defect, Experiment, Explained, Facts, FileAlone, FileApart,
+    FileErrors, FinalFacts, Gate, Grade, HeldOutOf, Lack, ModelFacts, Parameter, RejectedFacts,
+    RivalFacts, RoundFacts, RoundModel, Segments, Unneeded, Worse,
 };
 use serde::Serialize;
 
@@ -20,6 +20,8 @@ struct Report<'a> {
     baseline: ModelPart<'a>,
     /// The missing mechanisms, the largest share first.
     lacks: &'a [Lack],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    files_alone: Option<&'a [FileAlone]>,
     complete: Complete,
     terms: Vec<RoundPart<'a>>,
     /// Later rounds, which are not delivered.
@@ -283,6 +285,7 @@ pub fn json(facts: &Facts, cost: Option<&CostFacts>) -> Result<String, serde_jso
         records: several.then(|| RecordPart::of_each(facts)),
         baseline: ModelPart::from(&facts.declared),
         lacks: &facts.lacks,
+        files_alone: several.then_some(&facts.files_alone[..]),
         complete: facts.complete,
         terms: facts.rounds.iter().map(RoundPart::from).collect(),
         undelivered: facts.beyond.iter().map(RoundPart::from).collect(),

@@ -1,7 +1,11 @@
 //! Several records: errors by file, and the gains of each file.
 
+use super::layout::{block, Width};
 use super::words::{estimate, table};
-use bowden_lab::facts::{number, Facts, FinalFacts, HeldOutOf, RecordFacts};
+use bowden_lab::facts::{across, number, Across, Facts, FinalFacts, Grade, HeldOutOf, RecordFacts};
+
+/// Maximum number of files or stretches that are listed; the JSON has all.
+pub(super) const LISTED: usize = 3;
 
 /// The lengths of the records, in words.
 pub(super) fn size(record: &RecordFacts) -> String {
@@ -74,6 +78,55 @@ pub(super) fn errors(facts: &Facts) -> String {
         );
     }
     out + "\n"
+}
+
+/// What each file says by itself of the missing mechanisms; empty for a single record.
+pub(super) fn alone(facts: &Facts, width: Width) -> String {
+    let mut out = String::new();
+    let lines = across(&facts.lacks, &facts.files_alone)
+        .into_iter()
+        .filter(|one| !one.files.is_empty());
+    block(&mut out, width, "Files", lines.map(|one| words(&one)));
+    if !out.is_empty() {
+        out.push('\n');
+    }
+    out
+}
+
+/// "friction over the velocity of x: 2 of 3 files support it alone, 1 with high confidence; not
+/// c.csv".
+fn words(one: &Across) -> String {
+    let count = |holds: &dyn Fn(Option<Grade>) -> bool| {
+        one.files.iter().filter(|(_, grade)| holds(*grade)).count()
+    };
+    let (all, some) = (one.files.len(), count(&|grade| grade.is_some()));
+    let high = match count(&|grade| grade == Some(Grade::High)) {
+        0 => "none with high confidence".to_owned(),
+        n if n == some => "with high confidence".to_owned(),
+        n => format!("{n} with high confidence"),
+    };
+    let named = |holds: &dyn Fn(Option<Grade>) -> bool| {
+        let names = one.files.iter().filter(|(_, grade)| holds(*grade));
+        let names: Vec<&str> = names.map(|(path, _)| *path).collect();
+        match names.len() > LISTED {
+            true => format!("{} files", names.len()),
+            false => names.join(", "),
+        }
+    };
+    let others = || named(&|grade| grade.is_none());
+    match (one.is_joint, some) {
+        (true, 0) => format!("{}: no file alone, only the joint fit", one.title),
+        (true, n) if n == all => format!("{}: each file alone, {high}", one.title),
+        (true, n) => format!(
+            "{}: {n} of {all} files alone, {high}; not {}",
+            one.title,
+            others()
+        ),
+        (false, _) => {
+            let own = named(&|grade| grade == Some(Grade::High));
+            format!("{}: {own} alone, not the joint fit", one.title)
+        }
+    }
 }
 
 /// The gains of each file, as a table; empty if the files share them.

@@ -3,16 +3,13 @@
 use super::curve;
 use super::hand_over;
 use super::layout::{block, heading, prose, two_columns, Columns, Report, Width};
-use super::several;
+use super::several::{self, LISTED};
 use super::words::{estimate, in_brackets, table};
 use anstyle::AnsiColor;
 use bowden_lab::facts::{
     lacking, number, Defect, Facts, Grade, Lack, Parameter, Segments, Size, Verdict, BLOCKS, TIED,
 };
 use std::fmt::Write as _;
-
-/// Maximum number of listed stretches; the JSON has all.
-const LISTED: usize = 3;
 
 /// "tau_o stuck …: lines 120–480, …".
 fn defect_line(defect: &Defect) -> String {
@@ -58,6 +55,7 @@ pub fn text(facts: &Facts, report: Report) -> String {
     out += &record(facts, report);
     out += &errors(facts, report);
     out += &several::errors(facts);
+    out += &several::alone(facts, report.width);
     if report.verbose {
         out += &tests(facts);
         out += &rejected(facts, report.width);

@@ -8,7 +8,4 @@ mod forms;
 #[path = "../shell/mod.rs"]
 mod shell;
 
-/// A file of `examples/data`.
-fn example(name: &str) -> String {
-    format!("{}/../../examples/data/{name}", env!("CARGO_MANIFEST_DIR"))
-}
+use shell::example;

@@ -17,6 +17,11 @@ pub fn bowden_on(threads: &str, arguments: &[&str]) -> Output {
         .unwrap()
 }
 
+/// A file of `examples/data`.
+pub fn example(name: &str) -> String {
+    format!("{}/../../examples/data/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
 pub fn text(bytes: &[u8]) -> &str {
     std::str::from_utf8(bytes).unwrap()
 }

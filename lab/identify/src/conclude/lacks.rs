@@ -40,12 +40,21 @@ pub(super) fn lacks(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String
     )
 }
 
-/// What is to be said of the names of a model that is not complete.
-fn candidates(data: &Prepared, ledger: &Ledger) -> &'static str {
-    match (Complete::new(data, ledger).at_floor, ledger.rounds.len()) {
-        (true, _) | (_, 0) => "",
-        (false, 1) => " The term is a candidate: this record does not show which formula describes the mechanism.",
-        (false, _) => " The terms are candidates: this record does not show which formulas describe the mechanisms.",
+/// What is to be said of the names of a model that is not complete: two records fitted together
+/// show more than either.
+fn candidates(data: &Prepared, ledger: &Ledger) -> String {
+    let terms = match (Complete::new(data, ledger).at_floor, ledger.rounds.len()) {
+        (true, _) | (_, 0) => return String::new(),
+        (false, 1) => ["The term is a candidate", "formula describes the mechanism"],
+        (false, _) => [
+            "The terms are candidates",
+            "formulas describe the mechanisms",
+        ],
+    };
+    let [what, which] = terms;
+    match data.pieces.len() {
+        0 | 1 => format!(" {what}: this record does not show which {which}. Record another motion and identify both records together."),
+        _ => format!(" {what}: these files do not show which {which}."),
     }
 }
 

@@ -7,9 +7,11 @@ use super::curve::Knot;
 use super::final_fit::FinalFit;
 use crate::ledger::{Grade, Ledger, Round, Share, Support};
 use crate::model::mechanism::Mechanism;
+use crate::model::structure::Structure;
 use crate::problem::Prepared;
 use crate::score::binned::Bin;
 use crate::search::is_at_noise;
+use crate::search::support::alone;
 use bowden::model::Source;
 use serde::Serialize;
 
@@ -63,6 +65,105 @@ pub struct Curve {
     pub points: Vec<Knot>,
 }
 
+/// What one of several files says by itself.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FileAlone {
+    /// The file.
+    pub path: String,
+    /// The mechanisms that the baseline model, fitted to this file alone, lacks; `None` if this file
+    /// is too short for an answer.
+    pub lacks: Option<Vec<LackAlone>>,
+}
+
+/// A mechanism that the baseline model, fitted to one file, lacks.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LackAlone {
+    /// Which.
+    pub mechanism: Mechanism,
+    /// The channel that the missing force depends on.
+    pub channel: String,
+    /// The mechanism for people, with its channel.
+    pub title: String,
+    /// Share of the baseline's squared error on left-out blocks that it removes by itself.
+    pub share: Share,
+    /// High where it leaves at most half of the squared error that any other mechanism leaves.
+    pub confidence: Grade,
+}
+
+impl FileAlone {
+    /// Puts a question to one file.
+    pub(crate) fn new(path: &str, asked: Option<(Prepared, Structure)>) -> Self {
+        let answer = asked.and_then(|(data, structure)| {
+            let supported = alone(&data, &structure)?;
+            let lacks = supported.all.iter().map(|one| LackAlone::new(&data, one));
+            Some(lacks.collect())
+        });
+        Self {
+            path: path.to_owned(),
+            lacks: answer,
+        }
+    }
+}
+
+impl LackAlone {
+    fn new(data: &Prepared, one: &Support) -> Self {
+        let (channel, title) = channel_and_title(data, one);
+        Self {
+            mechanism: one.mechanism,
+            channel,
+            title,
+            share: one.alone,
+            confidence: if one.is_clear {
+                Grade::High
+            } else {
+                Grade::Low
+            },
+        }
+    }
+}
+
+/// A mechanism that all files together support, or one of them alone with high confidence.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Across<'a> {
+    /// The mechanism for people.
+    pub title: &'a str,
+    /// Whether the joint fit supports it.
+    pub is_joint: bool,
+    /// Of each file that has an answer the path, and the confidence by itself; `None` if the file
+    /// does not support it.
+    pub files: Vec<(&'a str, Option<Grade>)>,
+}
+
+/// Each mechanism with what the files say of it, those of the joint fit first.
+#[must_use]
+pub fn across<'a>(joint: &'a [Lack], files: &'a [FileAlone]) -> Vec<Across<'a>> {
+    let mut all: Vec<(Mechanism, &str, bool)> = Vec::new();
+    let of_joint = joint.iter().map(|own| (own.mechanism, &*own.title, true));
+    let own = files.iter().flat_map(|file| file.lacks.iter().flatten());
+    let own = own.filter(|own| own.confidence == Grade::High);
+    for one in of_joint.chain(own.map(|own| (own.mechanism, &*own.title, false))) {
+        if all.iter().all(|known| known.0 != one.0) {
+            all.push(one);
+        }
+    }
+    let of = |(mechanism, title, is_joint)| {
+        let answer = |file: &'a FileAlone| {
+            let own = file
+                .lacks
+                .as_ref()?
+                .iter()
+                .find(|l| l.mechanism == mechanism);
+            Some((file.path.as_str(), own.map(|own| own.confidence)))
+        };
+        Across {
+            title,
+            is_joint,
+            files: files.iter().filter_map(answer).collect(),
+        }
+    };
+    all.into_iter().map(of).collect()
+}
+
 /// Whether a model is complete: only a complete model can say which term describes a mechanism.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Complete {
@@ -83,9 +184,11 @@ impl Complete {
     }
 }
 
-/// What a mechanism depends on, for people.
-fn title(mechanism: Mechanism, channel: &str, is_input: bool) -> String {
-    match mechanism {
+/// The channel that a mechanism depends on, and the mechanism for people.
+fn channel_and_title(data: &Prepared, one: &Support) -> (String, String) {
+    let channel = data.channel(one.source).map_or("", |c| c.name.as_str());
+    let is_input = one.source == Source::Input;
+    let title = match one.mechanism {
         Mechanism::Friction => format!("friction over the velocity of {channel}"),
         Mechanism::Elastic => format!("elasticity over {channel}"),
         Mechanism::Inertia => format!("inertia over the acceleration of {channel}"),
@@ -93,7 +196,8 @@ fn title(mechanism: Mechanism, channel: &str, is_input: bool) -> String {
         Mechanism::HysteresisShape => "shape of the hysteresis".to_owned(),
         Mechanism::Time if is_input => "change over time".to_owned(),
         Mechanism::Time => format!("change with {channel}"),
-    }
+    };
+    (channel.to_owned(), title)
 }
 
 /// The sentence that names them.
@@ -144,7 +248,7 @@ fn lack(
     }
     // The clocks explain as much.
     is_high &= ledger.lead.is_none();
-    let channel = data.channel(one.source).map_or("", |c| c.name.as_str());
+    let (channel, title) = channel_and_title(data, one);
     let point = |bin: &Bin| {
         bin.means.first().map(|mean| Knot {
             at: bin.at,
@@ -154,8 +258,8 @@ fn lack(
     };
     Lack {
         mechanism,
-        channel: channel.to_owned(),
-        title: title(mechanism, channel, one.source == Source::Input),
+        channel,
+        title,
         share: Shares {
             alone: one.alone,
             beyond_others: one.beyond,

@@ -99,6 +99,14 @@ impl Asked {
         Ok(records)
     }
 
+    /// The same question with that cut-off \[Hz\].
+    pub(super) fn at(&self, cutoff: f64) -> Self {
+        Self {
+            cutoff: Some(cutoff),
+            ..self.clone()
+        }
+    }
+
     /// A record on its grids, and the baseline model.
     pub(super) fn prepare(&self, record: &Record) -> Result<(Prepared, Structure), String> {
         let named = |message: String| format!("{}: {message}", record.path);

@@ -7,6 +7,7 @@ use super::ledger::{Detail, Facts};
 use crate::conclude::channel_apart::channel_apart;
 use crate::conclude::files_apart::{judge_files, with_own_gains, OTHER_CONFIGURATION};
 use crate::conclude::final_fit::FinalFit;
+use crate::conclude::mechanisms::FileAlone;
 use crate::conclude::resolution::{coarse_channels, told};
 use crate::conclude::signs::comes_before;
 use crate::conclude::trace::trace;
@@ -144,13 +145,19 @@ impl Close {
         (after < OTHER_CONFIGURATION * before).then_some([before, after])
     }
 
+    /// What each record says by itself, with the filter of all.
+    fn files_alone(&self, records: &[Record], cutoff: f64) -> Vec<FileAlone> {
+        use rayon::prelude::*;
+        let of = |record: &Record| {
+            let asked = self.asked.at(cutoff);
+            FileAlone::new(&record.path, asked.prepare(record).ok())
+        };
+        records.par_iter().map(of).collect()
+    }
+
     /// Records on the grids of that cut-off.
     fn on_grids(&self, records: &[Record], cutoff: f64) -> Option<Prepared> {
-        let asked = Asked {
-            cutoff: Some(cutoff),
-            ..self.asked.clone()
-        };
-        let (data, _) = self.prepare(records, &asked).ok()?;
+        let (data, _) = self.prepare(records, &self.asked.at(cutoff)).ok()?;
         Some(data)
     }
 }
@@ -214,7 +221,11 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
     };
     tell("searching for redundant baseline parts");
     let told = hand.as_ref().map_err(String::as_str);
-    let facts = Facts::new(&label, &data, &ledger, &done, told, question.detail);
+    let mut facts = Facts::new(&label, &data, &ledger, &done, told, question.detail);
+    if records.len() > 1 && ledger.supported.is_some() && has_time {
+        tell("searching for mechanisms in each file alone");
+        facts.files_alone = question.files_alone(records, data.cutoff);
+    }
     // Before anything is drawn: the cost of an answer is not that of its figures.
     let cost = meter.read();
     let models = match &hand {

@@ -8,7 +8,7 @@ use crate::conclude::by_file::{worse, Worse};
 use crate::conclude::curve::{curve, Knot};
 use crate::conclude::final_fit::FinalFit;
 use crate::conclude::intervals::term_title;
-use crate::conclude::mechanisms::{mechanisms, Complete, Lack};
+use crate::conclude::mechanisms::{mechanisms, Complete, FileAlone, Lack};
 use crate::conclude::unneeded::{unneeded, Unneeded};
 use crate::conclude::verdict::{falls_up_to, sentence, unknown_words, verdict, Verdict};
 use crate::export::hand_over::HandOver;
@@ -32,6 +32,8 @@ pub struct Facts {
     pub declared: ModelFacts,
     /// The mechanisms that the baseline model lacks.
     pub lacks: Vec<Lack>,
+    /// What each of several files says by itself; empty for one file, or where nothing was added.
+    pub files_alone: Vec<FileAlone>,
     /// Whether the delivered model is complete.
     pub complete: Complete,
     /// The added effects, in order.
@@ -210,6 +212,7 @@ impl Facts {
             rounds,
             beyond,
             lacks: mechanisms(data, ledger, done),
+            files_alone: Vec::new(),
             complete: Complete::new(data, ledger),
             falls_up_to: falls_up_to(ledger),
             hand_over,

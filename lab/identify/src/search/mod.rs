@@ -29,7 +29,7 @@ mod readoff;
 mod refit;
 mod run;
 mod sought;
-mod support;
+pub mod support;
 
 use crate::fit::{fit, glance, Solution};
 use crate::ledger::{Grade, Ledger};

@@ -13,9 +13,10 @@ use super::gram::DEPENDENT;
 use super::linear::{Group, Linear, Member};
 use super::{is_at_noise, policy};
 use crate::fit::settle::settle;
-use crate::fit::Solution;
+use crate::fit::{fit, Solution};
 use crate::ledger::{Ledger, Share, Support, Supported};
 use crate::model::mechanism::Mechanism;
+use crate::model::structure::Structure;
 use crate::model::Variable;
 use crate::problem::Prepared;
 use crate::score::binned::{binned, Bin};
@@ -59,6 +60,16 @@ pub(super) fn supported(data: &Prepared, ledger: &Ledger) -> Option<Supported> {
         .into_iter()
         .chain(at_last)
         .min_by(|a, b| a.error.total_cmp(&b.error))
+}
+
+/// The mechanisms that a record supports by itself in addition to a baseline model, before any term
+/// is sought. `None` if the baseline model cannot be fitted to it.
+pub fn alone(data: &Prepared, structure: &Structure) -> Option<Supported> {
+    let declared = fit(data, structure, None, 0.0)?;
+    asked_of(data, &declared, |linear| {
+        let comparison = Comparison::new(linear);
+        comparison.answer(comparison.found())
+    })
 }
 
 /// The baseline model with the parameters that it has in the last one.

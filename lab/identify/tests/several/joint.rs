@@ -9,7 +9,7 @@ use bowden_synth::{Base, Mode, Planted, Recipe};
 
 /// A stiffness that is bent, seen from two places: over the stroke of either file it is
 /// a straight line, of another slope in the other file.
-fn bent(bias: f64, seed: u64) -> Recipe {
+pub fn bent(bias: f64, seed: u64) -> Recipe {
     let base = Base {
         gain: 2.0,
         rho: 1.2,

@@ -1,6 +1,7 @@
 //! Several records of one rig, fitted together.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod alone;
 mod grids;
 mod joint;
 mod many;

@@ -5,8 +5,8 @@ use crate::chart::{Axis, Chart};
 use crate::document::{data, share_bar, table};
 use crate::words::{in_brackets, quantity, unit, value};
 use bowden_lab::facts::{
-    number, percent, Experiment, Facts, Figures, Grade, Lack, Parameter, RoundFacts, Segments,
-    Share, Size, BLOCKS,
+    across, number, percent, Across, Experiment, Facts, Figures, Grade, Lack, Parameter,
+    RoundFacts, Segments, Share, Size, BLOCKS,
 };
 use maud::{html, Markup};
 
@@ -129,6 +129,35 @@ fn mechanisms(facts: &Facts) -> Markup {
         div class="grid-of" { @for chart in &charts { (chart) } }
         p class="note" {
             "What each mechanism adds to the output, with the residual of all. The 95 % intervals hold for the motion of this record."
+        }
+        (files_alone(facts))
+    }
+}
+
+/// Which mechanisms each of several files supports by itself.
+fn files_alone(facts: &Facts) -> Markup {
+    let all = across(&facts.lacks, &facts.files_alone);
+    let head: Vec<&str> = std::iter::once("")
+        .chain(all.iter().map(|one| one.title))
+        .collect();
+    let row = |name: &str, cells: Vec<&str>| {
+        html! { tr { th scope="row" { (name) } @for cell in &cells { td { (cell) } } } }
+    };
+    let joint = |one: &Across| {
+        let own = facts.lacks.iter().find(|lack| lack.title == one.title);
+        own.map_or("–", |lack| grade(lack.confidence))
+    };
+    let mut rows = vec![row("all files together", all.iter().map(joint).collect())];
+    for file in &facts.files_alone {
+        let of = |one: &Across| {
+            let own = one.files.iter().find(|(path, _)| *path == file.path);
+            own.map_or("too short", |(_, confidence)| confidence.map_or("–", grade))
+        };
+        rows.push(row(&file.path, all.iter().map(of).collect()));
+    }
+    html! {
+        @if !facts.files_alone.is_empty() {
+            (table("Confidence of each mechanism in each file alone", &head, 0..0, &rows))
         }
     }
 }

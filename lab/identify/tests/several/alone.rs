@@ -1,0 +1,44 @@
+//! What each file of a joint fit says by itself.
+
+use crate::joint::bent;
+use crate::rig::{on, Files};
+use bowden_lab::facts::{across, close, Asked, Close, Detail, Facts, Grade, Meter};
+use bowden_lab::model::mechanism::Mechanism;
+use bowden_synth::{Base, Mode, Planted, Recipe};
+
+fn facts(files: &Files) -> Facts {
+    let question = Close {
+        asked: Asked::default(),
+        own_gains: false,
+        invertible: false,
+        models: false,
+        trace: false,
+        figures: false,
+        detail: Detail::Ledger,
+        meter: Meter::start(),
+    };
+    close(&files.records, &question, &|_| ()).unwrap().facts
+}
+
+#[test]
+fn what_only_the_joint_fit_supports_is_in_no_file_alone() {
+    let facts = facts(&Files::new(&[bent(-20.0, 4), bent(20.0, 5)]));
+    let all = across(&facts.lacks, &facts.files_alone);
+    assert!(facts.lacks[0].mechanism == Mechanism::Elastic && all[0].is_joint);
+    assert_eq!(all[0].files, [("0.csv", None), ("1.csv", None)]);
+}
+
+#[test]
+fn what_every_file_shows_is_in_each_file_alone() {
+    let viscous = |seed| Recipe {
+        effects: vec![Planted::with_gain("viscous", -0.8)],
+        ..on(Base::CABLE, Mode::Torque, seed)
+    };
+    let facts = facts(&Files::new(&[viscous(11), viscous(12)]));
+    for file in &facts.files_alone {
+        let lacks = file.lacks.as_ref().unwrap();
+        let own: Vec<_> = lacks.iter().map(|l| (l.mechanism, l.confidence)).collect();
+        assert_eq!(own, [(Mechanism::Friction, Grade::High)], "{}", file.path);
+    }
+    assert_eq!(facts.files_alone.len(), 2);
+}
