@@ -9,7 +9,7 @@ use super::refit::{on, present, Tried};
 use crate::fit::projection::Span;
 use crate::fit::search::descend;
 use crate::fit::settle::settle;
-use crate::fit::{fit, Solution};
+use crate::fit::Solution;
 use crate::ledger::{reject, Gate, Rejection};
 use crate::model::catalogue::Candidate;
 use crate::problem::Prepared;
@@ -66,8 +66,6 @@ pub(super) struct Search<'a> {
     pub(super) uncovered: Vec<Vec<Identity>>,
     failures: usize,
     phase: Phase,
-    /// Whether the final model has been fitted from all starts.
-    is_last_anew: bool,
     linear: Option<Standing<'a>>,
 }
 
@@ -109,7 +107,6 @@ impl<'a> Search<'a> {
             uncovered: Vec::new(),
             failures: 0,
             phase: Phase::Any,
-            is_last_anew: false,
             linear: None,
         }
     }
@@ -139,38 +136,11 @@ impl<'a> Search<'a> {
             } else {
                 self.leave(&standing);
             }
-            if !goes_on && !self.begun_anew() {
+            if !goes_on {
                 break;
             }
         }
         false
-    }
-
-    /// Fits the final model once more from all starts if its residual exceeds the noise: the few
-    /// starts of a move may have missed the optimum. Returns whether a better one was found.
-    fn begun_anew(&mut self) -> bool {
-        if self.is_last_anew
-            || self.is_at_noise(&self.now)
-            || Arc::ptr_eq(&self.now, &self.declared)
-        {
-            return false;
-        }
-        self.is_last_anew = true;
-        let now = &self.now;
-        let Some(next) = fit(self.data, &now.structure, Some(now), 0.0) else {
-            return false;
-        };
-        let gained = (now.sse(self.data) / next.sse(self.data)).ln();
-        if gained < policy::LEAST || next.rmse.selection > policy::NOT_WORSE * now.rmse.selection {
-            return false;
-        }
-        self.now = Arc::new(next);
-        self.reached.push(Arc::clone(&self.now));
-        if let Some(standing) = self.linear.take() {
-            self.leave(&standing);
-        }
-        (self.phase, self.failures) = (Phase::Any, 0);
-        true
     }
 
     fn is_over(&self) -> bool {
