@@ -52,9 +52,6 @@ pub(super) struct Proposed {
 pub(super) enum Phase {
     /// Any move that promises a lower criterion.
     Any,
-    /// Moves to fewer names, whatever they promise: the promise at a trial shape is poor before
-    /// a refit, and two names with bent shapes may imitate a single other one.
-    Fewer,
     /// A curve at a lower price, once no further name is found.
     Curves,
 }
@@ -87,13 +84,7 @@ impl Linear<'_> {
             .map(|kept| self.moves_from(&kept))
             .collect();
         let mut all: Vec<Move> = all.into_iter().flatten().collect();
-        if wanted.phase == Phase::Fewer {
-            all.extend(self.removals());
-        }
-        all.retain(|m| match wanted.phase {
-            Phase::Fewer => self.takes_names_out(m),
-            Phase::Any | Phase::Curves => m.promise < wanted.below,
-        });
+        all.retain(|m| m.promise < wanted.below);
         all.sort_by(|a, b| a.promise.total_cmp(&b.promise));
         self.tested(all, wanted)
     }
@@ -146,29 +137,6 @@ impl Linear<'_> {
         crowds.sort();
         crowds.dedup();
         crowds
-    }
-
-    /// Removals of three or more names. Several names may imitate one effect that a later move
-    /// has added; without any one or two of them the others do not.
-    fn removals(&self) -> Vec<Move> {
-        let names: Vec<usize> = (self.declared..self.now.structure.terms.len()).collect();
-        let sets =
-            (0..1_usize << names.len()).filter(|set| set.count_ones() as usize >= policy::MANY);
-        let of = |set: usize| {
-            let dropped = names.iter().enumerate();
-            let dropped = dropped.filter(|(bit, _)| set >> bit & 1 == 1);
-            let kept = Kept {
-                dropped: dropped.map(|(_, &index)| index).collect(),
-                table: self.has_table(),
-            };
-            Move {
-                promise: self.left(&kept).max(1e-14).ln() + self.price_of(&kept),
-                kept,
-                added: Vec::new(),
-                p: Vec::new(),
-            }
-        };
-        sets.map(of).collect()
     }
 
     pub(super) fn moves_from(&self, kept: &Kept) -> Vec<Move> {
@@ -275,11 +243,7 @@ impl Linear<'_> {
         // Kinds of moves whose first-order promises are the least accurate: the best one of each
         // is refitted whatever the others promise.
         let stage = |m: &Move| self.is_one_stage(m);
-        let many = |m: &Move| m.kept.dropped.len() >= m.added.len() + policy::MANY;
-        let poor: &[&dyn Fn(&Move) -> bool] = match wanted.phase {
-            Phase::Fewer => &[&stage, &many],
-            Phase::Any | Phase::Curves => &[&stage],
-        };
+        let poor: &[&dyn Fn(&Move) -> bool] = &[&stage];
         let has =
             |proposed: &Proposed, kind: &dyn Fn(&Move) -> bool| proposed.moves.iter().any(kind);
         let mut tested = 0;

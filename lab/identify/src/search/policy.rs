@@ -100,13 +100,6 @@ pub const REFITTED: usize = 3;
 /// names that imitate it. The number is a choice.
 pub const INSTEAD: usize = 4;
 
-/// Of the moves that reduce the number of names by this many or more the best one is refitted
-/// too, once no further name is found, whatever it promises.
-///
-/// In a planted record (torque, 60 s, seed 30006) three names imitated a dead zone; it came in
-/// later, and no removal of one or two of them was better. One removal of all three is.
-pub const MANY: usize = 3;
-
 /// Number of successive rounds without an accepted move that ends a phase of the search.
 ///
 /// A choice: a second round refits the moves after the best three.
