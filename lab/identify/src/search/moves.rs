@@ -1,8 +1,7 @@
 //! Moves from one set of effects to another, and the criterion that each promises.
 //!
-//! A move removes up to two names, keeps or removes the curve, and adds up to two names, or a
-//! curve, or a set of names completed by forward selection. Moves of pairs find two effects
-//! of which neither alone explains anything. All moves are compared by one criterion,
+//! A move removes up to two names, keeps or removes the curve, and adds up to two names or a
+//! curve. Moves of pairs find two effects of which neither alone explains anything. All moves are compared by one criterion,
 //! `J = ln SSE + sum of prices` (see `Prices`).
 
 use super::bank::Identity;
@@ -173,7 +172,6 @@ impl Linear<'_> {
         }
         moves.sort_by(|a, b| a.promise.total_cmp(&b.promise));
         moves.truncate(MOVES);
-        self.add_completed((kept, &swept), &mut moves, &make);
         moves
     }
 
@@ -198,38 +196,6 @@ impl Linear<'_> {
         };
         let slopes = |(_, a, b)| (gain(a, b), a, b);
         taken.into_iter().map(slopes).collect()
-    }
-
-    /// Several names may explain a curve together although no one or two of them do. The best
-    /// moves are therefore completed by forward selection before a curve competes with them.
-    fn add_completed(
-        &self,
-        (kept, swept): (&Kept, &Swept),
-        moves: &mut Vec<Move>,
-        make: &dyn Fn(Vec<usize>, f64) -> Move,
-    ) {
-        let names = |m: &&Move| m.added.iter().all(|&g| !self.groups[g].is_curve());
-        let begun: Vec<Vec<usize>> = moves
-            .iter()
-            .filter(names)
-            .take(policy::REFITTED)
-            .map(|m| m.added.clone())
-            .collect();
-        for added in begun {
-            let present = self.now.structure.terms.len() - self.declared;
-            let room = policy::MOST_NAMES.saturating_sub(present - kept.dropped.len());
-            let (target, _) = self.target_of(kept);
-            let whole = self.completed(swept, target, &added, room);
-            if whole.len() > added.len().max(2) {
-                let mut columns = self.columns_of(kept);
-                let before = self.grams.squared_error(&columns, target);
-                for &g in &whole {
-                    columns.extend(&self.groups[g].columns);
-                }
-                let gain = before - self.grams.squared_error(&columns, target);
-                moves.push(make(whole, gain));
-            }
-        }
     }
 
     /// Tests the best moves by sign flips, each set of members once.
