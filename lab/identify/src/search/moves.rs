@@ -7,12 +7,10 @@
 use super::bank::Identity;
 use super::gram::Swept;
 use super::kept::Kept;
-use super::linear::{Linear, Member};
+use super::linear::Linear;
 use super::policy;
 use crate::ledger::{reject, Gate, Rejection};
-use crate::model::catalogue::Candidate;
 use crate::model::kind::is_stage;
-use crate::model::Variable;
 use crate::score::blocks::Regime;
 
 /// Pairs of names that are evaluated with their slopes, for each kept set.
@@ -96,7 +94,6 @@ impl Linear<'_> {
             dropped.push(vec![a]);
             dropped.extend((a + 1..names.end).map(|b| vec![a, b]));
         }
-        dropped.extend(self.crowds());
         let with = |table: bool| {
             let sets = dropped.iter().filter(move |d| table || d.len() < 2);
             sets.map(move |d| Kept {
@@ -115,27 +112,6 @@ impl Linear<'_> {
                 })
                 .collect(),
         }
-    }
-
-    /// Sets of three or more names over one variable. Together they imitate any curve over it,
-    /// so a move that replaces all of them by one curve is tried.
-    fn crowds(&self) -> Vec<Vec<usize>> {
-        let names = || self.declared..self.now.structure.terms.len();
-        let over = |index: usize, variable: Variable| {
-            let variables = Candidate::from(self.now.structure.terms[index]).variables();
-            variables.contains(&variable)
-        };
-        let curves = self.groups.iter().filter_map(|g| match g.member {
-            Member::Curve(variable) => Some(variable),
-            Member::Name(_) => None,
-        });
-        let mut crowds: Vec<Vec<usize>> = curves
-            .map(|variable| names().filter(|&i| over(i, variable)).collect())
-            .filter(|crowd: &Vec<usize>| crowd.len() > 2)
-            .collect();
-        crowds.sort();
-        crowds.dedup();
-        crowds
     }
 
     pub(super) fn moves_from(&self, kept: &Kept) -> Vec<Move> {
