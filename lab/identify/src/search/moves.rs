@@ -10,7 +10,6 @@ use super::kept::Kept;
 use super::linear::Linear;
 use super::policy;
 use crate::ledger::{reject, Gate, Rejection};
-use crate::model::kind::is_stage;
 use crate::score::blocks::Regime;
 
 /// Pairs of names that are evaluated with their slopes, for each kept set.
@@ -182,12 +181,6 @@ impl Linear<'_> {
             rejected: Vec::new(),
             is_cut: false,
         };
-        // Kinds of moves whose first-order promises are the least accurate: the best one of each
-        // is refitted whatever the others promise.
-        let stage = |m: &Move| self.is_one_stage(m);
-        let poor: &[&dyn Fn(&Move) -> bool] = &[&stage];
-        let has =
-            |proposed: &Proposed, kind: &dyn Fn(&Move) -> bool| proposed.moves.iter().any(kind);
         let mut tested = 0;
         for mut one in all {
             let members = self.identities(&one.kept, &one.added);
@@ -209,10 +202,6 @@ impl Linear<'_> {
             }
             if names > policy::MOST_NAMES.min(wanted.most) + self.declared {
                 proposed.is_cut |= names <= policy::MOST_NAMES + self.declared;
-                continue;
-            }
-            let is_full = proposed.moves.len() >= policy::REFITTED;
-            if is_full && !poor.iter().any(|kind| kind(&one) && !has(&proposed, kind)) {
                 continue;
             }
             tested += 1;
@@ -237,21 +226,11 @@ impl Linear<'_> {
             }
             seen.push(members);
             proposed.moves.push(one);
-            if proposed.moves.len() >= policy::REFITTED
-                && poor.iter().all(|kind| has(&proposed, kind))
-            {
+            if proposed.moves.len() >= policy::REFITTED {
                 break;
             }
         }
         proposed
-    }
-
-    /// Whether the move adds one stage and nothing else. A stage acts on every column, so its
-    /// first-order promise is the least accurate: the best stage is always refitted.
-    pub(super) fn is_one_stage(&self, one: &Move) -> bool {
-        let [only] = one.added[..] else { return false };
-        let effect = self.groups[only].candidate().map(|c| c.term.effect);
-        effect.is_some_and(|e| is_stage(&e))
     }
 
     /// Whether the move reduces the number of names and leaves the curve as it is.

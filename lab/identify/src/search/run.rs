@@ -252,7 +252,6 @@ impl<'a> Search<'a> {
                 t.made.kept == one.kept && one.added.iter().all(|g| t.made.added.contains(g))
             };
             let promising = tried.iter().any(is_part)
-                || linear.is_one_stage(one)
                 || one.promise <= least + policy::EQUAL
                 || one.promise <= moves[0].promise + policy::EQUAL;
             if named && !promising {
