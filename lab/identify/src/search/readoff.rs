@@ -276,7 +276,6 @@ impl Search<'_> {
             })
             .collect();
         let mut found: Vec<(Candidate, f64)> = really.into_iter().flatten().collect();
-        found.extend(self.stages_instead(context, index));
         found.sort_by(|a, b| a.1.total_cmp(&b.1));
         // One function under two names is one effect: neither family is a rival of it.
         let twin = Candidate::twin(&term);
@@ -289,46 +288,6 @@ impl Search<'_> {
             }
         }
         rivals
-    }
-}
-
-impl Search<'_> {
-    /// Other stages of the model that without this one leave as little as this one without them.
-    /// Two stages may share one effect; then each is a rival of the other.
-    fn stages_instead(&self, context: &Context, index: usize) -> Vec<(Candidate, f64)> {
-        let linear = context.linear;
-        let terms = &self.now.structure.terms;
-        let stages = self.declared.structure.terms.len()..terms.len();
-        let others = stages.filter(|&other| other != index && is_stage(&terms[other].effect));
-        let others: Vec<usize> = others.collect();
-        if others.is_empty() || !is_stage(&terms[index].effect) {
-            return Vec::new();
-        }
-        let without = |dropped: Vec<usize>| Kept {
-            dropped,
-            table: linear.has_table(),
-        };
-        let refitted = |out: usize| {
-            let removal = Move {
-                kept: without(vec![out]),
-                added: Vec::new(),
-                promise: 0.0,
-                p: Vec::new(),
-            };
-            let grids = (self.coarse, context.moved);
-            let real = linear.refit(grids, &removal, STARTS, |_| true)?;
-            Some(real.sse / context.scale)
-        };
-        let Some(left) = refitted(index) else {
-            return Vec::new();
-        };
-        let rival = |other: usize| {
-            let sse = linear.left(&without(vec![index.min(other), index.max(other)]));
-            let named = refitted(other)?;
-            let does = left <= policy::allowed_to_a_rival(sse, named);
-            does.then_some((Candidate::from(terms[other]), left))
-        };
-        others.into_iter().filter_map(rival).collect()
     }
 }
 
