@@ -144,20 +144,9 @@ impl Solution {
         effect_column(data, term, &self.eta)
     }
 
-    /// Whether the gain of a stage or a shape of this term is on a bound of its range. A lag with a
-    /// gain of 1 is not: that is a whole low-pass.
+    /// Whether a term is on a bound: [`Structure::is_on_bound`].
     pub(crate) fn is_on_bound(&self, index: usize) -> bool {
-        let terms = &self.structure.terms;
-        let id = terms.ids().get(index).copied();
-        let is_whole = |value: f64| terms[index].effect.name() == "lag" && value > 0.5;
-        let roles = self.free.iter().zip(&self.values).zip(&self.on_bound);
-        roles
-            .filter(|((free, value), _)| match free.role {
-                Role::Stage { term } => Some(term) == id && !is_whole(**value),
-                Role::Shape { term, .. } => Some(term) == id,
-                _ => false,
-            })
-            .any(|(_, on_bound)| *on_bound)
+        self.structure.is_on_bound(&self.free, &self.values, index)
     }
 
     /// Number of shapes of the model that stopped on a bound.

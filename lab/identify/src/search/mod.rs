@@ -12,7 +12,6 @@
 mod bank;
 pub mod carries_over;
 mod coarse;
-mod exchange;
 mod forward;
 pub mod gram;
 mod hidden;

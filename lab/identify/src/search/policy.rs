@@ -59,11 +59,7 @@ pub const LARGE_UNTESTED: f64 = 0.6;
 /// names are still found: a factor of 2.
 ///
 /// A choice: a curve of ten hats fits any two names over one variable, so that it has to be
-/// clearly better. The same is asked of a power law instead of viscous and Coulomb friction
-/// together, where the residual is more than noise: on measured records that are described by the
-/// pair it takes up to 0.21 more, in every block: 0.17 on the positioning drive, whose friction is
-/// viscous and Coulomb's, and 0.21 on a damper, where it carries over worse
-/// (`lab/notes/catalogue.md`).
+/// clearly better.
 pub const CURVE_AGAINST_NAMES: f64 = core::f64::consts::LN_2;
 
 /// The same once no further name is found: a factor of 1.25, a share of 20 %.

@@ -2,7 +2,6 @@
 
 use super::bank::Identity;
 use super::carries_over::delivered;
-use super::exchange::is_told_apart;
 use super::kept::Kept;
 use super::linear::Linear;
 use super::moves::Move;
@@ -272,7 +271,13 @@ impl Search<'_> {
                 let real = linear.refit(grids, &swap, STARTS, wanted)?;
                 let left = real.sse / context.scale;
                 let candidate = linear.groups[g].candidate()?;
-                (left <= allowed).then_some((candidate, left))
+                let (added, free) = (
+                    real.structure.terms.len() - 1,
+                    real.structure.free(self.data),
+                );
+                // At the end of its range an effect is the limit of another one.
+                let is_limit = real.structure.is_on_bound(&free, &real.values, added);
+                (left <= allowed && !is_limit).then_some((candidate, left))
             })
             .collect();
         let mut found: Vec<(Candidate, f64)> = really.into_iter().flatten().collect();
@@ -362,9 +367,7 @@ impl Context<'_, '_> {
             let Some(candidate) = group.candidate() else {
                 continue;
             };
-            if (candidate.family, candidate.term.source) == (own.effect.family(), own.source)
-                || is_told_apart(own, &candidate.term)
-            {
+            if (candidate.family, candidate.term.source) == (own.effect.family(), own.source) {
                 continue;
             }
             let gain = unit * swept.gain(&group.columns, target);

@@ -60,8 +60,6 @@ pub(super) struct Search<'a> {
     /// Start and length \[s\] of the time budget.
     budget: Option<(Instant, f64)>,
     pub(super) visited: Vec<Vec<Identity>>,
-    /// Sets in which a power law has been tried in the place of named friction.
-    pub(super) exchanges: Vec<Vec<Identity>>,
     /// Sets beside which effects that the hysteresis hides have been tried.
     pub(super) uncovered: Vec<Vec<Identity>>,
     failures: usize,
@@ -103,7 +101,6 @@ impl<'a> Search<'a> {
             most,
             budget: None,
             visited: Vec::new(),
-            exchanges: Vec::new(),
             uncovered: Vec::new(),
             failures: 0,
             phase: Phase::Any,
@@ -223,11 +220,10 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// After the last name: first a power law in the place of named friction, then what the
-    /// hysteresis hides, then curves at a lower price.
+    /// After the last name: first what the hysteresis hides, then curves at a lower price.
     fn exhausted(&mut self, standing: &Standing<'a>) -> bool {
         self.failures = 0;
-        if self.exchanged(standing) || self.uncovered(standing) {
+        if self.uncovered(standing) {
             self.phase = Phase::Any;
             return true;
         }
