@@ -275,8 +275,9 @@ impl Search<'_> {
                     real.structure.terms.len() - 1,
                     real.structure.free(self.data),
                 );
-                // At the end of its range an effect is the limit of another one.
-                let is_limit = real.structure.is_on_bound(&free, &real.values, added);
+                // At the end of its range an effect is the limit of another one, a stage is none.
+                let is_limit = !is_stage(&candidate.term.effect)
+                    && real.structure.is_on_bound(&free, &real.values, added);
                 (left <= allowed && !is_limit).then_some((candidate, left))
             })
             .collect();
