@@ -48,6 +48,9 @@ pub(super) struct Proposed {
 pub(super) enum Phase {
     /// Any move that promises a lower criterion.
     Any,
+    /// Moves to fewer names, whatever they promise: the promise at a trial shape is poor before
+    /// a refit, and two names with bent shapes may imitate a single other one.
+    Fewer,
     /// A curve at a lower price, once no further name is found.
     Curves,
 }
@@ -80,7 +83,10 @@ impl Linear<'_> {
             .map(|kept| self.moves_from(&kept))
             .collect();
         let mut all: Vec<Move> = all.into_iter().flatten().collect();
-        all.retain(|m| m.promise < wanted.below);
+        all.retain(|m| match wanted.phase {
+            Phase::Fewer => self.takes_names_out(m),
+            Phase::Any | Phase::Curves => m.promise < wanted.below,
+        });
         all.sort_by(|a, b| a.promise.total_cmp(&b.promise));
         self.tested(all, wanted)
     }

@@ -162,7 +162,7 @@ impl<'a> Search<'a> {
     fn curve_price(&self) -> f64 {
         match self.phase {
             Phase::Curves => policy::CURVE_AFTER_NAMES,
-            Phase::Any => policy::CURVE_AGAINST_NAMES,
+            Phase::Any | Phase::Fewer => policy::CURVE_AGAINST_NAMES,
         }
     }
 
@@ -210,7 +210,12 @@ impl<'a> Search<'a> {
         match chosen(&tried).map(|best| self.accepted(standing, best, &tried)) {
             Some(true) => {
                 self.failures = 0;
-                self.phase = Phase::Any;
+                self.phase = match self.phase {
+                    // Names that the curve makes redundant are removed next.
+                    Phase::Curves => Phase::Fewer,
+                    phase if self.now.structure.table.is_some() => phase,
+                    _ => Phase::Any,
+                };
                 true
             }
             _ => {
@@ -220,9 +225,18 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// After the last name: first what the hysteresis hides, then curves at a lower price.
+    /// After the last name: first moves to fewer names, then what the hysteresis hides, then curves
+    /// at a lower price.
     fn exhausted(&mut self, standing: &Standing<'a>) -> bool {
         self.failures = 0;
+        let names = self.now.structure.terms.len() - self.declared.structure.terms.len();
+        if self.phase == Phase::Any && names > 1 {
+            self.phase = Phase::Fewer;
+            // Smaller sets that were refitted earlier may be tried again from this model.
+            let all = self.now.structure.terms.len();
+            self.visited.retain(|set| set.len() >= all);
+            return true;
+        }
         if self.uncovered(standing) {
             self.phase = Phase::Any;
             return true;
@@ -247,7 +261,8 @@ impl<'a> Search<'a> {
             let is_part = |t: &Tried| {
                 t.made.kept == one.kept && one.added.iter().all(|g| t.made.added.contains(g))
             };
-            let promising = tried.iter().any(is_part)
+            let promising = self.phase == Phase::Fewer
+                || tried.iter().any(is_part)
                 || one.promise <= least + policy::EQUAL
                 || one.promise <= moves[0].promise + policy::EQUAL;
             if named && !promising {
