@@ -57,7 +57,7 @@ const CONSTANTS: [(&str, usize); 17] = [
     ("identify/problem", 29),
     ("identify/record", 99),
     ("identify/score", 30),
-    ("identify/search", 50),
+    ("identify/search", 51),
     ("page", 5),
     ("rig", 6),
     ("synth", 10),

@@ -164,13 +164,14 @@ fn piezo_stage_over_its_full_range_finds_the_bend_or_the_rate_first() {
 
 #[test]
 #[ignore = "slow: bash .ci/run measured-records"]
-fn piezo_stage_with_varying_amplitude_finds_something_late_and_the_bend_first() {
+fn piezo_stage_with_varying_amplitude_finds_the_bend_and_something_late_first() {
     let Some(closed) = Closed::new(&PIEZO_VARYING) else {
         return;
     };
-    closed.assert_first_is_one_of(&[Family::Delay, Family::Lag, Family::Viscous, Family::Creep]);
-    // The bend is what the record of the full range shows first.
-    assert_eq!(closed.family(1), Family::Stiffness);
+    // The bend is what the record of the full range shows first as well.
+    assert_eq!(closed.family(0), Family::Stiffness);
+    let late = [Family::Delay, Family::Lag, Family::Viscous, Family::Creep];
+    assert!(late.contains(&closed.family(1)), "{}", closed.family(1));
 }
 
 #[test]
@@ -190,11 +191,10 @@ fn fatigue_rig_finds_viscous_delay_or_lag_first_and_needs_no_hysteresis() {
         return;
     };
     closed.assert_first_is_one_of(&[Family::Viscous, Family::Delay, Family::Lag]);
-    // Beside viscous friction alone.
-    let both = ["bouc-wen", "viscous"].map(str::to_owned);
-    let declared = structure(&both, &closed.data).unwrap();
-    let fitted = close_within(&closed.data, &declared, 0, |_| ()).unwrap();
-    let parts = unneeded(&fitted, &FinalFit::new(&closed.data, &fitted));
+    // Beside that one effect. Eight leave so little that the hysteresis takes a tenth of it.
+    let declared = structure(&["bouc-wen".to_owned()], &closed.data).unwrap();
+    let one = close_within(&closed.data, &declared, 1, |_| ()).unwrap();
+    let parts = unneeded(&one, &FinalFit::new(&closed.data, &one));
     assert!(parts.iter().any(|p| p.effect == "bouc-wen"), "{parts:?}");
 }
 
@@ -228,14 +228,10 @@ fn davinci_tool_4_03_gives_weak_names_only_and_says_which_others_do_as_well() {
 
 #[test]
 #[ignore = "slow: bash .ci/run measured-records"]
-fn tribometer_with_gaps_in_time_finds_asymmetry_and_stiffness() {
+fn tribometer_with_gaps_in_time_finds_asymmetry_then_stiffness() {
     let Some(closed) = Closed::new(&TRIBOMETER) else {
         return;
     };
-    // A stage in front of them explains little alone: to first order it cannot be ordered well.
-    let first: Vec<Family> = (0..3).map(|round| closed.family(round)).collect();
-    assert!(
-        first.contains(&Family::Asymmetry) && first.contains(&Family::Stiffness),
-        "{first:?}"
-    );
+    assert_eq!(closed.family(0), Family::Asymmetry);
+    assert_eq!(closed.family(1), Family::Stiffness);
 }

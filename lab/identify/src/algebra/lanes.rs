@@ -22,6 +22,11 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     Arch::new().dispatch(Dot(a, b))
 }
 
+/// `from -= a · b`, element by element.
+pub(crate) fn subtract_products(from: &mut [f64], a: &[f64], b: &[f64]) {
+    Arch::new().dispatch(SubtractProducts(from, a, b));
+}
+
 struct Add<'a>(&'a mut [f64], &'a [f64]);
 
 impl WithSimd for Add<'_> {
@@ -74,6 +79,19 @@ impl WithSimd for Dot<'_> {
     }
 }
 
+struct SubtractProducts<'a>(&'a mut [f64], &'a [f64], &'a [f64]);
+
+impl WithSimd for SubtractProducts<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        for ((v, a), b) in self.0.iter_mut().zip(self.1).zip(self.2) {
+            *v -= a * b;
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -85,7 +103,7 @@ mod tests {
             let value = |i: usize| ((i as f64 + seed) * 12.9898).sin() * 43758.5453;
             (0..37).map(value).collect()
         };
-        let (a, b) = (of(0.1), of(0.2));
+        let (a, b, c) = (of(0.1), of(0.2), of(0.3));
         let check = |own: Vec<f64>, plain: &dyn Fn(usize) -> f64| {
             for (i, v) in own.iter().enumerate() {
                 assert_eq!(v.to_bits(), plain(i).to_bits());
@@ -97,6 +115,9 @@ mod tests {
         let mut own = a.clone();
         subtract(&mut own, 0.7, &b);
         check(own, &|i| a[i] - 0.7 * b[i]);
+        let mut own = a.clone();
+        subtract_products(&mut own, &b, &c);
+        check(own, &|i| a[i] - b[i] * c[i]);
         for length in 0..=37 {
             let (a, b) = (&a[..length], &b[..length]);
             let plain = DVectorView::from_slice(a, length).dot(&DVectorView::from_slice(b, length));

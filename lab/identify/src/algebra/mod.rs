@@ -9,7 +9,7 @@
 //! | The directions in which a positive semi-definite matrix has a size | [`directions`] |
 //! | The line through points | [`line`] |
 //! | A column of one file among several | [`Stretch`] |
-//! | Sums and differences of columns | [`add`], [`subtract`] |
+//! | Sums and differences of columns | [`add`], [`subtract`], [`subtract_products`] |
 //!
 //! The sweep of Gram matrices, which grow by columns from round to round, is
 //! [`Grams`](crate::search::gram::Grams).
@@ -19,7 +19,7 @@ mod solve;
 mod span;
 mod stretch;
 
-pub(crate) use lanes::{add, subtract};
+pub(crate) use lanes::{add, subtract, subtract_products};
 pub(crate) use solve::{directions, inverse, least_norm, line, whitening};
 pub(crate) use span::{imitated, take_off, Span};
 pub use stretch::Stretch;

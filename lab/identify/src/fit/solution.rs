@@ -144,9 +144,20 @@ impl Solution {
         effect_column(data, term, &self.eta)
     }
 
-    /// Whether a term is on a bound: [`Structure::is_on_bound`].
+    /// Whether the gain of a stage or a shape of this term is on a bound of its range. A lag with a
+    /// gain of 1 is not: that is a whole low-pass.
     pub(crate) fn is_on_bound(&self, index: usize) -> bool {
-        self.structure.is_on_bound(&self.free, &self.values, index)
+        let terms = &self.structure.terms;
+        let id = terms.ids().get(index).copied();
+        let is_whole = |value: f64| terms[index].effect.name() == "lag" && value > 0.5;
+        let roles = self.free.iter().zip(&self.values).zip(&self.on_bound);
+        roles
+            .filter(|((free, value), _)| match free.role {
+                Role::Stage { term } => Some(term) == id && !is_whole(**value),
+                Role::Shape { term, .. } => Some(term) == id,
+                _ => false,
+            })
+            .any(|(_, on_bound)| *on_bound)
     }
 
     /// Number of shapes of the model that stopped on a bound.

@@ -45,20 +45,6 @@ const SIGMA: (f64, f64) = (1e-3, 3000.0);
 const N: (f64, f64) = (1e-3, 30.0);
 
 impl Structure {
-    /// Whether the gain of a stage or a shape of this term is on a bound of its range, with the
-    /// values of these parameters. A lag with a gain of 1 is not: that is a whole low-pass.
-    pub(crate) fn is_on_bound(&self, free: &[Free], values: &[f64], index: usize) -> bool {
-        let id = self.terms.ids().get(index).copied();
-        let is_whole = |value: f64| self.terms[index].effect.name() == "lag" && value > 0.5;
-        let is_own = |role: Role, value: f64| match role {
-            Role::Stage { term } => Some(term) == id && !is_whole(value),
-            Role::Shape { term, .. } => Some(term) == id,
-            _ => false,
-        };
-        let mut pairs = free.iter().zip(values);
-        pairs.any(|(f, &value)| is_own(f.role, value) && f.range.at_bound(f.range.encode(value)))
-    }
-
     /// The non-linear parameters with their ranges for this record.
     #[must_use]
     pub fn free(&self, data: &Prepared) -> Vec<Free> {

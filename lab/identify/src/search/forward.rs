@@ -1,44 +1,57 @@
 //! Forward selection to first order: names are added one at a time while the criterion falls.
 
+use super::gram::Swept;
+use super::kept::Kept;
 use super::linear::Linear;
+use super::partial::Partial;
 use super::policy;
 
 impl Linear<'_> {
-    /// The columns of the present model, and of the names that a forward selection adds to it.
-    pub(super) fn with_names(&self) -> Vec<usize> {
-        let all = self.everything();
-        let (target, _) = self.target_of(&all);
-        let mut columns = self.columns_of(&all);
-        let mut swept = self.without(&all);
-        let mut added: Vec<usize> = Vec::new();
-        while added.len() < policy::MOST_NAMES {
-            let sse = swept.at(target, target).max(1e-14);
-            let is_new = |g: &usize| {
-                let own = &self.groups[*g];
-                !own.is_curve() && added.iter().all(|&a| !self.groups[a].is_like(own))
+    /// Forward selection from a set, up to `most` names; returns the added groups.
+    pub(super) fn greedy(&self, kept: &Kept, added: &[usize], most: usize) -> Vec<usize> {
+        let (target, _) = self.target_of(kept);
+        self.completed(&self.without(kept), target, added, most)
+    }
+
+    /// Forward selection on a matrix from which the columns of a set are already swept.
+    pub(super) fn completed(
+        &self,
+        swept: &Swept,
+        target: usize,
+        added: &[usize],
+        most: usize,
+    ) -> Vec<usize> {
+        let sought = &self.sought;
+        let factors = sought.factors(|freedoms| self.prices.of_name(freedoms));
+        let mut partial = Partial::beside(swept, &sought.entries, target);
+        for &g in added {
+            partial.sweep(&self.groups[g].columns);
+        }
+        let mut all = added.to_vec();
+        while all.len() < most {
+            let free = |n: usize| {
+                let group = sought.groups[n].map(|g| &self.groups[g]);
+                group.is_some_and(|own| all.iter().all(|&a| !self.groups[a].is_like(own)))
             };
-            let left = |g: usize| {
-                let gain = swept.gain(&self.groups[g].columns, target);
-                (1.0 - gain / sse).max(1e-14).ln() + self.price(g)
-            };
-            let names = (0..self.groups.len()).filter(is_new);
-            let best = names
-                .map(|g| (left(g), g))
-                .min_by(|a, b| a.0.total_cmp(&b.0));
-            let Some((_, g)) = best.filter(|(change, _)| *change < 0.0) else {
+            let best = sought.best(&partial, &factors, free);
+            let Some((n, g)) = best.and_then(|n| Some((n, sought.groups[n]?))) else {
                 break;
             };
-            swept.sweep(&self.groups[g].columns);
-            columns.extend(&self.groups[g].columns);
-            added.push(g);
+            partial.sweep(sought.entries.group(n));
+            all.push(g);
         }
-        columns
+        all
     }
 
     /// Squared error that a forward selection from the present set leaves, in units of the output's
     /// squared scale.
     pub(super) fn left_by_names(&self) -> f64 {
-        let (target, unit) = self.target_of(&self.everything());
-        unit * self.grams.squared_error(&self.with_names(), target)
+        let all = self.everything();
+        let (target, unit) = self.target_of(&all);
+        let mut columns = self.columns_of(&all);
+        for g in self.greedy(&all, &[], policy::MOST_NAMES) {
+            columns.extend(&self.groups[g].columns);
+        }
+        unit * self.grams.squared_error(&columns, target)
     }
 }

@@ -368,19 +368,7 @@ impl Swept {
     #[must_use]
     pub fn gain_of_any(&self, group: &[usize], target: usize) -> f64 {
         let upper = |i: usize, j: usize| self.at(group[i], group[j]);
-        let right = |i: usize| self.at(group[i], target);
-        let d = group.len();
-        match d {
-            0 => 0.0,
-            1 => match upper(0, 0) {
-                pivot if pivot < SLOPE => 0.0,
-                pivot => right(0) * right(0) / pivot,
-            },
-            2 => gain_in(&mut [0.0; 6], upper, right, d),
-            3 => gain_in(&mut [0.0; 12], upper, right, d),
-            4..=SMALL => gain_in(&mut [0.0; SMALL * (SMALL + 1)], upper, right, d),
-            _ => gain_in(&mut vec![0.0; d * (d + 1)], upper, right, d),
-        }
+        gain(upper, |i| self.at(group[i], target), group.len())
     }
 
     /// Reduction of the target's squared error by two columns jointly; `None` if they are
@@ -396,8 +384,26 @@ impl Swept {
 }
 
 /// Reduction of the target's squared error by some columns, from the products of residuals:
-/// `upper(i, j)` with `i <= j` among the columns, `right(i)` with the target; `a` has room for a
-/// matrix of `d` rows and one more column.
+/// `upper(i, j)` with `i <= j` among the columns, `right(i)` with the target.
+pub(super) fn gain(
+    upper: impl Fn(usize, usize) -> f64,
+    right: impl Fn(usize) -> f64,
+    d: usize,
+) -> f64 {
+    match d {
+        0 => 0.0,
+        1 => match upper(0, 0) {
+            pivot if pivot < SLOPE => 0.0,
+            pivot => right(0) * right(0) / pivot,
+        },
+        2 => gain_in(&mut [0.0; 6], upper, right, d),
+        3 => gain_in(&mut [0.0; 12], upper, right, d),
+        4..=SMALL => gain_in(&mut [0.0; SMALL * (SMALL + 1)], upper, right, d),
+        _ => gain_in(&mut vec![0.0; d * (d + 1)], upper, right, d),
+    }
+}
+
+/// The same, with room for a matrix of `d` rows and one more column.
 fn gain_in(
     a: &mut [f64],
     upper: impl Fn(usize, usize) -> f64,

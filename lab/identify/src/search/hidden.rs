@@ -15,9 +15,7 @@
 use super::bank::Identity;
 use super::moves::is_same;
 use super::policy;
-use super::refit::{other_hystereses, FAIR, ROUGH};
 use super::run::{gates, Search, Standing};
-use crate::fit::search::descend;
 use crate::fit::settle::settle;
 use crate::fit::Solution;
 use crate::model::catalogue::Candidate;
@@ -25,9 +23,6 @@ use crate::model::structure::{FitTerm, Role, Structure};
 use crate::score::blocks::{sign_flip_p_above, Regime};
 use crate::score::left_out::ratios;
 use bowden::model::Source;
-
-/// Number of starts that are searched further.
-const FURTHER: usize = 2;
 
 /// The effect that a hysteresis may hide where both read the input.
 const HIDDEN: &str = "presliding";
@@ -65,7 +60,7 @@ impl Search<'_> {
         let structures: Vec<Structure> = own.map(|term| self.and(term)).collect();
         let at_noise = (policy::AT_FLOOR * self.data.noise_floor / self.now.rmse.fit).powi(2);
         let is_hopeless = |rough: f64| (rough / (at_noise * standing.sse)).ln() > policy::HOPELESS;
-        let next = self.fitted(&structures, is_hopeless)?;
+        let next = self.fitted(&structures, structures.len(), is_hopeless)?;
         let next = self.of_its_sign(next)?;
         let gained = (self.now.sse(self.data) / next.sse(self.data)).ln();
         let least = linear.prices.of_name(2) + policy::EQUAL;
@@ -75,50 +70,6 @@ impl Search<'_> {
             && p <= policy::SHORTER
             && gates(self.data, &self.now, &next, linear.regime).is_ok();
         accepted.then_some((next, p))
-    }
-
-    /// The best fit from the shapes of some structures of the same effects, the other parameters
-    /// as they are, and from two other hystereses with the shapes of the first `few` of them. `None`
-    /// where the squared error of the best rough search on the coarse grid is hopeless.
-    fn fitted(
-        &self,
-        structures: &[Structure],
-        is_hopeless: impl Fn(f64) -> bool,
-    ) -> Option<Solution> {
-        use rayon::prelude::*;
-        let structure = structures.first()?;
-        let free = structure.free(self.data);
-        let start = |from: &Structure| -> Vec<f64> {
-            let shape = |role: Role| match role {
-                Role::Shape { term, index } => from.terms.find(term)?.effect.shape(index),
-                Role::Origin { term } => Some(from.terms.find(term)?.origin),
-                Role::Start { .. } => Some(0.0),
-                _ => None,
-            };
-            let value = |role: Role| self.now.value(role).or_else(|| shape(role));
-            free.iter().map(|f| value(f.role).unwrap_or(0.5)).collect()
-        };
-        let mut starts: Vec<Vec<f64>> = structures.iter().map(start).collect();
-        if structure.hysteresis {
-            let present: Vec<Vec<f64>> = starts.clone();
-            let others = |from: &Vec<f64>| -> Vec<Vec<f64>> {
-                other_hystereses(self.data, &free, from).collect()
-            };
-            starts.extend(present.iter().flat_map(others));
-        }
-        let search = |start: &[f64], effort| self.coarse.descend(structure, &free, start, effort);
-        let rough: Vec<_> = starts.par_iter().map(|s| search(s, ROUGH)).collect();
-        let mut rough: Vec<_> = rough.into_iter().flatten().collect();
-        rough.sort_by(|a, b| a.0.total_cmp(&b.0));
-        if rough.first().is_none_or(|(sse, _)| is_hopeless(*sse)) {
-            return None;
-        }
-        rough.truncate(FURTHER);
-        let fair: Vec<_> = rough.par_iter().map(|(_, s)| search(s, FAIR)).collect();
-        let fair = fair.into_iter().flatten();
-        let (_, start) = fair.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        let (_, values) = descend(self.fine, structure, &free, &start, 30, 1e-6)?;
-        settle(self.data, structure, &free, values)
     }
 
     /// The present structure and one term more.

@@ -5,6 +5,7 @@ use super::gram::{Grams, Swept};
 use super::kept::Kept;
 use super::policy;
 use super::present::Present;
+use super::sought::{Choice, Sought};
 use crate::fit::Solution;
 use crate::model::catalogue::Candidate;
 use crate::model::Variable;
@@ -149,6 +150,8 @@ pub(super) struct Linear<'a> {
     pub(super) grams: Grams,
     /// The Gram matrix swept by the declared part.
     base: Swept,
+    /// The candidates of a forward selection.
+    pub(super) sought: Sought,
     pub(super) groups: Vec<Group>,
     /// A number for each group; groups of one name have the same number.
     pub(super) kinds: Vec<usize>,
@@ -203,6 +206,7 @@ impl<'a> Linear<'a> {
             declared,
             grams,
             base: Swept::default(),
+            sought: Sought::default(),
             groups,
             kinds: Vec::new(),
             prices: Prices::new(level, regime, (band, band), curve),
@@ -219,6 +223,7 @@ impl<'a> Linear<'a> {
         linear.multiply();
         linear.refine(bank);
         linear.base = linear.grams.without(&linear.own);
+        linear.sought = Sought::of(&linear.choices());
         linear.kinds = kinds(&linear.groups);
         linear.judge_blocks(level, (band, curve));
         linear
@@ -227,6 +232,26 @@ impl<'a> Linear<'a> {
     fn multiply(&mut self) {
         let (rows, blocks) = (&self.seen.split.fit, blocks(self.data));
         self.grams.extend(&self.columns.all, rows, &blocks);
+    }
+
+    /// The names of the model, then the candidates.
+    fn choices(&self) -> Vec<Choice<'_>> {
+        let names = self.declared..self.now.structure.terms.len();
+        let own = names.map(|index| Choice {
+            group: None,
+            identity: Identity::of(&self.now.structure.terms[index]),
+            columns: self.term(index),
+            freedoms: self.term(index).len(),
+        });
+        let groups = self.groups.iter().enumerate();
+        let groups = groups.filter(|(_, group)| !group.is_curve());
+        let groups = groups.map(|(g, group)| Choice {
+            group: Some(g),
+            identity: group.identity(),
+            columns: &group.columns,
+            freedoms: group.freedoms,
+        });
+        own.chain(groups).collect()
     }
 
     /// Adds the slopes of the candidates that reduce the SSE, and the curves if any does.
@@ -288,7 +313,11 @@ impl<'a> Linear<'a> {
     /// Decides whether the blocks are long enough for a test, from the residual of the best set
     /// of names: the residual of an incomplete model is correlated for longer than the noise.
     fn judge_blocks(&mut self, level: f64, (band, curve): (f64, f64)) {
-        let columns = self.with_names();
+        let all = self.everything();
+        let mut columns = self.columns_of(&all);
+        for g in self.greedy(&all, &[], policy::MOST_NAMES) {
+            columns.extend(&self.groups[g].columns);
+        }
         let gains = self.grams.coefficients(&columns, self.target);
         let rows = &self.seen.split.fit;
         let rest: Vec<f64> = rows
@@ -345,6 +374,11 @@ impl<'a> Linear<'a> {
         let mut swept = self.base.clone();
         swept.sweep(&self.columns_of(kept)[self.own.len()..]);
         swept
+    }
+
+    /// Gain and slopes of one term.
+    pub(super) fn term(&self, index: usize) -> &[usize] {
+        &self.terms[index]
     }
 
     /// The target of a set, and the square of its scale over that of the output.

@@ -3,7 +3,9 @@
 //! Every candidate is a column, computed and filtered once (`bank`). The products of the
 //! columns, one matrix for each of sixteen blocks (`gram`), answer all questions but one
 //! without another pass over the samples: the squared error of a set, its reduction by each
-//! effect and each pair, the exact sign-flip p-value of a member (`linear`, `moves`). The remaining question, the error with all shapes refitted, is asked for the three best
+//! effect and each pair, the exact sign-flip p-value of a member (`linear`, `moves`). A
+//! forward selection updates only the entries that it reads (`partial`, `sought`, `forward`).
+//! The remaining question, the error with all shapes refitted, is asked for the three best
 //! moves of a round only (`refit`). `run` accepts or rejects the refitted move, linearises the
 //! accepted model again, and stops when no move lowers the criterion. `readoff` reads rounds,
 //! rivals and the unmodelled curve off the final set; `carries_over` decides how many names
@@ -12,6 +14,7 @@
 mod bank;
 pub mod carries_over;
 mod coarse;
+mod exchange;
 mod forward;
 pub mod gram;
 mod hidden;
@@ -19,11 +22,13 @@ mod instead;
 mod kept;
 mod linear;
 mod moves;
+pub mod partial;
 pub mod policy;
 mod present;
 mod readoff;
 mod refit;
 mod run;
+mod sought;
 pub mod support;
 
 use crate::fit::{fit, glance, Solution};

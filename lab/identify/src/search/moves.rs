@@ -1,15 +1,19 @@
 //! Moves from one set of effects to another, and the criterion that each promises.
 //!
-//! A move removes up to two names, keeps or removes the curve, and adds up to two names or a
-//! curve. Moves of pairs find two effects of which neither alone explains anything. All moves are compared by one criterion,
+//! A move removes up to two names, keeps or removes the curve, and adds up to two names, or a
+//! curve, or a set of names completed by forward selection. Moves of pairs find two effects
+//! of which neither alone explains anything. All moves are compared by one criterion,
 //! `J = ln SSE + sum of prices` (see `Prices`).
 
 use super::bank::Identity;
 use super::gram::Swept;
 use super::kept::Kept;
-use super::linear::Linear;
+use super::linear::{Linear, Member};
 use super::policy;
 use crate::ledger::{reject, Gate, Rejection};
+use crate::model::catalogue::Candidate;
+use crate::model::kind::is_stage;
+use crate::model::Variable;
 use crate::score::blocks::Regime;
 
 /// Pairs of names that are evaluated with their slopes, for each kept set.
@@ -83,6 +87,9 @@ impl Linear<'_> {
             .map(|kept| self.moves_from(&kept))
             .collect();
         let mut all: Vec<Move> = all.into_iter().flatten().collect();
+        if wanted.phase == Phase::Fewer {
+            all.extend(self.removals());
+        }
         all.retain(|m| match wanted.phase {
             Phase::Fewer => self.takes_names_out(m),
             Phase::Any | Phase::Curves => m.promise < wanted.below,
@@ -99,6 +106,7 @@ impl Linear<'_> {
             dropped.push(vec![a]);
             dropped.extend((a + 1..names.end).map(|b| vec![a, b]));
         }
+        dropped.extend(self.crowds());
         let with = |table: bool| {
             let sets = dropped.iter().filter(move |d| table || d.len() < 2);
             sets.map(move |d| Kept {
@@ -117,6 +125,50 @@ impl Linear<'_> {
                 })
                 .collect(),
         }
+    }
+
+    /// Sets of three or more names over one variable. Together they imitate any curve over it,
+    /// so a move that replaces all of them by one curve is tried.
+    fn crowds(&self) -> Vec<Vec<usize>> {
+        let names = || self.declared..self.now.structure.terms.len();
+        let over = |index: usize, variable: Variable| {
+            let variables = Candidate::from(self.now.structure.terms[index]).variables();
+            variables.contains(&variable)
+        };
+        let curves = self.groups.iter().filter_map(|g| match g.member {
+            Member::Curve(variable) => Some(variable),
+            Member::Name(_) => None,
+        });
+        let mut crowds: Vec<Vec<usize>> = curves
+            .map(|variable| names().filter(|&i| over(i, variable)).collect())
+            .filter(|crowd: &Vec<usize>| crowd.len() > 2)
+            .collect();
+        crowds.sort();
+        crowds.dedup();
+        crowds
+    }
+
+    /// Removals of three or more names. Several names may imitate one effect that a later move
+    /// has added; without any one or two of them the others do not.
+    fn removals(&self) -> Vec<Move> {
+        let names: Vec<usize> = (self.declared..self.now.structure.terms.len()).collect();
+        let sets =
+            (0..1_usize << names.len()).filter(|set| set.count_ones() as usize >= policy::MANY);
+        let of = |set: usize| {
+            let dropped = names.iter().enumerate();
+            let dropped = dropped.filter(|(bit, _)| set >> bit & 1 == 1);
+            let kept = Kept {
+                dropped: dropped.map(|(_, &index)| index).collect(),
+                table: self.has_table(),
+            };
+            Move {
+                promise: self.left(&kept).max(1e-14).ln() + self.price_of(&kept),
+                kept,
+                added: Vec::new(),
+                p: Vec::new(),
+            }
+        };
+        sets.map(of).collect()
     }
 
     pub(super) fn moves_from(&self, kept: &Kept) -> Vec<Move> {
@@ -153,6 +205,7 @@ impl Linear<'_> {
         }
         moves.sort_by(|a, b| a.promise.total_cmp(&b.promise));
         moves.truncate(MOVES);
+        self.add_completed((kept, &swept), &mut moves, &make);
         moves
     }
 
@@ -179,6 +232,38 @@ impl Linear<'_> {
         taken.into_iter().map(slopes).collect()
     }
 
+    /// Several names may explain a curve together although no one or two of them do. The best
+    /// moves are therefore completed by forward selection before a curve competes with them.
+    fn add_completed(
+        &self,
+        (kept, swept): (&Kept, &Swept),
+        moves: &mut Vec<Move>,
+        make: &dyn Fn(Vec<usize>, f64) -> Move,
+    ) {
+        let names = |m: &&Move| m.added.iter().all(|&g| !self.groups[g].is_curve());
+        let begun: Vec<Vec<usize>> = moves
+            .iter()
+            .filter(names)
+            .take(policy::REFITTED)
+            .map(|m| m.added.clone())
+            .collect();
+        for added in begun {
+            let present = self.now.structure.terms.len() - self.declared;
+            let room = policy::MOST_NAMES.saturating_sub(present - kept.dropped.len());
+            let (target, _) = self.target_of(kept);
+            let whole = self.completed(swept, target, &added, room);
+            if whole.len() > added.len().max(2) {
+                let mut columns = self.columns_of(kept);
+                let before = self.grams.squared_error(&columns, target);
+                for &g in &whole {
+                    columns.extend(&self.groups[g].columns);
+                }
+                let gain = before - self.grams.squared_error(&columns, target);
+                moves.push(make(whole, gain));
+            }
+        }
+    }
+
     /// Tests the best moves by sign flips, each set of members once.
     fn tested(&self, all: Vec<Move>, wanted: &Wanted) -> Proposed {
         let mut seen: Vec<Vec<Identity>> = wanted.visited.to_vec();
@@ -187,6 +272,16 @@ impl Linear<'_> {
             rejected: Vec::new(),
             is_cut: false,
         };
+        // Kinds of moves whose first-order promises are the least accurate: the best one of each
+        // is refitted whatever the others promise.
+        let stage = |m: &Move| self.is_one_stage(m);
+        let many = |m: &Move| m.kept.dropped.len() >= m.added.len() + policy::MANY;
+        let poor: &[&dyn Fn(&Move) -> bool] = match wanted.phase {
+            Phase::Fewer => &[&stage, &many],
+            Phase::Any | Phase::Curves => &[&stage],
+        };
+        let has =
+            |proposed: &Proposed, kind: &dyn Fn(&Move) -> bool| proposed.moves.iter().any(kind);
         let mut tested = 0;
         for mut one in all {
             let members = self.identities(&one.kept, &one.added);
@@ -208,6 +303,10 @@ impl Linear<'_> {
             }
             if names > policy::MOST_NAMES.min(wanted.most) + self.declared {
                 proposed.is_cut |= names <= policy::MOST_NAMES + self.declared;
+                continue;
+            }
+            let is_full = proposed.moves.len() >= policy::REFITTED;
+            if is_full && !poor.iter().any(|kind| kind(&one) && !has(&proposed, kind)) {
                 continue;
             }
             tested += 1;
@@ -232,11 +331,21 @@ impl Linear<'_> {
             }
             seen.push(members);
             proposed.moves.push(one);
-            if proposed.moves.len() >= policy::REFITTED {
+            if proposed.moves.len() >= policy::REFITTED
+                && poor.iter().all(|kind| has(&proposed, kind))
+            {
                 break;
             }
         }
         proposed
+    }
+
+    /// Whether the move adds one stage and nothing else. A stage acts on every column, so its
+    /// first-order promise is the least accurate: the best stage is always refitted.
+    pub(super) fn is_one_stage(&self, one: &Move) -> bool {
+        let [only] = one.added[..] else { return false };
+        let effect = self.groups[only].candidate().map(|c| c.term.effect);
+        effect.is_some_and(|e| is_stage(&e))
     }
 
     /// Whether the move reduces the number of names and leaves the curve as it is.

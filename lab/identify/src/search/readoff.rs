@@ -2,6 +2,7 @@
 
 use super::bank::Identity;
 use super::carries_over::delivered;
+use super::exchange::is_told_apart;
 use super::kept::Kept;
 use super::linear::Linear;
 use super::moves::Move;
@@ -271,17 +272,11 @@ impl Search<'_> {
                 let real = linear.refit(grids, &swap, STARTS, wanted)?;
                 let left = real.sse / context.scale;
                 let candidate = linear.groups[g].candidate()?;
-                let (added, free) = (
-                    real.structure.terms.len() - 1,
-                    real.structure.free(self.data),
-                );
-                // At the end of its range an effect is the limit of another one, a stage is none.
-                let is_limit = !is_stage(&candidate.term.effect)
-                    && real.structure.is_on_bound(&free, &real.values, added);
-                (left <= allowed && !is_limit).then_some((candidate, left))
+                (left <= allowed).then_some((candidate, left))
             })
             .collect();
         let mut found: Vec<(Candidate, f64)> = really.into_iter().flatten().collect();
+        found.extend(self.stages_instead(context, index));
         found.sort_by(|a, b| a.1.total_cmp(&b.1));
         // One function under two names is one effect: neither family is a rival of it.
         let twin = Candidate::twin(&term);
@@ -294,6 +289,46 @@ impl Search<'_> {
             }
         }
         rivals
+    }
+}
+
+impl Search<'_> {
+    /// Other stages of the model that without this one leave as little as this one without them.
+    /// Two stages may share one effect; then each is a rival of the other.
+    fn stages_instead(&self, context: &Context, index: usize) -> Vec<(Candidate, f64)> {
+        let linear = context.linear;
+        let terms = &self.now.structure.terms;
+        let stages = self.declared.structure.terms.len()..terms.len();
+        let others = stages.filter(|&other| other != index && is_stage(&terms[other].effect));
+        let others: Vec<usize> = others.collect();
+        if others.is_empty() || !is_stage(&terms[index].effect) {
+            return Vec::new();
+        }
+        let without = |dropped: Vec<usize>| Kept {
+            dropped,
+            table: linear.has_table(),
+        };
+        let refitted = |out: usize| {
+            let removal = Move {
+                kept: without(vec![out]),
+                added: Vec::new(),
+                promise: 0.0,
+                p: Vec::new(),
+            };
+            let grids = (self.coarse, context.moved);
+            let real = linear.refit(grids, &removal, STARTS, |_| true)?;
+            Some(real.sse / context.scale)
+        };
+        let Some(left) = refitted(index) else {
+            return Vec::new();
+        };
+        let rival = |other: usize| {
+            let sse = linear.left(&without(vec![index.min(other), index.max(other)]));
+            let named = refitted(other)?;
+            let does = left <= policy::allowed_to_a_rival(sse, named);
+            does.then_some((Candidate::from(terms[other]), left))
+        };
+        others.into_iter().filter_map(rival).collect()
     }
 }
 
@@ -368,7 +403,9 @@ impl Context<'_, '_> {
             let Some(candidate) = group.candidate() else {
                 continue;
             };
-            if (candidate.family, candidate.term.source) == (own.effect.family(), own.source) {
+            if (candidate.family, candidate.term.source) == (own.effect.family(), own.source)
+                || is_told_apart(own, &candidate.term)
+            {
                 continue;
             }
             let gain = unit * swept.gain(&group.columns, target);

@@ -8,7 +8,7 @@ use super::moves::Move;
 use crate::fit::projection::Span;
 use crate::fit::settle::settle;
 use crate::fit::Solution;
-use crate::model::catalogue::simplicity;
+use crate::model::catalogue::{simplicity, Candidate};
 use crate::model::structure::{FitTerm, Free, Range, Role, Structure, TermId};
 use crate::model::Variable;
 use crate::problem::Prepared;
@@ -40,13 +40,25 @@ pub(super) struct Priced {
 }
 
 impl Tried {
-    /// Order of preference: names before curves, then the simpler effects.
-    pub(super) fn rank(&self) -> (bool, usize) {
+    /// Order of preference: names before curves, curves before crowds; then the simpler effects.
+    pub(super) fn rank(&self) -> (bool, bool, usize) {
         let terms = &self.structure.terms;
         // The constant exceeds every rank, so that a smaller number of effects comes first.
         let sum = terms.iter().map(|t| simplicity(&t.effect).0 + 30).sum();
-        (self.structure.table.is_some(), sum)
+        let came_in = &terms[terms.len().saturating_sub(self.made.added.len())..];
+        let has_curve = self.structure.table.is_some();
+        (!has_curve && is_crowd(came_in), has_curve, sum)
     }
+}
+
+/// Whether three or more effects read one variable: together they imitate any curve over it.
+fn is_crowd(terms: &[FitTerm]) -> bool {
+    let read: Vec<Vec<Variable>> = terms
+        .iter()
+        .map(|&term| Candidate::from(term).variables())
+        .collect();
+    let over = |variable: &Variable| read.iter().filter(|r| r.contains(variable)).count();
+    read.iter().flatten().any(|variable| over(variable) > 2)
 }
 
 /// The structure of a move and the starts of its search.

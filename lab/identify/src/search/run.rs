@@ -9,7 +9,7 @@ use super::refit::{on, present, Tried};
 use crate::fit::projection::Span;
 use crate::fit::search::descend;
 use crate::fit::settle::settle;
-use crate::fit::Solution;
+use crate::fit::{fit, Solution};
 use crate::ledger::{reject, Gate, Rejection};
 use crate::model::catalogue::Candidate;
 use crate::problem::Prepared;
@@ -60,10 +60,14 @@ pub(super) struct Search<'a> {
     /// Start and length \[s\] of the time budget.
     budget: Option<(Instant, f64)>,
     pub(super) visited: Vec<Vec<Identity>>,
+    /// Sets in which a power law has been tried in the place of named friction.
+    pub(super) exchanges: Vec<Vec<Identity>>,
     /// Sets beside which effects that the hysteresis hides have been tried.
     pub(super) uncovered: Vec<Vec<Identity>>,
     failures: usize,
     phase: Phase,
+    /// Whether the final model has been fitted from all starts.
+    is_last_anew: bool,
     linear: Option<Standing<'a>>,
 }
 
@@ -101,9 +105,11 @@ impl<'a> Search<'a> {
             most,
             budget: None,
             visited: Vec::new(),
+            exchanges: Vec::new(),
             uncovered: Vec::new(),
             failures: 0,
             phase: Phase::Any,
+            is_last_anew: false,
             linear: None,
         }
     }
@@ -133,11 +139,38 @@ impl<'a> Search<'a> {
             } else {
                 self.leave(&standing);
             }
-            if !goes_on {
+            if !goes_on && !self.begun_anew() {
                 break;
             }
         }
         false
+    }
+
+    /// Fits the final model once more from all starts if its residual exceeds the noise: the few
+    /// starts of a move may have missed the optimum. Returns whether a better one was found.
+    fn begun_anew(&mut self) -> bool {
+        if self.is_last_anew
+            || self.is_at_noise(&self.now)
+            || Arc::ptr_eq(&self.now, &self.declared)
+        {
+            return false;
+        }
+        self.is_last_anew = true;
+        let now = &self.now;
+        let Some(next) = fit(self.data, &now.structure, Some(now), 0.0) else {
+            return false;
+        };
+        let gained = (now.sse(self.data) / next.sse(self.data)).ln();
+        if gained < policy::LEAST || next.rmse.selection > policy::NOT_WORSE * now.rmse.selection {
+            return false;
+        }
+        self.now = Arc::new(next);
+        self.reached.push(Arc::clone(&self.now));
+        if let Some(standing) = self.linear.take() {
+            self.leave(&standing);
+        }
+        (self.phase, self.failures) = (Phase::Any, 0);
+        true
     }
 
     fn is_over(&self) -> bool {
@@ -213,8 +246,8 @@ impl<'a> Search<'a> {
                 self.phase = match self.phase {
                     // Names that the curve makes redundant are removed next.
                     Phase::Curves => Phase::Fewer,
-                    phase if self.now.structure.table.is_some() => phase,
-                    _ => Phase::Any,
+                    Phase::Any | Phase::Fewer if self.now.structure.table.is_some() => self.phase,
+                    Phase::Any | Phase::Fewer => Phase::Any,
                 };
                 true
             }
@@ -225,8 +258,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// After the last name: first moves to fewer names, then what the hysteresis hides, then curves
-    /// at a lower price.
+    /// After the last name: first moves to fewer names, then a power law in the place of named
+    /// friction, then what the hysteresis hides, then curves at a lower price.
     fn exhausted(&mut self, standing: &Standing<'a>) -> bool {
         self.failures = 0;
         let names = self.now.structure.terms.len() - self.declared.structure.terms.len();
@@ -237,7 +270,7 @@ impl<'a> Search<'a> {
             self.visited.retain(|set| set.len() >= all);
             return true;
         }
-        if self.uncovered(standing) {
+        if self.exchanged(standing) || self.uncovered(standing) {
             self.phase = Phase::Any;
             return true;
         }
@@ -263,6 +296,7 @@ impl<'a> Search<'a> {
             };
             let promising = self.phase == Phase::Fewer
                 || tried.iter().any(is_part)
+                || linear.is_one_stage(one)
                 || one.promise <= least + policy::EQUAL
                 || one.promise <= moves[0].promise + policy::EQUAL;
             if named && !promising {

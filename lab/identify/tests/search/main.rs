@@ -4,6 +4,7 @@
 use bowden_lab::problem::Stretch;
 use bowden_lab::score::blocks::{flips, sign_flip_p, sign_flip_p_above, BLOCKS};
 use bowden_lab::search::gram::Grams;
+use bowden_lab::search::partial::{Entries, Partial};
 use nalgebra::{DMatrix, DVector};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -208,6 +209,26 @@ fn two_columns_explain_together_what_neither_shows_alone() {
         assert!(swept.gain(&[column], 3) / sse < 0.01 + chance);
     }
     assert!(swept.gain_of_pair(0, 1, 3).unwrap() / sse > 1.0 - 1e-9);
+}
+
+#[test]
+fn the_entries_that_are_kept_up_to_date_are_those_of_the_whole_matrix() {
+    let all = columns(12, 21);
+    let grams = Grams::new(&all, &rows(), &blocks());
+    let groups: [&[usize]; 3] = [&[3, 4], &[5], &[6, 7, 8, 9, 10, 2]];
+    let entries = Entries::of(groups);
+    let (mut swept, from) = (grams.without(&[0]), grams.without(&[0]));
+    let mut beside = Partial::beside(&from, &entries, 11);
+    for more in [&[][..], &[1], &[5, 4]] {
+        swept.sweep(more);
+        beside.sweep(more);
+        let sse = swept.at(11, 11);
+        assert!((beside.squared_error() - sse).abs() < ROUNDING * sse);
+        for (group, columns) in groups.iter().enumerate() {
+            let expected = swept.gain(columns, 11);
+            assert!((beside.gain(group) - expected).abs() < ROUNDING * sse);
+        }
+    }
 }
 
 #[test]

@@ -49,13 +49,11 @@ pub(super) const MOTION: &[Entry] = &[
         shown_by: "speeds up to the highest that the rig allows",
         ..PLAIN
     },
+    // In no first scan: it lies between viscous and Coulomb friction, and the search asks of it
+    // where one of them is named (`search::exchange`).
     Entry {
         name: "power-law",
         rank: 13,
-        tried: &[on(
-            Place::Motion,
-            Trials::At(&[&[Number(0.3)], &[Number(0.6)]]),
-        )],
         declared: Declared::OnChannel(&[Number(0.5)]),
         bounds: &[Bounds::Linear(0.1, 0.9)],
         on: &[On::Read, On::Reversal],
