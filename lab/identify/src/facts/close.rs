@@ -145,9 +145,14 @@ impl Close {
         (after < OTHER_CONFIGURATION * before).then_some([before, after])
     }
 
-    /// What each record says by itself, with the filter of all.
-    fn files_alone(&self, records: &[Record], cutoff: f64) -> Vec<FileAlone> {
+    /// What each of several records says by itself, with the filter of all; empty where the search
+    /// added nothing or was cut short.
+    fn files_alone(&self, records: &[Record], cutoff: f64, ledger: &Ledger) -> Vec<FileAlone> {
         use rayon::prelude::*;
+        let is_cut = self.asked.budget.is_some() || ledger.is_stopped();
+        if records.len() < 2 || ledger.supported.is_none() || is_cut {
+            return Vec::new();
+        }
         let of = |record: &Record| {
             let asked = self.asked.at(cutoff);
             FileAlone::new(&record.path, asked.prepare(record).ok())
@@ -222,10 +227,7 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
     tell("searching for redundant baseline parts");
     let told = hand.as_ref().map_err(String::as_str);
     let mut facts = Facts::new(&label, &data, &ledger, &done, told, question.detail);
-    if records.len() > 1 && ledger.supported.is_some() && has_time {
-        tell("searching for mechanisms in each file alone");
-        facts.files_alone = question.files_alone(records, data.cutoff);
-    }
+    facts.files_alone = question.files_alone(records, data.cutoff, &ledger);
     // Before anything is drawn: the cost of an answer is not that of its figures.
     let cost = meter.read();
     let models = match &hand {
