@@ -4,7 +4,7 @@
 use bowden_cli::view::{certificates, compare, design, plan_text, power_text, proof};
 use bowden_cli::view::{text, Report, Width};
 use bowden_lab::facts::{
-    close, plan, Answer, Asked, Close as Question, Detail, Facts, Meter, Plan, PowerFacts, PowerRow,
+    close, plan, Answer, Asked, Close as Question, Facts, Plan, PowerFacts, PowerRow,
 };
 use bowden_synth::stored_csv;
 use bowden_trials::facts as trials;
@@ -19,16 +19,7 @@ fn facts() -> &'static Facts {
         let record = asked
             .read_text(stored_csv().as_bytes(), "built-in record")
             .unwrap();
-        let question = Question {
-            asked,
-            own_gains: false,
-            invertible: false,
-            models: false,
-            trace: false,
-            figures: false,
-            detail: Detail::Ledger,
-            meter: Meter::start(),
-        };
+        let question = Question::new(asked);
         close(&[record], &question, &|_| ()).unwrap().facts
     })
 }

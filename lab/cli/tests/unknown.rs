@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use bowden_cli::view::{json, text, Report, Width};
-use bowden_lab::facts::{close, Asked, Close, Detail, Facts, Meter};
+use bowden_lab::facts::{close, Asked, Close, Detail, Facts};
 use bowden_synth::{generate, Mode, Planted, Recipe};
 
 /// A bump over the position, three times the noise: no effect of the catalogue.
@@ -19,14 +19,8 @@ fn bump() -> Facts {
     let csv = made.unwrap().to_csv();
     let record = asked.read_text(csv.as_bytes(), "made.csv").unwrap();
     let question = Close {
-        asked,
-        own_gains: false,
-        invertible: false,
-        models: false,
-        trace: false,
-        figures: false,
         detail: Detail::EachRound,
-        meter: Meter::start(),
+        ..Close::new(asked)
     };
     close(&[record], &question, &|_| ()).unwrap().facts
 }

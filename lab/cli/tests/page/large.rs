@@ -1,7 +1,7 @@
 //! A page of a million samples.
 
 use crate::{assert_sound, parsed};
-use bowden_lab::facts::{close, Asked, Close, Detail, Meter};
+use bowden_lab::facts::{close, Asked, Close};
 use bowden_page::{Close as Page, Provenance};
 use std::fmt::Write as _;
 
@@ -28,14 +28,8 @@ fn a_million_samples_make_a_page_below_two_megabytes_that_keeps_its_spike() {
     };
     let record = asked.read_text(csv.as_bytes(), "large.csv").unwrap();
     let question = Close {
-        asked,
-        own_gains: false,
-        invertible: false,
-        models: false,
-        trace: false,
         figures: true,
-        detail: Detail::Ledger,
-        meter: Meter::start(),
+        ..Close::new(asked)
     };
     let closed = close(&[record], &question, &|_| ()).unwrap();
     let figures = closed.figures.unwrap();

@@ -102,6 +102,21 @@ impl Handed {
 }
 
 impl Close {
+    /// A question for the facts alone: no models, trace or figures. The meter starts now.
+    #[must_use]
+    pub fn new(asked: Asked) -> Self {
+        Self {
+            asked,
+            own_gains: false,
+            invertible: false,
+            models: false,
+            trace: false,
+            figures: false,
+            detail: Detail::Ledger,
+            meter: Meter::start(),
+        }
+    }
+
     fn prepare(&self, records: &[Record], asked: &Asked) -> Result<(Prepared, Structure), String> {
         match records {
             [one] => asked.prepare(one),

@@ -2,21 +2,12 @@
 
 use crate::joint::bent;
 use crate::rig::{on, Files};
-use bowden_lab::facts::{across, close, Asked, Close, Detail, Facts, Grade, Meter};
+use bowden_lab::facts::{across, close, Asked, Close, Facts, Grade};
 use bowden_lab::model::mechanism::Mechanism;
 use bowden_synth::{Base, Mode, Planted, Recipe};
 
 fn facts(files: &Files) -> Facts {
-    let question = Close {
-        asked: Asked::default(),
-        own_gains: false,
-        invertible: false,
-        models: false,
-        trace: false,
-        figures: false,
-        detail: Detail::Ledger,
-        meter: Meter::start(),
-    };
+    let question = Close::new(Asked::default());
     close(&files.records, &question, &|_| ()).unwrap().facts
 }
 

@@ -2,7 +2,7 @@
 //! not.
 
 use bowden_lab::conclude::verdict::Verdict;
-use bowden_lab::facts::{close, Asked, Close, Detail, Facts, Meter};
+use bowden_lab::facts::{close, Asked, Close, Facts};
 use rand::seq::SliceRandom;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -56,16 +56,7 @@ fn closed(files: &[String]) -> Facts {
     let read =
         |(index, text): (usize, &String)| asked.read_text(text.as_bytes(), &format!("{index}.csv"));
     let records: Result<Vec<_>, _> = files.iter().enumerate().map(read).collect();
-    let question = Close {
-        asked,
-        own_gains: false,
-        invertible: false,
-        models: false,
-        trace: false,
-        figures: false,
-        detail: Detail::Ledger,
-        meter: Meter::start(),
-    };
+    let question = Close::new(asked);
     close(&records.unwrap(), &question, &|_| ()).unwrap().facts
 }
 
