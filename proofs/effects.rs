@@ -155,6 +155,20 @@ fn late_output_is_finite() {
     assert!(kept && remembers_finite_numbers(&state));
 }
 
+/// K14. A segment of a curve is within 0 and 1, whatever is finite: a curve stays between its least
+/// and its largest point.
+#[kani::proof]
+#[kani::unwind(10)]
+fn curve_is_within_its_points() {
+    let effect = curve::CurveVelocity::<f32>::try_new(kani::any(), kani::any());
+    kani::assume(effect.is_ok());
+    if let Ok(effect) = effect {
+        let value = evaluate(&effect, &mut state(), &situation());
+        kani::cover!(0.0 < value && value < 1.0);
+        assert!((0.0..=1.0).contains(&value));
+    }
+}
+
 /// What `sum_is_finite` proves of a step of the sum, and no more.
 fn any_sum<T: Real>([sum, carry]: [T; 2], step: T) -> [T; 2] {
     let [total, lost] = [T::from_f64(kani::any()), T::from_f64(kani::any())];

@@ -17,6 +17,7 @@
 //! is bad if `dt` is not positive, a channel is missing, or a number that the model reads is
 //! not finite. The model ignores numbers that no term reads.
 
+mod curve;
 #[cfg(feature = "serde")]
 mod file;
 mod fixed;

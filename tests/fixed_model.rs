@@ -112,11 +112,13 @@ fn remembering<T: Real>() -> Result<impl Terms<T, 16>, Error> {
 }
 
 /// What there was no room for above.
-fn others<T: Real>() -> Result<impl Terms<T, 2>, Error> {
+fn others<T: Real>() -> Result<impl Terms<T, 4>, Error> {
     let one = T::from_f64(0.7);
     Ok(terms![
         Hardening::try_new(one, one)?,
-        PowerLaw::try_new(one)?
+        PowerLaw::try_new(one)?,
+        CurvePosition::try_new(-one, one)?,
+        CurveVelocity::try_new(-one, one)?
     ])
 }
 
@@ -182,12 +184,12 @@ proptest! {
         same::<f64, 16, _>(plain(), &rows, with);
         same::<f64, 16, _>(staged().unwrap(), &rows, with);
         same::<f64, 16, _>(remembering().unwrap(), &rows, with);
-        same::<f64, 2, _>(others().unwrap(), &rows, with);
+        same::<f64, 4, _>(others().unwrap(), &rows, with);
         same::<f64, 3, _>(stages().unwrap(), &rows, with);
         same::<f32, 16, _>(plain(), &rows, with);
         same::<f32, 16, _>(staged().unwrap(), &rows, with);
         same::<f32, 16, _>(remembering().unwrap(), &rows, with);
-        same::<f32, 2, _>(others().unwrap(), &rows, with);
+        same::<f32, 4, _>(others().unwrap(), &rows, with);
         same::<f32, 3, _>(stages().unwrap(), &rows, with);
     }
 }

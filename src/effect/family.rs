@@ -69,6 +69,7 @@ families! {
     Stretch = "stretch",
     Hardening = "hardening",
     PowerLaw = "power-law",
+    Curve = "curve",
 }
 
 impl Family {

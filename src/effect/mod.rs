@@ -26,6 +26,7 @@ pub mod capstan;
 pub mod coulomb;
 pub mod creep;
 pub mod crosstalk;
+pub mod curve;
 pub mod degradation;
 pub mod delay;
 pub mod direction;
@@ -322,6 +323,7 @@ effects! {
     later_shaped {
         hardening: Hardening;
         power_law: PowerLaw;
+        curve: CurvePosition CurveVelocity;
     }
 }
 

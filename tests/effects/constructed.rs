@@ -33,6 +33,8 @@ fn every_effect_with_shapes_is_one_expression_of_its_own_type() -> Result<(), Er
         Effect::Tone(Tone::try_new(a, b)?),
         Effect::Hardening(Hardening::try_new(a, b)?),
         Effect::PowerLaw(PowerLaw::try_new(a)?),
+        Effect::CurvePosition(CurvePosition::try_new(a, b)?),
+        Effect::CurveVelocity(CurveVelocity::try_new(a, b)?),
     ];
     for effect in constructed {
         let shapes = &[a, b][..effect.shape_names().len()];

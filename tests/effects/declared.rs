@@ -48,6 +48,8 @@ fn closed_form(name: &str, at: &Inputs<f64>) -> f64 {
         "pinching" => eta / (eta / w).powi(2).exp(),
         "drift" => t,
         "pretension" => f64::from(t >= w),
+        "curve-position" => ((x - w) / 0.4).clamp(0.0, 1.0),
+        "curve-velocity" => ((v - w) / 0.4).clamp(0.0, 1.0),
         "temperature" => x - w,
         "tone" => (std::f64::consts::TAU * 1.9 * t + 0.8).sin(),
         _ => panic!("{name} has no closed form here"),

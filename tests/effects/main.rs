@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod constructed;
+mod curve;
 mod declared;
 mod hardening;
 mod late;
@@ -20,7 +21,7 @@ fn make<T: Real>(name: &str) -> Effect<T> {
         "capstan" => &[0.7, 0.3],
         "ripple" => &[3.3, 0.4],
         "tone" => &[1.9, 0.8],
-        "hardening" => &[0.7, 0.4],
+        "hardening" | "curve-position" | "curve-velocity" => &[0.7, 0.4],
         _ => &[0.7],
     };
     let shapes: Vec<T> = shapes.iter().map(|&shape| T::from_f64(shape)).collect();

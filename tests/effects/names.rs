@@ -76,7 +76,7 @@ fn the_catalogue_names_no_effect_twice_and_every_family() {
         );
         assert_eq!(Family::from_name(&family.to_string()), Ok(family));
     }
-    assert_eq!(Family::ALL.len(), 32);
+    assert_eq!(Family::ALL.len(), 33);
     assert_eq!(
         Family::from_name("rust"),
         Err(Error::OutOfRange("family name"))
@@ -97,6 +97,8 @@ fn effects_keep_the_places_that_older_files_have_stored() {
         ("stretch-cubic", 45),
         ("hardening", 46),
         ("power-law", 47),
+        ("curve-position", 48),
+        ("curve-velocity", 49),
     ] {
         assert_eq!(place(name), Some(at), "{name}");
     }

@@ -166,6 +166,8 @@ fn shapes(name: &str, reach: f64, speed: f64) -> Vec<f64> {
         "tone" => vec![3.3, 0.4],
         "hardening" => vec![0.3 / reach, 1.0 / reach],
         "power-law" => vec![0.4],
+        "curve-position" => vec![-0.2 * reach, 0.5 * reach],
+        "curve-velocity" => vec![-0.2 * speed, 0.5 * speed],
         _ => Vec::new(),
     }
 }

@@ -67,7 +67,7 @@ fn all() -> Vec<Effect<f64>> {
 #[test]
 fn model_rs_compiles_without_warnings_for_every_effect_and_is_that_model() {
     let effects = all();
-    assert_eq!(effects.len(), 48);
+    assert_eq!(effects.len(), 50);
     let mut program = String::from("#![deny(warnings)]\n");
     let mut calls = String::new();
     let mut expected = String::new();

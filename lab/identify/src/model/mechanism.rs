@@ -89,6 +89,7 @@ impl Mechanism {
             {
                 Self::HysteresisShape
             }
+            _ if name == "curve-velocity" => Self::Friction,
             // A characteristic with a gap, without memory.
             _ if name == "dead-zone" => Self::Elastic,
             Family::Viscous

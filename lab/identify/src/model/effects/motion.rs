@@ -400,6 +400,24 @@ pub(super) const MOTION: &[Entry] = &[
         shown_by: "small reversals inside large strokes",
         ..PLAIN
     },
+    // The two segments of a curve. The search has curves of its own (`model::Table`), which a model
+    // file gives as these.
+    Entry {
+        name: "curve-position",
+        rank: 30,
+        declared: Declared::Never,
+        bounds: &[Bounds::Held, Bounds::Held],
+        shown_by: SLOW_STROKES,
+        ..PLAIN
+    },
+    Entry {
+        name: "curve-velocity",
+        rank: 30,
+        declared: Declared::Never,
+        bounds: &[Bounds::Held, Bounds::Held],
+        shown_by: "speeds that vary tenfold",
+        ..PLAIN
+    },
     // Only where asked for: on a record that saturates it is a worse Bouc-Wen.
     Entry {
         name: "hardening",

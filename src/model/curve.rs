@@ -1,0 +1,60 @@
+//! The terms of a curve through points.
+
+use super::{padding, Source, Term};
+use crate::effect::{CurvePosition, CurveVelocity, Effect, Quantity};
+use crate::error::finite;
+use crate::{Error, Real};
+
+impl<T: Real> Term<T> {
+    /// The terms of a piecewise linear [curve](crate::effect::curve) through the points `(x, f)`,
+    /// constant beyond its ends: an offset of the first f, and a segment between any two points.
+    ///
+    /// `over` is [`Quantity::Position`] or [`Quantity::Velocity`] of the source; a curve over the
+    /// load has the load's channel as its source. x is in the unit of `over` and ascends, f is in
+    /// the unit of the output. A curve that is odd in the velocity has points at both signs.
+    ///
+    /// ```
+    /// use bowden::effect::{Motion, Quantity};
+    /// use bowden::model::{Model, ModelState, Sample, Source, Term};
+    ///
+    /// let points = [(-2.0, -3.0), (-0.1, -2.5), (0.1, 2.5), (2.0, 3.0)]; // friction as measured
+    /// let friction = Term::curve(Quantity::Velocity, Source::Input, points)?;
+    /// let model = Model::<f64, 4>::try_new(None, &friction)?;
+    /// let at = |velocity| {
+    ///     let input = Motion { position: 0.0, velocity, acceleration: 0.0 };
+    ///     model.step(&mut ModelState::new(), &Sample { dt: 0.001, input, load: 0.0, channels: &[] })
+    /// };
+    /// assert_eq!([at(-9.0), at(0.0), at(2.0), at(9.0)], [-3.0, 0.0, 3.0, 3.0]);
+    /// # Ok::<(), bowden::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - [`Error::NonFinite`] if a number of the points, or the difference of two neighbours, is not
+    ///   finite.
+    /// - [`Error::OutOfRange`]: `width` if x does not ascend, `over` if it is another quantity.
+    pub fn curve<const N: usize>(
+        over: Quantity,
+        source: Source,
+        points: [(T, T); N],
+    ) -> Result<[Self; N], Error> {
+        let mut terms = [padding(); N];
+        let mut before = None;
+        for (term, (x, f)) in terms.iter_mut().zip(points) {
+            let (from, level) = before.unwrap_or((x, T::zero()));
+            let effect = match (before, over) {
+                (None, Quantity::Position | Quantity::Velocity) => Effect::Offset,
+                (_, Quantity::Position) => CurvePosition::try_new(from, x - from)?.into(),
+                (_, Quantity::Velocity) => CurveVelocity::try_new(from, x - from)?.into(),
+                _ => return Err(Error::OutOfRange("over")),
+            };
+            *term = Self {
+                effect,
+                source,
+                gain: finite(f - level, "f")?,
+                origin: T::zero(),
+            };
+            before = Some((finite(x, "x")?, f));
+        }
+        Ok(terms)
+    }
+}
