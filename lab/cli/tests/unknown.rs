@@ -44,6 +44,18 @@ fn the_report_of_something_unknown_says_so_in_both_forms_and_is_the_same_on_one_
     let found = rmse("rmse_after");
     assert!((delivered / found - 1.0).abs() < 0.1, "{delivered} {found}");
 
+    // The exported model contains it with fewer points: above the final error, far below that
+    // of the named effects.
+    let exported = &report["final"]["exported_model"];
+    assert_eq!(
+        exported["effects"],
+        serde_json::json!(["bouc-wen", "curve over x"])
+    );
+    assert_eq!(exported["excluded_terms"], serde_json::json!([]));
+    let deviation = report["output_std"]["held_out"].as_f64().unwrap();
+    let error = exported["nrmse"]["held_out"].as_f64().unwrap() * deviation;
+    assert!(error < 0.5 * rmse("rmse_before"), "{error}");
+
     let sentence = report["summary"].as_str().unwrap();
     assert!(sentence.contains("depends on x"), "{sentence}");
     let ledger = text(

@@ -51,10 +51,11 @@ pub(super) fn text(facts: &Facts, report: Report) -> Option<String> {
         report.width,
         "Curve",
         [format!(
-            "over {}: removes {:.1} % of the squared error (p {:.1e}); the final model contains the curve as a table",
+            "over {}: removes {:.1} % of the squared error (p {:.1e}); {}",
             unknown.words,
             100.0 * unknown.share,
-            unknown.p
+            unknown.p,
+            unknown.kept
         )],
     );
     let _ = writeln!(

@@ -258,10 +258,11 @@ fn intervals(parameters: &[Parameter]) -> BTreeMap<String, [f64; 2]> {
 
 /// The sources that the model reads: the input always.
 fn read(solution: &Solution) -> impl Iterator<Item = Source> + '_ {
-    let terms = &solution.structure.terms;
-    let mut channels: Vec<u8> = terms
-        .iter()
-        .filter_map(|term| match term.source {
+    let terms = solution.structure.terms.iter().map(|term| term.source);
+    let curve = solution.structure.table.iter();
+    let sources = terms.chain(curve.map(|curve| curve.variable.source()));
+    let mut channels: Vec<u8> = sources
+        .filter_map(|source| match source {
             Source::Input => None,
             Source::Channel(index) => Some(index),
         })

@@ -2,11 +2,8 @@
 
 use super::c_names::{macros, prefix};
 use super::firmware::{bytes_in_double, postcard, CHECKSUM};
-use super::{About, ModelFile, Span};
+use super::{About, ModelFile, Span, ROOM};
 use std::fmt::Write as _;
-
-/// Terms and channels that the C interface has room for: `BOWDEN_TERMS`, `BOWDEN_CHANNELS`.
-const MOST: usize = 16;
 
 /// Bytes on a line.
 const ON_A_LINE: usize = 16;
@@ -74,16 +71,16 @@ impl ModelFile {
 
     fn check_room(&self) -> Result<(), String> {
         let terms = self.terms.len();
-        if terms > MOST {
+        if terms > ROOM {
             return Err(format!(
-                "{terms} terms: the C interface has room for {MOST}"
+                "{terms} terms: the C interface has room for {ROOM}"
             ));
         }
         for term in &self.terms {
             let place = self.channels.iter().position(|name| *name == term.source);
-            if place.is_some_and(|place| place >= MOST) {
+            if place.is_some_and(|place| place >= ROOM) {
                 return Err(format!(
-                    "{} reads channel {}: the C interface has room for {MOST} channels",
+                    "{} reads channel {}: the C interface has room for {ROOM} channels",
                     term.effect, term.source
                 ));
             }
@@ -134,9 +131,9 @@ impl ModelFile {
         line!(
             out,
             "#define {upper}_CHANNELS {}",
-            self.channels.len().min(MOST)
+            self.channels.len().min(ROOM)
         );
-        let channels = self.channels.iter().take(MOST);
+        let channels = self.channels.iter().take(ROOM);
         for (index, (name, own)) in channels.zip(macros(&self.channels)).enumerate() {
             let channel = commented(&about.channel(name));
             line!(out, "#define {upper}_CHANNEL_{own} {index} /* {channel} */");

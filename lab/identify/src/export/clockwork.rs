@@ -7,10 +7,12 @@
 //! segments: among the models that firmware can run it is the one that fits best. What a pretension
 //! step leaves behind is the rig's, though (`after_steps`).
 
+use super::ROOM;
 use crate::fit::Solution;
 use crate::model::effects::of_the_record;
 use crate::model::structure::Structure;
 use crate::problem::Prepared;
+use crate::score::hats::HATS;
 use bowden::effect::{Effect, Family};
 
 /// Whether an effect counts from the first sample of its record.
@@ -31,26 +33,29 @@ pub fn because(family: Family) -> &'static str {
     of_the_record(family).unwrap_or_default()
 }
 
-/// The structure of a solution without the effects that `goes` names and without the table of
-/// what has no name.
+/// The structure of a solution without the effects that `goes` names. A curve goes where the core has
+/// none over its variable, and else has as many points as there is room for.
 #[must_use]
 pub fn without(solution: &Solution, goes: impl Fn(&Effect<f64>) -> bool) -> Structure {
     let mut structure = solution.structure.clone();
-    structure.table = None;
     structure.terms.retain(|t| !goes(&t.effect));
+    let room = ROOM.saturating_sub(structure.terms.len()).clamp(2, HATS);
+    let curve = structure.table.filter(|curve| curve.over().is_some());
+    structure.table = curve.map(|curve| curve.with_fewer_knots(solution.curve_gains(), room));
     structure
 }
 
-/// Whether the record's own clockwork, or its table, is part of a solution.
+/// Whether the record's own clockwork, or a curve, is part of a solution.
 #[must_use]
 pub fn has_clockwork(solution: &Solution) -> bool {
     let mut terms = solution.structure.terms.iter();
     solution.structure.table.is_some() || terms.any(|t| is_clockwork(&t.effect))
 }
 
-/// The name of the table of what has no name, where there is one.
+/// The name of a curve that the core does not have, where a solution has one.
 #[must_use]
-pub fn table_name(data: &Prepared, solution: &Solution) -> Option<String> {
-    let table = solution.structure.table.as_ref()?;
-    Some(format!("the table over {}", table.variable.words(data)))
+pub fn lost_curve_name(data: &Prepared, solution: &Solution) -> Option<String> {
+    let curve = solution.structure.table.as_ref();
+    let lost = curve.filter(|curve| curve.over().is_none());
+    lost.map(|curve| curve.name(data))
 }

@@ -1,14 +1,14 @@
 //! From the loop's final model to the one that is handed over to firmware.
 //!
 //! The final model says what is in the record. What runs on a chip is less: without effects
-//! that count from the record's first sample ([`clockwork`](crate::export::clockwork)), without the
-//! table of what has no name, and, if that is wanted, within what can be turned round
+//! that count from the record's first sample ([`clockwork`](crate::export::clockwork)), without a
+//! curve that the core does not have, and, if that is wanted, within what can be turned round
 //! ([`invertible`](crate::export::invertible)). Whatever is left out, the rest is fitted again on
 //! the same segments, and the errors that are said are those of the model that is written.
 
 use super::after_steps::{after_steps, on_record};
 use super::causal::{causal, time_constant};
-use super::clockwork::{because, has_clockwork, is_clockwork, table_name, without};
+use super::clockwork::{because, has_clockwork, is_clockwork, lost_curve_name, without};
 use super::invertible::{caution, nearest, obstacle, stages, without_stages, FeedForward};
 use super::{About, LeftOut, ModelFile, NotIdentified, PlayBefore};
 use crate::conclude::final_fit::FinalFit;
@@ -211,16 +211,16 @@ impl HandOver {
 fn records_own(data: &Prepared, solution: &Solution) -> Vec<LeftOut> {
     let terms = solution.structure.terms.iter();
     let clocks = terms.filter(|t| is_clockwork(&t.effect));
-    let table = table_name(data, solution).map(|effect| LeftOut {
+    let curve = lost_curve_name(data, solution).map(|effect| LeftOut {
         effect,
-        reason: "it matches no effect in the catalogue".to_owned(),
+        reason: "firmware has curves over a position, a load or a velocity only".to_owned(),
     });
     clocks
         .map(|term| LeftOut {
             effect: term_name(data, term),
             reason: because(term.effect.family()).to_owned(),
         })
-        .chain(table)
+        .chain(curve)
         .collect()
 }
 

@@ -24,11 +24,14 @@ use crate::fit::Solution;
 use crate::model::structure::Role;
 use crate::problem::Prepared;
 use crate::record::Mode;
-use bowden::model::{Model, Source};
+use bowden::model::{Model, Source, Term};
 use bowden::Real;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
+/// Terms for which a [`FixedModel`](bowden::model::FixedModel) has room, and terms and channels for
+/// which the C interface has: `BOWDEN_TERMS`, `BOWDEN_CHANNELS`.
+const ROOM: usize = 16;
 /// Most terms of a model that is handed over.
 pub const MOST_TERMS: usize = 32;
 
@@ -98,6 +101,53 @@ pub struct ShapeFile {
     pub value: f64,
 }
 
+/// The terms of a solution's curve, if the core has one over its variable.
+fn curve(solution: &Solution) -> Vec<Term<f64>> {
+    let Some((table, over)) = solution
+        .structure
+        .table
+        .as_ref()
+        .and_then(|t| Some((t, t.over()?)))
+    else {
+        return Vec::new();
+    };
+    let (points, source) = (
+        table.points(solution.curve_gains()),
+        table.variable.source(),
+    );
+    let segments = points.windows(2).filter_map(|pair| match *pair {
+        [from, to] => Term::curve(over, source, [from, to]).ok(),
+        _ => None,
+    });
+    // Of each pair the segment, and of the first one the offset as well.
+    let all = segments.enumerate();
+    all.flat_map(|(k, pair)| pair.into_iter().skip(k.min(1)))
+        .collect()
+}
+
+impl TermFile {
+    fn new(data: &Prepared, term: &Term<f64>) -> Self {
+        let shapes = term.effect.shape_names().iter().enumerate();
+        Self {
+            effect: term.effect.name().to_owned(),
+            source: match term.source {
+                Source::Input => "input".to_owned(),
+                Source::Channel(_) => data
+                    .channel(term.source)
+                    .map_or_else(String::new, |c| c.name.clone()),
+            },
+            origin: term.origin,
+            gain: term.gain,
+            shapes: shapes
+                .map(|(i, name)| ShapeFile {
+                    name: (*name).to_owned(),
+                    value: term.effect.shape(i).unwrap_or(0.0),
+                })
+                .collect(),
+        }
+    }
+}
+
 impl ModelFile {
     /// The fitted model; where each record has gains of its own, with the first one's.
     #[must_use]
@@ -122,38 +172,20 @@ impl ModelFile {
             sigma: value(Role::Sigma),
             n: value(Role::N),
         });
-        let terms = solution
-            .structure
-            .terms
-            .iter()
-            .enumerate()
-            .map(|(index, term)| TermFile {
-                effect: term.effect.name().to_owned(),
-                source: match term.source {
-                    Source::Input => "input".to_owned(),
-                    Source::Channel(_) => data
-                        .channel(term.source)
-                        .map_or_else(String::new, |c| c.name.clone()),
-                },
-                origin: term.origin,
-                gain: solution.gain(index),
-                shapes: term
-                    .effect
-                    .shape_names()
-                    .iter()
-                    .enumerate()
-                    .map(|(i, name)| ShapeFile {
-                        name: (*name).to_owned(),
-                        value: term.effect.shape(i).unwrap_or(0.0),
-                    })
-                    .collect(),
-            });
+        let terms = solution.structure.terms.iter().enumerate();
+        let terms = terms.map(|(index, term)| Term {
+            effect: term.effect,
+            source: term.source,
+            origin: term.origin,
+            gain: solution.gain(index),
+        });
+        let terms = terms.chain(curve(solution));
         Self {
             schema: "bowden.model/1".to_owned(),
             mode: data.mode.name().to_owned(),
             channels: data.channels.iter().map(|c| c.name.clone()).collect(),
             transmission,
-            terms: terms.collect(),
+            terms: terms.map(|term| TermFile::new(data, &term)).collect(),
             about: None,
         }
     }

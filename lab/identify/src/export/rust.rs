@@ -1,6 +1,6 @@
 //! The model as a Rust file for firmware, in single precision.
 
-use super::{About, ModelFile, Span, TermFile};
+use super::{About, ModelFile, Span, TermFile, ROOM};
 use bowden::effect::Effect;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -14,9 +14,6 @@ macro_rules! line {
         let _ = writeln!($out, $($text)+);
     }};
 }
-
-/// As many terms as a [`FixedModel`](bowden::model::FixedModel) holds.
-const MOST_FIXED: usize = 16;
 
 /// As wide as rustfmt lets a line be.
 const LINE: usize = 100;
@@ -212,7 +209,7 @@ impl ModelFile {
 
     /// Whether the effects are types: as many as a [`FixedModel`](bowden::model::FixedModel) holds.
     fn is_fixed(&self) -> bool {
-        (1..=MOST_FIXED).contains(&self.terms.len())
+        (1..=ROOM).contains(&self.terms.len())
     }
 
     /// The types of the terms, and the function that builds any model from the fixed one.

@@ -14,6 +14,7 @@ use crate::conclude::verdict::{falls_up_to, sentence, unknown_words, verdict, Ve
 use crate::export::hand_over::HandOver;
 use crate::fit::Segments;
 use crate::ledger::{ChannelApart, FileApart, Gate, Ledger, Unknown};
+use crate::model::Table;
 use crate::problem::Prepared;
 use crate::record::Mode;
 use crate::score::blocks::{Regime, BLOCKS};
@@ -128,6 +129,8 @@ pub struct UnknownFacts {
     pub after: Segments,
     /// The sentence on it.
     pub sentence: String,
+    /// Which models contain it.
+    pub kept: &'static str,
 }
 
 /// Independent stretches of the fit segment, at most sixteen.
@@ -150,6 +153,12 @@ impl UnknownFacts {
             p: unknown.p,
             q: unknown.q,
             curve: curve(&done.data, &done.solution),
+            kept: match done.solution.structure.table.as_ref().and_then(Table::over) {
+                Some(_) => {
+                    "the final model contains the curve, the exported model one with fewer points"
+                }
+                None => "the final model contains the curve, the exported model does not",
+            },
             before: unknown.before,
             after: unknown.after,
             sentence: unknown_words(data, ledger).unwrap_or_default(),

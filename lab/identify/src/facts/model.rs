@@ -119,6 +119,7 @@ pub(super) fn effects(data: &Prepared, solution: &Solution) -> Vec<String> {
     hysteresis
         .into_iter()
         .chain(solution.structure.terms.iter().map(|t| term_name(data, t)))
+        .chain(solution.structure.table.iter().map(|t| t.name(data)))
         .collect()
 }
 

@@ -130,6 +130,11 @@ impl Solution {
         self.gains[base + before]
     }
 
+    /// The gains of the model's curve.
+    pub(crate) fn curve_gains(&self) -> &[f64] {
+        &self.gains[self.gains.len() - self.structure.table_gains()..]
+    }
+
     /// The contribution of a term that is not in the model, for a gain of one, on the work grid;
     /// `None` if its channel is missing.
     #[must_use]

@@ -2,6 +2,8 @@
 
 use super::variable::Variable;
 use crate::problem::Prepared;
+use bowden::effect::Quantity;
+use nalgebra::{DMatrix, DVector};
 
 /// A curve between knots, linear in its gains: one column for each of its shapes.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,6 +17,64 @@ pub struct Table {
 }
 
 impl Table {
+    /// Its name among the effects of a model.
+    pub(crate) fn name(&self, data: &Prepared) -> String {
+        format!("curve over {}", self.variable.words(data))
+    }
+
+    /// What the core's [curve](bowden::effect::curve) of it is over; `None` where the core has none.
+    pub(crate) fn over(&self) -> Option<Quantity> {
+        match self.variable {
+            Variable::Position(_) => Some(Quantity::Position),
+            Variable::Velocity(_) => Some(Quantity::Velocity),
+            _ => None,
+        }
+    }
+
+    /// The points of the curve with these gains.
+    pub(crate) fn points(&self, gains: &[f64]) -> Vec<(f64, f64)> {
+        let at = |k: usize| self.shapes.iter().zip(gains).map(|(s, g)| g * s[k]).sum();
+        let knots = self.knots.iter().enumerate();
+        knots.map(|(k, &knot)| (knot, at(k))).collect()
+    }
+
+    /// The curve with these gains and at most `count` of its knots, with one gain: its two ends, and
+    /// then always the knot with which it errs least at all of them, which the motion passes
+    /// equally often.
+    pub(crate) fn with_fewer_knots(&self, gains: &[f64], count: usize) -> Self {
+        let points = self.points(gains);
+        let mut kept = vec![0, points.len() - 1];
+        while kept.len() < count.min(points.len()) {
+            let with = |k: usize| {
+                let mut more = kept.clone();
+                more.insert(more.partition_point(|&own| own < k), k);
+                Some((self.through(&points, &more)?.1, more))
+            };
+            let others = (0..points.len()).filter(|k| !kept.contains(k));
+            match others.filter_map(with).min_by(|a, b| a.0.total_cmp(&b.0)) {
+                Some((_, more)) => kept = more,
+                None => break,
+            }
+        }
+        let fewer = self.through(&points, &kept);
+        fewer.map_or_else(|| self.clone(), |(fewer, _)| fewer)
+    }
+
+    /// The curve over some of the points that errs least at all of them, and its squared error.
+    fn through(&self, points: &[(f64, f64)], kept: &[usize]) -> Option<(Self, f64)> {
+        let (all, values): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
+        let mut curve = Self {
+            variable: self.variable,
+            knots: kept.iter().map(|&k| all[k]).collect(),
+            shapes: Vec::new(),
+        };
+        let hats: Vec<DVector<f64>> = curve.hats(&all).into_iter().map(DVector::from).collect();
+        let (hats, values) = (DMatrix::from_columns(&hats), DVector::from(values));
+        let own = hats.tr_mul(&hats).cholesky()?.solve(&hats.tr_mul(&values));
+        curve.shapes.push(own.iter().copied().collect());
+        Some((curve, (hats * own - values).norm_squared()))
+    }
+
     /// One column a shape, on the work grid.
     #[must_use]
     pub fn columns(&self, data: &Prepared, eta: &[f64]) -> Option<Vec<Vec<f64>>> {

@@ -1,64 +1,40 @@
 //! What was fitted on the bench is what runs in firmware.
 //!
-//! A [`Model`] of the core is built from the numbers of a solution, as a user would do
-//! in firmware, and stepped sample by sample over the record. Behind the fit's own
+//! The file of a solution is read into a [`Model`] of the core, as a user would do in firmware,
+//! and stepped sample by sample over the record. Behind the fit's own
 //! filter its output has to be the fit's own prediction: in `f64` to rounding, in `f32` to
 //! rounding and to what the hysteresis' step in bounded time leaves.
 
 use crate::rig::Made;
-use bowden::effect::{Effect, Motion};
-use bowden::hysteresis::BoucWen;
-use bowden::model::{Model, ModelState, Sample, Source, Term};
-use bowden::transmission::Transmission;
+use bowden::effect::Motion;
+use bowden::model::{Model, ModelState, Sample, Source};
 use bowden::Real;
 use bowden_lab::conclude::final_fit::FinalFit;
+use bowden_lab::export::{ModelFile, MOST_TERMS};
 use bowden_lab::fit::{fit, Solution};
 use bowden_lab::model::structure::Role;
+use bowden_lab::model::{Table, Variable};
 use bowden_lab::problem::Prepared;
 use bowden_lab::record;
 use bowden_lab::search::close;
 use bowden_synth::{Mode, Planted, Recipe};
+use serde::de::DeserializeOwned;
 
-fn term<T: Real>(solution: &Solution, index: usize) -> Term<T> {
-    let fitted = &solution.structure.terms[index];
-    let shapes: Vec<T> = (0..fitted.effect.shape_names().len())
-        .map(|shape| T::from_f64(fitted.effect.shape(shape).unwrap()))
-        .collect();
-    Term {
-        effect: Effect::try_from_name(fitted.effect.name(), &shapes).unwrap(),
-        source: fitted.source,
-        origin: T::from_f64(fitted.origin),
-        gain: T::from_f64(solution.gain(index)),
-    }
-}
-
-/// The model as it would be written down in firmware, and the state that it starts in.
-fn firmware<T: Real>(data: &Prepared, solution: &Solution) -> (Model<T, 16>, ModelState<T, 16>) {
-    let value = |role| T::from_f64(solution.value(role).unwrap());
-    let gain = |k: usize| T::from_f64(solution.gains[k]);
-    let transmission = solution.structure.hysteresis.then(|| {
-        let shape = BoucWen::try_new(value(Role::Rho), value(Role::Sigma), value(Role::N)).unwrap();
-        match data.mode {
-            // (6) subtracts its hysteresis and its pretension, (1) adds.
-            record::Mode::Torque => Transmission::torque(gain(0), -gain(1), -gain(2), shape),
-            record::Mode::Displacement => {
-                Transmission::displacement(gain(0), gain(1), gain(2), shape)
-            }
-        }
-        .unwrap()
-    });
-    let terms: Vec<Term<T>> = (0..solution.structure.terms.len())
-        .map(|index| term(solution, index))
-        .collect();
-    let state = match solution.structure.hysteresis {
-        true => ModelState::with_eta(value(Role::Eta0 { record: 0 })).unwrap(),
-        false => ModelState::new(),
+/// The model as its file gives it to firmware, and the state that it starts in.
+fn firmware<T: Real + DeserializeOwned>(
+    data: &Prepared,
+    solution: &Solution,
+) -> (Model<T, MOST_TERMS>, ModelState<T, MOST_TERMS>) {
+    let model = ModelFile::new(data, solution).model_in().unwrap();
+    let state = match solution.value(Role::Eta0 { record: 0 }) {
+        Some(eta) => ModelState::with_eta(T::from_f64(eta)).unwrap(),
+        None => ModelState::new(),
     };
-    (Model::try_new(transmission, &terms).unwrap(), state)
+    (model, state)
 }
 
 /// Sample by sample over the record, then through the filter.
-fn played<T: Real>(data: &Prepared, solution: &Solution) -> Vec<f64> {
+fn played<T: Real + DeserializeOwned>(data: &Prepared, solution: &Solution) -> Vec<f64> {
     let (model, mut state) = firmware::<T>(data, solution);
     let narrow = |m: &Motion<f64>| Motion {
         position: T::from_f64(m.position),
@@ -219,6 +195,33 @@ fn a_model_without_hysteresis_runs_the_same_in_firmware() {
     let solution = told(&made, &["viscous", "stiffness", "offset", "coulomb", "lag"]);
     assert!(!solution.structure.hysteresis);
     assert_the_same(&made.data, &solution, 0.0);
+}
+
+/// A curve with five points between the quarters of its variable, in front of a lag.
+#[test]
+fn a_curve_over_a_position_a_velocity_or_a_load_runs_the_same_in_firmware() {
+    let made = made(Mode::Displacement, &["stribeck", "lag"]);
+    let load = Source::Channel(made.data.load.unwrap() as u8);
+    for (variable, effect) in [
+        (Variable::Position(Source::Input), "curve-position"),
+        (Variable::Velocity(Source::Input), "curve-velocity"),
+        (Variable::Position(load), "curve-position"),
+    ] {
+        let mut values = variable.values(&made.data, &[]).unwrap();
+        values.sort_by(f64::total_cmp);
+        let hat = |k: usize| (0..5).map(|j| f64::from(u8::from(j == k))).collect();
+        let mut structure = made.declare(&["bouc-wen", "lag"]);
+        structure.table = Some(Table {
+            variable,
+            knots: (0..5).map(|k| values[(values.len() - 1) * k / 4]).collect(),
+            shapes: (1..5).map(hat).collect(),
+        });
+        let solution = fit(&made.data, &structure, None, 0.0).unwrap();
+        let file = ModelFile::new(&made.data, &solution);
+        let curve = file.terms.iter().filter(|term| term.effect == effect);
+        assert_eq!(curve.filter(|term| term.gain.abs() > 1e-6).count(), 4);
+        assert_the_same(&made.data, &solution, 0.0);
+    }
 }
 
 /// A stop forgets: once it has slipped it does not know where it began. The fit knows of

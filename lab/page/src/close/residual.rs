@@ -246,7 +246,7 @@ pub(super) fn unknown(facts: &Facts, unknown: &UnknownFacts) -> Markup {
     html! {
         p {
             (unknown.sentence) " A free curve over it removes " (format!("{:.1}", 100.0 * unknown.share))
-            " % of the squared error (p " (format!("{:.1e}", unknown.p)) "); the final model contains the curve as a table"
+            " % of the squared error (p " (format!("{:.1e}", unknown.p)) "); " (unknown.kept)
             (in_brackets(unit)) "."
         }
         (chart.figure())
