@@ -53,14 +53,14 @@ shaped! {
     }
 }
 
-/// The share of a segment that lies below a value.
-#[inline]
+/// The share of a segment that lies below a value: one copy in an image, not one per segment.
+#[inline(never)]
 fn share<T: Real>(value: T, from: T, width: T) -> T {
-    let along = (value - from) / width;
+    let along = value - from;
     if along <= T::zero() {
         T::zero()
-    } else if along < T::one() {
-        along
+    } else if along < width {
+        along / width
     } else {
         T::one()
     }

@@ -157,5 +157,6 @@ cases! {
     "model-2-constant": model::TwoConstant;
     "model-8-constant": model::EightConstant;
     "model-8-loaded": model::EightLoaded;
+    "model-curve": model::CurveConstant;
     "closed-loop": closed_loop::ClosedLoop;
 }

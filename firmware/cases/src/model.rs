@@ -4,8 +4,8 @@
 use crate::cable::{fixed, transmission, INVERTIBLE};
 use crate::{Case, Output, Sample};
 use bowden::control::{Compensator, CompensatorInput, CompensatorState};
-use bowden::effect::{Backlash, Coulomb, Gravity, Inertia, Motion, Ripple};
-use bowden::effect::{StiffnessCubic, Stribeck, Viscous};
+use bowden::effect::{Backlash, Coulomb, CurveVelocity, Gravity, Inertia, Motion, Offset};
+use bowden::effect::{Ripple, StiffnessCubic, Stribeck, Viscous};
 use bowden::model::{FixedModel, Model, ModelState, Sample as Measured, Source, Term};
 use bowden::Error;
 use core::hint::black_box;
@@ -75,6 +75,42 @@ fn eight() -> Result<FixedModel<f32, 8, Eight>, Error> {
 #[inline]
 fn eight_constant() -> Result<FixedModel<f32, 8, Eight>, Error> {
     FixedModel::try_new(Some(fixed(INVERTIBLE)?), eight_terms()?)
+}
+
+type Segment = Of<CurveVelocity<f32>>;
+type Curve = (
+    Of<Offset>,
+    Segment,
+    Segment,
+    Segment,
+    Segment,
+    Segment,
+    Segment,
+    Segment,
+);
+
+/// A friction curve through eight points, each segment as an export writes it.
+#[inline]
+fn curve_terms() -> Result<Curve, Error> {
+    let segment = |from: f32, width: f32, rise: f32| {
+        CurveVelocity::try_new(from, width).map(|effect| term(effect, rise))
+    };
+    Ok((
+        term(Offset, 1.2),
+        segment(-2.0, 1.2, -0.3)?,
+        segment(-0.8, 0.5, 0.2)?,
+        segment(-0.3, 0.25, 0.1)?,
+        segment(-0.05, 0.1, -2.4)?,
+        segment(0.05, 0.25, 0.1)?,
+        segment(0.3, 0.5, 0.2)?,
+        segment(0.8, 1.2, -0.3)?,
+    ))
+}
+
+/// The curve, its numbers in the function.
+#[inline]
+fn curve_constant() -> Result<FixedModel<f32, 8, Curve>, Error> {
+    FixedModel::try_new(Some(fixed(INVERTIBLE)?), curve_terms()?)
 }
 
 fn pulley(at: &Sample) -> [Motion<f32>; 1] {
@@ -173,6 +209,11 @@ constant! {
 constant! {
     /// A model with eight effects, as an export writes it.
     EightConstant, 8: eight_constant;
+}
+
+constant! {
+    /// A model with a curve through eight points, as an export writes it.
+    CurveConstant, 8: curve_constant;
 }
 
 /// The model of two effects turned round; the value is tau_i.
