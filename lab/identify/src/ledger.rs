@@ -106,6 +106,17 @@ pub(crate) fn reject(list: &mut Vec<Rejection>, those: impl IntoIterator<Item = 
     }
 }
 
+/// A set of terms that describes a mechanism as well as the terms found.
+#[derive(Debug, Clone)]
+pub struct Description {
+    /// Which.
+    pub mechanism: Mechanism,
+    /// The terms.
+    pub terms: Vec<Candidate>,
+    /// Rms error with them on the fit segment, over that with the terms found.
+    pub error_ratio: f64,
+}
+
 /// The whole ledger.
 #[derive(Debug, Clone)]
 pub struct Ledger {
@@ -120,6 +131,9 @@ pub struct Ledger {
     pub rejected: Vec<Rejection>,
     /// The mechanisms that the record supports; `None` if nothing was added.
     pub supported: Option<Supported>,
+    /// Other sets of terms that describe a mechanism as well as those found; none if the model is
+    /// complete.
+    pub descriptions: Vec<Description>,
     /// A further dependence that no effect of the catalogue explains.
     pub unknown: Option<Unknown>,
     /// Whether the blocks were long enough for p-values, in the last linearisation and whenever
@@ -159,6 +173,7 @@ impl Ledger {
             beyond: Vec::new(),
             rejected: Vec::new(),
             supported: None,
+            descriptions: Vec::new(),
             unknown: None,
             regime: Regime::Blocks,
             correlation_time: 0.0,

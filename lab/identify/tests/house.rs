@@ -49,7 +49,7 @@ const CONSTANTS: [(&str, usize); 17] = [
     ("identify/algebra", 1),
     ("identify/check", 15),
     ("identify/conclude", 30),
-    ("identify/export", 14),
+    ("identify/export", 13),
     ("identify/facts", 5),
     ("identify/fit", 9),
     ("identify/foresight", 12),

@@ -87,6 +87,11 @@ class Lack(Fields):
     alternatives: list[str]
     curve: Curve
     members: list[str]
+    described_by: list[DescribedBy]
+
+class DescribedBy(Fields):
+    effects: list[str]
+    error_ratio: float
 
 class LackAlone(Fields):
     mechanism: str

@@ -7,7 +7,8 @@ use super::several::{self, LISTED};
 use super::words::{estimate, in_brackets, table};
 use anstyle::AnsiColor;
 use bowden_lab::facts::{
-    lacking, number, Defect, Facts, Grade, Lack, Parameter, Segments, Size, Verdict, BLOCKS, TIED,
+    lacking, number, Defect, DescribedBy, Facts, Grade, Lack, Parameter, Segments, Size, Verdict,
+    BLOCKS, TIED,
 };
 use std::fmt::Write as _;
 
@@ -95,6 +96,15 @@ fn answer(facts: &Facts, width: Width) -> String {
             (false, _, Grade::High) => write!(words, " · high confidence"),
             (false, _, Grade::Low) => write!(words, " · candidate"),
         };
+        prose(&mut out, width, &words);
+    }
+    for lack in facts
+        .lacks
+        .iter()
+        .filter(|lack| !lack.described_by.is_empty())
+    {
+        let sets: Vec<String> = lack.described_by.iter().map(DescribedBy::words).collect();
+        let words = format!("{}: as well by {}", lack.title, sets.join(", by "));
         prose(&mut out, width, &words);
     }
     prose(&mut out, width, unsaid(facts));

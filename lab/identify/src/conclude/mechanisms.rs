@@ -5,6 +5,7 @@
 
 use super::curve::Knot;
 use super::final_fit::FinalFit;
+use super::intervals::term_name;
 use crate::ledger::{Grade, Ledger, Round, Share, Support};
 use crate::model::mechanism::Mechanism;
 use crate::model::structure::Structure;
@@ -35,6 +36,26 @@ pub struct Lack {
     pub curve: Curve,
     /// Its terms, as the results table names them, in the order of their rounds.
     pub members: Vec<String>,
+    /// Other terms that describe it as well, the best first; none if the model is complete.
+    pub described_by: Vec<DescribedBy>,
+}
+
+/// Terms that describe a mechanism as well as its members.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DescribedBy {
+    /// Their names.
+    pub effects: Vec<String>,
+    /// Rms error with them on the fit segment, over that with the members.
+    pub error_ratio: f64,
+}
+
+impl DescribedBy {
+    /// The terms, and the error with them, for people.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let effects = self.effects.join(" + ");
+        format!("{effects} ({:.2} × the error)", self.error_ratio)
+    }
 }
 
 /// The shares of a mechanism.
@@ -248,6 +269,18 @@ fn lack(
     }
     // The clocks explain as much.
     is_high &= ledger.lead.is_none();
+    // They stand for all terms of the search, not for the first of them.
+    let is_whole = !ledger.beyond.iter().any(|round| is_own(&round));
+    let others = ledger.descriptions.iter();
+    let others = others.filter(|own| is_whole && own.mechanism == mechanism);
+    let described_by = others.map(|own| DescribedBy {
+        effects: own
+            .terms
+            .iter()
+            .map(|candidate| term_name(data, &candidate.term))
+            .collect(),
+        error_ratio: own.error_ratio,
+    });
     let (channel, title) = channel_and_title(data, one);
     let point = |bin: &Bin| {
         bin.means.first().map(|mean| Knot {
@@ -272,6 +305,7 @@ fn lack(
             points: one.curve.iter().filter_map(point).collect(),
         },
         members,
+        described_by: described_by.collect(),
     }
 }
 

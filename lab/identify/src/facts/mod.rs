@@ -44,7 +44,7 @@ pub use crate::conclude::by_file::{FileErrors, Worse};
 pub use crate::conclude::curve::Knot;
 pub use crate::conclude::intervals::{Parameter, Refusal};
 pub use crate::conclude::mechanisms::{
-    across, lacking, Across, Complete, FileAlone, Lack, LackAlone,
+    across, lacking, Across, Complete, DescribedBy, FileAlone, Lack, LackAlone,
 };
 pub use crate::conclude::signals::{File, Part, Segment, Signals, Worst};
 pub use crate::conclude::trace::Column;

@@ -21,6 +21,7 @@ mod hidden;
 mod instead;
 mod kept;
 mod linear;
+mod members;
 mod moves;
 pub mod partial;
 pub mod policy;

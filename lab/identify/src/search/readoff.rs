@@ -36,6 +36,7 @@ impl Search<'_> {
     pub(super) fn ledger(mut self) -> Option<Ledger> {
         let standing = self.last()?;
         let rivals = self.rivals(&standing);
+        let descriptions = self.descriptions(&standing);
         let own = self.declared.structure.terms.len();
         let order = standing.linear.by_weight();
         self.now = Arc::new(arranged(self.data, &self.now, &order)?);
@@ -43,6 +44,7 @@ impl Search<'_> {
         let weighed: Vec<_> = weight.map(|i| rivals[i].clone()).collect();
         let path = self.path()?;
         let mut ledger = Ledger::of((*self.declared).clone());
+        ledger.descriptions = descriptions;
         ledger.regime = self.regime;
         ledger.correlation_time = self.correlation_time;
         let superseded = std::mem::take(&mut self.superseded);

@@ -101,6 +101,39 @@ fn the_curve_of_a_mechanism_follows_what_was_planted_within_its_intervals() {
     assert!(within.count() >= curve.points.len() - 1, "{curve:?} {gain}");
 }
 
+/// The search may name one effect: what the other one leaves hides which drag it is. A complete
+/// model has alternatives of its terms.
+#[test]
+fn an_incomplete_model_lists_other_terms_of_a_mechanism_and_a_complete_one_none() {
+    let mut recipe = planted("drag-quadratic", 6.0);
+    recipe.effects.push(Planted {
+        strength: 5.0,
+        ..Planted::new("bump-position")
+    });
+    let incomplete = Closed::new(&recipe, &["bouc-wen"], 1);
+    let all = lacks(&incomplete);
+    let described: Vec<_> = all.iter().flat_map(|lack| &lack.described_by).collect();
+    assert!(!described.is_empty(), "{all:?}");
+    for one in described {
+        assert!(one.effects.len() == 1 && one.error_ratio > 0.0, "{one:?}");
+    }
+    for lack in &all {
+        let ratios = lack.described_by.iter().map(|one| one.error_ratio);
+        let ratios: Vec<f64> = ratios.collect();
+        assert!(ratios.is_sorted() && ratios.len() <= 3, "{ratios:?}");
+        // 1.25 in the squared error, of the best set or of the terms found.
+        let least = ratios.first().map_or(1.0, |least| least.min(1.0));
+        assert!(
+            ratios.iter().all(|r| (r / least).powi(2) <= 1.25 + 1e-9),
+            "{ratios:?}"
+        );
+    }
+    let complete = Closed::new(&planted("drag-quadratic", 3.0), &["bouc-wen"], 8);
+    assert!(lacks(&complete)
+        .iter()
+        .all(|lack| lack.described_by.is_empty()));
+}
+
 /// No effect of the catalogue describes a bump over the position; its mechanism does.
 #[test]
 fn the_mechanism_of_a_dependence_outside_the_catalogue_is_found_without_a_name() {

@@ -112,7 +112,10 @@ fn mechanisms(facts: &Facts) -> Markup {
                 (share(lack.share.alone))
             }
             td class="number" { (share(lack.share.beyond_others)) }
-            td { (lack.members.join(", ")) }
+            td {
+                (lack.members.join(", "))
+                @for other in &lack.described_by { br; "or " (other.words()) }
+            }
         } }
     };
     let rows: Vec<Markup> = facts.lacks.iter().map(row).collect();
