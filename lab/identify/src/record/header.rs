@@ -17,6 +17,8 @@ pub(super) struct Named {
     pub(super) unit: Option<String>,
     /// The whole cell, `name [unit]`.
     cell: String,
+    /// Whether an option states the unit, which then counts for more than a row of units.
+    pub(super) is_given: bool,
 }
 
 pub(super) struct Header {
@@ -42,6 +44,11 @@ impl Header {
             let wanted = key(name);
             self.only(|column| key(&column.name) == wanted)
         })
+    }
+
+    /// Index of the only column whose name is nothing but a unit of time.
+    pub(super) fn find_time(&self) -> Option<usize> {
+        self.only(|column| units::is_time_alone(&column.name))
     }
 
     /// Index of the column of a usual name (`t`, `x`), which may have its unit in its name
@@ -72,6 +79,7 @@ impl Header {
                 unit: unit.map(|unit| sizes::written(&unit)).or(own),
                 name: stem.to_owned(),
                 cell,
+                is_given: false,
             }
         };
         let columns: Vec<Named> = columns.into_iter().map(named).collect();
@@ -95,6 +103,29 @@ impl Header {
     /// The columns of a text without names, which are given.
     pub(super) fn given(line: usize, names: &[String]) -> Self {
         Self::with(line, names.iter().map(|name| of_cell(name)).collect())
+    }
+
+    /// Takes the unit that an option states after a column's name, as in `--time 'ms [ms]'`; what
+    /// is to be said of it. A column of that whole name comes first.
+    pub(super) fn take_unit(&mut self, option: &str, text: &str) -> Option<String> {
+        if self.find(text).is_some() {
+            return None;
+        }
+        let (name, unit) = units::stated(text)?;
+        let (index, unit) = (self.find(name)?, unit?);
+        let column = &mut self.columns[index];
+        text.trim().clone_into(&mut column.cell);
+        column.is_given = true;
+        let before = column.unit.replace(unit.clone());
+        let name = shown(&column.name, NAME_LENGTH);
+        let instead = match before {
+            Some(before) if before != unit => {
+                format!(" instead of {}", shown(&before, NAME_LENGTH))
+            }
+            _ => String::new(),
+        };
+        let unit = shown(&unit, NAME_LENGTH);
+        Some(format!("unit of `{name}` from {option}: {unit}{instead}"))
     }
 
     /// The names that exist, for a message.
@@ -125,6 +156,7 @@ fn of_cell(cell: &str) -> Named {
         name: name.to_owned(),
         unit,
         cell: cell.to_owned(),
+        is_given: false,
     }
 }
 

@@ -63,8 +63,8 @@ fn start_of(text: &str, line: usize) -> Result<(usize, usize), RecordError> {
 
 /// A table whose first row is the header.
 fn named<'a>(mut rows: Rows<'a>, options: &Options) -> Result<Table<'a>, RecordError> {
-    let header = header::read(&mut rows)?;
-    let roles = roles::assign(&header, options)?;
+    let mut header = header::read(&mut rows)?;
+    let roles = roles::assign(&mut header, options)?;
     Ok(Table {
         header,
         roles,
@@ -143,7 +143,8 @@ fn units_row(table: &mut Table<'_>, cells: &[&str]) -> Between {
     }
     for (column, cell) in header.columns.iter_mut().zip(cells) {
         let known = units::alone(cell);
-        if let Some(unit) = known.filter(|unit| !["-", "–", "1"].contains(&unit.as_str())) {
+        let known = known.filter(|unit| !["-", "–", "1"].contains(&unit.as_str()));
+        if let Some(unit) = known.filter(|_| !column.is_given) {
             column.unit = Some(unit);
         }
     }
@@ -259,8 +260,8 @@ fn nameless<'a>(text: &'a str, options: &Options) -> Result<Table<'a>, RecordErr
         );
         return Err(RecordError::at(line + 1, message));
     };
-    let header = Header::given(line + 1, names);
-    let roles = roles::assign(&header, options)?;
+    let mut header = Header::given(line + 1, names);
+    let roles = roles::assign(&mut header, options)?;
     let rows = Rows::separated_by(head.separator, &text[head.lines[line].0..]).after(line);
     let above = (line > 0).then(|| passed_over(1, line, "above the values"));
     Ok(Table {

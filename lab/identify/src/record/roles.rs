@@ -53,7 +53,8 @@ fn default_channels(mode: Mode) -> &'static [&'static str] {
 
 /// Which column plays which part. Of two columns of one name neither can be wanted; what is not
 /// read may have any name.
-pub(super) fn assign(header: &Header, options: &Options) -> Result<Roles, RecordError> {
+pub(super) fn assign(header: &mut Header, options: &Options) -> Result<Roles, RecordError> {
+    let said = take_units(header, options);
     let assigned = parts(header, options);
     match &assigned {
         Ok(roles) => {
@@ -62,7 +63,36 @@ pub(super) fn assign(header: &Header, options: &Options) -> Result<Roles, Record
         }
         Err(_) => twice(header, |_| true)?,
     }
-    assigned
+    let mut roles = assigned?;
+    roles.notes.extend(said);
+    if let Some(column) = roles.time.map(|index| &mut header.columns[index]) {
+        if column.unit.is_none() {
+            column.unit = units::time_in_name(&column.name).map(str::to_owned);
+        }
+    }
+    Ok(roles)
+}
+
+/// Takes the units that the options state after names of columns.
+fn take_units(header: &mut Header, options: &Options) -> Vec<String> {
+    let ends = [
+        ("--time", &options.time),
+        ("--input", &options.input),
+        ("--output", &options.output),
+    ];
+    let ends = ends
+        .into_iter()
+        .filter_map(|(option, text)| Some((option, text.as_deref()?)));
+    let channels = options.channels.iter().flat_map(|(_, text)| {
+        let parts = series::splits(text)
+            .into_iter()
+            .flat_map(|(a, _, b)| [a, b]);
+        std::iter::once(text.as_str()).chain(parts)
+    });
+    let channels = channels.map(|text| ("--channel", text));
+    ends.chain(channels)
+        .filter_map(|(option, text)| header.take_unit(option, text))
+        .collect()
 }
 
 fn parts(header: &Header, options: &Options) -> Result<Roles, RecordError> {
@@ -141,7 +171,7 @@ fn time(header: &Header, options: &Options) -> Result<usize, RecordError> {
             let known = TIMES
                 .iter()
                 .find_map(|name| header.find_usual(name).filter(usual));
-            match known {
+            match known.or_else(|| header.find_time()) {
                 Some(index) => Ok(index),
                 None => Err(missing(header, "t", hint)),
             }
@@ -170,7 +200,7 @@ fn mode(header: &Header, options: &Options) -> Result<Mode, RecordError> {
         .input
         .iter()
         .chain(&options.output)
-        .map(String::as_str)
+        .map(|text| units::stated(text).map_or(text.as_str(), |(name, _)| name))
         .collect();
     for name in &mapped {
         torque |= matches!(*name, "tau_i" | "tau_o");

@@ -107,6 +107,17 @@ impl Series {
     }
 }
 
+/// The ways in which a text is `A-B` or `A+B`, with the sign.
+pub(super) fn splits(text: &str) -> Vec<(&str, f64, &str)> {
+    text.match_indices(['+', '-'])
+        .map(|(at, sign)| {
+            let sign = if sign == "-" { -1.0 } else { 1.0 };
+            (text[..at].trim(), sign, text[at + 1..].trim())
+        })
+        .filter(|(a, _, b)| !a.is_empty() && !b.is_empty())
+        .collect()
+}
+
 /// The column of that name, or `A-B` or `A+B` of two columns or of channels that other options
 /// name.
 pub(super) fn parse(header: &Header, options: &Options, text: &str) -> Result<Series, RecordError> {
@@ -118,14 +129,7 @@ pub(super) fn parse(header: &Header, options: &Options, text: &str) -> Result<Se
         Some((_, column)) => header.find(column),
         None => header.find(name),
     };
-    let splits: Vec<(&str, f64, &str)> = text
-        .match_indices(['+', '-'])
-        .map(|(at, sign)| {
-            let sign = if sign == "-" { -1.0 } else { 1.0 };
-            (text[..at].trim(), sign, text[at + 1..].trim())
-        })
-        .filter(|(a, _, b)| !a.is_empty() && !b.is_empty())
-        .collect();
+    let splits = splits(text);
     let sums: Vec<Series> = splits
         .iter()
         .filter_map(|(a, sign, b)| {

@@ -76,8 +76,11 @@ pub(super) fn record(file: Columns, options: &Options) -> Result<Record, RecordE
             "--names: the file is not text; its columns have names already",
         ));
     }
-    let Columns { header, mut stored } = file;
-    let roles = roles::assign(&header, options)?;
+    let Columns {
+        mut header,
+        mut stored,
+    } = file;
+    let roles = roles::assign(&mut header, options)?;
     let mut columns = vec![Vec::new(); header.columns.len()];
     for index in roles.time.into_iter().chain(roles.read()) {
         if columns[index].is_empty() {

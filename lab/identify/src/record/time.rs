@@ -71,8 +71,9 @@ impl Clock {
                 let unit = column.unit.as_deref().filter(|unit| !unit.contains(':'));
                 let scale = units::seconds(unit).ok_or_else(|| {
                     let unit = shown(unit.unwrap_or_default(), NAME_LENGTH);
+                    let name = shown(&column.name, NAME_LENGTH);
                     let message = format!(
-                        "unit `{unit}` is not a unit of time; use s, ms, us, ns, min, h or d"
+                        "unit `{unit}` is not a unit of time; allowed are s, ms, us, ns, min, h and d, in the file or as in --time '{name} [ms]'"
                     );
                     RecordError::at(header.line, message).on(&column.name)
                 })?;
@@ -192,7 +193,7 @@ impl Clock {
             if step > 0.0 && step < SHORT_STEP {
                 let name = &header.columns[index].name;
                 let message = format!(
-                    "no unit is stated; if it is s, there are {:.3e} rows per second: write `{name} [d]` for days, `{name} [h]` for hours, or `{name} [s]`",
+                    "no unit is stated; if it is s, there are {:.3e} rows per second: set --time '{name} [d]' for days, '{name} [h]' for hours, or '{name} [s]'",
                     1.0 / step
                 );
                 return Err(RecordError::at(header.line, message).on(name));
@@ -249,7 +250,7 @@ impl Clock {
                     false => String::new(),
                 };
                 let shown = shown(name, NAME_LENGTH);
-                let message = format!("{asked}, or `{shown} [s]` if it is s{start}");
+                let message = format!("{asked}, or '{shown} [s]' if it is s{start}");
                 Err(RecordError::at(header.line, message).on(name))
             }
             None => Ok(()),
@@ -270,7 +271,7 @@ impl Clock {
         let (shown, unit) = (shown(name, NAME_LENGTH), likely_unit(step));
         (!self.of_day && step >= LONG_STEP).then(|| {
             let asked = format!(
-                "states no unit and was read as seconds; its median step is {step} s: is the unit {unit}? Then name the column `{shown} [{unit}]`"
+                "states no unit and was read as seconds; its median step is {step} s: is the unit {unit}? Then set --time '{shown} [{unit}]'"
             );
             (name.as_str(), asked)
         })

@@ -110,29 +110,30 @@ pub(super) fn ending(name: &str) -> Option<(&str, &'static str)> {
     known.map(|(_, unit)| (stem, *unit))
 }
 
-/// Splits `name [unit]`, or reads the unit from an ending such as `_mm`. A unit that the
-/// reader knows may stand as `name (unit)` or `name / unit` too.
-pub(super) fn split(cell: &str) -> (&str, Option<String>) {
+/// Splits `name [unit]`; a unit that the reader knows may stand as `name (unit)` or `name / unit`
+/// too.
+pub(super) fn stated(cell: &str) -> Option<(&str, Option<String>)> {
+    let cell = cell.trim();
     if let Some((name, unit)) = cell
         .strip_suffix(']')
         .and_then(|cell| cell.rsplit_once('['))
     {
         let (name, unit) = (name.trim(), unit.trim());
         if !name.is_empty() {
-            return (name, (!unit.is_empty()).then(|| written(unit)));
+            return Some((name, (!unit.is_empty()).then(|| written(unit))));
         }
     }
     let round = cell
         .strip_suffix(')')
         .and_then(|cell| cell.rsplit_once('('))
         .or_else(|| cell.rsplit_once(" / "));
-    if let Some((name, unit)) = round {
-        let (name, unit) = (name.trim(), unit.trim());
-        if !name.is_empty() && is_unit(unit) {
-            return (name, Some(written(unit)));
-        }
-    }
-    (cell, ending(cell).map(|(_, unit)| unit.to_owned()))
+    let (name, unit) = round.map(|(name, unit)| (name.trim(), unit.trim()))?;
+    (!name.is_empty() && is_unit(unit)).then(|| (name, Some(written(unit))))
+}
+
+/// Splits the unit off a cell as [`stated`] does, or reads it from an ending such as `_mm`.
+pub(super) fn split(cell: &str) -> (&str, Option<String>) {
+    stated(cell).unwrap_or_else(|| (cell, ending(cell).map(|(_, unit)| unit.to_owned())))
 }
 
 /// Units of velocities.
@@ -155,18 +156,76 @@ pub(crate) fn is_velocity(name: &str, unit: Option<&str>) -> bool {
     }
 }
 
+/// Units of time, each with its seconds and the other words for it in small letters.
+const TIMES: [(&str, f64, &[&str]); 7] = [
+    ("s", 1.0, &["sec", "secs", "second", "seconds"]),
+    (
+        "ms",
+        1e-3,
+        &["msec", "msecs", "millis", "millisecond", "milliseconds"],
+    ),
+    (
+        "µs",
+        1e-6,
+        &[
+            "us",
+            "usec",
+            "usecs",
+            "µsec",
+            "micros",
+            "microsecond",
+            "microseconds",
+        ],
+    ),
+    (
+        "ns",
+        1e-9,
+        &["nsec", "nsecs", "nanos", "nanosecond", "nanoseconds"],
+    ),
+    ("min", 60.0, &["mins", "minute", "minutes"]),
+    ("h", 3600.0, &["hr", "hrs", "hour", "hours"]),
+    ("d", 86_400.0, &["day", "days"]),
+];
+
+/// A unit of time with its seconds; in any case and spelt out, but for a letter alone: `H` is no
+/// hour.
+fn of_time(unit: &str) -> Option<(&'static str, f64)> {
+    let lower = unit.to_lowercase().replace('μ', "µ");
+    let is_letter = unit.chars().count() < 2;
+    let found = TIMES.iter().find(|(sign, _, words)| match is_letter {
+        true => *sign == unit || unit == "S" && *sign == "s",
+        false => *sign == lower || words.contains(&lower.as_str()),
+    });
+    found.map(|(sign, seconds, _)| (*sign, *seconds))
+}
+
 /// Seconds in one unit of time, if it is one that the reader knows.
 pub(super) fn seconds(unit: Option<&str>) -> Option<f64> {
     match unit {
-        None | Some("s" | "sec" | "S") => Some(1.0),
-        Some("ms") => Some(1e-3),
-        Some("us" | "µs" | "μs") => Some(1e-6),
-        Some("ns") => Some(1e-9),
-        Some("min") => Some(60.0),
-        Some("h") => Some(3600.0),
-        Some("d" | "day" | "days") => Some(86_400.0),
-        Some(_) => None,
+        None => Some(1.0),
+        Some(unit) => of_time(unit).map(|(_, seconds)| seconds),
     }
+}
+
+/// The unit of time that a name is or ends in: `millis`, `elapsed_us`, `timeMs`.
+pub(super) fn time_in_name(name: &str) -> Option<&'static str> {
+    let name = name.trim_matches(|c: char| !c.is_alphanumeric());
+    let last = name.rsplit(|c: char| !c.is_alphanumeric()).next()?;
+    let capital = last.char_indices().zip(last.chars().skip(1));
+    let capital = capital.filter(|((_, c), next)| c.is_lowercase() && next.is_uppercase());
+    let own = match capital.last() {
+        Some(((at, c), _)) => &last[at + c.len_utf8()..],
+        None => last,
+    };
+    let (unit, _) = of_time(own)?;
+    // `t_d` may be a delay.
+    (own == name || unit != "d").then_some(unit)
+}
+
+/// Whether a name can be nothing but that of a time: `ms` and `millis` are, `s` and `min` are not.
+pub(super) fn is_time_alone(name: &str) -> bool {
+    let name = name.trim_matches(|c: char| !c.is_alphanumeric());
+    name.chars().count() > 1 && !name.eq_ignore_ascii_case("min") && of_time(name).is_some()
 }
 
 #[cfg(test)]
@@ -191,6 +250,34 @@ mod tests {
             ("valve", None),
         ] {
             assert!(!is_velocity(name, unit), "{name} {unit:?}");
+        }
+    }
+
+    #[test]
+    fn a_name_may_be_a_unit_of_time_or_end_in_one() {
+        for (name, unit) in [
+            ("ms", "ms"),
+            ("MS", "ms"),
+            ("millis", "ms"),
+            ("millis()", "ms"),
+            ("Seconds", "s"),
+            ("micros", "µs"),
+            ("elapsed_us", "µs"),
+            ("timeMs", "ms"),
+            ("Run time min", "min"),
+            ("time.ns", "ns"),
+            ("d", "d"),
+        ] {
+            assert_eq!(time_in_name(name), Some(unit), "{name}");
+        }
+        for name in ["t", "time", "Items", "t_d", "H", "timestamp", "", "()"] {
+            assert_eq!(time_in_name(name), None, "{name}");
+        }
+        for name in ["ms", "micros", "Seconds", "minutes"] {
+            assert!(is_time_alone(name), "{name}");
+        }
+        for name in ["s", "d", "min", "time_ms", "h"] {
+            assert!(!is_time_alone(name), "{name}");
         }
     }
 

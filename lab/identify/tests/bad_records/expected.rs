@@ -8,7 +8,7 @@ fn stamps_without_a_unit_that_cannot_be_seconds_are_refused() {
     let asks = |step: &str, unit: &str, start: &str| {
         format!(
             "r.csv:1: column `t`: states no unit and was read as seconds; its median step is {step} s: \
-             is the unit {unit}? Then name the column `t [{unit}]`, or `t [s]` if it is s{start}"
+             is the unit {unit}? Then set --time 't [{unit}]', or 't [s]' if it is s{start}"
         )
     };
     let since =

@@ -77,7 +77,7 @@ fn the_unit_of_time_is_converted() {
     assert_eq!(record.notes, ["time converted from ms to s"]);
     refused(
         csv("t [V],x,f", &rows()),
-        "r.csv:1: column `t`: unit `V` is not a unit of time; use s, ms, us, ns, min, h or d",
+        "r.csv:1: column `t`: unit `V` is not a unit of time; allowed are s, ms, us, ns, min, h and d, in the file or as in --time 't [ms]'",
     );
 }
 
@@ -86,7 +86,7 @@ fn days_without_a_unit_are_not_taken_for_seconds() {
     let day = |i: usize| format!("{:.12}", 45_000.0 + i as f64 * 1e-3 / 86_400.0);
     refused(
         with_time("t,x,f", day),
-        "r.csv:1: column `t`: no unit is stated; if it is s, there are 8.640e7 rows per second: write `t [d]` for days, `t [h]` for hours, or `t [s]`",
+        "r.csv:1: column `t`: no unit is stated; if it is s, there are 8.640e7 rows per second: set --time 't [d]' for days, 't [h]' for hours, or 't [s]'",
     );
     let record = accepted(with_time("t [d],x,f", day));
     // A day's twelfth digit is a tenth of a microsecond.

@@ -2,7 +2,9 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 #[allow(dead_code)]
+#[path = "../shared/mod.rs"]
 mod shared;
+mod times;
 
 use bowden_lab::record::{of_columns, parse, read, Column, Mode, Options, Record};
 use std::fmt::Write as _;
