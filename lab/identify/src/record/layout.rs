@@ -78,88 +78,86 @@ fn with_units(mut table: Table<'_>) -> Result<Table<'_>, RecordError> {
     let separator = table.rows.separator();
     let (rest, before) = table.rows.rest();
     let (first, behind) = rest.split_once('\n').unwrap_or((rest, ""));
-    let cells = cells(first, separator);
-    match units_row(&mut table, &cells) {
-        Between::Units => {
-            table.notes.push(format!("units from line {}", before + 1));
-            table.rows = Rows::separated_by(separator, behind).after(before + 1);
-        }
-        Between::Unknown { index, .. } => {
-            return Err(unknown(&table.header, &cells, index, before + 1));
-        }
-        Between::Words => {}
+    if let Some(said) = units_row(&mut table, &cells(first, separator), before + 1)? {
+        table.notes.extend(said);
+        table.rows = Rows::separated_by(separator, behind).after(before + 1);
     }
     Ok(table)
 }
 
-/// What a row between names and values is.
-enum Between {
-    Units,
-    /// Units, but for the cell of this column that is read.
-    Unknown {
-        index: usize,
-        /// At least half of the cells are known units.
-        most: bool,
-    },
-    Words,
-}
-
-/// Takes the units from a row of them: no cell is a number, and each under a column that is
-/// read is a known unit or empty.
-fn units_row(table: &mut Table<'_>, cells: &[&str]) -> Between {
+/// Takes the units from a row of them, and what is to be said of it; `None` where it is none: a
+/// cell is a number, or no cell under a column that is read is a known unit. A word that is not
+/// known is a unit as it stands, but for that of the time.
+fn units_row(
+    table: &mut Table<'_>,
+    cells: &[&str],
+    line: usize,
+) -> Result<Option<Vec<String>>, RecordError> {
     let Table { header, roles, .. } = table;
     let cell = |index: usize| cells.get(index).copied().unwrap_or_default();
     let is_number = |cell: &&str| cell.parse::<f64>().is_ok() && *cell != "1";
     if cells.iter().any(is_number) {
-        return Between::Words;
+        return Ok(None);
     }
     let mut stated: Vec<usize> = roles.read().chain(roles.time).collect();
     stated.sort_unstable();
     stated.dedup();
-    stated.retain(|index| !cell(*index).is_empty());
+    stated.retain(|index| !cell(*index).is_empty() && !units::is_label(cell(*index)));
     let is_unit = |index: &usize| units::alone(cell(*index)).is_some();
     // `hh:mm:ss` and `ISO 8601` say how the stamps are written.
     let is_form = |cell: &str| cell.contains(':') || cell.to_uppercase().starts_with("ISO");
-    let is_known =
-        |index: &usize| is_unit(index) || roles.time == Some(*index) && is_form(cell(*index));
-    if let Some(index) = stated.iter().copied().find(|index| !is_known(index)) {
-        // A letter alone may be a unit or number the channels.
-        let is_clear = |index: &usize| {
-            let own = cell(*index);
-            is_unit(index)
-                && match roles.time == Some(*index) {
-                    true => units::seconds(Some(own)).is_some(),
-                    false => own == "°" || own.chars().count() > 1,
-                }
-        };
-        let most = 2 * stated.iter().filter(|index| is_known(index)).count() >= stated.len();
-        return match stated.iter().any(is_clear) {
-            true => Between::Unknown { index, most },
-            false => Between::Words,
-        };
+    let is_time = |index: usize| roles.time == Some(index);
+    let is_known = |index: &usize| match units::alone(cell(*index)) {
+        Some(unit) if is_time(*index) => {
+            units::is_none(&unit) || units::seconds(Some(&unit)).is_some()
+        }
+        Some(_) => true,
+        None => is_time(*index) && is_form(cell(*index)),
+    };
+    // A letter alone may be a unit or number the channels.
+    let is_clear = |index: &usize| {
+        let own = cell(*index);
+        is_unit(index)
+            && match is_time(*index) {
+                true => units::seconds(Some(own)).is_some(),
+                false => own == "°" || own.chars().count() > 1,
+            }
+    };
+    let strange: Vec<usize> = stated
+        .iter()
+        .copied()
+        .filter(|index| !is_known(index))
+        .collect();
+    let is_row = match strange.is_empty() {
+        true => (0..cells.len()).any(|index| is_unit(&index) && cell(index) != "1"),
+        false => stated.iter().any(is_clear),
+    };
+    if !is_row {
+        return Ok(None);
     }
-    if !(0..cells.len()).any(|index| is_unit(&index) && cell(index) != "1") {
-        return Between::Words;
-    }
-    for (column, cell) in header.columns.iter_mut().zip(cells) {
+    let mut said = vec![format!("units from line {line}")];
+    for (index, (column, cell)) in header.columns.iter_mut().zip(cells).enumerate() {
+        let is_strange = strange.contains(&index);
+        if column.is_given {
+            continue;
+        }
+        if is_strange && is_time(index) {
+            return Err(units::not_of_time(line, &column.name, cell));
+        }
+        if is_strange {
+            said.push(format!(
+                "unit `{}` of `{}` is not known: kept as it is",
+                shown(cell, NAME_LENGTH),
+                shown(&column.name, NAME_LENGTH)
+            ));
+            column.unit = Some((*cell).to_owned());
+        }
         let known = units::alone(cell);
-        let known = known.filter(|unit| !["-", "–", "1"].contains(&unit.as_str()));
-        if let Some(unit) = known.filter(|_| !column.is_given) {
+        if let Some(unit) = known.filter(|unit| !units::is_none(unit)) {
             column.unit = Some(unit);
         }
     }
-    Between::Units
-}
-
-/// The refusal of a row of units for one cell of it.
-fn unknown(header: &Header, cells: &[&str], index: usize, line: usize) -> RecordError {
-    let cell = shown(cells.get(index).copied().unwrap_or_default(), NAME_LENGTH);
-    let name = &header.columns[index].name;
-    let message = format!(
-        "`{cell}` is not a known unit; a cell in a row of units must be empty or a known unit, such as mm, N, N·m or deg (for any other unit, put it in the column name: `{} [{cell}]`)",
-        shown(name, NAME_LENGTH)
-    );
-    RecordError::at(line, message).on(name)
+    Ok(Some(said))
 }
 
 /// A line as cells: where it is a number that counts, quotes need no second look.
@@ -203,7 +201,7 @@ impl<'a> Head<'a> {
 
     fn is_units(&self, line: usize) -> bool {
         let mut cells = self.lines[line].1.iter().filter(|cell| !cell.is_empty());
-        cells.all(|cell| units::alone(cell).is_some())
+        cells.all(|cell| units::alone(cell).is_some() || units::is_label(cell))
     }
 
     /// Whether a line is a row of at least two numbers.
@@ -312,37 +310,24 @@ fn units_between<'a>(
     if names > 0 {
         table.notes.push(passed_over(1, names, "above the names"));
     }
-    let (mut units, mut others, mut strange) = (None, Vec::new(), Vec::new());
+    let (mut units, mut others) = (None, Vec::new());
     for between in names + 1..first {
         let (cells, line) = (&head.lines[between].1, between + 1);
         if units.is_none() {
-            match units_row(&mut table, cells) {
-                Between::Units => {
-                    units = Some(line);
-                    continue;
-                }
-                Between::Unknown { index, most: true } => {
-                    return Err(unknown(&table.header, cells, index, line));
-                }
-                Between::Unknown { index, most: false } => strange.push(format!(
-                    "`{}` in line {line} is not a known unit: all units of that line are ignored",
-                    shown(cells[index], NAME_LENGTH)
-                )),
-                Between::Words => {}
+            units = units_row(&mut table, cells, line)?;
+            if units.is_some() {
+                continue;
             }
         }
         others.push(line.to_string());
     }
-    table
-        .notes
-        .extend(units.map(|line| format!("units from line {line}")));
+    table.notes.extend(units.into_iter().flatten());
     if !others.is_empty() {
         let lines = if others.len() == 1 { "line" } else { "lines" };
         let list = others.join(", ");
         let note = format!("{lines} {list} between names and values ignored");
         table.notes.push(note);
     }
-    table.notes.extend(strange);
     Ok(table)
 }
 

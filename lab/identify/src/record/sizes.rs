@@ -94,18 +94,174 @@ const SIZES: [&[(&str, f64)]; 7] = [
 /// Signs that stand between the factors of a unit.
 const BETWEEN: [char; 8] = ['·', '⋅', '∙', '•', '*', '.', '-', ' '];
 
-/// A unit with `·` between its factors, `N·mm` for `N*mm`, `N-mm`, `N.mm` and `N mm`, where that is
-/// one of known size; else as it is.
+/// Units of time, each with its seconds and the other words for it in small letters.
+const TIMES: [(&str, f64, &[&str]); 7] = [
+    ("s", 1.0, &["sec", "secs", "second", "seconds"]),
+    (
+        "ms",
+        1e-3,
+        &["msec", "msecs", "millis", "millisecond", "milliseconds"],
+    ),
+    (
+        "µs",
+        1e-6,
+        &[
+            "us",
+            "usec",
+            "usecs",
+            "µsec",
+            "micros",
+            "microsecond",
+            "microseconds",
+        ],
+    ),
+    (
+        "ns",
+        1e-9,
+        &["nsec", "nsecs", "nanos", "nanosecond", "nanoseconds"],
+    ),
+    ("min", 60.0, &["mins", "minute", "minutes"]),
+    ("h", 3600.0, &["hr", "hrs", "hour", "hours"]),
+    ("d", 86_400.0, &["day", "days"]),
+];
+
+/// A unit of time with its seconds; in any case and spelt out, but for a letter alone: `H` is no
+/// hour.
+pub(super) fn of_time(unit: &str) -> Option<(&'static str, f64)> {
+    let lower = unit.to_lowercase().replace('μ', "µ");
+    let is_letter = unit.chars().count() < 2;
+    let found = TIMES.iter().find(|(sign, _, words)| match is_letter {
+        true => *sign == unit || unit == "S" && *sign == "s",
+        false => *sign == lower || words.contains(&lower.as_str()),
+    });
+    found.map(|(sign, seconds, _)| (*sign, *seconds))
+}
+
+/// Units spelt out, in small letters and of one, and their signs.
+const WORDS: [(&str, &str); 27] = [
+    ("metre", "m"),
+    ("micron", "µm"),
+    ("inch", "in"),
+    ("inches", "in"),
+    ("foot", "ft"),
+    ("feet", "ft"),
+    ("radian", "rad"),
+    ("newton", "N"),
+    ("newtonmetre", "N·m"),
+    ("lb", "lbf"),
+    ("pound", "lbf"),
+    ("kip", "kip"),
+    ("ounce", "ozf"),
+    ("volt", "V"),
+    ("amp", "A"),
+    ("ampere", "A"),
+    ("pascal", "Pa"),
+    ("celsius", "°C"),
+    ("degc", "°C"),
+    ("deg c", "°C"),
+    ("degrees c", "°C"),
+    ("kelvin", "K"),
+    ("percent", "%"),
+    ("hertz", "Hz"),
+    ("hz", "Hz"),
+    ("khz", "kHz"),
+    ("rpm", "rpm"),
+];
+
+/// Beginnings of such words, and their signs.
+const PREFIXES: [(&str, &str); 6] = [
+    ("mega", "M"),
+    ("kilo", "k"),
+    ("centi", "c"),
+    ("milli", "m"),
+    ("micro", "µ"),
+    ("nano", "n"),
+];
+
+/// The sign of a unit that is spelt out (`Kilonewtons`) or in other letters (`KN`). `None` where
+/// it is none, where it may be two (`NM`), and where a capital would change its size (`MV`).
+fn spelt(unit: &str) -> Option<String> {
+    if unit.chars().count() < 2 {
+        return None;
+    }
+    if let Some((sign, _)) = of_time(unit) {
+        return Some(sign.to_owned());
+    }
+    let lower = unit.to_lowercase().replace("meter", "metre");
+    let one = lower.strip_suffix('s').unwrap_or(&lower);
+    let sign = |own: &str| {
+        let named = WORDS.iter().find(|(word, _)| *word == own);
+        named.map(|(_, sign)| (*sign).to_owned())
+    };
+    let prefixed = |(prefix, letter): &(&str, &str)| {
+        let whole = format!("{letter}{}", sign(one.strip_prefix(prefix)?)?);
+        is_known(&whole).then_some(whole)
+    };
+    let word = sign(&lower).or_else(|| sign(one));
+    word.or_else(|| PREFIXES.iter().find_map(prefixed))
+        .or_else(|| in_other_letters(unit, &lower))
+}
+
+/// The only unit of known size with these letters.
+fn in_other_letters(unit: &str, lower: &str) -> Option<String> {
+    // Nobody measures in megametres or megaradians; a megavolt is no millivolt.
+    let is_size = |kind: usize, own: &str| {
+        let letters = [unit, own].map(|text| text.chars().next().filter(|c| "mM".contains(*c)));
+        kind < 2 || letters[0] == letters[1]
+    };
+    // Of 400 to the turn there are `grad`, and 360 `Grad`.
+    let mut alike = SIZES.iter().enumerate().flat_map(|(kind, all)| {
+        let own = all.iter().map(|(own, _)| *own);
+        own.filter(move |own| *own != "Grad" && own.to_lowercase() == lower)
+            .map(move |own| (kind, own))
+    });
+    let (kind, own) = alike.next()?;
+    match alike.next() {
+        None => is_size(kind, own).then(|| own.to_owned()),
+        // `mn` may be two by its letters and is one by its first.
+        Some((other, second)) => match (is_size(kind, own), is_size(other, second)) {
+            (true, false) => Some(own.to_owned()),
+            (false, true) => Some(second.to_owned()),
+            _ => None,
+        },
+    }
+}
+
+/// A unit as it is written here: `N·mm` for `N*mm`, `N-mm`, `N.mm` and `N mm`, and the signs of
+/// units that are spelt out or in other letters, `kN/mm` for `KN/millimetre`. What is none of known
+/// size stays as it is.
 pub(super) fn written(unit: &str) -> String {
     // The letter of the Greek alphabet, in place of the sign.
     let unit = unit.replace('μ', "µ");
-    let factors: Vec<&str> = unit.split(BETWEEN).filter(|own| !own.is_empty()).collect();
-    let whole = factors.join("·");
-    let inside = !unit.starts_with(BETWEEN) && !unit.ends_with(BETWEEN);
-    match inside && factors.len() > 1 && is_known(&whole) {
-        true => whole,
-        false => unit,
+    if is_known(&unit) {
+        return unit;
     }
+    if let Some((above, below)) = unit.split_once('/') {
+        let parts = [above.trim(), below.trim()];
+        let signs = parts.map(written);
+        return match signs == parts {
+            true => unit,
+            false => signs.join("/"),
+        };
+    }
+    spelt(&unit).or_else(|| product(&unit)).unwrap_or(unit)
+}
+
+/// A unit with `·` between its factors, where that is one of known size.
+fn product(unit: &str) -> Option<String> {
+    let factors: Vec<&str> = unit.split(BETWEEN).filter(|own| !own.is_empty()).collect();
+    if unit.starts_with(BETWEEN) || unit.ends_with(BETWEEN) || factors.len() < 2 {
+        return None;
+    }
+    let whole = factors.join("·");
+    if is_known(&whole) {
+        return Some(whole);
+    }
+    let signs = factors
+        .iter()
+        .map(|own| spelt(own).unwrap_or_else(|| (*own).to_owned()));
+    let signs = signs.collect::<Vec<_>>().join("·");
+    spelt(&whole).or_else(|| is_known(&signs).then_some(signs))
 }
 
 /// Whether the size of a unit is known, as it is written here.
@@ -156,11 +312,47 @@ mod tests {
     }
 
     #[test]
+    fn a_unit_in_other_letters_or_spelt_out_has_its_sign() {
+        for (unit, sign) in [
+            ("KN", "kN"),
+            ("kn", "kN"),
+            ("MM", "mm"),
+            ("mn", "mN"),
+            ("mpa", "mpa"),
+            ("MPA", "MPa"),
+            ("LBF", "lbf"),
+            ("Lbs", "lbf"),
+            ("Inches", "in"),
+            ("Kilonewtons", "kN"),
+            ("millimeters", "mm"),
+            ("Newton meters", "N·m"),
+            ("NEWTON-METRE", "N·m"),
+            ("in-lbs", "in·lbf"),
+            ("foot-pounds", "ft·lbf"),
+            ("KN-M", "kN·m"),
+            ("Sec", "s"),
+            ("mm/Sec", "mm/s"),
+            ("KN/MM", "kN/mm"),
+            ("DEG", "deg"),
+            ("deg C", "°C"),
+            // Two units, or one of another size.
+            ("NM", "NM"),
+            ("MV", "MV"),
+            ("M", "M"),
+            ("kilometers", "kilometers"),
+        ] {
+            assert_eq!(written(unit), sign, "{unit}");
+        }
+    }
+
+    #[test]
     fn the_sign_between_the_factors_of_a_unit_does_not_count() {
         for unit in ["N·mm", "N*mm", "N mm", "N-mm", "N.mm", "N⋅mm", "N * mm"] {
             assert_eq!(written(unit), "N·mm");
         }
-        for unit in ["Nmm", "N", "-", "N-", "m/s", "1/min", "N·x", "a.u.", ""] {
+        for unit in [
+            "Nmm", "N", "-", "N-", "m/s", "1/min", "N·x", "a.u.", "N/A", "grad", "",
+        ] {
             assert_eq!(written(unit), unit);
         }
         assert_eq!(written("\u{3bc}m"), "µm");

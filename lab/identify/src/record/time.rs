@@ -70,12 +70,7 @@ impl Clock {
                 // `[hh:mm:ss]` says how the stamp is written.
                 let unit = column.unit.as_deref().filter(|unit| !unit.contains(':'));
                 let scale = units::seconds(unit).ok_or_else(|| {
-                    let unit = shown(unit.unwrap_or_default(), NAME_LENGTH);
-                    let name = shown(&column.name, NAME_LENGTH);
-                    let message = format!(
-                        "unit `{unit}` is not a unit of time; allowed are s, ms, us, ns, min, h and d, in the file or as in --time '{name} [ms]'"
-                    );
-                    RecordError::at(header.line, message).on(&column.name)
+                    units::not_of_time(header.line, &column.name, unit.unwrap_or_default())
                 })?;
                 Source::Column {
                     index,

@@ -1,6 +1,7 @@
 //! Units as headers state them.
 
-use super::sizes::{is_known, written};
+use super::error::{shown, RecordError, NAME_LENGTH};
+use super::sizes::{is_known, of_time, written};
 
 /// Endings such as `_mm` in `position_mm`, and the unit that they stand for.
 const SUFFIXES: [(&str, &str); 40] = [
@@ -47,19 +48,53 @@ const SUFFIXES: [(&str, &str); 40] = [
 ];
 
 /// Units of no size that is needed here, in brackets or in a row of units.
-const PLAIN: [&str; 26] = [
-    "N/m", "N/mm", "°C", "C", "degC", "°F", "deg/s", "°/s", "rad/s", "rad/s²", "1/min", "rpm",
-    "Hz", "kHz", "m/s", "mm/s", "m/s²", "kg", "g", "%", "1", "-", "–", "sec", "min", "W",
+const PLAIN: [&str; 23] = [
+    "°C", "C", "°F", "K", "rad/s²", "1/min", "rpm", "Hz", "kHz", "kg", "g", "%", "1", "-", "–",
+    "W", "counts", "count", "pulses", "ticks", "steps", "LSB", "a.u.",
 ];
 
-/// Whether a text is a unit that the reader knows.
+/// Whether a text is a unit that the reader knows, spelt out or in any case.
 pub(super) fn is_unit(text: &str) -> bool {
-    PLAIN.contains(&text)
-        || is_known(&written(text))
+    let own = written(text);
+    let is_plain =
+        |plain: &&str| *plain == own || own.chars().count() > 2 && plain.eq_ignore_ascii_case(&own);
+    PLAIN.iter().any(is_plain)
+        || is_known(&own)
         || SUFFIXES
             .iter()
-            .any(|(suffix, unit)| *suffix == text || *unit == text)
-        || seconds(Some(text)).is_some()
+            .any(|(suffix, unit)| *suffix == own || *unit == own)
+        || of_time(&own).is_some()
+        || is_ratio(&own)
+}
+
+/// Whether a text is a unit over another one: `mm/mm`, `N/mm`, `m/s²`. `N/A` is none.
+fn is_ratio(text: &str) -> bool {
+    let of = |part: &str| {
+        let power = part.trim().trim_end_matches(['²', '³', '^', '2', '3']);
+        power.split(['·', '*']).all(is_unit)
+    };
+    let parts = text.rsplit_once('/');
+    parts.is_some_and(|(above, below)| text != "N/A" && of(above) && of(below))
+}
+
+/// The refusal of a unit that is none of time, on a line of the file.
+pub(super) fn not_of_time(line: usize, name: &str, unit: &str) -> RecordError {
+    let (own, unit) = (shown(name, NAME_LENGTH), shown(unit, NAME_LENGTH));
+    let message = format!(
+        "unit `{unit}` is not a unit of time; allowed are s, ms, us, ns, min, h and d, in the file or as in --time '{own} [ms]'"
+    );
+    RecordError::at(line, message).on(name)
+}
+
+/// Whether a cell of a row of units says that there is none.
+pub(super) fn is_none(unit: &str) -> bool {
+    ["-", "–", "1"].contains(&unit)
+}
+
+/// Whether a cell of a row of units only says that it is one.
+pub(super) fn is_label(cell: &str) -> bool {
+    let own = cell.trim_end_matches([':', ' ']).to_lowercase();
+    ["unit", "units", "einheit", "einheiten", "unité", "unités"].contains(&own.as_str())
 }
 
 /// The unit in a cell of a row of units, where it is one that the reader knows; brackets may
@@ -91,8 +126,11 @@ const OTHERS: [&str; 10] = [
     "tau", "torque", "moment", "force", "f", "phi", "theta", "angle", "alpha", "omega",
 ];
 
-/// Splits the ending such as `_mm` off a name, with the unit that it stands for.
-pub(super) fn ending(name: &str) -> Option<(&str, &'static str)> {
+/// Endings that are words as well as units: an input, an amplitude.
+const WORDS: [&str; 2] = ["in", "amp"];
+
+/// Splits the ending such as `_mm` or `_inches` off a name, with the unit that it stands for.
+pub(super) fn ending(name: &str) -> Option<(&str, String)> {
     // `velocity_mm_per_s` ends in a denominator, which is not its unit.
     let (stem, ending) = name
         .rsplit_once('_')
@@ -106,8 +144,19 @@ pub(super) fn ending(name: &str) -> Option<(&str, &'static str)> {
     if ["m", "s", "A", "K"].contains(&ending) && OTHERS.contains(&lower.as_str()) {
         return None;
     }
-    let known = SUFFIXES.iter().find(|(suffix, _)| *suffix == ending);
-    known.map(|(_, unit)| (stem, *unit))
+    if let Some((_, unit)) = SUFFIXES.iter().find(|(suffix, _)| *suffix == ending) {
+        return Some((stem, (*unit).to_owned()));
+    }
+    let unit = written(ending);
+    let is_spelt = unit != ending && is_known(&unit) && !is_any(&WORDS, ending);
+    // `x_sec` may be the second one.
+    let is_time =
+        of_time(ending).is_some() && (lower == "t" || is_of(&["time", "stamp", "elapsed"]));
+    (is_spelt || is_time && ending.len() > 1 || unit == "counts").then_some((stem, unit))
+}
+
+fn is_any(words: &[&str], own: &str) -> bool {
+    words.iter().any(|word| word.eq_ignore_ascii_case(own))
 }
 
 /// Splits `name [unit]`; a unit that the reader knows may stand as `name (unit)` or `name / unit`
@@ -133,7 +182,7 @@ pub(super) fn stated(cell: &str) -> Option<(&str, Option<String>)> {
 
 /// Splits the unit off a cell as [`stated`] does, or reads it from an ending such as `_mm`.
 pub(super) fn split(cell: &str) -> (&str, Option<String>) {
-    stated(cell).unwrap_or_else(|| (cell, ending(cell).map(|(_, unit)| unit.to_owned())))
+    stated(cell).unwrap_or_else(|| (cell, ending(cell).map(|(_, unit)| unit)))
 }
 
 /// Units of velocities.
@@ -154,49 +203,6 @@ pub(crate) fn is_velocity(name: &str, unit: Option<&str>) -> bool {
         Some(unit) => VELOCITIES.contains(&unit),
         None => VELOCITY_NAMES.contains(&lower.as_str()) || lower.contains("veloc"),
     }
-}
-
-/// Units of time, each with its seconds and the other words for it in small letters.
-const TIMES: [(&str, f64, &[&str]); 7] = [
-    ("s", 1.0, &["sec", "secs", "second", "seconds"]),
-    (
-        "ms",
-        1e-3,
-        &["msec", "msecs", "millis", "millisecond", "milliseconds"],
-    ),
-    (
-        "µs",
-        1e-6,
-        &[
-            "us",
-            "usec",
-            "usecs",
-            "µsec",
-            "micros",
-            "microsecond",
-            "microseconds",
-        ],
-    ),
-    (
-        "ns",
-        1e-9,
-        &["nsec", "nsecs", "nanos", "nanosecond", "nanoseconds"],
-    ),
-    ("min", 60.0, &["mins", "minute", "minutes"]),
-    ("h", 3600.0, &["hr", "hrs", "hour", "hours"]),
-    ("d", 86_400.0, &["day", "days"]),
-];
-
-/// A unit of time with its seconds; in any case and spelt out, but for a letter alone: `H` is no
-/// hour.
-fn of_time(unit: &str) -> Option<(&'static str, f64)> {
-    let lower = unit.to_lowercase().replace('μ', "µ");
-    let is_letter = unit.chars().count() < 2;
-    let found = TIMES.iter().find(|(sign, _, words)| match is_letter {
-        true => *sign == unit || unit == "S" && *sign == "s",
-        false => *sign == lower || words.contains(&lower.as_str()),
-    });
-    found.map(|(sign, seconds, _)| (*sign, *seconds))
 }
 
 /// Seconds in one unit of time, if it is one that the reader knows.
@@ -282,6 +288,43 @@ mod tests {
     }
 
     #[test]
+    fn known_units_are_known_in_any_case_spelt_out_and_over_each_other() {
+        for unit in [
+            "Sec",
+            "SECONDS",
+            "mm/mm",
+            "in/in",
+            "N/mm",
+            "KN/MM",
+            "mm/sec",
+            "deg/s",
+            "m/s^2",
+            "m/s²",
+            "N*s/m",
+            "counts",
+            "Counts",
+            "LSB",
+            "HZ",
+            "lbs",
+            "Inch",
+            "Newtons",
+            "kilonewtons",
+            "N-M",
+            "in-lbs",
+            "degC",
+            "deg C",
+            "MPA",
+        ] {
+            assert!(is_unit(unit), "{unit}");
+        }
+        for word in [
+            "wide", "N·x", "NM", "MV", "T", "B", "D", "raw", "N/A", "a/t", "and/or", "/", "",
+        ] {
+            assert!(!is_unit(word), "{word}");
+        }
+    }
+
+    #[test]
     fn a_unit_stands_in_brackets_or_at_the_end_of_the_name() {
         let unit = |cell| split(cell).1;
         assert_eq!(split("tau_i [N·m]"), ("tau_i", Some("N·m".to_owned())));
@@ -300,7 +343,21 @@ mod tests {
         assert_eq!(unit("q_m").as_deref(), Some("m"));
         assert_eq!(unit("F_N").as_deref(), Some("N"));
         assert_eq!(unit("velocity_mm_per_s"), None);
+        assert_eq!(unit("F_kN").as_deref(), Some("kN"));
+        assert_eq!(unit("F_KN").as_deref(), Some("kN"));
+        assert_eq!(unit("x_inches").as_deref(), Some("in"));
+        assert_eq!(unit("load_Newtons").as_deref(), Some("N"));
+        assert_eq!(unit("time_seconds").as_deref(), Some("s"));
+        assert_eq!(unit("encoder_counts").as_deref(), Some("counts"));
+        assert_eq!(unit("Kraft (Newtons)").as_deref(), Some("N"));
         for plain in [
+            "tau_MV",
+            "tau_NM",
+            "x_sec",
+            "x_min",
+            "x_amp",
+            "torque_IN",
+            "x (N/A)",
             "t",
             "tau_i",
             "tau_o",

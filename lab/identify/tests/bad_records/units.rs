@@ -1,7 +1,7 @@
 //! Units below the names or in brackets: their spellings, and what is no unit.
 
 use super::{accepted, csv, refused, rows};
-use bowden_lab::record::{agree, Record};
+use bowden_lab::record::{agree, parse, Options, Record};
 
 fn with_row(above: &str, units: &str) -> String {
     let values = rows().join("\n").replace(',', ";");
@@ -53,30 +53,24 @@ fn a_row_of_units_has_torques_in_every_spelling() {
 }
 
 #[test]
-fn the_cell_of_a_row_of_units_that_is_no_unit_is_named() {
-    let says = |line: usize, name: &str, cell: &str| {
-        format!(
-            "r.csv:{line}: column `{name}`: `{cell}` is not a known unit; a cell in a row of units must be empty or a known unit, such as mm, N, N·m or deg \
-             (for any other unit, put it in the column name: `{name} [{cell}]`)"
-        )
-    };
+fn a_word_below_the_time_that_is_no_unit_of_time_is_refused() {
     for (above, line) in [(ABOVE[0], 2), (ABOVE[1], 4)] {
-        refused(with_row(above, "s;Nm;wide"), &says(line, "tau_o", "wide"));
-        refused(with_row(above, "s;wide;Nm"), &says(line, "tau_i", "wide"));
-        refused(with_row(above, "when;Nm;Nm"), &says(line, "t", "when"));
-        refused(with_row(above, ";N·x;Nm"), &says(line, "tau_i", "N·x"));
+        for word in ["when", "mm", "N/A"] {
+            refused(
+                with_row(above, &format!("{word};Nm;Nm")),
+                &format!(
+                    "r.csv:{line}: column `t`: unit `{word}` is not a unit of time; allowed are s, ms, us, ns, min, h and d, in the file or as in --time 't [ms]'"
+                ),
+            );
+        }
+        let options = Options {
+            time: Some("t [s]".to_owned()),
+            ..Options::default()
+        };
+        let text = with_row(above, "when;Nm;Nm");
+        let record = parse(text.as_bytes(), "r.csv", &options).unwrap();
+        assert_eq!(units(&record), (Some("Nm"), Some("Nm")));
     }
-    // Below a preamble a row with fewer units is passed over, and the note says why.
-    let record = accepted(with_row(ABOVE[1], "s;wide;long"));
-    assert_eq!(units(&record), (None, None));
-    assert_eq!(
-        record.notes,
-        [
-            "lines 1–2 above the names ignored",
-            "line 4 between names and values ignored",
-            "`wide` in line 4 is not a known unit: all units of that line are ignored"
-        ]
-    );
     // Letters that number the channels are words, although two of them are units.
     let record = accepted(with_row(ABOVE[1], "T;A;B"));
     assert_eq!(units(&record), (None, None));

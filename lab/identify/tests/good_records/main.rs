@@ -5,6 +5,7 @@
 #[path = "../shared/mod.rs"]
 mod shared;
 mod times;
+mod units;
 
 use bowden_lab::record::{of_columns, parse, read, Column, Mode, Options, Record};
 use std::fmt::Write as _;
