@@ -130,12 +130,14 @@ impl Header {
 
     /// The names that exist, for a message.
     pub(super) fn list(&self) -> String {
-        let names: Vec<_> = self
-            .columns
-            .iter()
-            .filter(|column| !column.name.is_empty())
-            .collect();
-        let quoted = |column: &&Named| format!("`{}`", shown(&column.name, NAME_LENGTH));
+        let mut names: Vec<&str> = Vec::new();
+        for column in &self.columns {
+            let own = column.name.as_str();
+            if !own.is_empty() && !names.contains(&own) {
+                names.push(own);
+            }
+        }
+        let quoted = |name: &&str| format!("`{}`", shown(name, NAME_LENGTH));
         let mut list = names
             .iter()
             .take(LISTED)
@@ -233,6 +235,7 @@ pub(crate) fn nearest<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) 
         .filter(|(alike, _)| *alike >= ALIKE)
         .collect();
     near.sort_by(|a, b| b.0.total_cmp(&a.0));
+    near.dedup();
     near.truncate(3);
     let quoted = |(_, name): &(f64, &str)| format!("`{}`", shown(name, NAME_LENGTH));
     let quoted: Vec<String> = near.iter().map(quoted).collect();
@@ -256,7 +259,12 @@ pub(super) fn twice(header: &Header, counts: impl Fn(usize) -> bool) -> Result<(
     for (index, column) in columns.filter(|(_, column)| !column.name.is_empty()) {
         if let Some(first) = seen.insert(column.name.as_str(), index) {
             if counts(first) || counts(index) {
-                let message = format!("named twice, as columns {} and {}", first + 1, index + 1);
+                let (first, second) = (first + 1, index + 1);
+                let own = match header.line {
+                    0 => "",
+                    _ => "; --names A,B,… gives each column a name of its own",
+                };
+                let message = format!("named twice, as columns {first} and {second}{own}");
                 return Err(RecordError::at(header.line, message).on(&column.name));
             }
         }

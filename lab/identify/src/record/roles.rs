@@ -51,19 +51,13 @@ fn default_channels(mode: Mode) -> &'static [&'static str] {
     }
 }
 
-/// Which column plays which part. Of two columns of one name neither can be wanted; what is not
-/// read may have any name.
+/// Which column plays which part. Of two columns of one name neither can be read; what is not read
+/// may have any name.
 pub(super) fn assign(header: &mut Header, options: &Options) -> Result<Roles, RecordError> {
     let said = take_units(header, options);
-    let assigned = parts(header, options);
-    match &assigned {
-        Ok(roles) => {
-            let used: Vec<usize> = roles.read().chain(roles.time).collect();
-            twice(header, |index| used.contains(&index))?;
-        }
-        Err(_) => twice(header, |_| true)?,
-    }
-    let mut roles = assigned?;
+    let mut roles = parts(header, options)?;
+    let used: Vec<usize> = roles.read().chain(roles.time).collect();
+    twice(header, |index| used.contains(&index))?;
     roles.notes.extend(said);
     if let Some(column) = roles.time.map(|index| &mut header.columns[index]) {
         if column.unit.is_none() {

@@ -168,7 +168,7 @@ fn the_line_of_the_names_can_be_given() {
     same(&text, &at(3), &[]);
     assert_eq!(
         refusal(&text, &at(2)),
-        "r.csv:2: column `old`: named twice, as columns 1 and 2"
+        "r.csv:2: the columns `old` include neither `tau_i` and `tau_o` nor `x` and `f`; set --mode, and name the columns with --input and --output"
     );
     assert_eq!(
         refusal(&text, &at(0)),

@@ -176,13 +176,23 @@ fn a_header_that_is_none_is_refused() {
             "r.csv:1: the line holds numbers; {header}; --names t,x,f names the columns of a file without a header"
         ),
     );
+    let wide: Vec<String> = rows().iter().map(|row| format!("{row},1")).collect();
     refused(
-        csv("t,x [mm],x [mm]", &rows()),
-        "r.csv:1: column `x`: named twice, as columns 2 and 3",
+        csv("t,x [mm],x [mm],f", &wide),
+        "r.csv:1: column `x`: named twice, as columns 2 and 3; --names A,B,… gives each column a name of its own",
+    );
+    // Where a name is missing, twins of another name are beside the point.
+    refused(
+        csv("t,x,off,off", &wide),
+        "r.csv:1: column `f`: no such column among `t`, `x`, `off`; --output COL selects another one",
+    );
+    refused(
+        csv("time,time,off,off", &wide),
+        "r.csv:1: the columns `time`, `off` include neither `tau_i` and `tau_o` nor `x` and `f`; set --mode, and name the columns with --input and --output",
     );
     refused(
         csv("t,x,f,load,load", &rows()),
-        "r.csv:1: column `load`: named twice, as columns 4 and 5",
+        "r.csv:1: column `load`: named twice, as columns 4 and 5; --names A,B,… gives each column a name of its own",
     );
 }
 

@@ -86,7 +86,7 @@ fn names_that_do_not_fit_are_refused() {
     );
     assert_eq!(
         refusal(&lines, &named(&["t", "x", "x"])),
-        "r.csv:1: column `x`: named twice, as columns 2 and 3"
+        "r.csv:1: column `f`: no such column among `t`, `x`; --output COL selects another one"
     );
     assert_eq!(
         refusal("only\nwords\n", &named(&["t", "x", "f"])),
@@ -130,7 +130,7 @@ fn one_name_with_two_units_is_two_columns() {
     let twins = text.replacen("Force (V)", "Force (N)", 1);
     assert_eq!(
         refusal(&twins, &ends("Way (mm)", "Force (N)")),
-        "r.csv:1: column `Force`: named twice, as columns 4 and 5"
+        "r.csv:1: column `Force`: named twice, as columns 4 and 5; --names A,B,… gives each column a name of its own"
     );
 }
 
