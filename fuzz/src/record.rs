@@ -35,6 +35,7 @@ pub fn check(data: &[u8]) {
         until: (choice & 64 != 0).then_some(0.25),
         skip: 0.0,
         header_line: (choice & 7 == 7).then_some(2),
+        segment: (choice & 70 == 70).then_some(1),
         names: match choice & 11 {
             11 => ["t", "x", "f"].map(str::to_owned).to_vec(),
             _ => Vec::new(),

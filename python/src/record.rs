@@ -21,6 +21,7 @@ pub struct Columns {
     end: Option<f64>,
     rate: Option<f64>,
     header_line: Option<usize>,
+    segment: Option<usize>,
     names: Vec<String>,
     drop_bad: bool,
 }
@@ -37,6 +38,7 @@ impl Columns {
             until: self.end,
             rate: self.rate,
             header_line: self.header_line,
+            segment: self.segment,
             names: self.names,
             drop_bad: self.drop_bad,
         })

@@ -17,7 +17,8 @@ pub struct Columns {
     /// Torque (tau_i to tau_o) or displacement (x to f) [default: from the column names].
     #[arg(long, value_enum)]
     pub mode: Option<ModeName>,
-    /// Column of the time [s] [default: `t`, `time` or `timestamp`].
+    /// Column of the time [default: `t`, `time`, `timestamp` or a unit such as `ms`]. Each column
+    /// may be followed by its unit: 'tick [ms]'.
     #[arg(long, value_name = "COL")]
     pub time: Option<String>,
     /// Column of the input [default: `tau_i` or `x`].
@@ -46,6 +47,10 @@ pub struct Columns {
     /// Line of the column names, counted from 1 [default: detected].
     #[arg(long, value_name = "N")]
     pub header_line: Option<usize>,
+    /// Read only segment N of a text file in which the column names come again, counted from 1
+    /// [default: all segments as one record if the time goes on].
+    #[arg(long, value_name = "N")]
+    pub segment: Option<usize>,
     /// Column names of a text file without a header: t,x,f or 't [ms],,x [mm],f [N]'. An empty
     /// name excludes its column.
     #[arg(long, value_delimiter = ',', value_name = "A,B,…")]
@@ -107,6 +112,7 @@ impl Columns {
             until: self.end,
             rate: self.rate,
             header_line: self.header_line,
+            segment: self.segment,
             names: self.names.clone(),
             drop_bad: self.drop_bad,
         };

@@ -31,6 +31,7 @@ def identify(
     cutoff: Optional[float] = None,
     rate: Optional[float] = None,
     header_line: Optional[int] = None,
+    segment: Optional[int] = None,
     names: Optional[Sequence[str]] = None,
     drop_bad: bool = False,
     max_terms: Optional[int] = None,
@@ -75,6 +76,9 @@ def identify(
         Sampling rate [Hz]; time is then computed from the row number.
     header_line
         Line of the column names of a CSV, from 1.
+    segment
+        Which segment is read of a CSV in which the column names come again, from 1; default: all
+        of them as one record if the time goes on.
     names
         Names of the columns of a text file without names, each with its unit if it has one
         (``["t", "x [mm]", "f"]``). A column with an empty name is not read.
@@ -117,6 +121,7 @@ def identify(
         end=end,
         rate=rate,
         header_line=header_line,
+        segment=segment,
         names=names,
         drop_bad=drop_bad,
         units=units,
@@ -152,6 +157,7 @@ def identify(
         "cutoff": cutoff,
         "rate": rate,
         "header_line": header_line,
+        "segment": segment,
         "names": names,
         "drop_bad": drop_bad or None,
         "max_terms": max_terms,

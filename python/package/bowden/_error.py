@@ -42,12 +42,13 @@ _OTHER = {
     "--channel NAME=COL": "channels",
     "--drop-bad": "drop_bad=True",
     "--names t,x,f": 'names=["t", "x", "f"]',
+    "--names A,B,…": 'names=["A", "B", …]',
     "--invertible": "invertible=True",
     "--per-file gains": 'per_file="gains"',
 }
 _OPTION = re.compile(
-    r"--(channel|time|input|output|mode|start|end|cutoff|rate|header-line|names|baseline|max-terms|time-limit)\b"
-    r"(?: (?:COL|HZ)\b)?(?: (?=[-\d]|torque|displacement))?"
+    r"--(channel|time|input|output|mode|start|end|cutoff|rate|header-line|segment|names|baseline|max-terms|time-limit)\b"
+    r"(?: (?:COL|HZ)\b)?(?: (?=[-\d']|N\b|torque|displacement))?"
 )
 
 

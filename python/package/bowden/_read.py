@@ -45,6 +45,7 @@ class Reading:
         end: Optional[float],
         rate: Optional[float],
         header_line: Optional[int],
+        segment: Optional[int],
         names: Optional[Sequence[str]],
         drop_bad: bool,
         units: Optional[Mapping[str, str]],
@@ -57,6 +58,8 @@ class Reading:
             header_line = whole(
                 "header_line", header_line, 1, 2**31, "a line from 1 up is allowed"
             )
+        if segment is not None:
+            segment = whole("segment", segment, 1, 2**31, "a segment from 1 up is allowed")
         self.options: dict[str, Any] = {
             "mode": mode,
             "time": time,
@@ -70,6 +73,7 @@ class Reading:
             "end": None if end is None else duration("end", end),
             "rate": None if rate is None else number("rate", rate, HERTZ),
             "header_line": header_line,
+            "segment": segment,
             "names": list_of_names(names),
             "drop_bad": bool(drop_bad),
         }
@@ -165,6 +169,7 @@ def read(
     end: Optional[float] = None,
     rate: Optional[float] = None,
     header_line: Optional[int] = None,
+    segment: Optional[int] = None,
     names: Optional[Sequence[str]] = None,
     drop_bad: bool = False,
     units: Optional[Mapping[str, str]] = None,
@@ -184,6 +189,7 @@ def read(
         end=end,
         rate=rate,
         header_line=header_line,
+        segment=segment,
         names=names,
         drop_bad=drop_bad,
         units=units,

@@ -23,6 +23,10 @@ const ABOVE: usize = 8;
 
 /// A table whose columns have their parts; the rows are those below names and units.
 pub(super) struct Table<'a> {
+    /// The line of the names as it is; empty where they are given.
+    pub(super) names: &'a str,
+    /// The text below it.
+    pub(super) below_names: &'a str,
     pub(super) header: Header,
     pub(super) roles: Roles,
     pub(super) rows: Rows<'a>,
@@ -63,9 +67,13 @@ fn start_of(text: &str, line: usize) -> Result<(usize, usize), RecordError> {
 
 /// A table whose first row is the header.
 fn named<'a>(mut rows: Rows<'a>, options: &Options) -> Result<Table<'a>, RecordError> {
+    let (text, _) = rows.rest();
     let mut header = header::read(&mut rows)?;
     let roles = roles::assign(&mut header, options)?;
+    let (below_names, _) = rows.rest();
     Ok(Table {
+        names: &text[..text.len() - below_names.len()],
+        below_names,
         header,
         roles,
         rows,
@@ -161,7 +169,7 @@ fn units_row(
 }
 
 /// A line as cells: where it is a number that counts, quotes need no second look.
-fn cells(line: &str, separator: u8) -> Vec<&str> {
+pub(super) fn cells(line: &str, separator: u8) -> Vec<&str> {
     let cells = line.split(char::from(separator)).map(str::trim);
     let open = |cell: &str| -> Option<usize> {
         let inner = cell.strip_prefix('"')?.strip_suffix('"')?;
@@ -263,6 +271,8 @@ fn nameless<'a>(text: &'a str, options: &Options) -> Result<Table<'a>, RecordErr
     let rows = Rows::separated_by(head.separator, &text[head.lines[line].0..]).after(line);
     let above = (line > 0).then(|| passed_over(1, line, "above the values"));
     Ok(Table {
+        names: "",
+        below_names: "",
         header,
         roles,
         rows,

@@ -42,6 +42,7 @@ mod number;
 mod parquet_file;
 mod roles;
 mod rows;
+mod segments;
 mod series;
 mod sheet;
 mod sizes;
@@ -117,6 +118,9 @@ pub struct Options {
     pub rate: Option<f64>,
     /// Line of the column names, from 1; found where it is `None`.
     pub header_line: Option<usize>,
+    /// Which segment is read of a text in which the names of the columns come again, from 1; all of
+    /// them, as one record, where it is `None`.
+    pub segment: Option<usize>,
     /// Names of the columns of a text that has none, each with its unit where it has one (`x [mm]`);
     /// an empty name is that of a column which is not read. Empty where the text has its own.
     pub names: Vec<String>,
@@ -290,17 +294,17 @@ fn unpacked_as(kind: Kind, bytes: &[u8], options: &Options) -> Result<Record, Re
 fn text_record(bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
     let decoded = encoding::decode(bytes)?;
     let text = blanks::as_tabs(&decoded.text);
-    let table = layout::find(&text, options)?;
+    let mut table = layout::find(&text, options)?;
+    if !decoded.is_ended {
+        table.rows = table.rows.cut_off();
+    }
+    let table = segments::of(table, options)?;
     let mut notes: Vec<String> = decoded.note.into_iter().collect();
     if matches!(text, Cow::Owned(_)) {
         notes.push("blanks separate the columns".to_owned());
     }
     notes.extend(table.notes);
-    let rows = match decoded.is_ended {
-        true => table.rows,
-        false => table.rows.cut_off(),
-    };
-    let rows = Source::Text(Box::new(rows));
+    let rows = Source::Text(Box::new(table.rows));
     let mut record = record(&table.header, table.roles, rows, options)?;
     notes.append(&mut record.notes);
     record.notes = notes;

@@ -71,6 +71,11 @@ pub(super) fn record(file: Columns, options: &Options) -> Result<Record, RecordE
             "--header-line {line}: the file has no lines; its columns have names already"
         )));
     }
+    if let Some(number) = options.segment {
+        return Err(RecordError::new(format!(
+            "--segment {number}: the file is not text and has no segments"
+        )));
+    }
     if !options.names.is_empty() {
         return Err(RecordError::new(
             "--names: the file is not text; its columns have names already",

@@ -4,7 +4,7 @@ use super::error::RecordError;
 use super::header::Header;
 use super::layout::only_text;
 use super::number;
-use super::text;
+use super::text::{self, Place};
 
 /// The rows below the names, one after the other.
 pub(super) enum Source<'a> {
@@ -53,8 +53,9 @@ impl Source<'_> {
     /// How many lines of text alone there are from the last row on; `None` where a row of
     /// numbers is among them.
     pub(super) fn text_below(&self, used: &[usize]) -> Option<usize> {
-        let Self::Text(rows) = self else {
-            return None;
+        let rows = match self {
+            Self::Text(rows) if !rows.has_more() => rows,
+            _ => return None,
         };
         let rest = rows.here();
         only_text(rest, rows.separator(), used).then(|| rest.split('\n').count())
@@ -93,6 +94,14 @@ impl Row<'_> {
         match self {
             Self::Text(row) => row.line,
             Self::Sheet { row, .. } => row + 1,
+        }
+    }
+
+    /// The segment that it begins, where it is not the first.
+    pub(super) fn opens(&self) -> Option<Place> {
+        match self {
+            Self::Text(row) => row.opens,
+            Self::Sheet { .. } => None,
         }
     }
 

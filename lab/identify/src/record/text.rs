@@ -31,12 +31,40 @@ pub(super) struct Rows<'a> {
     start: usize,
     /// Whether the file may end within its last line.
     may_be_cut: bool,
+    /// The segments behind this text.
+    more: std::vec::IntoIter<Segment<'a>>,
+    /// The segment that begins with the next row, where it is not the first.
+    opens: Option<Place>,
+}
+
+/// The rows below one line of names.
+#[derive(Clone, Copy)]
+pub(super) struct Segment<'a> {
+    pub(super) text: &'a str,
+    /// Lines of the file before its rows.
+    pub(super) before: usize,
+    /// Whether the lines between its names and its rows are those of the first segment.
+    pub(super) is_alike: bool,
+    pub(super) place: Place,
+}
+
+/// Which of the segments of a file one is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Place {
+    /// The line of its names.
+    pub(super) names: usize,
+    /// Its number, from 1.
+    pub(super) number: usize,
+    /// How many there are.
+    pub(super) count: usize,
 }
 
 /// One row: a line, or several if a quoted cell holds line ends.
 pub(super) struct Row<'a> {
     cells: &'a StringRecord,
     notation: &'a Notation,
+    /// The segment that it begins, where it is not the first.
+    pub(super) opens: Option<Place>,
     /// The line on which it begins, from 1.
     pub(super) line: usize,
     /// The line on which it ends.
@@ -68,7 +96,37 @@ impl<'a> Rows<'a> {
             line: 0,
             start: 0,
             may_be_cut: false,
+            more: Vec::new().into_iter(),
+            opens: None,
         }
+    }
+
+    /// The rows of these segments, one after the other.
+    pub(super) fn of(mut self, segments: Vec<Segment<'a>>) -> Self {
+        let ends = segments
+            .last()
+            .is_some_and(|own| own.place.number == own.place.count);
+        self.may_be_cut &= ends;
+        self.more = segments.into_iter();
+        self.go_on();
+        self.opens = None;
+        self
+    }
+
+    /// Goes on to the next segment, where there is one.
+    fn go_on(&mut self) -> bool {
+        let Some(next) = self.more.next() else {
+            return false;
+        };
+        let fresh = Self::separated_by(self.separator, next.text);
+        (self.text, self.reader) = (fresh.text, fresh.reader);
+        (self.before, self.opens) = (next.before, Some(next.place));
+        true
+    }
+
+    /// Whether there are segments behind this one.
+    pub(super) fn has_more(&self) -> bool {
+        self.more.len() > 0
     }
 
     /// The same rows, of a file whose last line has no end.
@@ -81,7 +139,7 @@ impl<'a> Rows<'a> {
 
     /// Whether the file may end within the row that was read last.
     pub(super) fn may_be_cut(&self) -> bool {
-        self.may_be_cut && self.rest().0.is_empty()
+        self.may_be_cut && !self.has_more() && self.rest().0.is_empty()
     }
 
     /// The same rows, numbered behind that many lines of the file.
@@ -120,10 +178,13 @@ impl<'a> Rows<'a> {
 
     /// The next row, unless it is blank, too long or has an open quote.
     pub(super) fn read(&mut self) -> Result<Option<Row<'_>>, RecordError> {
+        let is_over = |own: &Self| own.reader.position().byte() as usize >= own.text.len();
+        while is_over(self) && self.go_on() {}
         let start = self.reader.position().byte() as usize;
         let Some(rest) = self.text.get(start..).filter(|rest| !rest.is_empty()) else {
             return Ok(None);
         };
+        let opens = self.opens.take();
         self.start = start;
         self.line = self.before + self.reader.position().line() as usize;
         self.reader.get_mut().set_limit(ROW_LIMIT as u64);
@@ -153,6 +214,7 @@ impl<'a> Rows<'a> {
         match outcome {
             Ok(_) => Ok(Some(Row {
                 cells: &self.cells,
+                opens,
                 line: self.line,
                 last: self.before + self.reader.position().line() as usize - 1,
                 notation: &self.notation,

@@ -3,7 +3,7 @@
 use super::error::{shown, Bad, RecordError, NAME_LENGTH};
 use super::header::Header;
 use super::source::Row;
-use super::{clock_time, units, Options};
+use super::{clock_time, segments, units, Options};
 
 /// Turns rows into seconds since the first row, and cuts.
 pub(super) struct Clock {
@@ -129,6 +129,10 @@ impl Clock {
                 let t = stamp - first;
                 if t < self.last {
                     let last = first + self.last;
+                    if let Some(place) = row.opens() {
+                        let why = format!("and the time restarts, from {last} to {stamp} s");
+                        return Err(segments::two_records(place, &why).on(name));
+                    }
                     let midnight = match self.of_day && !has_date(row, index) {
                         true => "; does the record pass midnight? Then add a date",
                         false => "",

@@ -4,6 +4,7 @@
 mod expected;
 mod forms;
 mod plain;
+mod segments;
 mod signals;
 mod sparse;
 mod units;

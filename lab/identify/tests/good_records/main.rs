@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod names;
+mod segments;
 #[allow(dead_code)]
 #[path = "../shared/mod.rs"]
 mod shared;

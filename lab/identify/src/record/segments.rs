@@ -1,0 +1,135 @@
+//! A table whose names come again: the blocks of a load frame, the segments of LabVIEW, a logger
+//! that was started again.
+//!
+//! Below the same names, and the same units where there are any, the rows go on. They are one
+//! record if the time goes on too; else `--segment N` picks one of the segments. What is above the
+//! names of a segment is passed over as a preamble is.
+
+use super::clock_time;
+use super::error::RecordError;
+use super::layout::{cells, Table};
+use super::number::is_data;
+use super::text::{Place, Segment};
+use super::Options;
+
+/// The table with the rows of all its segments, or of the one that is asked for.
+pub(super) fn of<'a>(mut table: Table<'a>, options: &Options) -> Result<Table<'a>, RecordError> {
+    let all = segments(&table);
+    let count = all.len();
+    let own = match options.segment {
+        None if count == 1 => return Ok(table),
+        None => all,
+        Some(number) => {
+            let Some(own) = number.checked_sub(1).and_then(|index| all.get(index)) else {
+                return Err(RecordError::new(format!(
+                    "--segment {number} is out of range (1 to {count}, as often as the names of the columns appear)"
+                )));
+            };
+            vec![*own]
+        }
+    };
+    if let Some(other) = own.iter().find(|own| !own.is_alike) {
+        let message = "the names of the columns come again, but what is below them differs from what is below the first ones; put the records into files of their own";
+        return Err(RecordError::at(other.place.names, message));
+    }
+    match (own.as_slice(), options.rate) {
+        ([_, second, ..], Some(_)) => {
+            let why = "and without a time column nothing shows whether the record goes on";
+            return Err(two_records(second.place, why));
+        }
+        ([_, second, ..], None) => table.notes.push(format!(
+            "the names of the columns come again, first in line {}: {count} segments, read as one record",
+            second.place.names
+        )),
+        ([one], _) if count > 1 => table.notes.push(format!(
+            "segment {} of {count}, with its names in line {}",
+            one.place.number, one.place.names
+        )),
+        _ => {}
+    }
+    table.rows = table.rows.of(own);
+    Ok(table)
+}
+
+/// The refusal of a segment that may be another record.
+pub(super) fn two_records(place: Place, why: &str) -> RecordError {
+    let Place {
+        names,
+        number,
+        count,
+    } = place;
+    let records = match count {
+        2 => "two records".to_owned(),
+        _ => "several records".to_owned(),
+    };
+    let message = format!(
+        "{records}: the names of the columns come again, {why}; --segment N reads one of {count} segments (segment {number} begins here)"
+    );
+    RecordError::at(names, message)
+}
+
+/// The segments of a table, one where its names appear once; those without rows do not count.
+fn segments<'a>(table: &Table<'a>) -> Vec<Segment<'a>> {
+    let (text, before) = table.rows.rest();
+    let names = table.names.trim();
+    let mut segment = Segment {
+        text,
+        before,
+        is_alike: true,
+        place: Place {
+            names: table.header.line,
+            number: 1,
+            count: 1,
+        },
+    };
+    if names.is_empty() || !text.contains(names) {
+        return vec![segment];
+    }
+    let between = table.below_names.len() - text.len();
+    let between: Vec<&str> = table.below_names[..between]
+        .lines()
+        .map(str::trim)
+        .collect();
+    let used = table.roles.time.unwrap_or(table.roles.input);
+    let separator = table.rows.separator();
+    let is_row = |line: &str| {
+        let cells = cells(line, separator);
+        let cell = cells.get(used).copied().unwrap_or_default();
+        is_data(cell, separator) || clock_time::seconds(cell).is_some()
+    };
+    let mut start = 0;
+    let lines = text.split_inclusive('\n').map(|line| {
+        start += line.len();
+        (start - line.len(), line)
+    });
+    let lines: Vec<(usize, &str)> = lines.collect();
+    let at = |line: usize| lines.get(line).map_or(text.len(), |(at, _)| *at);
+    let rows = |line: usize| lines.get(line).is_some_and(|(_, own)| is_row(own));
+    let (mut all, mut first) = (Vec::new(), 0);
+    for again in (0..lines.len()).filter(|line| lines[*line].1.trim() == names) {
+        // What is above the names, from the last row on, is a preamble.
+        let end = (first..again)
+            .rev()
+            .find(|line| rows(*line))
+            .map_or(first, |line| line + 1);
+        segment.text = &text[at(first)..at(end)];
+        all.push(segment);
+        let values = (again + 1..lines.len())
+            .find(|line| rows(*line))
+            .unwrap_or(lines.len());
+        let own = lines[again + 1..values].iter().map(|(_, line)| line.trim());
+        segment.is_alike = values == again + 1 || own.eq(between.iter().copied());
+        segment.before = before + values;
+        segment.place.names = before + again + 1;
+        first = values;
+    }
+    segment.text = &text[at(first)..];
+    all.push(segment);
+    all.retain(|own| !own.text.trim().is_empty());
+    let count = all.len();
+    for (index, own) in all.iter_mut().enumerate() {
+        own.place.number = index + 1;
+        own.place.count = count;
+    }
+    all
+}

@@ -1,0 +1,66 @@
+//! Names that come again where the rows below them may be another record.
+
+use super::{csv, refusal, refused, rows};
+use bowden_lab::record::Options;
+
+#[test]
+fn a_time_that_restarts_below_the_names_is_refused_as_two_records() {
+    let once = csv("t,x,f", &rows());
+    refused(
+        [once.as_str(), &once].concat(),
+        "r.csv:402: column `t`: two records: the names of the columns come again, and the time restarts, from 3.99 to 0 s; --segment N reads one of 2 segments (segment 2 begins here)",
+    );
+    let line = refusal([once.as_str(), &once, &once].concat(), &Options::default());
+    assert!(
+        line.contains("several records") && line.contains("one of 3 segments"),
+        "{line}"
+    );
+    // A clock that restarts without names is no segment.
+    let line = refusal(
+        [once.as_str(), &rows().join("\n")].concat(),
+        &Options::default(),
+    );
+    assert_eq!(
+        line,
+        "r.csv:402: column `t`: time runs backwards, from 3.99 to 0 s"
+    );
+    let rate = Options {
+        rate: Some(100.0),
+        ..Options::default()
+    };
+    assert_eq!(
+        refusal([once.as_str(), &once].concat(), &rate),
+        "r.csv:402: two records: the names of the columns come again, and without a time column nothing shows whether the record goes on; --segment N reads one of 2 segments (segment 2 begins here)"
+    );
+}
+
+#[test]
+fn a_segment_that_is_not_there_or_not_alike_is_refused() {
+    let at = |segment: usize| Options {
+        segment: Some(segment),
+        ..Options::default()
+    };
+    let once = csv("t,x,f", &rows());
+    let twice = [once.as_str(), &once].concat();
+    for number in [0, 3] {
+        assert_eq!(
+            refusal(&twice, &at(number)),
+            format!("r.csv: --segment {number} is out of range (1 to 2, as often as the names of the columns appear)")
+        );
+    }
+    let other = [once.as_str(), &csv("t,x,f\ns,in,N", &rows())].concat();
+    let message = "r.csv:402: the names of the columns come again, but what is below them differs from what is below the first ones; put the records into files of their own";
+    refused(&other, message);
+    assert_eq!(refusal(&other, &at(2)), message);
+    assert!(bowden_lab::record::parse(other.as_bytes(), "r.csv", &at(1)).is_ok());
+    // A fault keeps its line, and no later segment is passed over.
+    let spoilt = twice.replacen("\n3.00,", "\n3.00,a,1\n3.00,", 2);
+    assert_eq!(
+        refusal(&spoilt, &at(2)),
+        "r.csv:704: column `x`: `a` is not a number"
+    );
+    refused(
+        once.clone() + "End\n" + &once,
+        "r.csv:403: column `t`: two records: the names of the columns come again, and the time restarts, from 3.99 to 0 s; --segment N reads one of 2 segments (segment 2 begins here)",
+    );
+}
