@@ -55,16 +55,28 @@ fn numbers(line: &str) -> Option<usize> {
 
 fn tabbed(text: &str, width: usize) -> String {
     let mut all = String::with_capacity(text.len());
+    // Lines above the first row: behind it only the same names are names, and the rest comments.
+    let (mut above, mut is_below) = (Vec::new(), false);
     for (index, line) in text.split('\n').enumerate() {
         if index > 0 {
             all.push('\n');
         }
         let is_row = line.bytes().next().is_some_and(|b| b != b'#' && b != b'%')
             && line.split_whitespace().all(|cell| is_data(cell, TAB));
+        let is_comment = line.trim_start().starts_with(['#', '%']);
         match is_row {
-            true => push(&mut all, line.split_whitespace()),
+            true => {
+                is_below = true;
+                push(&mut all, line.split_whitespace());
+            }
+            false if is_below && is_comment && !above.contains(&line) => all.push_str(line),
             false => match names(line, width) {
-                Some(names) => push(&mut all, names.iter().map(String::as_str)),
+                Some(names) => {
+                    if !is_below {
+                        above.push(line);
+                    }
+                    push(&mut all, names.iter().map(String::as_str));
+                }
                 None => all.push_str(line),
             },
         }

@@ -1,4 +1,5 @@
-//! Times of day and dates as time stamps: `14:03:21.250`, `2026-03-01T14:03:21.250`.
+//! Times of day and dates as time stamps: `14:03:21.250`, `2026-03-01T14:03:21.250`; and `03:21.2`,
+//! minutes and seconds, as Excel shows times.
 
 /// Days from the year 0 to a day near the year 2000, from which seconds are counted: so a
 /// double has 0.1 µs left.
@@ -12,6 +13,8 @@ pub(super) fn seconds(cell: &str) -> Option<f64> {
         None => (None, cell),
     };
     let days = match date {
+        // `12:30.5` behind a date may lack seconds or hours.
+        Some(_) if is_minutes(time) => return None,
         Some(date) => days(date)?,
         None => 0,
     };
@@ -44,20 +47,38 @@ pub(super) fn has_date(cell: &str) -> bool {
     cell.contains([' ', 'T'])
 }
 
-/// `HH:MM:SS`, with decimals behind a point or a comma.
+/// Whether a stamp has no hours.
+pub(super) fn is_minutes(stamp: &str) -> bool {
+    stamp.matches(':').count() == 1
+}
+
+/// What may have happened where stamps without a date run backwards.
+pub(super) fn restart(stamp: &str) -> &'static str {
+    match (has_date(stamp), is_minutes(stamp)) {
+        (true, _) => "",
+        (_, true) => {
+            "; does the record pass a full hour? Then write the hours too, as in 01:59:50.2"
+        }
+        _ => "; does the record pass midnight? Then add a date",
+    }
+}
+
+/// `HH:MM:SS`, with decimals behind a point or a comma; `MM:SS` only with decimals, since `12:30`
+/// may be hours and minutes.
 fn of_day(time: &str) -> Option<f64> {
-    let mut parts = time.split(':');
-    let (hours, minutes, seconds) = (parts.next()?, parts.next()?, parts.next()?);
+    let parts: Vec<&str> = time.split(':').collect();
+    let (hours, minutes, seconds) = match parts.as_slice() {
+        [hours, minutes, seconds] => (*hours, *minutes, *seconds),
+        [minutes, seconds] if seconds.contains(['.', ',']) => ("0", *minutes, *seconds),
+        _ => return None,
+    };
     let whole = |text: &str, below: u32| {
         let digits = (1..=2).contains(&text.len()) && text.bytes().all(|b| b.is_ascii_digit());
         text.parse().ok().filter(|n: &u32| digits && *n < below)
     };
     let (integer, decimals) = seconds.split_once(['.', ',']).unwrap_or((seconds, "0"));
     let in_range = whole(integer, 61)?;
-    if parts.next().is_some()
-        || decimals.is_empty()
-        || !decimals.bytes().all(|b| b.is_ascii_digit())
-    {
+    if decimals.is_empty() || !decimals.bytes().all(|b| b.is_ascii_digit()) {
         return None;
     }
     let minutes = 60 * whole(hours, 24)? + whole(minutes, 60)?;
@@ -144,6 +165,7 @@ mod tests {
             assert_eq!(seconds(stamp), None, "{stamp}");
         }
         assert_eq!(seconds("1:00:00,5"), Some(3600.5));
+        assert_eq!(seconds("59:50.2"), Some(3590.2));
         assert_eq!(
             apart("2024-02-28T23:59:59", "2024-03-01 00:00:00Z"),
             86_401.0
@@ -164,6 +186,8 @@ mod tests {
         for cell in [
             "1/2/2026 10:00:00",
             "12:00",
+            "60:00.0",
+            "2026-03-01 12:30.5",
             "25:00:00",
             "10:60:00",
             "10:00:61",

@@ -21,6 +21,16 @@ pub(super) struct Named {
     pub(super) is_given: bool,
 }
 
+/// The name that `rostopic echo -p` gives to its time.
+const ROS_TIME: &str = "%time";
+
+impl Named {
+    /// Whether it is called as ROS calls its time.
+    pub(super) fn is_ros(&self) -> bool {
+        self.cell == ROS_TIME
+    }
+}
+
 pub(super) struct Header {
     /// Its line in the file; 0 where the file has no lines.
     pub(super) line: usize,
@@ -40,10 +50,13 @@ impl Header {
             Some((stem, unit)) => (stem.to_lowercase(), Some(unit)),
             None => (name.to_lowercase(), None),
         };
-        exact.or_else(|| {
+        let of_key = || {
             let wanted = key(name);
             self.only(|column| key(&column.name) == wanted)
-        })
+        };
+        // The mark of a comment before the first name is no part of it.
+        let marked = || Some(without_mark(name)).filter(|own| *own != name);
+        exact.or_else(of_key).or_else(|| self.find(marked()?))
     }
 
     /// Index of the only column whose name is nothing but a unit of time.
@@ -151,6 +164,11 @@ impl Header {
     }
 }
 
+/// A cell without the mark of a comment before it.
+fn without_mark(cell: &str) -> &str {
+    cell.trim_start_matches(['#', '%']).trim_start()
+}
+
 /// A cell of the header, `name [unit]`.
 fn of_cell(cell: &str) -> Named {
     let (name, unit) = units::split(cell);
@@ -194,18 +212,22 @@ pub(super) fn read(rows: &mut Rows<'_>) -> Result<Header, RecordError> {
         return refuse("file is blank");
     };
     let line = row.line;
-    let columns: Vec<Named> = row
+    let is_ros = row.cell(0) == ROS_TIME;
+    let mut columns: Vec<Named> = row
         .cells()
         .enumerate()
         .map(|(index, cell)| {
             // `# t,x,f`: the mark of a comment is no part of the first name.
             let cell = match index {
-                0 => cell.trim_start_matches(['#', '%']).trim_start(),
+                0 => without_mark(cell),
                 _ => cell,
             };
             of_cell(cell)
         })
         .collect();
+    if let Some(first) = columns.first_mut().filter(|_| is_ros) {
+        ROS_TIME.clone_into(&mut first.cell);
+    }
     let mut named = columns
         .iter()
         .filter(|column| !column.name.is_empty())

@@ -134,6 +134,13 @@ fn refuse(cell: &str, parsed: Option<f64>, line: usize, column: &str) -> Result<
     }
 }
 
+/// Whether a cell is an error of a spreadsheet: `#N/A`, `#VALUE!` and their like in other languages.
+pub(super) fn is_sheet_error(cell: &str) -> bool {
+    cell.strip_prefix('#').is_some_and(|own| {
+        own.starts_with(char::is_alphabetic) && !own.contains(char::is_whitespace)
+    })
+}
+
 /// What instruments and spreadsheets write in place of a number, in capitals.
 const MARKS: [&str; 21] = [
     "OVL",
@@ -163,11 +170,7 @@ const MARKS: [&str; 21] = [
 fn no_number(cell: &str) -> String {
     let text = shown(cell, CELL_LENGTH);
     let upper = cell.to_uppercase();
-    // `#N/A`, `#VALUE!` and their like in other languages.
-    let of_a_sheet = upper
-        .strip_prefix('#')
-        .is_some_and(|own| own.starts_with(char::is_alphabetic));
-    let is_mark = of_a_sheet || MARKS.contains(&upper.trim_start_matches('+'));
+    let is_mark = is_sheet_error(cell) || MARKS.contains(&upper.trim_start_matches('+'));
     if is_mark || MARKS.contains(&upper.trim_start_matches('-')) {
         return format!(
             "`{text}` is a placeholder, not a number; empty the cell, and use --drop-bad to drop the row"

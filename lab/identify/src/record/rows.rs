@@ -86,6 +86,8 @@ struct Reader<'a> {
     lacking: Lacking,
     /// Rows of several lines.
     carried: usize,
+    /// Lines of comments among the rows.
+    comments: Vec<usize>,
     /// Cells of the row that was read last.
     cells: usize,
 }
@@ -106,6 +108,7 @@ impl<'a> Reader<'a> {
             kept: 0,
             lacking: Lacking::default(),
             carried: 0,
+            comments: Vec::new(),
             cells: 0,
         })
     }
@@ -117,6 +120,13 @@ impl<'a> Reader<'a> {
             1 => Some("1 row spans several lines, in quotes".to_owned()),
             rows => Some(format!("{rows} rows span several lines, in quotes")),
         };
+        let comments = self
+            .comments
+            .first()
+            .map(|first| match self.comments.len() {
+                1 => format!("line {first} ignored: a comment"),
+                count => format!("{count} lines ignored, from line {first} on: comments"),
+            });
         let columns = &self.header.columns;
         let has_name = |cells: &usize| columns[*cells..].iter().any(|c| !c.name.is_empty());
         let short = self.short.filter(has_name).map(|cells| {
@@ -125,7 +135,7 @@ impl<'a> Reader<'a> {
                 columns.len()
             )
         });
-        several.into_iter().chain(short)
+        several.into_iter().chain(comments).chain(short)
     }
 
     /// The time of a row, its values in `into`.
@@ -229,9 +239,14 @@ pub(super) fn read(
     let mut values = vec![Vec::new(); reader.series.len()];
     let (mut time, mut lines, mut sample) = (Vec::new(), Vec::new(), Vec::new());
     let (mut dropped, mut below) = (Dropped::default(), None);
+    let used: Vec<usize> = roles.time.into_iter().chain(roles.read()).collect();
     loop {
         let read = match rows.read() {
             Ok(None) => break,
+            Ok(Some(row)) if row.is_comment(&used) => {
+                reader.comments.push(row.line());
+                continue;
+            }
             Ok(Some(row)) => reader.read(&row, &mut clock, &mut sample),
             Err(error) => Err(error),
         };
@@ -246,7 +261,6 @@ pub(super) fn read(
                 }
             }
             Err(error) => {
-                let used: Vec<usize> = roles.time.into_iter().chain(roles.read()).collect();
                 let text = rows.text_below(&used).filter(|_| clock.rows() > 0);
                 if text.is_none() && rows.may_be_cut() && reader.lacks_its_end(&error) {
                     below = Some(format!(

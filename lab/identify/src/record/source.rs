@@ -1,5 +1,6 @@
 //! Rows of numbers, whatever the file is.
 
+use super::clock_time;
 use super::error::RecordError;
 use super::header::Header;
 use super::layout::only_text;
@@ -95,6 +96,23 @@ impl Row<'_> {
             Self::Text(row) => row.line,
             Self::Sheet { row, .. } => row + 1,
         }
+    }
+
+    /// Whether it is a line of text with the mark of a comment, or a row that the mark leaves out. An
+    /// error of a spreadsheet beside a number is none, nor is a row of numbers behind a name.
+    pub(super) fn is_comment(&self, used: &[usize]) -> bool {
+        let Self::Text(row) = self else {
+            return false;
+        };
+        let first = row.cell(0);
+        let is_marked = ["#", "%", "//"].iter().any(|mark| first.starts_with(mark));
+        let is_number = |index: usize| {
+            let cell = row.cell(index);
+            number::is_data(cell, b';') || clock_time::seconds(cell).is_some()
+        };
+        let is_error = || number::is_sheet_error(first) && (1..row.len()).any(is_number);
+        let is_row = || !used.contains(&0) && used.iter().all(|index| is_number(*index));
+        is_marked && row.last == row.line && !is_error() && !is_row()
     }
 
     /// The segment that it begins, where it is not the first.

@@ -17,6 +17,10 @@ pub(super) struct Clock {
     first: Option<f64>,
     last: f64,
     of_day: bool,
+    /// Whether the stamps have minutes and seconds alone.
+    is_minutes: bool,
+    /// Whether the stamps of a column called `%time` are nanoseconds.
+    is_ros: bool,
     repeated: usize,
     first_repeat: Option<(usize, String)>,
 }
@@ -53,6 +57,8 @@ enum Source {
         name: String,
         scale: f64,
         unitless: bool,
+        /// Whether ROS may have written it, which counts nanoseconds since 1970.
+        is_ros: bool,
     },
     Rate(f64),
 }
@@ -77,6 +83,7 @@ impl Clock {
                     name: column.name.clone(),
                     scale,
                     unitless: unit.is_none(),
+                    is_ros: unit.is_none() && column.is_ros(),
                 }
             }
         };
@@ -91,6 +98,8 @@ impl Clock {
             first: None,
             last: 0.0,
             of_day: false,
+            is_minutes: false,
+            is_ros: false,
             repeated: 0,
             first_repeat: None,
         })
@@ -108,7 +117,11 @@ impl Clock {
         let t = match &self.source {
             Source::Rate(rate) => self.rows as f64 / rate,
             Source::Column {
-                index, name, scale, ..
+                index,
+                name,
+                scale,
+                is_ros,
+                ..
             } => {
                 let (index, line) = (*index, row.line());
                 let stamp = match of_day(row, index, self.of_day, self.first.is_none())
@@ -116,12 +129,20 @@ impl Clock {
                 {
                     Some(stamp) => {
                         self.of_day = true;
+                        self.is_minutes = row.text(index).is_some_and(clock_time::is_minutes);
                         stamp
                     }
                     None => {
-                        row.number(index, name)
-                            .map_err(|error| no_stamp(row, index, error))?
-                            * scale
+                        let own = row
+                            .number(index, name)
+                            .map_err(|error| no_stamp(row, index, error))?;
+                        if self.first.is_none() {
+                            self.is_ros = *is_ros && own > NO_STAMP;
+                        }
+                        match self.is_ros {
+                            true => own * units::seconds(Some("ns")).unwrap_or(*scale),
+                            false => own * scale,
+                        }
                     }
                 };
                 let fresh = self.first.is_none();
@@ -133,12 +154,9 @@ impl Clock {
                         let why = format!("and the time restarts, from {last} to {stamp} s");
                         return Err(segments::two_records(place, &why).on(name));
                     }
-                    let midnight = match self.of_day && !has_date(row, index) {
-                        true => "; does the record pass midnight? Then add a date",
-                        false => "",
-                    };
-                    let message =
-                        format!("time runs backwards, from {last} to {stamp} s{midnight}");
+                    let cell = row.text(index).filter(|_| self.of_day);
+                    let restart = cell.map_or("", clock_time::restart);
+                    let message = format!("time runs backwards, from {last} to {stamp} s{restart}");
                     return Err(RecordError::at(line, message).on(name));
                 }
                 if !fresh && t <= self.last {
@@ -282,7 +300,14 @@ impl Clock {
             notes.push(format!("time taken from the row number at {rate} Hz"));
         }
         if self.of_day {
-            notes.push("time stamps are times of day".to_owned());
+            let what = match self.is_minutes {
+                true => "minutes and seconds",
+                false => "times of day",
+            };
+            notes.push(format!("time stamps are {what}"));
+        }
+        if self.is_ros {
+            notes.push("time stamps are in ns: ROS writes `%time`".to_owned());
         }
         if let Some((name, asked)) = self.asked_for_a_unit(median_step(kept)) {
             let name = shown(name, NAME_LENGTH);
@@ -343,11 +368,6 @@ fn no_stamp(row: &Row<'_>, index: usize, error: RecordError) -> RecordError {
         )),
         None => error,
     }
-}
-
-/// Whether a time of day has its date before it.
-fn has_date(row: &Row<'_>, index: usize) -> bool {
-    row.text(index).is_some_and(clock_time::has_date)
 }
 
 /// Median time between two samples.

@@ -228,10 +228,12 @@ pub(super) fn time_in_name(name: &str) -> Option<&'static str> {
     (own == name || unit != "d").then_some(unit)
 }
 
-/// Whether a name can be nothing but that of a time: `ms` and `millis` are, `s` and `min` are not.
+/// Whether a name can be nothing but that of a time: `ms`, `millis` and `__time` are, `s` and `min` are
+/// not.
 pub(super) fn is_time_alone(name: &str) -> bool {
     let name = name.trim_matches(|c: char| !c.is_alphanumeric());
-    name.chars().count() > 1 && !name.eq_ignore_ascii_case("min") && of_time(name).is_some()
+    let is_unit = name.chars().count() > 1 && !is_any(&["min"], name) && of_time(name).is_some();
+    is_unit || is_any(&["time", "timestamp"], name)
 }
 
 #[cfg(test)]
@@ -279,7 +281,7 @@ mod tests {
         for name in ["t", "time", "Items", "t_d", "H", "timestamp", "", "()"] {
             assert_eq!(time_in_name(name), None, "{name}");
         }
-        for name in ["ms", "micros", "Seconds", "minutes"] {
+        for name in ["ms", "micros", "Seconds", "minutes", "__time"] {
             assert!(is_time_alone(name), "{name}");
         }
         for name in ["s", "d", "min", "time_ms", "h"] {

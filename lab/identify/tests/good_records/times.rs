@@ -105,3 +105,101 @@ fn an_option_states_the_unit_of_a_column() {
     // Two roundings of values below two.
     assert!((angle.values[0] - (std::f64::consts::FRAC_PI_2 - 1.0)).abs() < 1e-14);
 }
+
+#[test]
+fn comments_among_the_rows_are_passed_over() {
+    let plain = accepted(csv("t,x,f", &rows()));
+    let with = |comment: &str| {
+        csv("t,x,f", &rows()).replacen("\n0.20,", &format!("\n{comment}\n0.20,"), 1)
+    };
+    for comment in [
+        "# slipped here",
+        "% slipped, here, now, ok",
+        "//",
+        "#",
+        "#stop",
+        "#0.2,1,2",
+        "# warm,,",
+    ] {
+        let record = accepted(with(comment));
+        assert_eq!(record.time, plain.time, "{comment}");
+        assert_eq!(record.output.values, plain.output.values, "{comment}");
+        assert_eq!(record.notes, ["line 22 ignored: a comment"], "{comment}");
+        let blanks = with(&comment.replace(',', " ")).replace(',', " ");
+        assert_eq!(accepted(blanks).time, plain.time, "{comment}");
+    }
+    let record = accepted(with("# one\n# two words more"));
+    assert_eq!(record.notes, ["2 lines ignored, from line 22 on: comments"]);
+    // A mark before a name is none of a comment, nor is an error of a spreadsheet.
+    let numbered = |(i, row): (usize, &String)| format!("#{i},{row}");
+    let numbered: Vec<String> = rows().iter().enumerate().map(numbered).collect();
+    assert_eq!(accepted(csv("no,t,x,f", &numbered)).time, plain.time);
+    let line = parse(with("#N/A,1,2").as_bytes(), "r.csv", &Options::default()).unwrap_err();
+    assert!(
+        line.to_string().contains("`#N/A` is a placeholder"),
+        "{line}"
+    );
+}
+
+#[test]
+fn minutes_and_seconds_are_time_stamps() {
+    let stamp = |(i, row): (usize, &String)| {
+        let tenths = 599 + i;
+        let values = row.split_once(',').unwrap().1;
+        format!(
+            "{:02}:{:02}.{},{values}",
+            tenths / 600,
+            tenths / 10 % 60,
+            tenths % 10
+        )
+    };
+    let text = csv(
+        "t,x,f",
+        &rows().iter().enumerate().map(stamp).collect::<Vec<_>>(),
+    );
+    let record = accepted(&text);
+    assert!((record.time[399] - 39.9).abs() < 1e-9);
+    assert_eq!(record.notes, ["time stamps are minutes and seconds"]);
+    // Excel hides the hours.
+    let wrapped = text.replace("01:30", "00:00");
+    let line = parse(wrapped.as_bytes(), "r.csv", &Options::default()).unwrap_err();
+    assert_eq!(
+        line.to_string(),
+        "r.csv:303: column `t`: time runs backwards, from 89.9 to 0 s; does the record pass a full hour? Then write the hours too, as in 01:59:50.2"
+    );
+}
+
+#[test]
+fn a_time_with_a_mark_before_its_name_is_read() {
+    for name in ["%time", "% time", "#t", "__time"] {
+        let text = csv(&format!("{name},x,f"), &rows());
+        for record in [accepted(&text), timed(&text, name)] {
+            is_plain(&record, name);
+            assert_eq!(record.notes, [""; 0], "{name}");
+        }
+    }
+    let since = |(i, row): (usize, &String)| {
+        format!(
+            "{},{}",
+            1_772_373_801_000_000_000 + 10_000_000 * i as u64,
+            row.split_once(',').unwrap().1
+        )
+    };
+    let text = csv(
+        "%time,x,f",
+        &rows().iter().enumerate().map(since).collect::<Vec<_>>(),
+    );
+    for record in [accepted(&text), timed(&text, "%time")] {
+        // A double counts nanoseconds since 1970 by 256.
+        assert!((record.time[399] - 3.99).abs() < 1e-6);
+        assert_eq!(record.notes, ["time stamps are in ns: ROS writes `%time`"]);
+    }
+    // Under another name the unit is asked for.
+    let line = parse(
+        text.replace('%', "").as_bytes(),
+        "r.csv",
+        &Options::default(),
+    )
+    .unwrap_err();
+    assert!(line.to_string().contains("is the unit ns?"), "{line}");
+}
